@@ -118,6 +118,7 @@ def tangent(share):
 @cache
 def roots_hold(h, f, roots):
     """Each of three disjoint intervals has a root of 2(h + n)(1 − n²) − f², so each has exactly one."""
+
     def p(n):
         return 2 * (h + n) * (1 - n * n) - f * f
 
@@ -223,8 +224,10 @@ def verify_torus(certificate, a, h, f):
         A, B, C, D = matrix
         small, large = B * C, A * D
         decided = "two cycles" if small.a > 0 or large.b < 0 else "no cycle" if small.b < 0 < large.a else "undecided"
-        need(statement == decided or (statement == "undecided" and turns is None),
-             f"{statement} is not what the steps prove: {decided}")
+        need(
+            statement == decided or (statement == "undecided" and turns is None),
+            f"{statement} is not what the steps prove: {decided}",
+        )
         t = 2 + 4 * small
         size = -t if large.b < 0 else t if t.a > 0 else abs(t)
         for name in ("trace", "trace_ball"):
@@ -232,8 +235,10 @@ def verify_torus(certificate, a, h, f):
         low, high = pair(certificate["trace"], "trace")
         if statement == "undecided":
             need(low <= 2 <= high, "the trace decides what is called undecided")
-            need("rotation_number" in certificate and certificate["rotation_number"] is None,
-                 "an undecided torus has no rotation number")
+            need(
+                "rotation_number" in certificate and certificate["rotation_number"] is None,
+                "an undecided torus has no rotation number",
+            )
         else:
             need(turns is not None, "the quarter turns cannot be counted")
             need(low > 2 if statement == "two cycles" else high < 2, "the trace does not show the statement")
@@ -249,8 +254,10 @@ def verify_torus(certificate, a, h, f):
 def verify_oscillation(certificate, h, f):
     """f = 0, h < 1: the map is a limit in closed form."""
     need(f == 0 and h < 1 and certificate["statement"] == "no cycle", "only for f = 0, h < 1 is the map a limit")
-    need("half" in certificate and certificate["half"] is None and part(certificate, "steps", list) == [],
-         "where the map is a limit there are no steps")
+    need(
+        "half" in certificate and certificate["half"] is None and part(certificate, "steps", list) == [],
+        "where the map is a limit there are no steps",
+    )
     for name, count in (("fixed_points", 0), ("multipliers", 0)):
         pairs(certificate, name, count)
     for name, number in (("trace", 0), ("trace_ball", 0), ("rotation_number", Fraction(-1, 2))):
@@ -267,8 +274,10 @@ def verify_cycles(certificate, matrix, turns, positive):
     for ends, sign in zip(pairs(certificate, "fixed_points", 2), (1, -1), strict=True):
         wanted = sign * slope * (1 if positive == bool(B * D > 0) else -1)
         low, high = (interval(x) / iv.pi for x in ends)
-        need(low.a > -1 and high.b < 1 and tangent(low).b <= wanted.a and wanted.b <= tangent(high).a,
-             "a fixed point is not enclosed")
+        need(
+            low.a > -1 and high.b < 1 and tangent(low).b <= wanted.a and wanted.b <= tangent(high).a,
+            "a fixed point is not enclosed",
+        )
     root = iv.sqrt(abs(A * D)) + iv.sqrt(abs(B * C))
     for number, ends in zip((1 / root**4, root**4), pairs(certificate, "multipliers", 2), strict=True):
         inside(number, ends, "a multiplier")
@@ -279,8 +288,10 @@ def verify_turning(certificate, square, turns):
     rho = pair(part(certificate, "rotation_number", list), "rotation_number")
     even = turns % 2 == 0
     low, high = (interval(x - turns if even else 1 + turns - x) for x in rho[:: 1 if even else -1])
-    need(low.a >= 0 and high.b < 1 and tangent(low).b ** 2 <= square.a and square.b <= tangent(high).a ** 2,
-         "the rotation number is not enclosed")
+    need(
+        low.a >= 0 and high.b < 1 and tangent(low).b ** 2 <= square.a and square.b <= tangent(high).a ** 2,
+        "the rotation number is not enclosed",
+    )
 
 
 def verify_edge(certificate, a, h, f):
@@ -289,8 +300,10 @@ def verify_edge(certificate, a, h, f):
     need(0 < n < 1 and 2 * n * h == 1 - 3 * n * n and f * f * n == (1 - n * n) ** 2, "this is not on the edge")
     radicand = n * n * (1 + a * a) - a * a
     statement = part(certificate, "statement", str)
-    need(statement == ("periodic orbit" if radicand > 0 else "two equilibria") and radicand != 0,
-         "this is not what the circle does")
+    need(
+        statement == ("periodic orbit" if radicand > 0 else "two equilibria") and radicand != 0,
+        "this is not what the circle does",
+    )
     need("period" in certificate, "period is missing")
     with precision(256):
         rate = iv.sqrt(interval(abs(radicand) / n))
@@ -306,8 +319,10 @@ def verify_edge(certificate, a, h, f):
             side = sign if a > 0 else -sign
             ends = sorted((side * low, side * high))
             need(ends[0] >= 0 and interval(ends[1]).b < iv.pi.a, "an equilibrium is on the wrong side")
-            need(iv.cos(interval(ends[1])).b <= cosine.a and cosine.b <= iv.cos(interval(ends[0])).a,
-                 "an equilibrium is not enclosed")
+            need(
+                iv.cos(interval(ends[1])).b <= cosine.a and cosine.b <= iv.cos(interval(ends[0])).a,
+                "an equilibrium is not enclosed",
+            )
         for ends, number in zip(rates, (-rate, rate), strict=True):
             inside(number, ends, "a rate")
 

@@ -110,8 +110,10 @@ def holds(a, alpha, beta, statement, halvings, pieces=PIECES):
 def sides(cell, name):
     """Two doubles, 0 < low < high."""
     found = part(cell, name, list)
-    need(len(found) == 2 and all(isinstance(x, float) and 0 < x < math.inf for x in found) and found[0] < found[1],
-         "this is no cell")
+    need(
+        len(found) == 2 and all(isinstance(x, float) and 0 < x < math.inf for x in found) and found[0] < found[1],
+        "this is no cell",
+    )
     return found
 
 

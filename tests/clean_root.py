@@ -28,8 +28,12 @@ PROJECT = Path(__file__).resolve().parents[1]
 PACKAGES = "python3,python3-venv,ca-certificates"
 PATH = "/opt/python/bin:/usr/local/bin:/usr/bin:/bin:/usr/sbin"
 # How packages are reached from here: pip's settings, certificates, names of hosts.
-REACHED = ("/etc/pip.conf", "/etc/resolv.conf", "/etc/hosts",
-           *{value for name, value in os.environ.items() if name in ("PIP_CERT", "SSL_CERT_FILE")})
+REACHED = (
+    "/etc/pip.conf",
+    "/etc/resolv.conf",
+    "/etc/hosts",
+    *{value for name, value in os.environ.items() if name in ("PIP_CERT", "SSL_CERT_FILE")},
+)
 
 
 class ImageInRoot(Image):
@@ -49,8 +53,11 @@ class ImageInRoot(Image):
 def debian(root: Path, suite: str, mirror: str = "") -> None:
     """A system of this release below `root`, with a Python below /opt that has no packages of Debian's."""
     begun = time.monotonic()
-    subprocess.run(["debootstrap", "--variant=minbase", f"--include={PACKAGES}", suite, str(root),
-                    *filter(None, [mirror])], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(
+        ["debootstrap", "--variant=minbase", f"--include={PACKAGES}", suite, str(root), *filter(None, [mirror])],
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
     subprocess.run(["chroot", str(root), "python3", "-m", "venv", "/opt/python"], check=True)
     print(f"debootstrap {suite}: {time.monotonic() - begun:.0f} s", flush=True)
 
@@ -61,8 +68,12 @@ def mounted(image: ImageInRoot):
     root, kernels = image.root, image.root / image.set["NUMBA_CACHE_DIR"].lstrip("/")
     made = []
     try:
-        for words in (["--bind", root, root], ["-t", "tmpfs", "tmpfs", root / "tmp"],
-                      ["-t", "proc", "proc", root / "proc"], ["--bind", kernels, kernels]):
+        for words in (
+            ["--bind", root, root],
+            ["-t", "tmpfs", "tmpfs", root / "tmp"],
+            ["-t", "proc", "proc", root / "proc"],
+            ["--bind", kernels, kernels],
+        ):
             subprocess.run(["mount", *map(str, words)], check=True)
             made.append(words[-1])
         subprocess.run(["mount", "-o", "remount,ro,bind", str(root)], check=True)
@@ -84,18 +95,29 @@ def serve(image: ImageInRoot, seconds: float) -> None:
             time.sleep(0.2)
 
     log = image.root.parent / "log"
-    with log.open("wb") as out, mounted(image), subprocess.Popen(
-            image.here(image.cmd), env=image.environment, stdout=out, stderr=out,
-            start_new_session=True) as process:
-        wait(lambda: not subprocess.run(image.here(image.health), env=image.environment, capture_output=True,
-                                        check=False).returncode)
+    with (
+        log.open("wb") as out,
+        mounted(image),
+        subprocess.Popen(
+            image.here(image.cmd), env=image.environment, stdout=out, stderr=out, start_new_session=True
+        ) as process,
+    ):
+        wait(
+            lambda: (
+                not subprocess.run(
+                    image.here(image.health), env=image.environment, capture_output=True, check=False
+                ).returncode
+            )
+        )
         print(f"healthy after {time.monotonic() - begun:.1f} s, user {Path(f'/proc/{process.pid}').stat().st_uid}")
         wait(lambda: "http" in log.read_text())
         print(f"ready after {time.monotonic() - begun:.1f} s", flush=True)
         ended = time.monotonic()
         process.send_signal(signal.Signals[image.stopsignal])
-        print(f"{image.stopsignal}: code {process.wait(30)} after {time.monotonic() - ended:.1f} s; it said\n"
-              f"{log.read_text()}")
+        print(
+            f"{image.stopsignal}: code {process.wait(30)} after {time.monotonic() - ended:.1f} s; it said\n"
+            f"{log.read_text()}"
+        )
 
 
 def main() -> None:

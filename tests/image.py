@@ -39,8 +39,13 @@ class Engine:
 
     def __call__(self, *words: str, fails: bool = False) -> str:
         # Podman's own format has no health check; Docker does not know the option --format, and ignores the variable.
-        done = subprocess.run([*self.words, *words], capture_output=True, text=True, check=False,
-                              env={**os.environ, "BUILDAH_FORMAT": "docker"})
+        done = subprocess.run(
+            [*self.words, *words],
+            capture_output=True,
+            text=True,
+            check=False,
+            env={**os.environ, "BUILDAH_FORMAT": "docker"},
+        )
         if done.returncode and not fails:
             raise RuntimeError(f"{' '.join(words)}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
         return done.stdout.strip()
@@ -48,8 +53,12 @@ class Engine:
     def made_of(self, root: Path) -> None:
         """The base image of a system below `root`."""
         with subprocess.Popen(["tar", "-C", str(root), "-c", "."], stdout=subprocess.PIPE) as packed:
-            subprocess.run([*self.words, "import", "--change", f"ENV PATH={PATH}", "-", BASE], stdin=packed.stdout,
-                           stdout=subprocess.DEVNULL, check=True)
+            subprocess.run(
+                [*self.words, "import", "--change", f"ENV PATH={PATH}", "-", BASE],
+                stdin=packed.stdout,
+                stdout=subprocess.DEVNULL,
+                check=True,
+            )
 
 
 def wanted(port: int) -> list[str]:
@@ -58,11 +67,20 @@ def wanted(port: int) -> list[str]:
     kernels = next(one for one in service["volumes"] if one.startswith("kernels:"))
     command = [re.sub(r"^\$\{.*\}$", f"localhost:{port}", word) for word in service["command"]]
     command[command.index("--port") + 1] = str(port)
-    return [*(["--read-only"] if service["read_only"] else []), "--volume", f"try-{kernels}",
-            *(f"--tmpfs={one}" for one in service["tmpfs"]), *(f"--cap-drop={one}" for one in service["cap_drop"]),
-            *(f"--security-opt={one.removesuffix(':true')}" for one in service["security_opt"]),
-            f"--memory={service['mem_limit']}", f"--pids-limit={service['pids_limit']}",
-            f"--stop-timeout={service['stop_grace_period'].removesuffix('s')}", "--network=host", NAME, *command]
+    return [
+        *(["--read-only"] if service["read_only"] else []),
+        "--volume",
+        f"try-{kernels}",
+        *(f"--tmpfs={one}" for one in service["tmpfs"]),
+        *(f"--cap-drop={one}" for one in service["cap_drop"]),
+        *(f"--security-opt={one.removesuffix(':true')}" for one in service["security_opt"]),
+        f"--memory={service['mem_limit']}",
+        f"--pids-limit={service['pids_limit']}",
+        f"--stop-timeout={service['stop_grace_period'].removesuffix('s')}",
+        "--network=host",
+        NAME,
+        *command,
+    ]
 
 
 def _tried(engine: Engine, options: list[str]) -> None:
@@ -80,15 +98,25 @@ def _tried(engine: Engine, options: list[str]) -> None:
         test = (image.get("Healthcheck") or image["Config"]["Healthcheck"])["Test"]
         engine("exec", one, *(word.replace("5006", str(port)) for word in test[1:]))
         print("healthy")
-        print(engine("exec", one, "sh", "-c", "id; grep -E 'CapEff|NoNewPrivs' /proc/1/status; for f in /x ~/x /tmp/x "
-                     "$NUMBA_CACHE_DIR/x; do touch $f 2>/dev/null && echo $f written || echo $f refused; done"))
+        print(
+            engine(
+                "exec",
+                one,
+                "sh",
+                "-c",
+                "id; grep -E 'CapEff|NoNewPrivs' /proc/1/status; for f in /x ~/x /tmp/x "
+                "$NUMBA_CACHE_DIR/x; do touch $f 2>/dev/null && echo $f written || echo $f refused; done",
+            )
+        )
         with urlopen(f"http://localhost:{port}/") as page:
             print(f"the page: {page.status}, {len(page.read())} bytes")
         print(engine("stats", "--no-stream", "--format", "memory {{.MemUsage}}, processes {{.PIDs}}", one))
         begun = time.monotonic()
         engine("stop", one)
-        print(f"stopped after {time.monotonic() - begun:.1f} s, code "
-              f"{json.loads(engine('inspect', one))[0]['State']['ExitCode']}; it said\n{engine('logs', one)}")
+        print(
+            f"stopped after {time.monotonic() - begun:.1f} s, code "
+            f"{json.loads(engine('inspect', one))[0]['State']['ExitCode']}; it said\n{engine('logs', one)}"
+        )
     finally:
         engine("rm", "--force", one)
         engine("volume", "rm", "--force", "try-kernels", fails=True)
@@ -99,8 +127,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--engine", default="podman", help="its command, with options of its own (default: podman)")
     parser.add_argument("--debian", metavar="SUITE", help="make the base image of this Debian release")
-    parser.add_argument("--option", action="append", default=[],
-                        help="one more for `run`, such as --option=--ulimit=host")
+    parser.add_argument(
+        "--option", action="append", default=[], help="one more for `run`, such as --option=--ulimit=host"
+    )
     options = parser.parse_args()
     engine = Engine(options.engine)
     with ExitStack() as stack:
@@ -109,12 +138,22 @@ def main() -> None:
             root = Path(stack.enter_context(tempfile.TemporaryDirectory())) / "root"
             debian(root, options.debian)
             engine.made_of(root)
-            build += ["--from", BASE, *(f"--volume={file}:{file}:ro" for file in REACHED
-                                          if Path(file).is_file() and not file.endswith(("/resolv.conf", "/hosts")))]
+            build += [
+                "--from",
+                BASE,
+                *(
+                    f"--volume={file}:{file}:ro"
+                    for file in REACHED
+                    if Path(file).is_file() and not file.endswith(("/resolv.conf", "/hosts"))
+                ),
+            ]
         begun = time.monotonic()
         engine(*build, str(PROJECT))
-        print(f"built in {time.monotonic() - begun:.0f} s, "
-              f"{int(json.loads(engine('image', 'inspect', NAME))[0]['Size']) / 1e6:.0f} MB", flush=True)
+        print(
+            f"built in {time.monotonic() - begun:.0f} s, "
+            f"{int(json.loads(engine('image', 'inspect', NAME))[0]['Size']) / 1e6:.0f} MB",
+            flush=True,
+        )
         _tried(engine, options.option)
 
 

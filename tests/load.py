@@ -138,9 +138,11 @@ async def measure(base, pid, counts, seconds):
         both = _row(crowd.answered)
         await crowd.leave()
         other.cancel()
-        yield (f"| {count} | {opening:.1f} s | {1e3 * median:.0f} ms | {1e3 * late:.0f} ms | {share:.2f} | "
-              f"{(held - before) / max(1, count) / 2**20:.2f} MB | {1e3 * both[0]:.0f}, {1e3 * both[1]:.0f} ms | "
-              f"{crowd.errors} |")
+        yield (
+            f"| {count} | {opening:.1f} s | {1e3 * median:.0f} ms | {1e3 * late:.0f} ms | {share:.2f} | "
+            f"{(held - before) / max(1, count) / 2**20:.2f} MB | {1e3 * both[0]:.0f}, {1e3 * both[1]:.0f} ms | "
+            f"{crowd.errors} |"
+        )
 
 
 async def counters(base):
@@ -175,8 +177,10 @@ async def leave(base, pid, count):
             crowd.visitors.clear()
         done, errors = done + len(crowd.opened), errors + crowd.errors
         found = await _expired(base)
-        yield (f"| {done} | {memory(pid) / 2**20:.0f} MB | {found['sessions']} | {found['websockets']} | "
-               f"{found['threads']} | {errors} |")
+        yield (
+            f"| {done} | {memory(pid) / 2**20:.0f} MB | {found['sessions']} | {found['websockets']} | "
+            f"{found['threads']} | {errors} |"
+        )
 
 
 async def _printed(rows, kept):
@@ -193,9 +197,11 @@ def _processor():
 
 def _machine(before, ticks):
     total, stolen = (now - then for now, then in zip(_processor(), ticks, strict=True))
-    return (f"{os.cpu_count()} cores, on which the visitors ran too, {100.0 * stolen / total:.0f} % of them taken by "
-            f"the host; load of the machine before {before:.1f}, after {os.getloadavg()[0]:.1f}; "
-            f"{time.strftime('%Y-%m-%d')}.")
+    return (
+        f"{os.cpu_count()} cores, on which the visitors ran too, {100.0 * stolen / total:.0f} % of them taken by "
+        f"the host; load of the machine before {before:.1f}, after {os.getloadavg()[0]:.1f}; "
+        f"{time.strftime('%Y-%m-%d')}."
+    )
 
 
 def _written(lines):

@@ -59,14 +59,22 @@ def faults(words: list[str]) -> list[Fault]:
 
 def not_found_once(chosen: list[Fault]) -> list[str]:
     """Names of those that cannot be seeded: their file is gone, or their text does not stand in it just once."""
-    return [one.name for one in chosen if not (ROOT / one.file).is_file()
-            or (ROOT / one.file).read_text("utf-8").count(one.old) != 1]
+    return [
+        one.name
+        for one in chosen
+        if not (ROOT / one.file).is_file() or (ROOT / one.file).read_text("utf-8").count(one.old) != 1
+    ]
 
 
 def copied(folder: Path) -> Path:
     """A copy of all that git knows or would add."""
-    listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT,
-                            check=True, capture_output=True, text=True).stdout
+    listed = subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT,
+        check=True,
+        capture_output=True,
+        text=True,
+    ).stdout
     for name in filter(None, listed.split("\0")):
         if (ROOT / name).is_file():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -77,8 +85,11 @@ def copied(folder: Path) -> Path:
 def pytest_in(copy: Path, mechanics: Path, tests: list[str]) -> tuple[int, str]:
     """Exit code and output of the tests in the copy, with these mechanics, until the first fails."""
     # Nothing compiled is kept: a copy with the time stamps of another fault would be taken for this one.
-    env = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (copy / "app", mechanics))),
-           "PYTHONDONTWRITEBYTECODE": "1"}
+    env = {
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join(map(str, (copy / "app", mechanics))),
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
     command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", "--tb=line", *tests]
     try:
         run = subprocess.run(command, cwd=copy, env=env, capture_output=True, text=True, timeout=SECONDS, check=False)
@@ -118,11 +129,21 @@ def seeded(fault: Fault, copy: Path) -> Outcome:
 
 def table(outcomes: list[Outcome]) -> str:
     """The outcomes as a table of Markdown."""
-    rows = [f"| {one.fault.name} | `{one.fault.file}` | {f'`{one.by}`' if one.ok else f'**{one.by}**'} "
-            f"| {one.seconds:.0f} |" for one in outcomes]
+    rows = [
+        f"| {one.fault.name} | `{one.fault.file}` | {f'`{one.by}`' if one.ok else f'**{one.by}**'} "
+        f"| {one.seconds:.0f} |"
+        for one in outcomes
+    ]
     noticed = sum(one.ok for one in outcomes)
-    return "\n".join([f"{noticed} of {len(outcomes)} faults are noticed.", "",
-                      "| fault | file | noticed by | s |", "|---|---|---|---:|", *rows])
+    return "\n".join(
+        [
+            f"{noticed} of {len(outcomes)} faults are noticed.",
+            "",
+            "| fault | file | noticed by | s |",
+            "|---|---|---|---:|",
+            *rows,
+        ]
+    )
 
 
 def main() -> int:

@@ -35,16 +35,35 @@ ROOT = Path(__file__).resolve().parents[1]
 
 def connections(process):
     """How many connections all processes of a replica hold."""
-    return sum(str(link.readlink()).startswith("socket:") for one in below(process.pid)
-               for link in Path(f"/proc/{one}/fd").iterdir())
+    return sum(
+        str(link.readlink()).startswith("socket:")
+        for one in below(process.pid)
+        for link in Path(f"/proc/{one}/fd").iterdir()
+    )
 
 
 def _replica(stack, folder, origin):
     port = free_port()
     log = folder / f"{port}.log"
-    process = stack.enter_context(subprocess.Popen(
-        [sys.executable, *UNWARMED, "serve", "--port", str(port), "--no-browser", "--workers", "2", "--allow-origin",
-         origin], cwd=ROOT / "app", stdout=log.open("wb"), stderr=subprocess.STDOUT))
+    process = stack.enter_context(
+        subprocess.Popen(
+            [
+                sys.executable,
+                *UNWARMED,
+                "serve",
+                "--port",
+                str(port),
+                "--no-browser",
+                "--workers",
+                "2",
+                "--allow-origin",
+                origin,
+            ],
+            cwd=ROOT / "app",
+            stdout=log.open("wb"),
+            stderr=subprocess.STDOUT,
+        )
+    )
     stack.callback(process.kill)
     wait_alive(process, port, log)
     return process, port
@@ -52,6 +71,7 @@ def _replica(stack, folder, origin):
 
 async def _main(base, trusted, replicas):
     """What happens, told as it does."""
+
     async def get(path):
         try:
             return await AsyncHTTPClient().fetch(HTTPRequest(f"{base}/{path}", ssl_options=trusted), raise_error=False)
@@ -65,8 +85,10 @@ async def _main(base, trusted, replicas):
         await asyncio.sleep(0.2)
     first, counters = await get(""), await get("metrics")
     cookie = re.search("explorer=[0-9a-f]+", first.headers["Set-Cookie"])[0]
-    print(f"TLS; Set-Cookie: {cookie[:16]}…; /metrics: {counters.code}; "
-          f"Strict-Transport-Security: {first.headers['Strict-Transport-Security']}")
+    print(
+        f"TLS; Set-Cookie: {cookie[:16]}…; /metrics: {counters.code}; "
+        f"Strict-Transport-Security: {first.headers['Strict-Transport-Security']}"
+    )
     visitor = await Visitor.open(base, "scene=kharlamova&accuracy=draft", headers={"Cookie": cookie}, trusted=trusted)
     state = await visitor.ask(values={"b1": 0.7})
     link = state["query"]
@@ -80,8 +102,7 @@ async def _main(base, trusted, replicas):
     assert other.poll() is None
     begun = time.monotonic()
     again = await Visitor.open(base, link, headers={"Cookie": cookie}, trusted=trusted)
-    print(f"the same state at the other replica after {time.monotonic() - begun:.1f} s: "
-          f"{again.state['query'] == link}")
+    print(f"the same state at the other replica after {time.monotonic() - begun:.1f} s: {again.state['query'] == link}")
     await again.leave()
     await visitor.leave()
 
@@ -95,15 +116,28 @@ def main():
         folder, port = Path(place), free_port()
         host = f"localhost:{port}"
         replicas = [_replica(stack, folder, host) for _ in range(2)]
-        settings = {**os.environ, "EXPLORER_HOST": host, "XDG_DATA_HOME": str(folder), "XDG_CONFIG_HOME": str(folder),
-                    "EXPLORER_REPLICAS": " ".join(f"127.0.0.1:{one[1]}" for one in replicas)}
+        settings = {
+            **os.environ,
+            "EXPLORER_HOST": host,
+            "XDG_DATA_HOME": str(folder),
+            "XDG_CONFIG_HOME": str(folder),
+            "EXPLORER_REPLICAS": " ".join(f"127.0.0.1:{one[1]}" for one in replicas),
+        }
         # Port 80, to which others may listen, is not needed here, and nobody's list of trust is changed.
         config = folder / "Caddyfile"
-        config.write_text("{\n\tauto_https disable_redirects\n\tskip_install_trust\n\tadmin off\n}\n"
-                          + (ROOT / "Caddyfile").read_text())
-        proxy = stack.enter_context(subprocess.Popen(
-            [caddy, "run", "--config", str(config), "--adapter", "caddyfile"], env=settings, cwd=folder,
-            stdout=(folder / "caddy.log").open("wb"), stderr=subprocess.STDOUT))
+        config.write_text(
+            "{\n\tauto_https disable_redirects\n\tskip_install_trust\n\tadmin off\n}\n"
+            + (ROOT / "Caddyfile").read_text()
+        )
+        proxy = stack.enter_context(
+            subprocess.Popen(
+                [caddy, "run", "--config", str(config), "--adapter", "caddyfile"],
+                env=settings,
+                cwd=folder,
+                stdout=(folder / "caddy.log").open("wb"),
+                stderr=subprocess.STDOUT,
+            )
+        )
         stack.callback(proxy.terminate)
         root = folder / "caddy/pki/authorities/local/root.crt"
         ends = time.monotonic() + 60.0

@@ -54,8 +54,10 @@ def smoke():
             opened = asyncio.run(_scenes(base))
         # Warnings of a library are no errors of the explorer.
         assert "Traceback" not in log.read_text(), log.read_text()
-    for words in (["circle-map", "--h", "1.5", "--f", "0.6", "--a", "0.5", "--phi", "0,1"],
-                  ["export", "--state", "h=1.2&f=0.3", "--picture", "circle", "--format", "csv"]):
+    for words in (
+        ["circle-map", "--h", "1.5", "--f", "0.6", "--a", "0.5", "--phi", "0,1"],
+        ["export", "--state", "h=1.2&f=0.3", "--picture", "circle", "--format", "csv"],
+    ):
         done = subprocess.run([sys.executable, "-m", "hess_explorer", *words], capture_output=True, check=True)
         assert done.stdout
     print(json.dumps({"scenes": opened, **{name: metadata.version(name) for name in SHOWN}}))
@@ -71,10 +73,25 @@ def _tried(python, age, folder):
     # Neither the caller's packages nor kernels of others.
     settings = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
     settings |= {"NUMBA_CACHE_DIR": str(folder / "kernels")}
-    steps = ([uv, "venv", "-q", "--no-config", "--python", python, str(folder / "venv")],
-             [uv, "pip", "install", "-q", "--only-binary", ":all:", "--no-binary", "hess-explorer", "--python",
-              str(here), "--resolution", AGES[age], str(ROOT)],
-             [str(here), str(Path(__file__)), "--smoke"])
+    steps = (
+        [uv, "venv", "-q", "--no-config", "--python", python, str(folder / "venv")],
+        [
+            uv,
+            "pip",
+            "install",
+            "-q",
+            "--only-binary",
+            ":all:",
+            "--no-binary",
+            "hess-explorer",
+            "--python",
+            str(here),
+            "--resolution",
+            AGES[age],
+            str(ROOT),
+        ],
+        [str(here), str(Path(__file__)), "--smoke"],
+    )
     names = ("there is no such Python here", "cannot be installed", "failed")
     begun = time.monotonic()
     for step, name in zip(steps, names, strict=True):

@@ -31,8 +31,12 @@ def _version() -> str:
 
 def _parser(declared: Iterable[str] = COMMANDS) -> argparse.ArgumentParser:
     """Return the parser of all commands; declared : those whose files are imported and whose options it knows."""
-    parser = _Parser(prog="hess-explorer", description="An interactive explorer of the Suslov problem, its Hess case "
-                     "and their relatives.  Without a command: serve.", allow_abbrev=False)
+    parser = _Parser(
+        prog="hess-explorer",
+        description="An interactive explorer of the Suslov problem, its Hess case "
+        "and their relatives.  Without a command: serve.",
+        allow_abbrev=False,
+    )
     parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for name, purpose in COMMANDS.items():

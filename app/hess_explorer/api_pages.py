@@ -75,25 +75,36 @@ def _signature(name: str, one: Any) -> str:
 def _module(module: Any) -> str:
     parts = [f"<p><a href='index.html'>All</a></p><h1>{escape(module.path)}</h1><pre>{escape(_words(module))}</pre>"]
     for name, one in _public(module):
-        parts.append(f"<h2 id='{escape(name)}'>{escape(_signature(name, one))}</h2>"
-                     f"<small>{escape(one.canonical_path)}</small><pre>{escape(_words(one))}</pre>")
+        parts.append(
+            f"<h2 id='{escape(name)}'>{escape(_signature(name, one))}</h2>"
+            f"<small>{escape(one.canonical_path)}</small><pre>{escape(_words(one))}</pre>"
+        )
         if one.is_class:
-            parts += [f"<h3 id='{escape(name)}.{escape(key)}'>{escape(_signature(key, member))}</h3>"
-                      f"<pre>{escape(_words(member))}</pre>" for key, member in one.members.items()
-                      if not key.startswith("_") and not member.is_alias and member.docstring]
+            parts += [
+                f"<h3 id='{escape(name)}.{escape(key)}'>{escape(_signature(key, member))}</h3>"
+                f"<pre>{escape(_words(member))}</pre>"
+                for key, member in one.members.items()
+                if not key.startswith("_") and not member.is_alias and member.docstring
+            ]
     return _page(module.path, "".join(parts))
 
 
 def _index(found: dict[str, Any]) -> str:
-    parts = ["<h1>Hess Explorer from Python</h1>"
-             "<input type='search' aria-label='Search' placeholder='Search' autofocus>"]
+    parts = [
+        "<h1>Hess Explorer from Python</h1><input type='search' aria-label='Search' placeholder='Search' autofocus>"
+    ]
     for path, module in found.items():
-        items = "".join(f"<li><a href='{path}.html#{escape(name)}'><code>{escape(name)}</code></a> "
-                        f"{escape(_words(one).partition(chr(10))[0])}</li>" for name, one in _public(module))
+        items = "".join(
+            f"<li><a href='{path}.html#{escape(name)}'><code>{escape(name)}</code></a> "
+            f"{escape(_words(one).partition(chr(10))[0])}</li>"
+            for name, one in _public(module)
+        )
         parts.append(f"<h2><a href='{path}.html'>{path}</a></h2><p>{MODULES[path].capitalize()}.</p><ul>{items}</ul>")
     return _page("Hess Explorer from Python", "".join(parts) + f"<script>{_SEARCH}</script>")
 
 
 def _page(title: str, body: str) -> str:
-    return (f"<!doctype html><html lang='en'><meta charset='utf-8'><meta name='viewport' content='width=device-width'>"
-            f"<title>{escape(title)}</title><style>{_STYLE}</style><main>{body}</main></html>")
+    return (
+        f"<!doctype html><html lang='en'><meta charset='utf-8'><meta name='viewport' content='width=device-width'>"
+        f"<title>{escape(title)}</title><style>{_STYLE}</style><main>{body}</main></html>"
+    )

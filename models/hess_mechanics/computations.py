@@ -58,15 +58,24 @@ class Basins(Result):
 
     def labels(self) -> Labels:
         """Mean and group over δ and ψ."""
-        return Labels({"δ": (("δ",), self.delta), "ψ": (("ψ",), self.psi)},
-                      {"mean": (("δ", "ψ"), self.mean), "group": (("δ", "ψ"), self.group)},
-                      {"δ": "rad", "ψ": "rad", "mean": "rad/T"},
-                      {"groups": len(self.divergence), "attractors": self.attractors, "level": self.level})
+        return Labels(
+            {"δ": (("δ",), self.delta), "ψ": (("ψ",), self.psi)},
+            {"mean": (("δ", "ψ"), self.mean), "group": (("δ", "ψ"), self.group)},
+            {"δ": "rad", "ψ": "rad", "mean": "rad/T"},
+            {"groups": len(self.divergence), "attractors": self.attractors, "level": self.level},
+        )
 
 
-def basins(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int] = (16, 12),
-           window: Window = ((-math.pi, 0.0), (math.pi, math.pi)), crossings: int = 150,
-           accuracy: Accuracy = "standard") -> Basins:
+def basins(
+    body: SuslovBody,
+    E: float,
+    *,
+    plane: int = 3,
+    cells: tuple[int, int] = (16, 12),
+    window: Window = ((-math.pi, 0.0), (math.pi, math.pi)),
+    crossings: int = 150,
+    accuracy: Accuracy = "standard",
+) -> Basins:
     """To which group of motions the cells of a section of the Suslov problem lead, and which groups attract.
 
     cells : across ψ and up δ; window : (ψ0, δ0), (ψ1, δ1); crossings : how far each orbit is followed.
@@ -89,12 +98,26 @@ def basins(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int]
     share(row, n)
     group = groups_of_cells(ends)
     on_each = tuple(contraction_at(section, window, (m, n), *cell, _LONG) for cell in middle_cells(ends, group))
-    return Basins(frozen(centres(x0, x1, m)), frozen(centres(y0, y1, n)),
-                  frozen(np.where(np.isfinite(ends), ends, np.nan)), frozen(group), on_each, chosen.name)
+    return Basins(
+        frozen(centres(x0, x1, m)),
+        frozen(centres(y0, y1, n)),
+        frozen(np.where(np.isfinite(ends), ends, np.nan)),
+        frozen(group),
+        on_each,
+        chosen.name,
+    )
 
 
-def cloud(body: BallBody, h: float, t: float, *, count: int = 1000, spread: float = 0.1, angle: float | None = None,
-          accuracy: Accuracy = "standard") -> Cloud:
+def cloud(
+    body: BallBody,
+    h: float,
+    t: float,
+    *,
+    count: int = 1000,
+    spread: float = 0.1,
+    angle: float | None = None,
+    accuracy: Accuracy = "standard",
+) -> Cloud:
     """A cloud of phase points of the ball without a field, about the energy h, followed to the time t.
 
     spread : of the energies, or the radius of a patch about the ω at an `angle` with γ = e3.
@@ -104,13 +127,22 @@ def cloud(body: BallBody, h: float, t: float, *, count: int = 1000, spread: floa
     >>> cloud(BallBody(2.0, 1.0, 0.5, 0.7, 0.0), 2.0, 5.0, count=50, accuracy="draft").omega.shape[0]
     50
     """
-    found = phase_cloud_density.clouds(as_a(BallBody, body), as_number("h", h), angle, as_number("spread", spread),
-                                       as_whole("count", count, 1, 20_000), as_number("t", t), None, as_level(accuracy))
+    found = phase_cloud_density.clouds(
+        as_a(BallBody, body),
+        as_number("h", h),
+        angle,
+        as_number("spread", spread),
+        as_whole("count", count, 1, 20_000),
+        as_number("t", t),
+        None,
+        as_level(accuracy),
+    )
     return found.cloud
 
 
-def rotation_numbers(a: float | Array, h: float | Array, f: float | Array, accuracy: Accuracy = "precise"
-                     ) -> TorusValues:
+def rotation_numbers(
+    a: float | Array, h: float | Array, f: float | Array, accuracy: Accuracy = "precise"
+) -> TorusValues:
     """Rotation number, trace and locking of the tori (a, h, f) of the Suslov–Hess case, numbers or arrays (n,).
 
     Raises `InvalidParameter`, `WorkLimit`.
@@ -124,13 +156,23 @@ def rotation_numbers(a: float | Array, h: float | Array, f: float | Array, accur
         try:
             np.asarray(values, float)
         except (TypeError, ValueError):
-            raise InvalidParameter(f"{name} = {values!r} is not a number, nor several; write it like 1.5 or "
-                                   "[1.5, 2.0].") from None
+            raise InvalidParameter(
+                f"{name} = {values!r} is not a number, nor several; write it like 1.5 or [1.5, 2.0]."
+            ) from None
     return values_at(a, h, f, as_level(accuracy))
 
 
-def rotation_along_line(body: HeavyBody, h: float, f: float, ends: LineEnds, *, count: int = 24, crossings: int = 300,
-                        about_first: bool = False, accuracy: Accuracy = "standard") -> RotationProfile:
+def rotation_along_line(
+    body: HeavyBody,
+    h: float,
+    f: float,
+    ends: LineEnds,
+    *,
+    count: int = 24,
+    crossings: int = 300,
+    about_first: bool = False,
+    accuracy: Accuracy = "standard",
+) -> RotationProfile:
     """Rotation numbers of orbits that start on a line of the Andoyer–Deprit section, between places (l, L/G).
 
     about_first : turns are counted about the first end of the line; else by the angle l.
@@ -147,10 +189,17 @@ def rotation_along_line(body: HeavyBody, h: float, f: float, ends: LineEnds, *, 
     if not started:
         raise OutsideRegion("Nowhere on this line does a motion cross the section: choose another line, or a larger h.")
     chosen = plan(Computation.ROTATION, accuracy)
-    found = andoyer_points(body, h, f, [state for _, state in started], as_whole("crossings", crossings, 20, 10_000),
-                           chosen.level)
-    return rotation_along((first, last), [one for one, _ in started], [section.places_of(one) for one in found.states],
-                          about_first, count, chosen.promise)
+    found = andoyer_points(
+        body, h, f, [state for _, state in started], as_whole("crossings", crossings, 20, 10_000), chosen.level
+    )
+    return rotation_along(
+        (first, last),
+        [one for one, _ in started],
+        [section.places_of(one) for one in found.states],
+        about_first,
+        count,
+        chosen.promise,
+    )
 
 
 def _window(window: Window) -> Window:

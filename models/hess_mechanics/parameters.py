@@ -80,12 +80,22 @@ class Parameter:
         return {**vars(self), **changes}
 
 
-def _vector(names: str, symbols: str, defaults: tuple[float, ...], label: str, softbounds: tuple[float, float],
-            step: float, bounds: tuple[float, float], doc: str, group: Group = "State") -> tuple[Parameter, ...]:
+def _vector(
+    names: str,
+    symbols: str,
+    defaults: tuple[float, ...],
+    label: str,
+    softbounds: tuple[float, float],
+    step: float,
+    bounds: tuple[float, float],
+    doc: str,
+    group: Group = "State",
+) -> tuple[Parameter, ...]:
     """Return the components of a vector, which differ in name, symbol and default only."""
     return tuple(
         Parameter(name, symbol, label.format(symbol=symbol), default, softbounds, step, bounds, doc, group)
-        for name, symbol, default in zip(names.split(), symbols.split(), defaults, strict=True))
+        for name, symbol, default in zip(names.split(), symbols.split(), defaults, strict=True)
+    )
 
 
 _TURN = (-3.14, 3.14)
@@ -96,50 +106,148 @@ _ANGLES = (-1e3, 1e3)
 
 _MOMENT = (1e-3, 1e3)
 _PRODUCT = (-1e3, 1e3)
-I11 = Parameter("I11", "I₁₁", "Inertia I₁₁", 1.5, (0.2, 5.0), 0.01, _MOMENT,
-                "Moment of inertia about the first body axis.", "Body")
-I22 = Parameter("I22", "I₂₂", "Inertia I₂₂", 1.5, (0.2, 5.0), 0.01, _MOMENT,
-                "Moment of inertia about the second body axis.", "Body")
-I13 = Parameter("I13", "I₁₃", "Inertia I₁₃", 0.4, (-2.0, 2.0), 0.01, _PRODUCT,
-                "Product of inertia. With I₂₃ it decides where volume shrinks and where it grows.", "Body")
+I11 = Parameter(
+    "I11", "I₁₁", "Inertia I₁₁", 1.5, (0.2, 5.0), 0.01, _MOMENT, "Moment of inertia about the first body axis.", "Body"
+)
+I22 = Parameter(
+    "I22", "I₂₂", "Inertia I₂₂", 1.5, (0.2, 5.0), 0.01, _MOMENT, "Moment of inertia about the second body axis.", "Body"
+)
+I13 = Parameter(
+    "I13",
+    "I₁₃",
+    "Inertia I₁₃",
+    0.4,
+    (-2.0, 2.0),
+    0.01,
+    _PRODUCT,
+    "Product of inertia. With I₂₃ it decides where volume shrinks and where it grows.",
+    "Body",
+)
 I23 = Parameter("I23", "I₂₃", "Inertia I₂₃", 0.4, (-2.0, 2.0), 0.01, _PRODUCT, "Product of inertia.", "Body")
 TENSOR = (I11, I22, I13, I23)
 
-B1 = Parameter("b1", "b₁", "Centre of mass b₁", -0.5, (-3.0, 3.0), 0.01, (-1e3, 1e3), "First component of b = −mg r.",
-               "Body")
+B1 = Parameter(
+    "b1", "b₁", "Centre of mass b₁", -0.5, (-3.0, 3.0), 0.01, (-1e3, 1e3), "First component of b = −mg r.", "Body"
+)
 B2 = Parameter("b2", "b₂", "Centre of mass b₂", -0.5, (-3.0, 3.0), 0.01, (-1e3, 1e3), "Second component of b.", "Body")
 B3 = Parameter("b3", "b₃", "Centre of mass b₃", 0.7, (-3.0, 3.0), 0.01, (-1e3, 1e3), "Third component of b.", "Body")
 FIELD = (B1, B2, B3)
 
-D = Parameter("D", "𝒟", "Ball inside, 𝒟", 10.0, (0.0, 20.0), 0.05, (0.0, 300.0),
-              "𝒟 = (R/Rₛ)² Iₛ of the ball that rolls inside; 0 is the free Suslov problem.", "Body")
+D = Parameter(
+    "D",
+    "𝒟",
+    "Ball inside, 𝒟",
+    10.0,
+    (0.0, 20.0),
+    0.05,
+    (0.0, 300.0),
+    "𝒟 = (R/Rₛ)² Iₛ of the ball that rolls inside; 0 is the free Suslov problem.",
+    "Body",
+)
 K_DRIVES_I11 = Parameter(
-    "k", "k", "k, drives I₁₁", 2.4, (-2.0, 7.0), 0.05, (-50.0, 50.0),
-    "I₁₁ = I₂₂ + k|k| (I₁₃² + I₂₃²)/I₂₂. With I₁₃ = 0 and k odd there is an additional integral F₂.", "Body")
-RATIO = Parameter("ratio", "I₁₁/I₂₂", "Ratio I₁₁/I₂₂", 2.0, (0.2, 5.0), 0.01, (1e-2, 1e2),
-                  "At 1 the potential is central and the motion integrable.", "Body")
+    "k",
+    "k",
+    "k, drives I₁₁",
+    2.4,
+    (-2.0, 7.0),
+    0.05,
+    (-50.0, 50.0),
+    "I₁₁ = I₂₂ + k|k| (I₁₃² + I₂₃²)/I₂₂. With I₁₃ = 0 and k odd there is an additional integral F₂.",
+    "Body",
+)
+RATIO = Parameter(
+    "ratio",
+    "I₁₁/I₂₂",
+    "Ratio I₁₁/I₂₂",
+    2.0,
+    (0.2, 5.0),
+    0.01,
+    (1e-2, 1e2),
+    "At 1 the potential is central and the motion integrable.",
+    "Body",
+)
 C1, C2, CUBIC, QUARTIC = _vector(
-    "c1 c2 cubic quartic", "c₁ c₂ c₃ c₄", (1.0, 0.8, 1.0, 0.5), "Potential {symbol}", (-2.0, 2.0), 0.01, (-1e3, 1e3),
-    "Coefficient of U = c₁γ₁²/2 + c₂γ₂²/2 + c₃(γ₁²γ₂ − γ₂³/3) + c₄γ₁²γ₂².", "Body")
+    "c1 c2 cubic quartic",
+    "c₁ c₂ c₃ c₄",
+    (1.0, 0.8, 1.0, 0.5),
+    "Potential {symbol}",
+    (-2.0, 2.0),
+    0.01,
+    (-1e3, 1e3),
+    "Coefficient of U = c₁γ₁²/2 + c₂γ₂²/2 + c₃(γ₁²γ₂ − γ₂³/3) + c₄γ₁²γ₂².",
+    "Body",
+)
 
 # ---- the Suslov–Hess case -------------------------------------------------------------------------------------------
 
 _UNITS_OF_B = "Suslov–Hess, in units b = 1"
-A_HESS = Parameter("a", "a", "Inertia parameter a", 0.5, (0.0, 2.0), 0.005, (-1e3, 1e3),
-                   "a = I₂₃/I₂₂ (Suslov) or √((a₃−a₂)(a₂−a₁))/a₂ (Euler–Poisson); a body has |a| < 1.", "Body")
+A_HESS = Parameter(
+    "a",
+    "a",
+    "Inertia parameter a",
+    0.5,
+    (0.0, 2.0),
+    0.005,
+    (-1e3, 1e3),
+    "a = I₂₃/I₂₂ (Suslov) or √((a₃−a₂)(a₂−a₁))/a₂ (Euler–Poisson); a body has |a| < 1.",
+    "Body",
+)
 B_HESS = Parameter("b", "b", "Field b", 1.0, (0.05, 3.0), 0.01, (-1e3, 1e3), "Field of the reduced equations.", "Body")
-H_HESS = Parameter("h", "h", "Energy h", 1.5, (-0.99, 4.0), 0.01, (-1.0 + 1e-9, 1e6),
-                   "Energy integral in units b = 1: h > −1; separatrix at h = 1, f = 0.", means=_UNITS_OF_B)
+H_HESS = Parameter(
+    "h",
+    "h",
+    "Energy h",
+    1.5,
+    (-0.99, 4.0),
+    0.01,
+    (-1.0 + 1e-9, 1e6),
+    "Energy integral in units b = 1: h > −1; separatrix at h = 1, f = 0.",
+    means=_UNITS_OF_B,
+)
 H_PLANE = replace(H_HESS, bounds=(-1e6, 1e6))
 """h of sweeps and commands, which say themselves that no motion has h ≤ −1."""
-F_HESS = Parameter("f", "f", "Area integral f", 0.6, (-3.0, 3.0), 0.01, (-1e4, 1e4),
-                   "Area integral in units b = 1. Its range follows h.", means=_UNITS_OF_B)
-PHI0 = Parameter("phi0", "φ₀", "Phase φ₀", 0.5, _TURN, 0.01, _ANGLES,
-                 "Phase of the orbit on the section n₃ = n₃⁽¹⁾, in radians.", unit="rad")
-REDUCED_OMEGA = _vector("w1 w2", "w₁ w₂", (0.3, 0.9), "Reduced velocity {symbol}(0)", (-4.0, 4.0), 0.01, (-1e3, 1e3),
-                        "Component of the reduced angular velocity at t = 0.")
-REDUCED_GAMMA = _vector("n1 n2 n3", "n₁ n₂ n₃", (0.6, 0.0, 0.8), "Reduced vertical {symbol}(0)", (-1.0, 1.0), 0.01,
-                        (-1e3, 1e3), "Component of the reduced vertical at t = 0; normalised.")
+F_HESS = Parameter(
+    "f",
+    "f",
+    "Area integral f",
+    0.6,
+    (-3.0, 3.0),
+    0.01,
+    (-1e4, 1e4),
+    "Area integral in units b = 1. Its range follows h.",
+    means=_UNITS_OF_B,
+)
+PHI0 = Parameter(
+    "phi0",
+    "φ₀",
+    "Phase φ₀",
+    0.5,
+    _TURN,
+    0.01,
+    _ANGLES,
+    "Phase of the orbit on the section n₃ = n₃⁽¹⁾, in radians.",
+    unit="rad",
+)
+REDUCED_OMEGA = _vector(
+    "w1 w2",
+    "w₁ w₂",
+    (0.3, 0.9),
+    "Reduced velocity {symbol}(0)",
+    (-4.0, 4.0),
+    0.01,
+    (-1e3, 1e3),
+    "Component of the reduced angular velocity at t = 0.",
+)
+REDUCED_GAMMA = _vector(
+    "n1 n2 n3",
+    "n₁ n₂ n₃",
+    (0.6, 0.0, 0.8),
+    "Reduced vertical {symbol}(0)",
+    (-1.0, 1.0),
+    0.01,
+    (-1e3, 1e3),
+    "Component of the reduced vertical at t = 0; normalised.",
+)
 
 # ---- a heavy body with a fixed point, in its principal axes ---------------------------------------------------------
 
@@ -149,65 +257,210 @@ I1, I2, I3 = MOMENTS = tuple(
     for name, symbol, default, doc in (
         ("I1", "I₁", 1.0, "First principal moment of inertia."),
         ("I2", "I₂", 0.625, "Middle principal moment: it lies between I₁ and I₃, else there is no Hess condition."),
-        ("I3", "I₃", 0.375, "Third principal moment of inertia.")))
+        ("I3", "I₃", 0.375, "Third principal moment of inertia."),
+    )
+)
 A1, A2, A3 = INVERSE_MOMENTS = _vector(
-    "a1 a2 a3", "a₁ a₂ a₃", (1.0, 1.25, 1.6), "Inverse moment {symbol}", (0.3, 10.0), 0.005, _MOMENT,
-    "Inverse of a principal moment of inertia.", "Body")
+    "a1 a2 a3",
+    "a₁ a₂ a₃",
+    (1.0, 1.25, 1.6),
+    "Inverse moment {symbol}",
+    (0.3, 10.0),
+    0.005,
+    _MOMENT,
+    "Inverse of a principal moment of inertia.",
+    "Body",
+)
 R1, R2, R3 = CENTRE = _vector(
-    "r1 r2 r3", "r₁ r₂ r₃", (0.3, -0.5, 1.0), "Centre of mass {symbol}", (-3.0, 3.0), 0.01, (-1e3, 1e3),
-    "Component of the centre of mass.", "Body")
+    "r1 r2 r3",
+    "r₁ r₂ r₃",
+    (0.3, -0.5, 1.0),
+    "Centre of mass {symbol}",
+    (-3.0, 3.0),
+    0.01,
+    (-1e3, 1e3),
+    "Component of the centre of mass.",
+    "Body",
+)
 MU = Parameter("mu", "μ", "Weight μ", 0.5, (0.0, 4.0), 0.005, (-1e3, 1e3), "Weight; the potential is −μ(r, γ).", "Body")
-MU_R = Parameter("m", "μ|r|", "Weight times distance, μ|r|", 9.975, (-20.0, 20.0), 0.005, (-1e3, 1e3),
-                 "The potential is −μ(r, γ). Its sign is that of r.", "Body")
+MU_R = Parameter(
+    "m",
+    "μ|r|",
+    "Weight times distance, μ|r|",
+    9.975,
+    (-20.0, 20.0),
+    0.005,
+    (-1e3, 1e3),
+    "The potential is −μ(r, γ). Its sign is that of r.",
+    "Body",
+)
 M1, M2, M3 = MOMENTUM = _vector(
-    "M1 M2 M3", "M₁ M₂ M₃", (0.8, -0.4, 0.5), "Momentum {symbol}(0)", (-4.0, 4.0), 0.01, (-1e3, 1e3),
-    "Component of the angular momentum at t = 0.")
+    "M1 M2 M3",
+    "M₁ M₂ M₃",
+    (0.8, -0.4, 0.5),
+    "Momentum {symbol}(0)",
+    (-4.0, 4.0),
+    0.01,
+    (-1e3, 1e3),
+    "Component of the angular momentum at t = 0.",
+)
 H_HEAVY = Parameter("h", "h", "Energy h", 50.0, (-9.0, 100.0), 0.05, (-1e3, 1e5), "H = h; above −μ|r|.", means=_HEAVY)
-F_HEAVY = Parameter("f", "f", "Area integral f", 5.0, (-8.0, 8.0), 0.05, (-1e3, 1e3),
-                    "(M, γ) = f. Its range follows h.", means=_HEAVY)
-L = Parameter("l", "l", "Angle l", 0.0, _TURN, 0.01, _ANGLES, "Andoyer–Deprit angle of M about axis 3, at t = 0.",
-              unit="rad")
+F_HEAVY = Parameter(
+    "f", "f", "Area integral f", 5.0, (-8.0, 8.0), 0.05, (-1e3, 1e3), "(M, γ) = f. Its range follows h.", means=_HEAVY
+)
+L = Parameter(
+    "l", "l", "Angle l", 0.0, _TURN, 0.01, _ANGLES, "Andoyer–Deprit angle of M about axis 3, at t = 0.", unit="rad"
+)
 X = Parameter("x", "L/G", "Inclination L/G", 0.2, (-1.0, 1.0), 0.01, (-1.0, 1.0), "M₃/|M| at t = 0.")
-SHEET = Parameter("sheet", "sheet", "Sheet", 0, (0, 2), 1, (0, 2),
-                  "Which momentum G of this energy; the largest is 0.", whole=True)
+SHEET = Parameter(
+    "sheet", "sheet", "Sheet", 0, (0, 2), 1, (0, 2), "Which momentum G of this energy; the largest is 0.", whole=True
+)
 H_PENDULUM = Parameter(
-    "energy", "h", "Energy h", 1.5, (-0.95, 4.0), 0.01, (-1.0 + 1e-4, 1e4),
-    "In units of μ|r|: −1 hanging at rest, 1 the separatrix, on which it comes to rest upright.")
+    "energy",
+    "h",
+    "Energy h",
+    1.5,
+    (-0.95, 4.0),
+    0.01,
+    (-1.0 + 1e-4, 1e4),
+    "In units of μ|r|: −1 hanging at rest, 1 the separatrix, on which it comes to rest upright.",
+)
 L_PENDULUM = Parameter(
-    "l", "l", "Middle axis l(0)", 0.15, (0.02, 3.12), 0.01, (1e-3, math.pi - 1e-3),
+    "l",
+    "l",
+    "Middle axis l(0)",
+    0.15,
+    (0.02, 3.12),
+    0.01,
+    (1e-3, math.pi - 1e-3),
     "Angle of the middle axis from M, which is horizontal, when the centre of mass passes its lowest place.",
-    unit="rad")
+    unit="rad",
+)
 
 # ---- energies of the other problems ---------------------------------------------------------------------------------
 
 E = Parameter("E", "E", "Energy E", 1.0, (-3.0, 6.0), 0.01, (-1e6, 1e6), "Energy, kinetic and potential.")
-H_SUSLOV = Parameter("h", "h", "Energy above the bottom, h", 1.0, (0.01, 6.0), 0.01, (1e-6, 1e6),
-                     "E + |b|, the energy above its smallest possible value.")
-H_BALL = Parameter("h", "h", "Energy above the plane's lowest", 2.0, (0.05, 5.0), 0.01, (1e-3, 1e3),
-                   "E = h − √(b₁²+b₂²): every h > 0 has motions through γ₃ = 0.")
+H_SUSLOV = Parameter(
+    "h",
+    "h",
+    "Energy above the bottom, h",
+    1.0,
+    (0.01, 6.0),
+    0.01,
+    (1e-6, 1e6),
+    "E + |b|, the energy above its smallest possible value.",
+)
+H_BALL = Parameter(
+    "h",
+    "h",
+    "Energy above the plane's lowest",
+    2.0,
+    (0.05, 5.0),
+    0.01,
+    (1e-3, 1e3),
+    "E = h − √(b₁²+b₂²): every h > 0 has motions through γ₃ = 0.",
+)
 H_FREE_BALL = Parameter(
-    "h", "h", "Energy h", 10.0, (0.1, 20.0), 0.1, (1e-6, 1e6),
-    "E = h > 0: every such energy is possible. It sets the size of the strip and the unit of time.")
-H_QUARTIC = Parameter("h", "h", "Energy E = h", 0.8, (-0.9, 4.0), 0.01, (-1e2, 1e3),
-                      "Above −|b₃|. Beyond |b₃| the point may not come near the middle.")
+    "h",
+    "h",
+    "Energy h",
+    10.0,
+    (0.1, 20.0),
+    0.1,
+    (1e-6, 1e6),
+    "E = h > 0: every such energy is possible. It sets the size of the strip and the unit of time.",
+)
+H_QUARTIC = Parameter(
+    "h",
+    "h",
+    "Energy E = h",
+    0.8,
+    (-0.9, 4.0),
+    0.01,
+    (-1e2, 1e3),
+    "Above −|b₃|. Beyond |b₃| the point may not come near the middle.",
+)
 
 # ---- where a motion starts, and how long it is followed -------------------------------------------------------------
 
-W1, W2 = OMEGA = _vector("w1 w2", "ω₁ ω₂", (0.8, -0.4), "Angular velocity {symbol}(0)", (-4.0, 4.0), 0.01,
-                         (-1e3, 1e3), "Component of the angular velocity at t = 0.")
-G1, G2, G3 = GAMMA = _vector("g1 g2 g3", "γ₁ γ₂ γ₃", (0.6, 0.0, 0.8), "Vertical {symbol}(0)", (-1.0, 1.0), 0.01,
-                             (-1e3, 1e3), "Component of the vertical at t = 0; normalised.")
-PSI = Parameter("psi", "ψ", "Start: ψ, direction of γ", 1.0, _TURN, 0.01, _ANGLES,
-                "Angle of γ in the plane of the section, at t = 0.", unit="rad")
-DELTA = Parameter("delta", "δ", "Start: δ, from γ to ω", 1.0, (0.01, 3.13), 0.01, (0.0, math.pi),
-                  "Angle of ω from the direction that keeps γ in the plane of the section, at t = 0.", unit="rad")
-THETA = Parameter("theta", "θ⁻", "Angle θ⁻ of the circle left", 1.2, (0.0, 3.14), 0.01, (0.0, math.pi),
-                  "The angle between ξ and γ on the circle that the motion leaves.", unit="rad")
-CIRCLE_PHASE = Parameter("phi", "φ", "Phase φ", 0.5, _TURN, 0.01, _ANGLES, "Where on that circle γ starts, in radians.",
-                         unit="rad")
-GAMMA_CIRCLE = Parameter("Gamma", "Γ", "Γ(0) = (ξ, γ)", 0.4984, (-1.0, 1.0), 0.01, (-1.0, 1.0),
-                         "Where γ starts: the height along ξ of its circle on the sphere.")
-TIME = Parameter("t", "t", "Time", 50.0, (0.0, 200.0), 1.0, (-1e9, 1e9), "The last time; negative: backward.",
-                 "Computation", "time")
-SPAN = Parameter("t", "t", "Time span", 50.0, (1.0, 200.0), 1.0, (1e-3, 1e6), "How long the motion is followed.",
-                 "Computation", "time")
+W1, W2 = OMEGA = _vector(
+    "w1 w2",
+    "ω₁ ω₂",
+    (0.8, -0.4),
+    "Angular velocity {symbol}(0)",
+    (-4.0, 4.0),
+    0.01,
+    (-1e3, 1e3),
+    "Component of the angular velocity at t = 0.",
+)
+G1, G2, G3 = GAMMA = _vector(
+    "g1 g2 g3",
+    "γ₁ γ₂ γ₃",
+    (0.6, 0.0, 0.8),
+    "Vertical {symbol}(0)",
+    (-1.0, 1.0),
+    0.01,
+    (-1e3, 1e3),
+    "Component of the vertical at t = 0; normalised.",
+)
+PSI = Parameter(
+    "psi",
+    "ψ",
+    "Start: ψ, direction of γ",
+    1.0,
+    _TURN,
+    0.01,
+    _ANGLES,
+    "Angle of γ in the plane of the section, at t = 0.",
+    unit="rad",
+)
+DELTA = Parameter(
+    "delta",
+    "δ",
+    "Start: δ, from γ to ω",
+    1.0,
+    (0.01, 3.13),
+    0.01,
+    (0.0, math.pi),
+    "Angle of ω from the direction that keeps γ in the plane of the section, at t = 0.",
+    unit="rad",
+)
+THETA = Parameter(
+    "theta",
+    "θ⁻",
+    "Angle θ⁻ of the circle left",
+    1.2,
+    (0.0, 3.14),
+    0.01,
+    (0.0, math.pi),
+    "The angle between ξ and γ on the circle that the motion leaves.",
+    unit="rad",
+)
+CIRCLE_PHASE = Parameter(
+    "phi", "φ", "Phase φ", 0.5, _TURN, 0.01, _ANGLES, "Where on that circle γ starts, in radians.", unit="rad"
+)
+GAMMA_CIRCLE = Parameter(
+    "Gamma",
+    "Γ",
+    "Γ(0) = (ξ, γ)",
+    0.4984,
+    (-1.0, 1.0),
+    0.01,
+    (-1.0, 1.0),
+    "Where γ starts: the height along ξ of its circle on the sphere.",
+)
+TIME = Parameter(
+    "t", "t", "Time", 50.0, (0.0, 200.0), 1.0, (-1e9, 1e9), "The last time; negative: backward.", "Computation", "time"
+)
+SPAN = Parameter(
+    "t",
+    "t",
+    "Time span",
+    50.0,
+    (1.0, 200.0),
+    1.0,
+    (1e-3, 1e6),
+    "How long the motion is followed.",
+    "Computation",
+    "time",
+)

@@ -35,7 +35,13 @@ from hess_mechanics.suslov_hess.equations import HessBody
 from hess_mechanics.suslov_hess.section import TorusSection
 
 __all__ = [
-    "PlanePoints", "continued_orbit", "manifold", "orbit_diagram", "period_doublings", "periodic_orbit", "return_map",
+    "PlanePoints",
+    "continued_orbit",
+    "manifold",
+    "orbit_diagram",
+    "period_doublings",
+    "periodic_orbit",
+    "return_map",
     "section_orbits",
 ]
 
@@ -65,13 +71,24 @@ class PlanePoints(Result):
         """Both coordinates of all points, with the number of the orbit."""
         number = np.repeat(np.arange(len(self.orbits)), [len(one) for one in self.orbits])
         points = np.concatenate([np.empty((0, 2)), *self.orbits])
-        return Labels({"orbit": (("point",), number)},
-                      {name: (("point",), points[:, i]) for i, name in enumerate(self.names)},
-                      place_units(self.names), self.facts)
+        return Labels(
+            {"orbit": (("point",), number)},
+            {name: (("point",), points[:, i]) for i, name in enumerate(self.names)},
+            place_units(self.names),
+            self.facts,
+        )
 
 
-def return_map(body: SectionedBody, *, E: float | None = None, h: float | None = None, f: float | None = None,
-               plane: int = 3, sheet: int = 0, accuracy: Accuracy = "precise") -> ReturnMap:
+def return_map(
+    body: SectionedBody,
+    *,
+    E: float | None = None,
+    h: float | None = None,
+    f: float | None = None,
+    plane: int = 3,
+    sheet: int = 0,
+    accuracy: Accuracy = "precise",
+) -> ReturnMap:
     """The return map of a section of a body at fixed values of its integrals.
 
     A `SuslovBody` takes E and the plane γ_k = 0, k = `plane`, places (ψ, δ); a `BallBody` h, places (ψ, δ); a
@@ -102,8 +119,9 @@ def return_map(body: SectionedBody, *, E: float | None = None, h: float | None =
     return ReturnMap(found, as_level(accuracy))
 
 
-def section_orbits(map_: ReturnMap, *, starts: Sequence[Sequence[float]] = (), orbits: int = 20,
-                   crossings: int = 200) -> PlanePoints:
+def section_orbits(
+    map_: ReturnMap, *, starts: Sequence[Sequence[float]] = (), orbits: int = 20, crossings: int = 200
+) -> PlanePoints:
     """Return the crossings of many orbits with the section of a `return_map`, each computed once.
 
     Parameters
@@ -125,15 +143,30 @@ def section_orbits(map_: ReturnMap, *, starts: Sequence[Sequence[float]] = (), o
     section = map_.section
     require_plane(section)
     count = as_whole("crossings", crossings, 1, _MOST_CROSSINGS)
-    states = (np.array([map_.state_at(np.array(one)) for one in as_pairs("starts", starts)]) if len(starts)
-              else _spread(section, as_whole("orbits", orbits, 1, _MOST_ORBITS)))
+    states = (
+        np.array([map_.state_at(np.array(one)) for one in as_pairs("starts", starts)])
+        if len(starts)
+        else _spread(section, as_whole("orbits", orbits, 1, _MOST_ORBITS))
+    )
     end = _TURNS * count * section.slowness / Problem.of(section, states).nu
-    found = section_points(section, states, section.surface, -end if map_.backward else end,
-                           plan(Computation.SECTION, map_.accuracy).level, count)
+    found = section_points(
+        section,
+        states,
+        section.surface,
+        -end if map_.backward else end,
+        plan(Computation.SECTION, map_.accuracy).level,
+        count,
+    )
     x, y = section.names
-    return PlanePoints((x, y), tuple(section.places_of(one) for one in found.states), {
-        "level": map_.level, **{f"drift of {name}": value for name, value in found.drift.items()},
-        "steps": found.cost.steps})
+    return PlanePoints(
+        (x, y),
+        tuple(section.places_of(one) for one in found.states),
+        {
+            "level": map_.level,
+            **{f"drift of {name}": value for name, value in found.drift.items()},
+            "steps": found.cost.steps,
+        },
+    )
 
 
 def _spread(section: PoincareSection, orbits: int) -> Array:
@@ -176,13 +209,28 @@ def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: f
     >>> branch.kinds[0], len(branch.bifurcations)
     ('stable node', 0)
     """
-    return continued(lambda value: map_.moved(parameter, value), orbit, parameter, map_.constant(parameter),
-                     as_number("to", to), as_whole("points", points, 2, 2000),
-                     lambda one, places: one.symmetries_of(places) if isinstance(one, ReturnMap) else ())
+    return continued(
+        lambda value: map_.moved(parameter, value),
+        orbit,
+        parameter,
+        map_.constant(parameter),
+        as_number("to", to),
+        as_whole("points", points, 2, 2000),
+        lambda one, places: one.symmetries_of(places) if isinstance(one, ReturnMap) else (),
+    )
 
 
-def manifold(map_: ReturnMap, saddle: PeriodicOrbit, length: float, *, stable: bool = False, side: int = 1,
-             place: int = 0, sagitta: float = 1e-3, longest: float = 0.1) -> Manifold:
+def manifold(
+    map_: ReturnMap,
+    saddle: PeriodicOrbit,
+    length: float,
+    *,
+    stable: bool = False,
+    side: int = 1,
+    place: int = 0,
+    sagitta: float = 1e-3,
+    longest: float = 0.1,
+) -> Manifold:
     """A branch of the unstable or stable manifold of a saddle of a `return_map`, up to a length.
 
     side : 1 or −1, along its direction or against it; place : from which of the places of the saddle; sagitta : the
@@ -194,12 +242,28 @@ def manifold(map_: ReturnMap, saddle: PeriodicOrbit, length: float, *, stable: b
     >>> manifold(P, saddle, 0.5).length >= 0.5
     True
     """
-    return grown(map_, saddle, as_number("length", length), stable, side, place, as_number("sagitta", sagitta),
-                 as_number("longest", longest))
+    return grown(
+        map_,
+        saddle,
+        as_number("length", length),
+        stable,
+        side,
+        place,
+        as_number("sagitta", sagitta),
+        as_number("longest", longest),
+    )
 
 
-def orbit_diagram(map_: ReturnMap, parameter: str, values: Sequence[float] | Array, at: Sequence[float], *,
-                  transient: int = 200, kept: int = 64, follow: bool = True) -> Diagram:
+def orbit_diagram(
+    map_: ReturnMap,
+    parameter: str,
+    values: Sequence[float] | Array,
+    at: Sequence[float],
+    *,
+    transient: int = 200,
+    kept: int = 64,
+    follow: bool = True,
+) -> Diagram:
     """Where an orbit of a `return_map` settles over a parameter of it, at each of the values (n,), in their order.
 
     at : where it starts.  transient, kept : crossings that are left out, and shown, at each value.
@@ -230,8 +294,14 @@ def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: 
     >>> found.periods.tolist(), round(float(found.values[0]), 3)
     ([1], 2.126)
     """
-    return cascade(lambda value: map_.moved(parameter, value), parameter, orbit, map_.constant(parameter),
-                   as_number("to", to), as_whole("most", most, 1, 6))
+    return cascade(
+        lambda value: map_.moved(parameter, value),
+        parameter,
+        orbit,
+        map_.constant(parameter),
+        as_number("to", to),
+        as_whole("most", most, 1, 6),
+    )
 
 
 def _given(asked: dict[str, float | None], *names: str) -> list[float]:
@@ -241,6 +311,7 @@ def _given(asked: dict[str, float | None], *names: str) -> list[float]:
         raise InvalidParameter(f"The section of this body lies at given {' and '.join(names)}: give {lost[0]}.")
     extra = [name for name, value in asked.items() if value is not None and name not in names]
     if extra:
-        raise InvalidParameter(f"The section of this body takes {' and '.join(names) or 'its own energy'} and no "
-                               f"{extra[0]}: leave it out.")
+        raise InvalidParameter(
+            f"The section of this body takes {' and '.join(names) or 'its own energy'} and no {extra[0]}: leave it out."
+        )
     return [as_number(name, asked[name]) for name in names]

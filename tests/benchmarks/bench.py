@@ -111,14 +111,23 @@ COMMAND = Command(
     "Do the same works with this project and with the other integrators that are installed (pip install "
     "'hess-explorer[bench]'), measure each result's error against stored exact ones, and time the cheapest setting of "
     "each that keeps the error asked for.  Some minutes; the table goes to standard output.",
-    (option("--works", "from A,A2,B,B2,C,D (default: all)", type=_works, default=WORKS, metavar="LIST"),
-     option("--targets", "largest errors (default 1e-3,1e-6,1e-9,1e-12)", type=_targets, default=TARGETS,
-            metavar="LIST"),
-     flag("--quick", "few repeats: a trial, not a measurement"),
-     option("--json", "write everything measured to this file", type=Path, metavar="FILE"),
-     flag("--trade", "instead: cost and error of each accuracy level, for what each scene computes"),
-     option("--scenes", "with --trade: of these scenes (default: all)", type=_scenes, metavar="LIST"),
-     option("--format", "with --trade: a table (default), or scene, kind, level, ms, error as JSON",
-            choices=("text", "json"), default="text"),
-     option("--picture", "draw time over error (.svg or .png)", type=_picture, metavar="FILE")), _run,
-    "--works A,C --targets 1e-6,1e-9 --picture bench.svg")
+    (
+        option("--works", "from A,A2,B,B2,C,D (default: all)", type=_works, default=WORKS, metavar="LIST"),
+        option(
+            "--targets", "largest errors (default 1e-3,1e-6,1e-9,1e-12)", type=_targets, default=TARGETS, metavar="LIST"
+        ),
+        flag("--quick", "few repeats: a trial, not a measurement"),
+        option("--json", "write everything measured to this file", type=Path, metavar="FILE"),
+        flag("--trade", "instead: cost and error of each accuracy level, for what each scene computes"),
+        option("--scenes", "with --trade: of these scenes (default: all)", type=_scenes, metavar="LIST"),
+        option(
+            "--format",
+            "with --trade: a table (default), or scene, kind, level, ms, error as JSON",
+            choices=("text", "json"),
+            default="text",
+        ),
+        option("--picture", "draw time over error (.svg or .png)", type=_picture, metavar="FILE"),
+    ),
+    _run,
+    "--works A,C --targets 1e-6,1e-9 --picture bench.svg",
+)

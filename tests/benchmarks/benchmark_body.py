@@ -42,7 +42,8 @@ def main() -> None:
     """The median and the least time of a frame, in some scenes."""
     with sync_playwright() as playwright, running_server(Path("/dev/null")) as base:
         browser = playwright.chromium.launch(
-            executable_path=find_browser(playwright.chromium.executable_path), args=["--no-sandbox"])
+            executable_path=find_browser(playwright.chromium.executable_path), args=["--no-sandbox"]
+        )
         page = browser.new_page(viewport={"width": 1600, "height": 950}, reduced_motion="reduce")
         for scene in ("suslov-hess", "quartic", "ball-section", "loxodrome"):
             page.goto(f"{base}/?scene={scene}&t=10")

@@ -107,8 +107,13 @@ def measure(changes):
 
 def _run(folder, changes):
     path = os.pathsep.join(str(folder / part) for part in ("app", "models"))
-    ended = subprocess.run([sys.executable, __file__, "--here", str(changes)], env={**os.environ, "PYTHONPATH": path},
-                           stdout=subprocess.PIPE, text=True, check=True)
+    ended = subprocess.run(
+        [sys.executable, __file__, "--here", str(changes)],
+        env={**os.environ, "PYTHONPATH": path},
+        stdout=subprocess.PIPE,
+        text=True,
+        check=True,
+    )
     return json.loads(ended.stdout.splitlines()[-1])
 
 

@@ -68,8 +68,9 @@ def server(environment: dict[str, str]) -> Iterator[tuple[str, int]]:
     """The command of the README in a process of its own: its URL and number."""
     port = free_port()
     command = [sys.executable, "-m", "hess_explorer", "serve", "--port", str(port), "--no-browser"]
-    with subprocess.Popen(command, cwd=ROOT, env=environment, stdout=subprocess.DEVNULL,
-                          stderr=subprocess.DEVNULL) as process:
+    with subprocess.Popen(
+        command, cwd=ROOT, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    ) as process:
         try:
             yield f"http://127.0.0.1:{port}", process.pid
         finally:
@@ -100,12 +101,15 @@ async def body_frame(browser: Browser, url: str) -> tuple[float, float]:
 
     await asyncio.sleep(1.0)
     before = await busy()
-    frames = await page.evaluate("""async (ms) => {
+    frames = await page.evaluate(
+        """async (ms) => {
         const end = performance.now() + ms
         let count = 0
         while (await new Promise(requestAnimationFrame) < end) count++
         return count
-    }""", 1e3 * PLAY_SECONDS)
+    }""",
+        1e3 * PLAY_SECONDS,
+    )
     spent = await busy() - before
     await page.close()
     return 1e3 * spent / frames, frames / PLAY_SECONDS
@@ -142,8 +146,9 @@ def spread(latencies: tuple[list[float], list[float]]) -> str:
     firsts, times = latencies
     high = firsts[math.ceil(0.95 * len(firsts)) - 1]
     whole = statistics.median(times)
-    return (f"median {statistics.median(firsts):.1f} ms, 95th percentile {high:.1f} ms"
-            + (f"; complete after {whole:.0f} ms" if whole > 1.2 * statistics.median(firsts) else ""))
+    return f"median {statistics.median(firsts):.1f} ms, 95th percentile {high:.1f} ms" + (
+        f"; complete after {whole:.0f} ms" if whole > 1.2 * statistics.median(firsts) else ""
+    )
 
 
 async def drag(page: Page, name: str) -> tuple[float, float, int]:
@@ -241,8 +246,13 @@ def compile_seconds(script: str, what: str) -> tuple[float, float]:
     with tempfile.TemporaryDirectory() as folder:
         environment = {**os.environ, "NUMBA_CACHE_DIR": folder, "PYTHONPATH": str(ROOT)}
         seconds = [
-            float(subprocess.run([sys.executable, "-c", script, what], env=environment, capture_output=True,
-                                 text=True, check=True).stdout) for _ in range(2)]
+            float(
+                subprocess.run(
+                    [sys.executable, "-c", script, what], env=environment, capture_output=True, text=True, check=True
+                ).stdout
+            )
+            for _ in range(2)
+        ]
     return seconds[0], seconds[1]
 
 
@@ -308,7 +318,8 @@ async def measure() -> None:
     async with async_playwright() as playwright:
         arguments = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
         browser = await playwright.chromium.launch(
-            executable_path=find_browser(playwright.chromium.executable_path), args=arguments)
+            executable_path=find_browser(playwright.chromium.executable_path), args=arguments
+        )
         with tempfile.TemporaryDirectory() as folder:
             environment = {**os.environ, "NUMBA_CACHE_DIR": folder}
             for label, bar in (("first start, nothing compiled", "≤ 10 s"), ("start afterwards", "≤ 4 s")):
@@ -332,15 +343,30 @@ async def measure() -> None:
                 rows.append(("slider h in the first seconds, other scenes not loaded yet", spread(times), ""))
                 await idle(pid)
                 frame, pace = await body_frame(browser, url)
-                rows.append(("the body alone, 1600×950, while it plays",
-                             f"{frame:.1f} ms a frame, {pace:.0f} frames a second", "≤ 4 ms"))
+                rows.append(
+                    (
+                        "the body alone, 1600×950, while it plays",
+                        f"{frame:.1f} ms a frame, {pace:.0f} frames a second",
+                        "≤ 4 ms",
+                    )
+                )
                 for name in ("h", "I23"):
-                    rows.append((f"slider {name} to four painted pictures, {MOVES} moves",
-                                 spread(await slider_latencies(page, name)), "≤ 33 ms, ≤ 66 ms"))
+                    rows.append(
+                        (
+                            f"slider {name} to four painted pictures, {MOVES} moves",
+                            spread(await slider_latencies(page, name)),
+                            "≤ 33 ms, ≤ 66 ms",
+                        )
+                    )
                 for name in ("h", "I23"):
                     rate, rest, queued = await drag(page, name)
-                    rows.append((f"drag of {name}, 3 s", f"{rate:.1f} states a second, at rest {rest:.0f} ms after it "
-                                 f"({queued} more states)", "≥ 25 a second"))
+                    rows.append(
+                        (
+                            f"drag of {name}, 3 s",
+                            f"{rate:.1f} states a second, at rest {rest:.0f} ms after it ({queued} more states)",
+                            "≥ 25 a second",
+                        )
+                    )
                 await page.locator(".param-reset").click()
                 await page.wait_for_function(READY)
                 rested = await browser.new_page(viewport={"width": 1600, "height": 950}, reduced_motion="reduce")
@@ -351,8 +377,13 @@ async def measure() -> None:
                     times = await slider_latencies(page, number.name)
                     await page.locator(".param-reset").click()
                     await page.wait_for_function(READY)
-                    rows.append((f"{scene.title}: entered at once, after a rest on its picture, once more",
-                                 f"{first:.0f} ms, {prepared:.0f} ms, {again:.0f} ms", "≤ 300 ms"))
+                    rows.append(
+                        (
+                            f"{scene.title}: entered at once, after a rest on its picture, once more",
+                            f"{first:.0f} ms, {prepared:.0f} ms, {again:.0f} ms",
+                            "≤ 300 ms",
+                        )
+                    )
                     rows.append((f"{scene.title}: slider {number.symbol}, {MOVES} moves", spread(times), "≤ 33 ms"))
         await browser.close()
     for kernel in ("orbit", "circle map", "ensemble", "section"):
@@ -360,20 +391,26 @@ async def measure() -> None:
         rows.append((f"kernel of the {kernel}: compiled, loaded", f"{compiled:.1f} s, {loaded:.2f} s", ""))
     for scene in others():
         compiled, loaded = compile_seconds(COMPILE_SCENE, scene.name)
-        rows.append((f"{scene.title}: first state compiled after that of the first scene, loaded",
-                     f"{compiled:.1f} s, {loaded:.2f} s", "≤ 6 s"))
+        rows.append(
+            (
+                f"{scene.title}: first state compiled after that of the first scene, loaded",
+                f"{compiled:.1f} s, {loaded:.2f} s",
+                "≤ 6 s",
+            )
+        )
     new, moved, cached = state_milliseconds()
-    rows.append(("computing a state: new body, new phase, from the cache",
-                 f"{new:.2f} ms, {moved:.2f} ms, {cached:.2f} ms", ""))
+    rows.append(
+        ("computing a state: new body, new phase, from the cache", f"{new:.2f} ms, {moved:.2f} ms, {cached:.2f} ms", "")
+    )
     rows.append(("rotation number on 100 × 75 (h, f)", f"{grid_milliseconds():.1f} ms", "≤ 100 ms"))
     rows.append(("rotation number on 300 × 200 (h, f), one core", f"{map_milliseconds():.0f} ms", "≤ 1 s"))
     rows.append(("section of figure 11, 117 orbits × 400 crossings", f"{section_milliseconds():.0f} ms", ""))
     versions = ", ".join(f"{name} {version(name)}" for name in ("panel", "bokeh", "holoviews", "numba", "numpy"))
-    heading = (f"{date.today()}, {processor()}, {os.cpu_count()} cores, Python {platform.python_version()}, "
-               f"{versions}.")
+    heading = f"{date.today()}, {processor()}, {os.cpu_count()} cores, Python {platform.python_version()}, {versions}."
     table = "\n".join("| " + " | ".join(row) + " |" for row in rows)
-    write_measured(Path(__file__).with_name("README.md"),
-                   f"{heading}\n\n| what | measured | asked |\n|---|---|---|\n{table}")
+    write_measured(
+        Path(__file__).with_name("README.md"), f"{heading}\n\n| what | measured | asked |\n|---|---|---|\n{table}"
+    )
 
 
 if __name__ == "__main__":

@@ -47,8 +47,10 @@ def tori(side):
         h, f = (np.linspace(*places) for places in over.values())
         found = np.empty((side, side))
         for first in range(0, side, 50):
-            rows = np.meshgrid(h[first:first + 50], f, indexing="ij")
-            found[first:first + 50] = values_at(0.5, *(x.ravel() for x in rows), level("precise")).rho.reshape(-1, side)
+            rows = np.meshgrid(h[first : first + 50], f, indexing="ij")
+            found[first : first + 50] = values_at(0.5, *(x.ravel() for x in rows), level("precise")).rho.reshape(
+                -1, side
+            )
         return found
 
     return "rotation-number", over, {"a": 0.5}, "precise", by_hand
@@ -62,8 +64,15 @@ def motions(side):
 
     def by_hand():
         places = [np.linspace(*places).tolist() for places in over.values()]
-        return np.array([[lyapunov_exponent(suslov.at((p[0], I22, *p[2:])), (w1, *state[1:]), TIME, exact).value
-                          for I22 in places[1]] for w1 in places[0]])
+        return np.array(
+            [
+                [
+                    lyapunov_exponent(suslov.at((p[0], I22, *p[2:])), (w1, *state[1:]), TIME, exact).value
+                    for I22 in places[1]
+                ]
+                for w1 in places[0]
+            ]
+        )
 
     return "lyapunov-suslov", over, {"t": TIME}, "draft", by_hand
 
@@ -107,11 +116,18 @@ def beside_a_loop(case):
         with folder() as place:
             sweep(name, over, level=accuracy, store=place, **fixed)
 
-    rounds = [[timed(one, time.process_time) for one in (
-        by_hand, lambda: sweep(name, over, level=accuracy, **fixed), by_hand, stored)] for _ in range(ROUNDS)]
-    return (min(min(first, second) for first, _, second, _ in rounds),
-            statistics.median(memory / first for first, memory, _, _ in rounds),
-            statistics.median(store / second for _, _, second, store in rounds))
+    rounds = [
+        [
+            timed(one, time.process_time)
+            for one in (by_hand, lambda: sweep(name, over, level=accuracy, **fixed), by_hand, stored)
+        ]
+        for _ in range(ROUNDS)
+    ]
+    return (
+        min(min(first, second) for first, _, second, _ in rounds),
+        statistics.median(memory / first for first, memory, _, _ in rounds),
+        statistics.median(store / second for _, _, second, store in rounds),
+    )
 
 
 def on_two(case, address):
@@ -141,8 +157,10 @@ def pieces_of_processes():
     """Seconds until two processes are there, and pieces without work through them, a second."""
     tell("processes")
     grid = SweepGrid.of(QUANTITIES["rotation-number"], {"h": (0.5, 1.5, 2000)}, {"a": 0.5, "f": 0.1}, 10**6)
-    pieces = [(box, work.Chunk("rotation-number", "draft", work.version(), grid.pieces(box), grid.fixed))
-              for box in grid.boxes((1,))]
+    pieces = [
+        (box, work.Chunk("rotation-number", "draft", work.version(), grid.pieces(box), grid.fixed))
+        for box in grid.boxes((1,))
+    ]
     begun = time.perf_counter()
     with workers.crew(2, lambda: False) as hands:
         run = hands.run(iter(pieces), lambda: False)
@@ -199,8 +217,13 @@ def rates(address):
     memory, _ = passed(noise, large, numbers, keep=False)
     stored, _ = passed(noise, large, numbers, keep=True)
     size = numbers * 9 / 1e6
-    return {"pieces": 1.0 / empty, "kept": 1.0 / kept, "looked": 1.0 / looked, "memory": size / memory,
-            "stored": size / stored}
+    return {
+        "pieces": 1.0 / empty,
+        "kept": 1.0 / kept,
+        "looked": 1.0 / looked,
+        "memory": size / memory,
+        "stored": size / stored,
+    }
 
 
 def on_paper(name, cost, found):
@@ -215,9 +238,11 @@ def on_paper(name, cost, found):
     pieces = math.ceil(work_ / piece)
     times = {"work": work_ / CORES, "pieces": pieces / found["kept"], "bytes": bytes_ / 1e6 / found["stored"]}
     slowest = max(times, key=times.get)
-    return (f"| {what.symbol} | {cost * 1e6:.3g} µs | {work_ / 3600:.3g} core hours | {pieces} of {piece:.3g} s "
-            f"| {bytes_ / 1e9:.3g} GB | {span(times['work'])} | {span(times['pieces'])} | {span(times['bytes'])} "
-            f"| {slowest} |")
+    return (
+        f"| {what.symbol} | {cost * 1e6:.3g} µs | {work_ / 3600:.3g} core hours | {pieces} of {piece:.3g} s "
+        f"| {bytes_ / 1e9:.3g} GB | {span(times['work'])} | {span(times['pieces'])} | {span(times['bytes'])} "
+        f"| {slowest} |"
+    )
 
 
 def span(seconds):
@@ -241,8 +266,13 @@ def main():
         pairs = [on_two(case, address) for case in long]
         found = rates(address)
     facts = describe()
-    lines = [f"{facts['date']}, {facts['processor']}, {facts['cores']} cores, Python {facts['python']}; load before: "
-             f"{load:.1f}.", "", "| what | measured | asked |", "|---|---|---|"]
+    lines = [
+        f"{facts['date']}, {facts['processor']}, {facts['cores']} cores, Python {facts['python']}; load before: "
+        f"{load:.1f}.",
+        "",
+        "| what | measured | asked |",
+        "|---|---|---|",
+    ]
     costs = []
     for case, larger, (hand, memory, store), (one, two, dask, spent) in zip(cases, long, single, pairs, strict=True):
         what = QUANTITIES[case[0]]
@@ -256,7 +286,8 @@ def main():
             f"| – {many} cells into a store, by the clock: one thread, two processes with their start, two workers of "
             f"a cluster that run already | {one:.2f} s, {two:.2f} s, {dask:.2f} s | |",
             f"| – two processes, two workers beside one thread | {one / two:.2f} ×, {one / dask:.2f} × | ≥ 1.8 × |",
-            f"| – of the processor, both processes and this one | {spent:.2f} s | |"]
+            f"| – of the processor, both processes and this one | {spent:.2f} s | |",
+        ]
     grid = SweepGrid.of(QUANTITIES["rotation-number"], cases[0][1], {"a": 0.5}, 10**10)
     piece = work.Chunk("rotation-number", "precise", work.version(), grid.pieces(((0, 500), (0, 500))), grid.fixed)
     lines += [
@@ -268,9 +299,13 @@ def main():
         f"{found['kept']:.0f} a second | |",
         f"| results through the client, into a store | {found['memory']:.0f}, {found['stored']:.0f} MB a second | |",
         f"| pieces of a store looked through before it goes on | {found['looked']:.0f} a second | |",
-        "", f"On paper, from these: {' × '.join(map(str, CHART))} cells on {CORES} cores.", "",
+        "",
+        f"On paper, from these: {' × '.join(map(str, CHART))} cells on {CORES} cores.",
+        "",
         "| what | a cell | work | pieces | kept | work ÷ 1000 | scheduler and client | one writer | slowest |",
-        "|---|---|---|---|---|---|---|---|---|", *(on_paper(name, cost, found) for name, cost in costs)]
+        "|---|---|---|---|---|---|---|---|---|",
+        *(on_paper(name, cost, found) for name, cost in costs),
+    ]
     text = "\n".join(lines)
     print(text)
     if not QUICK:

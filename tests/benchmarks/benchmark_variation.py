@@ -59,8 +59,9 @@ def integrator(system, problem, tolerance):
     d = len(system.variables)
     variables = heyoka.make_vars(*(f"x{i}" for i in range(d)))
     equations = list(zip(variables, system.field(variables, problem.parameters.tolist()), strict=True))
-    return heyoka.taylor_adaptive(heyoka.var_ode_sys(equations, heyoka.var_args.vars, order=1),
-                                  problem.states[0].tolist(), tol=tolerance)
+    return heyoka.taylor_adaptive(
+        heyoka.var_ode_sys(equations, heyoka.var_args.vars, order=1), problem.states[0].tolist(), tol=tolerance
+    )
 
 
 def their_growth(run, start, frame, end, parts):
@@ -90,16 +91,23 @@ def exponents(system, problem, integrators, span):
         parts *= 2
 
     def run(level):
-        steps, _, frames, logs, _ = neighbours(system, start, frame, problem.parameters, np.array([end]), level.order,
-                                               level.tolerance, 10**6, LIMIT, True)
+        steps, _, frames, logs, _ = neighbours(
+            system, start, frame, problem.parameters, np.array([end]), level.order, level.tolerance, 10**6, LIMIT, True
+        )
         assert steps > 0
         return np.sort(logs[0] + np.log(np.abs(np.diagonal(np.linalg.qr(frames[0])[1]))))
 
     ours = {f"run, {name}": timed(lambda one=one: run(one)) for name, one in LEVELS.items()}
-    ours |= {f"spectrum, {name}": timed(lambda name=name: np.sort(
-        lyapunov_spectrum(system.at(p), state, span, level(name)).rates[-1] * span)) for name in LEVELS}
-    theirs = {tolerance: lambda one=one: their_growth(one, start, frame, end, parts)[:2]
-              for tolerance, one in integrators.items()}
+    ours |= {
+        f"spectrum, {name}": timed(
+            lambda name=name: np.sort(lyapunov_spectrum(system.at(p), state, span, level(name)).rates[-1] * span)
+        )
+        for name in LEVELS
+    }
+    theirs = {
+        tolerance: lambda one=one: their_growth(one, start, frame, end, parts)[:2]
+        for tolerance, one in integrators.items()
+    }
     return ours, theirs, f"; heyoka's neighbours are made orthogonal {parts} times"
 
 
@@ -137,8 +145,11 @@ def measured(what, ours, theirs, remark, beside):
         print(f"  heyoka {key:.0e}: {times[key] * 1e3:.3f} ms, error {errors[key]:.1e}")
     for key in ours:
         same = np.exp(np.interp(np.log(errors[key]), *zip(*line, strict=True)))
-        print(f"  {key}: {times[key] * 1e3:.3f} ms, error {errors[key]:.1e}; heyoka {same * 1e3:.3f} ms, "
-              f"{same / times[key]:.2f} ×", flush=True)
+        print(
+            f"  {key}: {times[key] * 1e3:.3f} ms, error {errors[key]:.1e}; heyoka {same * 1e3:.3f} ms, "
+            f"{same / times[key]:.2f} ×",
+            flush=True,
+        )
 
 
 def main() -> None:
@@ -149,8 +160,11 @@ def main() -> None:
         problem = Problem.of(system.at(system.example[1]), [system.example[0]])
         integrators = {tolerance: integrator(system, problem, tolerance) for tolerance in TOLERANCES}
         measured(f"{name}, exponents, T = {span:g}", *exponents(system, problem, integrators, span), lambda exact: 1.0)
-        measured(f"{name}, matrix, T = {0.1 * span:g}", *matrices(system, problem, integrators, 0.1 * span),
-                 lambda exact: np.abs(exact).max())
+        measured(
+            f"{name}, matrix, T = {0.1 * span:g}",
+            *matrices(system, problem, integrators, 0.1 * span),
+            lambda exact: np.abs(exact).max(),
+        )
 
 
 if __name__ == "__main__":

@@ -46,8 +46,13 @@ if __name__ == "__main__":
                 below += 1
                 print("below:", system.name, name, state, parameters, end, orbit.error_estimate, low, flush=True)
         if (i + 1) % 10 == 0 or i + 1 == options.count:
-            said = "; ".join(f"{name} {np.median(some):.2f} times (from {min(some):.2f} to {max(some):.1f})"
-                             for name, some in ratios.items())
-            print(f"{i + 1} motions, {short} not to their end, {time.process_time() - begun:.0f} s; estimates below "
-                  f"the proved error: {below}; above it by, median: {said}", flush=True)
+            said = "; ".join(
+                f"{name} {np.median(some):.2f} times (from {min(some):.2f} to {max(some):.1f})"
+                for name, some in ratios.items()
+            )
+            print(
+                f"{i + 1} motions, {short} not to their end, {time.process_time() - begun:.0f} s; estimates below "
+                f"the proved error: {below}; above it by, median: {said}",
+                flush=True,
+            )
     sys.exit(below > 0)

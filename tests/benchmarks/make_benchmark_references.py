@@ -184,7 +184,8 @@ def circle_map(h: Fraction, f: Fraction, a: Fraction, phi: Iterable[float], digi
         p, q = -1 - h_**2 / 3, 2 * h_**3 / 27 - 2 * h_ / 3 + f_**2 / 2
         angle = mpmath.acos(3 * q / (2 * p) * mpmath.sqrt(-3 / p)) / 3
         n0, n1, n2 = sorted(
-            2 * mpmath.sqrt(-p / 3) * mpmath.cos(angle - 2 * k * mpmath.pi / 3) - h_ / 3 for k in range(3))
+            2 * mpmath.sqrt(-p / 3) * mpmath.cos(angle - 2 * k * mpmath.pi / 3) - h_ / 3 for k in range(3)
+        )
         half_period = mpmath.sqrt(2 / (n2 - n0)) * mpmath.ellipk((n2 - n1) / (n2 - n0))
         w = mpmath.sqrt(2 * (h_ + n1))
 

@@ -91,8 +91,9 @@ def start_of(map_: ReturnMap, draw: np.random.Generator) -> np.ndarray:
     raise OutsideRegion("No motion of this energy reaches the section.")
 
 
-def looked_at(map_: ReturnMap, name: str, draw: np.random.Generator, start: np.ndarray | None = None,
-              real: bool = False) -> None:
+def looked_at(
+    map_: ReturnMap, name: str, draw: np.random.Generator, start: np.ndarray | None = None, real: bool = False
+) -> None:
     """Follow an orbit along a parameter there and back; print doublings and hysteresis, of real bodies only."""
     here, exact = map_.section.constants[name], ReturnMap(map_.section, level("precise"))
     values = here + np.linspace(-0.5, 0.5, 61)
@@ -103,7 +104,8 @@ def looked_at(map_: ReturnMap, name: str, draw: np.random.Generator, start: np.n
     there = diagram_over(lambda v: map_.moved(name, v), name, values, start, 300, 64)
     periods = there.periods.tolist()
     seen = [k for k in range(len(values) - 1) if periods[k] and periods[k + 1] == 2 * periods[k]] + [
-        -k for k in range(1, len(values)) if periods[k] and periods[k - 1] == 2 * periods[k]]
+        -k for k in range(1, len(values)) if periods[k] and periods[k - 1] == 2 * periods[k]
+    ]
     chaos = sum(not p and len(one) > 0 for p, one in zip(periods, there.places, strict=True))
     for signed in seen:
         step, k = (1, signed) if signed > 0 else (-1, -signed)
@@ -111,19 +113,43 @@ def looked_at(map_: ReturnMap, name: str, draw: np.random.Generator, start: np.n
         if 4 * periods[k] not in beyond:
             continue
         try:
-            orbit = find_periodic(exact.moved(name, values[k]), there.places[k][-periods[k]:], periods[k])
+            orbit = find_periodic(exact.moved(name, values[k]), there.places[k][-periods[k] :], periods[k])
             found = cascade(lambda v: exact.moved(name, v), name, orbit, values[k], values[k] + 0.3 * step, 5)
         except ModelError as error:
             print("   ", error)
             continue
-        print("CASCADE", name, map_.section.constants, "from", values[k], there.ends[k], found.periods, found.values,
-              found.errors, "ratios", found.ratios, found.ended, flush=True)
+        print(
+            "CASCADE",
+            name,
+            map_.section.constants,
+            "from",
+            values[k],
+            there.ends[k],
+            found.periods,
+            found.values,
+            found.errors,
+            "ratios",
+            found.ratios,
+            found.ended,
+            flush=True,
+        )
     back = diagram_over(lambda v: map_.moved(name, v), name, values[::-1], there.ends[-1], 300, 64)
     both = hysteresis(map_.turns, there, back)
     wide = [one for one in both if one[1] - one[0] > 0.05]
     if wide:
-        print("HYSTERESIS", name, map_.section.constants, start, wide, "periods", periods, back.periods[::-1].tolist(),
-              "chaotic values", chaos, flush=True)
+        print(
+            "HYSTERESIS",
+            name,
+            map_.section.constants,
+            start,
+            wide,
+            "periods",
+            periods,
+            back.periods[::-1].tolist(),
+            "chaotic values",
+            chaos,
+            flush=True,
+        )
 
 
 def saddle_foci(map_: ReturnMap) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
@@ -155,8 +181,9 @@ def saddle_foci(map_: ReturnMap) -> list[tuple[np.ndarray, np.ndarray, np.ndarra
     for k in np.flatnonzero(values[1:] * values[:-1] < 0.0):
         for sign in (1.0, -1.0):
             root = rotation(brentq(excess, psi[k], psi[k + 1]), sign)
-            J = np.column_stack([(field(root + _STEP * e) - field(root - _STEP * e)) / (2.0 * _STEP)
-                                 for e in np.eye(root.size)])
+            J = np.column_stack(
+                [(field(root + _STEP * e) - field(root - _STEP * e)) / (2.0 * _STEP) for e in np.eye(root.size)]
+            )
             eigenvalues, vectors = np.linalg.eig(J)
             # Those of the integrals, along the family of rotations, are 0.
             order = np.argsort(-np.abs(eigenvalues))[:3]
@@ -168,9 +195,11 @@ def saddle_foci(map_: ReturnMap) -> list[tuple[np.ndarray, np.ndarray, np.ndarra
 
 def beside(root: np.ndarray, eigenvalues: np.ndarray, states: np.ndarray) -> str:
     """How close states (n, 5) come to a saddle-focus.  Shilnikov's inequality: the real eigenvalue is the larger."""
-    return (f"saddle-focus {np.round(root, 4)} eigenvalues {np.round(eigenvalues, 4)} Shilnikov "
-            f"{abs(eigenvalues[2].real) > abs(eigenvalues[0].real)} closest "
-            f"{np.linalg.norm(states - root, axis=1).min():.2g}")
+    return (
+        f"saddle-focus {np.round(root, 4)} eigenvalues {np.round(eigenvalues, 4)} Shilnikov "
+        f"{abs(eigenvalues[2].real) > abs(eigenvalues[0].real)} closest "
+        f"{np.linalg.norm(states - root, axis=1).min():.2g}"
+    )
 
 
 def spirals(map_: ReturnMap) -> str:
@@ -190,12 +219,21 @@ def spirals(map_: ReturnMap) -> str:
         if np.linalg.norm(states - root, axis=1).min() > 0.3 or np.ptp(states, axis=0).max() < 0.1:
             continue
         exponents = lyapunov_spectrum(system.at(p), states[-1], 1500.0, level("draft"))
-        if exponents.signs[0] == "+" and exponents.values[0] > 0.01 and exponents.divergence < (
-                -3.0 * exponents.divergence_error):
+        if (
+            exponents.signs[0] == "+"
+            and exponents.values[0] > 0.01
+            and exponents.divergence < (-3.0 * exponents.divergence_error)
+        ):
             told = "strange, close to a saddle-focus"
             dimension, error = exponents.dimension
-            print("SPIRAL", map_.section.constants, beside(root, eigenvalues, states), np.round(exponents.values, 4),
-                  f"D = {dimension:.3f} ± {error:.3f}", flush=True)
+            print(
+                "SPIRAL",
+                map_.section.constants,
+                beside(root, eigenvalues, states),
+                np.round(exponents.values, 4),
+                f"D = {dimension:.3f} ± {error:.3f}",
+                flush=True,
+            )
     return told
 
 
@@ -212,9 +250,16 @@ def strange(map_: ReturnMap, draw: np.random.Generator, real: bool) -> str:
         return "chaotic at first"
     dimension, error = exponents.dimension
     found = dynamics_of(map_, place, 500, 1500)
-    print("STRANGE", map_.section.constants, np.round(place, 4), f"D = {dimension:.3f} ± {error:.3f}",
-          np.round(exponents.values, 4), found.verdict, f"distance {found.distance:.3f} ± "
-          f"{found.distance_error:.2g} shared {found.shared:.2g}", flush=True)
+    print(
+        "STRANGE",
+        map_.section.constants,
+        np.round(place, 4),
+        f"D = {dimension:.3f} ± {error:.3f}",
+        np.round(exponents.values, 4),
+        found.verdict,
+        f"distance {found.distance:.3f} ± {found.distance_error:.2g} shared {found.shared:.2g}",
+        flush=True,
+    )
     if system.name == "suslov":
         states = solve(system.at(p), last, np.linspace(0.0, 2000.0, 40_001), level("draft")).states
         for root, eigenvalues, _ in saddle_foci(map_):
@@ -244,17 +289,26 @@ def tori(map_: ReturnMap, draw: np.random.Generator, real: bool) -> str:
             except ModelError:
                 continue
             for one in branch.bifurcations:
-                if one.kind != "Neimark–Sacker" or (real and name in NAMES[:4] and not is_real(
-                        map_.moved(name, one.value))):
+                if one.kind != "Neimark–Sacker" or (
+                    real and name in NAMES[:4] and not is_real(map_.moved(name, one.value))
+                ):
                     continue
                 shrinks = abs(np.prod(branch.multipliers[one.after + 1])) < 1.0
                 rising = branch.values[one.after + 1] > branch.values[one.after]
                 letters = beyond(map_, name, one, -1.0 if rising == shrinks else 1.0)
                 if "Q" in letters and told != _BROKEN:
                     told = _BROKEN if "C" in letters.partition("Q")[2] else "torus"
-                print("CURVE", map_.section.constants, name, f"{one.value:.8f} ± {one.error:.1g}", "rotation",
-                      f"{abs(np.angle(one.multipliers[0])) / math.tau:.5f}", np.round(one.places[0], 4), letters,
-                      flush=True)
+                print(
+                    "CURVE",
+                    map_.section.constants,
+                    name,
+                    f"{one.value:.8f} ± {one.error:.1g}",
+                    "rotation",
+                    f"{abs(np.angle(one.multipliers[0])) / math.tau:.5f}",
+                    np.round(one.places[0], 4),
+                    letters,
+                    flush=True,
+                )
     return told
 
 
@@ -298,9 +352,16 @@ def reversal(map_: ReturnMap, draw: np.random.Generator) -> str:
     times = reversals(body, map_.state_at(place), 200.0, level("draft")).times
     if len(times) % 2 == 0:
         return "dissipative, does not turn round in the end"
-    print("REVERSAL", map_.section.constants, np.round(place, 5), "attractor", np.round(found.attractor[-1], 5),
-          "times",
-          np.round(times, 3), flush=True)
+    print(
+        "REVERSAL",
+        map_.section.constants,
+        np.round(place, 5),
+        "attractor",
+        np.round(found.attractor[-1], 5),
+        "times",
+        np.round(times, 3),
+        flush=True,
+    )
     return "turns round"
 
 
@@ -333,8 +394,13 @@ def main() -> None:
             elif options.what == "sets":
                 place = start_of(map_, draw)
                 found = dynamics_of(map_, place, 500, 2000)
-                print(found.sentence, f"{found.motion.divergence:.4f} ± {found.motion.divergence_error:.4f}",
-                      map_.section.constants, place, flush=True)
+                print(
+                    found.sentence,
+                    f"{found.motion.divergence:.4f} ± {found.motion.divergence_error:.4f}",
+                    map_.section.constants,
+                    place,
+                    flush=True,
+                )
             else:
                 looked_at(map_, str(draw.choice(NAMES)), draw, real=options.real)
                 told["followed"] += 1

@@ -15,10 +15,38 @@ from hess_mechanics.numerics.accuracy import REFERENCE
 from hess_mechanics.suslov.section import plane_of, state_at
 from support.command_line import replaced, table
 
-SECTION = ["section", "ball", "--I", "1,3,0.2,-0.1", "--D", "5", "--b", "0.5,0.2,0.8", "--omega", "0.6,1.1",
-           "--gamma", "0.6,0.8,0", "--t", "30"]
-LYAPUNOV = ["lyapunov", "ball", "--I", "1,4,0.3,0.2", "--D", "2", "--b", "0,0,1", "--omega", "0,0", "--gamma", "0,0,1",
-            "--t", "40"]
+SECTION = [
+    "section",
+    "ball",
+    "--I",
+    "1,3,0.2,-0.1",
+    "--D",
+    "5",
+    "--b",
+    "0.5,0.2,0.8",
+    "--omega",
+    "0.6,1.1",
+    "--gamma",
+    "0.6,0.8,0",
+    "--t",
+    "30",
+]
+LYAPUNOV = [
+    "lyapunov",
+    "ball",
+    "--I",
+    "1,4,0.3,0.2",
+    "--D",
+    "2",
+    "--b",
+    "0,0,1",
+    "--omega",
+    "0,0",
+    "--gamma",
+    "0,0,1",
+    "--t",
+    "40",
+]
 PERIOD = ["period", "--I", "1.3,0.8", "--b", "0.5,-0.2", "--omega", "1,-0.5", "--gamma", "0,0.6,0.8"]
 CLOUD = ["cloud", "--I", "2,1,0.5,0.7", "--D", "1.5", "--h", "2", "--count", "200", "--t", "3"]
 BASINS = ["basins", "--I", "1.5,1,0.4,0", "--b", "0.3,-0.5,1", "--E", "1.842", "--cells", "6,4", "--crossings", "240"]
@@ -102,12 +130,20 @@ def test_for_kharlamovas_case_the_closed_form_is_the_integral_of_the_quartic(ans
     # u = u0 + v0 τ + aτ²/2, γ3² = P(τ) = 1 − |u|².
     u0, v0, a = np.array([0.0, 0.6]), np.array([0.5, 1.0]), np.array([-0.5 / 0.8, 0.2 / 1.3])
     P = np.polynomial.Polynomial([1.0]) - sum(
-        np.polynomial.Polynomial([u0[i], v0[i], a[i] / 2.0]) ** 2 for i in range(2))
+        np.polynomial.Polynomial([u0[i], v0[i], a[i] / 2.0]) ** 2 for i in range(2)
+    )
     zeros = np.sort(P.roots()[np.abs(P.roots().imag) < 1e-12].real)
     low, high = zeros[zeros < 0.0].max(), zeros[zeros > 0.0].min()
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
-    exact = 2.0 * quad(lambda x: half * math.cos(x) / math.sqrt(P(middle + half * math.sin(x))), -math.pi / 2 + 1e-9,
-                       math.pi / 2 - 1e-9, epsabs=1e-13)[0]
+    exact = (
+        2.0
+        * quad(
+            lambda x: half * math.cos(x) / math.sqrt(P(middle + half * math.sin(x))),
+            -math.pi / 2 + 1e-9,
+            math.pi / 2 - 1e-9,
+            epsabs=1e-13,
+        )[0]
+    )
     assert found["period_closed_form"] == pytest.approx(exact, abs=1e-7)
     assert found["period"] == pytest.approx(found["period_closed_form"], abs=1e-12)
     assert answer(*PERIOD, "--D", "4")["period_closed_form"] is None
@@ -172,8 +208,10 @@ def test_where_orbits_end_is_where_they_are_at_reference(answer):
         means.setdefault(found["group"][i], []).append(float(exact[400:, 0].mean()))
         # Attractors are met again, however long the orbit.
         assert found["mean"][i] == pytest.approx(means[found["group"][i]][-1], abs=0.1)
-    low, high = (np.array([mean for mean, group in zip(found["mean"], found["group"], strict=True) if group == one])
-                 for one in (0, 1))
+    low, high = (
+        np.array([mean for mean, group in zip(found["mean"], found["group"], strict=True) if group == one])
+        for one in (0, 1)
+    )
     assert high.min() - low.max() > 0.1 * (high.max() - low.min())
 
 
@@ -200,8 +238,9 @@ def test_on_a_principal_axis_it_is_said_that_nothing_attracts(answer):
 # ---- all of them ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("words", [SECTION, LYAPUNOV, PERIOD, CLOUD, [*CLOUD, "--table", "points"]],
-                         ids=lambda words: " ".join(words[:2]))
+@pytest.mark.parametrize(
+    "words", [SECTION, LYAPUNOV, PERIOD, CLOUD, [*CLOUD, "--table", "points"]], ids=lambda words: " ".join(words[:2])
+)
 def test_csv_and_json_say_the_same(answer, capsys, words):
     found = answer(*words)
     assert main([*words, "--format", "csv"]) == 0
@@ -213,34 +252,41 @@ def test_csv_and_json_say_the_same(answer, capsys, words):
     else:
         assert numbers == [list(row) for row in zip(*(found[name] for name in header), strict=True)]
     assert {name: found[name] for name in facts if name != "wall_ms"} == {
-        name: value for name, value in facts.items() if name != "wall_ms"}
+        name: value for name, value in facts.items() if name != "wall_ms"
+    }
 
 
-@pytest.mark.parametrize(("words", "said"), [
-    (replaced(SECTION, "--D", "-1"), "--D: D = -1 is not between 0 and 300"),
-    (replaced(SECTION, "--I", "1,3"), "write 4 numbers"),
-    ([*SECTION, "--plane", "0,0,0,0,0"], "normal other than 0"),
-    (replaced(LYAPUNOV, "--D", "x"), "is not a number"),
-    (replaced(LYAPUNOV, "--t", "0"), "other than 0"),
-    (replaced(PERIOD, "--gamma", "0,0,0"), "other than 0"),
-    (replaced(PERIOD, "--I", "1.3,-0.8"), "I22 = -0.8 is not between 0.001 and 1000"),
-    ([*PERIOD, "--D", "-2"], "--D: D = -2 is not between 0 and 300"),
-    (["period", "--I", "1,2", "--omega", "0.6,0.8", "--gamma", "0.6,0.8,0"], "rests on the equator and has no period"),
-    (["period", "--I", "1,1", "--D", "1", "--omega", "0,0", "--gamma", "0.6,0,0.8"], "choose another start"),
-    (replaced(CLOUD, "--I", "2,1,0,0"), "Choose I13 or I23 other than 0"),
-    (replaced(CLOUD, "--h", "-1"), "--h: h = -1 is not between 1e-06 and 1e+06"),
-    (replaced(CLOUD, "--count", "0"), "from 1 to 100000"),
-    (replaced(CLOUD, "--t", "0"), "choose --t other than 0"),
-    ([*CLOUD, "--spread", "1"], "choose it between 0 and 1"),
-    ([*CLOUD, "--table", "all"], "invalid choice: 'all'"),
-    (replaced(BASINS, "--E", "-0.6"), "choose E above -0.583095"),
-    (replaced(BASINS, "--cells", "0,4"), "write them like 40,30"),
-    (replaced(BASINS, "--cells", "1000,1000"), "at most 100000 together"),
-    (replaced(BASINS, "--cells", "2.5,4"), "two whole numbers"),
-    ([*BASINS, "--window", "1,0,0,1"], "choose such angles"),
-    (replaced(BASINS, "--crossings", "10"), "from 100 to 10000"),
-    ([*BASINS, "--accuracy", "best"], "draft, standard, precise, reference"),
-])
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (replaced(SECTION, "--D", "-1"), "--D: D = -1 is not between 0 and 300"),
+        (replaced(SECTION, "--I", "1,3"), "write 4 numbers"),
+        ([*SECTION, "--plane", "0,0,0,0,0"], "normal other than 0"),
+        (replaced(LYAPUNOV, "--D", "x"), "is not a number"),
+        (replaced(LYAPUNOV, "--t", "0"), "other than 0"),
+        (replaced(PERIOD, "--gamma", "0,0,0"), "other than 0"),
+        (replaced(PERIOD, "--I", "1.3,-0.8"), "I22 = -0.8 is not between 0.001 and 1000"),
+        ([*PERIOD, "--D", "-2"], "--D: D = -2 is not between 0 and 300"),
+        (
+            ["period", "--I", "1,2", "--omega", "0.6,0.8", "--gamma", "0.6,0.8,0"],
+            "rests on the equator and has no period",
+        ),
+        (["period", "--I", "1,1", "--D", "1", "--omega", "0,0", "--gamma", "0.6,0,0.8"], "choose another start"),
+        (replaced(CLOUD, "--I", "2,1,0,0"), "Choose I13 or I23 other than 0"),
+        (replaced(CLOUD, "--h", "-1"), "--h: h = -1 is not between 1e-06 and 1e+06"),
+        (replaced(CLOUD, "--count", "0"), "from 1 to 100000"),
+        (replaced(CLOUD, "--t", "0"), "choose --t other than 0"),
+        ([*CLOUD, "--spread", "1"], "choose it between 0 and 1"),
+        ([*CLOUD, "--table", "all"], "invalid choice: 'all'"),
+        (replaced(BASINS, "--E", "-0.6"), "choose E above -0.583095"),
+        (replaced(BASINS, "--cells", "0,4"), "write them like 40,30"),
+        (replaced(BASINS, "--cells", "1000,1000"), "at most 100000 together"),
+        (replaced(BASINS, "--cells", "2.5,4"), "two whole numbers"),
+        ([*BASINS, "--window", "1,0,0,1"], "choose such angles"),
+        (replaced(BASINS, "--crossings", "10"), "from 100 to 10000"),
+        ([*BASINS, "--accuracy", "best"], "draft, standard, precise, reference"),
+    ],
+)
 def test_what_is_wrong_is_one_sentence(refusal, words, said):
     assert said in refusal(*words)
 

@@ -74,7 +74,7 @@ def test_the_stored_long_orbit_begins_as_its_maker_makes_it():
     assert np.array_equal(digits.doubles(maker.states_at(times, steps, digits)), work.reference[:20])
     crossings = digits.doubles(maker.upward_crossings(steps, digits))
     assert len(crossings) > 0
-    assert np.array_equal(crossings, works()["D"].reference[:len(crossings)])
+    assert np.array_equal(crossings, works()["D"].reference[: len(crossings)])
 
 
 @pytest.mark.parametrize(("name", "bound"), [("A", 1e-11), ("A2", 1e-8)])
@@ -206,8 +206,10 @@ def test_what_is_over_the_budget_is_left_out_with_a_sentence():
     method = constant("m", dict.fromkeys(settings, work.reference), [settings[:2], settings[2:]])
     samples, notes = climb(work, method, replace(FULL, budget=0.0))
     assert [one.setting for one in samples] == [("a", 1)]
-    assert [note.split(", as")[0] for note in notes] == ["m, work C: left out a, 2 to a, 2",
-                                                        "m, work C: left out b, 1 to b, 1"]
+    assert [note.split(", as")[0] for note in notes] == [
+        "m, work C: left out a, 2 to a, 2",
+        "m, work C: left out b, 1 to b, 1",
+    ]
 
 
 def test_a_work_that_a_method_does_not_do_is_named_with_the_reason():
@@ -330,7 +332,14 @@ def test_names_of_settings_and_versions():
     assert named((18, 1e-11)) == "18, 1e-11"
     assert named((3.2e-7, "high accuracy")) == "3.2e-7, high accuracy"
     assert [short(x) for x in (3.04e-6, 2.96e-6, 9.96e-7, 4.97e-13, 1e-12, 1.0, 1234.0)] == [
-        "3e-6", "3e-6", "1e-6", "5e-13", "1e-12", "1e0", "1.2e3"]
+        "3e-6",
+        "3e-6",
+        "1e-6",
+        "5e-13",
+        "1e-12",
+        "1e0",
+        "1.2e3",
+    ]
     assert half_decades(2, 3) == (1e-2, 3.2e-3, 1e-3)
     assert version("no-such-distribution") == "from its source folder"
     assert re.match(r"\d+\.\d+", version("numpy"))
@@ -352,8 +361,14 @@ def made_up(missing=None, threads=()):
     samples = {name: [one.sample for one in by_target.values()] for name, by_target in picked.items()}
     samples["peer"].append(sample(math.inf, 7.0, ("fast", 1e-9)))
     facts = {"date": "2026-01-02", "processor": "Made-up 1", "cores": 2, "python": "3.11"}
-    return BenchmarkReport(facts, {OURS: "0.1", "peer": "7"}, missing or {}, (1e-3, 1e-6),
-                           [MeasuredWorkload(work, samples, picked, ["peer, work C: a sentence."])], threads)
+    return BenchmarkReport(
+        facts,
+        {OURS: "0.1", "peer": "7"},
+        missing or {},
+        (1e-3, 1e-6),
+        [MeasuredWorkload(work, samples, picked, ["peer, work C: a sentence."])],
+        threads,
+    )
 
 
 def test_the_table_names_times_errors_settings_and_ratios():
@@ -377,8 +392,16 @@ def test_the_table_of_two_cores():
     one = Scaling("B2: orbits", OURS, (18, 1e-11), Timing(4e-3, 5e-3, 9), Timing(2e-3, 3e-3, 9))
     report = made_up(threads=[one])
     assert "| B2: orbits | Hess Explorer | 18, 1e-11 | 4.00 | 2.00 | 2.00 × |" in as_text(report)
-    assert as_json(report)["two_cores"] == [{"work": "B2: orbits", "method": OURS, "setting": "18, 1e-11",
-                                             "one_thread": 4e-3, "two_threads": 2e-3, "factor": 2.0}]
+    assert as_json(report)["two_cores"] == [
+        {
+            "work": "B2: orbits",
+            "method": OURS,
+            "setting": "18, 1e-11",
+            "one_thread": 4e-3,
+            "two_threads": 2e-3,
+            "factor": 2.0,
+        }
+    ]
 
 
 def test_the_json_holds_everything_and_is_strict():
@@ -389,8 +412,16 @@ def test_the_json_holds_everything_and_is_strict():
     assert work["name"] == "C"
     assert work["samples"]["peer"][-1] == {"setting": "fast, 1e-9", "seconds": 7.0, "error": None}
     peer = next(row for row in work["chosen"] if row["method"] == "peer")
-    assert peer == {"method": "peer", "target": 1e-3, "setting": "fast, 1e-5", "error": 1e-4, "minimum": 4e-3,
-                    "median": 6e-3, "runs": 20, "ratio": 4.0}
+    assert peer == {
+        "method": "peer",
+        "target": 1e-3,
+        "setting": "fast, 1e-5",
+        "error": 1e-4,
+        "minimum": 4e-3,
+        "median": 6e-3,
+        "runs": 20,
+        "ratio": 4.0,
+    }
 
 
 @pytest.mark.parametrize(("suffix", "begin"), [(".svg", b"<?xml"), (".png", b"\x89PNG")])
@@ -409,8 +440,13 @@ def bench(*words):
 
 def test_the_command_from_end_to_end(tmp_path):
     file = tmp_path / "bench.json"
-    done = subprocess.run(bench("--quick", "--works", "C", "--targets", "1e-3", "--json", str(file)), cwd=ROOT,
-                          capture_output=True, timeout=120, check=False)
+    done = subprocess.run(
+        bench("--quick", "--works", "C", "--targets", "1e-3", "--json", str(file)),
+        cwd=ROOT,
+        capture_output=True,
+        timeout=120,
+        check=False,
+    )
     assert done.returncode == 0, done.stderr.decode()
     text = done.stdout.decode()
     rows = [line for line in text.splitlines() if line.startswith("| C | 1e-3 |")]
@@ -426,14 +462,17 @@ def test_the_command_from_end_to_end(tmp_path):
         assert f"- {name}: not installed." in text
 
 
-@pytest.mark.parametrize(("words", "sentence"), [
-    (["--works", "A,X"], "'X' is not a work; choose from A,A2,B,B2,C,D"),
-    (["--works", ""], "'' is not a work"),
-    (["--targets", "1e-3,0"], "'1e-3,0' has an error that is not positive"),
-    (["--targets", "small"], "'small' is not a number"),
-    (["--trade", "--scenes", "kharlamova,nowhere"], "'nowhere' is not a scene; choose from suslov-hess,"),
-    (["--picture", "bench.pdf"], "'bench.pdf' is not a picture; end the name in .svg or .png"),
-])
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["--works", "A,X"], "'X' is not a work; choose from A,A2,B,B2,C,D"),
+        (["--works", ""], "'' is not a work"),
+        (["--targets", "1e-3,0"], "'1e-3,0' has an error that is not positive"),
+        (["--targets", "small"], "'small' is not a number"),
+        (["--trade", "--scenes", "kharlamova,nowhere"], "'nowhere' is not a scene; choose from suslov-hess,"),
+        (["--picture", "bench.pdf"], "'bench.pdf' is not a picture; end the name in .svg or .png"),
+    ],
+)
 def test_a_bad_option_gives_one_sentence(words, sentence, capsys):
     assert main(["bench", *words]) == 2
     said = capsys.readouterr().err
@@ -452,7 +491,8 @@ def test_without_the_sources_the_command_says_what_to_do(monkeypatch, tmp_path, 
     assert main(["bench"]) == 2
     assert capsys.readouterr().err == (
         "hess-explorer: The benchmark is not part of the package: in the folder of the sources, pip install -e "
-        "'.[bench]' and run the command again.\n")
+        "'.[bench]' and run the command again.\n"
+    )
 
 
 def test_the_trade_of_a_scene_is_measured_and_printed(capsys):
@@ -462,12 +502,20 @@ def test_the_trade_of_a_scene_is_measured_and_printed(capsys):
     assert said.err.splitlines() == ["kharlamova: orbit …"]
     data = json.loads(said.out)
     assert [(one["scene"], one["kind"], one["level"]) for one in data] == [
-        ("kharlamova", "orbit", name) for name in LEVELS]
+        ("kharlamova", "orbit", name) for name in LEVELS
+    ]
     scene = scenes()["kharlamova"]
     motion = scene.of(scene.defaults()).motion()
     times = np.linspace(0.0, motion.span, 400)
-    exact = solve_ivp(lambda _, y: motion.system.field(list(y), motion.parameters), (0.0, motion.span), motion.state,
-                      method="DOP853", rtol=1e-12, atol=1e-12, t_eval=times).y.T
+    exact = solve_ivp(
+        lambda _, y: motion.system.field(list(y), motion.parameters),
+        (0.0, motion.span),
+        motion.state,
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-12,
+        t_eval=times,
+    ).y.T
     found = solve(motion, motion.state, times, level("draft")).states
     away = np.abs(found - exact) * motion.weights
     pixels = max(np.linalg.norm(away[:, :2], axis=1).max(), np.linalg.norm(away[:, 2:], axis=1).max())
@@ -484,8 +532,10 @@ def test_the_trade_is_a_table_for_people(capsys):
 
 
 def test_ctrl_c_ends_it_cleanly():
-    with interruptible(), subprocess.Popen(bench("--works", "C"), cwd=ROOT, stdout=subprocess.PIPE,
-                                           stderr=subprocess.PIPE) as process:
+    with (
+        interruptible(),
+        subprocess.Popen(bench("--works", "C"), cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process,
+    ):
         process.stderr.readline()
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=60)

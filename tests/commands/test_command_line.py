@@ -39,35 +39,110 @@ from support.mechanics import ROOT
 from support.processes import interruptible
 
 CIRCLE_MAP = ["circle-map", "--h", "1.5", "--f", "0.6", "--a", "0.5", "--phi", "0,1,2", "--accuracy", "reference"]
-SUSLOV = ["orbit", "suslov", "--I", "2,1,0.3,0.5", "--b", "0.3,-0.5,1", "--omega", "0.8,-0.4",
-          "--gamma", "0.3,0.2,0.93", "--t", "10,50", "--accuracy", "reference"]
-HESS = ["orbit", "hess", "--a", "0.5", "--b", "1", "--omega", "0.7,1.1", "--gamma", "0.2,0.5,0.7", "--t", "10,50",
-        "--accuracy", "reference"]
-HEAVY = ["orbit", "euler-poisson", "--A", "1,1.6,2.6666666666666667", "--r", "3,0,4", "--mu", "1.995",
-         "--M", "1.3,-2.0,0.7", "--gamma", "0.3000066002178079863075,0.40000880029041064841,0.8660190526287390538076",
-         "--t", "5,20", "--accuracy", "reference"]
+SUSLOV = [
+    "orbit",
+    "suslov",
+    "--I",
+    "2,1,0.3,0.5",
+    "--b",
+    "0.3,-0.5,1",
+    "--omega",
+    "0.8,-0.4",
+    "--gamma",
+    "0.3,0.2,0.93",
+    "--t",
+    "10,50",
+    "--accuracy",
+    "reference",
+]
+HESS = [
+    "orbit",
+    "hess",
+    "--a",
+    "0.5",
+    "--b",
+    "1",
+    "--omega",
+    "0.7,1.1",
+    "--gamma",
+    "0.2,0.5,0.7",
+    "--t",
+    "10,50",
+    "--accuracy",
+    "reference",
+]
+HEAVY = [
+    "orbit",
+    "euler-poisson",
+    "--A",
+    "1,1.6,2.6666666666666667",
+    "--r",
+    "3,0,4",
+    "--mu",
+    "1.995",
+    "--M",
+    "1.3,-2.0,0.7",
+    "--gamma",
+    "0.3000066002178079863075,0.40000880029041064841,0.8660190526287390538076",
+    "--t",
+    "5,20",
+    "--accuracy",
+    "reference",
+]
 
 # 40-digit Taylor series, rounded to double.
 THETA = [-1.846842405836762766371, -1.713101969292905477533, 2.57889487639795195168]
 TRACE = 4.381325585713531995065
 PERIOD = 3.668400280441695618498
 SUSLOV_STATES = [
-    [-1.437197555806966721106, 1.00029044540894224644, -0.2723685171956202063664, -0.1991797232879835602478,
-     -0.9413515967329005595151],
-    [-1.180814258848206004989, 0.2923916318266687823268, 0.5081246282330512229384, 0.7480548120598404007528,
-     0.4268762822377700812319],
+    [
+        -1.437197555806966721106,
+        1.00029044540894224644,
+        -0.2723685171956202063664,
+        -0.1991797232879835602478,
+        -0.9413515967329005595151,
+    ],
+    [
+        -1.180814258848206004989,
+        0.2923916318266687823268,
+        0.5081246282330512229384,
+        0.7480548120598404007528,
+        0.4268762822377700812319,
+    ],
 ]
 HESS_STATES = [
-    [1.231216102505553058911, -0.3986347517424707304828, 0.5235841786319873283607, -0.3427344987202433343617,
-     0.779995302084089929648],
-    [-0.5966567344671923263117, -0.5537390503841238802927, -0.7455067905108669931377, -0.6076138321417659484657,
-     0.273907021253899493733],
+    [
+        1.231216102505553058911,
+        -0.3986347517424707304828,
+        0.5235841786319873283607,
+        -0.3427344987202433343617,
+        0.779995302084089929648,
+    ],
+    [
+        -0.5966567344671923263117,
+        -0.5537390503841238802927,
+        -0.7455067905108669931377,
+        -0.6076138321417659484657,
+        0.273907021253899493733,
+    ],
 ]
 HEAVY_STATES = [
-    [1.303171576431794886461, 1.939239401930229263521, 0.7288273636200425098267, 0.2690968985733379125361,
-     -0.4076103299371850479799, 0.8726056830589116870152],
-    [1.09336915106861076365, 1.355414217337625118592, 1.014041313101284483508, 0.239288243300533307289,
-     -0.6121309258568160022675, 0.7536822050624666347255],
+    [
+        1.303171576431794886461,
+        1.939239401930229263521,
+        0.7288273636200425098267,
+        0.2690968985733379125361,
+        -0.4076103299371850479799,
+        0.8726056830589116870152,
+    ],
+    [
+        1.09336915106861076365,
+        1.355414217337625118592,
+        1.014041313101284483508,
+        0.239288243300533307289,
+        -0.6121309258568160022675,
+        0.7536822050624666347255,
+    ],
 ]
 
 
@@ -110,10 +185,13 @@ def test_circle_map_beyond_double_range(answer):
     assert [note.partition(":")[0] for note in found["notes"]] == ["trace", "multipliers"]
 
 
-@pytest.mark.parametrize(("words", "states", "variables", "integrals"), [
-    (SUSLOV, SUSLOV_STATES, ["ω1", "ω2", "γ1", "γ2", "γ3"], {"E", "F1"}),
-    (HESS, HESS_STATES, ["w1", "w2", "n1", "n2", "n3"], {"E", "F1", "F2"}),
-])
+@pytest.mark.parametrize(
+    ("words", "states", "variables", "integrals"),
+    [
+        (SUSLOV, SUSLOV_STATES, ["ω1", "ω2", "γ1", "γ2", "γ3"], {"E", "F1"}),
+        (HESS, HESS_STATES, ["w1", "w2", "n1", "n2", "n3"], {"E", "F1", "F2"}),
+    ],
+)
 def test_orbit(answer, words, states, variables, integrals):
     found = answer(*words)
     assert found["t"] == [10.0, 50.0]
@@ -135,8 +213,9 @@ def test_an_orbit_that_rests_at_an_unstable_equilibrium_knows_how_wrong_it_is(an
     """It said "error 1.1e-7, ok" and was wrong by 1.5e-2."""
     gamma = (0.83, -0.97, 0.81)
     text = ",".join(map(str, gamma))
-    found = answer("orbit", "suslov", "--I", "2,1,0.3,0.5", "--b", text, "--omega", "0,0", "--gamma", text, "--t",
-                   "33.18")
+    found = answer(
+        "orbit", "suslov", "--I", "2,1,0.3,0.5", "--b", text, "--omega", "0,0", "--gamma", text, "--t", "33.18"
+    )
     start, parameters = [0.0, 0.0, *unit_vector(gamma)[0]], [2.0, 1.0, 0.3, 0.5, *gamma]
     exact = oracle.orbit_in_decimals(systems()["suslov"], start, parameters, [33.18], 30)
     error = float(np.max(oracle.distances(np.array(found["y"]), exact)))
@@ -224,49 +303,52 @@ def test_out_writes_a_file_and_prints_nothing(answer, capsys, tmp_path):
 # What is wrong
 
 
-@pytest.mark.parametrize(("words", "part"), [
-    (replaced(CIRCLE_MAP, "--h", "nan"), "--h: 'nan' is not a finite number"),
-    (replaced(CIRCLE_MAP, "--h", "-inf"), "--h: '-inf' is not a finite number"),
-    (replaced(CIRCLE_MAP, "--f", "1e999"), "--f: '1e999' is not a finite number"),
-    (replaced(CIRCLE_MAP, "--phi", "0,x"), "--phi: 'x' is not a number"),
-    (replaced(CIRCLE_MAP, "--h", "-1"), "Choose h > −1"),
-    (replaced(CIRCLE_MAP, "--h", "-7"), "Choose h > −1"),
-    (replaced(CIRCLE_MAP, "--f", "9"), "choose |f| ≤ 1.81"),
-    (["circle-map", "--h", "1", "--f", "0", "--a", "0.5"], "separatrix"),
-    (replaced(CIRCLE_MAP, "--a", "1e7"), "--a: a = 1e+07 is not between -1000 and 1000"),
-    (replaced(CIRCLE_MAP, "--accuracy", "best"), "draft, standard, precise, reference"),
-    (replaced(CIRCLE_MAP, "--phi", f"0:1:{MAX_SAMPLES + 1}"), f"from 2 to {MAX_SAMPLES}"),
-    ([*CIRCLE_MAP, "--format", "xml"], "invalid choice: 'xml'"),
-    (CIRCLE_MAP[:3], "required: --f, --a"),
-    (replaced(SUSLOV, "--I", "0,1,0,0"), "--I: I11 = 0 is not between 0.001 and 1000"),
-    (replaced(SUSLOV, "--I", "2,-1,0,0"), "--I: I22 = -1 is not between 0.001 and 1000"),
-    (replaced(HEAVY, "--A", "1,-1.6,2"), "--A: a2 = -1.6 is not between 0.001 and 1000"),
-    (replaced(HEAVY, "--A", "1,1.6"), "--A: '1,1.6' has length 2; write 3 numbers a1,a2,a3"),
-    (replaced(HEAVY, "--M", "1,2"), "--M: '1,2' has length 2; write 3 numbers M1,M2,M3"),
-    (replaced(HEAVY, "--gamma", "0,0,0"), "γ must be"),
-    (HEAVY[:8], "required: --M, --gamma, --t"),
-    (replaced(SUSLOV, "--I", "2,1,0"), "--I: '2,1,0' has length 3; write 4 numbers I11,I22,I13,I23"),
-    (replaced(SUSLOV, "--gamma", "0,0,0"), "γ must be"),
-    (replaced(SUSLOV, "--t", "0:1"), "lo:hi:n"),
-    (replaced(SUSLOV, "--t", f"0:1:{10**9}"), f"from 2 to {MAX_SAMPLES}"),
-    (replaced(SUSLOV, "--t", "0," * MAX_SAMPLES + "1"), f"at most {MAX_SAMPLES}"),
-    (replaced(SUSLOV, "--t", "-1,1"), "away from 0"),
-    (replaced(SUSLOV, "--t", "1e9"), "shorter"),
-    (replaced(SUSLOV, "--omega", "1e200,0"), "--omega: w1 = 1e+200 is not between -1000 and 1000"),
-    (replaced(SUSLOV, "--omega", "x" * 5000), "x…'"),
-    (["orbit", "pendulum"], "invalid choice: 'pendulum'"),
-    (["draw"], "invalid choice: 'draw'"),
-    (["serve", "--port", "0"], "from 1 to 65535"),
-    (["serve", "--allow-origin", "*"], "not a host"),
-    (["serve", "--embed-in", "example.org; script-src *"], "not a host"),
-    (["serve", "--workers", "0"], "not a whole number from 1 to 64"),
-    (["serve", "--address", "203.0.113.7", "--no-browser"], "--address 127.0.0.1"),
-    (["shot", "--size", "100x100", "out.png"], "each side from 200 to 8000"),
-    (["shot", "--size", "9000x300", "out.png"], "each side from 200 to 8000"),
-    (["shot", "--size", "big", "out.png"], "like 1600x950"),
-    (["shot", "--state", "h", "out.png"], "like 'h=1.2&f=0.3'"),
-    (["shot", "--state", "h=" + "1" * 2000, "out.png"], "at most 2000"),
-])
+@pytest.mark.parametrize(
+    ("words", "part"),
+    [
+        (replaced(CIRCLE_MAP, "--h", "nan"), "--h: 'nan' is not a finite number"),
+        (replaced(CIRCLE_MAP, "--h", "-inf"), "--h: '-inf' is not a finite number"),
+        (replaced(CIRCLE_MAP, "--f", "1e999"), "--f: '1e999' is not a finite number"),
+        (replaced(CIRCLE_MAP, "--phi", "0,x"), "--phi: 'x' is not a number"),
+        (replaced(CIRCLE_MAP, "--h", "-1"), "Choose h > −1"),
+        (replaced(CIRCLE_MAP, "--h", "-7"), "Choose h > −1"),
+        (replaced(CIRCLE_MAP, "--f", "9"), "choose |f| ≤ 1.81"),
+        (["circle-map", "--h", "1", "--f", "0", "--a", "0.5"], "separatrix"),
+        (replaced(CIRCLE_MAP, "--a", "1e7"), "--a: a = 1e+07 is not between -1000 and 1000"),
+        (replaced(CIRCLE_MAP, "--accuracy", "best"), "draft, standard, precise, reference"),
+        (replaced(CIRCLE_MAP, "--phi", f"0:1:{MAX_SAMPLES + 1}"), f"from 2 to {MAX_SAMPLES}"),
+        ([*CIRCLE_MAP, "--format", "xml"], "invalid choice: 'xml'"),
+        (CIRCLE_MAP[:3], "required: --f, --a"),
+        (replaced(SUSLOV, "--I", "0,1,0,0"), "--I: I11 = 0 is not between 0.001 and 1000"),
+        (replaced(SUSLOV, "--I", "2,-1,0,0"), "--I: I22 = -1 is not between 0.001 and 1000"),
+        (replaced(HEAVY, "--A", "1,-1.6,2"), "--A: a2 = -1.6 is not between 0.001 and 1000"),
+        (replaced(HEAVY, "--A", "1,1.6"), "--A: '1,1.6' has length 2; write 3 numbers a1,a2,a3"),
+        (replaced(HEAVY, "--M", "1,2"), "--M: '1,2' has length 2; write 3 numbers M1,M2,M3"),
+        (replaced(HEAVY, "--gamma", "0,0,0"), "γ must be"),
+        (HEAVY[:8], "required: --M, --gamma, --t"),
+        (replaced(SUSLOV, "--I", "2,1,0"), "--I: '2,1,0' has length 3; write 4 numbers I11,I22,I13,I23"),
+        (replaced(SUSLOV, "--gamma", "0,0,0"), "γ must be"),
+        (replaced(SUSLOV, "--t", "0:1"), "lo:hi:n"),
+        (replaced(SUSLOV, "--t", f"0:1:{10**9}"), f"from 2 to {MAX_SAMPLES}"),
+        (replaced(SUSLOV, "--t", "0," * MAX_SAMPLES + "1"), f"at most {MAX_SAMPLES}"),
+        (replaced(SUSLOV, "--t", "-1,1"), "away from 0"),
+        (replaced(SUSLOV, "--t", "1e9"), "shorter"),
+        (replaced(SUSLOV, "--omega", "1e200,0"), "--omega: w1 = 1e+200 is not between -1000 and 1000"),
+        (replaced(SUSLOV, "--omega", "x" * 5000), "x…'"),
+        (["orbit", "pendulum"], "invalid choice: 'pendulum'"),
+        (["draw"], "invalid choice: 'draw'"),
+        (["serve", "--port", "0"], "from 1 to 65535"),
+        (["serve", "--allow-origin", "*"], "not a host"),
+        (["serve", "--embed-in", "example.org; script-src *"], "not a host"),
+        (["serve", "--workers", "0"], "not a whole number from 1 to 64"),
+        (["serve", "--address", "203.0.113.7", "--no-browser"], "--address 127.0.0.1"),
+        (["shot", "--size", "100x100", "out.png"], "each side from 200 to 8000"),
+        (["shot", "--size", "9000x300", "out.png"], "each side from 200 to 8000"),
+        (["shot", "--size", "big", "out.png"], "like 1600x950"),
+        (["shot", "--state", "h", "out.png"], "like 'h=1.2&f=0.3'"),
+        (["shot", "--state", "h=" + "1" * 2000, "out.png"], "at most 2000"),
+    ],
+)
 def test_refusals(refusal, words, part):
     assert part in refusal(*words)
 
@@ -317,8 +399,12 @@ def test_process_ends_with_code_2_and_one_sentence():
 
 def test_a_reader_that_has_seen_enough_is_no_error():
     words = replaced(HESS, "--t", "0:10:20000")
-    with subprocess.Popen([sys.executable, "-m", "hess_explorer", *words, "--format", "csv"], cwd=ROOT,
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+    with subprocess.Popen(
+        [sys.executable, "-m", "hess_explorer", *words, "--format", "csv"],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    ) as process:
         assert process.stdout.readline().startswith(b"# variables")
         process.stdout.close()
         assert without_patience(process.stderr.read()) == b""
@@ -370,17 +456,45 @@ def free_port():
 
 def test_serve(served, free_port, capsys):
     assert main(["serve", "--port", str(free_port), "--no-browser", "--allow-origin", "a.org:80", "b.org"]) == 0
-    assert served == [{"port": free_port, "address": "127.0.0.1", "show": False, "origins": ["a.org:80", "b.org"],
-                       "lesson": None, "embedders": ["*"], "workers": 1, "sessions": 1000}]
+    assert served == [
+        {
+            "port": free_port,
+            "address": "127.0.0.1",
+            "show": False,
+            "origins": ["a.org:80", "b.org"],
+            "lesson": None,
+            "embedders": ["*"],
+            "workers": 1,
+            "sessions": 1000,
+        }
+    ]
     assert f"http://localhost:{free_port}" in capsys.readouterr().out
 
 
 def test_serve_is_told_who_may_show_it_and_how_many_processes_serve(served, free_port):
-    assert main(["serve", "--port", str(free_port), "--no-browser", "--workers", "2",
-                 "--sessions", "300", "--embed-in", "example.org", "*.example.com"]) == 0
+    assert (
+        main(
+            [
+                "serve",
+                "--port",
+                str(free_port),
+                "--no-browser",
+                "--workers",
+                "2",
+                "--sessions",
+                "300",
+                "--embed-in",
+                "example.org",
+                "*.example.com",
+            ]
+        )
+        == 0
+    )
     assert main(["serve", "--port", str(free_port), "--no-browser", "--embed-in", "none"]) == 0
     assert [(call["workers"], call["sessions"], call["embedders"]) for call in served] == [
-        (2, 300, ["example.org", "*.example.com"]), (1, 1000, [])]
+        (2, 300, ["example.org", "*.example.com"]),
+        (1, 1000, []),
+    ]
 
 
 def test_a_lesson_that_cannot_be_read_is_no_lesson(served, free_port, capsys, tmp_path):
@@ -392,8 +506,9 @@ def test_a_lesson_that_cannot_be_read_is_no_lesson(served, free_port, capsys, tm
     assert served == []
 
 
-@pytest.mark.parametrize(("compiled", "words"), [
-    (False, "Compiling, ready in about 20 s."), (True, "Starting, ready in a few seconds.")])
+@pytest.mark.parametrize(
+    ("compiled", "words"), [(False, "Compiling, ready in about 20 s."), (True, "Starting, ready in a few seconds.")]
+)
 def test_the_address_is_printed_only_when_the_server_is_ready(monkeypatch, free_port, capsys, compiled, words):
     said = []
 
@@ -434,8 +549,12 @@ def test_basins_of_a_body_beyond_double_range_end(refusal):
     """No piece of a step was ever clear of roots: it took for ever."""
     words = ["--b=0.3,-0.5,1", "--E", "0.68", "--k", "2", "--cells", "8,6", "--accuracy", "draft"]
     assert "I13 = 4.4e+90 is not between -1000 and 1000" in refusal("basins", "--I", "1.5,1.07,4.4e+90,0", *words)
-    assert basins(SuslovBody(1.5, 1.07, 4.4e90, 0.0, 0.3, -0.5, 1.0), 0.68, plane=2, cells=(8, 6),
-                  accuracy="draft").divergence == ()
+    assert (
+        basins(
+            SuslovBody(1.5, 1.07, 4.4e90, 0.0, 0.3, -0.5, 1.0), 0.68, plane=2, cells=(8, 6), accuracy="draft"
+        ).divergence
+        == ()
+    )
 
 
 def test_taken_port(refusal, served):
@@ -450,9 +569,18 @@ def test_a_first_start_answers_at_the_address_it_prints_and_ends_silently(free_p
     copy_kernels(tmp_path)
     command = [sys.executable, "-m", "hess_explorer", "serve", "--port", str(free_port), "--no-browser"]
     url = f"http://localhost:{free_port}"
-    with interruptible(), subprocess.Popen(
-            command, cwd=ROOT, env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}, text=True, start_new_session=True,
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as process:
+    with (
+        interruptible(),
+        subprocess.Popen(
+            command,
+            cwd=ROOT,
+            env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)},
+            text=True,
+            start_new_session=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        ) as process,
+    ):
         assert process.stdout.readline() == "Compiling, ready in about 20 s.\n"
         assert process.stdout.readline() == f"Hess Explorer runs at {url} (Ctrl-C ends it).\n"
         # It ends when the answer is there; a minute is what a machine with much else to do may take.
@@ -516,18 +644,50 @@ def test_a_server_that_does_not_start_says_why(monkeypatch, tmp_path):
     with socket.create_server(("127.0.0.1", 0)) as other:
         monkeypatch.setattr(hess_explorer.headless.screenshot, "free_port", lambda: other.getsockname()[1])
         monkeypatch.setattr(hess_explorer.headless.screenshot, "is_alive", lambda host, port: False)
-        with (pytest.raises(hess_explorer.headless.screenshot.ServerError, match=r"did not start .*taken"),
-              running_server(tmp_path / "log")):
+        with (
+            pytest.raises(hess_explorer.headless.screenshot.ServerError, match=r"did not start .*taken"),
+            running_server(tmp_path / "log"),
+        ):
             pass
 
 
 # Sections
 
 
-HEAVY_SECTION = ["section", "euler-poisson", "--A", "1,1.6,2.6666666666666665", "--r", "3,0,4", "--mu", "1.995",
-                 "--h", "50", "--f", "5", "--start", "0.7,-0.3", "--crossings", "3"]
-SUSLOV_SECTION = ["section", "suslov", "--I", "2,1,0.3,0.5", "--b", "0.3,-0.5,1", "--omega", "0.8,-0.4",
-                  "--gamma", "0.6,0,0.8", "--plane", "0,0,0,1,0", "--t", "20"]
+HEAVY_SECTION = [
+    "section",
+    "euler-poisson",
+    "--A",
+    "1,1.6,2.6666666666666665",
+    "--r",
+    "3,0,4",
+    "--mu",
+    "1.995",
+    "--h",
+    "50",
+    "--f",
+    "5",
+    "--start",
+    "0.7,-0.3",
+    "--crossings",
+    "3",
+]
+SUSLOV_SECTION = [
+    "section",
+    "suslov",
+    "--I",
+    "2,1,0.3,0.5",
+    "--b",
+    "0.3,-0.5,1",
+    "--omega",
+    "0.8,-0.4",
+    "--gamma",
+    "0.6,0,0.8",
+    "--plane",
+    "0,0,0,1,0",
+    "--t",
+    "20",
+]
 
 
 def test_section_of_a_heavy_body(answer):
@@ -562,8 +722,16 @@ def test_section_of_the_suslov_problem(answer):
         return y[3]
 
     event.direction = 1
-    run = solve_ivp(rates, (0.0, 20.0), [0.8, -0.4, 0.6, 0.0, 0.8], method="DOP853", rtol=1e-12, atol=1e-13,
-                    events=event, max_step=0.02)
+    run = solve_ivp(
+        rates,
+        (0.0, 20.0),
+        [0.8, -0.4, 0.6, 0.0, 0.8],
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-13,
+        events=event,
+        max_step=0.02,
+    )
     later = run.t_events[0] > 1e-9
     assert found["t"] == pytest.approx(run.t_events[0][later].tolist(), abs=1e-9)
     assert np.array(found["y"]) == pytest.approx(run.y_events[0][later], abs=1e-8)
@@ -591,22 +759,25 @@ def test_csv_and_json_say_the_same_of_a_section(answer, capsys, words):
     assert without_cost(facts) == without_cost(expected)
 
 
-@pytest.mark.parametrize(("words", "part"), [
-    (replaced(HEAVY_SECTION, "--A", "0,1,2"), "--A: a1 = 0 is not between 0.001 and 1000"),
-    (replaced(HEAVY_SECTION, "--A", "1,2"), "write 3 numbers a1,a2,a3"),
-    (replaced(HEAVY_SECTION, "--h", "-30"), "choose a larger h, or another point"),
-    (replaced(HEAVY_SECTION, "--f", "30"), "no real G ≥ |f|"),
-    (replaced(HEAVY_SECTION, "--f", "nan"), "--f: 'nan' is not a finite number"),
-    (replaced(HEAVY_SECTION, "--start", "0,1.5"), "--start: x = 1.5 is not between -1 and 1"),
-    (replaced(HEAVY_SECTION, "--start", "0"), "write 2 numbers l,x"),
-    (replaced(HEAVY_SECTION, "--crossings", "0"), "from 1 to 100000"),
-    (replaced(HEAVY_SECTION, "--crossings", "1e9"), "from 1 to 100000"),
-    (replaced(SUSLOV_SECTION, "--plane", "0,0,0,0,0"), "normal other than 0"),
-    (replaced(SUSLOV_SECTION, "--plane", "0,1"), "write 5 numbers n1,n2,n3,n4,n5"),
-    (replaced(SUSLOV_SECTION, "--t", "inf"), "--t: 'inf' is not a finite number"),
-    ([*SUSLOV_SECTION, "--sense", "2"], "invalid choice: 2"),
-    ([*SUSLOV_SECTION, "--accuracy", "best"], "draft, standard, precise, reference"),
-    (["section", "hess"], "invalid choice: 'hess'"),
-])
+@pytest.mark.parametrize(
+    ("words", "part"),
+    [
+        (replaced(HEAVY_SECTION, "--A", "0,1,2"), "--A: a1 = 0 is not between 0.001 and 1000"),
+        (replaced(HEAVY_SECTION, "--A", "1,2"), "write 3 numbers a1,a2,a3"),
+        (replaced(HEAVY_SECTION, "--h", "-30"), "choose a larger h, or another point"),
+        (replaced(HEAVY_SECTION, "--f", "30"), "no real G ≥ |f|"),
+        (replaced(HEAVY_SECTION, "--f", "nan"), "--f: 'nan' is not a finite number"),
+        (replaced(HEAVY_SECTION, "--start", "0,1.5"), "--start: x = 1.5 is not between -1 and 1"),
+        (replaced(HEAVY_SECTION, "--start", "0"), "write 2 numbers l,x"),
+        (replaced(HEAVY_SECTION, "--crossings", "0"), "from 1 to 100000"),
+        (replaced(HEAVY_SECTION, "--crossings", "1e9"), "from 1 to 100000"),
+        (replaced(SUSLOV_SECTION, "--plane", "0,0,0,0,0"), "normal other than 0"),
+        (replaced(SUSLOV_SECTION, "--plane", "0,1"), "write 5 numbers n1,n2,n3,n4,n5"),
+        (replaced(SUSLOV_SECTION, "--t", "inf"), "--t: 'inf' is not a finite number"),
+        ([*SUSLOV_SECTION, "--sense", "2"], "invalid choice: 2"),
+        ([*SUSLOV_SECTION, "--accuracy", "best"], "draft, standard, precise, reference"),
+        (["section", "hess"], "invalid choice: 'hess'"),
+    ],
+)
 def test_refusals_of_sections(refusal, words, part):
     assert part in refusal(*words)

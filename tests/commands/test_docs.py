@@ -26,8 +26,11 @@ def test_every_public_name_has_its_words_on_a_page_that_asks_no_other_host(tmp_p
             if inspect.isfunction(one) or inspect.isclass(one):
                 assert (inspect.getdoc(one) or "") in page
             if inspect.isfunction(one):
-                assert [key for key in inspect.signature(one).parameters if not re.search(
-                    rf"<h2 id='{name}'>[^<]*\b{key}\b", page)] == []
+                assert [
+                    key
+                    for key in inspect.signature(one).parameters
+                    if not re.search(rf"<h2 id='{name}'>[^<]*\b{key}\b", page)
+                ] == []
     everything = "".join(path.read_text(encoding="utf-8") for path in (tmp_path / "pages").iterdir())
     assert re.findall(r"(?:src|href)\s*=\s*.?(?:https?:)?//", everything) == []
     # `help` leads there.

@@ -44,8 +44,19 @@ def test_over_tori_an_orbit_comes_to_the_stable_limit_cycle_and_backward_to_the_
 
 
 def test_a_doubling_is_where_newtons_method_finds_the_multiplier_minus_one(answer):
-    found = answer("orbit-diagram", "suslov", *SUSLOV, "--over", "I22=2.11,2.2", "--crossings", "12", "--doublings",
-                   "1", "--accuracy", "standard")
+    found = answer(
+        "orbit-diagram",
+        "suslov",
+        *SUSLOV,
+        "--over",
+        "I22=2.11,2.2",
+        "--crossings",
+        "12",
+        "--doublings",
+        "1",
+        "--accuracy",
+        "standard",
+    )
     assert dict(zip(found["I22"], found["period"], strict=True)) == {2.11: 1, 2.2: 2}
     (doubling,) = found["doublings"]
     words = replaced(["periodic", "suslov", *SUSLOV, "--period", "1"], "--I", f"1,{doubling['value']!r},0.6,0.6")
@@ -69,19 +80,22 @@ def test_on_a_torus_the_mean_divergence_is_that_of_the_multiplier_and_attractor_
         assert abs(orbit["φ"][0] - float(place)) < 1e-7
 
 
-@pytest.mark.parametrize(("words", "said"), [
-    (replaced(DIAGRAM, "--over", "mass=1:2:3"), "There is no mass here to change: choose one of a, h, f"),
-    (replaced(DIAGRAM, "--over", "h"), "write it like E=1:2:50"),
-    (replaced(DIAGRAM, "--over", "h=1:2:3000"), "from 1 to 2000 finite values"),
-    (replaced(DIAGRAM, "--crossings", "20001"), "from 1 to 20000"),
-    (replaced(DIAGRAM, "--crossings", "20000"), "at most 20000 crossings"),
-    (replaced(replaced(DIAGRAM, "--over", "h=1:2:100"), "--crossings", "19000"), "at most 1000000 places"),
-    ([*DIAGRAM, "--doublings", "7"], "from 0 to 6"),
-    (replaced(DIAGRAM, "--at", "1,2"), "write 1 numbers phi"),
-    (["regime", "suslov", *replaced(SUSLOV, "--E", "-9")], "choose E above"),
-    (["regime", "suslov", *replaced(SUSLOV, "--at", "0.83,4")], "No motion crosses the section at ψ = 0.83"),
-    (["regime", "hess", *TORUS, "--t", "0"], "other than 0"),
-])
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (replaced(DIAGRAM, "--over", "mass=1:2:3"), "There is no mass here to change: choose one of a, h, f"),
+        (replaced(DIAGRAM, "--over", "h"), "write it like E=1:2:50"),
+        (replaced(DIAGRAM, "--over", "h=1:2:3000"), "from 1 to 2000 finite values"),
+        (replaced(DIAGRAM, "--crossings", "20001"), "from 1 to 20000"),
+        (replaced(DIAGRAM, "--crossings", "20000"), "at most 20000 crossings"),
+        (replaced(replaced(DIAGRAM, "--over", "h=1:2:100"), "--crossings", "19000"), "at most 1000000 places"),
+        ([*DIAGRAM, "--doublings", "7"], "from 0 to 6"),
+        (replaced(DIAGRAM, "--at", "1,2"), "write 1 numbers phi"),
+        (["regime", "suslov", *replaced(SUSLOV, "--E", "-9")], "choose E above"),
+        (["regime", "suslov", *replaced(SUSLOV, "--at", "0.83,4")], "No motion crosses the section at ψ = 0.83"),
+        (["regime", "hess", *TORUS, "--t", "0"], "other than 0"),
+    ],
+)
 def test_what_is_wrong_is_one_sentence(refusal, words, said):
     assert said in refusal(*words)
 

@@ -22,7 +22,7 @@ QUARTIC = ["periodic", "quartic", "--I", "2,1", "--b3", "1", "--h", "0.8", "--at
 def test_a_limit_cycle_has_the_multiplier_of_the_moebius_matrix(answer):
     found = answer(*CYCLE)
     exact = circle_map(0.7, 0.5, 0.6, REFERENCE).fixed_points
-    (value, imaginary), = found["multipliers"]
+    ((value, imaginary),) = found["multipliers"]
     assert imaginary == 0.0
     assert min(abs(value - one.multiplier) for one in exact) < 1e-9
     assert found["kind"] == ("stable node" if value < 1.0 else "unstable node")
@@ -34,7 +34,7 @@ def test_a_limit_cycle_has_the_multiplier_of_the_moebius_matrix(answer):
 def test_a_branch_goes_through_the_fold_where_the_lock_ends(answer, capsys):
     words = [*CYCLE, "--along", "a=0.3"]
     found = answer(*words)
-    fold, = found["bifurcations"]
+    (fold,) = found["bifurcations"]
     assert fold["kind"] == "fold"
     assert abs(fold["value"] - critical_a(0.5, 0.6, REFERENCE)) < 1e-9
     assert found["a"][0] == pytest.approx(0.7, abs=1e-12)
@@ -78,9 +78,25 @@ def test_the_motion_along_the_short_axis_is_known_by_quadrature(answer):
 def test_the_separatrices_of_a_saddle_of_the_hess_case_are_the_hess_manifold(answer, capsys):
     body = HeavyBody.hess((1.0, 1.6, 4.0), 1.0)
     h, f = Bridge.of_heavy(body).from_units_of_b(1.5, 0.6)
-    words = ["periodic", "euler-poisson", "--A", ",".join(map(repr, body.a)), "--r", ",".join(map(repr, body.r)),
-             "--mu", repr(body.mu), "--h", repr(h), "--f", repr(f), "--at=-0.122,0.1206", "--period", "1",
-             "--manifolds", "0.6"]
+    words = [
+        "periodic",
+        "euler-poisson",
+        "--A",
+        ",".join(map(repr, body.a)),
+        "--r",
+        ",".join(map(repr, body.r)),
+        "--mu",
+        repr(body.mu),
+        "--h",
+        repr(h),
+        "--f",
+        repr(f),
+        "--at=-0.122,0.1206",
+        "--period",
+        "1",
+        "--manifolds",
+        "0.6",
+    ]
     found = answer(*words)
     assert found["kind"] == "saddle"
     names, sides = np.array(found["manifold"]), np.array(found["side"])
@@ -99,17 +115,20 @@ def test_the_separatrices_of_a_saddle_of_the_hess_case_are_the_hess_manifold(ans
     assert len(rows) == len(names)
 
 
-@pytest.mark.parametrize(("words", "said"), [
-    ([*CYCLE, "--along", "mass=2"], "There is no mass here to change: choose one of a, h, f"),
-    ([*CYCLE, "--along", "a"], "write it like E=2.5"),
-    ([*CYCLE, "--along", "a=0.3", "--manifolds", "1"], "not allowed with"),
-    ([*CYCLE, "--manifolds", "1"], "a map of a line"),
-    (replaced(CYCLE, "--period", "65"), "from 1 to 64"),
-    (replaced(CYCLE, "--period", "5"), "none of period 5"),
-    (replaced(QUARTIC, "--at", "5,0"), "No motion crosses the section at q = 5"),
-    (replaced(QUARTIC, "--b3", "0"), "Choose b3 other than 0"),
-    (replaced(QUARTIC, "--at", "1"), "write 2 numbers q,p"),
-])
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ([*CYCLE, "--along", "mass=2"], "There is no mass here to change: choose one of a, h, f"),
+        ([*CYCLE, "--along", "a"], "write it like E=2.5"),
+        ([*CYCLE, "--along", "a=0.3", "--manifolds", "1"], "not allowed with"),
+        ([*CYCLE, "--manifolds", "1"], "a map of a line"),
+        (replaced(CYCLE, "--period", "65"), "from 1 to 64"),
+        (replaced(CYCLE, "--period", "5"), "none of period 5"),
+        (replaced(QUARTIC, "--at", "5,0"), "No motion crosses the section at q = 5"),
+        (replaced(QUARTIC, "--b3", "0"), "Choose b3 other than 0"),
+        (replaced(QUARTIC, "--at", "1"), "write 2 numbers q,p"),
+    ],
+)
 def test_what_is_wrong_is_one_sentence(refusal, words, said):
     assert said in refusal(*words)
 

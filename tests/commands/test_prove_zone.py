@@ -33,8 +33,9 @@ def test_cells_in_json_csv_and_words_are_the_same(answer, capsys):
     assert main([*WORDS, "--format", "csv"]) == 0
     names, *rows = capsys.readouterr().out.splitlines()
     assert names == "alpha_low,alpha_high,beta_low,beta_high,statement"
-    assert rows == [",".join([*map(repr, (*cell["alpha"], *cell["beta"])), cell["statement"]])
-                    for cell in found["cells"]]
+    assert rows == [
+        ",".join([*map(repr, (*cell["alpha"], *cell["beta"])), cell["statement"]]) for cell in found["cells"]
+    ]
     assert main([*WORDS]) == 0
     said = capsys.readouterr().out
     assert f"two limit cycles on {100 * found['areas']['two cycles'] / sum(found['areas'].values()):.2f} %" in said
@@ -47,9 +48,14 @@ def test_it_stops_at_a_share(answer, example):
     assert found["cells"]
 
 
-@pytest.mark.parametrize(("words", "said"), [
-    (("--a", "9"), "|a| ≤ 3"), (("--h-end", "-2"), "h > −1"), (("--cells", "0"), "is not a whole number"),
-])
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--a", "9"), "|a| ≤ 3"),
+        (("--h-end", "-2"), "h > −1"),
+        (("--cells", "0"), "is not a whole number"),
+    ],
+)
 def test_bad_numbers_are_refused_with_a_sentence(refusal, words, said):
     assert said in refusal(*WORDS, *words)
 
@@ -64,10 +70,18 @@ def test_cells_hold_for_a_checker_that_shares_no_code_and_changed_ones_do_not(an
         kinds |= {cell["statement"] for cell in proved}
         other = {"two cycles": "no cycle", "no cycle": "two cycles"}
         first = proved[0]
-        far = {**first, "alpha": [first["alpha"][0] * 1e-4, first["alpha"][1] * 1e4],
-               "beta": [first["beta"][0] * 1e-4, first["beta"][1] * 1e4]}
-        for cell in ({**first, "statement": other[first["statement"]]}, {**first, "statement": "chaos"}, far,
-                     {**first, "alpha": first["alpha"][::-1]}, {**first, "beta": [-1.0, 1.0]}):
+        far = {
+            **first,
+            "alpha": [first["alpha"][0] * 1e-4, first["alpha"][1] * 1e4],
+            "beta": [first["beta"][0] * 1e-4, first["beta"][1] * 1e4],
+        }
+        for cell in (
+            {**first, "statement": other[first["statement"]]},
+            {**first, "statement": "chaos"},
+            far,
+            {**first, "alpha": first["alpha"][::-1]},
+            {**first, "beta": [-1.0, 1.0]},
+        ):
             with pytest.raises(Refused):
                 verify({**zone, "cells": [cell]}, halvings=2)
     assert kinds == {"two cycles", "no cycle"}
@@ -80,13 +94,18 @@ def test_cells_hold_for_a_checker_that_shares_no_code_and_changed_ones_do_not(an
             verify({**zone, "cells": [{**undecided, "statement": statement}]}, halvings=0)
 
 
-@pytest.mark.parametrize(("change", "words"), [
-    ({"format": "another"}, "the format is not"), ({"a": 0.5}, "a is not of its kind"),
-    ({"cells": None}, "cells is not"), ({"cells": [3]}, "alpha is missing"),
-    ({"cells": [{"alpha": [1.0, 2.0], "beta": [1.0, 2.0]}]}, "statement is missing"),
-    ({"cells": [{"alpha": [1, 2], "beta": [1.0, 2.0], "statement": "undecided"}]}, "this is no cell"),
-    ({"cells": [{"alpha": [5e-324, 1e308], "beta": [5e-324, 1e308], "statement": "no cycle"}]}, "is not proved"),
-])
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"format": "another"}, "the format is not"),
+        ({"a": 0.5}, "a is not of its kind"),
+        ({"cells": None}, "cells is not"),
+        ({"cells": [3]}, "alpha is missing"),
+        ({"cells": [{"alpha": [1.0, 2.0], "beta": [1.0, 2.0]}]}, "statement is missing"),
+        ({"cells": [{"alpha": [1, 2], "beta": [1.0, 2.0], "statement": "undecided"}]}, "this is no cell"),
+        ({"cells": [{"alpha": [5e-324, 1e308], "beta": [5e-324, 1e308], "statement": "no cycle"}]}, "is not proved"),
+    ],
+)
 def test_a_forged_zone_is_refused_with_a_sentence(change, words):
     zone = {"format": "Suslov–Hess lock zone, 1", "a": "1/2", "cells": []}
     assert verify(zone) == 0

@@ -16,10 +16,35 @@ from support.command_line import replaced, strict_json, table
 from support.rotation_number import iterated
 
 ROTATION = ["rotation-number", "--a", "0.5", "--h", "-0.5,0.5,1.5", "--f", "-0.3,0.6"]
-LYAPUNOV = ["lyapunov", "suslov", "--I", "1.5,3,0.4,0.4", "--b=-0.5,-0.5,0.7", "--omega", "0.4,0.6",
-            "--gamma", "0.6,0,0.8", "--t", "200"]
-HEAVY = ["lyapunov", "euler-poisson", "--A", "1,1.6,2.1", "--r", "0,0,1", "--mu", "0", "--M", "1.3,-2,0.7",
-         "--gamma", "0.3,0.4,0.87", "--t", "400"]
+LYAPUNOV = [
+    "lyapunov",
+    "suslov",
+    "--I",
+    "1.5,3,0.4,0.4",
+    "--b=-0.5,-0.5,0.7",
+    "--omega",
+    "0.4,0.6",
+    "--gamma",
+    "0.6,0,0.8",
+    "--t",
+    "200",
+]
+HEAVY = [
+    "lyapunov",
+    "euler-poisson",
+    "--A",
+    "1,1.6,2.1",
+    "--r",
+    "0,0,1",
+    "--mu",
+    "0",
+    "--M",
+    "1.3,-2,0.7",
+    "--gamma",
+    "0.3,0.4,0.87",
+    "--t",
+    "400",
+]
 
 
 def test_rotation_numbers_are_those_of_iteration(answer):
@@ -60,7 +85,7 @@ def test_the_separatrix_and_the_outside_are_not_possible(answer, capsys):
     _, header, rows = table(capsys.readouterr().out)
     first = header.index("rotation_number")
     assert [row[first:] for row in rows if row[-1] == "False"] == [["", "", "", "False"]] * 5
-    assert all(map(float, rows[4][first:first + 1]))
+    assert all(map(float, rows[4][first : first + 1]))
 
 
 def test_a_trace_beyond_double_range_is_a_number(answer):
@@ -102,8 +127,9 @@ def test_the_exponent_of_a_suslov_orbit(answer):
 
 def test_the_exponent_of_the_upright_body_is_a_closed_form(answer):
     # At rest with γ = b/|b| = e3: ω1 and γ2 grow as exp(√(b3/I11) t), ω2 and γ1 as exp(√(b3/I22) t).
-    found = answer("lyapunov", "suslov", "--I", "1,4,0.3,0.2", "--b", "0,0,1", "--omega", "0,0", "--gamma", "0,0,1",
-                   "--t", "24")
+    found = answer(
+        "lyapunov", "suslov", "--I", "1,4,0.3,0.2", "--b", "0,0,1", "--omega", "0,0", "--gamma", "0,0,1", "--t", "24"
+    )
     t = np.array(found["t"])
     growth = t * np.array(found["average"])
     late = t > 14.0
@@ -126,13 +152,26 @@ def test_a_free_body_about_a_fixed_point_has_no_exponent(answer):
 
 
 def test_all_exponents_with_errors_signs_and_a_dimension(answer, capsys):
-    words = ["lyapunov", "suslov", "--I", "1.7,3,0.3,0.1", "--b=-2,-2.1,2.6", "--omega", "0.8,1.3", "--gamma",
-             "0.6,0,0.8", "--t", "1500", "--spectrum"]
+    words = [
+        "lyapunov",
+        "suslov",
+        "--I",
+        "1.7,3,0.3,0.1",
+        "--b=-2,-2.1,2.6",
+        "--omega",
+        "0.8,1.3",
+        "--gamma",
+        "0.6,0,0.8",
+        "--t",
+        "1500",
+        "--spectrum",
+    ]
     found = answer(*words)
     assert found["signs"] == ["+", "0", "0", "0", "-"]
     assert found["sum"] == pytest.approx(found["divergence"], abs=1e-7)
     assert found["dimension"] == pytest.approx(
-        2.0 + (found["divergence"] - found["exponents"][4]) / -found["exponents"][4], abs=1e-9)
+        2.0 + (found["divergence"] - found["exponents"][4]) / -found["exponents"][4], abs=1e-9
+    )
     assert found["pairs_forced"] is False
     alone = answer(*words[:-1])["exponent"]
     assert found["exponents"][0] == pytest.approx(alone, abs=4.0 * found["errors"][0])
@@ -142,37 +181,52 @@ def test_all_exponents_with_errors_signs_and_a_dimension(answer, capsys):
     assert float(rows[-1][1]) == found["average 1"][-1]
 
 
-@pytest.mark.parametrize(("words", "said"), [
-    (replaced(ROTATION, "--h", "2e12"), "--h: h = 2e+12 is not between -1e+06 and 1e+06"),
-    (replaced(ROTATION, "--a", "2e6"), "--a: a = 2e+06 is not between -1000 and 1000"),
-    (replaced(ROTATION, "--h", "0:1"), "lo:hi:n"),
-    (replaced(ROTATION, "--h", "0:1:1"), "whole number from 2"),
-    (replaced(ROTATION, "--f", "x"), "is not a number"),
-    (replaced(ROTATION, "--f", "nan"), "is not a finite number"),
-    (["rotation-number", "--a", "0:1:300", "--h", "0:1:300", "--f", "0:1:300"], "27000000 tori; at most 1000000"),
-    ([*ROTATION, "--out", "/nowhere/at/all"], "choose another file"),
-    ([*ROTATION, "--accuracy", "sloppy"], "choose one of draft"),
-    (replaced(LYAPUNOV, "--t", "0"), "other than 0"),
-    (replaced(LYAPUNOV, "--t", "1e9"), "choose a shorter time span"),
-    (replaced(LYAPUNOV, "--gamma", "0,0,0"), "other than 0"),
-    (replaced(LYAPUNOV, "--I", "0,3,0.4,0.4"), "--I: I11 = 0 is not between 0.001 and 1000"),
-    (replaced(LYAPUNOV, "--omega", "1"), "write 2 numbers"),
-    (replaced(HEAVY, "--A", "1,-1,2"), "--A: a2 = -1 is not between 0.001 and 1000"),
-    (replaced(HEAVY, "--mu", "inf"), "is not a finite number"),
-])
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (replaced(ROTATION, "--h", "2e12"), "--h: h = 2e+12 is not between -1e+06 and 1e+06"),
+        (replaced(ROTATION, "--a", "2e6"), "--a: a = 2e+06 is not between -1000 and 1000"),
+        (replaced(ROTATION, "--h", "0:1"), "lo:hi:n"),
+        (replaced(ROTATION, "--h", "0:1:1"), "whole number from 2"),
+        (replaced(ROTATION, "--f", "x"), "is not a number"),
+        (replaced(ROTATION, "--f", "nan"), "is not a finite number"),
+        (["rotation-number", "--a", "0:1:300", "--h", "0:1:300", "--f", "0:1:300"], "27000000 tori; at most 1000000"),
+        ([*ROTATION, "--out", "/nowhere/at/all"], "choose another file"),
+        ([*ROTATION, "--accuracy", "sloppy"], "choose one of draft"),
+        (replaced(LYAPUNOV, "--t", "0"), "other than 0"),
+        (replaced(LYAPUNOV, "--t", "1e9"), "choose a shorter time span"),
+        (replaced(LYAPUNOV, "--gamma", "0,0,0"), "other than 0"),
+        (replaced(LYAPUNOV, "--I", "0,3,0.4,0.4"), "--I: I11 = 0 is not between 0.001 and 1000"),
+        (replaced(LYAPUNOV, "--omega", "1"), "write 2 numbers"),
+        (replaced(HEAVY, "--A", "1,-1,2"), "--A: a2 = -1 is not between 0.001 and 1000"),
+        (replaced(HEAVY, "--mu", "inf"), "is not a finite number"),
+    ],
+)
 def test_what_is_wrong_is_one_sentence(refusal, words, said):
     assert said in refusal(*words)
 
 
-@pytest.mark.parametrize(("body", "words", "t"), [
-    (BallBody(1.0, 4.0, 1.37e179, 0.0, 2.0, 0.3, 0.0, 1.0),
-     ["ball", "--I", "1,4,1.37e+179,0", "--D", "2", "--b", "0.3,0,1", "--t", "500"], 500.0),
-    (SuslovBody(1.0, 2.5, 0.6, 8.23e230, -1.0, -0.5, 0.7),
-     ["suslov", "--I", "1,2.5,0.6,8.23e+230", "--b=-1,-0.5,0.7", "--t", "2000", "--format", "csv"], 2000.0)])
+@pytest.mark.parametrize(
+    ("body", "words", "t"),
+    [
+        (
+            BallBody(1.0, 4.0, 1.37e179, 0.0, 2.0, 0.3, 0.0, 1.0),
+            ["ball", "--I", "1,4,1.37e+179,0", "--D", "2", "--b", "0.3,0,1", "--t", "500"],
+            500.0,
+        ),
+        (
+            SuslovBody(1.0, 2.5, 0.6, 8.23e230, -1.0, -0.5, 0.7),
+            ["suslov", "--I", "1,2.5,0.6,8.23e+230", "--b=-1,-0.5,0.7", "--t", "2000", "--format", "csv"],
+            2000.0,
+        ),
+    ],
+)
 def test_no_exponent_of_a_motion_beyond_double_range_is_written(refusal, body, words, t):
     assert "is not between -1000 and 1000" in refusal("lyapunov", *words, "--omega", "0.5,0.9", "--gamma", "0.6,0,0.8")
-    with (np.errstate(all="ignore"),
-          pytest.raises(ModelError, match="The motion left the range of double precision: choose less extreme")):
+    with (
+        np.errstate(all="ignore"),
+        pytest.raises(ModelError, match="The motion left the range of double precision: choose less extreme"),
+    ):
         lyapunov_exponent(body, (0.5, 0.9, 0.6, 0.0, 0.8), t)
 
 

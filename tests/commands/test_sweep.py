@@ -74,8 +74,18 @@ def test_quantities_and_their_parameters_are_listed(capsys):
 
 
 T = "3000"
-LAMBDA = ["sweep", "lyapunov-suslov", "--over", "w1=0.2:1.4:8", "--over", "I22=1:2:8", "--set", f"t={T}",
-          "--accuracy", "draft"]
+LAMBDA = [
+    "sweep",
+    "lyapunov-suslov",
+    "--over",
+    "w1=0.2:1.4:8",
+    "--over",
+    "I22=1:2:8",
+    "--set",
+    f"t={T}",
+    "--accuracy",
+    "draft",
+]
 
 
 def begun(store):
@@ -85,8 +95,12 @@ def begun(store):
 def started(words, store, least):
     """The command as a process, when so many pieces are done."""
     with interruptible():
-        process = subprocess.Popen([sys.executable, "-m", "hess_explorer", *words, "--store", str(store)], cwd=ROOT,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        process = subprocess.Popen(
+            [sys.executable, "-m", "hess_explorer", *words, "--store", str(store)],
+            cwd=ROOT,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
     deadline = time.monotonic() + 120
     while begun(store) < least and process.poll() is None:
         assert time.monotonic() < deadline
@@ -145,29 +159,32 @@ def test_ctrl_c_without_a_store_writes_what_is_done(capsys, monkeypatch, tmp_pat
     assert [row[header.index("status")] for row in rows] == ["ok", "no such motion", *["not computed"] * 4]
 
 
-@pytest.mark.parametrize(("words", "said"), [
-    (["sweep"], "hess-explorer sweep --list names them"),
-    (["sweep", "speed", "--over", "h=1"], "There is no quantity 'speed'"),
-    (["sweep", "rotation-number"], "one to 3 parameters"),
-    (replaced(SWEEP, "--set", "a"), "is not a parameter; write it like h=1.5"),
-    (replaced(SWEEP, "--set", "a=x"), "is not a number"),
-    (replaced(SWEEP, "--set", "b=1"), "no parameter 'b'; choose from a, h, f"),
-    (replaced(SWEEP, "--set", "store=1"), "no parameter 'store'"),
-    ([*SWEEP, "--set", "a=0.6"], "--set names a parameter twice"),
-    ([*SWEEP, "--over", "h=1,2"], "--over names a parameter twice"),
-    (replaced(SWEEP, "--over", "h=0:1"), "is not a range"),
-    (replaced(SWEEP, "--over", "h=0:1:1"), "is not a whole number from 2"),
-    (replaced(SWEEP, "--over", "h=inf"), "is not a finite number"),
-    (replaced(SWEEP, "--over", "h=0:1:1000000"), "give a folder for them, --store FOLDER"),
-    ([*replaced(SWEEP, "--over", "h=0:1:9000000"), "--store", "x"], "at most 10000000 are allowed"),
-    ([*SWEEP, "--most-cells", "0"], "is not a whole number from 1"),
-    ([*SWEEP, "--workers", "many"], "is not a whole number from 1"),
-    ([*SWEEP, "--workers", "9999"], "or the address of a Dask cluster"),
-    ([*SWEEP, "--out", "/nowhere/at/all"], "choose another file"),
-    ([*SWEEP, "--store", "/proc/nowhere/at/all"], "cannot be written"),
-    ([*SWEEP, "--accuracy", "sloppy"], "choose one of draft"),
-    (["sweep", "--list", "speed"], "There is no quantity"),
-])
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["sweep"], "hess-explorer sweep --list names them"),
+        (["sweep", "speed", "--over", "h=1"], "There is no quantity 'speed'"),
+        (["sweep", "rotation-number"], "one to 3 parameters"),
+        (replaced(SWEEP, "--set", "a"), "is not a parameter; write it like h=1.5"),
+        (replaced(SWEEP, "--set", "a=x"), "is not a number"),
+        (replaced(SWEEP, "--set", "b=1"), "no parameter 'b'; choose from a, h, f"),
+        (replaced(SWEEP, "--set", "store=1"), "no parameter 'store'"),
+        ([*SWEEP, "--set", "a=0.6"], "--set names a parameter twice"),
+        ([*SWEEP, "--over", "h=1,2"], "--over names a parameter twice"),
+        (replaced(SWEEP, "--over", "h=0:1"), "is not a range"),
+        (replaced(SWEEP, "--over", "h=0:1:1"), "is not a whole number from 2"),
+        (replaced(SWEEP, "--over", "h=inf"), "is not a finite number"),
+        (replaced(SWEEP, "--over", "h=0:1:1000000"), "give a folder for them, --store FOLDER"),
+        ([*replaced(SWEEP, "--over", "h=0:1:9000000"), "--store", "x"], "at most 10000000 are allowed"),
+        ([*SWEEP, "--most-cells", "0"], "is not a whole number from 1"),
+        ([*SWEEP, "--workers", "many"], "is not a whole number from 1"),
+        ([*SWEEP, "--workers", "9999"], "or the address of a Dask cluster"),
+        ([*SWEEP, "--out", "/nowhere/at/all"], "choose another file"),
+        ([*SWEEP, "--store", "/proc/nowhere/at/all"], "cannot be written"),
+        ([*SWEEP, "--accuracy", "sloppy"], "choose one of draft"),
+        (["sweep", "--list", "speed"], "There is no quantity"),
+    ],
+)
 def test_what_is_wrong_is_one_sentence(refusal, words, said):
     assert said in refusal(*words)
 

@@ -50,16 +50,27 @@ def test_rows_are_printed_as_they_come(monkeypatch, capsys):
 
 
 def row(scene, kind, times=(1.0, 2.0, 3.0, 4.0), errors=(0.1, 0.01, 0.001, 0.0)):
-    return Row(scene, kind, "pixels", tuple(LevelCost(name, ms, error, True) for name, ms, error in zip(
-        LEVELS, times, errors, strict=True)), "standard")
+    return Row(
+        scene,
+        kind,
+        "pixels",
+        tuple(LevelCost(name, ms, error, True) for name, ms, error in zip(LEVELS, times, errors, strict=True)),
+        "standard",
+    )
 
 
 def test_the_table_by_kind_has_the_least_and_most_ratio_and_the_largest_error():
-    table = by_kind([row("a", "section", (1.0, 2.0, 3.0, 20.0), (0.1, 0.5, 0.001, 0.0)), row("b", "orbit"),
-                     row("c", "section", errors=(0.3, 0.01, 0.002, 0.0))])
+    table = by_kind(
+        [
+            row("a", "section", (1.0, 2.0, 3.0, 20.0), (0.1, 0.5, 0.001, 0.0)),
+            row("b", "orbit"),
+            row("c", "section", errors=(0.3, 0.01, 0.002, 0.0)),
+        ]
+    )
     assert table.splitlines()[2:] == [
         "| orbit | as much | 4 × | 0.1 | 0.01 | 0.001 | 0 | pixels |",
-        "| section | 25 % of the crossings | 4 to 20 × | 0.3 | 0.5 | 0.002 | 0 | pixels |"]
+        "| section | 25 % of the crossings | 4 to 20 × | 0.3 | 0.5 | 0.002 | 0 | pixels |",
+    ]
 
 
 def measured_by_kind(file):

@@ -34,8 +34,10 @@ def test_a_tube_that_takes_too_much_work_ends_early_and_says_what_to_do(answer, 
     found = answer(*hard, "0.1,2")
     assert [row["t"] for row in found["tube"]] == [0.1]
     assert not found["complete"]
-    assert found["notes"] == ["Enclosed up to t = 0.1 of 2: 0.2 s of work are allowed. Ask for fewer digits or a "
-                              "shorter time, or allow more with --seconds."]
+    assert found["notes"] == [
+        "Enclosed up to t = 0.1 of 2: 0.2 s of work are allowed. Ask for fewer digits or a "
+        "shorter time, or allow more with --seconds."
+    ]
     assert "None of these times is enclosed: 0.2 s of work are allowed" in refusal(*hard, "2")
     assert "--seconds 0: choose a number above 0" in refusal(*hard, "2", "--seconds", "0")
 
@@ -45,9 +47,13 @@ def test_the_example_of_the_help_works(answer, example):
     assert found["orbit"]["right_until"] == 2.0
 
 
-@pytest.mark.parametrize(("words", "said"), [
-    (("tube", "moon", *WORDS[2:]), "choose one of"), ((*WORDS[:3], "1,2", *WORDS[4:]), "takes 5 numbers here"),
-    ((*WORDS, "--digits", "0"), "is not a whole number"),
-])
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("tube", "moon", *WORDS[2:]), "choose one of"),
+        ((*WORDS[:3], "1,2", *WORDS[4:]), "takes 5 numbers here"),
+        ((*WORDS, "--digits", "0"), "is not a whole number"),
+    ],
+)
 def test_bad_words_are_refused_with_a_sentence(refusal, words, said):
     assert said in refusal(*words)

@@ -28,8 +28,11 @@ WRONG = {
     "scene=suslov&starts=1": "'starts=1' cannot be used: The places of the chosen orbits could not be read as",
 }
 COMMANDS = {
-    "export": ("export", "--format", "json"), "figure": ("export", "--format", "svg"),
-    "html": ("export", "--format", "html"), "code": ("code",), "notebook": ("code", "--format", "ipynb"),
+    "export": ("export", "--format", "json"),
+    "figure": ("export", "--format", "svg"),
+    "html": ("export", "--format", "html"),
+    "code": ("code",),
+    "notebook": ("code", "--format", "ipynb"),
 }
 
 
@@ -59,8 +62,21 @@ def test_a_shot_of_a_wrong_state_is_refused_before_a_browser_is_started(state, t
 
 
 def test_leniently_it_is_put_right_and_noted(capsys):
-    assert main(["export", "--state", "scene=nope&h=abc&hh=1.2&f=1e9&accuracy=draft", "--lenient", "--picture",
-                 "circle", "--format", "json"]) == 0
+    assert (
+        main(
+            [
+                "export",
+                "--state",
+                "scene=nope&h=abc&hh=1.2&f=1e9&accuracy=draft",
+                "--lenient",
+                "--picture",
+                "circle",
+                "--format",
+                "json",
+            ]
+        )
+        == 0
+    )
     facts = json.loads(capsys.readouterr().out)
     first = scenes()["suslov-hess"].defaults()
     assert facts["scene"] == "suslov-hess"
@@ -68,8 +84,15 @@ def test_leniently_it_is_put_right_and_noted(capsys):
     assert [note.partition(" ")[0] for note in facts["notes"][:3]] == ["Scene", "h", "f"]
 
 
-@pytest.mark.parametrize("state", ["h=1.2&f=0.3", "?h=1.2&f=0.3", "http://localhost:5006/?h=1.2&f=0.3",
-                                   "https://example.org/explorer/?v=1&h=1.2&f=0.3&theme=dark&large=circle&present=1"])
+@pytest.mark.parametrize(
+    "state",
+    [
+        "h=1.2&f=0.3",
+        "?h=1.2&f=0.3",
+        "http://localhost:5006/?h=1.2&f=0.3",
+        "https://example.org/explorer/?v=1&h=1.2&f=0.3&theme=dark&large=circle&present=1",
+    ],
+)
 def test_a_whole_link_of_the_page_is_understood(state, capsys):
     assert main(["code", "--state", state]) == 0
     assert "h=1.2, f=0.3" in capsys.readouterr().out.replace("\n", " ").replace("    ", "")
@@ -94,11 +117,18 @@ def test_python_refuses_a_wrong_link_too_unless_it_reads_it_leniently(state):
 
 
 def test_every_note_says_what_was_wrong_before_a_colon_and_then_what_was_done():
-    specs = [*CLIENT, *(spec for scene in scenes().values() for spec in scene.specs),
-             Names("large", "Enlarged pictures", ("a", "b", "c"), 2)]
+    specs = [
+        *CLIENT,
+        *(spec for scene in scenes().values() for spec in scene.specs),
+        Names("large", "Enlarged pictures", ("a", "b", "c"), 2),
+    ]
     for spec in specs:
-        texts = {Number: ("abc", "nan", "1e300"), Choice: ("nothing like it",), Names: ("d", "a,b,c"),
-                 Places: ("abc", ";".join(["0.1,0.1"] * (getattr(spec, "most", 0) + 1)))}[type(spec)]
+        texts = {
+            Number: ("abc", "nan", "1e300"),
+            Choice: ("nothing like it",),
+            Names: ("d", "a,b,c"),
+            Places: ("abc", ";".join(["0.1,0.1"] * (getattr(spec, "most", 0) + 1))),
+        }[type(spec)]
         for text in texts:
             note = spec.read(text)[1]
             assert note is not None, (spec, text)

@@ -293,17 +293,39 @@ def test_places_come_back_from_their_text():
     assert written([]) == ""
 
 
-@pytest.mark.parametrize("text", [
-    "1", "1,2,3", "a,b", "0.1,0.2;", "nan,0", "0,inf", "0,1.01", "11,0", "1e400,0", ";;;", "0,0;x", "0;0", ",", "0,0,",
-    "<script>", "0x1,0", "1_0,0", "٣,0"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "1",
+        "1,2,3",
+        "a,b",
+        "0.1,0.2;",
+        "nan,0",
+        "0,inf",
+        "0,1.01",
+        "11,0",
+        "1e400,0",
+        ";;;",
+        "0,0;x",
+        "0;0",
+        ",",
+        "0,0,",
+        "<script>",
+        "0x1,0",
+        "1_0,0",
+        "٣,0",
+    ],
+)
 def test_what_names_no_places_is_replaced_and_not_repeated(text):
     value, note = STARTS.read(text)
     inside = all(-math.pi <= x <= math.pi and -1.0 <= y <= 1.0 for x, y in places(value))
     assert inside
     if note is not None:
         assert value == STARTS.default
-        assert note == ("The places of the chosen orbits could not be read as points x,y;x,y from -3.14159,-1 to "
-                        "3.14159,1: what it is at first is shown.")
+        assert note == (
+            "The places of the chosen orbits could not be read as points x,y;x,y from -3.14159,-1 to "
+            "3.14159,1: what it is at first is shown."
+        )
     else:
         assert STARTS.read(value) == (value, None)
     query = encode(EP.name, {**EP.defaults(), "starts": text})
@@ -319,16 +341,28 @@ def test_of_too_many_places_the_last_ones_are_kept():
 
 def test_a_link_with_all_places_is_not_too_long():
     random = np.random.default_rng(5)
-    full = {**EP.defaults(), "starts": written(random.uniform(-1.0, 1.0, (12, 2)).tolist()),
-            "window": "-3.141589999,-0.9876543211;-1.234567891,0.9876543211"}
+    full = {
+        **EP.defaults(),
+        "starts": written(random.uniform(-1.0, 1.0, (12, 2)).tolist()),
+        "window": "-3.141589999,-0.9876543211;-1.234567891,0.9876543211",
+    }
     query = encode(EP.name, full)
     assert len(query) < MAX_QUERY
     assert decode(query, EP.specs) == (full, [])
 
 
-@pytest.mark.parametrize(("window", "admitted"), [
-    ("0,0;1,0.5", "0,0;1,0.5"), ("1,0.5;0,0", "0,0;1,0.5"), ("1,0;0,0.5", "0,0;1,0.5"), ("0,0", ""), ("0,0;0,0.5", ""),
-    ("0,0.5;1,0.5", ""), ("", "")])
+@pytest.mark.parametrize(
+    ("window", "admitted"),
+    [
+        ("0,0;1,0.5", "0,0;1,0.5"),
+        ("1,0.5;0,0", "0,0;1,0.5"),
+        ("1,0;0,0.5", "0,0;1,0.5"),
+        ("0,0", ""),
+        ("0,0;0,0.5", ""),
+        ("0,0.5;1,0.5", ""),
+        ("", ""),
+    ],
+)
 def test_a_window_is_two_corners_in_their_order(window, admitted):
     values, _ = EP.admit({**EP.defaults(), "window": window})
     assert values["window"] == admitted
@@ -347,8 +381,11 @@ def drawn_points(browser):
 
 
 def plain(browser, picture):
-    return {name: {key: np.asarray(column).tolist() for key, column in data.items()}
-            for name, data in browser.data.items() if name.startswith(picture)}
+    return {
+        name: {key: np.asarray(column).tolist() for key, column in data.items()}
+        for name, data in browser.data.items()
+        if name.startswith(picture)
+    }
 
 
 def completed(browser, requested=1):
@@ -424,8 +461,7 @@ def test_stop_leaves_what_is_drawn_and_says_how_much(gate):
     # What had begun has ended too.
     drawn = 3
     assert state["progress"] is None
-    assert browser.texts["notes"] == (
-        f"Stopped: {drawn} of {PIECES} parts are drawn. Change a value to compute again.")
+    assert browser.texts["notes"] == (f"Stopped: {drawn} of {PIECES} parts are drawn. Change a value to compute again.")
     begun = len(gate.calls)
     gate.let(1000)
     browser.ask(1)
@@ -541,8 +577,16 @@ def test_a_box_beyond_the_section_is_cut_and_one_that_is_none_is_not_taken(free_
     browser.ask(1, picked=["section", 0.0, 0.5, 1.0, 7.0])
     assert places(browser.session.values["window"]) == [(0.0, 0.5), (1.0, 1.0)]
     before = dict(browser.session.values)
-    for corners in ([0.0, 0.5, 0.0, 0.7], [0.0, 2.0, 1.0, 3.0], [0.0, 0.5, 1.0, 0.5], [math.nan, 0.0, 1.0, 1.0],
-                    ["0", 0, 1, 1], [None, 0, 1, 1], [1e400, 0, 1, 1], [10**400, 0, 1, 1]):
+    for corners in (
+        [0.0, 0.5, 0.0, 0.7],
+        [0.0, 2.0, 1.0, 3.0],
+        [0.0, 0.5, 1.0, 0.5],
+        [math.nan, 0.0, 1.0, 1.0],
+        ["0", 0, 1, 1],
+        [None, 0, 1, 1],
+        [1e400, 0, 1, 1],
+        [10**400, 0, 1, 1],
+    ):
         browser.ask(2, picked=["section", *corners])
         assert browser.session.values == before
     for picture in ("rotation", "exponent", "sphere", "nobody", ""):
@@ -551,12 +595,26 @@ def test_a_box_beyond_the_section_is_cut_and_one_that_is_none_is_not_taken(free_
         assert browser.session.values == before
 
 
-@pytest.mark.parametrize("message", [
-    {"restore": None}, {"restore": ["v=1"]}, {"clear": "yes", "stop": None}, {"stop": True}, {"picked": []},
-    {"picked": [None]}, {"picked": ["section"]}, {"picked": ["section", 1.0]}, {"picked": ["section", 1.0, 0.1, 2.0]},
-    {"picked": ["section", 0.1, 0.2, 0.6, 0.7, 0.8, 0.9]}, {"values": {"starts": None}},
-    {"values": {"starts": ["0,0"]}}, {"values": {"window": {}}}, {"values": {"starts": "0" * 5000}},
-    {"values": {"window": "1,2,3;4"}}])
+@pytest.mark.parametrize(
+    "message",
+    [
+        {"restore": None},
+        {"restore": ["v=1"]},
+        {"clear": "yes", "stop": None},
+        {"stop": True},
+        {"picked": []},
+        {"picked": [None]},
+        {"picked": ["section"]},
+        {"picked": ["section", 1.0]},
+        {"picked": ["section", 1.0, 0.1, 2.0]},
+        {"picked": ["section", 0.1, 0.2, 0.6, 0.7, 0.8, 0.9]},
+        {"values": {"starts": None}},
+        {"values": {"starts": ["0,0"]}},
+        {"values": {"window": {}}},
+        {"values": {"starts": "0" * 5000}},
+        {"values": {"window": "1,2,3;4"}},
+    ],
+)
 def test_a_message_that_means_nothing_changes_nothing(free_gate, message):
     browser = Browser(EP, SMALL)
     before = dict(browser.session.values)

@@ -142,6 +142,7 @@ def test_the_least_recently_used_go_first():
 
 def keeps(cache, function, key):
     """Whether the cache still has this answer; asking changes nothing, since an error is not kept."""
+
     def refuse(*_):
         raise LookupError
 
@@ -174,8 +175,11 @@ def test_the_metrics_say_what_was_asked_and_what_is_held():
     with pytest.raises(ZeroDivisionError):
         cache.get(lambda: 1 // 0)
     assert cache.metrics() == {
-        "cache_hits": 2, "cache_misses": 4, "cache_entries": 3,
-        "cache_bytes": 3 * size_of(Result("", np.zeros(KILOBYTE, np.uint8)))}
+        "cache_hits": 2,
+        "cache_misses": 4,
+        "cache_entries": 3,
+        "cache_bytes": 3 * size_of(Result("", np.zeros(KILOBYTE, np.uint8))),
+    }
 
 
 def test_a_result_larger_than_the_cache_is_given_but_not_kept():

@@ -115,8 +115,12 @@ every_subset_of_the_study = pytest.mark.parametrize("seen", subsets(ACCURACY.pic
 
 def needed(seen):
     """What the scene of the Hess case computes at a state with two cycles."""
-    return ({MAP} | ({TRACK} if seen else set()) | ({CYCLES} if seen & {"omega", "sphere"} else set())
-            | (ZONES if "bifurcation" in seen else set()))
+    return (
+        {MAP}
+        | ({TRACK} if seen else set())
+        | ({CYCLES} if seen & {"omega", "sphere"} else set())
+        | (ZONES if "bifurcation" in seen else set())
+    )
 
 
 NOT_OVER_TIME = {"precision", "trade", "difference"}
@@ -270,8 +274,7 @@ def test_every_part_of_a_drag_is_at_the_cheapest_level(cache, chosen):
     dragged = compute(HESS, values, dragging=True)
     # The zones, which most drags leave as they are, are as chosen but no finer than `standard`.
     kept = "draft" if chosen == "draft" else "standard"
-    assert cache.levels() == {
-        **dict.fromkeys(MOTION, "draft"), **dict.fromkeys((BOUNDARY, GRID), kept)}
+    assert cache.levels() == {**dict.fromkeys(MOTION, "draft"), **dict.fromkeys((BOUNDARY, GRID), kept)}
     assert {dragged.track.orbit.level, dragged.map.level, dragged.cycles[0].orbit.level} == {"draft"}
     let_go = compute(HESS, values)
     # Zones that are as chosen are there; a draft that was chosen is as well.
@@ -375,16 +378,21 @@ def own_sources(board, name):
     others = {column for dot, columns in dots if not dot.startswith(f"{name}-") for column in columns}
     needed = {column for dot, columns in dots if dot.startswith(f"{name}-") for column in columns}
     alone = others - needed - {"t", "g1", "g2", "g3", "omega1", "omega2"}
-    return {key: {column: values for column, values in data.items() if key != "data-orbit" or column not in alone}
-            for key, data in found.items()}
+    return {
+        key: {column: values for column, values in data.items() if key != "data-orbit" or column not in alone}
+        for key, data in found.items()
+    }
 
 
 # Another state for each scene, and more of those of the scenes whose pictures are computed one by one.
 STATES = [(scene, elsewhere(scene)) for scene in SCENES.values()] + [
-    (scene, {**scene.defaults(), **change, "span": 9.0}) for scene in (HESS, ACCURACY)
-    for change in ({"h": 1.25, "phi0": -1.0, "I23": 0.35}, {"h": 1.0, "f": 0.0}, {"h": 30.0})]
+    (scene, {**scene.defaults(), **change, "span": 9.0})
+    for scene in (HESS, ACCURACY)
+    for change in ({"h": 1.25, "phi0": -1.0, "I23": 0.35}, {"h": 1.0, "f": 0.0}, {"h": 30.0})
+]
 every_other = pytest.mark.parametrize(
-    ("scene", "values"), STATES, ids=[f"{scene.name}-{i}" for i, (scene, _) in enumerate(STATES)])
+    ("scene", "values"), STATES, ids=[f"{scene.name}-{i}" for i, (scene, _) in enumerate(STATES)]
+)
 
 
 @every_other
@@ -439,10 +447,16 @@ def test_the_first_view_of_speed_and_accuracy_measures_everything_once(cache):
 
 
 STUDY_CHANGES = [
-    ({"h": 1.45}, STUDY), ({"f": 0.61}, STUDY), ({"phi0": 0.51}, STUDY), ({"span": 5.0}, STUDY),
-    ({"b3": -1.01}, STUDY), ({"I22": 0.97}, STUDY), ({"I23": 0.29}, STUDY),
+    ({"h": 1.45}, STUDY),
+    ({"f": 0.61}, STUDY),
+    ({"phi0": 0.51}, STUDY),
+    ({"span": 5.0}, STUDY),
+    ({"b3": -1.01}, STUDY),
+    ({"I22": 0.97}, STUDY),
+    ({"I23": 0.29}, STUDY),
     # All levels are measured in any case.
-    ({"accuracy": "reference"}, set()), ({"accuracy": "draft"}, set()),
+    ({"accuracy": "reference"}, set()),
+    ({"accuracy": "draft"}, set()),
     # So long that SciPy's methods are left out.
     ({"span": 90.0}, {LEVELS, GROWTH}),
 ]
@@ -553,11 +567,29 @@ def test_a_new_scene_is_computed_whole_whatever_was_hidden_in_the_old_one(cache)
     assert cache.take() == {LEVELS, OTHERS}
 
 
-@pytest.mark.parametrize("hidden", [
-    ["point"], ["", "nobody", "precision"], [None], [3, 2.5, True], [["bifurcation"]], [{"bifurcation": 1}], [math.nan],
-    ["bifurcation "], ["BIFURCATION"], "bifurcation", {"bifurcation": True}, {"0": "bifurcation"}, None, 3, True,
-    10**400, math.inf,
-], ids=repr)
+@pytest.mark.parametrize(
+    "hidden",
+    [
+        ["point"],
+        ["", "nobody", "precision"],
+        [None],
+        [3, 2.5, True],
+        [["bifurcation"]],
+        [{"bifurcation": 1}],
+        [math.nan],
+        ["bifurcation "],
+        ["BIFURCATION"],
+        "bifurcation",
+        {"bifurcation": True},
+        {"0": "bifurcation"},
+        None,
+        3,
+        True,
+        10**400,
+        math.inf,
+    ],
+    ids=repr,
+)
 def test_what_names_no_picture_hides_none(cache, hidden):
     browser = Browser(HESS)
     browser.ask(1, hidden=hidden)

@@ -96,11 +96,21 @@ def test_pieces_of_one_session_wait_while_others_are_answered():
 
 
 def test_a_program_that_ends_meanwhile_says_nothing():
-    ended = subprocess.run([sys.executable, "-c", (
-        "import time\n"
-        "from hess_explorer.compute.background import run_in_steps\n"
-        "from hess_explorer.compute.scheduler import RequestQueue\n"
-        "run_in_steps(lambda: time.sleep(0.2) is None)\n"
-        "RequestQueue().put(lambda: time.sleep(0.2))\n")],
-        capture_output=True, text=True, timeout=PATIENCE, check=False)
+    ended = subprocess.run(
+        [
+            sys.executable,
+            "-c",
+            (
+                "import time\n"
+                "from hess_explorer.compute.background import run_in_steps\n"
+                "from hess_explorer.compute.scheduler import RequestQueue\n"
+                "run_in_steps(lambda: time.sleep(0.2) is None)\n"
+                "RequestQueue().put(lambda: time.sleep(0.2))\n"
+            ),
+        ],
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+        check=False,
+    )
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")

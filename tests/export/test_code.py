@@ -19,8 +19,9 @@ from hess_explorer.export.shown import address, shown
 from hess_explorer.protocol.parameters import encode
 from hess_explorer.scenes import scenes
 
-OWN = [(scene.name, number) for scene in scenes().values() if scene.origin is None
-       for number in range(len(scene.presets))]
+OWN = [
+    (scene.name, number) for scene in scenes().values() if scene.origin is None for number in range(len(scene.presets))
+]
 
 
 def ran(lines):
@@ -53,10 +54,16 @@ def test_the_lines_leave_what_is_exported_of_every_picture_of_every_preset(name,
     assert drawn == [view.name for view in scenes()[name].views]
 
 
-@pytest.mark.parametrize(("link", "picture"), [
-    ("h=1.2&f=0.3&accuracy=precise", "circle"), ("scene=suslov&accuracy=draft&starts=0.1,0.2;1,1", "section"),
-    ("scene=scattering&az=1.5&accuracy=draft", "sphere"), ("scene=euler-poisson-accuracy&accuracy=draft", "difference"),
-    ("scene=suslov-hess&h=1&f=0&accuracy=draft", "circle")])
+@pytest.mark.parametrize(
+    ("link", "picture"),
+    [
+        ("h=1.2&f=0.3&accuracy=precise", "circle"),
+        ("scene=suslov&accuracy=draft&starts=0.1,0.2;1,1", "section"),
+        ("scene=scattering&az=1.5&accuracy=draft", "sphere"),
+        ("scene=euler-poisson-accuracy&accuracy=draft", "difference"),
+        ("scene=suslov-hess&h=1&f=0&accuracy=draft", "circle"),
+    ],
+)
 def test_the_columns_are_those_of_the_file_written_by_the_command(link, picture, tmp_path):
     lines, file = tmp_path / "of.py", tmp_path / "of.csv"
     for command, out in (("code", lines), ("export", file)):
@@ -67,8 +74,11 @@ def test_the_columns_are_those_of_the_file_written_by_the_command(link, picture,
     assert table[0] == list(data)
     for row, fields in zip(zip(*data.columns.values(), strict=True), table[1:], strict=True):
         for value, said in zip(row, fields, strict=True):
-            assert str(value) == said if isinstance(value, str) else (
-                not np.isfinite(value) if said == "" else float(said) == value)
+            assert (
+                str(value) == said
+                if isinstance(value, str)
+                else (not np.isfinite(value) if said == "" else float(said) == value)
+            )
     assert len(table) > 10
 
 
@@ -88,8 +98,13 @@ def test_a_notebook_runs_from_its_first_cell_to_its_last():
     nbformat.validate(book)
     assert found.link in book.cells[0].source
     NotebookClient(book, timeout=120).execute()
-    kinds = [kind for cell in book.cells if cell.cell_type == "code" for output in cell.outputs
-             for kind in output.get("data", {})]
+    kinds = [
+        kind
+        for cell in book.cells
+        if cell.cell_type == "code"
+        for output in cell.outputs
+        for kind in output.get("data", {})
+    ]
     assert "application/vnd.holoviews_exec.v0+json" in kinds
     text = book.cells[-1].outputs[0]["data"]["text/html"]
     assert "cobweb" in text or "phi" in text

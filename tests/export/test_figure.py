@@ -19,9 +19,17 @@ from hess_mechanics.errors import ModelError
 
 DRAFT = "accuracy=draft"
 # Between them they have all glyphs.
-SEVERAL = [("", "omega"), ("", "bifurcation"), ("", "circle"), ("", "sphere"), ("scene=scattering", "map"),
-           ("scene=suslov&colours=basins", "section"), ("scene=singular-measures&points=1000", "density"),
-           ("scene=free-suslov", "omega"), ("scene=rotation-number", "line")]
+SEVERAL = [
+    ("", "omega"),
+    ("", "bifurcation"),
+    ("", "circle"),
+    ("", "sphere"),
+    ("scene=scattering", "map"),
+    ("scene=suslov&colours=basins", "section"),
+    ("scene=singular-measures&points=1000", "density"),
+    ("scene=free-suslov", "omega"),
+    ("scene=rotation-number", "line"),
+]
 
 
 @pytest.mark.parametrize(("link", "picture"), SEVERAL)
@@ -69,8 +77,9 @@ def test_the_lines_of_a_figure_are_the_curves_of_the_data():
 
 @pytest.mark.parametrize(("azimuth", "elevation"), [(0.6, 0.35), (-2.0, -1.1), (0.0, math.pi / 2)])
 def test_a_sphere_is_seen_from_where_the_link_says(azimuth, elevation):
-    eye = np.array([math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth),
-                    math.sin(elevation)])
+    eye = np.array(
+        [math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation)]
+    )
     assert seen(eye[None], azimuth, elevation)[0] == pytest.approx([0.0, 0.0, 1.0], abs=1e-15)
     points = np.random.default_rng(1).normal(size=(20, 3))
     # Right, up, towards the eye: turned by the azimuth, then by the elevation, and the axes renamed.

@@ -122,10 +122,16 @@ def test_what_moves_moves_and_what_stands_stands():
 
 
 def test_which_pictures_move():
-    expected = {("", "body"): True, ("", "circle"): True, ("", "bifurcation"): True, ("", "sphere"): True,
-                ("scene=singular-measures&points=1000", "density"): True,
-                ("scene=singular-measures&points=1000", "sphere"): True,
-                ("scene=scattering", "map"): False, ("scene=rotation-number", "line"): False}
+    expected = {
+        ("", "body"): True,
+        ("", "circle"): True,
+        ("", "bifurcation"): True,
+        ("", "sphere"): True,
+        ("scene=singular-measures&points=1000", "density"): True,
+        ("scene=singular-measures&points=1000", "sphere"): True,
+        ("scene=scattering", "map"): False,
+        ("scene=rotation-number", "line"): False,
+    }
     found = {(link, name): moves(shown(f"{link}&accuracy=draft", name)) for link, name in expected}
     assert found == expected
 

@@ -78,8 +78,10 @@ def test_the_centre_of_mass_is_where_the_motion_has_it(t):
         return [torque[0] / I11, torque[1] / I22, *np.cross(g, w), *np.cross(e, w)]
 
     track, own = found.columns["data-orbit"], found.columns["body"]
-    start = [*(track[name][0] for name in ("omega1", "omega2", "g1", "g2", "g3")),
-             *(own[name][0] for name in ("e1", "e2", "e3"))]
+    start = [
+        *(track[name][0] for name in ("omega1", "omega2", "g1", "g2", "g3")),
+        *(own[name][0] for name in ("e1", "e2", "e3")),
+    ]
     run = solve_ivp(right_side, (0.0, t), start, rtol=1e-11, atol=1e-12) if t else None
     gamma, e = (start[2:5], start[5:]) if run is None else (run.y[2:5, -1], run.y[5:, -1])
     balls = [patch for patch in draw(found).axes[0].patches if isinstance(patch, Circle) and patch.radius > 0.05]
@@ -106,8 +108,9 @@ def test_a_body_has_its_ellipsoid_its_section_its_wheels_and_its_trail():
 
 def test_in_black_a_body_is_grey():
     found = shown(f"{DRAFT}&t=2", "body")
-    red, green, blue = np.asarray(
-        Image.open(io.BytesIO(as_file(found, "png", 30.0, True))).convert("RGB"), int).reshape(-1, 3).T
+    red, green, blue = (
+        np.asarray(Image.open(io.BytesIO(as_file(found, "png", 30.0, True))).convert("RGB"), int).reshape(-1, 3).T
+    )
     assert np.max(np.abs(red - green)) == np.max(np.abs(red - blue)) == 0
     assert 0.05 < np.mean((red > 60) & (red < 230)) < 0.6
 

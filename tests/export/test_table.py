@@ -22,7 +22,7 @@ def test_the_graph_of_the_circle_map_is_that_of_the_mechanics_to_the_last_digits
     assert len(x) > 100
     off = np.abs(np.angle(np.exp(1j * (y - found.theta(x)))))
     # A graph is cut where it leaves the frame: there it has no value of its own.
-    assert np.sort(off)[: -4].max() < 1e-13
+    assert np.sort(off)[:-4].max() < 1e-13
 
 
 def test_an_orbit_is_that_of_another_integrator_and_its_columns_have_names():
@@ -47,8 +47,9 @@ def test_an_orbit_is_that_of_another_integrator_and_its_columns_have_names():
 
 def test_a_cloud_is_that_of_the_time_in_the_link():
     link = "scene=singular-measures&points=1000&accuracy=draft"
-    early, late = ([row for row in rows(shown(f"{link}&t={t}", "omega")) if row["layer"] == "omega-cloud"]
-                   for t in (0.0, 5.0))
+    early, late = (
+        [row for row in rows(shown(f"{link}&t={t}", "omega")) if row["layer"] == "omega-cloud"] for t in (0.0, 5.0)
+    )
     assert len(early) == len(late) > 300
     assert {row["t"] for row in early} == {0.0}
     assert {abs(row["t"] - 5.0) < 0.5 for row in late} == {True}

@@ -49,11 +49,14 @@ def test_a_wrong_variable_is_an_error_and_not_passed_over(machine, monkeypatch):
         find_browser("")
 
 
-@pytest.mark.parametrize(("root", "debian", "last"), [
-    (True, True, ["apt-get", "install", "-y", "--no-install-recommends", "chromium-headless-shell"]),
-    (False, True, ["-m", "playwright", "install", "--with-deps", "chromium"]),
-    (True, False, ["-m", "playwright", "install", "--with-deps", "chromium"]),
-])
+@pytest.mark.parametrize(
+    ("root", "debian", "last"),
+    [
+        (True, True, ["apt-get", "install", "-y", "--no-install-recommends", "chromium-headless-shell"]),
+        (False, True, ["-m", "playwright", "install", "--with-deps", "chromium"]),
+        (True, False, ["-m", "playwright", "install", "--with-deps", "chromium"]),
+    ],
+)
 def test_installation(installations, monkeypatch, root, debian, last):
     monkeypatch.setattr(browser, "_is_root", lambda: root)
     monkeypatch.setattr(browser, "_is_debian", lambda: debian)
@@ -62,9 +65,14 @@ def test_installation(installations, monkeypatch, root, debian, last):
     assert (["apt-get", "update"] in installations) == (root and debian)
 
 
-@pytest.mark.parametrize("failure", [
-    FileNotFoundError("apt-get"), subprocess.CalledProcessError(100, "apt-get"), subprocess.TimeoutExpired("apt-get", 9)
-])
+@pytest.mark.parametrize(
+    "failure",
+    [
+        FileNotFoundError("apt-get"),
+        subprocess.CalledProcessError(100, "apt-get"),
+        subprocess.TimeoutExpired("apt-get", 9),
+    ],
+)
 def test_failed_installation_is_loud(monkeypatch, failure):
     def fail(*_, **__):
         raise failure

@@ -17,8 +17,12 @@ from hess_mechanics.euler_poisson.hess_isomorphism import hess_body
 from hess_mechanics.suslov.additional_integral import I11_at
 
 PRECISE = level("precise")
-WORDS = {word: float(value) for value, word in enumerate(
-    ["two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"], 2)}
+WORDS = {
+    word: float(value)
+    for value, word in enumerate(
+        ["two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"], 2
+    )
+}
 # Indices and powers are no claims.
 NUMBER = re.compile(rf"(?<![\w.^_])(?<!_\{{)−?\d+(?:\.\d+)?(?:·10⁻⁸)?|\b(?:{'|'.join(WORDS)})\b", re.IGNORECASE)
 
@@ -65,8 +69,9 @@ def born(step):
 
 
 def suslov(values):
-    return SuslovBody(I11_at(values["k"], values["I22"], values["I13"], values["I23"]), values["I22"], values["I13"],
-                      values["I23"])
+    return SuslovBody(
+        I11_at(values["k"], values["I22"], values["I13"], values["I23"]), values["I22"], values["I13"], values["I23"]
+    )
 
 
 def turned(values):
@@ -95,22 +100,30 @@ LIMITS = {
     "−0.3959 turns": lambda s: (here(s).rotation_number,),
     "If the trace is less than 2 in absolute value": lambda s: (2.0,),
     "If it is more than\n2, there are exactly two fixed points": lambda s: (
-        2.0, len(circle_map(a_of(s), 1.5, 0.6, PRECISE).fixed_points)),
+        2.0,
+        len(circle_map(a_of(s), 1.5, 0.6, PRECISE).fixed_points),
+    ),
     "Here the trace is 1.0187": lambda s: (here(s).trace,),
     "from 0.5 to 1.5 and": lambda s: (s.at.values["h"], then(s)["h"]),
     "φ = −2.187, it is 0.232": lambda s: (
-        torus(then(s)).fixed_points[0].phi, torus(then(s)).fixed_points[0].multiplier),
+        torus(then(s)).fixed_points[0].phi,
+        torus(then(s)).fixed_points[0].multiplier,
+    ),
     "multipliers is 1:": lambda s: (math.exp(sum(one.log_multiplier for one in here(s).fixed_points)),),
     "from 0.5 to 1.5, with $f$ held at 0.6": lambda s: (s.animation.start, s.animation.end, s.at.values["f"]),
     "At h = 1.076 the curve touches, and the trace is 2": lambda s: (
-        born(s), circle_map(a_of(s), born(s), s.at.values["f"], PRECISE).trace),
+        born(s),
+        circle_map(a_of(s), born(s), s.at.values["f"], PRECISE).trace,
+    ),
     "locked at 0, and there are two cycles": lambda s: (here(s).rotation_number, len(here(s).fixed_points)),
     "On it the trace is 2.": lambda s: (2.0,),
     "$n_3=a/\\sqrt{1+a^2}$": lambda s: (1.0,),
     # The trace on the bifurcation curve, 2cos(π√(n²(1+a²)−a²)/√(1+3n²)), is 2 where n²(1+a²) = a².
     "$a$ is 0.2917, so that is $n_3$ = 0.28, at the\nenergy h = 1.366": lambda s: (
-        a_of(s), a_of(s) / math.hypot(1.0, a_of(s)),
-        (1 - 2 * a_of(s)**2) / (2 * a_of(s) * math.hypot(1.0, a_of(s)))),
+        a_of(s),
+        a_of(s) / math.hypot(1.0, a_of(s)),
+        (1 - 2 * a_of(s) ** 2) / (2 * a_of(s) * math.hypot(1.0, a_of(s))),
+    ),
     "Here it is 0.3. We": lambda s: (a_of(s),),
     "where $f=0$ and $h>1$ there are always cycles": lambda s: (0.0, 1.0),
     "At $a=0$ the constraint": lambda s: (0.0,),
@@ -124,10 +137,15 @@ LIMITS = {
     "only one step was seen, at 0": lambda s: (circle_map(0.5, 1.5, 0.6, PRECISE).rotation_number,),
     "Where the trace is less than 2, the": lambda s: (2.0,),
     "With $a$ = 3 the contraction is fierce: one swing leaves 1.5·10⁻⁸": lambda s: (
-        a_of(s), here(s).fixed_points[0].multiplier),
+        a_of(s),
+        here(s).fixed_points[0].multiplier,
+    ),
     "means $|a|<1$": lambda s: (1.0,),
     "real body, at $f=0$, is less than $e^{2\\pi}$, which is 535.49": lambda s: (
-        0.0, circle_map(1.0, 1.5, 1e-9, PRECISE).fixed_points[1].log_multiplier / math.pi, math.exp(2.0 * math.pi)),
+        0.0,
+        circle_map(1.0, 1.5, 1e-9, PRECISE).fixed_points[1].log_multiplier / math.pi,
+        math.exp(2.0 * math.pi),
+    ),
     "the trace is less than 2 there is": lambda s: (2.0,),
     "only plateau is at 0": lambda s: (here(s).rotation_number,),
 }
@@ -149,7 +167,9 @@ SCATTERING = {
     "$\\cos\\chi\\to-1$: complete": lambda s: (1.0,),
     "With $I_{23}$ = 0.4 the\nangle is already 175.5°": lambda s: (0.4, turned({**s.at.values, "I23": 0.4})),
     "$\\mathcal{D}=0$ it is the top that we know, and $k=1$": lambda s: (
-        0.0, s.at.values["I22"] * (s.at.values["I11"] - s.at.values["I22"]) / s.at.values["I23"]**2),
+        0.0,
+        s.at.values["I22"] * (s.at.values["I11"] - s.at.values["I22"]) / s.at.values["I23"] ** 2,
+    ),
     "With $\\mathcal{D}=2$": of("D"),
 }
 LAYERS = {
@@ -158,22 +178,34 @@ LAYERS = {
     "turned away by 0.02": of("away"),
     "surface $r_1M_1+r_3M_3=0$ is invariant no more": lambda s: (0.0,),
     "beyond 2 there are two limit cycles. Here the number\n$|a|$ is 0.5 and the trace is 4.904": lambda s: (
-        2.0, len(on_the_wall(s).fixed_points), abs(on_the_wall(s).a), on_the_wall(s).trace),
+        2.0,
+        len(on_the_wall(s).fixed_points),
+        abs(on_the_wall(s).a),
+        on_the_wall(s).trace,
+    ),
     "a factor of 22.0": lambda s: (on_the_wall(s).fixed_points[1].multiplier,),
     "A double has about 16 digits": lambda s: (round(-math.log10(sys.float_info.epsilon)),),
     "The logarithm of 10¹⁶ is 36.8, and the exponent is 3.0911": lambda s: (
-        10.0, math.log(1e16), on_the_wall(s).fixed_points[1].log_multiplier),
+        10.0,
+        math.log(1e16),
+        on_the_wall(s).fixed_points[1].log_multiplier,
+    ),
     "gone after 12": lambda s: (lost_after(s),),
     "the energy is 5 instead of 50, and $f$ is 0.8": lambda s: (s.at.values["h"], 50.0, s.at.values["f"]),
     "Less than 2; it is 1.124. There": lambda s: (2.0, on_the_wall(s).trace),
     "over 60 returns": of("returns"),
     "For $f=0$ the centre": of("f"),
     "one turn is $2\\pi|a|$, whatever the energy above the separatrix: for this body 3.1416": lambda s: (
-        2.0, on_the_wall(s).fixed_points[1].log_multiplier),
+        2.0,
+        on_the_wall(s).fixed_points[1].log_multiplier,
+    ),
     "By $e^{2\\pi|a|}$, which is 23.14": lambda s: (2.0, on_the_wall(s).fixed_points[1].multiplier),
 }
-ROWS = {"limit-cycles-and-locking": LIMITS, "scattering-by-a-nonholonomic-top": SCATTERING,
-        "two-chaotic-layers-that-never-mix": LAYERS}
+ROWS = {
+    "limit-cycles-and-locking": LIMITS,
+    "scattering-by-a-nonholonomic-top": SCATTERING,
+    "two-chaotic-layers-that-never-mix": LAYERS,
+}
 # The name of the problem's constraint is no claim of its own.
 ALWAYS = {"$\\omega_3=0$": lambda s: (0.0,)}
 
@@ -194,11 +226,15 @@ def test_every_number_of_a_lesson_is_what_it_is_computed_to_be(name):
                     numbers = list(NUMBER.finditer(phrase))
                     exact = computed(step)
                     if len(numbers) != len(exact) or not all(
-                            is_rounded(found[0], value) for found, value in zip(numbers, exact, strict=True)):
+                        is_rounded(found[0], value) for found, value in zip(numbers, exact, strict=True)
+                    ):
                         wrong.append(f"{step.title}: {phrase!r} is {exact}")
                     said.update(place.start() + found.start() for found in numbers)
-            wrong += [f"{step.title}: nothing computes {found[0]!r} in {text[max(0, found.start() - 30):][:60]!r}"
-                      for found in NUMBER.finditer(text) if found.start() not in said]
+            wrong += [
+                f"{step.title}: nothing computes {found[0]!r} in {text[max(0, found.start() - 30) :][:60]!r}"
+                for found in NUMBER.finditer(text)
+                if found.start() not in said
+            ]
     assert not wrong, "\n".join(wrong)
     assert not set(ROWS[name]) - used
 

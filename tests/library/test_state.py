@@ -23,9 +23,13 @@ from hess_mechanics import BallBody, HeavyBody, HessBody, SuslovBody, circle_map
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.euler_poisson import equations as euler_poisson
 
-DRAWN = [("suslov-hess", "circle", "cobweb", ("phi", "theta")), ("suslov-hess", "bifurcation", "here", ("h", "f")),
-         ("free-suslov", "omega", "arrows", ("x", "y")), ("scattering", "map", "theta", ("value",)),
-         ("suslov", "section", "first", ("x", "y"))]
+DRAWN = [
+    ("suslov-hess", "circle", "cobweb", ("phi", "theta")),
+    ("suslov-hess", "bifurcation", "here", ("h", "f")),
+    ("free-suslov", "omega", "arrows", ("x", "y")),
+    ("scattering", "map", "theta", ("value",)),
+    ("suslov", "section", "first", ("x", "y")),
+]
 
 
 def test_a_link_and_its_parameters_are_the_same_state():
@@ -48,15 +52,23 @@ def test_a_notebook_shows_a_state_by_its_parameters_and_link():
     assert said.count("<tr>") == len(found.parameters)
 
 
-@pytest.mark.parametrize(("given", "sentence"), [
-    ({"height": 1.0},
-     "has no parameter 'height': choose one of I22, I23, b3, h, f, phi0, span, cells, certain, accuracy, t, az, el."),
-    ({"h": "high"}, "'high' is not a number: h (Energy h) is one from -1 to 1e+06."),
-    ({"h": True}, "True is not a number"), ({"h": None}, "None is not a number"),
-    ({"h": math.nan}, "h (Energy h) must be a finite number."), ({"h": -2.0}, "h lies between -1 and 1e+06."),
-    ({"f": 50.0}, "At h = 1.5 only |f| ≤ 1.812 is possible."),
-    ({"accuracy": "best"}, "Accuracy was not one of draft, standard, precise, reference, auto."),
-])
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        (
+            {"height": 1.0},
+            "has no parameter 'height': choose one of I22, I23, b3, h, f, phi0, span, cells, certain, accuracy, t, az, "
+            "el.",
+        ),
+        ({"h": "high"}, "'high' is not a number: h (Energy h) is one from -1 to 1e+06."),
+        ({"h": True}, "True is not a number"),
+        ({"h": None}, "None is not a number"),
+        ({"h": math.nan}, "h (Energy h) must be a finite number."),
+        ({"h": -2.0}, "h lies between -1 and 1e+06."),
+        ({"f": 50.0}, "At h = 1.5 only |f| ≤ 1.812 is possible."),
+        ({"accuracy": "best"}, "Accuracy was not one of draft, standard, precise, reference, auto."),
+    ],
+)
 def test_what_cannot_be_is_refused_with_a_sentence(given, sentence):
     with pytest.raises(InvalidParameter) as refused:
         hess.state("suslov-hess", **given)
@@ -70,11 +82,13 @@ def test_scenes_pictures_layers_and_columns_that_are_not_there_are_named():
     with pytest.raises(InvalidParameter, match="are pairs"):
         hess.state("suslov", starts=[1.0, 2.0])
     state = hess.state("suslov-hess", accuracy="draft")
-    for call, sentence in ((lambda: state.data("x"), "has no picture 'x': choose one of body"),
-                           (lambda: state.data("circle")["z"], "no column 'z': choose one of layer"),
-                           (lambda: state.data("circle").layer("z"), "no layer 'z': choose one of cobweb"),
-                           (lambda: state.save("x.doc", "circle"), "ends in '.doc' cannot be written"),
-                           (lambda: hess.state("bridge", given=2), "was not one of")):
+    for call, sentence in (
+        (lambda: state.data("x"), "has no picture 'x': choose one of body"),
+        (lambda: state.data("circle")["z"], "no column 'z': choose one of layer"),
+        (lambda: state.data("circle").layer("z"), "no layer 'z': choose one of cobweb"),
+        (lambda: state.save("x.doc", "circle"), "ends in '.doc' cannot be written"),
+        (lambda: hess.state("bridge", given=2), "was not one of"),
+    ):
         with pytest.raises(ModelError, match=sentence):
             call()
     with pytest.raises(AttributeError, match="no attribute 'stat'"):
@@ -122,8 +136,13 @@ def test_a_plot_draws_the_numbers_of_the_data_on_the_axes_of_the_page(scene, pic
     plot, data = state.plot(picture), state.data(picture)
     part = data.layer(layer)
     elements = plot.traverse(lambda one: one, [hv.Curve, hv.Path, hv.Points, hv.Image, hv.Polygons])
-    drawn = [[one.dimension_values(name) for name in (one.vdims if isinstance(one, hv.Image) else one.dimensions())[
-        :len(columns)]] for one in elements]
+    drawn = [
+        [
+            one.dimension_values(name)
+            for name in (one.vdims if isinstance(one, hv.Image) else one.dimensions())[: len(columns)]
+        ]
+        for one in elements
+    ]
     drawn = [[one[np.isfinite(one)] for one in found] for found in drawn]
     wanted = [part[name] for name in columns]
     assert any(all(map(np.array_equal, map(np.sort, found), map(np.sort, wanted))) for found in drawn)

@@ -29,11 +29,15 @@ EQUATOR = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
 CALLS = {
     "basins": lambda one: hm.basins(BODY, 1.842, cells=(2, 2), crossings=20, accuracy=one).mean,
     "cloud": lambda one: hm.cloud(FREE_BALL, 2.0, 1.0, count=3, accuracy=one).omega,
-    "period": lambda one: hm.period(hm.BallBody(1.3, 0.8, 0.0, 0.0, 0.0, 0.5, -0.2, 0.0), (1.0, -0.5, 0.0, 0.6, 0.8),
-                                    one).value,
+    "period": lambda one: (
+        hm.period(hm.BallBody(1.3, 0.8, 0.0, 0.0, 0.0, 0.5, -0.2, 0.0), (1.0, -0.5, 0.0, 0.6, 0.8), one).value
+    ),
     "rotation_numbers": lambda one: hm.rotation_numbers(0.5, 0.2, 0.6, one).rho,
-    "rotation_along_line": lambda one: hm.rotation_along_line(
-        HEAVY, 2.0, 0.5, ((0.0, 0.85), (0.0, 0.95)), count=4, crossings=300, accuracy=one).to_xarray()["ρ"].values,
+    "rotation_along_line": lambda one: (
+        hm.rotation_along_line(HEAVY, 2.0, 0.5, ((0.0, 0.85), (0.0, 0.95)), count=4, crossings=300, accuracy=one)
+        .to_xarray()["ρ"]
+        .values
+    ),
     "return_map": lambda one: hm.return_map(BODY, E=1.842, accuracy=one).image((0.3, 1.2)),
     "solve": lambda one: hm.solve(SUSLOV.at(PARAMETERS), STATE, [2.0], one).states,
     "ensemble": lambda one: hm.ensemble(SUSLOV.at(PARAMETERS), [STATE, STATE], [2.0], one).states,
@@ -60,8 +64,11 @@ CALLS = {
 def taken(function):
     """The parameters of a function that are accuracies, by their annotations."""
     kinds = {name: str(one.annotation) for name, one in inspect.signature(function).parameters.items()}
-    return {name: kind for name, kind in kinds.items()
-            if kind in ("Level", "Accuracy") or (name in ("level", "accuracy") and "str" in kind)}
+    return {
+        name: kind
+        for name, kind in kinds.items()
+        if kind in ("Level", "Accuracy") or (name in ("level", "accuracy") and "str" in kind)
+    }
 
 
 def public():
@@ -74,8 +81,11 @@ def public():
                 if getattr(one, "__module__", None) != module.__name__:
                     continue
                 members = [one] if inspect.isfunction(one) else vars(one).values() if inspect.isclass(one) else ()
-                yield from ((f"{module.__name__}.{member.__qualname__}", member) for member in members
-                            if inspect.isfunction(member) and not member.__name__.startswith("_"))
+                yield from (
+                    (f"{module.__name__}.{member.__qualname__}", member)
+                    for member in members
+                    if inspect.isfunction(member) and not member.__name__.startswith("_")
+                )
 
 
 def test_every_function_of_the_package_that_takes_an_accuracy_is_called_here():
@@ -104,8 +114,11 @@ def test_every_public_function_says_that_it_takes_either():
     """Whether each reads it before it asks for order or tolerance, the type checker finds out."""
     found = {name: taken(one) for name, one in public() if taken(one)}
     assert len(found) > 80
-    wrong = {name: kinds for name, kinds in found.items()
-             if name.rpartition(".")[2] not in INTERNAL and set(kinds.values()) != {"Accuracy"}}
+    wrong = {
+        name: kinds
+        for name, kinds in found.items()
+        if name.rpartition(".")[2] not in INTERNAL and set(kinds.values()) != {"Accuracy"}
+    }
     assert not wrong
 
 

@@ -27,8 +27,15 @@ def test_a_heavy_body_is_the_same_from_moments_and_from_their_inverses():
 
 def test_an_orbit_is_that_of_another_integrator_with_names_and_units():
     found = hm.solve(SUSLOV, STATE, t=5.0, accuracy="reference", samples=40)
-    run = solve_ivp(lambda _, y: SUSLOV.system.field(y, SUSLOV.parameters), (0.0, 5.0), STATE, method="DOP853",
-                    rtol=1e-12, atol=1e-13, t_eval=found.times)
+    run = solve_ivp(
+        lambda _, y: SUSLOV.system.field(y, SUSLOV.parameters),
+        (0.0, 5.0),
+        STATE,
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-13,
+        t_eval=found.times,
+    )
     whole = found.to_xarray()
     assert np.array([whole[name] for name in ("ω1", "ω2", "γ1", "γ2", "γ3")]) == pytest.approx(run.y, abs=1e-10)
     assert (whole["ω1"].attrs["units"], whole["t"].attrs["units"]) == ("rad/T", "T")
@@ -63,9 +70,12 @@ def test_points_lie_on_their_sections_at_their_energies():
     assert np.array_equal(section.plot().dimension_values("ψ"), psi)
 
 
-SECTIONS = [hm.return_map(HEAVY, h=2.0, f=0.5, accuracy="standard"),
-            hm.return_map(SUSLOV, E=1.842, accuracy="standard"), hm.return_map(BALL, h=2.0, accuracy="standard"),
-            hm.return_map(hm.QuarticBody(2.0, 1.0, 1.0, 0.8), accuracy="standard")]
+SECTIONS = [
+    hm.return_map(HEAVY, h=2.0, f=0.5, accuracy="standard"),
+    hm.return_map(SUSLOV, E=1.842, accuracy="standard"),
+    hm.return_map(BALL, h=2.0, accuracy="standard"),
+    hm.return_map(hm.QuarticBody(2.0, 1.0, 1.0, 0.8), accuracy="standard"),
+]
 
 
 @pytest.mark.parametrize("P", SECTIONS, ids=lambda P: type(P.section).__name__)
@@ -73,11 +83,20 @@ def test_orbits_of_a_section_are_those_of_its_return_map_forward_and_backward(P)
     found = hm.section_orbits(P, orbits=3, crossings=6)
     assert [len(orbit) for orbit in found.orbits] == [6, 6, 6]
     start = found.orbits[0][1]
-    apart = np.abs(np.exp(1j * hm.section_orbits(P, starts=[start], crossings=4).orbits[0])
-                   - np.exp(1j * found.orbits[0][2:6]))
+    apart = np.abs(
+        np.exp(1j * hm.section_orbits(P, starts=[start], crossings=4).orbits[0]) - np.exp(1j * found.orbits[0][2:6])
+    )
     # A start on the plane may be its own first crossing.
-    assert min(apart.max(), np.abs(np.exp(1j * hm.section_orbits(P, starts=[start], crossings=5).orbits[0][1:])
-                                   - np.exp(1j * found.orbits[0][2:6])).max()) < 1e-3
+    assert (
+        min(
+            apart.max(),
+            np.abs(
+                np.exp(1j * hm.section_orbits(P, starts=[start], crossings=5).orbits[0][1:])
+                - np.exp(1j * found.orbits[0][2:6])
+            ).max(),
+        )
+        < 1e-3
+    )
     back = hm.section_orbits(P.inverse(), starts=[found.orbits[0][3]], crossings=3).orbits[0]
     assert np.abs(np.exp(1j * back) - np.exp(1j * start)).max(axis=1).min() < 1e-3
 
@@ -113,8 +132,9 @@ def test_free_motions_periods_and_tori_hand_on_their_arrays():
     free = hm.free_motion(body, (0.8, -0.4), (0.6, 0.0, 0.8), [0.0, 1.0, 2.5], hm.level("precise"))
     whole, frame = free.to_xarray(), free.to_pandas()
     assert list(frame) == ["t", "ω1", "ω2", "γ1", "γ2", "γ3", "Γ", "φ"]
-    assert np.array_equal(frame.to_numpy(), np.column_stack([
-        free.times, free.omega, free.gamma, free.Gamma, free.phase]))
+    assert np.array_equal(
+        frame.to_numpy(), np.column_stack([free.times, free.omega, free.gamma, free.Gamma, free.phase])
+    )
     assert np.array_equal(whole["ω2"], free.omega[:, 1])
     assert [whole[name].attrs["units"] for name in ("t", "ω2", "γ3", "Γ", "φ")] == ["T", "rad/T", "1", "1", "rad"]
     assert [whole.attrs[name] for name in ("Γ⁻", "Γ⁺", "error_estimate")] == [*free.limits, free.error_estimate]
@@ -132,33 +152,41 @@ def test_free_motions_periods_and_tori_hand_on_their_arrays():
     assert tori.to_xarray()["ρ"].attrs["units"] == "turns"
 
 
-@pytest.mark.parametrize(("call", "sentence"), [
-    (lambda: hm.solve(SUSLOV, (1.0, 2.0), 5.0), "takes 5 numbers here: ω1, ω2, γ1, γ2, γ3"),
-    (lambda: hm.solve(SUSLOV, "abc", 5.0), "a state is 5 numbers"),
-    (lambda: hm.solve(SUSLOV, STATE, "long"), "t = 'long' is not a number; write it like 1.5 or -2e-3."),
-    (lambda: hm.solve(SUSLOV, STATE, ["a", "b"]), "one or more finite numbers"),
-    (lambda: hm.solve(SUSLOV, STATE, 5.0, accuracy="best"), "choose one of draft, standard, precise, reference"),
-    (lambda: hm.solve(SUSLOV, STATE, 5.0, accuracy=[]), "choose one of draft, standard, precise, reference"),
-    (lambda: hm.solve(SUSLOV, STATE, 5.0, samples=1.5), "is not a whole number from 2 to 200000"),
-    (lambda: hm.SuslovBody("2", 1.0, 0.3, 0.5), "I11 = '2' is not a number"),
-    (lambda: hm.HeavyBody((1.0, 2.0), (1.0, 0.0, 0.0), 1.0), "a = (1.0, 2.0) are not three numbers"),
-    (lambda: hm.lyapunov_exponent("body", (1.0,), 3.0), "'body' is no body that moves: give a SuslovBody"),
-    (lambda: hm.solve(hm.SuslovBody, (1.0,), 3.0), "is no body that moves"),
-    (lambda: hm.lyapunov_spectrum(None, (1.0,), 3.0), "None is no body that moves"),
-    (lambda: hm.circle_map(0.5, 1.5, "x", hm.level("draft")), "f = 'x' is not a number; write it like 1.5"),
-    (lambda: hm.rotation_numbers("a", 1.0, 0.2), "a = 'a' is not a number, nor several"),
-    (lambda: hm.section_orbits(hm.return_map(hm.HessBody(2.0, 1.0, -1.0), h=1.5, f=0.6)), "φ alone: there is no plane"),
-    (lambda: hm.return_map(2.0, h=2.0, f=0.5), "is no HessBody: give the body as hess_mechanics.HessBody"),
-    (lambda: hm.section_orbits(hm.return_map(HEAVY, h=-5.0, f=0.5)), "choose a larger energy"),
-    (lambda: hm.return_map(SUSLOV, E=-5.0), "reaches γ3 = 0: choose E above"),
-    (lambda: hm.section_orbits(hm.return_map(SUSLOV, E=1.8), starts=[1.0, 2.0]),
-     "are no places; write them like [(0.0, 0.5)"),
-    (lambda: hm.section_orbits(hm.return_map(SUSLOV, E=1.8), starts=[("x", 2.0)]), "starts = 'x' is not a number"),
-    (lambda: hm.basins(SUSLOV, 1.8, cells=(1000, 1000)), "at most 100000 are allowed"),
-    (lambda: hm.basins(SUSLOV, 1.8, window=((1.0, 0.0), (0.0, 1.0))), "ψ0 < ψ1"),
-    (lambda: hm.period(BALL, STATE), "set these to 0"),
-    (lambda: hm.rotation_along_line(HEAVY, -0.99, 0.0, ((0.0, 0.9), (0.1, 0.9))), "choose another line"),
-])
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda: hm.solve(SUSLOV, (1.0, 2.0), 5.0), "takes 5 numbers here: ω1, ω2, γ1, γ2, γ3"),
+        (lambda: hm.solve(SUSLOV, "abc", 5.0), "a state is 5 numbers"),
+        (lambda: hm.solve(SUSLOV, STATE, "long"), "t = 'long' is not a number; write it like 1.5 or -2e-3."),
+        (lambda: hm.solve(SUSLOV, STATE, ["a", "b"]), "one or more finite numbers"),
+        (lambda: hm.solve(SUSLOV, STATE, 5.0, accuracy="best"), "choose one of draft, standard, precise, reference"),
+        (lambda: hm.solve(SUSLOV, STATE, 5.0, accuracy=[]), "choose one of draft, standard, precise, reference"),
+        (lambda: hm.solve(SUSLOV, STATE, 5.0, samples=1.5), "is not a whole number from 2 to 200000"),
+        (lambda: hm.SuslovBody("2", 1.0, 0.3, 0.5), "I11 = '2' is not a number"),
+        (lambda: hm.HeavyBody((1.0, 2.0), (1.0, 0.0, 0.0), 1.0), "a = (1.0, 2.0) are not three numbers"),
+        (lambda: hm.lyapunov_exponent("body", (1.0,), 3.0), "'body' is no body that moves: give a SuslovBody"),
+        (lambda: hm.solve(hm.SuslovBody, (1.0,), 3.0), "is no body that moves"),
+        (lambda: hm.lyapunov_spectrum(None, (1.0,), 3.0), "None is no body that moves"),
+        (lambda: hm.circle_map(0.5, 1.5, "x", hm.level("draft")), "f = 'x' is not a number; write it like 1.5"),
+        (lambda: hm.rotation_numbers("a", 1.0, 0.2), "a = 'a' is not a number, nor several"),
+        (
+            lambda: hm.section_orbits(hm.return_map(hm.HessBody(2.0, 1.0, -1.0), h=1.5, f=0.6)),
+            "φ alone: there is no plane",
+        ),
+        (lambda: hm.return_map(2.0, h=2.0, f=0.5), "is no HessBody: give the body as hess_mechanics.HessBody"),
+        (lambda: hm.section_orbits(hm.return_map(HEAVY, h=-5.0, f=0.5)), "choose a larger energy"),
+        (lambda: hm.return_map(SUSLOV, E=-5.0), "reaches γ3 = 0: choose E above"),
+        (
+            lambda: hm.section_orbits(hm.return_map(SUSLOV, E=1.8), starts=[1.0, 2.0]),
+            "are no places; write them like [(0.0, 0.5)",
+        ),
+        (lambda: hm.section_orbits(hm.return_map(SUSLOV, E=1.8), starts=[("x", 2.0)]), "starts = 'x' is not a number"),
+        (lambda: hm.basins(SUSLOV, 1.8, cells=(1000, 1000)), "at most 100000 are allowed"),
+        (lambda: hm.basins(SUSLOV, 1.8, window=((1.0, 0.0), (0.0, 1.0))), "ψ0 < ψ1"),
+        (lambda: hm.period(BALL, STATE), "set these to 0"),
+        (lambda: hm.rotation_along_line(HEAVY, -0.99, 0.0, ((0.0, 0.9), (0.1, 0.9))), "choose another line"),
+    ],
+)
 def test_what_cannot_be_is_refused_with_a_sentence(call, sentence):
     with pytest.raises(ModelError) as refused:
         call()

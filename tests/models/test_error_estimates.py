@@ -39,8 +39,9 @@ def quickest(name):
     return sorted(of_this, key=lambda question: oracle.KEPT[question][0])[:2]
 
 
-@pytest.mark.parametrize("name", [
-    pytest.param(name, marks=in_long_double if "long_double" in name else ()) for name in oracle.FUNCTIONS])
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=in_long_double if "long_double" in name else ()) for name in oracle.FUNCTIONS]
+)
 def test_what_is_kept_is_what_the_oracle_finds(name):
     questions = quickest(name)
     assert questions
@@ -62,8 +63,12 @@ def agree(found, kept, within):
 def test_orbits_in_long_double_agree_with_the_reference(row):
     times = [state["t"] for state in row["states"]]
     exact = oracle.as_long_doubles([state["y"] for state in row["states"]])
-    found = oracle.orbits_in_long_double(SYSTEMS[row["system"]], oracle.as_long_doubles([row["y0"]]),
-                                         oracle.as_long_doubles([parameters_of(row)]), oracle.as_long_doubles([times]))
+    found = oracle.orbits_in_long_double(
+        SYSTEMS[row["system"]],
+        oracle.as_long_doubles([row["y0"]]),
+        oracle.as_long_doubles([parameters_of(row)]),
+        oracle.as_long_doubles([times]),
+    )
     # The most unstable of these motions makes 1e-19 to 2e-14 by t = 100, and the 2e-16 of a double to 4e-11.
     assert np.max(np.abs(found[0] - exact)) < 1e-13
 
@@ -92,10 +97,18 @@ def test_maps_by_three_orbits_agree_with_all_digits_of_the_reference(row):
         ((0.7, 0.3, "1e-20"), 80, lambda: oracle.map_of_vanishing_f(0.7, 0.3), 1e-15),
         # Next to the saddle the limit is approached as √f.
         ((0.7, 1.0, "1e-14"), 55, lambda: oracle.map_of_vanishing_f(0.7, 1.0, "1e-14"), 1e-6),
-        ((0.7, "1.00000000000001", "1e-14"), 55,
-         lambda: oracle.map_of_vanishing_f(0.7, "1.00000000000001", "1e-14"), 1e-6),
-        ((0.7, "0.99999999999999", "1e-14"), 55,
-         lambda: oracle.map_of_vanishing_f(0.7, "0.99999999999999", "1e-14"), 1e-6),
+        (
+            (0.7, "1.00000000000001", "1e-14"),
+            55,
+            lambda: oracle.map_of_vanishing_f(0.7, "1.00000000000001", "1e-14"),
+            1e-6,
+        ),
+        (
+            (0.7, "0.99999999999999", "1e-14"),
+            55,
+            lambda: oracle.map_of_vanishing_f(0.7, "0.99999999999999", "1e-14"),
+            1e-6,
+        ),
         # On the curve at n3 = 1/4, and inside it by 1e-20: the torus has the width of the square root of that.
         ((0.7, 1.625, "1.87499999999999999999"), 60, lambda: oracle.map_on_the_curve(0.7, 0.25), 1e-9),
         ((0.1, 1.625, "1.87499999999999999999"), 60, lambda: oracle.map_on_the_curve(0.1, 0.25), 1e-9),
@@ -148,7 +161,7 @@ def test_the_steady_rotation_agrees_with_a_taylor_series():
 @pytest.mark.parametrize(
     ("field", "solution"),
     [
-        (lambda y, p: (-y[0] ** 2,), lambda t: 1 / (1 + t)),
+        (lambda y, p: (-(y[0] ** 2),), lambda t: 1 / (1 + t)),
         (lambda y, p: (1 / y[0],), lambda t: math.sqrt(1 + 2 * t)),
         (lambda y, p: ((p[0] - y[0] ** 3 / y[0]) / 2 + y[0] * (y[0] - 1) / 2,), lambda t: 2 - math.exp(-t / 2)),
         (lambda y, p: (3 - y[0] * p[0],), lambda t: 1.5 - math.exp(-2 * t) / 2),
@@ -226,8 +239,12 @@ def test_the_error_estimates_of_orbits_are_right(orbits, name):
     scale = np.maximum(1.0, np.max(np.abs(exact), axis=(1, 2)))
     # Two runs of a chaotic motion may err alike.  Of the Euler–Poisson equations, which are chaotic for most bodies,
     # 5 in 300 did at `precise`.
-    check(true, np.array([orbit.error_estimate for orbit in found]), scale,
-          share=0.02 if system.name == "euler-poisson" else 0.01)
+    check(
+        true,
+        np.array([orbit.error_estimate for orbit in found]),
+        scale,
+        share=0.02 if system.name == "euler-poisson" else 0.01,
+    )
 
 
 # ---- circle maps ------------------------------------------------------------------------------------------------
@@ -235,10 +252,12 @@ def test_the_error_estimates_of_orbits_are_right(orbits, name):
 
 PLACES = {
     "anywhere": lambda random: (
-        random.choice([random.uniform(-0.99, 4.0), -1 + 10 ** random.uniform(-6.0, 4.0)]), random.uniform()
+        random.choice([random.uniform(-0.99, 4.0), -1 + 10 ** random.uniform(-6.0, 4.0)]),
+        random.uniform(),
     ),
     "next to the separatrix": lambda random: (
-        1 + random.choice([-1, 1]) * 10 ** random.uniform(-7.0, -1.0), 10 ** random.uniform(-4.0, 0.0)
+        1 + random.choice([-1, 1]) * 10 ** random.uniform(-7.0, -1.0),
+        10 ** random.uniform(-4.0, 0.0),
     ),
     "next to the edge": lambda random: (random.uniform(-0.9, 4.0), 1 - 10 ** random.uniform(-10.0, -1.0)),
 }
@@ -258,8 +277,10 @@ def maps(request):
     tori, phases = [random_torus(random, request.param) for _ in range(TORI)], random.uniform(-math.pi, math.pi, 16)
     # The oracle checks for itself that its digits are enough: the saddle takes some.
     exact = oracle.maps_by_three_orbits(tori, digits=30 if "separatrix" in request.param else 27)
-    theta, slope = (np.array([[f(m, phi) for phi in phases] for m in exact])
-                    for f in (oracle.MoebiusMap.theta, oracle.MoebiusMap.slope))
+    theta, slope = (
+        np.array([[f(m, phi) for phi in phases] for m in exact])
+        for f in (oracle.MoebiusMap.theta, oracle.MoebiusMap.slope)
+    )
     return tori, phases, theta, slope, np.exp([m.log_trace for m in exact])
 
 
@@ -269,6 +290,8 @@ def test_the_error_estimates_of_circle_maps_are_right(maps, name):
     found = [circle_map(*torus, level(name)) for torus in tori]
     turned = np.abs(np.angle(np.exp(1j * (np.array([m.theta(phases) for m in found]) - theta))))
     # Measured on the graph of Θ: where it is steep, an error of Θ is one of φ.
-    true = np.maximum(np.max(turned / np.maximum(1.0, slope), axis=1),
-                      np.abs(np.array([m.trace for m in found]) - trace) / np.maximum(1.0, trace))
+    true = np.maximum(
+        np.max(turned / np.maximum(1.0, slope), axis=1),
+        np.abs(np.array([m.trace for m in found]) - trace) / np.maximum(1.0, trace),
+    )
     check(true, np.array([m.error_estimate for m in found]), 1.0)

@@ -79,8 +79,10 @@ def test_up_to_the_crossing_that_is_named_an_orbit_is_where_it_is_drawn(followed
     rows, truth, _ = followed
     own, tight = rows[name]
     counts = right_crossings(own, tight, PIXELS, PERIODS)
-    worst = [errors_in_pixels(one[:count], exact[:count], PIXELS, PERIODS).max(initial=0.0)
-             for one, exact, count in zip(own, truth, counts, strict=True)]
+    worst = [
+        errors_in_pixels(one[:count], exact[:count], PIXELS, PERIODS).max(initial=0.0)
+        for one, exact, count in zip(own, truth, counts, strict=True)
+    ]
     assert len(worst) >= 290
     assert within_a_factor_of_ten(worst, np.full(len(worst), 0.5))
     # Nor is it a cautious guess: for most orbits that are lost, the crossing named is next to the true one.
@@ -172,8 +174,10 @@ def test_the_error_of_an_exponent_is_what_its_time_promises():
 def test_the_steps_of_an_exponent_matter_less_than_its_spread(name):
     """A chaotic orbit is another one at each level; a regular one has the same exponent."""
     state, parameters, nu = motion(np.random.default_rng(1))
-    exact, found = (lyapunov_exponent(SYSTEM.at(parameters), state, 1000.0 / nu, PLANS[Computation.EXPONENT][one].level)
-                    for one in ("reference", name))
+    exact, found = (
+        lyapunov_exponent(SYSTEM.at(parameters), state, 1000.0 / nu, PLANS[Computation.EXPONENT][one].level)
+        for one in ("reference", name)
+    )
     assert abs(found.value - exact.value) <= exact.spread
 
 
@@ -186,8 +190,9 @@ def basins_of_discs(random, cells):
 
     def picture(m, n):
         x, y = np.meshgrid((np.arange(m) + 0.5) / m, (np.arange(n) + 0.5) / n)
-        return np.any([np.hypot(x - a, y - b) < r for (a, b), r in zip(centres, radii, strict=True)],
-                      axis=0).astype(float)
+        return np.any([np.hypot(x - a, y - b) < r for (a, b), r in zip(centres, radii, strict=True)], axis=0).astype(
+            float
+        )
 
     return picture(*cells), picture(2 * cells[0], 2 * cells[1])
 
@@ -303,8 +308,16 @@ def test_a_cloud_is_as_exact_as_the_points_that_are_computed_twice_say(clouds, n
     for body, states, times, exact in clouds:
         found = carried(body, states, times, level)
         fastest = float(np.abs(exact.omega).max())
-        errors.append(max(float(np.abs(left - right).max()) / unit for left, right, unit in (
-            (found.log_s, exact.log_s, 1.0), (found.gamma, exact.gamma, 1.0), (found.along, exact.along, fastest))))
+        errors.append(
+            max(
+                float(np.abs(left - right).max()) / unit
+                for left, right, unit in (
+                    (found.log_s, exact.log_s, 1.0),
+                    (found.gamma, exact.gamma, 1.0),
+                    (found.along, exact.along, fastest),
+                )
+            )
+        )
         estimates.append(found.error_estimate)
     assert within_a_factor_of_ten(errors, estimates)
     # Of a few points only the estimate may be missed by a little.

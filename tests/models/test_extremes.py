@@ -118,18 +118,30 @@ def map_error(found, truth):
     # An elliptic map turns by arccos(t/2), whichever whole turns are added; −½ < ρ ≤ 0 for f > 0.
     rotation = abs(abs(math.cos(math.pi * found.rotation_number)) - min(1.0, half))
     wrong_kind = float(abs(half - 1) > 1e-3 and (found.kind == "hyperbolic") != (half > 1))
-    return float(max(np.max(turned(found.theta(PHASES), exact) / steepness), trace_error(found, truth.log_trace),
-                     rotation, wrong_kind))
+    return float(
+        max(
+            np.max(turned(found.theta(PHASES), exact) / steepness),
+            trace_error(found, truth.log_trace),
+            rotation,
+            wrong_kind,
+        )
+    )
 
 
 def a_map(name, a, h, f, truth, against, **options):
     once = cache(truth)
-    return Row(f"Θ: {name}", against, lambda grade: map_error(circle_map(a, h, f, level(grade)), once()),
-               torus=(a, h, f), **options)
+    return Row(
+        f"Θ: {name}",
+        against,
+        lambda grade: map_error(circle_map(a, h, f, level(grade)), once()),
+        torus=(a, h, f),
+        **options,
+    )
 
 
 def says_so(a, h, f, error):
     """The status is not OK, and the estimate covers this error, or says that no digit is known."""
+
     def admitted(grade):
         found = circle_map(a, h, f, level(grade))
         return found.status is not Status.OK and found.error_estimate >= min(0.1, error / 10)
@@ -138,8 +150,9 @@ def says_so(a, h, f, error):
 
 
 def by_orbits(name, a, h, f, digits=40, **options):
-    return a_map(name, a, h, f, lambda: oracle.map_by_three_orbits(a, h, f, digits),
-                 f"three orbits, {digits} digits", **options)
+    return a_map(
+        name, a, h, f, lambda: oracle.map_by_three_orbits(a, h, f, digits), f"three orbits, {digits} digits", **options
+    )
 
 
 def vanishing(name, a, h, f, **options):
@@ -158,8 +171,15 @@ def by_cycle(name, a, h, f, **options):
         stable, unstable = found.fixed_points
         # Everything but a neighbourhood of the unstable cycle, too small for a double, falls onto the stable one.
         fallen = turned(found.theta([0.0, 1.0, -1.0, 3.0]), phi)
-        return float(max(turned(stable.phi, phi), turned(unstable.phi, -phi), np.max(fallen),
-                         trace_error(found, log_trace), abs(unstable.log_multiplier / (2 * log_trace) - 1)))
+        return float(
+            max(
+                turned(stable.phi, phi),
+                turned(unstable.phi, -phi),
+                np.max(fallen),
+                trace_error(found, log_trace),
+                abs(unstable.log_multiplier / (2 * log_trace) - 1),
+            )
+        )
 
     return Row(f"Θ: {name}", "the cycle, Fourier collocation", error, torus=(a, h, f), **options)
 
@@ -177,9 +197,12 @@ def an_orbit(name, system, state, parameters, times, truth=None, digits=36, agai
         return truth() if truth else oracle.orbit_in_decimals(system, state, parameters, times, digits)
 
     body = system.at(parameters)
-    return Row(f"{system.name}: {name}", against or f"Taylor series, {digits} digits",
-               lambda grade: orbit_error(solve(body, state, times, level(grade)).states, once(), speed),
-               **options)
+    return Row(
+        f"{system.name}: {name}",
+        against or f"Taylor series, {digits} digits",
+        lambda grade: orbit_error(solve(body, state, times, level(grade)).states, once(), speed),
+        **options,
+    )
 
 
 def a_pendulum(name, a, h, phi, times, b=1.0, **options):
@@ -187,15 +210,23 @@ def a_pendulum(name, a, h, phi, times, b=1.0, **options):
     root, fast = math.sqrt(b), 2 * math.sqrt((h + 1) / 2)
     units = np.array([root, root, 1, 1, 1])
     start = np.array([fast * math.sin(phi), fast * math.cos(phi), 0.0, 0.0, 1.0]) * units
-    return an_orbit(name, HESS, start, (a, b), np.asarray(times) / root,
-                    truth=lambda: oracle.pendulum(a, h, phi, times) * units,
-                    against="closed form, loxodromic pendulum", **options)
+    return an_orbit(
+        name,
+        HESS,
+        start,
+        (a, b),
+        np.asarray(times) / root,
+        truth=lambda: oracle.pendulum(a, h, phi, times) * units,
+        against="closed form, loxodromic pendulum",
+        **options,
+    )
 
 
 def at_rest(name, system, top, parameters, **options):
     state = (0.0, 0.0, 0.0, 0.0, top)
-    return an_orbit(name, system, state, parameters, [top * 1e6], truth=lambda: np.array([state]),
-                    against="equilibrium", **options)
+    return an_orbit(
+        name, system, state, parameters, [top * 1e6], truth=lambda: np.array([state]), against="equilibrium", **options
+    )
 
 
 def symmetric(name, system, state, parameters, times, signs, time, **options):
@@ -227,6 +258,7 @@ def steepest(found):
 
 def reversor(name, a, h, f, **options):
     """Θ(−Θ(φ)) = −φ, relative to the steepest slope of Θ."""
+
     def error(grade):
         found = circle_map(a, h, f, level(grade))
         return float(np.max(turned(found.theta(-found.theta(PHASES)), -PHASES)) / steepest(found))
@@ -236,13 +268,19 @@ def reversor(name, a, h, f, **options):
 
 def mirrored(name, a, h, f, **options):
     """−f turns the other way, Θ(π − φ) = π − Θ(φ); −a turns the section through π."""
+
     def error(grade):
         there, other_f, other_a = (circle_map(*x, level(grade)) for x in ((a, h, f), (a, h, -f), (-a, h, f)))
         theta = there.theta(PHASES)
-        return float(max(np.max(turned(other_f.theta(math.pi - PHASES), math.pi - theta)),
-                         np.max(turned(other_a.theta(math.pi + PHASES), math.pi + theta)),
-                         abs(other_f.rotation_number + there.rotation_number),
-                         abs(other_a.rotation_number - there.rotation_number)) / steepest(there))
+        return float(
+            max(
+                np.max(turned(other_f.theta(math.pi - PHASES), math.pi - theta)),
+                np.max(turned(other_a.theta(math.pi + PHASES), math.pi + theta)),
+                abs(other_f.rotation_number + there.rotation_number),
+                abs(other_a.rotation_number - there.rotation_number),
+            )
+            / steepest(there)
+        )
 
     return Row(f"Θ, mirrored: {name}", "its mirror images", error, **options)
 
@@ -258,17 +296,23 @@ def drift(name, system, state, parameters, span, **options):
 
 def on_the_grid(name, a, h, f, digits=50, **options):
     """One rotation number of the picture's grid; between −½ and 0 for f > 0."""
+
     @cache
     def once():
         half_trace = math.exp(min(oracle.map_by_three_orbits(a, h, f, digits).log_trace, 1.0)) / 2
         return -math.acos(min(1.0, half_trace)) / math.pi
 
-    return Row(f"grid of rotation numbers: {name}", f"three orbits, {digits} digits",
-               lambda grade: abs(float(rotation_number_grid(a, [h], [f], level(grade))[0, 0]) - once()), **options)
+    return Row(
+        f"grid of rotation numbers: {name}",
+        f"three orbits, {digits} digits",
+        lambda grade: abs(float(rotation_number_grid(a, [h], [f], level(grade))[0, 0]) - once()),
+        **options,
+    )
 
 
 def on_the_lock_boundary(name, a, **options):
     """How far in h, relative to h + 1, the middle of the boundary is from where the trace is 2."""
+
     def error(grade):
         h, f = lock_boundary(a, level(grade), points=7)[3]
         step = 1e-6 * (h + 1)
@@ -280,6 +324,7 @@ def on_the_lock_boundary(name, a, **options):
 
 def a_check(name, tensor, **options):
     """With I11 = I22 = 1: I33 = 1 ± √(1 − 4(I13² + I23²))."""
+
     def error(_):
         with mpmath.workdps(40):
             I13, I23 = map(mpmath.mpf, tensor[2:])
@@ -300,6 +345,7 @@ def in_the_body(body, states):
 
 def on_a_torus(name, body, h, phi, span, **options):
     """`track` on the torus f = 0, from n3 = −1 (on the separatrix from n3 = 1)."""
+
     def error(grade):
         found = track(body, h, 0.0, phi, span / math.sqrt(abs(body.b)), level(grade), 4.0)
         times = found.orbit.times[::40]
@@ -312,6 +358,7 @@ def on_a_torus(name, body, h, phi, span, **options):
 
 def the_cycles(name, body, h, **options):
     """Both cycles of the torus f = 0: great circles φ = ∓π/2, the stable one first (a > 0)."""
+
     def error(grade):
         stable = circle_map(body.a, h, 0.0, level(grade)).fixed_points[0]
         start = -mpmath.ellipk(2 / (mpmath.mpf(h) + 1)) * mpmath.sqrt(2 / (mpmath.mpf(h) + 1))
@@ -337,8 +384,13 @@ def settled_turning(body, omega, times, digits=30):
         speed, gamma = mpmath.norm(point), mpmath.matrix([mpmath.mpf(str(x)) for x in state[2:]])
         axis = point / speed
         along = axis * mpmath.fdot(axis, gamma)
-        across = mpmath.matrix([gamma[1] * axis[2] - gamma[2] * axis[1], gamma[2] * axis[0] - gamma[0] * axis[2],
-                                gamma[0] * axis[1] - gamma[1] * axis[0]])
+        across = mpmath.matrix(
+            [
+                gamma[1] * axis[2] - gamma[2] * axis[1],
+                gamma[2] * axis[0] - gamma[0] * axis[2],
+                gamma[0] * axis[1] - gamma[1] * axis[0],
+            ]
+        )
         rows = []
         for t in times:
             angle = speed * (mpmath.mpf(t) - mpmath.mpf(near))
@@ -373,8 +425,9 @@ def free(name, tensor, omega, times, truth=None, against="Taylor series of `Biz1
 
 def free_refusal(name, tensor, omega, words, error=InvalidParameter, times=(1.0,)):
     """Of a motion without a field."""
-    return Refusal(f"free Suslov, {name}",
-                   lambda grade: free_motion(SuslovBody(*tensor), omega, UP, times, grade), error, words)
+    return Refusal(
+        f"free Suslov, {name}", lambda grade: free_motion(SuslovBody(*tensor), omega, UP, times, grade), error, words
+    )
 
 
 def free_F2(name, k, omega, **options):
@@ -404,12 +457,14 @@ def cos_chi_in_decimals(I11, I22, I13, I23):
             k = mpmath.sqrt(mpmath.mpc(kappa**2 - K**2))
             return float(mpmath.re(2 * mpmath.cos(mpmath.pi * k / 2) ** 2 / mpmath.cosh(mpmath.pi * K / 2) ** 2) - 1)
         C = mpmath.cos(mpmath.pi / 2 * mpmath.sqrt(kappa**2 - (K + 1j * c) ** 2))
-        return float(2 * ((C.real / mpmath.cosh(mpmath.pi * K / 2)) ** 2
-                          + (C.imag / mpmath.sinh(mpmath.pi * K / 2)) ** 2) - 1)
+        return float(
+            2 * ((C.real / mpmath.cosh(mpmath.pi * K / 2)) ** 2 + (C.imag / mpmath.sinh(mpmath.pi * K / 2)) ** 2) - 1
+        )
 
 
 def the_angle(name, tensor, **options):
     """cos χ on both arcs."""
+
     def error(grade):
         exact = cos_chi_in_decimals(*tensor)
         return max(abs(scattering(SuslovBody(*tensor), level(grade), arc).cos_chi - exact) for arc in (1, -1))
@@ -467,17 +522,30 @@ ROWS = [
     vanishing("f = 0, h = 0.3", 0.5, 0.3, 0.0),
     vanishing("f = 1e-300, h = 1.5", 0.5, 1.5, 1e-300),
     vanishing("f = 1e-300, h = 0.3", 0.5, 0.3, 1e-300),
-    vanishing("f = 1e-100, h = 1", 0.5, 1.0, 1e-100, admitted=says_so(0.5, 1.0, 1e-100, 3.0),
-              because="the last place of h is f times 1e84"),
+    vanishing(
+        "f = 1e-100, h = 1",
+        0.5,
+        1.0,
+        1e-100,
+        admitted=says_so(0.5, 1.0, 1e-100, 3.0),
+        because="the last place of h is f times 1e84",
+    ),
     by_orbits("f = 1e-12, h = 1.5", 0.5, 1.5, 1e-12, digits=60),
     by_orbits("f = 1e-12, h = 0.3", 0.5, 0.3, 1e-12, digits=60),
     by_orbits("f = −1e-12, h = −0.5", 0.5, -0.5, -1e-12, digits=60),
     by_orbits("f = f_max (1 − 1e-12), h = 0.3", 0.5, 0.3, f_max(0.3) * (1 - 1e-12), floor=1e-10, because=DEPTH),
     by_orbits("f = f_max (1 − 1e-12), h = 1.5", 0.5, 1.5, f_max(1.5) * (1 - 1e-12), floor=1e-10, because=DEPTH),
     by_orbits("f = f_max (1 − 1e-12), h = −0.99", 0.5, -0.99, f_max(-0.99) * (1 - 1e-12), floor=1e-10, because=DEPTH),
-    a_map("f = f_max, n3 = 0.4", 0.5, curve_point(0.4)[0], f_max(curve_point(0.4)[0]),
-          lambda: oracle.map_on_the_curve(0.5, 0.4), "closed form, on the curve",
-          floor=1e-7, because="the last place of f moves the turning points by 1e-8"),
+    a_map(
+        "f = f_max, n3 = 0.4",
+        0.5,
+        curve_point(0.4)[0],
+        f_max(curve_point(0.4)[0]),
+        lambda: oracle.map_on_the_curve(0.5, 0.4),
+        "closed form, on the curve",
+        floor=1e-7,
+        because="the last place of f moves the turning points by 1e-8",
+    ),
     # h
     vanishing("h = −1 + 1e-12, f = 0", 0.5, BOTTOM, 0.0),
     by_orbits("h = −1 + 1e-12, f = f_max/2", 0.5, BOTTOM, 0.5 * f_max(BOTTOM)),
@@ -503,12 +571,33 @@ ROWS = [
     by_orbits("a = 1e-8, h = 0.3", 1e-8, 0.3, 0.6),
     vanishing("a = 3, h = 0.3, f = 0", 3.0, 0.3, 0.0),
     vanishing("a = 10, h = 0.3, f = 0", 10.0, 0.3, 0.0, floor=1e-7, because="|α| = 7e7 cancels to a trace of 0"),
-    by_orbits("a = 10, h = 0.3, f = 1e-12", 10.0, 0.3, 1e-12, digits=75, admitted=says_so(10.0, 0.3, 1e-12, 1e-7),
-              floor=1e-7, because="|α| = 7e7 cancels to a trace of 6e-4"),
-    by_orbits("a = 20, h = 0.3, f = 1e-12", 20.0, 0.3, 1e-12, digits=102, admitted=says_so(20.0, 0.3, 1e-12, 1e-5),
-              because="|α| = 1e16 cancels to a trace of 1e5"),
-    vanishing("a = 50, h = 0.3, f = 0", 50.0, 0.3, 0.0, admitted=says_so(50.0, 0.3, 0.0, 1.0),
-              because="|α| = 1e40 cancels to a trace of 0"),
+    by_orbits(
+        "a = 10, h = 0.3, f = 1e-12",
+        10.0,
+        0.3,
+        1e-12,
+        digits=75,
+        admitted=says_so(10.0, 0.3, 1e-12, 1e-7),
+        floor=1e-7,
+        because="|α| = 7e7 cancels to a trace of 6e-4",
+    ),
+    by_orbits(
+        "a = 20, h = 0.3, f = 1e-12",
+        20.0,
+        0.3,
+        1e-12,
+        digits=102,
+        admitted=says_so(20.0, 0.3, 1e-12, 1e-5),
+        because="|α| = 1e16 cancels to a trace of 1e5",
+    ),
+    vanishing(
+        "a = 50, h = 0.3, f = 0",
+        50.0,
+        0.3,
+        0.0,
+        admitted=says_so(50.0, 0.3, 0.0, 1.0),
+        because="|α| = 1e40 cancels to a trace of 0",
+    ),
     vanishing("a = 50, h = 1.5, f = 0", 50.0, 1.5, 0.0),
     vanishing("a = 50, h = 1.5, f = 1e-300", 50.0, 1.5, 1e-300),
     by_cycle("a = 50, h = 1.5, f = 0.6", 50.0, 1.5, 0.6),
@@ -540,20 +629,50 @@ ROWS = [
     a_pendulum("f = 0, h = 0.3", 0.5, 0.3, 0.4, [1.0, 5.0, 20.0]),
     a_pendulum("f = 0, h = 1.7, backward", 0.5, 1.7, 0.4, [-1.0, -5.0, -20.0]),
     a_pendulum("separatrix, h = 1 exactly", 0.5, 1.0, math.pi / 2, [1.0, 5.0, 10.0]),
-    an_orbit("separatrix, h = 1, φ = 0.4", HESS, (2 * math.sin(0.4), 2 * math.cos(0.4), 0.0, 0.0, 1.0), (0.5, 1.0),
-             [1.0, 5.0, 10.0], floor=1e-11, because=SADDLE),
-    an_orbit("separatrix grazed, h = 1 + 2e-9", HESS, (2 + 1e-9, 0.0, 0.0, 0.0, 1.0), (0.5, 1.0), [1.0, 12.0, 24.0],
-             floor=1e-6, because=CLOSE),
-    an_orbit("separatrix grazed, h = 1 − 2e-9", HESS, (2 - 1e-9, 0.0, 0.0, 0.0, 1.0), (0.5, 1.0), [1.0, 12.0, 24.0],
-             floor=1e-6, because=CLOSE),
-    an_orbit("separatrix grazed, h = 1, f = 1e-6", HESS, GRAZING, (0.5, 1.0), [1.0, 8.0, 16.0], floor=1e-9,
-             because=SADDLE),
+    an_orbit(
+        "separatrix, h = 1, φ = 0.4",
+        HESS,
+        (2 * math.sin(0.4), 2 * math.cos(0.4), 0.0, 0.0, 1.0),
+        (0.5, 1.0),
+        [1.0, 5.0, 10.0],
+        floor=1e-11,
+        because=SADDLE,
+    ),
+    an_orbit(
+        "separatrix grazed, h = 1 + 2e-9",
+        HESS,
+        (2 + 1e-9, 0.0, 0.0, 0.0, 1.0),
+        (0.5, 1.0),
+        [1.0, 12.0, 24.0],
+        floor=1e-6,
+        because=CLOSE,
+    ),
+    an_orbit(
+        "separatrix grazed, h = 1 − 2e-9",
+        HESS,
+        (2 - 1e-9, 0.0, 0.0, 0.0, 1.0),
+        (0.5, 1.0),
+        [1.0, 12.0, 24.0],
+        floor=1e-6,
+        because=CLOSE,
+    ),
+    an_orbit(
+        "separatrix grazed, h = 1, f = 1e-6", HESS, GRAZING, (0.5, 1.0), [1.0, 8.0, 16.0], floor=1e-9, because=SADDLE
+    ),
     a_pendulum("h = −1 + 1e-12", 0.5, BOTTOM, 0.4, [1.0, 10.0, 100.0], speed=1.0),  # the unit of ω is √b, not 1e-6
     a_pendulum("h = 1e8", 0.5, 1e8, 0.4, [1e-5, 1e-4, 1e-2]),
     a_pendulum("b = 1e6", 0.5, 1.7, 0.4, [1.0, 5.0, 20.0], b=1e6),
     a_pendulum("b = 1e-6", 0.5, 1.7, 0.4, [1.0, 5.0, 20.0], b=1e-6),
-    a_pendulum("b = 1e-6, t = 1e6", 0.5, 0.3, 0.4, [1e2, 1e3], b=1e-6, floor=1e-11,
-               because="the last place of the start changes the period, 1e3/2π times over"),
+    a_pendulum(
+        "b = 1e-6, t = 1e6",
+        0.5,
+        0.3,
+        0.4,
+        [1e2, 1e3],
+        b=1e-6,
+        floor=1e-11,
+        because="the last place of the start changes the period, 1e3/2π times over",
+    ),
     a_pendulum("a = 50", 50.0, 1.5, 0.4, [0.1, 1.0, 3.0]),
     a_pendulum("a = 1e4", 1e4, 1.5, 0.4, [0.001, 0.01, 0.1]),
     an_orbit("a = 0", HESS, HESS_START, (0.0, 1.0), [1.0, 5.0, 20.0]),
@@ -568,17 +687,29 @@ ROWS = [
     # orbits of Biz131
     an_orbit("I11/I22 = 1e6", SUSLOV, (1e-3, 1.0, 0.6, 0.0, 0.8), with_field(HEAVY), [1.0, 10.0]),
     # ω2 may come to √(2E/I22) = 1000: that is the unit in which the state is O(1).
-    an_orbit("I11/I22 = 1e6, all energy in ω1", SUSLOV, (1.0, 0.0, 0.6, 0.0, 0.8), with_field(HEAVY), [0.1, 1.0],
-             speed=1000.0),
+    an_orbit(
+        "I11/I22 = 1e6, all energy in ω1",
+        SUSLOV,
+        (1.0, 0.0, 0.6, 0.0, 0.8),
+        with_field(HEAVY),
+        [0.1, 1.0],
+        speed=1000.0,
+    ),
     an_orbit("I11/I22 = 1e-6", SUSLOV, (1.0, 1e-3, 0.6, 0.0, 0.8), with_field(swapped(HEAVY)), [1.0, 10.0]),
     an_orbit("I22 = 1e-6", SUSLOV, (0.1, 10.0, 0.6, 0.0, 0.8), with_field(LIGHT), [0.001, 0.02]),
     an_orbit("I11 = 1e-6", SUSLOV, (10.0, 0.1, 0.6, 0.0, 0.8), with_field(swapped(LIGHT)), [0.001, 0.02]),
     an_orbit("a body all but flat", SUSLOV, START, with_field(FLAT), [1.0, 5.0, 20.0]),
     an_orbit("no body (triangle inequality)", SUSLOV, START, with_field(NO_BODY), [1.0, 5.0, 20.0]),
     an_orbit("I13 = I23 = 0", SUSLOV, START, with_field((2.0, 1.0, 0.0, 0.0)), [1.0, 5.0, 20.0]),
-    an_orbit("I13 = I23 = 0, b = 0, t = 1e4", SUSLOV, START, (2.0, 1.0, 0, 0, 0, 0, 0), [1.0, 100.0, 1e4],
-             truth=lambda: oracle.steady_rotation(START[:2], START[2:], [1.0, 100.0, 1e4]),
-             against="closed form, rotation"),
+    an_orbit(
+        "I13 = I23 = 0, b = 0, t = 1e4",
+        SUSLOV,
+        START,
+        (2.0, 1.0, 0, 0, 0, 0, 0),
+        [1.0, 100.0, 1e4],
+        truth=lambda: oracle.steady_rotation(START[:2], START[2:], [1.0, 100.0, 1e4]),
+        against="closed form, rotation",
+    ),
     an_orbit("b = 0", SUSLOV, START, (*GENERIC[:4], 0, 0, 0), [1.0, 10.0, 100.0]),
     an_orbit("b = 0, backward", SUSLOV, START, (*GENERIC[:4], 0, 0, 0), [-1.0, -10.0, -100.0]),
     an_orbit("b = 1e6", SUSLOV, (800.0, -400.0, 0.6, 0.0, 0.8), with_field(GENERIC[:4], 1e6), [0.001, 0.02]),
@@ -599,16 +730,28 @@ ROWS = [
     on_a_torus("a = 1e4", HessBody(1e-4, 1.0, -1.0), 1.7, 0.4, 1.0),
     the_cycles("a = 0.5, b3 = 1e6", HessBody(1.0, 0.5, 1e6), 1.7),
     the_cycles("a = 50", HessBody(1.0, 50.0, -1.0), 1.7),
-    a_check("all but flat by 1e-9", FLAT, floor=1e-11,
-            because="a square root of 1e-9, of which a double keeps 7 digits"),
-    a_check("I13 = 0, all but flat by 1e-12", (1.0, 1.0, 0.0, 0.5 - 5e-13), floor=1e-9,
-            because="a square root of 1e-12, of which a double keeps 4 digits"),
+    a_check(
+        "all but flat by 1e-9", FLAT, floor=1e-11, because="a square root of 1e-9, of which a double keeps 7 digits"
+    ),
+    a_check(
+        "I13 = 0, all but flat by 1e-12",
+        (1.0, 1.0, 0.0, 0.5 - 5e-13),
+        floor=1e-9,
+        because="a square root of 1e-12, of which a double keeps 4 digits",
+    ),
     # symmetries of orbits
     symmetric("time reversal, a = 1e4", HESS, HESS_START, (1e4, 1.0), [0.001, 0.01], (-1, -1, 1, 1, 1), -1),
     symmetric("reflection, b = 1e6", HESS, HESS_START, (0.75, 1e6), [0.001, 0.02], (1, -1, -1, 1, 1), 1),
     symmetric("reversor, h = 1, f = 1e-6", HESS, GRAZING, (0.5, 1.0), [1.0, 20.0], (-1, 1, -1, 1, 1), -1),
-    symmetric("time reversal, I11/I22 = 1e6", SUSLOV, (1e-3, 1.0, 0.6, 0.0, 0.8), with_field(HEAVY), [1.0, 10.0],
-              (-1, -1, 1, 1, 1), -1),
+    symmetric(
+        "time reversal, I11/I22 = 1e6",
+        SUSLOV,
+        (1e-3, 1.0, 0.6, 0.0, 0.8),
+        with_field(HEAVY),
+        [1.0, 10.0],
+        (-1, -1, 1, 1, 1),
+        -1,
+    ),
     there_and_back("a = 50", HESS, HESS_START, (50.0, 1.0), 0.1),
     there_and_back("b = 1e-6", HESS, HESS_START, (0.75, 1e-6), 20.0),
     there_and_back("I11/I22 = 1e6", SUSLOV, (1e-3, 1.0, 0.6, 0.0, 0.8), with_field(HEAVY), 10.0),
@@ -631,10 +774,26 @@ ROWS = [
     free("ω = 1e-6", SLANTING, (0.8e-6, -0.2e-6), [1e6, 1e7, 2e7]),
     free("I13, I23 = 0.01", (1.0, 1.0, 0.006, 0.008), (0.7, 0.7), [1.0, 100.0, 300.0]),
     free("t = 1e3", SLANTING, (0.8, -0.2), [1e3], settled_turning, "closed form, after the passage"),
-    free("t = 1e8", SLANTING, (0.8, -0.2), [1e8], settled_turning, "closed form, after the passage", floor=1e-7,
-         because="the last place of ω times 1e8 radians"),
-    free("t = −1e8", SLANTING, (0.8, -0.2), [-1e8], settled_turning, "closed form, before the passage", floor=1e-7,
-         because="the last place of ω times 1e8 radians"),
+    free(
+        "t = 1e8",
+        SLANTING,
+        (0.8, -0.2),
+        [1e8],
+        settled_turning,
+        "closed form, after the passage",
+        floor=1e-7,
+        because="the last place of ω times 1e8 radians",
+    ),
+    free(
+        "t = −1e8",
+        SLANTING,
+        (0.8, -0.2),
+        [-1e8],
+        settled_turning,
+        "closed form, before the passage",
+        floor=1e-7,
+        because="the last place of ω times 1e8 radians",
+    ),
     free_F2("k = 15", 15, (2.0, 1e-3)),
     free_F2("k = 15, 1e-300 off the line", 15, (2.0, 1e-300)),
     free_F2("k = 15, ω = 1e6", 15, (1e6, 0.3e6)),
@@ -660,31 +819,64 @@ REFUSALS = [
     Refusal("h = −1", lambda grade: circle_map(0.5, -1.0, 0.0, grade), OutsideRegion, "h = -1 .*Choose h > −1"),
     Refusal("h = −1 − 1e-12", lambda grade: circle_map(0.5, -1 - 1e-12, 0.0, grade), OutsideRegion, "Choose h > −1"),
     Refusal("h = 1e13", lambda grade: circle_map(0.5, 1e13, 0.0, grade), InvalidParameter, "choose h ≤ 1e12"),
-    Refusal("f = f_max (1 + 1e-12)", lambda grade: circle_map(0.5, 0.3, f_max(0.3) * (1 + 1e-12), grade), OutsideRegion,
-            "choose .f. ≤ 1.095.*, or a larger h"),
+    Refusal(
+        "f = f_max (1 + 1e-12)",
+        lambda grade: circle_map(0.5, 0.3, f_max(0.3) * (1 + 1e-12), grade),
+        OutsideRegion,
+        "choose .f. ≤ 1.095.*, or a larger h",
+    ),
     Refusal("h = 1, f = 0", lambda grade: circle_map(0.5, 1.0, 0.0, grade), Separatrix, "no return. Move h or f"),
     Refusal("h = 1, f = 1e-300", lambda grade: circle_map(0.5, 1.0, 1e-300, grade), Separatrix, "Move h or f a little"),
     Refusal("a = 1e6", lambda grade: circle_map(1e6, 1.5, 0.6, grade), WorkLimit, "too many steps: choose smaller a"),
     Refusal("a = 1.1e6", lambda grade: circle_map(1.1e6, 1.5, 0.6, grade), InvalidParameter, "choose .a. ≤ 1e.06"),
     Refusal("grid, h = −1", lambda grade: rotation_number_grid(0.5, [-1.0], [0.0], grade), InvalidParameter, "−1 < h"),
     Refusal("lock boundary, a = 1.1e6", lambda grade: lock_boundary(1.1e6, grade), InvalidParameter, "choose .a. ≤ 1e"),
-    Refusal("eq01, t = 1e6", lambda grade: solve(HESS.at((0.75, 1.0)), HESS_START, [1e6], grade), WorkLimit,
-            "more than 1000000 steps: choose a shorter one"),
-    Refusal("eq01, t = −1e6", lambda grade: solve(HESS.at((0.75, 1.0)), HESS_START, [-1e6], grade), WorkLimit,
-            "choose a shorter one"),
-    Refusal("eq01, a = 1e6, t = 100", lambda grade: solve(HESS.at((1e6, 1.0)), HESS_START, [100.0], grade), WorkLimit,
-            "choose a shorter one"),
-    Refusal("Biz131, t = 1e6", lambda grade: solve(SUSLOV.at(GENERIC), START, [1e6], grade), WorkLimit,
-            "choose a shorter one"),
-    Refusal("Biz131, I11 = 0", lambda grade: solve(SUSLOV.at((0.0, *GENERIC[1:])), START, [1.0], grade),
-            NotPositiveDefinite, "I11 = 0.*choose I11 > 0"),
-    Refusal("Biz131, I22 = −1e-12", lambda grade: solve(SUSLOV.at((2.0, -1e-12, *GENERIC[2:])), START, [1.0], grade),
-            NotPositiveDefinite, "I22 = -1e-12.*choose I22 > 0"),
-    Refusal("Biz131, I11 = 1e-300", lambda grade: solve(SUSLOV.at((1e-300, *GENERIC[1:])), START, [1.0], grade),
-            InvalidParameter, "choose a ratio"),
+    Refusal(
+        "eq01, t = 1e6",
+        lambda grade: solve(HESS.at((0.75, 1.0)), HESS_START, [1e6], grade),
+        WorkLimit,
+        "more than 1000000 steps: choose a shorter one",
+    ),
+    Refusal(
+        "eq01, t = −1e6",
+        lambda grade: solve(HESS.at((0.75, 1.0)), HESS_START, [-1e6], grade),
+        WorkLimit,
+        "choose a shorter one",
+    ),
+    Refusal(
+        "eq01, a = 1e6, t = 100",
+        lambda grade: solve(HESS.at((1e6, 1.0)), HESS_START, [100.0], grade),
+        WorkLimit,
+        "choose a shorter one",
+    ),
+    Refusal(
+        "Biz131, t = 1e6",
+        lambda grade: solve(SUSLOV.at(GENERIC), START, [1e6], grade),
+        WorkLimit,
+        "choose a shorter one",
+    ),
+    Refusal(
+        "Biz131, I11 = 0",
+        lambda grade: solve(SUSLOV.at((0.0, *GENERIC[1:])), START, [1.0], grade),
+        NotPositiveDefinite,
+        "I11 = 0.*choose I11 > 0",
+    ),
+    Refusal(
+        "Biz131, I22 = −1e-12",
+        lambda grade: solve(SUSLOV.at((2.0, -1e-12, *GENERIC[2:])), START, [1.0], grade),
+        NotPositiveDefinite,
+        "I22 = -1e-12.*choose I22 > 0",
+    ),
+    Refusal(
+        "Biz131, I11 = 1e-300",
+        lambda grade: solve(SUSLOV.at((1e-300, *GENERIC[1:])), START, [1.0], grade),
+        InvalidParameter,
+        "choose a ratio",
+    ),
     Refusal("a body with I22 = 0", lambda _: SuslovBody(1.0, 0.0, 0.0, 0.0), NotPositiveDefinite, "choose I22 > 0"),
-    Refusal("check_body, I11 = −1e-12", lambda _: check_body(-1e-12, 1.0, 0.0, 0.0), NotPositiveDefinite,
-            "choose I11 > 0"),
+    Refusal(
+        "check_body, I11 = −1e-12", lambda _: check_body(-1e-12, 1.0, 0.0, 0.0), NotPositiveDefinite, "choose I11 > 0"
+    ),
     free_refusal("I13 = I23 = 0", (2.0, 1.0, 0.0, 0.0), (1.0, 0.5), "Choose I13 or I23 other than 0"),
     free_refusal("on the line of equilibria", FIGURE_3, (2.0, 0.0), "on the line of equilibria.*Move ω off the line"),
     free_refusal("ω = 0", FIGURE_3, (0.0, 0.0), "at rest.*Choose ω1 or ω2 other than 0"),
@@ -693,16 +885,36 @@ REFUSALS = [
     free_refusal("b3 = 1e-300", (*SLANTING, 0.0, 0.0, 1e-300), (1.0, 0.5), "Set b1 = b2 = b3 = 0"),
     free_refusal("I23 = 1e-5", (2.0, 1.0, 0.0, 1e-5), (1.0, 0.5), "choose larger I13, I23", WorkLimit),
     Refusal("free Suslov, h = 0", lambda _: equilibria(SuslovBody(*FIGURE_3), 0.0), InvalidParameter, "choose h > 0"),
-    Refusal("F2, k = 17", lambda _: additional_integral(17, SuslovBody(*FIGURE_3)), InvalidParameter,
-            "choose an odd k from 1 to 15"),
-    Refusal("scattering, I13 = I23 = 0", lambda grade: scattering(SuslovBody(2.0, 1.0, 0.0, 0.0), grade),
-            InvalidParameter, "Choose I13 or I23 other than 0"),
-    Refusal("scattering, I23 = 1e-300", lambda grade: scattering(SuslovBody(2.0, 1.0, 0.0, 1e-300), grade), WorkLimit,
-            "choose larger I13, I23"),
-    Refusal("scattering, δ = 0", lambda grade: scattering(SuslovBody(*SLANTING), grade, 1, 0.0), InvalidParameter,
-            "choose one above 0 and up to"),
-    Refusal("track, b3 = 0", lambda grade: track(HessBody(1.0, 0.5, 0.0), 1.5, 0.6, 0.0, 10.0, grade, 4.0), NoField,
-            "b3 = 0.*Choose b3 other than 0"),
+    Refusal(
+        "F2, k = 17",
+        lambda _: additional_integral(17, SuslovBody(*FIGURE_3)),
+        InvalidParameter,
+        "choose an odd k from 1 to 15",
+    ),
+    Refusal(
+        "scattering, I13 = I23 = 0",
+        lambda grade: scattering(SuslovBody(2.0, 1.0, 0.0, 0.0), grade),
+        InvalidParameter,
+        "Choose I13 or I23 other than 0",
+    ),
+    Refusal(
+        "scattering, I23 = 1e-300",
+        lambda grade: scattering(SuslovBody(2.0, 1.0, 0.0, 1e-300), grade),
+        WorkLimit,
+        "choose larger I13, I23",
+    ),
+    Refusal(
+        "scattering, δ = 0",
+        lambda grade: scattering(SuslovBody(*SLANTING), grade, 1, 0.0),
+        InvalidParameter,
+        "choose one above 0 and up to",
+    ),
+    Refusal(
+        "track, b3 = 0",
+        lambda grade: track(HessBody(1.0, 0.5, 0.0), 1.5, 0.6, 0.0, 10.0, grade, 4.0),
+        NoField,
+        "b3 = 0.*Choose b3 other than 0",
+    ),
     *extremes_ball.refusals(Refusal),
     *extremes_euler_poisson.refusals(Refusal),
     *extremes_suslov.refusals(Refusal),
@@ -739,8 +951,9 @@ def test_kind_trace_cycles_and_rotation_number_of_an_extreme_map_agree_with_each
 def unstable(request):
     """A system with 30 starts at unstable equilibria and next to them, and where these motions truly are."""
     system = systems()[request.param]
-    return system, [(*start, oracle.orbit_in_decimals(system, *map(list, start), 30))
-                    for start in unstable_starts(system, 30)]
+    return system, [
+        (*start, oracle.orbit_in_decimals(system, *map(list, start), 30)) for start in unstable_starts(system, 30)
+    ]
 
 
 @pytest.mark.parametrize("name", PROMISE)
@@ -748,8 +961,9 @@ def test_next_to_an_unstable_equilibrium_no_error_is_more_than_its_estimate_says
     """A run makes the same roundings as a more exact one there: with these as only difference 1e5 times too little."""
     system, starts = unstable
     found = [solve(system.at(p), y, t, level(name)) for y, p, t, _ in starts]
-    true = np.array([np.max(oracle.distances(orbit.states, exact))
-                     for orbit, (*_, exact) in zip(found, starts, strict=True)])
+    true = np.array(
+        [np.max(oracle.distances(orbit.states, exact)) for orbit, (*_, exact) in zip(found, starts, strict=True)]
+    )
     said = np.array([orbit.error_estimate for orbit in found])
     assert np.max(true / said) < 10.0
     assert np.quantile(true / said, 0.95) < 3.0
@@ -816,6 +1030,7 @@ def test_a_refusal_next_to_the_edge_shows_that_f_is_beyond_it():
 def best_second_moment(I11, I22, I13, I23):
     """The least eigenvalue of ½ tr I − I = Σ m x xᵀ for the I33 that makes it largest; it is concave in I33."""
     with mpmath.workdps(50):
+
         def least(I33):
             inertia = mpmath.matrix([[I11, 0, I13], [0, I22, I23], [I13, I23, I33]])
             half_trace = (inertia[0, 0] + inertia[1, 1] + inertia[2, 2]) / 2
@@ -828,10 +1043,21 @@ def best_second_moment(I11, I22, I13, I23):
         return least(low)
 
 
-@pytest.mark.parametrize("tensor", [
-    FLAT, NO_BODY, HEAVY, swapped(HEAVY), LIGHT, swapped(LIGHT), (1e6, 1.0, 0.3, 1000.0), (1e6, 1.0, 0.6, 0.0),
-    (1.0, 1e-6, 0.0, 0.0),
-], ids=str)
+@pytest.mark.parametrize(
+    "tensor",
+    [
+        FLAT,
+        NO_BODY,
+        HEAVY,
+        swapped(HEAVY),
+        LIGHT,
+        swapped(LIGHT),
+        (1e6, 1.0, 0.3, 1000.0),
+        (1e6, 1.0, 0.6, 0.0),
+        (1.0, 1e-6, 0.0, 0.0),
+    ],
+    ids=str,
+)
 def test_next_to_its_limit_the_triangle_inequality_is_decided_right(tensor):
     assert check_body(*tensor).is_body == (best_second_moment(*tensor) > 0)
 
@@ -854,8 +1080,10 @@ def main():
     for name, column, value in measured_rows():
         cells.setdefault(name, {})[column] = value
     rows = {row.name: row for row in ROWS}
-    lines = ["| what is extreme | checked against | draft | standard | precise | reference |",
-             "|---|---|---|---|---|---|"]
+    lines = [
+        "| what is extreme | checked against | draft | standard | precise | reference |",
+        "|---|---|---|---|---|---|",
+    ]
     for name, values in cells.items():
         if "refusal" in values:
             lines.append(f"| {name} | refused: `{values['refusal']}` | | | | |")

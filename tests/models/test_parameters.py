@@ -57,4 +57,8 @@ def test_a_scene_shows_a_parameter_with_its_own_default_and_slider():
     assert isinstance(spec, Number)
     assert (spec.default, field.default, spec.softbounds) == (2.0, 2.0, (0.5, 3.0))
     assert (spec.symbol, spec.bounds, spec.doc, spec.group) == (
-        "I₁₁", parameters.I11.bounds, parameters.I11.doc, "Body")
+        "I₁₁",
+        parameters.I11.bounds,
+        parameters.I11.doc,
+        "Body",
+    )

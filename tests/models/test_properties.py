@@ -29,8 +29,9 @@ omegas = st.tuples(spread(-3, 1), spread(-3, 1))
 
 PARAMETERS = {
     "suslov": st.tuples(*[spread(-3, 3).map(abs)] * 2, *[spread(-3, 3)] * 2, *[spread(-3, 2)] * 3),
-    "ball": st.tuples(*[spread(-3, 3).map(abs)] * 2, *[spread(-3, 3)] * 2, spread(-3, 3).map(abs),
-                      *[spread(-3, 2)] * 3),
+    "ball": st.tuples(
+        *[spread(-3, 3).map(abs)] * 2, *[spread(-3, 3)] * 2, spread(-3, 3).map(abs), *[spread(-3, 2)] * 3
+    ),
     "euler-poisson": st.tuples(*[spread(-3, 3).map(abs)] * 3, *[st.floats(-1.0, 1.0)] * 3, spread(-3, 2)),
     "hess": st.tuples(spread(-4, 2), spread(-3, 2)),
     "plane-potential": st.tuples(*[spread(-3, 3).map(abs)] * 2, *[spread(-3, 2)] * 4),
@@ -43,8 +44,9 @@ def test_every_system_has_its_parameters_drawn():
 
 MILD = {
     "suslov": st.tuples(*[st.floats(0.3, 3.0)] * 2, *[st.floats(-0.3, 0.3)] * 2, *[st.floats(-1.0, 1.0)] * 3),
-    "ball": st.tuples(*[st.floats(0.3, 3.0)] * 2, *[st.floats(-0.3, 0.3)] * 2, st.floats(0.0, 3.0),
-                      *[st.floats(-1.0, 1.0)] * 3),
+    "ball": st.tuples(
+        *[st.floats(0.3, 3.0)] * 2, *[st.floats(-0.3, 0.3)] * 2, st.floats(0.0, 3.0), *[st.floats(-1.0, 1.0)] * 3
+    ),
     "euler-poisson": st.tuples(*[st.floats(0.3, 3.0)] * 3, *[st.floats(-1.0, 1.0)] * 3, st.floats(-1.0, 1.0)),
     "hess": st.tuples(st.floats(-0.5, 0.5), st.floats(0.3, 1.0)),
     "plane-potential": st.tuples(*[st.floats(0.3, 3.0)] * 2, *[st.floats(-1.0, 1.0)] * 4),
@@ -132,8 +134,13 @@ def test_crossings_lie_on_the_plane_and_alternate(motion, normal, offset):
 
 
 @WIDE
-@given(a=spread(-6, 2), excess=spread(-6, 4).map(abs), part=st.floats(-1.0, 1.0), name=st.sampled_from(sorted(LEVELS)),
-       phi=st.floats(-math.pi, math.pi))
+@given(
+    a=spread(-6, 2),
+    excess=spread(-6, 4).map(abs),
+    part=st.floats(-1.0, 1.0),
+    name=st.sampled_from(sorted(LEVELS)),
+    phi=st.floats(-math.pi, math.pi),
+)
 def test_every_circle_map_is_a_reversible_circle_map_or_is_refused(a, excess, part, name, phi):
     h = -1.0 + excess
     try:
@@ -163,8 +170,7 @@ def test_a_result_at_the_floor_is_not_called_right_when_it_is_not(name):
     # Neighbouring orbits part quickly here: no level can keep its promise to the end, and must say so.
     body = SYSTEMS["suslov"].at((2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0))
     orbit = solve(body, (0.8, -0.4, 0.6, 0.0, 0.8), [0.0, 20000.0], level(name))
-    truth = solve(body, (0.8, -0.4, 0.6, 0.0, 0.8), [0.0, 20000.0],
-                  level("reference").tightened())
+    truth = solve(body, (0.8, -0.4, 0.6, 0.0, 0.8), [0.0, 20000.0], level("reference").tightened())
     error = np.max(np.abs(orbit.states - truth.states))
     assert orbit.status is not Status.OK or error <= level(name).promise
     assert error <= 10 * (orbit.error_estimate + truth.error_estimate)

@@ -55,8 +55,9 @@ def test_without_a_field_the_solution_of_the_paper_is_one_and_w1_a_repels_it():
     on_it = dict(zip(STATE, solution, strict=True))
     rates = [rate.subs(B, 0).subs(on_it, simultaneous=True) for rate in V]
     assert [sp.simplify(sp.diff(place, t) - rate) for place, rate in zip(solution, rates, strict=True)] == [0] * 5
-    E, F1, F2 = (sp.simplify(one.subs(B, 0).subs(on_it, simultaneous=True))
-                 for one in HESS.integrals(STATE, (A, B)).values())
+    E, F1, F2 = (
+        sp.simplify(one.subs(B, 0).subs(on_it, simultaneous=True)) for one in HESS.integrals(STATE, (A, B)).values()
+    )
     assert [sp.simplify(E - W1**2 / 2), F1, sp.simplify(F2 - W1 * sp.cos(theta))] == [0, 1, 0]
     # What is next to it has w2 ~ e^{a w1 t}.
     assert sp.diff(V[1].subs(B, 0), W2) == A * W1
@@ -106,8 +107,11 @@ def test_the_multiplier_comes_near_that_of_the_pendulum_as_the_cube_of_one_over_
 # ---- the appendix: ψ̇, how many frequencies, normal hyperbolicity ------------------------------------------------
 
 
-BODIES = [HeavyBody.hess((1.0, 0.625, 0.375), 9.975), HeavyBody.hess((1.0, 1.5, 2.0), 0.7),
-          HeavyBody.hess((2.0, 1.25, 1.0), 1.3)]
+BODIES = [
+    HeavyBody.hess((1.0, 0.625, 0.375), 9.975),
+    HeavyBody.hess((1.0, 1.5, 2.0), 0.7),
+    HeavyBody.hess((2.0, 1.25, 1.0), 1.3),
+]
 
 
 @pytest.mark.parametrize("body", BODIES, ids=range(3))
@@ -139,6 +143,7 @@ def period_and_precession(h, f):
 
 def with_horizontal_direction(a):
     """`eq01` with b = 1 and a direction fixed in space; ω = (w1, w2, −a w2)."""
+
     def field(t, y):
         omega = np.array([y[0], y[1], -a * y[1]])
         return [*HESS.field(y[:5], (a, 1.0)), *np.cross(y[5:], omega)]
@@ -151,8 +156,15 @@ def places_and_azimuths(a, h, f, phi, turns):
     T, _ = period_and_precession(h, f)
     start = turning_points(h, f).state_at_lower_turn(phi)
     side = np.cross(start[2:], [0.0, 0.0, 1.0])
-    states = solve_ivp(with_horizontal_direction(a), (0.0, turns * T), [*start, *(side / np.linalg.norm(side))],
-                       "DOP853", T * np.arange(turns + 1), rtol=1e-12, atol=1e-13).y.T
+    states = solve_ivp(
+        with_horizontal_direction(a),
+        (0.0, turns * T),
+        [*start, *(side / np.linalg.norm(side))],
+        "DOP853",
+        T * np.arange(turns + 1),
+        rtol=1e-12,
+        atol=1e-13,
+    ).y.T
     n, e = states[:, 2:5], states[:, 5:]
     azimuth = e[:, 2] + 1j * np.cross(n, e)[:, 2]
     return states[:, :5], azimuth / np.abs(azimuth)
@@ -264,8 +276,10 @@ def test_without_a_field_all_three_groups_have_the_same_equations_of_the_velocit
     # ṗ = ad*p with the constraint that there is no velocity along Y: κ is gone.
     velocity = (OMEGA, SPEED, 0)
     p = (I11 * OMEGA, I22 * SPEED, I13 * OMEGA + I23 * SPEED)
-    turned = [sum(one * part for one, part in zip(p, commutator(velocity, axis), strict=True))
-              for axis in ((1, 0, 0), (0, 1, 0))]
+    turned = [
+        sum(one * part for one, part in zip(p, commutator(velocity, axis), strict=True))
+        for axis in ((1, 0, 0), (0, 1, 0))
+    ]
     rates = SUSLOV.field([OMEGA, SPEED, 0, 0, 1], (I11, I22, I13, I23, 0, 0, 0))
     assert sp.simplify(turned[0] / I11 - rates[0]) == 0
     assert sp.simplify(turned[1] / I22 - rates[1]) == 0
@@ -283,8 +297,13 @@ def test_the_body_is_a_sleigh_on_a_sphere_and_its_track_that_of_the_sleigh_as_th
     m, c, J, omega, v = 1.3, 0.4, 0.7, 1.1, 0.2
 
     def sleigh(t, y):
-        return [-m * c * y[0] * y[1] / (J + m * c * c), c * y[0] ** 2, y[0], y[1] * math.cos(y[2]),
-                y[1] * math.sin(y[2])]
+        return [
+            -m * c * y[0] * y[1] / (J + m * c * c),
+            c * y[0] ** 2,
+            y[0],
+            y[1] * math.cos(y[2]),
+            y[1] * math.sin(y[2]),
+        ]
 
     x, y = solve_ivp(sleigh, (0.0, 8.0), [omega, v, 0.0, 0.0, 0.0], "DOP853", rtol=1e-12, atol=1e-13).y[3:, -1]
     off = []
@@ -296,8 +315,9 @@ def test_the_body_is_a_sleigh_on_a_sphere_and_its_track_that_of_the_sleigh_as_th
             turning = np.cross(z[2:].reshape(3, 3), [z[0], z[1], 0.0])
             return [*SUSLOV.field([*z[:2], 0.0, 0.0, 1.0], p)[:2], *turning.ravel()]
 
-        end = solve_ivp(body, (0.0, 8.0), [omega, v / rho, *np.eye(3).ravel()], "DOP853", rtol=1e-13,
-                        atol=1e-15).y[2:, -1]
+        end = solve_ivp(body, (0.0, 8.0), [omega, v / rho, *np.eye(3).ravel()], "DOP853", rtol=1e-13, atol=1e-15).y[
+            2:, -1
+        ]
         # Where the first axis of the body points: on a sphere of this radius, seen from outside at its start.
         place = rho * end.reshape(3, 3)[:, 0]
         off.append(math.hypot(-place[2] - x, place[1] - y))

@@ -49,8 +49,9 @@ def steady_rotation(omega, gamma, times, digits=40):
         speed = mpmath.norm(w)
         axis, g = w / speed, mpmath.matrix(gamma)
         along = axis * mpmath.fdot(axis, g)
-        across = mpmath.matrix([g[1] * axis[2] - g[2] * axis[1], g[2] * axis[0] - g[0] * axis[2],
-                                g[0] * axis[1] - g[1] * axis[0]])
+        across = mpmath.matrix(
+            [g[1] * axis[2] - g[2] * axis[1], g[2] * axis[0] - g[0] * axis[2], g[0] * axis[1] - g[1] * axis[0]]
+        )
         rows = []
         for t in times:
             angle = speed * mpmath.mpf(t)

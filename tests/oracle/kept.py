@@ -43,6 +43,7 @@ def asked(function, arguments):
 
 def kept(read):
     """A function whose answers are looked up where they are kept; `read` makes an answer of what JSON has."""
+
     def of(function):
         @wraps(function)
         def answer(*arguments, **named):

@@ -33,12 +33,18 @@ TAU = 2.0 * math.pi
 
 # ---- equations of motion
 
+
 def suslov_field(y, p):
     w1, w2, g1, g2, g3 = y
     I11, I22, I13, I23, b1, b2, b3 = p
     s = I13 * w1 + I23 * w2
-    return [(b3 * g2 - b2 * g3 - s * w2) / I11, (b1 * g3 - b3 * g1 + s * w1) / I22, -g3 * w2, g3 * w1,
-            g1 * w2 - g2 * w1]
+    return [
+        (b3 * g2 - b2 * g3 - s * w2) / I11,
+        (b1 * g3 - b3 * g1 + s * w1) / I22,
+        -g3 * w2,
+        g3 * w1,
+        g1 * w2 - g2 * w1,
+    ]
 
 
 def ball_field(y, p):
@@ -70,6 +76,7 @@ def torus_field(y, p):
 
 # ---- what grows through 0 on a section; `value` is the constant of the section
 
+
 def third_gamma(y, value):
     return y[4]
 
@@ -92,6 +99,7 @@ def across_momentum(y, value):
 
 
 # ---- sections: a state at a place, and the place of a state
+
 
 def angle_of_w(y):
     psi = np.arctan2(y[3], y[2])
@@ -158,7 +166,8 @@ class Ball:
         I11, I22, _, _, D, *b = self.p
         w1, w2, g1, g2, g3 = y
         return 0.5 * (I11 * w1**2 + I22 * w2**2 + D * ((g1 * w2 - g2 * w1) ** 2 + g3**2 * (w1**2 + w2**2))) + np.dot(
-            b, y[2:])
+            b, y[2:]
+        )
 
 
 class Top:
@@ -182,8 +191,12 @@ class Top:
         n = np.array([s * math.sin(l), s * math.cos(l), x])
         cos = self.f / G
         across = math.cos(l) * self.mr[0] - math.sin(l) * self.mr[1]
-        return (0.5 * self.A @ n**2 * G * G - cos * (self.mr @ n) - np.sqrt(1.0 - np.minimum(1.0, cos * cos)) * across
-                - self.E)
+        return (
+            0.5 * self.A @ n**2 * G * G
+            - cos * (self.mr @ n)
+            - np.sqrt(1.0 - np.minimum(1.0, cos * cos)) * across
+            - self.E
+        )
 
     def momentum(self, l, x):
         """The largest G with this energy."""
@@ -278,8 +291,13 @@ def integrators(of):
         d, collected = of.d, Crossed()
         eqs = tangent_system(of)
         y = [one for one, _ in eqs[:d]]
-        plain = hy.taylor_adaptive(eqs[:d], [0.1] * d, nt_events=[hy.nt_event(
-            of.event(y, hy.par[len(of.p)]), callback=collected, direction=hy.event_direction.positive)])
+        plain = hy.taylor_adaptive(
+            eqs[:d],
+            [0.1] * d,
+            nt_events=[
+                hy.nt_event(of.event(y, hy.par[len(of.p)]), callback=collected, direction=hy.event_direction.positive)
+            ],
+        )
         near = hy.taylor_adaptive(eqs, [0.1] * len(eqs))
         smooth = hy.taylor_adaptive(eqs[:d], [0.1] * d)
         _MADE[key] = plain, near, smooth, collected
@@ -329,6 +347,7 @@ def closings(of, places, most):
 
 # ---- indicators
 
+
 def growth(of, start, T):
     """ln|δ| and SALI after T and 2T, and the mean divergence over 2T."""
     near, d = integrators(of)[1], of.d
@@ -362,9 +381,9 @@ def frequency(t, signal, near=None):
     def loss(f):
         return -abs(np.sum(s * np.exp(-1j * f * (t - t[0]))))
 
-    return minimize_scalar(loss, bounds=(f0 - width, f0 + width), method="bounded",
-                           options={"xatol": 1e-13 * max(1.0, abs(f0))}).x
-
+    return minimize_scalar(
+        loss, bounds=(f0 - width, f0 + width), method="bounded", options={"xatol": 1e-13 * max(1.0, abs(f0))}
+    ).x
 
 
 def drift(of, start, T, n=1 << 14):
@@ -396,6 +415,7 @@ def zero_one(series):
 
 # ---- periodic orbits
 
+
 def after(of, place, m):
     """The place after m crossings."""
     return places_of(of, crossings(of, of.start(*place), m)[1])[-1]
@@ -408,8 +428,13 @@ def shifted(of, away):
 
 def derivative(of, place, m, step=1e-6):
     """D Pᵐ by central differences."""
-    return np.stack([shifted(of, after(of, place + e, m) - after(of, place - e, m)) / (2.0 * step)
-                     for e in step * np.eye(len(place))], axis=1)
+    return np.stack(
+        [
+            shifted(of, after(of, place + e, m) - after(of, place - e, m)) / (2.0 * step)
+            for e in step * np.eye(len(place))
+        ],
+        axis=1,
+    )
 
 
 def closed(of, place, m):
@@ -429,6 +454,7 @@ def multipliers(of, place, m):
 
 # ---- the Möbius map of a torus of the Suslov–Hess case
 
+
 def trace(a, h, f):
     """Trace of the matrix in SU(1, 1) by which z = e^{iφ} is mapped in one period of n3.
 
@@ -438,9 +464,17 @@ def trace(a, h, f):
         n, v, ar, ai, br, bi = hy.make_vars("n", "v", "ar", "ai", "br", "bi")
         square = 2.0 * (hy.par[1] + n)
         alpha, beta = -0.5 * hy.par[2] / square, -0.5 * hy.par[0] * hy.sqrt(square)
-        _MADE["torus"] = hy.taylor_adaptive([
-            (n, v), (v, 1.0 - n * n - square * n), (ar, beta * bi - alpha * ai), (ai, alpha * ar + beta * br),
-            (br, beta * ai - alpha * bi), (bi, alpha * br + beta * ar)], [0.1] * 6)
+        _MADE["torus"] = hy.taylor_adaptive(
+            [
+                (n, v),
+                (v, 1.0 - n * n - square * n),
+                (ar, beta * bi - alpha * ai),
+                (ai, alpha * ar + beta * br),
+                (br, beta * ai - alpha * bi),
+                (bi, alpha * br + beta * ar),
+            ],
+            [0.1] * 6,
+        )
     ta = _MADE["torus"]
     n0, n1, n2 = Torus(a, h, f).roots
     ta.time = 0.0
@@ -458,7 +492,11 @@ def torus_with(value, a, f, low, high):
 # ---- rows
 
 OF: dict[str, Callable[..., Any]] = {
-    "suslov": Suslov, "quartic": Quartic, "ball": Ball, "euler-poisson": Top, "hess": Torus,
+    "suslov": Suslov,
+    "quartic": Quartic,
+    "ball": Ball,
+    "euler-poisson": Top,
+    "hess": Torus,
 }
 """By the names of the command `regime`, with the names of its options."""
 
@@ -504,12 +542,17 @@ def measured(row, place):
     again = np.flatnonzero(near < SAME)
     series = np.cos(places[:, 0]) if of.angles[0] else places[:, 0]
     return {
-        "return_time": float(times[-1] / len(times)), "energy_error": float(abs(of.energy(states[-1]) - of.E)),
-        "ln_growth": [float(one[0]) for one in found], "sali": [float(one[1]) for one in found],
-        "exponent": float(found[1][0] / (2.0 * row.T)), "divergence": float(divergence),
+        "return_time": float(times[-1] / len(times)),
+        "energy_error": float(abs(of.energy(states[-1]) - of.E)),
+        "ln_growth": [float(one[0]) for one in found],
+        "sali": [float(one[1]) for one in found],
+        "exponent": float(found[1][0] / (2.0 * row.T)),
+        "divergence": float(divergence),
         "drift": [drift(of, start, row.T), drift(of, start, 2.0 * row.T)],
-        "K": [zero_one(series[:2000]), zero_one(series)], "closing": float(near[:64].min()),
-        "period": int(again[0]) + 1 if again.size else 0}
+        "K": [zero_one(series[:2000]), zero_one(series)],
+        "closing": float(near[:64].min()),
+        "period": int(again[0]) + 1 if again.size else 0,
+    }
 
 
 def judged(m, T):
@@ -538,9 +581,12 @@ def labelled(row):
         kind, period = row.kind, row.period
         m = found[0]
         # What the theorem says is seen too; indicators may take longer.
-        agrees = {"FIXED_POINT": row.settling or m["period"] == 1, "PERIODIC": m["period"] == period,
-                  "LONG_PERIOD": m["period"] == period,
-                  "QUASI_PERIODIC": not m["period"] and m["closing"] > QUASI_CLEAR}[kind]
+        agrees = {
+            "FIXED_POINT": row.settling or m["period"] == 1,
+            "PERIODIC": m["period"] == period,
+            "LONG_PERIOD": m["period"] == period,
+            "QUASI_PERIODIC": not m["period"] and m["closing"] > QUASI_CLEAR,
+        }[kind]
         if not agrees or ("CHAOTIC", 0) in kinds:
             print("NOT AS THE THEOREM SAYS:", row.name, kinds, found)
             return None
@@ -556,12 +602,22 @@ def labelled(row):
         last = places_of(of, crossings(of, of.start(*place), 2000)[1])[-1]
         mu = multipliers(of, place if row.exact else last, period)
         numbers["multipliers"] = [[x.real, x.imag] for x in mu]
-    return {"name": row.name, "system": row.system, "parameters": row.parameters, "place": list(map(float, row.place)),
-            "category": row.category, "kind": kind, "period": 1 if kind == "FIXED_POINT" else period,
-            "settling": row.settling, "how": f"theorem: {row.theorem}" if row.theorem else
-            f"computed: Newton's method, T = {row.T:g} and {2 * row.T:g}" if row.exact else
-            f"computed: T = {row.T:g} and {2 * row.T:g}, two starts",
-            "numbers": {key: rounded(value) for key, value in numbers.items() if key not in ("period", "exponent")}}
+    return {
+        "name": row.name,
+        "system": row.system,
+        "parameters": row.parameters,
+        "place": list(map(float, row.place)),
+        "category": row.category,
+        "kind": kind,
+        "period": 1 if kind == "FIXED_POINT" else period,
+        "settling": row.settling,
+        "how": f"theorem: {row.theorem}"
+        if row.theorem
+        else f"computed: Newton's method, T = {row.T:g} and {2 * row.T:g}"
+        if row.exact
+        else f"computed: T = {row.T:g} and {2 * row.T:g}, two starts",
+        "numbers": {key: rounded(value) for key, value in numbers.items() if key not in ("period", "exponent")},
+    }
 
 
 def rounded(value):
@@ -624,8 +680,17 @@ def resonant(period, x0, x1):
 
 def euler_rows():
     def row(name, place, category, kind="QUASI_PERIODIC", period=0, **changes):
-        return Row(f"Euler, {name}", "euler-poisson", top(**{**EULER, **changes}), place, category, IN_EULER, kind,
-                   period, exact=bool(period))
+        return Row(
+            f"Euler, {name}",
+            "euler-poisson",
+            top(**{**EULER, **changes}),
+            place,
+            category,
+            IN_EULER,
+            kind,
+            period,
+            exact=bool(period),
+        )
 
     yield row("next to the separatrix", (0.001, 0.001), "near-separatrix")
     yield row("next to the separatrix, on its other side", (3.14, 0.002), "near-separatrix")
@@ -635,8 +700,13 @@ def euler_rows():
     yield row("another body", (0.5, 0.4), "integrable", A=(0.9, 0.7, 0.5), h=2.0, f=-1.0)
     yield row("rotation about the first axis", (0.5 * math.pi, 0.0), "integrable", "FIXED_POINT", 1)
     for period, x0, x1 in ((5, 0.2, 0.9), (37, 0.6, 0.7), (89, 0.6, 0.65)):
-        yield row(f"an orbit that closes after {period} returns", (0.0, resonant(period, x0, x1)),
-                  "long-period" if period > 16 else "integrable", "LONG_PERIOD" if period > 64 else "PERIODIC", period)
+        yield row(
+            f"an orbit that closes after {period} returns",
+            (0.0, resonant(period, x0, x1)),
+            "long-period" if period > 16 else "integrable",
+            "LONG_PERIOD" if period > 64 else "PERIODIC",
+            period,
+        )
 
 
 def integrable_rows():
@@ -651,36 +721,83 @@ def integrable_rows():
     of = Top(**sleeping)
     for M3 in (0.999, 0.9999):
         x = brentq(lambda x, M3=M3: of.momentum(0.0, x) * x - M3, 0.3, 0.9999)
-        yield at(f"Lagrange, next to the unstable sleeping top, M3 = {M3}", sleeping, (0.0, x), IN_LAGRANGE,
-                 "near-separatrix")
+        yield at(
+            f"Lagrange, next to the unstable sleeping top, M3 = {M3}",
+            sleeping,
+            (0.0, x),
+            IN_LAGRANGE,
+            "near-separatrix",
+        )
     for h, f, places in ((1.0, 0.6, ((0.3, 0.2), (0.0, 0.8), (2.0, 0.1))), (2.0, 0.3, ((1.0, -0.5), (-2.0, 0.4)))):
         for place in places:
-            yield at(f"Kovalevskaya, h = {h}, l = {place[0]}", top((0.5, 0.5, 1.0), (1.0, 0.0, 0.0), 1.0, h, f), place,
-                     IN_KOVALEVSKAYA)
+            yield at(
+                f"Kovalevskaya, h = {h}, l = {place[0]}",
+                top((0.5, 0.5, 1.0), (1.0, 0.0, 0.0), 1.0, h, f),
+                place,
+                IN_KOVALEVSKAYA,
+            )
     for h, places in ((2.0, ((0.3, 0.2), (1.0, -0.5), (2.0, 0.1))), (0.5, ((0.3, 0.2), (0.0, 0.8)))):
         for place in places:
-            yield at(f"Goryachev–Chaplygin, h = {h}, l = {place[0]}",
-                     top((1.0, 1.0, 4.0), (1.0, 0.0, 0.0), 1.0, h, 0.0), place, IN_GC)
+            yield at(
+                f"Goryachev–Chaplygin, h = {h}, l = {place[0]}",
+                top((1.0, 1.0, 4.0), (1.0, 0.0, 0.0), 1.0, h, 0.0),
+                place,
+                IN_GC,
+            )
 
 
 def principal_rows():
     def central(name, I, h, place, category):
-        return Row(f"Quartic, {name}", "quartic", {"I": [I, I], "b3": 1.0, "h": h}, place, category, CENTRAL,
-                   "QUASI_PERIODIC")
+        return Row(
+            f"Quartic, {name}", "quartic", {"I": [I, I], "b3": 1.0, "h": h}, place, category, CENTRAL, "QUASI_PERIODIC"
+        )
 
     yield central("slow: past the top of the potential", 1.3, 0.999, (0.01, 0.02), "slow")
     yield central("slower: past the top of the potential", 1.0, 0.99999, (0.02, 0.001), "slow")
     yield central("near its separatrix", 1.0, 0.995, (0.3, 0.0), "near-separatrix")
     yield central("equal moments", 1.0, 0.6, (0.5, 0.3), "integrable")
     yield central("equal moments, in a ring", 1.0, 1.5, (1.8, 0.2), "integrable")
-    yield Row("Ball, equal moments", "ball", in_field([1.0, 1.0, 0.0, 0.0], 3.0, [0.0, 0.0, 1.0], 1.5), (1.0, 1.5),
-              "integrable", "I11 = I22, b along e3: ω1γ1 + ω2γ2 is an integral", "QUASI_PERIODIC")
-    yield Row("Ball, b3 = 0", "ball", in_field([1.0, 2.0, 0.0, 0.0], 1.0, [1.0, 0.5, 0.0], 2.618), (0.5, 1.5),
-              "integrable", CLOSED, "FIXED_POINT", 1)
-    yield suslov("Kharlamova, b3 = 0", [2.0, 1.0, 0.0, 0.0], [0.4, 0.7, 0.0], 1.2, (1.0, 1.2), "integrable",
-                 theorem=CLOSED, kind="FIXED_POINT", period=1)
-    yield suslov("Kharlamova, equal moments", [1.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0], 0.3, (2.0, 0.8), "integrable",
-                 theorem=CLOSED, kind="FIXED_POINT", period=1)
+    yield Row(
+        "Ball, equal moments",
+        "ball",
+        in_field([1.0, 1.0, 0.0, 0.0], 3.0, [0.0, 0.0, 1.0], 1.5),
+        (1.0, 1.5),
+        "integrable",
+        "I11 = I22, b along e3: ω1γ1 + ω2γ2 is an integral",
+        "QUASI_PERIODIC",
+    )
+    yield Row(
+        "Ball, b3 = 0",
+        "ball",
+        in_field([1.0, 2.0, 0.0, 0.0], 1.0, [1.0, 0.5, 0.0], 2.618),
+        (0.5, 1.5),
+        "integrable",
+        CLOSED,
+        "FIXED_POINT",
+        1,
+    )
+    yield suslov(
+        "Kharlamova, b3 = 0",
+        [2.0, 1.0, 0.0, 0.0],
+        [0.4, 0.7, 0.0],
+        1.2,
+        (1.0, 1.2),
+        "integrable",
+        theorem=CLOSED,
+        kind="FIXED_POINT",
+        period=1,
+    )
+    yield suslov(
+        "Kharlamova, equal moments",
+        [1.0, 1.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        0.3,
+        (2.0, 0.8),
+        "integrable",
+        theorem=CLOSED,
+        kind="FIXED_POINT",
+        period=1,
+    )
 
 
 def torus_rows():
@@ -692,10 +809,28 @@ def torus_rows():
         else:
             more["rotation_number"] = math.acos(0.5 * tr) / math.pi
         theorem = f"{MOEBIUS}, |trace| {'above' if abs(tr) > 2.0 else 'below'} 2"
-        kind = ("FIXED_POINT" if abs(tr) > 2.0 else "QUASI_PERIODIC" if not period else
-                "PERIODIC" if period <= 64 else "LONG_PERIOD")
-        return Row(f"Torus, {name}", "hess", {"a": a, "h": h, "f": f}, (place,), category, theorem, kind,
-                   1 if abs(tr) > 2.0 else period, exact=bool(period), settling=settling, numbers=more)
+        kind = (
+            "FIXED_POINT"
+            if abs(tr) > 2.0
+            else "QUASI_PERIODIC"
+            if not period
+            else "PERIODIC"
+            if period <= 64
+            else "LONG_PERIOD"
+        )
+        return Row(
+            f"Torus, {name}",
+            "hess",
+            {"a": a, "h": h, "f": f},
+            (place,),
+            category,
+            theorem,
+            kind,
+            1 if abs(tr) > 2.0 else period,
+            exact=bool(period),
+            settling=settling,
+            numbers=more,
+        )
 
     yield row("locked", 0.5, 1.5, 0.6, 0.3, "integrable")
     yield row("locked, a = 0.7", 0.7, 0.5, 0.6, 1.0, "integrable")
@@ -726,45 +861,102 @@ def breaking(I13):
 def attractor_rows():
     start = (0.7248, 1.8925)
     for I23, category in (
-            (-0.1, "attractor"), (0.0, "attractor"), (0.1, "attractor"), (0.133, "attractor"), (0.139, "attractor"),
-            (0.1399, "long-period"), (0.14015, "long-period"), (0.140207, "long-period"), (0.1402135, "long-period"),
-            (0.140221, "long-period")):
+        (-0.1, "attractor"),
+        (0.0, "attractor"),
+        (0.1, "attractor"),
+        (0.133, "attractor"),
+        (0.139, "attractor"),
+        (0.1399, "long-period"),
+        (0.14015, "long-period"),
+        (0.140207, "long-period"),
+        (0.1402135, "long-period"),
+        (0.140221, "long-period"),
+    ):
         # Motions that begin elsewhere are chaotic for hundreds of returns.
         of = Suslov(**doubling(I23))
         place = np.round(places_of(of, crossings(of, of.start(*start), 12_000)[1])[-1], 8)
         yield Row(f"Suslov, cascade, I23 = {I23}", "suslov", doubling(I23), tuple(place), category)
     for I13, category in (
-            (-0.257, "attractor"), (-0.2585, "attractor"), (-0.25925, "long-period"),
-            (-0.258, "long-period"), (-0.247, "attractor"), (-0.25, "attractor")):
+        (-0.257, "attractor"),
+        (-0.2585, "attractor"),
+        (-0.25925, "long-period"),
+        (-0.258, "long-period"),
+        (-0.247, "attractor"),
+        (-0.25, "attractor"),
+    ):
         yield Row(f"Suslov, a torus is born and locks, I13 = {I13}", "suslov", breaking(I13), (1.2, 1.45), category)
     yield Row("Suslov, a torus attracts, I13 = -0.256", "suslov", breaking(-0.256), (1.2, 1.45), "attractor")
     two = {"I": [1.5, 1.0, 0.4, 0.0], "b": [0.3, -0.5, 1.0], "E": 1.842}
     yield Row("Suslov, the first of two attractors", "suslov", two, (1.5, 1.2), "attractor")
     yield Row("Suslov, the second of two attractors", "suslov", two, (-2.0, 2.0), "attractor")
-    yield suslov("Suslov, reversal: a permanent rotation attracts", [1.0, 3.0, 0.6, 0.6], [1.0, 0.7, 0.3], 1.743,
-                 (1.0, 1.0), "attractor")
+    yield suslov(
+        "Suslov, reversal: a permanent rotation attracts",
+        [1.0, 3.0, 0.6, 0.6],
+        [1.0, 0.7, 0.3],
+        1.743,
+        (1.0, 1.0),
+        "attractor",
+    )
     for D, place, category in (
-            (1.39, (-2.680708, 0.992949), "long-period"),
-            (1.41, (-2.6813, 0.9923), "attractor"), (1.5, (-2.6813, 0.9923), "attractor"),
-            (1.65, (-2.6813, 0.9923), "attractor")):
-        yield Row(f"Ball, cascade, D = {D}", "ball", in_field([1.5, 3.0, -0.3, 0.0], D, [1.0, -0.7, 0.7], 2.72), place,
-                  category)
-    yield Row("Ball, cascade, D = 1.592: close to a doubling, settles slowly", "ball",
-              in_field([1.5, 3.0, -0.3, 0.0], 1.592, [1.0, -0.7, 0.7], 2.72), (-2.6813, 0.9923), "slow", settling=True)
+        (1.39, (-2.680708, 0.992949), "long-period"),
+        (1.41, (-2.6813, 0.9923), "attractor"),
+        (1.5, (-2.6813, 0.9923), "attractor"),
+        (1.65, (-2.6813, 0.9923), "attractor"),
+    ):
+        yield Row(
+            f"Ball, cascade, D = {D}",
+            "ball",
+            in_field([1.5, 3.0, -0.3, 0.0], D, [1.0, -0.7, 0.7], 2.72),
+            place,
+            category,
+        )
+    yield Row(
+        "Ball, cascade, D = 1.592: close to a doubling, settles slowly",
+        "ball",
+        in_field([1.5, 3.0, -0.3, 0.0], 1.592, [1.0, -0.7, 0.7], 2.72),
+        (-2.6813, 0.9923),
+        "slow",
+        settling=True,
+    )
     strange = "strange attractor"
     yield suslov("Suslov, strange attractor", [1.0, 2.5, 0.6, 0.6], [-1.0, -0.5, 0.7], 0.681, (1.0, 1.0), strange)
-    yield Row("Suslov, touching its repeller", "suslov", above([2.7, 1.4, -0.2, 0.8], [-0.4, 1.9, -1.4], 4.6),
-              (-0.5986, 1.6433), strange)
-    yield Row("Suslov, back to a saddle-focus", "suslov", above([0.7, 2.8, 0.2, 0.2], [1.0, -1.8, -1.2], 5.015931),
-              (-2.62543193, 3.13213405), strange)
-    yield Row("Ball, strange attractor", "ball", in_field([1.5, 3.0, -0.3, 0.0], 1.0, [1.0, -0.7, 0.7], 2.72),
-              (2.5, 1.5), strange)
-    yield Row("Ball, a wide strange attractor", "ball", in_field([1.5, 3.0, -0.1, 0.4], 4.0, [-0.8, -0.3, -0.7], 1.0),
-              (0.4, 1.5), strange)
+    yield Row(
+        "Suslov, touching its repeller",
+        "suslov",
+        above([2.7, 1.4, -0.2, 0.8], [-0.4, 1.9, -1.4], 4.6),
+        (-0.5986, 1.6433),
+        strange,
+    )
+    yield Row(
+        "Suslov, back to a saddle-focus",
+        "suslov",
+        above([0.7, 2.8, 0.2, 0.2], [1.0, -1.8, -1.2], 5.015931),
+        (-2.62543193, 3.13213405),
+        strange,
+    )
+    yield Row(
+        "Ball, strange attractor",
+        "ball",
+        in_field([1.5, 3.0, -0.3, 0.0], 1.0, [1.0, -0.7, 0.7], 2.72),
+        (2.5, 1.5),
+        strange,
+    )
+    yield Row(
+        "Ball, a wide strange attractor",
+        "ball",
+        in_field([1.5, 3.0, -0.1, 0.4], 4.0, [-0.8, -0.3, -0.7], 1.0),
+        (0.4, 1.5),
+        strange,
+    )
     yield Row("Suslov, beyond the cascade, I23 = 0.2", "suslov", doubling(0.2), start, "weakly chaotic")
     yield Row("Suslov, the torus has broken up", "suslov", breaking(-0.2605), (1.2, 1.45), "weakly chaotic", T=8000.0)
-    yield Row("Suslov, a sea with a small divergence", "suslov",
-              {"I": [1.5, 1.7, 0.1, -0.3], "b": [-1.7, 1.0, 2.0], "E": -0.9089144}, (-1.0063, 1.1872), "chaotic")
+    yield Row(
+        "Suslov, a sea with a small divergence",
+        "suslov",
+        {"I": [1.5, 1.7, 0.1, -0.3], "b": [-1.7, 1.0, 2.0], "E": -0.9089144},
+        (-1.0063, 1.1872),
+        "chaotic",
+    )
 
 
 def mixed_rows():
@@ -773,56 +965,113 @@ def mixed_rows():
     yield Row("Suslov on a principal axis, in an island", "suslov", axis, (1.0, 1.0), "mixed")
     plain = {"I": [1.5, 4.0, 0.0, 0.8], "b": [0.0, 1.0, 0.7], "E": -0.521}
     yield Row("Suslov, a curve", "suslov", plain, (-1.5, 1.0), "regular")
-    yield Row("Suslov, in the middle of the curves", "suslov", plain, (-0.5 * math.pi, 0.5 * math.pi), "regular",
-              exact=True)
+    yield Row(
+        "Suslov, in the middle of the curves", "suslov", plain, (-0.5 * math.pi, 0.5 * math.pi), "regular", exact=True
+    )
     for ratio, h, place, category in (
-            (2.0, 0.8, (0.2, 0.0), "mixed"), (2.0, 0.8, (0.6, 0.4), "chaotic"),
-            (2.0, 0.8, (0.9, 0.1), "weakly chaotic"), (3.0, 1.2, (1.5, 0.3), "chaotic"),
-            (1.05, 0.6, (1.0, 0.2), "regular"), (1.05, 0.6, (0.2, 0.1), "regular"),
-            (1.5, 0.8, (0.6, 0.05), "weakly chaotic"), (1.2, 0.8, (0.6, 0.05), "weakly chaotic"),
-            (1.5, 3.0, (2.8, 0.15), "slow")):
-        yield Row(f"Quartic, I11/I22 = {ratio}, h = {h}, q = {place[0]}", "quartic",
-                  {"I": [ratio, 1.0], "b3": 1.0, "h": h}, place, category,
-                  T=10_000.0 if category == "weakly chaotic" else 4000.0)
+        (2.0, 0.8, (0.2, 0.0), "mixed"),
+        (2.0, 0.8, (0.6, 0.4), "chaotic"),
+        (2.0, 0.8, (0.9, 0.1), "weakly chaotic"),
+        (3.0, 1.2, (1.5, 0.3), "chaotic"),
+        (1.05, 0.6, (1.0, 0.2), "regular"),
+        (1.05, 0.6, (0.2, 0.1), "regular"),
+        (1.5, 0.8, (0.6, 0.05), "weakly chaotic"),
+        (1.2, 0.8, (0.6, 0.05), "weakly chaotic"),
+        (1.5, 3.0, (2.8, 0.15), "slow"),
+    ):
+        yield Row(
+            f"Quartic, I11/I22 = {ratio}, h = {h}, q = {place[0]}",
+            "quartic",
+            {"I": [ratio, 1.0], "b3": 1.0, "h": h},
+            place,
+            category,
+            T=10_000.0 if category == "weakly chaotic" else 4000.0,
+        )
     ball = in_field([1.0, 3.0, 0.0, 0.0], 5.0, [0.5, 0.0, 0.8], 2.0)
     for name, system, parameters, period, guess in (
-            ("Quartic, an elliptic fixed point", "quartic", {"I": [2.0, 1.0], "b3": 1.0, "h": 0.8}, 1, (0.2, 0.0)),
-            ("Quartic, an elliptic orbit of period 2", "quartic", {"I": [1.05, 1.0], "b3": 1.0, "h": 0.6}, 2,
-             (0.5, 0.3)),
-            ("Ball, an elliptic orbit of period 2", "ball", ball, 2, (2.0, 2.5)),
-            ("Ball, an elliptic orbit of period 3", "ball", ball, 3, (2.0, 2.5)),
-            ("Figure 13 f, an elliptic fixed point", "euler-poisson",
-             hess_top((1.0, 1.5, 2.0), -math.sqrt(0.5), 2.0, 0.0), 1, (-1.5, -0.2))):
+        ("Quartic, an elliptic fixed point", "quartic", {"I": [2.0, 1.0], "b3": 1.0, "h": 0.8}, 1, (0.2, 0.0)),
+        ("Quartic, an elliptic orbit of period 2", "quartic", {"I": [1.05, 1.0], "b3": 1.0, "h": 0.6}, 2, (0.5, 0.3)),
+        ("Ball, an elliptic orbit of period 2", "ball", ball, 2, (2.0, 2.5)),
+        ("Ball, an elliptic orbit of period 3", "ball", ball, 3, (2.0, 2.5)),
+        (
+            "Figure 13 f, an elliptic fixed point",
+            "euler-poisson",
+            hess_top((1.0, 1.5, 2.0), -math.sqrt(0.5), 2.0, 0.0),
+            1,
+            (-1.5, -0.2),
+        ),
+    ):
         place = closed(of := OF[system](**parameters), guess, period)
         if of.angles[0]:
             place[0] = math.remainder(place[0], TAU)
         yield Row(name, system, parameters, tuple(place), "mixed", exact=True)
     yield Row("Ball, in the sea", "ball", ball, (0.1, 1.5), "weakly chaotic", T=10_000.0)
     yield Row("Ball, a curve", "ball", ball, (-1.0, 0.5), "mixed")
-    yield Row("Ball, a sea nearly everywhere", "ball", in_field([1.0, 4.0, 0.0, 0.0], 2.0, [0.3, 0.0, 1.0], 0.8),
-              (1.0, 1.5), "chaotic")
+    yield Row(
+        "Ball, a sea nearly everywhere",
+        "ball",
+        in_field([1.0, 4.0, 0.0, 0.0], 2.0, [0.3, 0.0, 1.0], 0.8),
+        (1.0, 1.5),
+        "chaotic",
+    )
     for letter, h, f, place, category in (
-            ("13 a", -0.4, 0.0, (2.8, 0.3), "regular"), ("13 c", 0.5, 0.0, (2.8, 0.3), "weakly chaotic"),
-            ("13 c", 0.5, 0.0, (-1.5, -0.2), "weakly chaotic"), ("13 d", math.sqrt(0.5), 0.0, (2.8, 0.3), "regular"),
-            ("13 f", 2.0, 0.0, (2.8, 0.3), "chaotic"), ("13 f", 2.0, 0.0, (-1.5, -0.2), "mixed"),
-            ("14 b", 0.2, 1.0, (-1.54, -0.86), "regular"), ("14 f", 1.3, 1.0, (2.8, 0.3), "chaotic"),
-            ("14 f", 1.3, 1.0, (-1.54, -0.86), "mixed")):
-        yield Row(f"Figure {letter}, l = {place[0]}", "euler-poisson",
-                  hess_top((1.0, 1.5, 2.0), -math.sqrt(0.5), h, f), place, category,
-                  T=10_000.0 if category == "weakly chaotic" else 4000.0)
+        ("13 a", -0.4, 0.0, (2.8, 0.3), "regular"),
+        ("13 c", 0.5, 0.0, (2.8, 0.3), "weakly chaotic"),
+        ("13 c", 0.5, 0.0, (-1.5, -0.2), "weakly chaotic"),
+        ("13 d", math.sqrt(0.5), 0.0, (2.8, 0.3), "regular"),
+        ("13 f", 2.0, 0.0, (2.8, 0.3), "chaotic"),
+        ("13 f", 2.0, 0.0, (-1.5, -0.2), "mixed"),
+        ("14 b", 0.2, 1.0, (-1.54, -0.86), "regular"),
+        ("14 f", 1.3, 1.0, (2.8, 0.3), "chaotic"),
+        ("14 f", 1.3, 1.0, (-1.54, -0.86), "mixed"),
+    ):
+        yield Row(
+            f"Figure {letter}, l = {place[0]}",
+            "euler-poisson",
+            hess_top((1.0, 1.5, 2.0), -math.sqrt(0.5), h, f),
+            place,
+            category,
+            T=10_000.0 if category == "weakly chaotic" else 4000.0,
+        )
     eleven = hess_top((1.0, 1.6, 4.0), 1.0, 1.5, -0.76)
     yield Row("Figure 11, in the layer", "euler-poisson", eleven, (0.0, 0.2), "chaotic")
     yield Row("Figure 11, in the other layer", "euler-poisson", eleven, (-1.0, -0.8), "chaotic")
-    yield Row("Euler with a little weight, at the separatrix", "euler-poisson",
-              top((1.0, 0.625, 0.25), (0.6, 0.0, 0.8), 0.01, 1.5, 0.7), (0.03, 0.02), "near-separatrix", T=10_000.0)
-    yield Row("Goryachev–Chaplygin with f = 0.1", "euler-poisson", top((1.0, 1.0, 4.0), (1.0, 0.0, 0.0), 1.0, 2.0, 0.1),
-              (2.0, 0.1), "chaotic")
-    yield Row("Next to Kovalevskaya, A3 = 1.2", "euler-poisson", top((0.5, 0.5, 1.2), (1.0, 0.0, 0.0), 1.0, 1.0, 0.6),
-              (1.0, -0.5), "chaotic")
-    yield Row("Next to Kovalevskaya, A3 = 1.05", "euler-poisson", top((0.5, 0.5, 1.05), (1.0, 0.0, 0.0), 1.0, 1.0, 0.6),
-              (0.1, 0.0), "regular")
-    yield Row("Next to Lagrange, r1 = 0.1", "euler-poisson", top((1.0, 1.0, 0.5), (0.1, 0.0, 1.0), 1.0, 1.5, 0.7),
-              (0.1, 0.0), "regular")
+    yield Row(
+        "Euler with a little weight, at the separatrix",
+        "euler-poisson",
+        top((1.0, 0.625, 0.25), (0.6, 0.0, 0.8), 0.01, 1.5, 0.7),
+        (0.03, 0.02),
+        "near-separatrix",
+        T=10_000.0,
+    )
+    yield Row(
+        "Goryachev–Chaplygin with f = 0.1",
+        "euler-poisson",
+        top((1.0, 1.0, 4.0), (1.0, 0.0, 0.0), 1.0, 2.0, 0.1),
+        (2.0, 0.1),
+        "chaotic",
+    )
+    yield Row(
+        "Next to Kovalevskaya, A3 = 1.2",
+        "euler-poisson",
+        top((0.5, 0.5, 1.2), (1.0, 0.0, 0.0), 1.0, 1.0, 0.6),
+        (1.0, -0.5),
+        "chaotic",
+    )
+    yield Row(
+        "Next to Kovalevskaya, A3 = 1.05",
+        "euler-poisson",
+        top((0.5, 0.5, 1.05), (1.0, 0.0, 0.0), 1.0, 1.0, 0.6),
+        (0.1, 0.0),
+        "regular",
+    )
+    yield Row(
+        "Next to Lagrange, r1 = 0.1",
+        "euler-poisson",
+        top((1.0, 1.0, 0.5), (0.1, 0.0, 1.0), 1.0, 1.5, 0.7),
+        (0.1, 0.0),
+        "regular",
+    )
 
 
 TABLE = Path(__file__).with_name("labelled_motions.json")

@@ -26,6 +26,9 @@ if __name__ == "__main__":
     if pytest.main([*asking, "-n", "0", "-k", "not what_is_kept", *quiet]):
         sys.exit("A test failed: nothing is changed.")
     answers = kept.KEPT | kept.ANSWERED
-    lines = (f"{json.dumps(question)}: {json.dumps([seconds, kept.plain(found)])}"
-             for question, (seconds, found) in sorted(answers.items()) if seconds >= LONG)
+    lines = (
+        f"{json.dumps(question)}: {json.dumps([seconds, kept.plain(found)])}"
+        for question, (seconds, found) in sorted(answers.items())
+        if seconds >= LONG
+    )
     kept.KEPT_IN.write_text("{\n" + ",\n".join(lines) + "\n}\n")

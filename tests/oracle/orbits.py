@@ -125,8 +125,12 @@ def taylor(field, y, p, times, order, tolerance):
                 assert np.all(last < np.inf), "a coefficient beyond range: measure time in other units"
                 step = np.minimum(step, (tolerance / np.maximum(last, 1e-300)) ** (1 / k))
             left = target[moving] - t[moving]
-            h = np.array([x if abs(x) <= s else number(math.copysign(s, x))
-                          for x, s in zip(left, step.astype(float), strict=True)])
+            h = np.array(
+                [
+                    x if abs(x) <= s else number(math.copysign(s, x))
+                    for x, s in zip(left, step.astype(float), strict=True)
+                ]
+            )
             total = c[:, order]
             for k in range(order - 1, -1, -1):
                 total = total * h + c[:, k]
@@ -191,8 +195,9 @@ class Along:
         with decimal.localcontext(prec=self.digits):
             since = min(self.known, key=lambda t: abs(t - time))
             y, p = (np.reshape(values, (-1, 1)) for values in (self.known[since], as_decimals(list(self.parameters))))
-            found = taylor(self.system.field, y, p, as_decimals([[time - since]]), round(1.15 * self.digits),
-                           10.0**-self.digits)
+            found = taylor(
+                self.system.field, y, p, as_decimals([[time - since]]), round(1.15 * self.digits), 10.0**-self.digits
+            )
             return self.known.setdefault(time, found[0, :, 0])
 
 

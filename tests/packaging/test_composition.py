@@ -16,8 +16,11 @@ OWN = (hess_mechanics, hess_explorer)
 
 def modules(package):
     """Every module of a package but the program itself, which runs when it is imported."""
-    return [importlib.import_module(one.name) for one in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
-            if not one.name.endswith("__main__")]
+    return [
+        importlib.import_module(one.name)
+        for one in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
+        if not one.name.endswith("__main__")
+    ]
 
 
 def own_bases(cls):
@@ -27,7 +30,11 @@ def own_bases(cls):
 
 @pytest.mark.parametrize("package", OWN, ids=lambda one: one.__name__)
 def test_no_class_has_more_than_three_own_classes(package):
-    classes = [cls for module in modules(package) for _, cls in inspect.getmembers(module, inspect.isclass)
-               if cls.__module__ == module.__name__]
+    classes = [
+        cls
+        for module in modules(package)
+        for _, cls in inspect.getmembers(module, inspect.isclass)
+        if cls.__module__ == module.__name__
+    ]
     assert len(classes) > 100
     assert {cls.__qualname__: own_bases(cls) for cls in classes if len(own_bases(cls)) > 3} == {}

@@ -32,8 +32,8 @@ def image(tmp_path_factory):
 def test_the_readme_builds_and_runs_it_at_the_port_and_address_that_it_serves():
     """`docker build` of the root, and the page at the address that the server lets in."""
     readme, dockerfile = ((ROOT / name).read_text("utf-8") for name in ("README.md", "Dockerfile"))
-    port, = re.findall(r"^EXPOSE (\d+)$", dockerfile, re.MULTILINE)
-    allowed, = re.findall(r'"--allow-origin", "([^"]+)"', dockerfile)
+    (port,) = re.findall(r"^EXPOSE (\d+)$", dockerfile, re.MULTILINE)
+    (allowed,) = re.findall(r'"--allow-origin", "([^"]+)"', dockerfile)
     assert f"docker build -t hess-explorer . && docker run --rm -p {port}:{port} hess-explorer\n" in readme
     assert f"<http://{allowed}>" in readme
     assert allowed == f"localhost:{port}"
@@ -54,7 +54,7 @@ def test_neither_the_folder_nor_its_files_shadow_the_packages(image):
 
 def test_its_user_has_the_kernels_compiled(image):
     assert image.user != "root"
-    mark, = Path(image.set["NUMBA_CACHE_DIR"]).glob("hess-explorer/complete-*")
+    (mark,) = Path(image.set["NUMBA_CACHE_DIR"]).glob("hess-explorer/complete-*")
     assert list(mark.parent.rglob("*.nbc"))
 
 
@@ -65,9 +65,13 @@ def test_the_command_serves_the_page_is_healthy_and_ends(image, browser, tmp_pat
         return [word.replace(str(image.port), str(port)) for word in command]
 
     log = tmp_path / "log"
-    with log.open("wb") as out, interruptible(), subprocess.Popen(
-            here(image.cmd), cwd=image.at(image.workdir), env=image.environment, stdout=out,
-            stderr=subprocess.STDOUT) as process:
+    with (
+        log.open("wb") as out,
+        interruptible(),
+        subprocess.Popen(
+            here(image.cmd), cwd=image.at(image.workdir), env=image.environment, stdout=out, stderr=subprocess.STDOUT
+        ) as process,
+    ):
         try:
             wait_alive(process, port, log)
             image.run(here(image.health))
@@ -95,7 +99,7 @@ def test_the_command_serves_the_page_is_healthy_and_ends(image, browser, tmp_pat
 def wheel(image, tmp_path_factory):
     folder = tmp_path_factory.mktemp("wheel")
     image.run(["pip", "wheel", "--no-deps", "--no-build-isolation", "-w", str(folder), str(ROOT)])
-    file, = folder.glob("*.whl")
+    (file,) = folder.glob("*.whl")
     with zipfile.ZipFile(file) as opened:
         return {one.filename: one.compress_size for one in opened.infolist()}
 
@@ -108,8 +112,13 @@ def test_the_wheel_holds_distinctive_names_only(wheel):
 
 def test_the_wheel_is_typed_and_holds_all_that_the_page_needs(wheel):
     assert {"hess_explorer/py.typed", "hess_mechanics/py.typed"} <= set(wheel)
-    listed = subprocess.run(["git", "ls-files", "static", "app/hess_explorer", "models/hess_mechanics"], cwd=ROOT,
-                            capture_output=True, text=True, check=True).stdout.split("\n")
+    listed = subprocess.run(
+        ["git", "ls-files", "static", "app/hess_explorer", "models/hess_mechanics"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout.split("\n")
     places = {"static/": "hess_explorer/static/", "app/": "", "models/": ""}
     for name in filter(None, listed):
         folder = name.split("/")[0] + "/"

@@ -39,6 +39,10 @@ def test_every_body_has_an_example_that_is_right(name):
 
 
 def test_packages_states_and_tables_have_examples_that_are_right():
-    for thing, name in ((hess_mechanics, "hess_mechanics"), (hess_explorer, "hess_explorer"),
-                        (hess_explorer.SceneState, "SceneState"), (columns.Table, "Table")):
+    for thing, name in (
+        (hess_mechanics, "hess_mechanics"),
+        (hess_explorer, "hess_explorer"),
+        (hess_explorer.SceneState, "SceneState"),
+        (columns.Table, "Table"),
+    ):
         assert ran(thing, name) > 1

@@ -10,18 +10,61 @@ from hess_explorer.scenes import scenes
 from hess_mechanics import check_body
 from support.mechanics import ROOT
 
-TABLE = (ROOT / "app/README.md").read_text(encoding="utf-8").partition("## The paper, part by part\n")[2].partition(
-    "\n## ")[0]
+TABLE = (
+    (ROOT / "app/README.md")
+    .read_text(encoding="utf-8")
+    .partition("## The paper, part by part\n")[2]
+    .partition("\n## ")[0]
+)
 LINES = re.findall(r"^\|.*\|$", TABLE, re.MULTILINE)[2:]
 ROWS = [[cell.strip() for cell in line.strip("|").split("|")] for line in LINES]
 SCENES = {name: scene for name, scene in scenes().items() if scene.origin is None}
 
 EQUATIONS = {
     1: ["eq11", "eq1"],
-    2: ["Eq:SuslovConstraint", "Biz01", "Biz03", "Biz131", "Biz11", "biz132", "biz138", "eq834", "Biz135", "Biz133",
-        "Biz136", "Biz1360", "eqs03", "eqs02", "bizi1", "bizi2", "eq02", "eq01", "eq03", "eq0003", "Geq3", "Geq4"],
-    3: ["eq29", "eq30", "hh01", "hh001", "g2p6f1", "gess-*1", "m15.9", "m15.14", "m15.10", "gess05", "eq6-10", "eq6-11",
-        "eq6-12", "klas-gess-2", "eq6-14", "klas-gess-3", "klas-gess-4"],
+    2: [
+        "Eq:SuslovConstraint",
+        "Biz01",
+        "Biz03",
+        "Biz131",
+        "Biz11",
+        "biz132",
+        "biz138",
+        "eq834",
+        "Biz135",
+        "Biz133",
+        "Biz136",
+        "Biz1360",
+        "eqs03",
+        "eqs02",
+        "bizi1",
+        "bizi2",
+        "eq02",
+        "eq01",
+        "eq03",
+        "eq0003",
+        "Geq3",
+        "Geq4",
+    ],
+    3: [
+        "eq29",
+        "eq30",
+        "hh01",
+        "hh001",
+        "g2p6f1",
+        "gess-*1",
+        "m15.9",
+        "m15.14",
+        "m15.10",
+        "gess05",
+        "eq6-10",
+        "eq6-11",
+        "eq6-12",
+        "klas-gess-2",
+        "eq6-14",
+        "klas-gess-3",
+        "klas-gess-4",
+    ],
 }
 """Labels of the source by section, in the order in which it numbers them; the appendix goes on with section 3."""
 
@@ -38,7 +81,7 @@ def test_every_equation_is_in_the_table_once_under_its_number():
     named = [(label, part) for part, labels, *_ in ROWS for label in re.findall(r"`([^`]+)`", labels)]
     assert sorted(label for label, _ in named) == sorted(label for one in EQUATIONS.values() for label in one)
     for label, part in named:
-        section, = (section for section, labels in EQUATIONS.items() if label in labels)
+        (section,) = (section for section, labels in EQUATIONS.items() if label in labels)
         assert (section, EQUATIONS[section].index(label) + 1) in numbers(part), label
     for part, labels, *_ in ROWS:
         assert len(numbers(part)) == len(re.findall(r"`([^`]+)`", labels)), part
@@ -71,8 +114,11 @@ def test_what_a_row_names_is_on_the_page(row):
 
 def check_of(state):
     """Whether the body of a state is a rigid body; None where the scene has none of its own."""
-    for one in (getattr(state, "body", None), getattr(getattr(state, "bridge", None), "heavy", None),
-                getattr(getattr(state, "pendulum", None), "body", None)):
+    for one in (
+        getattr(state, "body", None),
+        getattr(getattr(state, "bridge", None), "heavy", None),
+        getattr(getattr(state, "pendulum", None), "body", None),
+    ):
         if hasattr(one, "check"):
             return one.check.is_body
         if hasattr(one, "I11"):

@@ -12,10 +12,20 @@ from support.measured import write_measured
 from support.mechanics import ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-DOCUMENTS = [ROOT / name for name in (
-    "README.md", "app/README.md", "models/README.md", "tests/benchmarks/integrators/README.md",
-    "tests/models/README.md", "tests/benchmarks/README.md", "app/hess_explorer/sweep/README.md",
-    ".github/CONTRIBUTING.md", ".github/CHANGELOG.md")]
+DOCUMENTS = [
+    ROOT / name
+    for name in (
+        "README.md",
+        "app/README.md",
+        "models/README.md",
+        "tests/benchmarks/integrators/README.md",
+        "tests/models/README.md",
+        "tests/benchmarks/README.md",
+        "app/hess_explorer/sweep/README.md",
+        ".github/CONTRIBUTING.md",
+        ".github/CHANGELOG.md",
+    )
+]
 MEASURED = {
     "tests/models/README.md": "tests/models/test_extremes.py",
     "tests/benchmarks/README.md": "tests/benchmarks/benchmark_page.py",
@@ -31,8 +41,12 @@ def blocks(language, text=README):
     return re.findall(rf"^```{language}\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
 
 
-COMMANDS = [shlex.split(line, comments=True)[1:] for block in blocks("sh") for line in block.splitlines()
-            if line.startswith("hess-explorer ")]
+COMMANDS = [
+    shlex.split(line, comments=True)[1:]
+    for block in blocks("sh")
+    for line in block.splitlines()
+    if line.startswith("hess-explorer ")
+]
 
 
 def test_it_is_short_and_begins_with_a_picture():
@@ -63,7 +77,7 @@ def test_pictures_are_light():
 
 def test_the_python_of_the_readme_runs(capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    code, = blocks("python")
+    (code,) = blocks("python")
     exec(compile(code, "README.md", "exec"), {})
     assert capsys.readouterr().out.startswith("hyperbolic ")
     assert (tmp_path / "circle.pdf").read_bytes().startswith(b"%PDF")
@@ -71,8 +85,22 @@ def test_the_python_of_the_readme_runs(capsys, tmp_path, monkeypatch):
 
 def test_there_are_commands():
     assert {words[0] for words in COMMANDS} == {
-        "circle-map", "orbit", "section", "scattering", "prove", "lyapunov", "shot", "bench", "serve",
-        "periodic", "basins", "cloud", "export", "code", "sweep"}
+        "circle-map",
+        "orbit",
+        "section",
+        "scattering",
+        "prove",
+        "lyapunov",
+        "shot",
+        "bench",
+        "serve",
+        "periodic",
+        "basins",
+        "cloud",
+        "export",
+        "code",
+        "sweep",
+    }
 
 
 @pytest.mark.parametrize("words", COMMANDS, ids=lambda words: words[0])
@@ -113,8 +141,11 @@ FIGURES = range(1, 15)
 
 
 def test_words_cite_sections_and_figures_that_the_paper_has():
-    files = [*(path for path in (ROOT / "app/hess_explorer/scenes").rglob("*") if path.suffix in (".py", ".md")),
-             *(ROOT / "models").rglob("*.py"), ROOT / "models/README.md"]
+    files = [
+        *(path for path in (ROOT / "app/hess_explorer/scenes").rglob("*") if path.suffix in (".py", ".md")),
+        *(ROOT / "models").rglob("*.py"),
+        ROOT / "models/README.md",
+    ]
     sections = figures = 0
     for path in files:
         text = path.read_text(encoding="utf-8")

@@ -9,8 +9,12 @@ import pytest
 TESTS = Path(__file__).resolve().parents[1]
 ROOT = TESTS.parent
 README = (TESTS / "README.md").read_text(encoding="utf-8")
-ROWS = [[cell.strip() for cell in row.strip("|").split("|")] for row in re.findall(
-    r"^\|.*\|$", README.partition("## Sentences that were wrong")[2].partition("\n## ")[0], re.MULTILINE)][2:]
+ROWS = [
+    [cell.strip() for cell in row.strip("|").split("|")]
+    for row in re.findall(
+        r"^\|.*\|$", README.partition("## Sentences that were wrong")[2].partition("\n## ")[0], re.MULTILINE
+    )
+][2:]
 
 
 @cache
@@ -23,8 +27,10 @@ def words():
 def test_every_test_that_the_readme_names_exists():
     named = re.findall(r"`([\w/]+\.py)::(\w+)`", README)
     assert len(named) > 60
-    defined = {path: set(re.findall(r"^def (test_\w+)", (TESTS / path).read_text(encoding="utf-8"), re.MULTILINE))
-               for path in {path for path, _ in named}}
+    defined = {
+        path: set(re.findall(r"^def (test_\w+)", (TESTS / path).read_text(encoding="utf-8"), re.MULTILINE))
+        for path in {path for path, _ in named}
+    }
     assert [(path, name) for path, name in named if name not in defined[path]] == []
 
 

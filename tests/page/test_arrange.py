@@ -27,14 +27,18 @@ def assert_within(boxes, width, height):
         assert -0.5 <= left < right <= width + 0.5
         assert -0.5 <= top < bottom <= height + 0.5
     for one, other in itertools.combinations(cells, 2):
-        assert (one[2] <= other[0] + 0.5 or other[2] <= one[0] + 0.5
-                or one[3] <= other[1] + 0.5 or other[3] <= one[1] + 0.5)
+        assert (
+            one[2] <= other[0] + 0.5 or other[2] <= one[0] + 0.5 or one[3] <= other[1] + 0.5 or other[3] <= one[1] + 0.5
+        )
 
 
 def largest_in_columns(width, height, count, over):
     """The edge of equal squares with captions, by trying all numbers of columns."""
-    return max(min((width - 8 * (columns - 1)) / columns, (height - 8 * (rows - 1)) / rows - over)
-               for columns in range(1, count + 1) for rows in [-(-count // columns)])
+    return max(
+        min((width - 8 * (columns - 1)) / columns, (height - 8 * (rows - 1)) / rows - over)
+        for columns in range(1, count + 1)
+        for rows in [-(-count // columns)]
+    )
 
 
 def test_the_smallest_picture_is_as_large_as_it_can_be_and_all_is_inside(arrange):

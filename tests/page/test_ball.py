@@ -106,7 +106,8 @@ def test_an_example_with_a_field_is_drawn_with_the_numbers_of_its_captions(field
         assert returned(values, place) == pytest.approx(place, abs=1e-5)
         exact = sorted(np.linalg.eigvals(derivative(values, place)), key=abs, reverse=True)
         assert said(field, "section", "Period 1, saddle with reflection: μ = #, # to #")[:2] == pytest.approx(
-            exact, abs=1e-3)
+            exact, abs=1e-3
+        )
         return
     own = points(field, "section-own")
     count, cells, of = said(field, "section", "The chosen orbit: # points in # of # cells")
@@ -241,11 +242,16 @@ def test_a_ball_without_a_line_of_rest_says_so_and_nothing_stale_stays(ball):
     assert flat(ball.data("Gamma-message")) == []
 
 
-@pytest.mark.parametrize(("name", "text", "value", "words"), [
-    ("D", "-1", 0.0, "𝒟 lies between 0 and 300"), ("h", "0", 1e-6, "h lies between 1e-06 and 1e+06"),
-    ("theta", "4", math.pi, "θ⁻ lies between 0 and"), ("I11", "-2", 1e-3, "I₁₁ lies between 0.001 and 1000"),
-    ("digits", "99", 10.0, "−lg δ lies between 2 and 10"),
-])
+@pytest.mark.parametrize(
+    ("name", "text", "value", "words"),
+    [
+        ("D", "-1", 0.0, "𝒟 lies between 0 and 300"),
+        ("h", "0", 1e-6, "h lies between 1e-06 and 1e+06"),
+        ("theta", "4", math.pi, "θ⁻ lies between 0 and"),
+        ("I11", "-2", 1e-3, "I₁₁ lies between 0.001 and 1000"),
+        ("digits", "99", 10.0, "−lg δ lies between 2 and 10"),
+    ],
+)
 def test_a_number_that_cannot_be_is_put_right_and_said(ball, name, text, value, words):
     ball.change(ball.type, name, text)
     assert ball.shown(name)[0] == pytest.approx(value)
@@ -279,9 +285,18 @@ def test_a_map_that_takes_long_is_left_out_with_a_sentence(ball):
     assert flat(ball.data("curve-message")) == []
 
 
-@pytest.mark.parametrize("typed", [
-    {"h": "1e-3"}, {"delta": "0"}, {"delta": "9"}, {"D": "0"}, {"b1": "0", "b3": "0"}, {"I13": "20", "I23": "-20"},
-], ids=str)
+@pytest.mark.parametrize(
+    "typed",
+    [
+        {"h": "1e-3"},
+        {"delta": "0"},
+        {"delta": "9"},
+        {"D": "0"},
+        {"b1": "0", "b3": "0"},
+        {"I13": "20", "I23": "-20"},
+    ],
+    ids=str,
+)
 def test_an_extreme_ball_with_a_field_is_drawn(field, typed):
     for name, text in typed.items():
         field.change(field.type, name, text)
@@ -298,12 +313,45 @@ def test_an_extreme_ball_with_a_field_is_drawn(field, typed):
 # --- Links, play, the menu ---------------------------------------------------------------------------
 
 LINKED = {
-    "chaplygin-ball": {"I11": 1.25, "I22": 0.75, "I13": 0.25, "I23": -0.5, "D": 1.5, "h": 2.5, "theta": 0.75,
-                       "phi": -2.0, "digits": 4.5, "span": 33.0, "certain": "not shown", "accuracy": "precise"},
-    "ball-section": {"I11": 1.25, "I22": 0.75, "I13": 0.25, "I23": -0.5, "D": 1.5, "b1": 0.25, "b2": -0.5, "b3": 0.75,
-                     "h": 2.5, "psi": -1.0, "delta": 0.75, "count": 100.0, "span": 33.0, "drop": "the later half",
-                     "periodic": "none", "reach": 7.5, "over": "I₁₃", "low": 0.25, "high": 0.5, "upwards": "δ",
-                     "certain": "not shown", "indicator": "MEGNO", "accuracy": "draft"},
+    "chaplygin-ball": {
+        "I11": 1.25,
+        "I22": 0.75,
+        "I13": 0.25,
+        "I23": -0.5,
+        "D": 1.5,
+        "h": 2.5,
+        "theta": 0.75,
+        "phi": -2.0,
+        "digits": 4.5,
+        "span": 33.0,
+        "certain": "not shown",
+        "accuracy": "precise",
+    },
+    "ball-section": {
+        "I11": 1.25,
+        "I22": 0.75,
+        "I13": 0.25,
+        "I23": -0.5,
+        "D": 1.5,
+        "b1": 0.25,
+        "b2": -0.5,
+        "b3": 0.75,
+        "h": 2.5,
+        "psi": -1.0,
+        "delta": 0.75,
+        "count": 100.0,
+        "span": 33.0,
+        "drop": "the later half",
+        "periodic": "none",
+        "reach": 7.5,
+        "over": "I₁₃",
+        "low": 0.25,
+        "high": 0.5,
+        "upwards": "δ",
+        "certain": "not shown",
+        "indicator": "MEGNO",
+        "accuracy": "draft",
+    },
 }
 
 

@@ -32,8 +32,9 @@ def view_of(turn):
     """To the right, upwards and towards the eye, in space: the rows of (3, 3)."""
     azimuth, elevation = turn
     right = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
-    towards = np.array([math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth),
-                        math.sin(elevation)])
+    towards = np.array(
+        [math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation)]
+    )
     return np.array([right, np.cross(towards, right), towards])
 
 
@@ -112,8 +113,11 @@ def test_what_is_behind_the_body_is_hidden_and_what_is_before_it_is_not(quartic)
             front = hit(ellipsoid, (x, y))
             wheels = [side * 0.85 * to_view @ [1.0, 0.0, 0.0] for side in (1.0, -1.0)]
             # Not where the rod comes out of the body, nor where a wheel may be.
-            if (0.8 < place @ ellipsoid @ place < 1.3 or (front is not None and abs(z - front) < 0.05)
-                    or min(math.hypot(*(place - wheel)[:2]) for wheel in wheels) < 0.25):
+            if (
+                0.8 < place @ ellipsoid @ place < 1.3
+                or (front is not None and abs(z - front) < 0.05)
+                or min(math.hypot(*(place - wheel)[:2]) for wheel in wheels) < 0.25
+            ):
                 continue
             pixel = painted[round(half - RADIUS * half * y - 0.5), round(half + RADIUS * half * x - 0.5)]
             (hidden if front is not None and z < front else shown).append(pixel[:3].max() < 70 and pixel[3] > 150)
@@ -138,7 +142,9 @@ def test_the_module_s_outline_and_exits_are_those_of_the_ellipsoid(quartic):
               const at = (r) => hess.solid.covers(axes, semi, r * (c * edge.halves[0] * 0.6 - s * edge.halves[1] * 0.8),
                                                   r * (s * edge.halves[0] * 0.6 + c * edge.halves[1] * 0.8))
               return [edge, hess.solid.leaves(axes, semi, v), at(0.999), at(1.001)]
-            }""", [axes.tolist(), semi.tolist(), v.tolist()])
+            }""",
+            [axes.tolist(), semi.tolist(), v.tolist()],
+        )
         shadow = np.linalg.inv(ellipsoid)[:2, :2]
         assert np.square(edge["halves"])[::-1] == pytest.approx(np.linalg.eigvalsh(shadow), rel=1e-9)
         assert (edge["width"] ** 2, edge["height"] ** 2) == pytest.approx(np.diag(shadow), rel=1e-12)
@@ -157,7 +163,8 @@ def test_the_point_behind_the_sphere_is_as_strong_as_before_it_and_has_a_ring_th
         wait_frames(quartic)
         sphere = quartic.sphere
         x, y, z = view_of(tuple(map(float, sphere.get_attribute("data-turn").split()))) @ [
-            orbit[name][i] for name in ("g1", "g2", "g3")]
+            orbit[name][i] for name in ("g1", "g2", "g3")
+        ]
         around = sphere.evaluate(
             """(canvas, [x, y]) => {
               const half = canvas.width / 2
@@ -166,7 +173,9 @@ def test_the_point_behind_the_sphere_is_as_strong_as_before_it_and_has_a_ring_th
                 Math.round(half - 0.84 * half * y + radius * Math.sin(angle) - 0.5), 1, 1).data]
               const angles = Array.from({ length: 60 }, (_, i) => i * Math.PI / 30)
               return [at(0, 0), angles.map((angle) => at(11, angle))]
-            }""", [x, y])
+            }""",
+            [x, y],
+        )
         middle, ring = np.array(around[0]), np.array(around[1])
         assert middle == pytest.approx([240, 228, 66, 255], abs=3)
         if abs(z) > 0.1:

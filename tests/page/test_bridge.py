@@ -31,7 +31,7 @@ def test_an_example_of_the_leak_is_drawn_with_the_rate_of_its_caption(leak, pres
     assert leak.chosen("preset") == preset.name
     (curve,) = leak.data("leak-own")["ys"]
     if preset.name in STABLE:
-        largest, = said(leak, "leak", "Stable: no cycles, no growth; after 60 periods |r·M| ≤ #.")
+        (largest,) = said(leak, "leak", "Stable: no cycles, no growth; after 60 periods |r·M| ≤ #.")
         assert max(curve) == pytest.approx(math.log10(largest), abs=0.05)
         assert largest < 3e-14
     else:
@@ -132,11 +132,13 @@ def test_the_sliders_of_the_side_that_is_not_given_are_disabled_and_show_it(brid
     reached = set()
     for _ in range(60):
         bridge.page.keyboard.press("Tab")
-        reached.add(bridge.page.evaluate("""() => {
+        reached.add(
+            bridge.page.evaluate("""() => {
           let item = document.activeElement
           while (item?.shadowRoot?.activeElement) item = item.shadowRoot.activeElement
           return item?.closest(".number")?.className.split("param-")[1] ?? ""
-        }"""))
+        }""")
+        )
     assert set(sides["Suslov–Hess"]) <= reached
     assert not reached.intersection(sides["Euler–Poisson"])
     assert bridge.slider("I2").get_attribute("aria-description").startswith("Disabled: under the choices made")

@@ -38,8 +38,11 @@ BLUR = """() => {
 def pictures(explorer):
     """All pictures with their captions as they are on the screen, as RGB."""
     # What comes later has come.
-    expect(explorer.page.locator(".gallery:not(.away) .caption").filter(
-        has_text=re.compile(r"Measured so far|Not compared yet|being computed"))).to_have_count(0, timeout=120_000)
+    expect(
+        explorer.page.locator(".gallery:not(.away) .caption").filter(
+            has_text=re.compile(r"Measured so far|Not compared yet|being computed")
+        )
+    ).to_have_count(0, timeout=120_000)
     explorer.page.mouse.move(5, 5)
     explorer.page.evaluate(BLUR)
     wait_frames(explorer)
@@ -67,7 +70,7 @@ def assert_same_by_link(explorer, artefacts, name):
 def through_examples(explorer):
     """Examples in turn, the last of them too, and back to the one before it."""
     names = [name for name in explorer.menu("preset").locator("option").all_text_contents() if "…" not in name]
-    names = names[::-math.ceil(len(names) / MOST)][::-1]
+    names = names[:: -math.ceil(len(names) / MOST)][::-1]
     for name in [*names, *names[-2:-1]]:
         if explorer.chosen("preset") != name:
             explorer.change(explorer.choose, "preset", name)
@@ -76,8 +79,10 @@ def through_examples(explorer):
 def through_numbers(explorer):
     """The first numbers typed, one after the other; the first of them twice."""
     boxes = explorer.page.locator(".number:not(:has(:disabled))")
-    names = [classes.split("param-")[1].split()[0] for classes in
-             boxes.evaluate_all("boxes => boxes.map((box) => box.className)")]
+    names = [
+        classes.split("param-")[1].split()[0]
+        for classes in boxes.evaluate_all("boxes => boxes.map((box) => box.className)")
+    ]
     for share, count in ((0.8, 1), (0.6, 3)):
         for name in names[:count]:
             low, high = (float(explorer.slider(name).get_attribute(end)) for end in ("min", "max"))

@@ -78,7 +78,8 @@ def test_a_chart_from_its_start_to_its_file(explorer, tmp_path):
     assert reached.keys() == wanted.keys()
     for key, value in wanted.items():
         assert (reached[key] if isinstance(value, str) else float(reached[key])) == (
-            value if isinstance(value, str) else pytest.approx(value, abs=1e-15))
+            value if isinstance(value, str) else pytest.approx(value, abs=1e-15)
+        )
     explorer.change(lambda: page.locator(".param-undo").click())
     assert explorer.link() == before
     # Where nothing is possible the server says so.
@@ -126,9 +127,12 @@ def test_a_chart_from_its_start_to_its_file(explorer, tmp_path):
     explorer.change(lambda: page.keyboard.press("Enter"))
     assert explorer.link().partition("h=")[0] == before.partition("h=")[0]
     # A file that holds something else is told, and changes nothing.
-    for text, why in (("{", "is no JSON"), ("[]", "holds no chart"),
-                      (json.dumps({**file, "values": [1]}), "is missing"),
-                      (json.dumps({**file, "x": {**file["x"], "count": 10**9}}), "is missing")):
+    for text, why in (
+        ("{", "is no JSON"),
+        ("[]", "holds no chart"),
+        (json.dumps({**file, "values": [1]}), "is missing"),
+        (json.dumps({**file, "x": {**file["x"], "count": 10**9}}), "is missing"),
+    ):
         (tmp_path / "other.json").write_text(text, encoding="utf-8")
         panel.locator("input[type=file]").set_input_files(tmp_path / "other.json")
         expect(said).to_contain_text(why)
@@ -157,7 +161,7 @@ def test_a_chart_from_its_start_to_its_file(explorer, tmp_path):
     canvas.focus()
     page.keyboard.press("ArrowRight")
     explorer.change(lambda: page.keyboard.press("Enter"))
-    start, = dict(parse_qsl(urlsplit(explorer.link()).query))["starts"].split(";")
+    (start,) = dict(parse_qsl(urlsplit(explorer.link()).query))["starts"].split(";")
     place = [*map(float, start.split(","))]
     i, j = (int(np.abs(axis - x).argmin()) for axis, x in zip((psi, delta), place, strict=True))
     assert place == pytest.approx([psi[i], delta[j]], abs=1e-9)

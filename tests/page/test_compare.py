@@ -32,8 +32,12 @@ def painted(explorer):
 
 
 def rows(explorer):
-    return {name: (one, two) for name, one, two in explorer.page.locator(".comparison tbody tr").evaluate_all(
-        "rows => rows.map((row) => [...row.children].map((cell) => cell.textContent))")}
+    return {
+        name: (one, two)
+        for name, one, two in explorer.page.locator(".comparison tbody tr").evaluate_all(
+            "rows => rows.map((row) => [...row.children].map((cell) => cell.textContent))"
+        )
+    }
 
 
 def test_while_a_slider_is_held_the_state_before_it_is_seen_and_no_longer(explorer):
@@ -78,7 +82,8 @@ def assert_side_by_side(explorer):
     assert_accessible(page)
     for half, follower, t in ((one, other, "7.25"), (other, one, "3.5")):
         half.locator("input.param-t").evaluate(
-            "(slider, t) => { slider.value = t; slider.dispatchEvent(new Event('input')) }", t)
+            "(slider, t) => { slider.value = t; slider.dispatchEvent(new Event('input')) }", t
+        )
         follower.locator(".player output", has_text=f"t = {float(t):.2f}").wait_for()
         half.locator("canvas.solid").press("ArrowLeft")
         turn = half.locator("canvas.solid").evaluate(PAINTED_TURN)

@@ -18,8 +18,13 @@ from support.suslov_hess import assert_orbit, exact_states, rounding
 
 # Where each slider ends at the default state; f at the last hundredth inside the region.
 ENDS = {
-    "I22": (0.2, 3.0), "I23": (-2.0, 2.0), "b3": (-3.0, -0.05), "h": (-0.99, 4.0), "f": (-1.81, 1.81),
-    "phi0": (-3.14, 3.14), "span": (1.0, 200.0),
+    "I22": (0.2, 3.0),
+    "I23": (-2.0, 2.0),
+    "b3": (-3.0, -0.05),
+    "h": (-0.99, 4.0),
+    "f": (-1.81, 1.81),
+    "phi0": (-3.14, 3.14),
+    "span": (1.0, 200.0),
 }
 SCALES = {**ENDS, "f": (-3.0, 3.0)}
 """Of each slider: that of f is longer than what is possible, for it stays when h changes."""
@@ -29,6 +34,7 @@ some_numbers = pytest.mark.parametrize("name", ["h", "f", "span"])
 
 
 # --- Sliders and boxes -------------------------------------------------------------------------------
+
 
 @some_numbers
 def test_a_slider_obeys_the_keyboard(explorer, name):
@@ -77,17 +83,20 @@ def test_a_slider_follows_the_mouse(explorer, name):
     assert_orbit(explorer, {**DEFAULTS, name: value})
 
 
-@pytest.mark.parametrize(("name", "text", "value"), [
-    ("I22", " 1.375 ", 1.375),
-    ("I23", "−0.5", -0.5),
-    ("b3", "-2e0", -2.0),
-    ("h", "0,7", 0.7),
-    ("h", "7.25", 7.25),
-    ("f", "1e-8", 1e-8),
-    ("f", "−1e−8", -1e-8),
-    ("phi0", "−0.5", -0.5),
-    ("span", "12.34567890123", 12.34567890123),
-])
+@pytest.mark.parametrize(
+    ("name", "text", "value"),
+    [
+        ("I22", " 1.375 ", 1.375),
+        ("I23", "−0.5", -0.5),
+        ("b3", "-2e0", -2.0),
+        ("h", "0,7", 0.7),
+        ("h", "7.25", 7.25),
+        ("f", "1e-8", 1e-8),
+        ("f", "−1e−8", -1e-8),
+        ("phi0", "−0.5", -0.5),
+        ("span", "12.34567890123", 12.34567890123),
+    ],
+)
 def test_a_box_takes_an_exact_value(explorer, name, text, value):
     explorer.change(explorer.type, name, text)
     box, slider = explorer.shown(name)
@@ -128,16 +137,19 @@ def test_escape_brings_back_the_value_and_takes_the_mark_away(explorer):
     assert explorer.box("h").get_attribute("aria-invalid") != "true"
 
 
-@pytest.mark.parametrize(("name", "text", "value", "note"), [
-    ("I22", "0", 1e-3, "I₂₂ lies between"),
-    ("I23", "5000", 96.0, "within ±100"),
-    ("b3", "0", -1e-3, "b₃ lies between"),
-    ("h", "-5", -1 + 1e-9, "h lies between"),
-    ("f", "99", None, "f is at that edge"),
-    ("f", "-99", None, "f is at that edge"),
-    ("phi0", "4", math.pi, "φ₀ lies between"),
-    ("span", "-1", 0.01, "t lies between"),
-])
+@pytest.mark.parametrize(
+    ("name", "text", "value", "note"),
+    [
+        ("I22", "0", 1e-3, "I₂₂ lies between"),
+        ("I23", "5000", 96.0, "within ±100"),
+        ("b3", "0", -1e-3, "b₃ lies between"),
+        ("h", "-5", -1 + 1e-9, "h lies between"),
+        ("f", "99", None, "f is at that edge"),
+        ("f", "-99", None, "f is at that edge"),
+        ("phi0", "4", math.pi, "φ₀ lies between"),
+        ("span", "-1", 0.01, "t lies between"),
+    ],
+)
 def test_what_is_out_of_range_is_clamped_with_a_note_each_time(explorer, name, text, value, note):
     if value is None:
         # On the curve at h = 3/2: n = 1/(h + √(h² + 3)), f = (1 − n²)/√n (Geq3, corrected).
@@ -276,6 +288,7 @@ def test_a_button_moves_a_slider_to_and_fro_until_it_is_touched(explorer):
 
 # --- Menus and buttons -------------------------------------------------------------------------------
 
+
 def test_the_accuracy_menu_changes_level_error_and_link_and_nothing_else(explorer):
     for name in ("draft", "precise", "reference", "standard"):
         explorer.change(explorer.choose, "accuracy", name)
@@ -406,7 +419,8 @@ def test_pause_stops_the_point_and_writes_the_time_into_the_link(explorer):
     assert explorer.time == t
     # To the link's three digits; a range input drops the last digits of t, so a tie may be rounded either way.
     explorer.page.wait_for_function(
-        "t => Math.abs(new URLSearchParams(location.search).get('t') - t) < 0.000501", arg=t)
+        "t => Math.abs(new URLSearchParams(location.search).get('t') - t) < 0.000501", arg=t
+    )
     assert_on_orbit(explorer, DEFAULTS)
 
 
@@ -454,7 +468,9 @@ def test_the_speed_is_the_one_chosen(explorer, speed):
             now = next
           }}
           return [played / 1000, at() - from]
-        }}""", list(POINTS))
+        }}""",
+        list(POINTS),
+    )
     # One frame more or less.
     assert passed == pytest.approx(float(speed) * elapsed, abs=0.15 * float(speed))
     explorer.page.locator(".param-play").click()
@@ -507,8 +523,18 @@ def test_keys_that_mean_something_where_the_focus_is_leave_the_player_alone(expl
     assert not explorer.playing
     # Space plays, whatever has the focus but a box; on the button itself it is a click, once.
     page = explorer.page
-    others = (".param-reset", ".param-play", ".param-speed", ".group > summary", ".corner:visible", ".param-pin",
-              ".lesson-menu > summary", ".unfold:visible", "canvas.solid:visible", ".param-h .sway")
+    others = (
+        ".param-reset",
+        ".param-play",
+        ".param-speed",
+        ".group > summary",
+        ".corner:visible",
+        ".param-pin",
+        ".lesson-menu > summary",
+        ".unfold:visible",
+        "canvas.solid:visible",
+        ".param-h .sway",
+    )
     for item in (explorer.slider("h"), explorer.menu("preset"), *(page.locator(name).first for name in others)):
         for playing in (True, False):
             item.press("Space")

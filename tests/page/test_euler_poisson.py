@@ -58,7 +58,8 @@ def drawn(explorer, name):
             [...(item.tagName === "CANVAS" ? [item] : []), ...(item.shadowRoot ? canvases(item.shadowRoot) : [])])
           return canvases(picture).some((canvas) => canvas.getContext("2d")
             .getImageData(0, 0, canvas.width, canvas.height).data.some((value) => value !== 0))
-        }""")
+        }"""
+    )
 
 
 # --- Examples ----------------------------------------------------------------------------------------
@@ -146,8 +147,12 @@ def test_a_box_looks_closer_and_undo_looks_at_the_whole_again(page):
     page.change(page.page.mouse.up)
     completed(page)
     (l0, low), (l1, high) = places(values_of(page)["window"])
-    assert (l0, low, l1, high) == (pytest.approx(-2.25, abs=0.04), pytest.approx(-0.27, abs=0.015),
-                                   pytest.approx(-1.45, abs=0.04), pytest.approx(0.33, abs=0.015))
+    assert (l0, low, l1, high) == (
+        pytest.approx(-2.25, abs=0.04),
+        pytest.approx(-0.27, abs=0.015),
+        pytest.approx(-1.45, abs=0.04),
+        pytest.approx(0.33, abs=0.015),
+    )
     assert page.axes("section") == pytest.approx([l0, l1, low, high], abs=1e-5)
     # It is filled with orbits of its own, all on one side of the barrier there.
     assert shown_points(page) == SMALL["orbits"] * SMALL["count"]
@@ -197,6 +202,7 @@ def held_back(browser, tmp_path_factory, gate):
 @pytest.fixture
 def long_section(held_back, gate):
     """long_section(h) → the page while a section of that energy is computed, of which six pieces come."""
+
     def begin(h):
         opened(held_back)
         gate.touch()
@@ -287,8 +293,11 @@ def test_a_link_brings_back_window_and_starts(page):
     assert (values["window"], values["starts"]) == ("0.5,-0.2;1.9,0.6", "0.9,0.1;1.2,0.3")
 
 
-@pytest.mark.parametrize("texts", [
-    {"starts": "nan,0", "window": "1,2,3"}, {"starts": "<script>alert(1)</script>"}], ids=["numbers", "script"])
+@pytest.mark.parametrize(
+    "texts",
+    [{"starts": "nan,0", "window": "1,2,3"}, {"starts": "<script>alert(1)</script>"}],
+    ids=["numbers", "script"],
+)
 def test_bad_places_in_a_link_are_replaced_and_said(page, texts):
     page.open(urlencode({"scene": EP.name, **SMALL, **texts}))
     assert page.text("notes").count("could not be read as points") == len(texts)
@@ -299,9 +308,13 @@ def test_bad_places_in_a_link_are_replaced_and_said(page, texts):
     assert shown_points(page) > 0
 
 
-@pytest.mark.parametrize(("values", "words"), [
-    ({"I2": 2.0}, "must lie between I1 = 1 and I3 = 0.375"),
-    ({"h": -50.0}, "Nothing is possible here with h = -50 and f = 5: choose a larger h")])
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"I2": 2.0}, "must lie between I1 = 1 and I3 = 0.375"),
+        ({"h": -50.0}, "Nothing is possible here with h = -50 and f = 5: choose a larger h"),
+    ],
+)
 def test_a_refusal_is_a_sentence_and_the_way_back_is_open(page, values, words):
     opened(page)
     page.change(lambda: page.page.evaluate(ENTER, [*values.items()]))
@@ -314,8 +327,9 @@ def test_a_refusal_is_a_sentence_and_the_way_back_is_open(page, values, words):
 
 
 def test_a_window_where_nothing_is_possible_is_cleared(page):
-    page.open(urlencode({"scene": EP.name, **SMALL, "h": -5.5, "f": 0.0, "starts": "3,0.85",
-                         "window": "3,0.8;3.1,0.9"}))
+    page.open(
+        urlencode({"scene": EP.name, **SMALL, "h": -5.5, "f": 0.0, "starts": "3,0.85", "window": "3,0.8;3.1,0.9"})
+    )
     assert "press Clear" in page.text("status")
     page.change(page.page.locator(".param-clear").click)
     assert "press Clear" not in page.text("status")

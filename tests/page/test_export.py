@@ -31,7 +31,8 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer):
     dialog = page.get_by_role("dialog", name="Export")
     assert dialog.locator(".param-picture option").count() == 5
     assert dialog.locator(".param-format option").evaluate_all("all => all.map((one) => one.value).join()") == (
-        "csv,json,png,svg,pdf,webm,mp4,gif,html")
+        "csv,json,png,svg,pdf,webm,mp4,gif,html"
+    )
     for name, bounds in (("width", ["20", "400", "85"]), ("seconds", ["1", "30", "10"])):
         assert dialog.locator(f".param-{name}").evaluate("({ min, max, value }) => [min, max, value]") == bounds
     dialog.locator(".param-picture").select_option("circle")
@@ -45,8 +46,21 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer):
     dialog.locator(".param-width").fill("60")
     dialog.locator(".param-black").check()
     words = shlex.split(dialog.get_by_label("Command").get_by_role("textbox").input_value())
-    assert words == ["hess-explorer", "export", "--state", state, "--picture", "circle", "--format", "svg", "--width",
-                     "60", "--black", "--out", "suslov-hess-circle.svg"]
+    assert words == [
+        "hess-explorer",
+        "export",
+        "--state",
+        state,
+        "--picture",
+        "circle",
+        "--format",
+        "svg",
+        "--width",
+        "60",
+        "--black",
+        "--out",
+        "suslov-hess-circle.svg",
+    ]
     # The lines of Python, those of the command line too, and the notebook.
     explorer.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     python = dialog.get_by_label("Python", exact=True).get_by_role("textbox")
@@ -110,7 +124,11 @@ def test_a_film_is_made_with_progress_and_is_stopped(explorer):
     dialog.locator(".param-seconds").fill("1")
     state = urlsplit(page.url).query
     assert shlex.split(dialog.get_by_label("Command").get_by_role("textbox").input_value())[-4:] == [
-        "--seconds", "1", "--out", "suslov-hess-sphere.webm"]
+        "--seconds",
+        "1",
+        "--out",
+        "suslov-hess-sphere.webm",
+    ]
     # All that is said while it is made.
     dialog.locator(".why").evaluate("""said => {
         window.heard = []
@@ -159,11 +177,15 @@ def test_the_server_gives_files_and_sentences(server):
             assert answer.read().startswith(begins)
 
 
-@pytest.mark.parametrize(("query", "sentence"), [
-    ("picture=nothing", "choose one of body, omega"), ("picture=-x&format=webm", "has no picture '-x'"),
-    ("h=" + "1" * MAX_QUERY, f"longer than {MAX_QUERY} characters"),
-    ("scene=chaplygin-ball&I13=0&I23=0", "no line of equilibria"),
-])
+@pytest.mark.parametrize(
+    ("query", "sentence"),
+    [
+        ("picture=nothing", "choose one of body, omega"),
+        ("picture=-x&format=webm", "has no picture '-x'"),
+        ("h=" + "1" * MAX_QUERY, f"longer than {MAX_QUERY} characters"),
+        ("scene=chaplygin-ball&I13=0&I23=0", "no line of equilibria"),
+    ],
+)
 def test_what_cannot_be_made_is_refused_with_a_sentence(server, query, sentence):
     with pytest.raises(HTTPError) as refused:
         urlopen(f"{server}/export?{query}")

@@ -60,10 +60,13 @@ def test_an_example_of_free_motion_is_drawn_with_the_numbers_of_its_captions(fre
     if "two circles" in preset.name:
         assert abs(went - other) > 0.05
     assert said(free, "omega", "at rate ω₀ = #, E = #.") == [
-        shown(rate_of(values, energy(values, omega))), shown(energy(values, omega))]
+        shown(rate_of(values, energy(values, omega))),
+        shown(energy(values, omega)),
+    ]
     orbit = track(free)
-    assert orbit[0] == pytest.approx([values["w1"], values["w2"],
-                                      *gamma_at(values, math.acos(values["Gamma"]), values["phi"])], abs=1e-6)
+    assert orbit[0] == pytest.approx(
+        [values["w1"], values["w2"], *gamma_at(values, math.acos(values["Gamma"]), values["phi"])], abs=1e-6
+    )
     # At the end of the time span ω has come to the stable point, and each γ to its circle.
     assert orbit[-1, :2] == pytest.approx(future[:2], abs=2e-3)
     assert orbit[-1, 2:] @ xi == pytest.approx(went, abs=2e-3)
@@ -83,7 +86,10 @@ def test_an_example_of_scattering_is_drawn_with_the_numbers_of_its_captions(scat
     theta, phi, delta = values["theta"], values["phi"], 10.0 ** -values["digits"]
     exact = math.acos(circle_joined(values, theta, phi, delta))
     assert said(scattering, "sphere", "φ = #: from θ⁻ = # to θ⁺ = #.") == [
-        shown(phi), shown(theta), pytest.approx(exact, abs=1e-3)]
+        shown(phi),
+        shown(theta),
+        pytest.approx(exact, abs=1e-3),
+    ]
     ring = scattering.data("curve-chosen")
     assert (ring["x"][0], ring["y"][0]) == pytest.approx((phi, exact), abs=1e-5)
     curve = scattering.data("curve-theta")
@@ -235,7 +241,8 @@ def test_a_box_of_the_free_motion_takes_what_is_extreme(free, name, text):
     values = {**FREE.defaults(), name: value}
     assert free.wait_url(**{name: repr(value)})["scene"] == "free-suslov"
     assert track(free)[0] == pytest.approx(
-        [values["w1"], values["w2"], *gamma_at(values, math.acos(values["Gamma"]), values["phi"])], abs=1e-6)
+        [values["w1"], values["w2"], *gamma_at(values, math.acos(values["Gamma"]), values["phi"])], abs=1e-6
+    )
     if name == "w2":
         # It is announced when it comes: ω2 grows as e^t up to twice √2.44 · 2.
         t = math.log(4.0 * math.sqrt(2.44)) + 300.0 * math.log(10.0)
@@ -245,8 +252,10 @@ def test_a_box_of_the_free_motion_takes_what_is_extreme(free, name, text):
 # --- What is no motion -------------------------------------------------------------------------------
 
 NO_XI = "I₁₃ = I₂₃ = 0: without a field ω does not change, and there is no ξ. Choose one of them other than 0."
-ON_THE_LINE = ("ω(0) lies on the line of equilibria I13ω1 + I23ω2 = 0: ω stays there, and γ turns about ξ for ever. "
-               "Move ω off the line.")
+ON_THE_LINE = (
+    "ω(0) lies on the line of equilibria I13ω1 + I23ω2 = 0: ω stays there, and γ turns about ξ for ever. "
+    "Move ω off the line."
+)
 AT_REST = "ω = 0: the body is at rest for ever, h = 0. Choose ω1 or ω2 other than 0."
 TOO_OFTEN = "γ turns too often while ω passes from the unstable to the stable point"
 NEGATIVE = "k = {} would make I₁₁ = {}; a moment of inertia is positive. Choose a larger k."
@@ -263,8 +272,9 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("scene", "typed", "sentence"), REFUSED,
-                         ids=[f"{scene.name} {typed}" for scene, typed, _ in REFUSED])
+@pytest.mark.parametrize(
+    ("scene", "typed", "sentence"), REFUSED, ids=[f"{scene.name} {typed}" for scene, typed, _ in REFUSED]
+)
 def test_what_is_no_motion_says_so_and_nothing_stale_stays(tab, scene, typed, sentence):
     explorer = brought(tab, scene)
     sources = explorer.page.evaluate(SOURCES)
@@ -295,10 +305,30 @@ def test_what_is_no_motion_says_so_and_nothing_stale_stays(tab, scene, typed, se
 # --- Links -------------------------------------------------------------------------------------------
 
 LINKED = {
-    "free-suslov": {"I22": 1.25, "I13": 0.25, "I23": -0.5, "k": 1.75, "w1": -1.0, "w2": 0.75, "Gamma": -0.25,
-                    "phi": 2.0, "phi2": -1.5, "span": 17.0, "across": "phase", "accuracy": "precise"},
-    "scattering": {"I22": 1.25, "I13": 0.25, "I23": -0.5, "k": 1.75, "theta": 0.75, "phi": -2.0, "digits": 4.5,
-                   "accuracy": "reference"},
+    "free-suslov": {
+        "I22": 1.25,
+        "I13": 0.25,
+        "I23": -0.5,
+        "k": 1.75,
+        "w1": -1.0,
+        "w2": 0.75,
+        "Gamma": -0.25,
+        "phi": 2.0,
+        "phi2": -1.5,
+        "span": 17.0,
+        "across": "phase",
+        "accuracy": "precise",
+    },
+    "scattering": {
+        "I22": 1.25,
+        "I13": 0.25,
+        "I23": -0.5,
+        "k": 1.75,
+        "theta": 0.75,
+        "phi": -2.0,
+        "digits": 4.5,
+        "accuracy": "reference",
+    },
 }
 
 

@@ -7,8 +7,11 @@ import pytest
 from support.fuzzing import fuzz_commands, fuzz_links, fuzz_messages
 
 
-@pytest.mark.parametrize(("fuzz", "count"), [(fuzz_links, 12), (fuzz_messages, 25), (fuzz_commands, 25)],
-                         ids=["links", "messages", "commands"])
+@pytest.mark.parametrize(
+    ("fuzz", "count"),
+    [(fuzz_links, 12), (fuzz_messages, 25), (fuzz_commands, 25)],
+    ids=["links", "messages", "commands"],
+)
 def test_strangers_get_answers(fuzz, count):
     findings = fuzz(random.Random(20), count)
     assert findings.done == count

@@ -53,7 +53,8 @@ def test_an_example_of_the_quartic_potential_is_drawn_with_the_numbers_of_its_ca
     I22, size = values["I22"], abs(values["b3"])
     reach = math.sqrt(2.0 * (values["h"] + size)) / size
     assert said(point, "domain", "half axes # and #,") == pytest.approx(
-        [reach * math.sqrt(I22), reach * math.sqrt(values["ratio"] * I22)], rel=6e-4)
+        [reach * math.sqrt(I22), reach * math.sqrt(values["ratio"] * I22)], rel=6e-4
+    )
     if values["periodic"] == NONE:
         points, _ = said(point, "section", "The orbit: # points in #")
         assert points == len(point.data("section-own")["x"])
@@ -74,7 +75,9 @@ def test_a_slider_of_the_direction_moves_the_orbit_and_its_period(arcs):
 def test_a_click_starts_the_orbit_there(arcs, tab):
     unit = click_on(arcs, "domain", -0.4, 0.3)
     assert (arcs.shown("q1")[0], arcs.shown("q2")[0]) == (
-        pytest.approx(-0.4, abs=unit[0]), pytest.approx(0.3, abs=unit[1]))
+        pytest.approx(-0.4, abs=unit[0]),
+        pytest.approx(0.3, abs=unit[1]),
+    )
     orbit = arcs.data("data-orbit")
     assert (orbit["q1"][0], orbit["q2"][0]) == pytest.approx((arcs.shown("q1")[0], arcs.shown("q2")[0]), abs=1e-6)
     section = brought(tab, POINT)

@@ -46,11 +46,13 @@ def distance(explorer, prediction, pixels):
         xs, ys = [xs], [ys]
     drawn = []
     for x, y in zip(xs, ys, strict=True):
-        places = np.array([at(explorer, prediction.picture, *place)[0] for place in zip(x[:1] + x[-1:], y[:1] + y[-1:],
-                                                                                       strict=True)])
+        places = np.array(
+            [at(explorer, prediction.picture, *place)[0] for place in zip(x[:1] + x[-1:], y[:1] + y[-1:], strict=True)]
+        )
         # Linear between two places whose pixels are known, on each axis.
-        (left, right), (bottom, top) = zip(*(at(explorer, prediction.picture, *corner)[0] for corner in (
-            (0.0, 0.0), (1.0, 1.0))), strict=True)
+        (left, right), (bottom, top) = zip(
+            *(at(explorer, prediction.picture, *corner)[0] for corner in ((0.0, 0.0), (1.0, 1.0))), strict=True
+        )
         line = np.column_stack([left + np.array(x) * (right - left), bottom + np.array(y) * (top - bottom)])
         np.testing.assert_allclose(line[[0, -1]], places, atol=1e-6)
         share = np.linspace(0.0, 1.0, 50)[:, None, None]
@@ -70,8 +72,12 @@ def assert_given_in_present_mode(page, step):
         assert 0 <= box["y"] < box["y"] + box["height"] <= 950
     assert boxes[2]["x"] + boxes[2]["width"] <= boxes[0]["x"]
     # No control lies over the next one.
-    parts = sorted((box["y"], box["x"], box["width"]) for box in (
-        item.bounding_box() for item in page.locator(".number .label:visible, .number .exact:visible").all()))
+    parts = sorted(
+        (box["y"], box["x"], box["width"])
+        for box in (
+            item.bounding_box() for item in page.locator(".number .label:visible, .number .exact:visible").all()
+        )
+    )
     assert len(parts) == 8
     for (_, x, width), (_, other, _) in itertools.pairwise(sorted(parts, key=lambda part: part[1])):
         assert x + width <= other + 1

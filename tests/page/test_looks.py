@@ -130,8 +130,12 @@ def assert_in_sight(places, width, height, count, share=0.5):
     for i, box in enumerate(boxes):
         assert box["width"] == pytest.approx(box["height"], abs=2)
         for other in boxes[:i]:
-            assert (box["x"] >= other["x"] + other["width"] - 1 or other["x"] >= box["x"] + box["width"] - 1
-                    or box["y"] >= other["y"] + other["height"] - 1 or other["y"] >= box["y"] + box["height"] - 1)
+            assert (
+                box["x"] >= other["x"] + other["width"] - 1
+                or other["x"] >= box["x"] + box["width"] - 1
+                or box["y"] >= other["y"] + other["height"] - 1
+                or other["y"] >= box["y"] + box["height"] - 1
+            )
     for box in [*boxes, *places["tools"]]:
         assert 0 <= box["x"] < box["x"] + box["width"] <= width
         assert 0 <= box["y"] < box["y"] + box["height"] <= height
@@ -169,8 +173,12 @@ def assert_apart_and_whole(page, size):
         assert len(parts) >= (6 if size in ("wide", "laptop") else 2)
         for i, (name, left, top, right, bottom) in enumerate(parts):
             for other, its_left, its_top, its_right, its_bottom in parts[:i]:
-                apart = (right <= its_left + 0.5 or its_right <= left + 0.5
-                         or bottom <= its_top + 0.5 or its_bottom <= top + 0.5)
+                apart = (
+                    right <= its_left + 0.5
+                    or its_right <= left + 0.5
+                    or bottom <= its_top + 0.5
+                    or its_bottom <= top + 0.5
+                )
                 assert apart, (name, other)
     assert page.locator(".text:not(.details), .legend li, .number, h1").evaluate_all(CUT_OFF) == []
 
@@ -234,7 +242,8 @@ def assert_looks(page, scene, size, theme, artefacts):
 # a theme that turns paints all that was built.
 @pytest.mark.parametrize(("theme", "scene"), [(theme, scene) for theme in ("light", "dark") for scene in SCENES])
 def test_a_scene_has_its_columns_and_colours_and_nothing_is_covered_cut_off_or_hard_to_read(
-        look_at, artefacts, theme, scene):
+    look_at, artefacts, theme, scene
+):
     page = look_at(scene, "wide", theme)
     assert_looks(page, scene, "wide", theme, artefacts)
     tab, count = Explorer(page, ""), len(scenes()[scene].open_pictures)
@@ -250,9 +259,15 @@ def test_a_scene_has_its_columns_and_colours_and_nothing_is_covered_cut_off_or_h
 
 
 # Where a phone is the first that a page has seen; one that is turned.
-@pytest.mark.parametrize(("scene", "size", "theme"), [
-    *((scene, "phone", "light") for scene in (HESS, "scattering", "suslov", "ball-section", "singular-measures")),
-    (HESS, "sideways", "light"), (HESS, "sideways", "dark"), (HESS, "laptop", "dark")])
+@pytest.mark.parametrize(
+    ("scene", "size", "theme"),
+    [
+        *((scene, "phone", "light") for scene in (HESS, "scattering", "suslov", "ball-section", "singular-measures")),
+        (HESS, "sideways", "light"),
+        (HESS, "sideways", "dark"),
+        (HESS, "laptop", "dark"),
+    ],
+)
 def test_a_phone_and_a_small_window_have_all_of_it_too(look_at, artefacts, scene, size, theme):
     assert_looks(look_at(scene, size, theme), scene, size, theme, artefacts)
 
@@ -299,8 +314,9 @@ def test_a_picture_is_enlarged_by_its_key_or_its_corner_and_the_link_keeps_it(lo
     equal = edges(page)
     assert max(equal) - min(equal) <= 1
     first, second, third, *_, last = scenes()[HESS].open_pictures
-    for i, press in enumerate((lambda: keys.press("1"), tab.picture(second).locator(".corner").click,
-                               lambda: keys.press("3"))):
+    for i, press in enumerate(
+        (lambda: keys.press("1"), tab.picture(second).locator(".corner").click, lambda: keys.press("3"))
+    ):
         press()
         wait_frames(tab, 4)
         found = edges(page)
@@ -354,7 +370,8 @@ def test_where_there_is_little_room_controls_and_text_are_tabs(look_at):
 
 def axis_colour(page, name="omega"):
     return page.evaluate(
-        "name => hess.plots.find(({ model }) => model.name === name).model.below[0].major_label_text_color", name)
+        "name => hess.plots.find(({ model }) => model.name === name).model.below[0].major_label_text_color", name
+    )
 
 
 def test_a_scene_that_is_entered_is_as_dark_as_one_that_a_link_opens(open_page, look_at):
@@ -373,8 +390,11 @@ def test_the_button_turns_the_page_dark_and_the_link_says_so(explorer, look_at):
     page.wait_for_function("location.search.includes('theme=dark')")
     assert brightness(seen(page)) < 60
     # The colours of the plots come from Panel, with the theme, a moment later.
-    page.wait_for_function("""colour => hess.plots.find(({ model }) => model.name === "omega")
-      .model.below[0].major_label_text_color === colour""", arg=axis_colour(look_at(HESS, theme="dark")))
+    page.wait_for_function(
+        """colour => hess.plots.find(({ model }) => model.name === "omega")
+      .model.below[0].major_label_text_color === colour""",
+        arg=axis_colour(look_at(HESS, theme="dark")),
+    )
     button.click()
     page.wait_for_function("!location.search.includes('theme=dark')")
     assert brightness(seen(page)) > 200
@@ -417,17 +437,32 @@ def test_every_control_is_reached_by_the_tab_key(look_at):
     reached = set()
     for _ in range(90):
         page.keyboard.press("Tab")
-        reached |= set(page.evaluate("""() => {
+        reached |= set(
+            page.evaluate("""() => {
             let item = document.activeElement
             while (item?.shadowRoot?.activeElement) item = item.shadowRoot.activeElement
             const names = []
             for (let at = item; at; at = at.parentElement ?? at.getRootNode().host)
                 names.push(...[...(at.classList ?? [])].filter((name) => /^param-|^solid$|^corner$/.test(name)))
             return names
-        }"""))
-    wanted = {"param-preset", "param-accuracy", "param-reset", "param-share", "param-present", "param-play", "param-t",
-              "param-speed", "solid", "param-scenes", "param-theme", "param-fullscreen", "corner",
-              *(f"param-{name}" for name in SLIDERS)}
+        }""")
+        )
+    wanted = {
+        "param-preset",
+        "param-accuracy",
+        "param-reset",
+        "param-share",
+        "param-present",
+        "param-play",
+        "param-t",
+        "param-speed",
+        "solid",
+        "param-scenes",
+        "param-theme",
+        "param-fullscreen",
+        "corner",
+        *(f"param-{name}" for name in SLIDERS),
+    }
     assert wanted <= reached, wanted - reached
     # None is cut off by the edge of its column.
     right = page.locator("#controls").evaluate("item => item.getBoundingClientRect().left + item.clientWidth")
@@ -465,35 +500,57 @@ def test_on_a_phone_tools_without_room_in_the_bar_are_in_a_menu(look_at, size):
     page.locator(".param-print").wait_for()
     assert page.locator(".param-more").is_hidden()
     assert page.locator(".tools .label:visible").all_inner_texts() == [
-        "Undo", "Redo", "Reset", "Pin", "Chart", "Share", "Export", "Print", "Present", "Full screen", "Theme"]
+        "Undo",
+        "Redo",
+        "Reset",
+        "Pin",
+        "Chart",
+        "Share",
+        "Export",
+        "Print",
+        "Present",
+        "Full screen",
+        "Theme",
+    ]
     page.set_viewport_size(dict(zip(("width", "height"), SIZES[size], strict=True)))
 
 
 # --- Ticks -------------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize(("ticks", "labels"), [
-    ([-4, -2, 0, 2, 4], ["−4", "−2", "0", "2", "4"]),
-    ([0.1, 0.2, 0.1 + 0.2], ["0.1", "0.2", "0.3"]),
-    # Sums of steps that should be zero.
-    ([-2e-4, 1.3e-20, 2e-4], ["−2e−4", "0", "2e−4"]),
-    ([0, 2.5e5, 5e5], ["0", "2.5e5", "5e5"]),
-    # Seven letters each: only every second has room.
-    ([0.50001, 0.50002, 0.50003, 0.50004, 0.50005], ["0.50001", "", "0.50003", "", "0.50005"]),
-    ([1.5e-7 * n for n in range(-3, 4)], ["−4.5e−7", "", "−1.5e−7", "", "1.5e−7", "", "4.5e−7"]),
-])
+
+@pytest.mark.parametrize(
+    ("ticks", "labels"),
+    [
+        ([-4, -2, 0, 2, 4], ["−4", "−2", "0", "2", "4"]),
+        ([0.1, 0.2, 0.1 + 0.2], ["0.1", "0.2", "0.3"]),
+        # Sums of steps that should be zero.
+        ([-2e-4, 1.3e-20, 2e-4], ["−2e−4", "0", "2e−4"]),
+        ([0, 2.5e5, 5e5], ["0", "2.5e5", "5e5"]),
+        # Seven letters each: only every second has room.
+        ([0.50001, 0.50002, 0.50003, 0.50004, 0.50005], ["0.50001", "", "0.50003", "", "0.50005"]),
+        ([1.5e-7 * n for n in range(-3, 4)], ["−4.5e−7", "", "−1.5e−7", "", "1.5e−7", "", "4.5e−7"]),
+    ],
+)
 def test_labels_of_ticks_are_short_and_have_room(look_at, ticks, labels):
     assert look_at(HESS).evaluate("ticks => hess.ticks.tickLabels(ticks, 26)", ticks) == labels
 
 
-@pytest.mark.parametrize(("scene", "values"), [
-    ("free-suslov", {"w1": 1e-4, "w2": 2e-4}),
-    ("euler-poisson", {"window": "0.5,0.2;0.50004,0.20004", "orbits": 4, "count": 20})])
+@pytest.mark.parametrize(
+    ("scene", "values"),
+    [
+        ("free-suslov", {"w1": 1e-4, "w2": 2e-4}),
+        ("euler-poisson", {"window": "0.5,0.2;0.50004,0.20004", "orbits": 4, "count": 20}),
+    ],
+)
 def test_on_tiny_axes_no_label_touches_the_next(look_at, scene, values):
     tab = Explorer(look_at(scene, "laptop"), "")
     tab.change(tell, tab.page, "change", values)
     # Painted anew, as they stand: [text, left, top, right, bottom], of each plot.
-    plots = tab.page.evaluate(WRITTEN, """for (const plot of hess.plots) for (const axis of plot.model.below)
-      axis.setv({ axis_line_alpha: axis.axis_line_alpha === 0.4 ? 0.41 : 0.4 })""")
+    plots = tab.page.evaluate(
+        WRITTEN,
+        """for (const plot of hess.plots) for (const axis of plot.model.below)
+      axis.setv({ axis_line_alpha: axis.axis_line_alpha === 0.4 ? 0.41 : 0.4 })""",
+    )
     tab.change(tell, tab.page, "reset")
     assert len(plots) >= 3
     ticks = [[one for one in labels if re.fullmatch(r"−?[\d.]+(e−?\d+)?", one[0])] for labels in plots]
@@ -531,8 +588,10 @@ WRITTEN = """async (change) => {
 
 def gaps_of(labels):
     """The distance of every two of them, along the axis along which they are further apart."""
-    return [max(max(one[1], other[1]) - min(one[3], other[3]), max(one[2], other[2]) - min(one[4], other[4]))
-            for one, other in combinations(labels, 2)]
+    return [
+        max(max(one[1], other[1]) - min(one[3], other[3]), max(one[2], other[2]) - min(one[4], other[4]))
+        for one, other in combinations(labels, 2)
+    ]
 
 
 @pytest.mark.parametrize("scene", ["free-suslov", "scattering", "loxodrome"])
@@ -555,7 +614,8 @@ def test_on_a_large_screen_lines_are_as_much_wider_as_the_type(look_at):
     for window in (SIZES["laptop"], (3840, 2160)):
         page.set_viewport_size(dict(zip(("width", "height"), window, strict=True)))
         wait_frames(Explorer(page, ""), 4)
-        seen.append(page.locator(".gallery:not(.away) canvas.sphere").evaluate("""async (canvas) => {
+        seen.append(
+            page.locator(".gallery:not(.away) canvas.sphere").evaluate("""async (canvas) => {
           const ctx = canvas.getContext("2d")
           const widths = []
           ctx.stroke = (...path) => {
@@ -569,7 +629,8 @@ def test_on_a_large_screen_lines_are_as_much_wider_as_the_type(look_at):
             .map(({ glyph }) => glyph?.line_width?.value ?? 0)
           const type = parseFloat(getComputedStyle(canvas).fontSize)
           return [Math.min(...widths), Math.max(...widths), Math.max(...lines), type]
-        }"""))
+        }""")
+        )
     page.set_viewport_size(dict(zip(("width", "height"), SIZES["laptop"], strict=True)))
     wait_frames(Explorer(page, ""), 4)
     small, large = np.array(seen)

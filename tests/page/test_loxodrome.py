@@ -26,15 +26,19 @@ def canvas(explorer, picture):
 
 def colour_at(explorer, picture, x, y, z):
     """The colour of the pixel at a point of space, in the picture of a sphere turned by (az, el)."""
-    return tuple(canvas(explorer, picture).evaluate(
-        """(canvas, [x, y, z]) => {
+    return tuple(
+        canvas(explorer, picture).evaluate(
+            """(canvas, [x, y, z]) => {
           const [az, el] = canvas.dataset.turn.split(" ").map(Number)
           const [ca, sa, ce, se] = [Math.cos(az), Math.sin(az), Math.cos(el), Math.sin(el)]
           const half = canvas.width / 2
           const px = half + 0.84 * half * (ca * y - sa * x)
           const py = half - 0.84 * half * (ce * z - se * (ca * x + sa * y))
           return Array.from(canvas.getContext("2d").getImageData(Math.round(px), Math.round(py), 1, 1).data).slice(0, 3)
-        }""", [x, y, z]))
+        }""",
+            [x, y, z],
+        )
+    )
 
 
 def centre_at(values, t):
@@ -52,7 +56,8 @@ def test_a_preset_is_drawn_with_the_numbers_of_its_captions(loxodrome, preset):
     assert error < 2e-5
     if values["energy"] < 1.0:
         assert said(loxodrome, "height", "α = ±#; the height reaches h = #.")[0] == pytest.approx(
-            math.acos(-values["energy"]), rel=6e-4)
+            math.acos(-values["energy"]), rel=6e-4
+        )
     orbit = loxodrome.data("data-orbit")
     alpha = swing_at(values["energy"], np.array(orbit["t"]) / clock(values))
     assert orbit["height"] == pytest.approx(-np.cos(alpha), abs=2e-4)

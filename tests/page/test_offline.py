@@ -55,8 +55,13 @@ def test_a_state_plays_and_turns_from_the_disk(browser, tmp_path):
     with opened(browser, path) as page:
         assert page.locator("#pictures .picture").count() == 5
         captions = page.locator("#pictures .title").all_text_contents()
-        assert captions == ["The body in space", "Angular velocity (ω₁, ω₂)", "Poisson sphere", "Bifurcation diagram",
-                            "Circle map"]
+        assert captions == [
+            "The body in space",
+            "Angular velocity (ω₁, ω₂)",
+            "Poisson sphere",
+            "Bifurcation diagram",
+            "Circle map",
+        ]
         found = shown(DRAFT, "omega")
         orbit = found.columns["data-orbit"]
 
@@ -75,12 +80,17 @@ def test_a_state_plays_and_turns_from_the_disk(browser, tmp_path):
         page.mouse.down()
         page.mouse.move(box["x"] + box["width"] / 2 + 60, box["y"] + box["height"] / 2 + 20)
         page.mouse.up()
-        page.wait_for_function("before => document.querySelector('#pictures').shadowRoot"
-                               ".querySelector('canvas.sphere').toDataURL() !== before", arg=before)
+        page.wait_for_function(
+            "before => document.querySelector('#pictures').shadowRoot"
+            ".querySelector('canvas.sphere').toDataURL() !== before",
+            arg=before,
+        )
         assert float(sphere.get_attribute("data-turn").split()[0]) < 0.29
         page.keyboard.press("Space")
-        page.wait_for_function("() => Number(document.querySelector('#player').shadowRoot"
-                               ".querySelector('output').textContent.slice(4)) > 2.3")
+        page.wait_for_function(
+            "() => Number(document.querySelector('#player').shadowRoot"
+            ".querySelector('output').textContent.slice(4)) > 2.3"
+        )
         page.keyboard.press("Space")
         stopped = time_of(page)
         assert_point(stopped)
@@ -106,12 +116,17 @@ def test_clouds_move_without_a_server_and_only_the_pictures_asked_for_are_there(
     path.write_bytes(as_html("scene=singular-measures&points=1000&accuracy=draft", ("omega", "density"))[1])
     with opened(browser, path) as page:
         assert [one.get_attribute("data-name") for one in page.locator("#pictures .picture").all()] == [
-            "omega", "density"]
+            "omega",
+            "density",
+        ]
         cloud = page.locator("#pictures canvas.cloud")
         before = cloud.evaluate("canvas => canvas.toDataURL()")
         page.keyboard.press("ArrowRight")
-        page.wait_for_function("before => document.querySelector('#pictures').shadowRoot"
-                               ".querySelector('canvas.cloud').toDataURL() !== before", arg=before)
+        page.wait_for_function(
+            "before => document.querySelector('#pictures').shadowRoot"
+            ".querySelector('canvas.cloud').toDataURL() !== before",
+            arg=before,
+        )
 
 
 def test_the_modules_in_the_file_name_each_other_and_nothing_else():

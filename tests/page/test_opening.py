@@ -44,7 +44,8 @@ def moves(explorer):
           const before = slider.value
           for (let i = 0; i < 6; i++) await new Promise(requestAnimationFrame)
           return slider.value !== before
-        }""")
+        }"""
+    )
 
 
 def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_nothing(fresh_browser):
@@ -66,7 +67,8 @@ def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_noth
           while (times.length < 30) await new Promise(requestAnimationFrame)
           ended.abort()
           return 1000 * (times.at(-1)[1] - times[0][1]) / (times.at(-1)[0] - times[0][0])
-        }""")
+        }"""
+    )
     assert 0 < rate <= 1.3 * explorer.data("data-orbit")["t"][-1] / 20
     # The first touch of any kind ends it where it is; the player's own button and key are a pause.
     touches = {
@@ -112,8 +114,11 @@ def test_the_one_handle_says_drag_me_once_and_what_the_mouse_does_is_said_where_
     assert page.locator(".moves").inner_text() == scenes()["scattering"].moves
     # What can be dragged, clicked, boxed, turned.
     for scene, picture, cursor, word in (
-            ("scattering", "curve", "move", "Drag"), ("scattering", "body", "grab", "turns"),
-            ("free-suslov", "omega", "pointer", "Click"), ("rotation-number", "map", "crosshair", "box")):
+        ("scattering", "curve", "move", "Drag"),
+        ("scattering", "body", "grab", "turns"),
+        ("free-suslov", "omega", "pointer", "Click"),
+        ("rotation-number", "map", "crosshair", "box"),
+    ):
         if explorer.page.evaluate("document.documentElement.dataset.scene") != scene:
             explorer.change(lambda name: page.evaluate("name => hess.tell('scene', name)", name), scene)
         box = explorer.picture(picture).locator(".host").bounding_box()

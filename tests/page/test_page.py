@@ -89,7 +89,9 @@ def test_the_newest_of_fifty_changes_wins_and_none_arrives_later(explorer, pause
             if (pause > 0) await new Promise((done) => setTimeout(done, pause))
           }}
           return Number(document.documentElement.dataset.state)
-        }}""", [values.tolist(), pause_ms])
+        }}""",
+        [values.tolist(), pause_ms],
+    )
     wait_ready(explorer.page, after=at_the_end)
     painted = explorer.state
     # Of what came while a state was on its way only the newest is asked for; what is computed later comes in pieces.
@@ -205,8 +207,17 @@ def assert_linked(explorer, values):
 
 
 def test_a_link_restores_the_whole_state(explorer):
-    query = {"v": 1, **LINKED, "accuracy": "precise", "t": 5.25, "speed": 4, "az": -2.25, "el": 1.125, "theme": "dark",
-             "large": "sphere,omega"}
+    query = {
+        "v": 1,
+        **LINKED,
+        "accuracy": "precise",
+        "t": 5.25,
+        "speed": 4,
+        "az": -2.25,
+        "el": 1.125,
+        "theme": "dark",
+        "large": "sphere,omega",
+    }
     explorer.open(urlencode(query))
     assert_linked(explorer, LINKED)
     assert explorer.accuracy == "precise"
@@ -246,8 +257,9 @@ def test_the_link_follows_what_the_user_does_and_opens_the_same_page_elsewhere(e
     assert other.text("notes") == ""
     for name in ("data-orbit", "data-stable", "circle-map", "bifurcation-boundary", "bifurcation-point", "omega-point"):
         # An empty column is the same as none.
-        found, expected = ({key: column for key, column in one.data(name).items() if column}
-                           for one in (other, explorer))
+        found, expected = (
+            {key: column for key, column in one.data(name).items() if column} for one in (other, explorer)
+        )
         assert found == expected, name
     for name in PICTURES:
         assert other.caption(name) == explorer.caption(name)
@@ -255,9 +267,22 @@ def test_the_link_follows_what_the_user_does_and_opens_the_same_page_elsewhere(e
 
 
 def test_nonsense_in_a_link_is_clamped_key_by_key_with_a_note_each(explorer):
-    nonsense = {"I22": -4, "I23": "banana", "b3": "nan", "h": 0.25, "f": 99, "phi0": "1e400", "span": "",
-                "accuracy": "best", "t": -1, "speed": 100, "az": 9, "el": "up", "theme": "blue",
-                "large": "omega,nobody"}
+    nonsense = {
+        "I22": -4,
+        "I23": "banana",
+        "b3": "nan",
+        "h": 0.25,
+        "f": 99,
+        "phi0": "1e400",
+        "span": "",
+        "accuracy": "best",
+        "t": -1,
+        "speed": 100,
+        "az": 9,
+        "el": "up",
+        "theme": "blue",
+        "large": "omega,nobody",
+    }
     explorer.open(urlencode(nonsense))
     # f_max at h = 1/4 by the corrected Geq3: n = 1/2 has h = (1 − 3/4)/1 = 1/4 and f = (3/4)/√½.
     top = 0.75 * math.sqrt(2)
@@ -268,8 +293,20 @@ def test_nonsense_in_a_link_is_clamped_key_by_key_with_a_note_each(explorer):
         assert explorer.shown(name)[0] == pytest.approx(expected[name], rel=1e-9), name
     notes = explorer.text("notes").splitlines()
     assert explorer.page.locator(".text.notes").is_visible()
-    for symbol in ("I₂₂", "I₂₃", "b₃", "φ₀", "t ", "Accuracy", "speed", "azimuth", "elevation", "Theme", "Enlarged",
-                   "f is at"):
+    for symbol in (
+        "I₂₂",
+        "I₂₃",
+        "b₃",
+        "φ₀",
+        "t ",
+        "Accuracy",
+        "speed",
+        "azimuth",
+        "elevation",
+        "Theme",
+        "Enlarged",
+        "f is at",
+    ):
         assert any(symbol in note for note in notes), symbol
     assert not any("banana" in note or "blue" in note for note in notes)
     assert explorer.time == 0.0
@@ -308,7 +345,8 @@ def test_a_script_in_any_key_of_a_link_is_neither_run_nor_shown(explorer):
           return all(document).filter((item) => !["SCRIPT", "STYLE"].includes(item.tagName))
             .flatMap((item) => [...item.childNodes].filter((child) => child.nodeType === 3).map((child) => child.data)
               .concat([...item.attributes].map((attribute) => attribute.value)))
-        }""")
+        }"""
+    )
     assert len(seen) > 500
     assert not [text for text in seen if "pwned" in text or "onerror" in text]
     assert len(explorer.text("notes").splitlines()) == len(keys)
@@ -344,6 +382,7 @@ def test_a_link_of_very_many_keys_opens_the_page_and_a_speed_not_offered_is_put_
 
 # --- Sessions ----------------------------------------------------------------------------------------
 
+
 def test_two_sessions_do_not_affect_each_other(explorer, open_page):
     other = Explorer(open_page("h=0.5&f=0.2&phi0=1"), explorer.base)
     before = other.state
@@ -360,15 +399,17 @@ def test_two_sessions_do_not_affect_each_other(explorer, open_page):
 
 
 def test_what_no_control_of_the_page_would_send_does_no_harm(explorer):
-    explorer.change(lambda: explorer.page.evaluate(
-        """() => {
+    explorer.change(
+        lambda: explorer.page.evaluate(
+            """() => {
           for (const detail of [{ nobody: 1 }, { h: "<b>", f: null, I22: [1], accuracy: 3 }, { b3: {} }])
             hess.tell("change", detail)
           hess.tell("pick", ["nowhere", 1, 1])
-        }"""))
+        }"""
+        )
+    )
     assert_orbit(explorer, DEFAULTS)
-    explorer.change(lambda: explorer.page.evaluate(
-        """hess.tell("change", { h: 1e300, phi0: 1 })"""))
+    explorer.change(lambda: explorer.page.evaluate("""hess.tell("change", { h: 1e300, phi0: 1 })"""))
     assert explorer.here()[0] == 1e6
     explorer.change(lambda: explorer.slide(h=1.5))
     assert_orbit(explorer, {**DEFAULTS, "phi0": 1.0})
@@ -393,8 +434,7 @@ def test_a_page_whose_server_has_ended_keeps_its_pictures_and_plays_on(browser, 
     page.wait_for_function("hess.source('data-orbit') != null")
     page.wait_for_function("document.querySelector('html').dataset.ready === 'true'")
     playing_from = explorer.data("omega-point")
-    page.wait_for_function(
-        "x => hess.source('omega-point').data.x[0] !== x", arg=playing_from["x"][0])
+    page.wait_for_function("x => hess.source('omega-point').data.x[0] !== x", arg=playing_from["x"][0])
     explorer.sphere.press("ArrowLeft")
     page.wait_for_function("location.search.includes('az=0.687')")
     assert explorer.turn[0] == pytest.approx(0.6 + math.pi / 36, abs=1e-4)
@@ -426,17 +466,22 @@ MISSING = """async (modules) => {
 
 def test_each_private_member_of_bokeh_that_is_not_there_is_named(explorer):
     assert explorer.page.evaluate(MISSING, modules_path()) == [
-        [], ["UIGestures.press_threshold"],
-        ["GlyphRendererView.all_indices, GlyphView.set_visuals and after_visuals"], []]
+        [],
+        ["UIGestures.press_threshold"],
+        ["GlyphRendererView.all_indices, GlyphView.set_visuals and after_visuals"],
+        [],
+    ]
 
 
 def test_a_page_that_lacks_one_says_so_when_it_opens(browser, server):
     context = browser.new_context(viewport={"width": 1600, "height": 950}, reduced_motion="reduce")
-    context.add_init_script(
-        "Object.defineProperty(window, 'devicePixelRatio', { configurable: false, get: () => 1 })")
+    context.add_init_script("Object.defineProperty(window, 'devicePixelRatio', { configurable: false, get: () => 1 })")
     explorer = Explorer(context.new_page(), server).goto("/")
     errors = explorer.errors.copy()
     context.close()
     assert len(errors) == 1
-    assert re.fullmatch(r"BokehJS \S+ is none that this page knows: there is no window\.devicePixelRatio that can be "
-                        r"replaced\.", errors[0])
+    assert re.fullmatch(
+        r"BokehJS \S+ is none that this page knows: there is no window\.devicePixelRatio that can be "
+        r"replaced\.",
+        errors[0],
+    )

@@ -34,8 +34,6 @@ FILLED = """canvas => innerWidth === document.documentElement.clientWidth
   && Math.abs(canvas.width - canvas.getBoundingClientRect().width * devicePixelRatio) <= 2"""
 
 
-
-
 @pytest.fixture
 def cloud(tab):
     """The scene in its first state, at t = 0."""
@@ -96,8 +94,11 @@ def test_between_frames_nearly_all_points_are_right_to_a_pixel(cloud, changes):
     body = BallBody(*(values[name] for name in ("I11", "I22", "I13", "I23", "D")))
     beside = values["beside"] != "nothing"
     count = 5000 if beside else 10_000
-    states = (patch(body, values["h"], values["angle"], values["spread"], count) if values["start"] == "small patch"
-              else shell(body, values["h"], values["spread"], count))
+    states = (
+        patch(body, values["h"], values["angle"], values["spread"], count)
+        if values["start"] == "small patch"
+        else shell(body, values["h"], values["spread"], count)
+    )
     sense = -1.0 if values["direction"] == "backward" else 1.0
     frames = frame_times(body, states, values["span"], values["b3"] if beside else 0.0)
     cloud.give(**changes)
@@ -112,8 +113,9 @@ def test_between_frames_nearly_all_points_are_right_to_a_pixel(cloud, changes):
             expected.append(there.states[:, 0])
         half = cloud.page.evaluate("hess.source('omega').data.half")
         for found, right in zip(clouds(cloud), expected, strict=True):
-            omega, gamma = (np.linalg.norm(found.T[::EVERY, part] - right[:, part], axis=1)
-                            for part in (slice(0, 2), slice(2, 5)))
+            omega, gamma = (
+                np.linalg.norm(found.T[::EVERY, part] - right[:, part], axis=1) for part in (slice(0, 2), slice(2, 5))
+            )
             for error in (omega * WIDTH / (2.0 * half), gamma * WIDTH / 2.0):
                 assert np.quantile(error, 0.99) < 1.0
                 assert error.max() < 3.0

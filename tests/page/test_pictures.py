@@ -45,11 +45,12 @@ def picture(explorer, clip):
 
 def like(pixels, colour, tolerance=24):
     """Which pixels have this colour."""
-    rgb = [int(colour[i:i + 2], 16) for i in (1, 3, 5)]
+    rgb = [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
     return np.abs(pixels - rgb).max(axis=-1) <= tolerance
 
 
 # --- Choosing by hand --------------------------------------------------------------------------------
+
 
 @pytest.mark.parametrize(("h", "f"), [(0.5, 0.4), (2.75, -1.5), (-0.5, 0.3), (3.6, 0.0)])
 def test_a_click_in_the_bifurcation_diagram_chooses_the_torus_under_it(explorer, h, f):
@@ -96,8 +97,7 @@ def test_a_drag_in_the_bifurcation_diagram_is_followed(explorer):
     explorer.page.mouse.up()
     explorer.change(lambda: explorer.slide(phi0=1.0))
     assert explorer.state <= before + 2
-    assert_orbit(explorer, {
-        **DEFAULTS, "h": explorer.shown("h")[0], "f": explorer.shown("f")[0], "phi0": 1.0})
+    assert_orbit(explorer, {**DEFAULTS, "h": explorer.shown("h")[0], "f": explorer.shown("f")[0], "phi0": 1.0})
     assert explorer.shown("h")[0] == pytest.approx(2.9, abs=wide)
 
 
@@ -172,9 +172,12 @@ def test_the_sphere_turns_with_the_mouse_as_if_it_were_held(explorer):
 def test_the_sphere_turns_with_the_arrow_keys_up_to_the_pole_and_home_again(explorer):
     explorer.sphere.focus()
     for key, times, turned in (
-        ("ArrowLeft", 2, (HOME[0] + 2 * STEP, HOME[1])), ("ArrowRight", 3, (HOME[0] - STEP, HOME[1])),
-        ("ArrowUp", 1, (HOME[0] - STEP, HOME[1] + STEP)), ("ArrowDown", 2, (HOME[0] - STEP, HOME[1] - STEP)),
-        ("ArrowDown", 25, (HOME[0] - STEP, -math.pi / 2)), ("Home", 1, HOME),
+        ("ArrowLeft", 2, (HOME[0] + 2 * STEP, HOME[1])),
+        ("ArrowRight", 3, (HOME[0] - STEP, HOME[1])),
+        ("ArrowUp", 1, (HOME[0] - STEP, HOME[1] + STEP)),
+        ("ArrowDown", 2, (HOME[0] - STEP, HOME[1] - STEP)),
+        ("ArrowDown", 25, (HOME[0] - STEP, -math.pi / 2)),
+        ("Home", 1, HOME),
         ("ArrowLeft", 40, (HOME[0] + 40 * STEP, HOME[1])),
     ):
         for _ in range(times):
@@ -275,6 +278,7 @@ def test_the_point_on_the_sphere_is_the_vertical_seen_from_there(explorer, keys)
 
 # --- The data ----------------------------------------------------------------------------------------
 
+
 def columns_of(data, *names):
     return np.column_stack([data[name] for name in names])
 
@@ -340,7 +344,7 @@ def assert_numbers_of_captions(explorer, name, values):
     rho = caption_numbers(explorer, "ρ =")[0]
     assert rho == pytest.approx(exact.rotation_number, rel=6e-4, abs=1e-4)
     if exact.kind != "hyperbolic":
-        (low, high), = proved(explorer, "no cycle, |trace| in")
+        ((low, high),) = proved(explorer, "no cycle, |trace| in")
         # Both in four digits or more, and the map in doubles.
         assert low - 1e-10 <= exact.trace <= high + 1e-10
         assert high - low <= 2e-3 * high
@@ -356,18 +360,23 @@ def assert_numbers_of_captions(explorer, name, values):
         assert trace == pytest.approx(low**0.5 + low**-0.5, rel=6e-4)
 
 
-@pytest.mark.parametrize(("name", "words", "expected"), [
-    ("Pendulum", "exactly two cycles, multipliers in", [math.exp(-0.6 * math.pi), math.exp(0.6 * math.pi)]),
-    ("On the bifurcation curve", "no cycle, |trace| in", [abs(trace_on_curve(a, 0.5))]),
-])
+@pytest.mark.parametrize(
+    ("name", "words", "expected"),
+    [
+        ("Pendulum", "exactly two cycles, multipliers in", [math.exp(-0.6 * math.pi), math.exp(0.6 * math.pi)]),
+        ("On the bifurcation curve", "no cycle, |trace| in", [abs(trace_on_curve(a, 0.5))]),
+    ],
+)
 def test_examples_with_a_closed_form_show_it(explorer, name, words, expected):
     choose(explorer, next(preset for preset in PRESETS if preset.startswith(name)))
     found = proved(explorer, words)
     assert all(low <= value <= high for (low, high), value in zip(found, expected, strict=True))
 
 
-@pytest.mark.parametrize(("name", "words", "expected"), [
-    ("At the lock boundary", "parabolic, |trace|", [2.0, 0.0]), ("Oscillation", "elliptic, ρ =", [-0.5])])
+@pytest.mark.parametrize(
+    ("name", "words", "expected"),
+    [("At the lock boundary", "parabolic, |trace|", [2.0, 0.0]), ("Oscillation", "elliptic, ρ =", [-0.5])],
+)
 def test_examples_at_a_limit_show_it_beside_what_is_proved(explorer, name, words, expected):
     choose(explorer, next(preset for preset in PRESETS if preset.startswith(name)))
     assert caption_numbers(explorer, words) == expected
@@ -463,8 +472,8 @@ def test_the_boundary_of_the_locked_zone_has_trace_two(explorer):
         if f[i] < f_max(h[i] - 0.03):
             assert circle_map(0.5, h[i] - 0.03, f[i], REFERENCE).kind == "elliptic"
     zone = explorer.data("bifurcation-locked")
-    assert zone["xs"][0][0][0][:h.size] == pytest.approx(h, rel=1e-6)
-    assert zone["ys"][0][0][0][:h.size] == pytest.approx(f, rel=1e-6, abs=1e-7)
+    assert zone["xs"][0][0][0][: h.size] == pytest.approx(h, rel=1e-6)
+    assert zone["ys"][0][0][0][: h.size] == pytest.approx(f, rel=1e-6, abs=1e-7)
 
 
 def test_the_edge_of_the_region_is_the_corrected_curve(explorer):
@@ -487,7 +496,8 @@ def test_the_colours_are_rotation_numbers(explorer):
           const grid = data.image[0]
           return { values: Array.from(grid.numbers), shape: [grid.rows, grid.columns],
                    x: data.x[0], y: data.y[0], dw: data.dw[0], dh: data.dh[0] }
-        }""")
+        }"""
+    )
     rows, columns = image["shape"]
     assert (columns, rows) == (100, 75)
     grid = np.reshape(image["values"], (rows, columns))
@@ -581,7 +591,7 @@ def assert_every_picture_painted(explorer, name, artefacts):
         if picture_name == "circle" and name.startswith("Separatrix"):
             assert not like(pixels, theme.MAP).any()
             # The sentence in the middle.
-            middle = pixels[int(0.35 * len(pixels)):int(0.6 * len(pixels)), 100:280]
+            middle = pixels[int(0.35 * len(pixels)) : int(0.6 * len(pixels)), 100:280]
             assert like(middle, theme.MUTED, 60).sum() > 150
             continue
         wanted = {"omega": theme.ORBIT, "sphere": theme.ORBIT, "bifurcation": theme.FORBIDDEN, "circle": theme.MAP}

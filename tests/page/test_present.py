@@ -75,7 +75,8 @@ def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(plain, open_p
     assert tab.sphere.evaluate(STROKES) == pytest.approx([2 * width for width in strokes], rel=0.01)
     essential = scenes()[HESS].essential
     numbers = page.locator(".number").evaluate_all(
-        "items => items.filter((item) => item.checkVisibility()).map((item) => item.className)")
+        "items => items.filter((item) => item.checkVisibility()).map((item) => item.className)"
+    )
     assert len(numbers) == len(essential)
     assert all(f"param-{name}" in " ".join(numbers) for name in essential)
     # All of it is in sight.

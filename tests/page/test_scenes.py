@@ -93,15 +93,21 @@ HELD = """[Bokeh.documents.length, Object.keys(Bokeh.index).length, document.que
 def listeners(explorer):
     """How many listeners the page has for each kind of event."""
     session = explorer.page.context.new_cdp_session(explorer.page)
-    answer = session.send("Runtime.evaluate", {
-        "expression": """JSON.stringify([document, window].map(
+    answer = session.send(
+        "Runtime.evaluate",
+        {
+            "expression": """JSON.stringify([document, window].map(
           (on) => Object.entries(getEventListeners(on)).map(([kind, all]) => [kind, all.length]).sort()))""",
-        "includeCommandLineAPI": True, "returnByValue": True})
+            "includeCommandLineAPI": True,
+            "returnByValue": True,
+        },
+    )
     session.detach()
     return json.loads(answer["result"]["value"])
 
 
 # --- The menu of scenes ------------------------------------------------------------------------------
+
 
 def test_the_menu_offers_the_scenes_in_groups_and_says_where_to_begin_and_which_is_on_show(explorer):
     explorer.open_menu()
@@ -210,7 +216,8 @@ def test_a_scene_changes_in_place_and_back_with_all_that_was_chosen(explorer):
     link = explorer.wait_url(scene=STUDY)
     assert {name: float(link[name]) for name in CHANGED} == CHANGED
     assert [cell.get_attribute("data-name") for cell in explorer.page.locator(".picture:visible").all()] == list(
-        SCENES[STUDY].open_pictures)
+        SCENES[STUDY].open_pictures
+    )
     assert explorer.sphere.count() == 0
 
     explorer.enter(HESS)
@@ -341,7 +348,9 @@ def clicks(explorer, *names, change=None):
           if (detail) hess.tell("change", detail)
           for (const name of names) menu.querySelector(`.param-scene-${name}`).click()
           return document.documentElement.dataset.ready
-        }""", [names, change])
+        }""",
+        [names, change],
+    )
 
 
 def test_a_choice_that_is_taken_back_at_once_changes_nothing(explorer):
@@ -434,8 +443,9 @@ def test_a_link_leads_into_a_scene(explorer):
     assert explorer.text("notes") == ""
     # What is drawn is the difference of two computations.
     truth, drafted = (
-        solve(body_of(values).suslov, exact_states(values, [0.0])[0],
-              np.linspace(0.0, 60.0, 400), level(name)).states for name in ("reference", "draft"))
+        solve(body_of(values).suslov, exact_states(values, [0.0])[0], np.linspace(0.0, 60.0, 400), level(name)).states
+        for name in ("reference", "draft")
+    )
     error = np.max(np.abs(drafted - truth))
     shown = explorer.data("growth-draft")
     assert (shown["x"][0], shown["x"][-1]) == (0.0, pytest.approx(60.0))
@@ -454,6 +464,7 @@ def test_a_link_into_no_scene_opens_the_first_one_and_says_so(explorer):
 
 
 # --- Speed and accuracy ------------------------------------------------------------------------------
+
 
 def test_every_slider_of_the_accuracy_scene_draws_its_state(study):
     for name, value in CHANGED.items():
@@ -611,6 +622,7 @@ def test_what_cannot_be_computed_is_said_in_both_scenes_and_nothing_of_another_s
 
 # --- What is in sight --------------------------------------------------------------------------------
 
+
 def turn_to(explorer, scene, picture):
     """Choose a picture by its number."""
     number = 1 + SCENES[scene].pictures.index(picture)
@@ -619,8 +631,7 @@ def turn_to(explorer, scene, picture):
 
 def send(explorer, **values):
     """Change numbers as their controls do, of which one is at hand on a phone."""
-    explorer.change(lambda: explorer.page.evaluate(
-        "detail => hess.tell('change', detail)", values))
+    explorer.change(lambda: explorer.page.evaluate("detail => hess.tell('change', detail)", values))
 
 
 def test_on_a_phone_what_is_out_of_sight_waits_until_it_is_chosen(phone):
@@ -661,8 +672,13 @@ def test_on_a_phone_the_costs_are_measured_only_where_they_are_seen(phone):
 def test_where_all_pictures_are_in_sight_each_change_draws_all_of_them(explorer):
     for values in ({"I23": 0.6}, {"h": 0.9}, {"phi0": -1.0}):
         explorer.change(lambda values=values: explorer.slide(**values))
-        assert_drawn(explorer, HESS, {**DEFAULTS, "I23": 0.6, **values} if "I23" in values else {
-            **DEFAULTS, "I23": 0.6, **({"h": 0.9} if "phi0" in values else {}), **values})
+        assert_drawn(
+            explorer,
+            HESS,
+            {**DEFAULTS, "I23": 0.6, **values}
+            if "I23" in values
+            else {**DEFAULTS, "I23": 0.6, **({"h": 0.9} if "phi0" in values else {}), **values},
+        )
 
 
 def test_on_a_phone_one_control_is_at_hand_and_the_picture_stays_while_it_moves(phone):
@@ -699,8 +715,8 @@ def test_on_a_phone_one_control_is_at_hand_and_the_picture_stays_while_it_moves(
     explorer.assert_quiet()
 
 
-
 # --- While a slider is held --------------------------------------------------------------------------
+
 
 def pixels_off(explorer, found, exact):
     """How far two states (ω1, ω2, γ1, γ2, γ3) are apart in the pictures, in pixels, the larger of plane and sphere."""
@@ -768,20 +784,28 @@ TOLD = """(slider, times) => {
 }"""
 
 
-@pytest.mark.parametrize("values", [
-    {}, {"span": 200.0}, {"h": 1.001, "f": 0.02, "span": 100.0}, {"I22": 0.5, "I23": 1.5}, {"h": 0.3, "f": 0.001},
-    {"b3": -3.0, "h": 3.9, "f": 0.1}, {"h": -0.98, "f": 0.01},
-], ids=["default", "long", "near the separatrix", "strong contraction", "through w = 0", "fast", "small"])
+@pytest.mark.parametrize(
+    "values",
+    [
+        {},
+        {"span": 200.0},
+        {"h": 1.001, "f": 0.02, "span": 100.0},
+        {"I22": 0.5, "I23": 1.5},
+        {"h": 0.3, "f": 0.001},
+        {"b3": -3.0, "h": 3.9, "f": 0.1},
+        {"h": -0.98, "f": 0.01},
+    ],
+    ids=["default", "long", "near the separatrix", "strong contraction", "through w = 0", "fast", "small"],
+)
 def test_the_moving_point_is_right_to_half_a_pixel_at_any_time(explorer, values):
-    explorer.change(lambda: explorer.page.evaluate(
-        "detail => hess.tell('change', detail)", {"h": 0.5, **values}))
+    explorer.change(lambda: explorer.page.evaluate("detail => hess.tell('change', detail)", {"h": 0.5, **values}))
     values = {**DEFAULTS, "h": 0.5, **values}
     samples = np.array(explorer.data("data-orbit")["t"])
     # The samples follow the curve: they are not even in time.
     gaps = np.diff(samples)
     assert gaps.max() > 1.2 * gaps.min()
     among = np.random.default_rng(5).uniform(0.0, samples[-1], 200)
-    times = np.sort([0.0, *among, *samples[1:-1:len(samples) // 20], samples[-1]])
+    times = np.sort([0.0, *among, *samples[1 : -1 : len(samples) // 20], samples[-1]])
     told = explorer.page.locator("input.param-t").evaluate(TOLD, times.tolist())
     assert [moment["t"] for moment in told] == pytest.approx(times, abs=1e-9)
     exact = exact_states(values, times)

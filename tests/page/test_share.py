@@ -85,7 +85,12 @@ def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(exp
     inner = outer.frames[1]
     wait_ready(inner)
     assert inner.evaluate(SHOWN) == {
-        "pictures": ["circle", "omega"], "controls": ["f", "h"], "others": 0, "player": 1, "notes": ""}
+        "pictures": ["circle", "omega"],
+        "controls": ["f", "h"],
+        "others": 0,
+        "player": 1,
+        "notes": "",
+    }
     framed, there = Explorer(outer, server), "document.documentElement.dataset.state"
     framed.page = inner
     assert framed.data("data-orbit") == tab.data("data-orbit")
@@ -106,14 +111,19 @@ def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(exp
     context.close()
 
 
-@pytest.mark.parametrize(("keys", "pictures", "controls", "is_noted"), [
-    # What is folded at first is there when it is named.
-    ("pictures=omega,torus&controls=h,accuracy", ["omega", "torus"], ["accuracy", "h"], False),
-    ("pictures=bifurcation,<b>,omega&controls=none,h,h", ["bifurcation", "omega"], ["h"], True),
-    ("pictures=%00&controls=nobody", None, None, True),
-    ("pictures=&controls=none", None, [], False)])
+@pytest.mark.parametrize(
+    ("keys", "pictures", "controls", "is_noted"),
+    [
+        # What is folded at first is there when it is named.
+        ("pictures=omega,torus&controls=h,accuracy", ["omega", "torus"], ["accuracy", "h"], False),
+        ("pictures=bifurcation,<b>,omega&controls=none,h,h", ["bifurcation", "omega"], ["h"], True),
+        ("pictures=%00&controls=nobody", None, None, True),
+        ("pictures=&controls=none", None, [], False),
+    ],
+)
 def test_an_embedded_page_has_what_its_address_names_and_nonsense_is_harmless(
-        open_page, server, keys, pictures, controls, is_noted):
+    open_page, server, keys, pictures, controls, is_noted
+):
     scene = scenes()[HESS]
     tab = Explorer(open_page(f"embed=1&{keys}", size=(1000, 700)), server)
     wait_frames(tab, 4)

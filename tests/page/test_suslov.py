@@ -23,8 +23,12 @@ from support.pointer import at, frame
 from support.view import View
 
 SUSLOV, ROTATION = scenes()["suslov"], scenes()["rotation-number"]
-KINDS = (((86, 180, 233), 0x50 / 255), ((213, 94, 0), 0x60 / 255), ((0, 158, 115), 0x70 / 255),
-         ((191, 102, 153), 0x80 / 255))
+KINDS = (
+    ((86, 180, 233), 0x50 / 255),
+    ((213, 94, 0), 0x60 / 255),
+    ((0, 158, 115), 0x70 / 255),
+    ((191, 102, 153), 0x80 / 255),
+)
 """Colours of MEGNO and how much of them is seen: regular, chaotic, and both where volume shrinks."""
 FEW = {"orbits": 8, "count": 40, "long": 50}
 
@@ -107,7 +111,8 @@ def test_a_slider_of_the_suslov_problem_changes_section_and_orbit(suslov):
     suslov.change(lambda: suslov.slide(b3=0.9))
     expected = View(SUSLOV, {**{name: float(value) for name, value in FEW.items()}, "b3": 0.9})
     assert points(suslov, "first") == pytest.approx(
-        np.column_stack([expected.data["section-first"][axis] for axis in "xy"]), abs=1e-5)
+        np.column_stack([expected.data["section-first"][axis] for axis in "xy"]), abs=1e-5
+    )
     assert len(points(suslov, "first")) == len(before)
     assert not np.array_equal(points(suslov, "first"), before)
     assert suslov.wait_url(b3="0.9")["scene"] == "suslov"
@@ -125,13 +130,17 @@ def test_every_plane_and_all_that_can_be_shown(suslov):
         assert len(points(suslov, "first")) > 10
     assert_painted(suslov, SUSLOV)
     # MEGNO: the caption counts the cells, and each is seen in its colour under the points.
-    suslov.change(lambda: suslov.page.evaluate(
-        "detail => hess.tell('change', detail)", {"I13": 0.0, "I23": 0.0, "h": 4.0, "accuracy": "draft"}))
+    suslov.change(
+        lambda: suslov.page.evaluate(
+            "detail => hess.tell('change', detail)", {"I13": 0.0, "I23": 0.0, "h": 4.0, "accuracy": "draft"}
+        )
+    )
     before = colours_of_cells(suslov, "section", (12, 18))
     suslov.change(suslov.choose, "indicator", "MEGNO")
     kinds = np.array(suslov.data("section-megno")["image"][0]).reshape(12, 18) - 1.5
     _, regular, chaotic, shrinks = said(
-        suslov, "section", "MEGNO after t = #: # % of the cells regular, # % chaotic; volume shrinks about # %.")
+        suslov, "section", "MEGNO after t = #: # % of the cells regular, # % chaotic; volume shrinks about # %."
+    )
     there = kinds[kinds >= 0.0]
     assert chaotic == pytest.approx(100.0 * np.mean(there % 2.0 == 1.0), abs=0.51)
     assert shrinks == pytest.approx(100.0 * np.mean(there >= 2.0), abs=0.51)
@@ -154,7 +163,8 @@ def test_a_click_starts_an_orbit_and_undo_and_clear_take_it_back(suslov):
     assert last == pytest.approx([0.5, 2.0], abs=2.0 * max(unit))
     assert len(points(suslov, "own")) == 2 * FEW["count"]
     written = suslov.page.wait_for_function(
-        "(new URLSearchParams(location.search).get('starts') ?? '').split(';')[1]").json_value()
+        "(new URLSearchParams(location.search).get('starts') ?? '').split(';')[1]"
+    ).json_value()
     assert [float(x) for x in written.split(",")] == pytest.approx(last, abs=1e-5)
     suslov.change(suslov.page.locator(".param-undo").click)
     assert len(points(suslov, "chosen")) == 1
@@ -174,8 +184,16 @@ def test_a_box_looks_closer_and_undo_looks_at_the_whole_again(suslov):
 
 
 def test_a_link_brings_back_window_starts_and_choices(tab):
-    linked = {**FEW, "h": 1.25, "plane": "γ₂ = 0", "colours": "forward only", "drop": "the later half",
-              "starts": "0.5,2;-0.5,1.5", "window": "-1,1;2,3", "accuracy": "precise"}
+    linked = {
+        **FEW,
+        "h": 1.25,
+        "plane": "γ₂ = 0",
+        "colours": "forward only",
+        "drop": "the later half",
+        "starts": "0.5,2;-0.5,1.5",
+        "window": "-1,1;2,3",
+        "accuracy": "precise",
+    }
     explorer = opened(tab, SUSLOV, **linked)
     explorer.wait_url(I11="1.5", b3="0.7", long="50.0")
     found = values_of(explorer, SUSLOV)
@@ -191,8 +209,11 @@ def test_nothing_possible_in_a_window_is_a_sentence_and_clear_the_way_back(tab):
     # E = −0.1: impossible all round the angle of b.
     h = -0.1 + math.hypot(0.5, 0.5, 0.7)
     explorer = brought(tab, SUSLOV)
-    explorer.change(lambda: explorer.page.evaluate(
-        "detail => hess.tell('change', detail)", {**FEW, "h": h, "starts": "-2.356,1.5", "window": "-2.5,1;-2.2,2"}))
+    explorer.change(
+        lambda: explorer.page.evaluate(
+            "detail => hess.tell('change', detail)", {**FEW, "h": h, "starts": "-2.356,1.5", "window": "-2.5,1;-2.2,2"}
+        )
+    )
     sentence = "Nothing is possible in this window with the energy E = -0.1: choose a larger h, or press Clear"
     assert explorer.text("status").startswith(sentence)
     for picture in SUSLOV.pictures:
@@ -227,7 +248,7 @@ def test_an_example_of_the_rotation_number_is_drawn_with_the_numbers_of_its_capt
     values = chosen(rotation, ROTATION, preset)
     assert rotation.chosen("preset") == preset.name
     exact = circle_map(values["a"], values["h"], values["f"], REFERENCE)
-    rho, = said(rotation, "circle", "ρ = #.")
+    (rho,) = said(rotation, "circle", "ρ = #.")
     assert rho == pytest.approx(exact.rotation_number, abs=1e-4)
     line, rational = preset.values["line"], values["rational"]
     assert f"ρ along {line}" in rotation.caption("line")
@@ -287,10 +308,13 @@ def test_every_plane_and_line_is_painted(rotation):
         if rotation.chosen("line") != line:
             rotation.change(rotation.choose, "line", line)
         assert f"({plane})" in rotation.caption("map")
-        assert rotation.page.evaluate("""() => {
+        assert (
+            rotation.page.evaluate("""() => {
           const { below, left } = hess.plots.find(({ model }) => model.name === "map").model
           return `${below[0].axis_label}, ${left[0].axis_label}`
-        }""") == plane
+        }""")
+            == plane
+        )
     assert_painted(rotation, ROTATION)
     rotation.change(rotation.page.locator(".param-reset").click)
     assert rotation.chosen("over") == "h, f"
@@ -315,8 +339,11 @@ def test_a_link_of_the_rotation_number_with_nonsense_is_put_right(tab):
 
 def test_the_scenes_are_entered_from_one_another_whatever_was_chosen(tab):
     explorer = brought(tab, SUSLOV)
-    explorer.change(lambda: explorer.page.evaluate(
-        "detail => hess.tell('change', detail)", {**FEW, "plane": "γ₁ = 0", "window": "0,0.5;1,2"}))
+    explorer.change(
+        lambda: explorer.page.evaluate(
+            "detail => hess.tell('change', detail)", {**FEW, "plane": "γ₁ = 0", "window": "0,0.5;1,2"}
+        )
+    )
     explorer.enter("rotation-number")
     assert explorer.chosen("over") == "h, f"
     assert explorer.axes("map") == pytest.approx([-1.0, 4.0, -3.0, 3.0])

@@ -28,10 +28,12 @@ from support.mechanics import PROPERTY
 from support.wire import read_frame
 
 KEYS = [field.name for field in dataclasses.fields(Request)]
-scalars = st.one_of(st.none(), st.booleans(), st.integers(), st.sampled_from([10**400, -(10**400)]), st.floats(),
-                    st.text())
-anything = st.recursive(scalars, lambda part: st.lists(part, max_size=5) | st.dictionaries(st.text(), part, max_size=4),
-                        max_leaves=8)
+scalars = st.one_of(
+    st.none(), st.booleans(), st.integers(), st.sampled_from([10**400, -(10**400)]), st.floats(), st.text()
+)
+anything = st.recursive(
+    scalars, lambda part: st.lists(part, max_size=5) | st.dictionaries(st.text(), part, max_size=4), max_leaves=8
+)
 
 
 def numbers_of(request):
@@ -61,34 +63,76 @@ def test_whatever_comes_is_parsed_into_its_types(message):
 
 
 def test_each_field_of_a_request_is_read():
-    assert parse({
-        "requested": 3, "restore": "h=1", "values": {"h": 2, "accuracy": "draft", "huge": 10**400}, "held": True,
-        "expressions": {"f": "pi/3", "h": 3}, "picked": ["section", 1, 2.5, 3, 4], "hover": ["circle", 0, -1],
-        "step": ["introduction", 2, True], "hidden": ["sphere", 3], "scene": "a", "near": "b", "preset": "c",
-        "lesson": "d", "reset": True, "clear": True, "stop": True, "nobody": 1,
-    }) == Request(
-        requested=3, restore="h=1", expressions={"f": "pi/3"},
+    assert parse(
+        {
+            "requested": 3,
+            "restore": "h=1",
+            "values": {"h": 2, "accuracy": "draft", "huge": 10**400},
+            "held": True,
+            "expressions": {"f": "pi/3", "h": 3},
+            "picked": ["section", 1, 2.5, 3, 4],
+            "hover": ["circle", 0, -1],
+            "step": ["introduction", 2, True],
+            "hidden": ["sphere", 3],
+            "scene": "a",
+            "near": "b",
+            "preset": "c",
+            "lesson": "d",
+            "reset": True,
+            "clear": True,
+            "stop": True,
+            "nobody": 1,
+        }
+    ) == Request(
+        requested=3,
+        restore="h=1",
+        expressions={"f": "pi/3"},
         values={"h": 2.0, "accuracy": "draft", "huge": pytest.approx(math.nan, nan_ok=True)},
         picked=PictureBox("section", (1.0, 2.5, 3.0, 4.0)),
-        hover=PicturePoint("circle", 0.0, -1.0), step=StepChoice("introduction", 2, True), hidden=["sphere"], scene="a",
-        near="b", preset="c", lesson="d", reset=True, clear=True, stop=True, held=True)
+        hover=PicturePoint("circle", 0.0, -1.0),
+        step=StepChoice("introduction", 2, True),
+        hidden=["sphere"],
+        scene="a",
+        near="b",
+        preset="c",
+        lesson="d",
+        reset=True,
+        clear=True,
+        stop=True,
+        held=True,
+    )
     # What is empty says something else than what is missing.
     assert parse({"values": {}, "hidden": []}) == Request(values={}, hidden=[])
     assert parse({}) == Request()
 
 
-@pytest.mark.parametrize(("chart", "expected"), [
-    ({"start": {"state": "h=1"}, "id": 7}, StartChart({"state": "h=1"}, 7)), ({"start": {}, "id": "7"}, None),
-    ({"more": 3, "id": 7}, ContinueChart(3, 7)), ({"more": 2.5, "id": 7}, None), ({"stop": True}, StopChart()),
-    ({"stop": 1}, None), ({"why": {}, "at": [1, 2.5]}, ExplainCell({}, 1.0, 2.5)), ({"why": {}, "at": [1]}, None),
-    ({"why": {}, "at": [1, math.inf]}, None), ({"why": {}, "at": [None, 10**400]}, None), ({}, None)])
+@pytest.mark.parametrize(
+    ("chart", "expected"),
+    [
+        ({"start": {"state": "h=1"}, "id": 7}, StartChart({"state": "h=1"}, 7)),
+        ({"start": {}, "id": "7"}, None),
+        ({"more": 3, "id": 7}, ContinueChart(3, 7)),
+        ({"more": 2.5, "id": 7}, None),
+        ({"stop": True}, StopChart()),
+        ({"stop": 1}, None),
+        ({"why": {}, "at": [1, 2.5]}, ExplainCell({}, 1.0, 2.5)),
+        ({"why": {}, "at": [1]}, None),
+        ({"why": {}, "at": [1, math.inf]}, None),
+        ({"why": {}, "at": [None, 10**400]}, None),
+        ({}, None),
+    ],
+)
 def test_a_request_about_a_chart_is_one_of_four(chart, expected):
     assert parse({"chart": chart}) == expected
 
 
 @PROPERTY
-@given(st.binary(), st.binary(), st.booleans(), st.sampled_from([None, ChartEnded(3, "Stopped."),
-                                                                CellExplained((1.0, 2.0), "none")]))
+@given(
+    st.binary(),
+    st.binary(),
+    st.booleans(),
+    st.sampled_from([None, ChartEnded(3, "Stopped."), CellExplained((1.0, 2.0), "none")]),
+)
 def test_a_frame_holds_what_is_told_and_nothing_else(block, cells, has_state, chart):
     state = StateAnswer(2, 1, "h=1", {"texts": {"status": "é"}}, "suslov", (1, 3)) if has_state else None
     answer = Answer('{"name": "suslov"}', "", state, block, chart, cells)

@@ -43,8 +43,9 @@ def admissible(spec):
 
 def texts_of(places):
     """Texts that name points of a picture."""
-    pair = st.tuples(*(st.floats(low, high, allow_subnormal=False) for low, high in zip(
-        places.low, places.high, strict=True)))
+    pair = st.tuples(
+        *(st.floats(low, high, allow_subnormal=False) for low, high in zip(places.low, places.high, strict=True))
+    )
     return st.lists(pair, max_size=places.most).map(written)
 
 
@@ -105,14 +106,17 @@ def test_keys_of_nobody_are_ignored():
 
 
 @PROPERTY
-@given(st.one_of(
-    st.text(max_size=300),
-    st.binary(max_size=300).map(quote),
-    st.lists(st.tuples(st.sampled_from([*DEFAULTS, "v", "x"]), st.text(max_size=20)), max_size=30).map(
-        lambda pairs: "&".join(f"{key}={text}" for key, text in pairs)),
-    st.integers(0, 2 * MAX_QUERY).map(lambda length: "&" * length),
-    st.integers(0, MAX_QUERY).map(lambda count: "&".join(f"k{i}={i}" for i in range(count))),
-))
+@given(
+    st.one_of(
+        st.text(max_size=300),
+        st.binary(max_size=300).map(quote),
+        st.lists(st.tuples(st.sampled_from([*DEFAULTS, "v", "x"]), st.text(max_size=20)), max_size=30).map(
+            lambda pairs: "&".join(f"{key}={text}" for key, text in pairs)
+        ),
+        st.integers(0, 2 * MAX_QUERY).map(lambda length: "&" * length),
+        st.integers(0, MAX_QUERY).map(lambda count: "&".join(f"k{i}={i}" for i in range(count))),
+    )
+)
 def test_no_text_whatever_raises_or_gives_an_inadmissible_value(query):
     values, notes = decode(query, SPECS)
     assert list(values) == list(DEFAULTS)
@@ -127,9 +131,30 @@ texts = st.one_of(
     st.text(max_size=12),
     st.floats().map(repr),
     st.floats(-5, 5).map(repr),
-    st.integers(-10**30, 10**30).map(str),
-    st.sampled_from(["", "nan", "-nan", "inf", "-Infinity", "1e999", "-1e999", "1e-999", "9" * 400, "0x10", "1,5", "−1",
-                     "None", "true", "[1]", "1 2", "draft", "dark", "Dark"]),
+    st.integers(-(10**30), 10**30).map(str),
+    st.sampled_from(
+        [
+            "",
+            "nan",
+            "-nan",
+            "inf",
+            "-Infinity",
+            "1e999",
+            "-1e999",
+            "1e-999",
+            "9" * 400,
+            "0x10",
+            "1,5",
+            "−1",
+            "None",
+            "true",
+            "[1]",
+            "1 2",
+            "draft",
+            "dark",
+            "Dark",
+        ]
+    ),
 )
 
 
@@ -156,8 +181,12 @@ def test_there_is_one_note_for_each_key_whose_value_had_to_be_changed(given_text
 
 @every_key
 @PROPERTY
-@given(values=states(SPECS), text=st.one_of(
-    st.sampled_from(["nan", "inf", "-inf", "1e999", "-1e999", "", "<b>", "1e7", "-1e7"]), st.text(max_size=12)))
+@given(
+    values=states(SPECS),
+    text=st.one_of(
+        st.sampled_from(["nan", "inf", "-inf", "1e999", "-1e999", "", "<b>", "1e7", "-1e7"]), st.text(max_size=12)
+    ),
+)
 def test_a_key_that_makes_no_sense_leaves_the_others_alone(spec, values, text):
     assume(understood(spec, text) is None)
     query = encode(SCENE.name, {**values, spec.name: text})
@@ -298,10 +327,18 @@ def test_every_slider_spans_values_that_may_be_typed_and_holds_the_default(scene
             assert 0 < spec.step < spec.softbounds[1] - spec.softbounds[0]
 
 
-@pytest.mark.parametrize(("text", "value", "noted"), [
-    ("", "", False), ("omega", "omega", False), ("sphere,omega", "sphere,omega", False),
-    ("sphere,sphere,omega", "sphere,omega", False),
-    ("sphere,sphere,omega,circle", "sphere,omega", True), ("omega,nobody", "omega", True), ("<b>", "", True)])
+@pytest.mark.parametrize(
+    ("text", "value", "noted"),
+    [
+        ("", "", False),
+        ("omega", "omega", False),
+        ("sphere,omega", "sphere,omega", False),
+        ("sphere,sphere,omega", "sphere,omega", False),
+        ("sphere,sphere,omega,circle", "sphere,omega", True),
+        ("omega,nobody", "omega", True),
+        ("<b>", "", True),
+    ],
+)
 def test_names_in_a_link_are_of_the_list_each_once_and_no_more_than_may_be(text, value, noted):
     spec = Names("large", "Enlarged pictures", SCENE.pictures, most=2)
     found, notes = decode(urlencode({"large": text}), (spec,))

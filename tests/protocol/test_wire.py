@@ -37,8 +37,10 @@ def same(left, right):
 
 
 vectors = arrays.arrays(
-    st.sampled_from([np.float32, np.float64]), st.integers(0, 40),
-    elements=st.floats(-1e6, 1e6, width=32), fill=st.nothing(),
+    st.sampled_from([np.float32, np.float64]),
+    st.integers(0, 40),
+    elements=st.floats(-1e6, 1e6, width=32),
+    fill=st.nothing(),
 )
 plain = st.one_of(st.floats(-1e6, 1e6), st.integers(-1000, 1000), st.text(max_size=8))
 trees = st.recursive(st.one_of(vectors, plain), lambda part: st.lists(part, max_size=3), max_leaves=6)
@@ -85,8 +87,17 @@ def test_the_block_holds_each_array_once_and_nothing_else(put):
 def test_arrays_of_any_layout_arrive_in_order():
     grid = np.arange(12.0).reshape(3, 4)
     wire = Wire()
-    wire.put("grid", {"rows": grid, "columns": grid.T, "every-other": grid[:, ::2], "back": grid[::-1, 1],
-                      "integers": np.arange(3), "big-endian": np.arange(3.0).astype(">f8")})
+    wire.put(
+        "grid",
+        {
+            "rows": grid,
+            "columns": grid.T,
+            "every-other": grid[:, ::2],
+            "back": grid[::-1, 1],
+            "integers": np.arange(3),
+            "big-endian": np.arange(3.0).astype(">f8"),
+        },
+    )
     found, _, _, _ = unpack(wire)
     assert found["grid"]["rows"].tolist() == grid.tolist()
     assert found["grid"]["columns"].tolist() == [[0, 4, 8], [1, 5, 9], [2, 6, 10], [3, 7, 11]]
@@ -110,7 +121,9 @@ def test_polygons_with_holes_arrive_as_nested_lists():
     found, _, _, _ = unpack(wire)
     xs = found["region"]["xs"]
     assert [[[part.tolist() for part in polygon] for polygon in multi] for multi in xs] == [
-        [[[0, 4, 4], [1, 2]]], [[[0, 4, 4]]]]
+        [[[0, 4, 4], [1, 2]]],
+        [[[0, 4, 4]]],
+    ]
     assert found["region"]["label"] == ["a", "b"]
 
 

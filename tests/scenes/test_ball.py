@@ -65,8 +65,10 @@ def test_the_chosen_orbit_goes_from_its_circle_to_the_one_in_the_captions(name):
     times = np.linspace(0.0, values["span"], 9)
     exact = integrate(values, start, times)
     left, joined = math.cos(values["theta"]), exact[-1, 2:4] @ xi
-    for picture, pattern in (("sphere", "Leaves the circle Γ = # and comes to Γ = # in the end"),
-                             ("Gamma", "from # to #.")):
+    for picture, pattern in (
+        ("sphere", "Leaves the circle Γ = # and comes to Γ = # in the end"),
+        ("Gamma", "from # to #."),
+    ):
         assert view.numbers(picture, pattern) == [shown(left), pytest.approx(joined, abs=1e-4)]
     # And it has arrived there: ω at rest on Nˢ.
     assert xi @ exact[-1, :2] < 0.0
@@ -78,7 +80,9 @@ def test_the_chosen_orbit_goes_from_its_circle_to_the_one_in_the_captions(name):
         assert along == pytest.approx(exact[:, i], abs=(half_width if i < 2 else 1.0) / 600 + 1e-5)
     circles = view.data["sphere"]["circles"]
     assert [circle[3:] for circle in circles] == [
-        [pytest.approx(left), "unstable"], [pytest.approx(joined, abs=1e-5), "stable"]]
+        [pytest.approx(left), "unstable"],
+        [pytest.approx(joined, abs=1e-5), "stable"],
+    ]
     assert all(circle[:2] == pytest.approx(xi) for circle in circles)
 
 
@@ -95,8 +99,11 @@ def test_theta_plus_over_the_phases_is_that_of_the_orbits_and_its_range_that_of_
         assert np.interp(phi, phis, curve) == pytest.approx(circle_of(values, end), abs=4e-3)
     numbers = view.numbers("curve", "θ⁻ = #:")
     assert numbers == [shown(values["theta"])]
-    low, high = (view.numbers("curve", "θ⁺ = # for every φ") * 2 if "for every φ" in view.text["curve"]
-                 else view.numbers("curve", "θ⁺ from # to #"))
+    low, high = (
+        view.numbers("curve", "θ⁺ = # for every φ") * 2
+        if "for every φ" in view.text["curve"]
+        else view.numbers("curve", "θ⁺ from # to #")
+    )
     assert (low, high) == (pytest.approx(curve.min(), abs=6e-4), pytest.approx(curve.max(), abs=6e-4))
     ring = view.data["curve-chosen"]
     end = integrate(values, view.result.orbit.path.states[0], [1.3 * values["span"]])[-1]
@@ -154,8 +161,10 @@ def test_the_smaller_the_inner_ball_the_closer_the_curve_to_the_dashed_one():
 
 
 def test_the_inner_ball_destroys_the_complete_reversal():
-    flat, bent = (np.ptp(ball(next(one.name for one in BALL.presets if word in one.name)).data["curve-ball"]["ys"][0])
-                  for word in ("complete reversal", "no longer flat"))
+    flat, bent = (
+        np.ptp(ball(next(one.name for one in BALL.presets if word in one.name)).data["curve-ball"]["ys"][0])
+        for word in ("complete reversal", "no longer flat")
+    )
     assert flat < 1e-6
     assert bent > 0.1
 
@@ -165,8 +174,10 @@ def test_many_orbits_cross_the_strip_from_one_half_of_the_line_to_the_other(name
     view = ball(name)
     values, xi = view.values, xi_of(view.values)
     I11, I22, h, D = (values[key] for key in ("I11", "I22", "h", "D"))
-    tracks = [np.column_stack(pair).astype(float)
-              for pair in zip(view.data["omega-arcs"]["xs"], view.data["omega-arcs"]["ys"], strict=True)]
+    tracks = [
+        np.column_stack(pair).astype(float)
+        for pair in zip(view.data["omega-arcs"]["xs"], view.data["omega-arcs"]["ys"], strict=True)
+    ]
     assert len(tracks) == 18
     pixel = view.axes["omega"][1] / 150
     for one in tracks:
@@ -206,14 +217,23 @@ def test_every_energy_above_zero_is_drawn():
         # ω and t scale with √h: the same circles.
         if h > 1e-6:
             assert view.numbers("sphere", "to Γ = #")[0] == pytest.approx(
-                ball(BALL.presets[0].name).numbers("sphere", "to Γ = #")[0], abs=2e-4)
+                ball(BALL.presets[0].name).numbers("sphere", "to Γ = #")[0], abs=2e-4
+            )
 
 
-@pytest.mark.parametrize("values", [
-    {"D": 300.0, "digits": 10.0}, {"I13": 1e-3, "I23": 1e-3}, {"I13": 1e-3, "I23": 0.0, "digits": 10.0, "D": 300.0},
-    {"I11": 1e-3, "I22": 1e-3, "D": 300.0, "digits": 10.0}, {"I11": 1e-3, "D": 300.0, "I13": 1e3, "digits": 10.0},
-    {"I13": 1e-300, "I23": 0.0}, {"I13": 5e-324, "I23": -5e-324},
-], ids=str)
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"D": 300.0, "digits": 10.0},
+        {"I13": 1e-3, "I23": 1e-3},
+        {"I13": 1e-3, "I23": 0.0, "digits": 10.0, "D": 300.0},
+        {"I11": 1e-3, "I22": 1e-3, "D": 300.0, "digits": 10.0},
+        {"I11": 1e-3, "D": 300.0, "I13": 1e3, "digits": 10.0},
+        {"I13": 1e-300, "I23": 0.0},
+        {"I13": 5e-324, "I23": -5e-324},
+    ],
+    ids=str,
+)
 def test_a_map_that_takes_long_is_left_out_and_the_page_says_so(values):
     begun = time.process_time()
     view = View(BALL, values, refusing=True)
@@ -246,9 +266,12 @@ def test_few_orbits_and_a_draft_of_the_map_until_the_others_are_known():
     assert first.map.errors.max() < 5e-3
 
 
-@pytest.mark.parametrize(("values", "sentence"), [
-    ({"I13": 0.0, "I23": 0.0}, "I13 = I23 = 0: there is no line of equilibria"),
-])
+@pytest.mark.parametrize(
+    ("values", "sentence"),
+    [
+        ({"I13": 0.0, "I23": 0.0}, "I13 = I23 = 0: there is no line of equilibria"),
+    ],
+)
 def test_a_ball_without_a_line_of_rest_is_refused(values, sentence):
     with pytest.raises(ModelError, match=sentence):
         View(BALL, values)
@@ -265,8 +288,9 @@ def field(name):
 
 every_field = pytest.mark.parametrize("name", [one.name for one in SECTION.presets])
 # A periodic orbit has another caption, and is held by "test_periodic.py" and "test_branched.py".
-every_chosen_orbit = pytest.mark.parametrize("name", [
-    one.name for one in SECTION.presets if one.values["periodic"] == NONE])
+every_chosen_orbit = pytest.mark.parametrize(
+    "name", [one.name for one in SECTION.presets if one.values["periodic"] == NONE]
+)
 
 
 @every_field
@@ -331,8 +355,10 @@ def test_the_numbers_in_the_caption_of_the_section_are_those_of_its_points(name)
 
 
 def test_closed_regular_and_chaotic_examples_look_it():
-    by_word = {word: field(next(one.name for one in SECTION.presets if word in one.name))
-               for word in ("Mixed", "Regular", "closes", "sea nearly", "Strange")}
+    by_word = {
+        word: field(next(one.name for one in SECTION.presets if word in one.name))
+        for word in ("Mixed", "Regular", "closes", "sea nearly", "Strange")
+    }
     cells = {word: view.numbers("section", "in # of")[0] for word, view in by_word.items()}
     # A point; a line of constant δ, which is left in no cell of ψ empty; much more.
     assert cells["closes"] == 1
@@ -350,7 +376,8 @@ def test_closed_regular_and_chaotic_examples_look_it():
         assert math.remainder(own[k, 0] - psi, 2.0 * math.pi) == pytest.approx(0.0, abs=1e-3)
     view = by_word["closes"]
     assert first_returns(view.values, view.result.orbit.path.states[0], 1)[0] == pytest.approx(
-        view.result.orbit.path.states[0], abs=1e-8)
+        view.result.orbit.path.states[0], abs=1e-8
+    )
 
 
 @pytest.mark.parametrize("start", [0.05, 1.0, -2.0])
@@ -372,11 +399,25 @@ def test_where_the_energy_forbids_a_place_the_start_moves_to_the_edge_and_it_is_
     assert sorted(xs[1, :2]) == pytest.approx([-half, half], abs=1e-6)
 
 
-@pytest.mark.parametrize("values", [
-    {"h": 1e-3, "psi": 3.1}, {"delta": 1e-6}, {"delta": math.pi - 1e-6}, {"b1": 0.0, "b2": 0.0, "b3": 0.0},
-    {"b1": 0.0, "b2": 0.0, "b3": 0.0, "I13": 0.3}, {"D": 0.0}, {"D": 100.0}, {"I11": 100.0, "I22": 0.01}, {"b3": 100.0},
-    {"h": 1000.0}, {"I13": 20.0, "I23": -20.0}, {"count": 1.0}, {"count": 1.0, "drop": "the later half"},
-], ids=str)
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"h": 1e-3, "psi": 3.1},
+        {"delta": 1e-6},
+        {"delta": math.pi - 1e-6},
+        {"b1": 0.0, "b2": 0.0, "b3": 0.0},
+        {"b1": 0.0, "b2": 0.0, "b3": 0.0, "I13": 0.3},
+        {"D": 0.0},
+        {"D": 100.0},
+        {"I11": 100.0, "I22": 0.01},
+        {"b3": 100.0},
+        {"h": 1000.0},
+        {"I13": 20.0, "I23": -20.0},
+        {"count": 1.0},
+        {"count": 1.0, "drop": "the later half"},
+    ],
+    ids=str,
+)
 @pytest.mark.parametrize("dragging", [False, True])
 def test_what_is_extreme_is_drawn(values, dragging):
     view = View(SECTION, values, dragging)
@@ -394,8 +435,10 @@ def test_what_is_extreme_is_drawn(values, dragging):
 def test_a_section_that_takes_long_is_left_out_and_the_page_says_so(monkeypatch):
     monkeypatch.setattr("hess_explorer.scenes.ball_section._MOST_STEPS", 100)
     view = View(SECTION, {"psi": 1.2345, "count": 300.0})
-    reason = ("The section is left out: 300 crossings take an orbit more than 100 steps here: choose fewer of them, or "
-              "smaller I13 and I23.")
+    reason = (
+        "The section is left out: 300 crossings take an orbit more than 100 steps here: choose fewer of them, or "
+        "smaller I13 and I23."
+    )
     assert view.report.notes == [reason]
     for picture in ("section", "returns"):
         assert view.text[picture].endswith("Left out: it would take too many steps.")

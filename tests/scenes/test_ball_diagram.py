@@ -44,12 +44,21 @@ def at(state, name, value):
 
 def returned(values, body, E, place):
     """Where SciPy's orbit from a place crosses γ3 = 0 next; its equations are a 2 × 2 system solved at every call."""
+
     def height(_, y):
         return y[4]
 
     height.direction, height.terminal = 1.0, 2
-    found = solve_ivp(rates(values), (0.0, 60.0), state_at(body, E, *place), method="DOP853", rtol=1e-11, atol=1e-13,
-                      events=height, first_step=1e-3)
+    found = solve_ivp(
+        rates(values),
+        (0.0, 60.0),
+        state_at(body, E, *place),
+        method="DOP853",
+        rtol=1e-11,
+        atol=1e-13,
+        events=height,
+        first_step=1e-3,
+    )
     return coordinates(found.y_events[0][found.t_events[0] > 1e-6][:1])[0]
 
 
@@ -70,8 +79,9 @@ def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_oth
         there = replace(state, **{state.diagram.name: value})
         I33 = check_body(there.I11, there.I22, there.I13, there.I23).I33
         # The principal moments of the whole tensor, by their eigenvalues, and the triangle inequality.
-        first, second, third = np.linalg.eigvalsh([[there.I11, 0.0, there.I13], [0.0, there.I22, there.I23],
-                                                   [there.I13, there.I23, 0.5 * (I33[0] + I33[1])]])
+        first, second, third = np.linalg.eigvalsh(
+            [[there.I11, 0.0, there.I13], [0.0, there.I22, there.I23], [there.I13, there.I23, 0.5 * (I33[0] + I33[1])]]
+        )
         assert first > 0.0
         assert third < first + second
         assert there.D > 0.0
@@ -107,8 +117,18 @@ def test_near_a_doubling_the_period_is_that_of_its_side(D, period):
 
 
 def test_the_orbit_of_period_one_doubles_first_and_goes_on_as_a_saddle():
-    view = View(SCENE, {"branch": "period 1", "chosen": "-2.7743,1.0236", "last": 3.0, "window": "", "steps": 2.0,
-                        "ways": "there and back"}, seen=["diagram"])
+    view = View(
+        SCENE,
+        {
+            "branch": "period 1",
+            "chosen": "-2.7743,1.0236",
+            "last": 3.0,
+            "window": "",
+            "steps": 2.0,
+            "ways": "there and back",
+        },
+        seen=["diagram"],
+    )
     (flip,) = (one for part in view.result.continuation.branches for one in part.bifurcations)
     assert (flip.kind, flip.value) == ("flip", pytest.approx(2.7347985, abs=6e-8))
     assert multipliers(*at(view.result, "D", flip.value), flip.places).real.min() == pytest.approx(-1.0, abs=1e-5)
@@ -133,15 +153,17 @@ def test_the_strange_attractor_is_what_its_example_says():
     assert largest.mean() > 5.0 * scatter
     assert largest.mean() == pytest.approx(0.036, abs=0.006)
     # Two orbits side by side, by another algorithm, part as fast.
-    twins = [lyapunov_exponent(body, start, 2000.0, PLANS[Computation.EXPONENT]["standard"].level).value
-             for start in starts]
+    twins = [
+        lyapunov_exponent(body, start, 2000.0, PLANS[Computation.EXPONENT]["standard"].level).value for start in starts
+    ]
     assert abs(np.mean(twins) - largest.mean()) < 4.0 * scatter + 0.01
     assert np.mean([one.dimension[0] for one in found]) == pytest.approx(2.28, abs=0.04)
     # The mean divergence by a 2 × 2 system solved at every state: ω̇ is quadratic in ω, so differences are derivatives.
     field = rates(values)
     states = solve(body, last, np.linspace(0.0, 500.0, 2001), level("draft")).states
-    shrinks = [sum(field(0.0, y + e)[i] - field(0.0, y - e)[i] for i, e in enumerate(np.eye(5)[:2])) / 2.0
-               for y in states]
+    shrinks = [
+        sum(field(0.0, y + e)[i] - field(0.0, y - e)[i] for i, e in enumerate(np.eye(5)[:2])) / 2.0 for y in states
+    ]
     assert np.mean(shrinks) == pytest.approx(-0.0925, abs=0.02)
     # The distance, all pairs compared.
     a, b = state.regime.sets.attractor[::3], state.regime.sets.repeller[::3]
@@ -193,7 +215,7 @@ def test_where_no_motion_crosses_at_the_chosen_place_another_one_is_taken_and_th
 
     assert height(-0.61) > E > height(state.diagram.place[0])
     window = ((-math.pi, 0.0), (math.pi, math.pi))
-    grey, = state.poincare.impossible(window)
+    (grey,) = state.poincare.impossible(window)
     middles = (np.arange(grey.size) + 0.5) * 2.0 * math.pi / grey.size - math.pi
     assert grey.tolist() == [float(height(psi) >= E) for psi in middles]
     assert 0 < grey.sum() < grey.size

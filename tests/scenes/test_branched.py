@@ -47,8 +47,11 @@ def marks(view):
 
 def points_of(view):
     """Of all points of the branch: the parameter, the places (m, 2), the multipliers."""
-    return [point for part in view.result.branch.continuation.branches
-            for point in zip(part.values.tolist(), part.places, part.multipliers, strict=True)]
+    return [
+        point
+        for part in view.result.branch.continuation.branches
+        for point in zip(part.values.tolist(), part.places, part.multipliers, strict=True)
+    ]
 
 
 def half_trace(h, share):
@@ -57,6 +60,7 @@ def half_trace(h, share):
     There q̈ = γ3 q and ü = share γ3 u with γ3 = h − q²/2, in units I = 1, b3 = 1, share the ratio of the moments of
     inertia.  By the symmetry q → −q the second half is like the first.
     """
+
     def motion(_, y):
         q, v, u, du, w, dw = y
         g3 = h - 0.5 * q * q
@@ -66,8 +70,16 @@ def half_trace(h, share):
         return y[0]
 
     back.direction, back.terminal = -1.0, True
-    run = solve_ivp(motion, (0.0, 100.0), [0.0, math.sqrt(1.0 - h * h), 1.0, 0.0, 0.0, 1.0], "DOP853", rtol=1e-12,
-                    atol=1e-14, events=back, first_step=1e-3)
+    run = solve_ivp(
+        motion,
+        (0.0, 100.0),
+        [0.0, math.sqrt(1.0 - h * h), 1.0, 0.0, 0.0, 1.0],
+        "DOP853",
+        rtol=1e-12,
+        atol=1e-14,
+        events=back,
+        first_step=1e-3,
+    )
     y = run.y_events[0][0]
     return y[2] + y[5]
 
@@ -110,7 +122,8 @@ def test_the_branch_of_an_orbit_born_there_turns_at_the_pitchfork():
     assert drawn[0].min() == pytest.approx(exact, abs=1e-4)
     assert view.data["branch-bifurcation-names"]["text"] == ["pitchfork"]
     assert view.text["branch"] == (
-        "Branch of the periodic orbit\nPeriod 1, elliptic here; its branch has 1 bifurcation.")
+        "Branch of the periodic orbit\nPeriod 1, elliptic here; its branch has 1 bifurcation."
+    )
 
 
 HEAVY = HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5))
@@ -125,7 +138,7 @@ def moebius(h, f):
 
 def test_the_two_cycles_of_the_hess_case_meet_where_the_moebius_matrix_has_the_trace_two():
     view = shown("euler-poisson")
-    (value, error), = ((value, error) for kind, value, error in marks(view) if kind in ("fold", "branch point"))
+    ((value, error),) = ((value, error) for kind, value, error in marks(view) if kind in ("fold", "branch point"))
     exact = brentq(lambda h: abs(moebius(h, 1.0).trace) - 2.0, value - 0.01, value + 0.01, xtol=1e-13)
     assert abs(value - exact) <= error + 1e-8
     assert error < 1e-6
@@ -157,7 +170,8 @@ def test_an_orbit_of_the_ball_doubles_where_another_integrator_finds_the_multipl
         values = {**view.values, "I13": h}
         exact = sorted(np.linalg.eigvals(derivative(values, there[0])), key=abs, reverse=True)
         assert np.abs(multipliers[0] - exact[0]) < 1e-4 * max(1.0, abs(exact[0])) or (
-            np.abs(multipliers[0] - np.conj(exact[0])) < 1e-4)
+            np.abs(multipliers[0] - np.conj(exact[0])) < 1e-4
+        )
     attracts, repels = (view.curve(f"branch-branch-{sign}")[0] for sign in ("attracts", "repels"))
     assert attracts.max() == pytest.approx(value, abs=1e-5) == pytest.approx(repels.min(), abs=1e-5)
 
@@ -228,7 +242,9 @@ def test_the_range_is_within_what_is_possible_and_about_the_value_where_none_is_
     # Over another parameter the range is about that one.
     other = [*scene.of(scene.defaults()).branch.along][1]
     assert scene.carried({**defaults, "low": 1.0, "high": 2.0}, {**defaults, "over": other}) == {
-        "low": 0.0, "high": 0.0}
+        "low": 0.0,
+        "high": 0.0,
+    }
     assert scene.carried(defaults, {**defaults, "low": 1.0}) == {}
     # None of it means anything in another scene.
     for before in NAMES:

@@ -49,7 +49,7 @@ def test_the_leak_grows_at_the_rate_in_the_caption_which_is_the_exact_one(name):
     # The line drawn has this slope, and lies on the curve where that is straight.
     t, lg = view.curve("leak-own")
     x, y = view.curve("leak-slope")
-    period, = view.derived("Period of n₃ = #")
+    (period,) = view.derived("Period of n₃ = #")
     assert (y[-1] - y[0]) / (x[-1] - x[0]) == pytest.approx(expected / (period * math.log(10.0)), rel=1e-5)
     straight = (lg > -12.5) & (lg < -4.0) & (t < x[-1])
     assert straight.sum() > 96
@@ -69,7 +69,7 @@ def test_figure_gess1_has_the_numbers_of_the_paper():
 @pytest.mark.parametrize("name", STABLE)
 def test_without_cycles_nothing_grows_and_the_caption_says_so(name):
     view = leak(name)
-    largest, = view.numbers("leak", "Stable: no cycles, no growth; after 60 periods |r·M| ≤ #.")
+    (largest,) = view.numbers("leak", "Stable: no cycles, no growth; after 60 periods |r·M| ≤ #.")
     assert largest < 3e-14
     assert np.max(view.curve("leak-own")[1]) == pytest.approx(math.log10(largest), abs=0.05)
     assert "leak-slope" not in view.data
@@ -92,7 +92,7 @@ def test_every_accuracy_leaks_alike_but_starts_at_its_own_distance():
     for accuracy, view in views.items():
         t, lg = view.curve("leak-own")
         # In the first two periods the leak is round-off grown by two periods at most.
-        period, = view.derived("Period of n₃ = #")
+        (period,) = view.derived("Period of n₃ = #")
         assert np.max(lg[t < 2.0 * period]) < -13.0, accuracy
         assert view.text["difference"].startswith(f"Distance from the exact motion\n{accuracy}: ")
         t, lg = view.curve("difference-own")
@@ -123,23 +123,34 @@ def test_the_exact_motion_beside_is_that_of_the_reduced_system():
     orbit = view.data["data-orbit"]
     index = [0, 50, 333, len(orbit["t"]) - 1]
     times = np.asarray(orbit["t"], float)[index] * nu
-    y = solve_ivp(reduced(a), (0.0, times[-1] * 1.001), [*w, *(f / rho**2 * w), lowest, 0.0], "DOP853", times,
-                  rtol=1e-11, atol=1e-12).y
+    y = solve_ivp(
+        reduced(a),
+        (0.0, times[-1] * 1.001),
+        [*w, *(f / rho**2 * w), lowest, 0.0],
+        "DOP853",
+        times,
+        rtol=1e-11,
+        atol=1e-12,
+    ).y
     n1, n2, n3 = y[2:5]
     # γ = −n2 e1' − n1 e2 + n3 r, e1' = (0.8, 0, −0.6), r = (0.6, 0, 0.8).
     expected = np.array([-0.8 * n2 + 0.6 * n3, -n1, 0.6 * n2 + 0.8 * n3])
     assert np.array([np.asarray(orbit[name], float)[index] for name in ("g1", "g2", "g3")]) == pytest.approx(
-        expected, abs=2e-5)
+        expected, abs=2e-5
+    )
     low, high = view.numbers("sphere", "n₃ from # to #,")
     assert (low, high) == (shown(lowest), shown(np.sort(np.roots([-2.0, -2.0 * h, 2.0, 2.0 * h - f * f]).real)[2]))
 
 
-@pytest.mark.parametrize(("values", "error", "words"), [
-    ({"I2": 2.0}, InvalidParameter, "I2 = 2 must lie between"),
-    ({"m": 0.0}, NoField, "Choose μ|r| of at least"),
-    ({"m": 4e-299}, NoField, "Choose μ|r| of at least"),
-    ({"h": 9.975, "f": 0.0}, Separatrix, "h = μ|r|, f = 0 is the separatrix"),
-])
+@pytest.mark.parametrize(
+    ("values", "error", "words"),
+    [
+        ({"I2": 2.0}, InvalidParameter, "I2 = 2 must lie between"),
+        ({"m": 0.0}, NoField, "Choose μ|r| of at least"),
+        ({"m": 4e-299}, NoField, "Choose μ|r| of at least"),
+        ({"h": 9.975, "f": 0.0}, Separatrix, "h = μ|r|, f = 0 is the separatrix"),
+    ],
+)
 @pytest.mark.parametrize("scene", [LEAK, BRIDGE], ids=["leak", "bridge"])
 def test_what_cannot_be_is_refused_in_a_sentence(scene, values, error, words):
     with pytest.raises(error, match=re.escape(words)):
@@ -187,17 +198,24 @@ def test_figure_gess1_in_both_systems_of_units():
     # I11 = I2, I22 = I11/(1 + a²), I23 = a I22, b3 = −b I22 √(1 + a²).
     assert view.derived("I₁₁ = #, I₂₂ = #, I₂₃ = #") == [0.625, 0.5, -0.25]
     assert view.derived("b₃ = #") == [pytest.approx(-15.96 * 0.5 * math.sqrt(1.25), rel=1e-4)]
-    trace, = view.numbers("circle", "|trace| #.")
+    (trace,) = view.numbers("circle", "|trace| #.")
     growth = 3.09107
     assert trace == pytest.approx(2.0 * math.cosh(growth / 2.0), abs=6e-5)
-    assert view.derived("Period of n₃ = #") == [pytest.approx(period_of(5.0125313, 2.0025047)[0] / math.sqrt(15.96),
-                                                               rel=1e-5)]
+    assert view.derived("Period of n₃ = #") == [
+        pytest.approx(period_of(5.0125313, 2.0025047)[0] / math.sqrt(15.96), rel=1e-5)
+    ]
 
 
 def test_the_same_state_may_be_given_on_either_side():
     heavy = bridge("Figure 11, given in Euler–Poisson")
-    given = {"given": "Suslov–Hess", "I22": 0.5, "I23": -0.25, "b3": -15.96 * 0.5 * math.sqrt(1.25),
-             "h": 50.0 / 9.975, "f": -5.0 * math.sqrt(1.6 / 9.975)}
+    given = {
+        "given": "Suslov–Hess",
+        "I22": 0.5,
+        "I23": -0.25,
+        "b3": -15.96 * 0.5 * math.sqrt(1.25),
+        "h": 50.0 / 9.975,
+        "f": -5.0 * math.sqrt(1.6 / 9.975),
+    }
     suslov = View(BRIDGE, given)
     for picture in ("omega", "circle", "andoyer"):
         assert suslov.text[picture] == heavy.text[picture]
@@ -208,9 +226,14 @@ def test_the_same_state_may_be_given_on_either_side():
         assert curves[0] == pytest.approx(curves[1], abs=2e-3 * np.ptp(curves[0]))
 
 
-@pytest.mark.parametrize("values", [
-    *(preset.values for preset in BRIDGE.presets), {"m": -5.0, "h": 3.0, "f": 0.5},
-], ids=range(len(BRIDGE.presets) + 1))
+@pytest.mark.parametrize(
+    "values",
+    [
+        *(preset.values for preset in BRIDGE.presets),
+        {"m": -5.0, "h": 3.0, "f": 0.5},
+    ],
+    ids=range(len(BRIDGE.presets) + 1),
+)
 def test_a_change_of_sides_keeps_the_motion_and_one_back_the_values(values):
     browser = Browser(BRIDGE, {**BRIDGE.defaults(), **values})
     browser.ask(hidden=[])
@@ -297,8 +320,13 @@ def test_the_orbit_of_the_suslov_side_obeys_its_equations():
 
     def field(t, y):
         w1, w2, g1, g2, g3 = y
-        return [(-I23 * w2 * w2 + b3 * g2 - b2 * g3) / I11, (I23 * w1 * w2 - b3 * g1) / I22,
-                -g3 * w2, g3 * w1, g1 * w2 - g2 * w1]
+        return [
+            (-I23 * w2 * w2 + b3 * g2 - b2 * g3) / I11,
+            (I23 * w1 * w2 - b3 * g1) / I22,
+            -g3 * w2,
+            g3 * w1,
+            g1 * w2 - g2 * w1,
+        ]
 
     orbit = view.data["data-orbit"]
     columns = np.array([np.asarray(orbit[name], float) for name in ("omega1", "omega2", "g1", "g2", "g3")])

@@ -40,8 +40,9 @@ def on_which_side(view, points):
 # ---- Examples ---------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("preset", [one for one in EP.presets if one.values["periodic"] == NONE],
-                         ids=lambda preset: preset.name)
+@pytest.mark.parametrize(
+    "preset", [one for one in EP.presets if one.values["periodic"] == NONE], ids=lambda preset: preset.name
+)
 def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
     view = EulerPoisson(preset.values, seen={"section", "exponent", "sphere"})
     assert view.report.notes == []
@@ -69,7 +70,7 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
     slow = math.sqrt(2.0 * max(view.body.a) * (view.h + view.body.strength))
     times, states = crossings_by_scipy(view.body, view.start, 30.0 / slow)
     assert len(times)
-    assert own[-int(view.values["count"]):][: min(2, len(times))] == pytest.approx(coordinates(states)[:2], abs=1e-4)
+    assert own[-int(view.values["count"]) :][: min(2, len(times))] == pytest.approx(coordinates(states)[:2], abs=1e-4)
     # What is said of the exponent.
     exponent, end = view.numbers("exponent", "λ = # after t = #")
     assert end == view.values["long"]
@@ -192,8 +193,12 @@ def free_rotation_number(l, x):
         return a1 * math.sin(l) ** 2 + a2 * math.cos(l) ** 2
 
     energy = (1.0 - x * x) * across(l) + a3 * x * x
-    turn, _ = quad(lambda l: across(l) / (math.sqrt((energy - across(l)) / (a3 - across(l))) * (a3 - across(l))),
-                   0.0, 2.0 * math.pi, epsabs=1e-12)
+    turn, _ = quad(
+        lambda l: across(l) / (math.sqrt((energy - across(l)) / (a3 - across(l))) * (a3 - across(l))),
+        0.0,
+        2.0 * math.pi,
+        epsabs=1e-12,
+    )
     return 2.0 * math.pi / turn
 
 
@@ -267,8 +272,10 @@ def test_the_green_curve_is_the_hess_manifold():
 def other_momenta(view, places):
     """How many momenta with this energy there are at places (n, 2), by a dense search."""
     top = math.sqrt(2.0 * (view.h + view.body.strength) / min(view.body.a))
-    return [np.count_nonzero(np.diff(np.sign(dense(view.body, view.f, float(l), float(x), top)[1] - view.h)))
-            for l, x in places]
+    return [
+        np.count_nonzero(np.diff(np.sign(dense(view.body, view.f, float(l), float(x), top)[1] - view.h)))
+        for l, x in places
+    ]
 
 
 def test_points_on_another_sheet_are_drawn_apart():
@@ -299,17 +306,30 @@ def test_the_example_of_the_second_sheet_shows_points_of_the_smaller_momentum():
 
 def test_on_a_small_sheet_another_start_is_found():
     """The chosen place is not on it: it is taken from those that fill the window, as few places are."""
-    view = EulerPoisson({**EP.presets[-1].values, "h": 0.2, "window": "", "count": 20.0, "sheet": "second G"},
-                        seen={"section"}, noted=True)
+    view = EulerPoisson(
+        {**EP.presets[-1].values, "h": 0.2, "window": "", "count": 20.0, "sheet": "second G"},
+        seen={"section"},
+        noted=True,
+    )
     assert re.search("no motion with this h and f crosses the section", " ".join(view.report.notes))
     assert len(view.points("own")) == 20
 
 
 def test_on_the_second_sheet_orbits_start_with_the_smaller_momentum():
-    values = {**EP.presets[0].values, "I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5), "h": 0.5, "f": 0.3,
-              "orbits": 8.0, "count": 30.0}
-    largest, second = (EulerPoisson({**values, "sheet": sheet}, seen={"section"})
-                       for sheet in ("largest G", "second G"))
+    values = {
+        **EP.presets[0].values,
+        "I1": 1.0,
+        "I2": 1.5,
+        "I3": 2.0,
+        "m": -math.sqrt(0.5),
+        "h": 0.5,
+        "f": 0.3,
+        "orbits": 8.0,
+        "count": 30.0,
+    }
+    largest, second = (
+        EulerPoisson({**values, "sheet": sheet}, seen={"section"}) for sheet in ("largest G", "second G")
+    )
     start = np.array(second.result.start)
     l, x = coordinates(start[None])[0]
     G = float(np.linalg.norm(start[:3]))
@@ -391,8 +411,9 @@ def test_while_epsilon_is_dragged_the_rotation_number_is_that_of_few_orbits_righ
 
 
 def test_another_start_leaves_rotation_numbers_as_they_are():
-    one, two = (EulerPoisson({"orbits": 0.0, "starts": starts}, seen={"rotation"})
-                for starts in ("0,0.2", "0,0.2;0.5,-0.3"))
+    one, two = (
+        EulerPoisson({"orbits": 0.0, "starts": starts}, seen={"rotation"}) for starts in ("0,0.2", "0,0.2;0.5,-0.3")
+    )
     assert two.begun.work.todo == []
     assert two.data["rotation-rho"].keys() == one.data["rotation-rho"].keys()
     assert np.array_equal(two.data["rotation-orbits"]["y"], one.data["rotation-orbits"]["y"])
@@ -413,8 +434,10 @@ def test_the_rotation_picture_says_of_all_the_line_what_its_orbits_are():
     assert np.all(view.data["rotation-standing"]["y"] == 0.0)
     # The exponent of an orbit from the middle of the largest sea is positive, of one in an island it falls to 0.
     sea = max(seas, key=np.ptp)
-    exponents = [lyapunov_exponent(view.body, state_at(GESS1, 50.0, 5.0, 0.0, place), 300.0).value
-                 for place in (float(sea.mean()), float(view.data["rotation-standing"]["x"][2]))]
+    exponents = [
+        lyapunov_exponent(view.body, state_at(GESS1, 50.0, 5.0, 0.0, place), 300.0).value
+        for place in (float(sea.mean()), float(view.data["rotation-standing"]["x"][2]))
+    ]
     assert exponents[0] > 0.2
     assert exponents[1] < 0.05
 
@@ -455,12 +478,18 @@ def test_sliders_end_where_the_potential_does():
 # ---- Refusals ---------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("values", "words"), [
-    ({"I2": 2.0}, "I2 = 2 must lie between I1 = 1 and I3 = 0.375"),
-    ({"I1": 1.0, "I2": 1.0, "I3": 1.0}, "which differ"),
-    ({"h": -20.0}, "Nothing is possible here with h = -20 and f = 5: choose a larger h, a smaller .f., or press Clear"),
-    ({"f": 500.0}, "Nothing is possible here"),
-])
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"I2": 2.0}, "I2 = 2 must lie between I1 = 1 and I3 = 0.375"),
+        ({"I1": 1.0, "I2": 1.0, "I3": 1.0}, "which differ"),
+        (
+            {"h": -20.0},
+            "Nothing is possible here with h = -20 and f = 5: choose a larger h, a smaller .f., or press Clear",
+        ),
+        ({"f": 500.0}, "Nothing is possible here"),
+    ],
+)
 def test_what_cannot_be_shown_is_a_sentence(values, words):
     admitted, _ = EP.admit({**EP.defaults(), **values})
     with pytest.raises(ModelError, match=words):
@@ -470,14 +499,25 @@ def test_what_cannot_be_shown_is_a_sentence(values, words):
 def test_a_start_that_is_not_possible_is_replaced_and_said():
     view = EulerPoisson({**EP.presets[9].values, "orbits": 4.0, "starts": "2.8,0.3"})
     (note,) = view.report.notes
-    assert note.startswith("At l = 2.8, L/G = 0.3 no motion with this h and f crosses the section: "
-                           "the chosen orbit starts at l = ")
+    assert note.startswith(
+        "At l = 2.8, L/G = 0.3 no motion with this h and f crosses the section: the chosen orbit starts at l = "
+    )
     assert len(view.data["section-chosen"]["x"]) == 1
 
 
-@pytest.mark.parametrize("values", [
-    {"I1": 1000.0, "I2": 1.0, "I3": 0.001}, {"m": 0.0, "f": 0.0}, {"h": 1e5}, {"f": 0.0, "h": 10.0}, {"away": math.pi},
-    {"m": -9.975}, {"h": -9.9, "f": 0.0, "starts": "1.5,0"}, {"orbits": 0.0, "count": 2.0, "long": 1.0, "span": 0.01}])
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"I1": 1000.0, "I2": 1.0, "I3": 0.001},
+        {"m": 0.0, "f": 0.0},
+        {"h": 1e5},
+        {"f": 0.0, "h": 10.0},
+        {"away": math.pi},
+        {"m": -9.975},
+        {"h": -9.9, "f": 0.0, "starts": "1.5,0"},
+        {"orbits": 0.0, "count": 2.0, "long": 1.0, "span": 0.01},
+    ],
+)
 def test_at_the_ends_of_what_may_be_typed_there_is_a_picture_or_a_sentence(values):
     try:
         view = EulerPoisson({"orbits": 8.0, "count": 20.0, "long": 5.0, "span": 2.0, **values}, refusing=True)
@@ -503,7 +543,8 @@ def test_what_an_example_of_the_second_series_says_of_the_hess_motion_is_so(pres
         expected = "no Hess motion yet"
     else:
         expected = {"elliptic": "the Hess motion is stable", "hyperbolic": "it is unstable, two layers part"}[
-            circle_map(a, h, f, level("precise")).kind]
+            circle_map(a, h, f, level("precise")).kind
+        ]
     assert preset.name.endswith(expected)
 
 
@@ -526,7 +567,7 @@ def test_the_split_of_the_separatrices_is_0_in_the_hess_case_and_begins_in_propo
     drawn = view.data["split-splits"]
     assert len(drawn["x"]) == 13
     assert np.interp(0.01, drawn["x"], drawn["y"]) == pytest.approx(0.01 * slope, rel=0.02)
-    (x, y), = zip(*(view.data["split-here"][key] for key in "xy"), strict=True)
+    ((x, y),) = zip(*(view.data["split-here"][key] for key in "xy"), strict=True)
     assert (x, y) == (pytest.approx(away), pytest.approx(exact.value, abs=1e-8))
     line = np.array([view.data["split-slope"][key][0] for key in ("xs", "ys")])
     assert line[1] / line[0] == pytest.approx([slope, slope], rel=1e-5)

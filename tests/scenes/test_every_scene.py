@@ -51,17 +51,23 @@ from support.mechanics import PROPERTY
 from support.view import NUMBER, View
 
 # A state with other axes than the default one.
-OTHERS = {HESS.name: {"b3": -2.9, "h": 100.0, "f": -5.0, "phi0": -1.0, "I22": 1.3, "I23": -0.4},
-          "free-suslov": {"w1": 6.0}}
+OTHERS = {
+    HESS.name: {"b3": -2.9, "h": 100.0, "f": -5.0, "phi0": -1.0, "I22": 1.3, "I23": -0.4},
+    "free-suslov": {"w1": 6.0},
+}
 BALL = SCENES["chaplygin-ball"]
 BESIDE = ("status", "summary", "notes", "derived", "signs")
 """The texts beside the captions."""
 every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 # The scenes that look into another one are of one class: of each the first example and the last.
-EXAMPLES = [(scene, preset) for scene in SCENES.values()
-            for preset in (scene.presets if scene.origin is None else scene.presets[::len(scene.presets) - 1])]
+EXAMPLES = [
+    (scene, preset)
+    for scene in SCENES.values()
+    for preset in (scene.presets if scene.origin is None else scene.presets[:: len(scene.presets) - 1])
+]
 every_preset = pytest.mark.parametrize(
-    ("scene", "preset"), EXAMPLES, ids=[f"{scene.name}: {preset.name}" for scene, preset in EXAMPLES])
+    ("scene", "preset"), EXAMPLES, ids=[f"{scene.name}: {preset.name}" for scene, preset in EXAMPLES]
+)
 
 
 def at_once(scene):
@@ -118,13 +124,20 @@ def test_sliders_have_ends_wherever_the_others_are(scene):
 
 # Of the sentence over the pictures: the scene, what is moved, and the pictures that are said to follow.
 FOLLOWS = [
-    ("suslov-hess", "h", "body omega bifurcation circle"), ("free-suslov", "k", "omega body sphere gamma1"),
-    ("scattering", "phi", "body sphere"), ("kharlamova", "alpha", "body domain sphere"),
-    ("quartic", "ratio", "body domain section sphere"), ("rotation-number", "a", "line trace circle"),
-    ("chaplygin-ball", "phi", "body omega sphere"), ("ball-section", "psi", "body omega sphere"),
-    ("euler-poisson", "away", "section"), ("hess-leak", "h", "body leak andoyer sphere"),
-    ("hess-leak", "phi0", "body leak andoyer sphere"), ("bridge", "h", "body heavy omega difference"),
-    ("bridge", "phi0", "body heavy omega difference"), ("loxodrome", "energy", "body space angle height"),
+    ("suslov-hess", "h", "body omega bifurcation circle"),
+    ("free-suslov", "k", "omega body sphere gamma1"),
+    ("scattering", "phi", "body sphere"),
+    ("kharlamova", "alpha", "body domain sphere"),
+    ("quartic", "ratio", "body domain section sphere"),
+    ("rotation-number", "a", "line trace circle"),
+    ("chaplygin-ball", "phi", "body omega sphere"),
+    ("ball-section", "psi", "body omega sphere"),
+    ("euler-poisson", "away", "section"),
+    ("hess-leak", "h", "body leak andoyer sphere"),
+    ("hess-leak", "phi0", "body leak andoyer sphere"),
+    ("bridge", "h", "body heavy omega difference"),
+    ("bridge", "phi0", "body heavy omega difference"),
+    ("loxodrome", "energy", "body space angle height"),
 ]
 
 
@@ -132,15 +145,21 @@ FOLLOWS = [
 def test_what_is_said_to_follow_does(name, parameter, pictures):
     scene = SCENES[name]
     values = scene.defaults()
-    low, high, step = scene.limits(values).get(parameter, (*next(
-        (*spec.softbounds, spec.step) for spec in scene.specs if spec.name == parameter),))
+    low, high, step = scene.limits(values).get(
+        parameter, (*next((*spec.softbounds, spec.step) for spec in scene.specs if spec.name == parameter),)
+    )
     near = values[parameter] + max(step, (high - low) / 20) * (1 if values[parameter] < (low + high) / 2 else -1)
 
     def columns(changes):
         state = scene.compute({**values, **changes}, pictures.split(), dragging=True)
-        return {view.name: {source: state.drawn[source]
-                            for source in (*view.data(state), *(f"data-{track}" for track in view.tracks))}
-                for view in scene.views if view.name in pictures.split()}
+        return {
+            view.name: {
+                source: state.drawn[source]
+                for source in (*view.data(state), *(f"data-{track}" for track in view.tracks))
+            }
+            for view in scene.views
+            if view.name in pictures.split()
+        }
 
     before, after = columns({}), columns({parameter: near})
     assert set(before) == set(pictures.split()) <= set(scene.open_pictures)
@@ -201,7 +220,10 @@ def test_the_description_of_a_scene_has_all_that_the_browser_needs(scene):
         assert spec.group in found["groups"]
         if isinstance(spec, Number):
             assert (control["kind"], control["symbol"], control["range"]) == (
-                "number", spec.symbol, list(spec.softbounds))
+                "number",
+                spec.symbol,
+                list(spec.softbounds),
+            )
         else:
             assert (control["kind"], control["options"]) == ("choice", list(spec.options))
     # Three or four sliders are open.
@@ -235,13 +257,18 @@ def test_bokeh_reads_in_a_description_what_these_tests_do(scene):
         assert not root.js_event_callbacks
         assert read.ranges == [root.x_range.start, root.x_range.end, root.y_range.start, root.y_range.end]
         assert read.logarithmic == tuple(isinstance(one, LogScale) for one in (root.x_scale, root.y_scale))
-        assert read.sources == {one.name: dict(one.data) for one in root.references()
-                                if isinstance(one, ColumnDataSource) and one.name is not None}
+        assert read.sources == {
+            one.name: dict(one.data)
+            for one in root.references()
+            if isinstance(one, ColumnDataSource) and one.name is not None
+        }
         assert [(kind, source) for kind, _, _, source in read.glyphs] == [
-            (type(one.glyph).__name__, one.data_source.name) for one in root.renderers]
+            (type(one.glyph).__name__, one.data_source.name) for one in root.renderers
+        ]
         lines = [one for one in root.renderers if isinstance(one.glyph, Line | Scatter)]
         assert [(x, y) for kind, x, y, _ in read.glyphs if kind in ("Line", "Scatter")] == [
-            (one.glyph.x.field, one.glyph.y.field) for one in lines]
+            (one.glyph.x.field, one.glyph.y.field) for one in lines
+        ]
 
 
 @every_scene
@@ -267,8 +294,8 @@ def test_a_scene_that_looks_into_another_one_has_its_parameters(scene):
         assert len(looking) == 1
         return
     origin = SCENES[scene.origin]
-    own = scene.specs[len(origin.specs):]
-    assert (scene.specs[:len(origin.specs)], scene.presets) == (origin.specs, origin.presets)
+    own = scene.specs[len(origin.specs) :]
+    assert (scene.specs[: len(origin.specs)], scene.presets) == (origin.specs, origin.presets)
     kinds = tuple(trial.kind for trial in origin.trials)
     assert [spec.options for spec in own] == ([kinds] if len(kinds) > 1 else [])
     assert not scene.has_motion
@@ -384,7 +411,8 @@ def test_a_stage_that_fails_shows_the_sentence_and_nothing_of_another_state(scen
     for name in depends:
         # Neither do names of axes stay: a link to nothing shows none.
         assert name.endswith("-message") or not [
-            x for values in left[name].values() for x in values if x not in ("", " ")], name
+            x for values in left[name].values() for x in values if x not in ("", " ")
+        ], name
     assert any("No motion here." in values for columns in left.values() for values in columns.values())
     assert set(board.captions.values()) == {"No motion here."}
     # And the next state is drawn whole.
@@ -479,8 +507,10 @@ def test_every_admissible_state_is_computed_and_drawn_without_a_number_that_is_n
     assert_drawn(HESS, values, data.draw(in_sight(HESS), label="in sight"), dragging)
 
 
-@pytest.mark.parametrize("scene", [
-    pytest.param(scene, id=name) for name, scene in SCENES.items() if scene.origin is None and scene is not HESS])
+@pytest.mark.parametrize(
+    "scene",
+    [pytest.param(scene, id=name) for name, scene in SCENES.items() if scene.origin is None and scene is not HESS],
+)
 @settings(PROPERTY, max_examples=16)
 @given(data=st.data(), dragging=st.booleans())
 def test_an_admissible_state_of_the_other_scenes_is_drawn_whole_or_refused_with_a_sentence(scene, data, dragging):
@@ -500,9 +530,14 @@ def test_the_errors_of_every_admissible_state_are_computed_and_drawn_too(data):
     assert_errors_drawn(ACCURACY, data)
 
 
-@pytest.mark.parametrize("scene", [
-    pytest.param(scene, id=name) for name, scene in SCENES.items()
-    if scene.origin not in (None, HESS.name) and at_once(scene)])
+@pytest.mark.parametrize(
+    "scene",
+    [
+        pytest.param(scene, id=name)
+        for name, scene in SCENES.items()
+        if scene.origin not in (None, HESS.name) and at_once(scene)
+    ],
+)
 # All of one class: what is wrong with it shows in the first states of one of the scenes (tried: no floor of the axes).
 @settings(PROPERTY, max_examples=3)
 @given(data=st.data())
@@ -511,8 +546,13 @@ def test_the_errors_of_the_other_scenes_are_drawn_too_or_refused_with_a_sentence
 
 
 def test_at_the_separatrix_and_far_from_it_the_slow_methods_run_without_a_warning_too():
-    for change in ({"h": 1.0, "f": 0.0}, {"h": 1e6, "span": 0.01}, {"I22": 0.1, "I23": 10.0, "span": 1.0},
-                   {"h": -1.0 + 1e-9, "f": 0.0}, {"f": 1e4}):
+    for change in (
+        {"h": 1.0, "f": 0.0},
+        {"h": 1e6, "span": 0.01},
+        {"I22": 0.1, "I23": 10.0, "span": 1.0},
+        {"h": -1.0 + 1e-9, "f": 0.0},
+        {"f": 1e4},
+    ):
         values = {**ACCURACY.defaults(), **change}
         assert_drawn(ACCURACY, values, ACCURACY.pictures, False)
 
@@ -587,18 +627,25 @@ pictures = st.sampled_from([*HESS.pictures, *ACCURACY.pictures, "point", ""])
 huge = st.sampled_from([10**400, -(10**400)])
 numbers = st.one_of(st.floats(), st.integers(-5, 5), st.booleans(), huge, st.none(), st.text(max_size=5))
 garbage = st.recursive(
-    numbers, lambda part: st.one_of(st.lists(part, max_size=4), st.dictionaries(names, part, max_size=4)), max_leaves=8)
+    numbers, lambda part: st.one_of(st.lists(part, max_size=4), st.dictionaries(names, part, max_size=4)), max_leaves=8
+)
 messages = st.one_of(
     garbage,
-    st.fixed_dictionaries({}, optional={
-        "requested": numbers, "held": garbage,
-        "values": st.one_of(garbage, st.dictionaries(names, numbers)),
-        "picked": st.one_of(garbage, st.tuples(pictures, numbers, numbers).map(list)),
-        "reset": garbage,
-        "preset": st.one_of(garbage, st.sampled_from([one.name for scene in SCENES.values() for one in scene.presets])),
-        "scene": st.one_of(garbage, st.sampled_from(list(SCENES))),
-        "hidden": st.one_of(garbage, st.lists(pictures, max_size=8)),
-    }),
+    st.fixed_dictionaries(
+        {},
+        optional={
+            "requested": numbers,
+            "held": garbage,
+            "values": st.one_of(garbage, st.dictionaries(names, numbers)),
+            "picked": st.one_of(garbage, st.tuples(pictures, numbers, numbers).map(list)),
+            "reset": garbage,
+            "preset": st.one_of(
+                garbage, st.sampled_from([one.name for scene in SCENES.values() for one in scene.presets])
+            ),
+            "scene": st.one_of(garbage, st.sampled_from(list(SCENES))),
+            "hidden": st.one_of(garbage, st.lists(pictures, max_size=8)),
+        },
+    ),
 )
 
 
@@ -611,16 +658,41 @@ def test_no_message_raises_or_makes_a_state_inadmissible(browser, message):
     assert state["answers"] == 7
 
 
-@pytest.mark.parametrize("message", [
-    {}, [], "reset", None, 3, [1, 2], {"values": "h"}, {"values": [["h", 1]]}, {"values": {"h": "2.5"}},
-    {"values": {"h": None, "f": [1], "nobody": 1.0, "accuracy": 2}}, {"picked": ["circle"]},
-    {"picked": ["circle", "1", "1"]}, {"picked": ["bifurcation", math.nan, 0.0]}, {"picked": ["sphere", 1.0, 1.0]},
-    {"picked": [["bifurcation"], 1.0, 1.0]}, {"requested": "2"}, {"requested": None, "held": "yes"},
-    {"reset": 1}, {"reset": "yes"}, {"preset": "nobody"}, {"preset": 1}, {"preset": ["Separatrix: no return"]},
-    {"preset": None}, {"values": {"preset": "Separatrix: no return", "scene": "suslov-hess-accuracy"}},
-    {"scene": "nowhere"}, {"scene": ["suslov-hess-accuracy"]}, {"scene": None},
-    {"scene": "suslov-hess"}, {"scene": 0}, {"picked": ["precision", 1e-3, 1.0]},
-])
+@pytest.mark.parametrize(
+    "message",
+    [
+        {},
+        [],
+        "reset",
+        None,
+        3,
+        [1, 2],
+        {"values": "h"},
+        {"values": [["h", 1]]},
+        {"values": {"h": "2.5"}},
+        {"values": {"h": None, "f": [1], "nobody": 1.0, "accuracy": 2}},
+        {"picked": ["circle"]},
+        {"picked": ["circle", "1", "1"]},
+        {"picked": ["bifurcation", math.nan, 0.0]},
+        {"picked": ["sphere", 1.0, 1.0]},
+        {"picked": [["bifurcation"], 1.0, 1.0]},
+        {"requested": "2"},
+        {"requested": None, "held": "yes"},
+        {"reset": 1},
+        {"reset": "yes"},
+        {"preset": "nobody"},
+        {"preset": 1},
+        {"preset": ["Separatrix: no return"]},
+        {"preset": None},
+        {"values": {"preset": "Separatrix: no return", "scene": "suslov-hess-accuracy"}},
+        {"scene": "nowhere"},
+        {"scene": ["suslov-hess-accuracy"]},
+        {"scene": None},
+        {"scene": "suslov-hess"},
+        {"scene": 0},
+        {"picked": ["precision", 1e-3, 1.0]},
+    ],
+)
 def test_a_message_that_means_nothing_changes_nothing(message):
     browser = Browser(HESS)
     browser.send(message)
@@ -632,15 +704,18 @@ def test_a_message_that_means_nothing_changes_nothing(message):
     assert browser.entered == browser.described == [HESS.name]
 
 
-@pytest.mark.parametrize(("values", "expected"), [
-    ({"h": -5.0}, {"h": -1.0 + 1e-9}),
-    ({"h": 1e300}, {"h": 1e6}),
-    ({"h": math.nan}, {"h": 1.5}),
-    ({"I22": -1.0}, {"I22": 1e-3}),
-    ({"I22": 0.5, "I23": 900.0}, {"I22": 0.5, "I23": 50.0}),
-    ({"f": -math.inf}, {"f": 0.6}),
-    ({"h": 0.25, "f": 77.0}, {"h": 0.25, "f": f_max(0.25)}),
-])
+@pytest.mark.parametrize(
+    ("values", "expected"),
+    [
+        ({"h": -5.0}, {"h": -1.0 + 1e-9}),
+        ({"h": 1e300}, {"h": 1e6}),
+        ({"h": math.nan}, {"h": 1.5}),
+        ({"I22": -1.0}, {"I22": 1e-3}),
+        ({"I22": 0.5, "I23": 900.0}, {"I22": 0.5, "I23": 50.0}),
+        ({"f": -math.inf}, {"f": 0.6}),
+        ({"h": 0.25, "f": 77.0}, {"h": 0.25, "f": f_max(0.25)}),
+    ],
+)
 def test_a_number_from_the_wire_is_clamped_by_itself_with_a_note(values, expected):
     browser = Browser(HESS)
     browser.ask(values={**values, "phi0": -1.0})
@@ -735,10 +810,13 @@ def test_notes_of_the_link_are_shown_until_the_first_change():
     assert browser.texts["notes"] == ""
 
 
-@pytest.mark.parametrize(("error", "sentence"), [
-    (InvalidParameter("This is beyond us: choose less."), "This is beyond us: choose less."),
-    (ZeroDivisionError("secret <b>internals</b>"), "This state could not be computed."),
-])
+@pytest.mark.parametrize(
+    ("error", "sentence"),
+    [
+        (InvalidParameter("This is beyond us: choose less."), "This is beyond us: choose less."),
+        (ZeroDivisionError("secret <b>internals</b>"), "This state could not be computed."),
+    ],
+)
 def test_a_computation_that_raises_draws_the_sentence_in_empty_pictures(error, sentence, caplog):
     def compute(values, shown, dragging):
         if values["h"] == 3.0:
@@ -753,8 +831,17 @@ def test_a_computation_that_raises_draws_the_sentence_in_empty_pictures(error, s
     assert browser.texts["status"].startswith(sentence)
     assert said(browser.data["circle-message"])[0].startswith(sentence)
     assert "secret" not in json.dumps(browser.texts)
-    for name in ("data-orbit", "data-stable", "data-unstable", "circle-map", "circle-cobweb", "circle-stable",
-                 "circle-unstable", "bifurcation-here", "bifurcation-here-too"):
+    for name in (
+        "data-orbit",
+        "data-stable",
+        "data-unstable",
+        "circle-map",
+        "circle-cobweb",
+        "circle-stable",
+        "circle-unstable",
+        "bifurcation-here",
+        "bifurcation-here-too",
+    ):
         assert flat(list(browser.data[name].values())) == [], name
     # What nobody expected is logged, with the state that makes it happen again.
     expected_error = isinstance(error, InvalidParameter)
@@ -904,15 +991,19 @@ def test_from_any_scene_to_any_other_and_back_everything_is_of_the_state():
         shown(scene, browser.session.values, whole)
         assert unfolded(scene, browser.data) == unfolded(scene, whole.sources), name
         in_sight = scene.open_pictures
-        assert ({picture: browser.screen.ranges.get(picture) for picture in in_sight}
-                == {picture: whole.ranges.get(picture) for picture in in_sight}), name
+        assert {picture: browser.screen.ranges.get(picture) for picture in in_sight} == {
+            picture: whole.ranges.get(picture) for picture in in_sight
+        }, name
 
 
 def with_extra(**defaults):
     """A scene of the same parameters as the Hess case, some with other defaults, and one more."""
     specs = {spec.name: dataclasses.replace(spec, default=defaults.get(spec.name, spec.default)) for spec in HESS.specs}
-    own = [(name, type(spec.default), dataclasses.field(default=spec.default, metadata={"spec": spec}))
-           for name, spec in specs.items() if name in defaults]
+    own = [
+        (name, type(spec.default), dataclasses.field(default=spec.default, metadata={"spec": spec}))
+        for name, spec in specs.items()
+        if name in defaults
+    ]
     extra = number("x", 2.0, (1.0, 3.0), 0.1, bounds=(0.0, 4.0), label="Extra", doc="One more.")
     state = dataclasses.make_dataclass("Other", [*own, ("extra", float, extra)], bases=(HESS.state,), frozen=True)
     return variant(HESS, name="other", state=state)
@@ -920,8 +1011,13 @@ def with_extra(**defaults):
 
 # Scenes in which a number of the same name is the same number, read off the equations in their words.
 SAME = {
-    "h": [{"suslov-hess", "rotation-number"}, {"euler-poisson", "hess-leak", "bridge"},
-          {"chaplygin-ball", "singular-measures"}, {"suslov", "orbit-diagram"}, {"ball-section", "ball-diagram"}],
+    "h": [
+        {"suslov-hess", "rotation-number"},
+        {"euler-poisson", "hess-leak", "bridge"},
+        {"chaplygin-ball", "singular-measures"},
+        {"suslov", "orbit-diagram"},
+        {"ball-section", "ball-diagram"},
+    ],
     "f": [{"suslov-hess", "rotation-number"}, {"euler-poisson", "hess-leak", "bridge"}],
     "b3": [{"suslov-hess", "suslov", "orbit-diagram", "quartic", "ball-section", "ball-diagram"}],
     "theta": [{"scattering", "chaplygin-ball"}],
@@ -932,8 +1028,11 @@ SAME = {
 
 @pytest.mark.parametrize("name", SAME)
 def test_a_number_goes_along_to_another_scene_where_it_means_the_same_and_there_alone(name):
-    own = [scene for scene in SCENES.values() if scene.origin is None and scene.name != "speed-accuracy"
-           and name in scene.defaults()]
+    own = [
+        scene
+        for scene in SCENES.values()
+        if scene.origin is None and scene.name != "speed-accuracy" and name in scene.defaults()
+    ]
     together = {frozenset(pair) for group in SAME[name] for pair in permutations(group, 2)}
     assert {one for pair in together for one in pair} <= {scene.name for scene in own}
     for before, scene in permutations(own, 2):
@@ -1064,11 +1163,18 @@ def test_the_legend_has_only_what_is_drawn(scene):
         columns = view.data.get(picture.source_of(layer), {}) if picture.name in scene.open_pictures else {}
         for sign in layer.legend:
             cells = np.asarray(columns["image"]).ravel() if sign.least is not None and columns.get("image") else None
-            there = (len(columns.get(layer.columns[0], ())) > 0 if cells is None else
-                     bool(((cells >= sign.least) & (cells < sign.least + 1)).any()))
+            there = (
+                len(columns.get(layer.columns[0], ())) > 0
+                if cells is None
+                else bool(((cells >= sign.least) & (cells < sign.least + 1)).any())
+            )
             (drawn if there else absent).add((sign.kind, sign.style))
-    others = {(sign.kind, sign.style) for picture in scene.views for sign in picture.legend
-              if sign not in [one for _, layer in layers for one in layer.legend]}
+    others = {
+        (sign.kind, sign.style)
+        for picture in scene.views
+        for sign in picture.legend
+        if sign not in [one for _, layer in layers for one in layer.legend]
+    }
     assert drawn <= shown
     assert not (absent - drawn - others) & shown
 
@@ -1076,9 +1182,14 @@ def test_the_legend_has_only_what_is_drawn(scene):
 # --- Sessions: whatever is raised ---------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("source", "given", "target"), [
-    ("quartic", {"h": -53.9}, "suslov-hess"), ("suslov-hess", {"I22": 0.001}, "kharlamova"),
-    ("suslov-hess", {"span": 77552.0}, "suslov")])
+@pytest.mark.parametrize(
+    ("source", "given", "target"),
+    [
+        ("quartic", {"h": -53.9}, "suslov-hess"),
+        ("suslov-hess", {"I22": 0.001}, "kharlamova"),
+        ("suslov-hess", {"span": 77552.0}, "suslov"),
+    ],
+)
 def test_values_of_another_scene_are_admitted_by_the_bounds_of_this_one(source, given, target):
     browser = Browser(SCENES[source])
     browser.ask(1, values=given, hidden=list(browser.scene.pictures))

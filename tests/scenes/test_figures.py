@@ -20,10 +20,26 @@ from support.view import View
 SCENES = {name: scene for name, scene in scenes().items() if scene.origin is None}
 README = (ROOT / "app/README.md").read_text(encoding="utf-8")
 TABLE = README.partition("## The figures of the paper\n")[2].partition("\n## ")[0]
-ROWS = [[cell.strip() for cell in re.split(r"(?<!\\)\|", row)[1:-1]]
-        for row in re.findall(r"^\| \d.*\|$", TABLE, re.MULTILINE)]
-LABELS = ["fig02", "fig0112", "fig0222", "fig0111", "", "fig04", "fig_07", "fig05", "fig05Sy", "fig6-sy", "gess1.pcx",
-          "gess2.pcx", "gess-ris1", "gess-ris2"]
+ROWS = [
+    [cell.strip() for cell in re.split(r"(?<!\\)\|", row)[1:-1]]
+    for row in re.findall(r"^\| \d.*\|$", TABLE, re.MULTILINE)
+]
+LABELS = [
+    "fig02",
+    "fig0112",
+    "fig0222",
+    "fig0111",
+    "",
+    "fig04",
+    "fig_07",
+    "fig05",
+    "fig05Sy",
+    "fig6-sy",
+    "gess1.pcx",
+    "gess2.pcx",
+    "gess-ris1",
+    "gess-ris2",
+]
 """Of the source, in its order; the scheme of the ellipsoid has none."""
 
 
@@ -74,8 +90,11 @@ def full(columns):
 DRAWN = {(row[2], one.name): one for row in ROWS for one in examples(row)[1]}
 
 
-@pytest.mark.parametrize(("name", "preset"), [(name, one) for (name, _), one in DRAWN.items()],
-                         ids=[f"{name}: {title}" for name, title in DRAWN])
+@pytest.mark.parametrize(
+    ("name", "preset"),
+    [(name, one) for (name, _), one in DRAWN.items()],
+    ids=[f"{name}: {title}" for name, title in DRAWN],
+)
 def test_an_example_of_the_table_is_drawn_with_all_its_pictures(name, preset):
     scene = SCENES[name]
     # A draft, and fewer orbits than seen: what is asked is whether there is something in every picture.
@@ -84,12 +103,12 @@ def test_an_example_of_the_table_is_drawn_with_all_its_pictures(name, preset):
     for one in scene.views:
         assert len(view.text[one.name].split("\n")) == 2
         message = view.data.get(f"{one.name}-message", {})
-        own = [view.data[source] for source in view.data
-               if re.fullmatch(rf"{one.name}(-(?!message$|point$).*)?", source)]
+        own = [
+            view.data[source] for source in view.data if re.fullmatch(rf"{one.name}(-(?!message$|point$).*)?", source)
+        ]
         # Four say in a sentence why they are empty: no curve goes round; beside limit cycles there is no density;
         # without saddles no separatrices are split; no periodic orbit is asked for.
-        assert any([*map(full, own)]) or one.name in (
-            "rotation", "torus", "split", "branch"), one.name
+        assert any([*map(full, own)]) or one.name in ("rotation", "torus", "split", "branch"), one.name
         assert one.name in ("rotation", "split", "branch") or not full(message), one.name
 
 
@@ -101,7 +120,8 @@ def test_the_values_are_those_of_the_captions():
         assert (values["w1"], values["w2"]) == (2.0, 1e-4)
         gamma = np.array([0.5, 0.26, 0.83])
         assert gamma_at(values, math.acos(values["Gamma"]), values["phi"]) == pytest.approx(
-            gamma / np.linalg.norm(gamma), abs=5e-5)
+            gamma / np.linalg.norm(gamma), abs=5e-5
+        )
     assert [(one["w1"], one["w2"]) for one in values_of(3)] == [(2.0, 1e-3)] * 3 + [(3.0, -2.001)] * 2
     (fourth,) = values_of(4)
     assert (*tensor_of(fourth), fourth["theta"]) == pytest.approx((3.56, 1.0, 0.0, 0.8, 0.5 * math.pi))

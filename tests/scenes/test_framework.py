@@ -41,7 +41,12 @@ def test_a_parameter_that_is_declared_again_keeps_its_place_and_what_is_not_chan
     first, second, third, accuracy = specs_of(Mixed)
     assert (first.name, second.name, third.name, accuracy.name) == ("first", "second", "third", "accuracy")
     assert (second.symbol, second.default, second.softbounds, second.label, second.doc) == (
-        "y", 2.5, (0.0, 3.0), "Second", "Another.")
+        "y",
+        2.5,
+        (0.0, 3.0),
+        "Second",
+        "Another.",
+    )
     assert Mixed().second == 2.5
     assert Base().second == specs_of(Base)[1].default == 2.0
 
@@ -59,8 +64,13 @@ COMPOSED = [name for name, scene in SCENES.items() if scene.of(scene.defaults())
 def test_each_host_has_all_that_its_parts_ask_of_it(name):
     scene = SCENES[name]
     for part in scene.of(scene.defaults()).parts():
-        needed = {member for base in protocol_of(part).__mro__ if Protocol in base.__bases__
-                  for member in vars(base) if not member.startswith("_")}
+        needed = {
+            member
+            for base in protocol_of(part).__mro__
+            if Protocol in base.__bases__
+            for member in vars(base)
+            if not member.startswith("_")
+        }
         assert "work" in needed
         there = set(dir(type(part.host))) | {one.name for one in fields(part.host)}
         assert needed <= there, (part, needed - there)
@@ -81,8 +91,9 @@ class Shown(Mixed):
 
     def motion(self) -> Motion:
         """Some motion."""
-        return Motion(systems()["suslov"], (1.0, 0.0, 0.0, 0.0, 1.0), (1.0, 2.0, 0.0, 0.1, 0.0, 0.0, 0.0), self.first,
-                      (1.0,) * 5)
+        return Motion(
+            systems()["suslov"], (1.0, 0.0, 0.0, 0.0, 1.0), (1.0, 2.0, 0.0, 0.1, 0.0, 0.0, 0.0), self.first, (1.0,) * 5
+        )
 
 
 def test_no_name_of_a_scene_hides_one_of_the_scene_that_looks_into_it():

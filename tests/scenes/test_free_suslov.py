@@ -133,7 +133,7 @@ def test_the_curve_against_the_phase_misses_none_of_its_points():
     orbit, curve = view.data["data-orbit"], view.data["gamma1-first"]
     inside = [np.asarray(list(zip(x, y, strict=True))) for x, y in zip(curve["xs"], curve["ys"], strict=True)]
     # Without the two edge points that each cut adds.
-    kept = np.concatenate([part[(i > 0):len(part) - (i + 1 < len(inside))] for i, part in enumerate(inside)])
+    kept = np.concatenate([part[(i > 0) : len(part) - (i + 1 < len(inside))] for i, part in enumerate(inside)])
     assert kept == pytest.approx(np.column_stack([orbit["across"], orbit["g1"]]))
 
 
@@ -153,9 +153,9 @@ def test_with_F2_both_orbits_join_the_mirrored_circle_and_F2_is_that_of_the_pape
     def F2(w1, w2, g1, g2, g3):
         if k == 1:
             return I11 * g1 * w1 + (I22 * g2 + I23 * g3) * w2
-        return (I11**2 * w1**2 * ((I22**2 + I23**2) * g1 * w1 + I22 * (I22 * g2 + I23 * g3) * w2)
-                + I22 * w2**2 * (I22 * (I22**2 + 5 * I23**2) * g2 * w2
-                                 + (I22**2 - 3 * I23**2) * (I11 * g1 * w1 + I23 * g3 * w2)))
+        return I11**2 * w1**2 * ((I22**2 + I23**2) * g1 * w1 + I22 * (I22 * g2 + I23 * g3) * w2) + I22 * w2**2 * (
+            I22 * (I22**2 + 5 * I23**2) * g2 * w2 + (I22**2 - 3 * I23**2) * (I11 * g1 * w1 + I23 * g3 * w2)
+        )
 
     omega, gamma, _ = start_of(view.values)
     exact = integrate(view.values, omega, gamma, [1.0, 7.0, 8.0, 20.0])
@@ -196,8 +196,10 @@ def test_the_slider_of_k_meets_F2_at_every_odd_k_up_to_15(k):
     # Γ = ±f/f±: C⁺ and C⁻ are mirrored.
     came, went = view.result.orbit.limits
     assert went == pytest.approx(-came, abs=1e-9)
-    f, top = (float(re.search(pattern, " ".join(view.report.derived))[1].replace("−", "-"))
-              for pattern in (rf"f = {NUMBER}", rf"fixed points: ±{NUMBER}"))
+    f, top = (
+        float(re.search(pattern, " ".join(view.report.derived))[1].replace("−", "-"))
+        for pattern in (rf"f = {NUMBER}", rf"fixed points: ±{NUMBER}")
+    )
     assert abs(f) / top == pytest.approx(abs(came), rel=1e-4)
     near = View(FREE, {"k": k + 0.05})
     assert "none known" in " ".join(near.report.derived)
@@ -244,7 +246,11 @@ def test_a_portrait_has_the_signs_of_its_name_and_arrows_along_the_flow(preset):
 
 def test_all_four_signs_have_a_portrait():
     assert {(preset.values["I13"] > 0, preset.values["I23"] > 0) for preset in PORTRAITS} == {
-        (True, True), (True, False), (False, True), (False, False)}
+        (True, True),
+        (True, False),
+        (False, True),
+        (False, False),
+    }
 
 
 def test_figure_2_is_that_of_the_caption():
@@ -263,8 +269,9 @@ READ = np.array([0.1, 0.0, 0.0])
 """What the second of d is read with."""
 
 
-@pytest.mark.parametrize("preset", [one for one in FREE.presets if one.name.endswith("(figure 3)")],
-                         ids=lambda preset: preset.name)
+@pytest.mark.parametrize(
+    "preset", [one for one in FREE.presets if one.name.endswith("(figure 3)")], ids=lambda preset: preset.name
+)
 def test_figure_3_has_the_starts_of_its_caption(preset):
     values = {**FREE.defaults(), **preset.values}
     slanting = values["I13"] != 0.0
@@ -300,16 +307,19 @@ def test_the_misprint_of_figure_3_d_is_one_digit():
     assert abs(went[0][2] - went[1][1]) > 0.05
 
 
-@pytest.mark.parametrize(("values", "words"), [
-    ({"I13": 0.0, "I23": 0.0}, "I₁₃ = I₂₃ = 0.*Choose one of them other than 0"),
-    ({"w1": 0.0, "w2": 0.0}, "ω = 0: the body is at rest for ever.*Choose ω1 or ω2 other than 0"),
-    ({"w2": 0.0}, "on the line of equilibria.*Move ω off the line"),
-    ({"I13": 0.25, "I23": 0.5, "w1": 2.0, "w2": -1.0}, "on the line of equilibria"),
-    ({"k": -3.0}, "k = −3 would make I₁₁ = −1.25; a moment of inertia is positive. Choose a larger k"),
-    ({"I23": 1e-5}, r"γ turns too often.*\(about \de\+05 radians.*choose larger I13, I23"),
-    ({"I23": 1e-320}, r"γ turns too often.*\(more than 1e308 radians"),
-    ({"w1": 1e-200, "w2": 1e-205}, "so small an ω.*choose a larger one"),
-])
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"I13": 0.0, "I23": 0.0}, "I₁₃ = I₂₃ = 0.*Choose one of them other than 0"),
+        ({"w1": 0.0, "w2": 0.0}, "ω = 0: the body is at rest for ever.*Choose ω1 or ω2 other than 0"),
+        ({"w2": 0.0}, "on the line of equilibria.*Move ω off the line"),
+        ({"I13": 0.25, "I23": 0.5, "w1": 2.0, "w2": -1.0}, "on the line of equilibria"),
+        ({"k": -3.0}, "k = −3 would make I₁₁ = −1.25; a moment of inertia is positive. Choose a larger k"),
+        ({"I23": 1e-5}, r"γ turns too often.*\(about \de\+05 radians.*choose larger I13, I23"),
+        ({"I23": 1e-320}, r"γ turns too often.*\(more than 1e308 radians"),
+        ({"w1": 1e-200, "w2": 1e-205}, "so small an ω.*choose a larger one"),
+    ],
+)
 def test_what_is_no_motion_is_refused_in_the_words_of_the_controls(values, words):
     with pytest.raises(ModelError, match=words):
         View(FREE, values)
@@ -349,7 +359,8 @@ def test_cos_chi_computed_and_in_closed_form_are_both_right(preset):
     (chi,) = view.numbers("map", "turns ξ by χ = #.")
     assert math.cos(chi) == pytest.approx(exact, abs=1e-3)
     assert (view.data["chi-chosen"]["x"][0], view.data["chi-chosen"]["y"][0]) == pytest.approx(
-        (view.values["k"], exact), abs=5e-6)
+        (view.values["k"], exact), abs=5e-6
+    )
 
 
 @every_scattering
@@ -376,13 +387,18 @@ def test_the_orbit_on_the_sphere_is_that_of_the_ring(preset):
     theta, phi = view.values["theta"], view.values["phi"]
     exact = math.acos(circle_joined(view.values, theta, phi, 10.0 ** -view.values["digits"]))
     assert view.numbers("sphere", "φ = #: from θ⁻ = # to θ⁺ = #.") == [
-        shown(phi), shown(theta), pytest.approx(exact, abs=1e-3)]
+        shown(phi),
+        shown(theta),
+        pytest.approx(exact, abs=1e-3),
+    ]
     assert (view.data["curve-chosen"]["x"][0], view.data["curve-chosen"]["y"][0]) == pytest.approx(
-        (phi, exact), abs=1e-5)
+        (phi, exact), abs=1e-5
+    )
     assert (view.data["map-here"]["x"][0], view.data["map-here"]["y"][0]) == pytest.approx((phi, theta))
     assert [look for *_, look in view.data["sphere"]["circles"]] == ["unstable", "stable"]
     assert [circle[3] for circle in view.data["sphere"]["circles"]] == pytest.approx(
-        [math.cos(theta), math.cos(exact)], abs=1e-5)
+        [math.cos(theta), math.cos(exact)], abs=1e-5
+    )
     _, xi, _ = axes_of(view.values)
     track = np.column_stack([view.data["data-orbit"][name] for name in ("g1", "g2", "g3")])
     assert track[0] == pytest.approx(gamma_at(view.values, theta, phi), abs=1e-6)
@@ -398,7 +414,8 @@ def test_the_map_holds_all_curves(preset):
     thetas = (np.arange(rows) + 0.5) * math.pi / rows
     phis = -math.pi + (np.arange(columns) + 0.5) * 2.0 * math.pi / columns
     assert [view.data["map-theta"][key][0] for key in ("x", "y", "dw", "dh")] == pytest.approx(
-        [-math.pi, 0.0, 2.0 * math.pi, math.pi])
+        [-math.pi, 0.0, 2.0 * math.pi, math.pi]
+    )
     # The mean of cos θ⁺ over a circle is cos χ cos θ⁻.
     assert np.cos(grid).mean(axis=1) == pytest.approx(view.derived("cos χ = #")[0] * np.cos(thetas), abs=1e-5)
     exact = circle_joined(view.values, thetas[rows // 3], phis[columns // 5], 10.0 ** -view.values["digits"])
@@ -419,8 +436,9 @@ def test_dragging_k_through_an_odd_number_turns_the_curve_flat(k):
     assert 0.05 < spreads[3] < spreads[4]
 
 
-@pytest.mark.parametrize("preset", [preset for preset in EXAMPLES if "reversal" in preset.name],
-                         ids=lambda preset: preset.name)
+@pytest.mark.parametrize(
+    "preset", [preset for preset in EXAMPLES if "reversal" in preset.name], ids=lambda preset: preset.name
+)
 def test_an_example_of_complete_reversal_is_flat(preset):
     view = View(SCATTERING, preset.values)
     assert view.numbers("curve", "θ⁻ = #: θ⁺ = # for every φ") == [1.0, shown(math.pi - 1.0)]
@@ -429,8 +447,9 @@ def test_an_example_of_complete_reversal_is_flat(preset):
     assert np.ptp(grid, axis=1) == pytest.approx(np.zeros(len(grid)), abs=1e-5)
 
 
-@pytest.mark.parametrize(("values", "ends_of_k"), [
-    ({}, (0, 7)), ({"k": -0.9, "I23": 0.5}, (-1, 7)), ({"k": 9.5}, (0, 10))])
+@pytest.mark.parametrize(
+    ("values", "ends_of_k"), [({}, (0, 7)), ({"k": -0.9, "I23": 0.5}, (-1, 7)), ({"k": 9.5}, (0, 10))]
+)
 def test_the_graph_of_cos_chi_is_the_closed_form_wherever_k_is(values, ends_of_k):
     view = View(SCATTERING, values)
     (ks,), (heights,) = view.data["chi-closed"]["xs"], view.data["chi-closed"]["ys"]
@@ -461,26 +480,33 @@ def test_next_to_a_slanting_line_the_start_is_as_close_as_a_double_can_tell():
     result = SCATTERING.compute(values, SCATTERING.pictures, False)
     # What the sphere shows is where the ring stands, to less than a pixel.
     assert result.orbit.limits[1] == pytest.approx(
-        math.cos(float(result.map.theta_plus(values["theta"], values["phi"]))), abs=1e-3)
+        math.cos(float(result.map.theta_plus(values["theta"], values["phi"]))), abs=1e-3
+    )
     # On an axis nothing is in the way.
     straight = View(SCATTERING, {"digits": 300.0})
     assert straight.result.orbit.limits[1] == pytest.approx(
-        math.cos(float(straight.result.map.theta_plus(math.pi / 2, 0.5))), abs=1e-6)
+        math.cos(float(straight.result.map.theta_plus(math.pi / 2, 0.5))), abs=1e-6
+    )
 
 
-@pytest.mark.parametrize(("picture", "picked"), [
-    ("curve", {"phi": 0.25}), ("map", {"phi": 0.25, "theta": 1.5}), ("chi", {"k": 0.25}), ("sphere", {})])
+@pytest.mark.parametrize(
+    ("picture", "picked"),
+    [("curve", {"phi": 0.25}), ("map", {"phi": 0.25, "theta": 1.5}), ("chi", {"k": 0.25}), ("sphere", {})],
+)
 def test_a_click_chooses_what_its_axes_say(picture, picked):
     assert View(SCATTERING, {}).stage.pick(picture, 0.25, 1.5) == picked
 
 
-@pytest.mark.parametrize(("values", "words"), [
-    ({"I13": 0.0, "I23": 0.0}, "I₁₃ = I₂₃ = 0.*Choose one of them other than 0"),
-    ({"k": -3.0}, "k = −3 would make I₁₁ = −4.76; a moment of inertia is positive. Choose a larger k"),
-    ({"I23": 1e-5}, "γ turns too often.*choose larger I13, I23"),
-    ({"I23": 1e-320}, r"γ turns too often.*\(more than 1e308 radians"),
-    ({"digits": 0.5, "k": -1.2, "I22": 0.5, "I23": 0.4}, "distance 0.316.*up to 0.28"),
-])
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"I13": 0.0, "I23": 0.0}, "I₁₃ = I₂₃ = 0.*Choose one of them other than 0"),
+        ({"k": -3.0}, "k = −3 would make I₁₁ = −4.76; a moment of inertia is positive. Choose a larger k"),
+        ({"I23": 1e-5}, "γ turns too often.*choose larger I13, I23"),
+        ({"I23": 1e-320}, r"γ turns too often.*\(more than 1e308 radians"),
+        ({"digits": 0.5, "k": -1.2, "I22": 0.5, "I23": 0.4}, "distance 0.316.*up to 0.28"),
+    ],
+)
 def test_what_is_no_scattering_is_refused_in_a_sentence(values, words):
     with pytest.raises(ModelError, match=words):
         View(SCATTERING, values)

@@ -37,8 +37,15 @@ def shown(scene, values):
     state = scene.compute(values, scene.pictures, False)
     report = Stage(scene, wire).show(state, hold_axes=False)
     tree, block = wire.pack()
-    return state, report, tree, {name: {key: read(column, block) for key, column in columns.items()}
-                                 for name, columns in tree["sources"].items()}
+    return (
+        state,
+        report,
+        tree,
+        {
+            name: {key: read(column, block) for key, column in columns.items()}
+            for name, columns in tree["sources"].items()
+        },
+    )
 
 
 def test_the_example_shows_a_section_and_an_orbit(scene):

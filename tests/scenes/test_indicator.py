@@ -37,19 +37,22 @@ def test_cells_that_are_called_chaotic_have_that_exponent_and_the_regular_ones_n
     image = np.asarray(view.data["section-megno"]["image"][0]).reshape(12, 18)
     assert image == pytest.approx(kinds + 1.5)
     t, regular, chaotic, shrinks = view.numbers(
-        "section", "MEGNO after t = #: # % of the cells regular, # % chaotic; volume shrinks about # %.")
+        "section", "MEGNO after t = #: # % of the cells regular, # % chaotic; volume shrinks about # %."
+    )
     there = kinds[kinds >= 0.0]
     assert chaotic == pytest.approx(100.0 * np.mean(there % 2.0 == 1.0), abs=0.51)
     assert regular + chaotic == pytest.approx(100.0, abs=1.1)
     assert shrinks == pytest.approx(100.0 * np.mean(there >= 2.0), abs=0.51)
     # Two orbits side by side, by another algorithm: Ȳ comes to λt/2 on chaotic motions.
     section, (low, high) = view.result.poincare, np.array(view.result.section.frame)
-    order = [(i, j) for i, j in np.column_stack(np.unravel_index(np.argsort(values, axis=None), values.shape))
-             if kinds[i, j] >= 0.0]
+    order = [
+        (i, j)
+        for i, j in np.column_stack(np.unravel_index(np.argsort(values, axis=None), values.shape))
+        if kinds[i, j] >= 0.0
+    ]
     for i, j in (*order[:2], *order[-2:]):
         states, _ = section.states_at(*(low + (np.array([j, i]) + 0.5) * (high - low) / (18, 12))[:, None])
-        rate = lyapunov_exponent(section, states[0], t,
-                                PLANS[Computation.EXPONENT]["draft"].level).value
+        rate = lyapunov_exponent(section, states[0], t, PLANS[Computation.EXPONENT]["draft"].level).value
         if kinds[i, j] % 2.0:
             assert 0.4 < rate / (2.0 * values[i, j] / t) < 2.5
         else:

@@ -39,7 +39,8 @@ def test_an_example_of_b3_0_is_what_its_name_says(preset):
     orbit = view.data["data-orbit"]
     r1, r2 = math.sqrt(body.I11), math.sqrt(body.I22)
     assert np.column_stack([orbit["q1"], orbit["q2"]]) == pytest.approx(
-        np.column_stack([r1 * states[:, 3], -r2 * states[:, 2]]), abs=2e-6)
+        np.column_stack([r1 * states[:, 3], -r2 * states[:, 2]]), abs=2e-6
+    )
     if found.kind == "periodic":
         (shown,) = view.numbers("domain", "to and fro in T = #.")
         period, missed = view.numbers("period", "T = # here; after T back at the start to #.")
@@ -111,7 +112,8 @@ def test_the_graph_of_the_period_is_the_period_of_each_direction():
         y = state_at(body, q, (math.cos(alpha[i]), math.sin(alpha[i])))
         assert T[i] == pytest.approx(arc(body, y).period, rel=1e-4)
     assert (view.data["period-chosen"]["x"][0], view.data["period-chosen"]["y"][0]) == pytest.approx(
-        (view.values["alpha"], view.result.arc.period))
+        (view.values["alpha"], view.result.arc.period)
+    )
 
 
 @pytest.mark.parametrize("name", POTENTIALS)
@@ -127,7 +129,8 @@ def test_in_another_potential_the_caption_says_what_the_motion_does(name):
     x, y = (np.asarray(fast.data["potential-orbit"][axis], float) for axis in "xy")
     states = solve(body, start, fast.result.other.orbit.times, FLOOR).states
     assert np.column_stack([x, y]) == pytest.approx(
-        np.column_stack([math.sqrt(1.5) * states[:, 3], -states[:, 2]]), abs=1e-5)
+        np.column_stack([math.sqrt(1.5) * states[:, 3], -states[:, 2]]), abs=1e-5
+    )
     E = POTENTIAL.integrals(start, body.parameters)["E"]
     assert np.all(body.potential(np.column_stack([-y, x / math.sqrt(1.5)])) <= E + 1e-6)
     slow = View(ARC, {"potential": name, "I11": 1.5, "I22": 1.0, "p": 0.2, "span": 60.0}, seen={"potential"})
@@ -136,10 +139,10 @@ def test_in_another_potential_the_caption_says_what_the_motion_does(name):
     states = slow.result.other.orbit.states
     assert states[:, 4].min() > 0.0
     if name == "quadratic":
-        kept, = slow.numbers("potential", "F₂ is kept to #: integrable.")
+        (kept,) = slow.numbers("potential", "F₂ is kept to #: integrable.")
         assert kept < 1e-6
     else:
-        changed, = slow.numbers("potential", "F₂ changes by # %.")
+        (changed,) = slow.numbers("potential", "F₂ changes by # %.")
         F2 = 0.5 * (1.5 * states[:, 0] ** 2 + body.c2 * states[:, 3] ** 2)
         assert changed == pytest.approx(100.0 * np.ptp(F2) / F2.max(), rel=0.06)
         assert changed > 1.0
@@ -173,7 +176,8 @@ def test_an_example_of_the_quartic_potential_is_what_its_name_says(preset):
     orbit = view.data["data-orbit"]
     # q and γ of the body; in a sea errors grow.
     assert np.column_stack([orbit["q1"], orbit["q2"]]) == pytest.approx(
-        np.column_stack([body.I22 * states[:, 1], -body.I11 * states[:, 0]]) / body.b3, abs=1e-4)
+        np.column_stack([body.I22 * states[:, 1], -body.I11 * states[:, 0]]) / body.b3, abs=1e-4
+    )
     low, high = view.numbers("sphere", "γ₃ between # and #.")
     assert (low, high) == pytest.approx((states[:, 4].min(), states[:, 4].max()), rel=6e-4, abs=1e-4)
     G = (body.I11 * states[:, 0] * states[:, 2] + body.I22 * states[:, 1] * states[:, 3]) / body.b3

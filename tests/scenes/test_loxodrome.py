@@ -55,9 +55,12 @@ def test_a_preset_shows_what_its_captions_promise(preset):
         assert view.report.notes == [] or "at rest to the eye" in view.report.notes[0]
     else:
         assert view.numbers("height", "It goes round: # turns") == [
-            pytest.approx(abs(alpha[-1]) / (2 * math.pi), rel=6e-4)]
+            pytest.approx(abs(alpha[-1]) / (2 * math.pi), rel=6e-4)
+        ]
         assert view.numbers("space", "l from # to #.") == [
-            pytest.approx(l0, rel=6e-4), pytest.approx(orbit["l"][-1], rel=6e-4)]
+            pytest.approx(l0, rel=6e-4),
+            pytest.approx(orbit["l"][-1], rel=6e-4),
+        ]
 
 
 @every_preset
@@ -113,14 +116,17 @@ def test_a_body_that_cannot_be_has_no_ellipsoid_and_says_so():
     assert View(LOXODROME, {}).report.notes == []
 
 
-@pytest.mark.parametrize(("values", "words"), [
-    ({"I2": 2.5}, "I2 = 2.5 must lie between I1 = 1 and I3 = 2"),
-    ({"I2": 1.0, "I3": 1.0}, "which differ"),
-    ({"I1": -1.0}, "choose I1 > 0"),
-    ({"m": -0.5}, "choose μ > 0"),
-    ({"energy": -1.0}, "no motion"),
-    ({"l": 0.0}, "no track"),
-])
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"I2": 2.5}, "I2 = 2.5 must lie between I1 = 1 and I3 = 2"),
+        ({"I2": 1.0, "I3": 1.0}, "which differ"),
+        ({"I1": -1.0}, "choose I1 > 0"),
+        ({"m": -0.5}, "choose μ > 0"),
+        ({"energy": -1.0}, "no motion"),
+        ({"l": 0.0}, "no track"),
+    ],
+)
 def test_what_is_no_loxodromic_pendulum_is_refused(values, words):
     with pytest.raises(ModelError, match=re.escape(words)) as refused:
         LOXODROME.compute({**LOXODROME.defaults(), **values}, LOXODROME.pictures, False)
@@ -129,7 +135,10 @@ def test_what_is_no_loxodromic_pendulum_is_refused(values, words):
 
 def test_the_slider_of_the_middle_moment_lies_between_the_others():
     assert LOXODROME.limits({**LOXODROME.defaults(), "I1": 3.0, "I3": 0.5}) == {
-        "I3": (0.1, 1.5, 0.005), "I2": (0.5, 3.0, 0.005), "I1": (1.5, 3.0, 0.005)}
+        "I3": (0.1, 1.5, 0.005),
+        "I2": (0.5, 3.0, 0.005),
+        "I1": (1.5, 3.0, 0.005),
+    }
     assert LOXODROME.limits({**LOXODROME.defaults(), "I1": 2.0, "I3": 2.0}) == {}
 
 

@@ -26,8 +26,14 @@ def drawn(values):
     wire = Wire()
     report = Stage(SCENE, wire).show(SCENE.compute(values, SCENE.pictures, False), hold_axes=False)
     tree, block = wire.pack()
-    return {source: {name: read(one, block) for name, one in columns.items()}
-            for source, columns in tree["sources"].items()}, tree["texts"], report
+    return (
+        {
+            source: {name: read(one, block) for name, one in columns.items()}
+            for source, columns in tree["sources"].items()
+        },
+        tree["texts"],
+        report,
+    )
 
 
 def angular_momentum(theta, u, g, E):
@@ -59,8 +65,15 @@ def test_the_orbit_is_that_of_scipy():
         v, x = y[:3], y[3:]
         return np.concatenate([np.array([0.0, 0.0, -1.0]) + (x[2] - v @ v) * x, v])
 
-    found = solve_ivp(field, (0.0, 12.0), [*velocity, sine, 0.0, -cosine], method="DOP853", rtol=1e-12, atol=1e-12,
-                      t_eval=data["data-orbit"]["t"]).y
+    found = solve_ivp(
+        field,
+        (0.0, 12.0),
+        [*velocity, sine, 0.0, -cosine],
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-12,
+        t_eval=data["data-orbit"]["t"],
+    ).y
     # What is sent to the browser has single precision.
     assert np.abs(np.array([data["data-orbit"]["x1"], data["data-orbit"]["x2"]]) - found[3:5]).max() < 1e-6
     assert "section" in report.status

@@ -46,12 +46,21 @@ def moved(state, name, value):
 
 def returns(body, state, times):
     """Where SciPy's orbit crosses γ3 = 0 upwards so many times (n, 2), and its last state."""
+
     def height(t, y):
         return y[4]
 
     height.direction, height.terminal = 1.0, times + 1
-    found = solve_ivp(lambda t, y: field(body, y), (0.0, 400.0), state, method="DOP853", rtol=1e-12, atol=1e-13,
-                      events=height, first_step=1e-3)
+    found = solve_ivp(
+        lambda t, y: field(body, y),
+        (0.0, 400.0),
+        state,
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-13,
+        events=height,
+        first_step=1e-3,
+    )
     states = np.array([y for t, y in zip(found.t_events[0], found.y_events[0], strict=True) if t > 1e-6][:times])
     return coordinates(states, 3)
 
@@ -84,8 +93,10 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
         M, m, h = np.eye(2), len(places), 1e-4
         for i, place in enumerate(places):
             assert np.abs(returns(body, state_at(body, E, 3, *place), 1)[0] - places[(i + 1) % m]).max() < 1e-8
-            sides = [[returns(body, state_at(body, E, 3, *(place + sign * h * axis)), 1)[0] for sign in (1, -1)]
-                     for axis in np.eye(2)]
+            sides = [
+                [returns(body, state_at(body, E, 3, *(place + sign * h * axis)), 1)[0] for sign in (1, -1)]
+                for axis in np.eye(2)
+            ]
             M = np.column_stack([(a - b) / (2.0 * h) for a, b in sides]) @ M
         assert np.linalg.eigvals(M).real.min() == pytest.approx(-1.0, abs=1e-5)
     # Before the first doubling a diagram shows one place, between the first two two of them.
@@ -95,9 +106,14 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
             assert len(np.unique(np.round(drawn[1][drawn[0] == x], 4))) == count
 
 
-@pytest.mark.parametrize(("name", "verdict", "dimension"), [
-    ("Touching", "mixed", (2.251, 0.021)), ("Apart: a strange", "dissipative", (2.174, 0.015)),
-    ("Equal: a sea", "mixed", (2.94, 0.02))])
+@pytest.mark.parametrize(
+    ("name", "verdict", "dimension"),
+    [
+        ("Touching", "mixed", (2.251, 0.021)),
+        ("Apart: a strange", "dissipative", (2.174, 0.015)),
+        ("Equal: a sea", "mixed", (2.94, 0.02)),
+    ],
+)
 def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dimension):
     state, captions = complete(name, ("section",))
     assert f"Motion: chaotic. Looks {verdict}." in captions["section"]
@@ -109,8 +125,10 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dim
     assert all(one.signs[0] == "+" for one in found)
     values = np.array([one.values[0] for one in found])
     # Two orbits side by side, by another algorithm, part as fast.
-    twins = [lyapunov_exponent(state.body, start, 2000.0,
-                              PLANS[Computation.EXPONENT]["standard"].level).value for start in starts]
+    twins = [
+        lyapunov_exponent(state.body, start, 2000.0, PLANS[Computation.EXPONENT]["standard"].level).value
+        for start in starts
+    ]
     scatter = math.hypot(np.std(values, ddof=1), np.std(twins, ddof=1)) / math.sqrt(len(starts))
     assert abs(np.mean(twins) - values.mean()) < 5.0 * scatter
     # λ1 + λ3 is the divergence: D = 2 + λ1/|λ3| = 3 + div/|λ3| of the means.
@@ -123,10 +141,13 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dim
     # moment: the first 25 units of time shift the mean over 500 by 0.0027.
     t = np.linspace(0.0, 500.0, 2001)
     many = [state_at(state.body, state.poincare.E, 3, *place) for place in state.regime.sets.attractor[::60]]
-    rates = [np.mean([divergence(state.body, y) for y in solve(state.body, start, t, level("draft")).states[100:]])
-             for start in many]
+    rates = [
+        np.mean([divergence(state.body, y) for y in solve(state.body, start, t, level("draft")).states[100:]])
+        for start in many
+    ]
     assert abs(np.mean(rates) - known.motion.divergence) < 5.0 * math.hypot(
-        np.std(rates, ddof=1) / math.sqrt(len(rates)), known.motion.divergence_error)
+        np.std(rates, ddof=1) / math.sqrt(len(rates)), known.motion.divergence_error
+    )
     assert known.motion.volume == -1
     shared = [one.shared for one in known.comparisons]
     if name == "Touching":
@@ -144,9 +165,24 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dim
     assert abs(distance - known.distance) <= known.distance_error + 0.05
 
 
-LIGHT = {"steps": 30.0, "ways": "there and back", "transient": 50.0, "count": 10.0, "along": "I₂₂", "first": 2.1,
-         "last": 2.4, "chosen": "0.8,1.9", "I11": 1.0, "I22": 2.25, "I13": 0.6, "I23": 0.6, "b1": -1.0, "b2": -0.5,
-         "b3": 0.7, "h": 2.0}
+LIGHT = {
+    "steps": 30.0,
+    "ways": "there and back",
+    "transient": 50.0,
+    "count": 10.0,
+    "along": "I₂₂",
+    "first": 2.1,
+    "last": 2.4,
+    "chosen": "0.8,1.9",
+    "I11": 1.0,
+    "I22": 2.25,
+    "I13": 0.6,
+    "I23": 0.6,
+    "b1": -1.0,
+    "b2": -0.5,
+    "b3": 0.7,
+    "h": 2.0,
+}
 """Few points, of a body whose doublings along I22 are wide apart."""
 
 
@@ -154,8 +190,10 @@ def product(body, E, places):
     """Multipliers of the orbit with these places, by SciPy, the largest first."""
     M, h = np.eye(2), 1e-4
     for place in places:
-        sides = [[returns(body, state_at(body, E, 3, *(place + sign * h * axis)), 1)[0] for sign in (1, -1)]
-                 for axis in np.eye(2)]
+        sides = [
+            [returns(body, state_at(body, E, 3, *(place + sign * h * axis)), 1)[0] for sign in (1, -1)]
+            for axis in np.eye(2)
+        ]
         M = np.column_stack([(a - b).ravel() / (2.0 * h) for a, b in sides]) @ M
     return sorted(np.linalg.eigvals(M), key=abs, reverse=True)
 
@@ -177,23 +215,32 @@ def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_do
     assert attracts[0].max() == pytest.approx(flip.value, abs=1e-6) == pytest.approx(repels[0].min(), abs=1e-6)
     assert repels[0].max() == pytest.approx(2.4, abs=1e-6)
     assert (view.data["diagram-bifurcations"]["x"][0], view.data["diagram-bifurcation-names"]["text"]) == (
-        pytest.approx(flip.value, abs=1e-6), ["flip"])
+        pytest.approx(flip.value, abs=1e-6),
+        ["flip"],
+    )
     # SciPy: the orbits close, and the multiplier passes −1 at the mark.
     E = state.poincare.E
-    orbits = [(float(value), places[0]) for part in state.continuation.branches
-              for value, places in zip(part.values, part.places, strict=True)]
+    orbits = [
+        (float(value), places[0])
+        for part in state.continuation.branches
+        for value, places in zip(part.values, part.places, strict=True)
+    ]
     ends = (choose(orbits, key=lambda one: one[0]) for choose in (min, max))
     for value, place in (*ends, (flip.value, flip.places[0])):
         body = type(state.body)(1.0, value, 0.6, 0.6, -1.0, -0.5, 0.7)
         found, there = multipliers(body, E, place)
         assert there == pytest.approx(place, abs=1e-8)
-        assert found[0].real == pytest.approx(-1.0, abs=1e-5) if value == flip.value else (
-            (found[0].real > -1.0) == (value < flip.value))
+        assert (
+            found[0].real == pytest.approx(-1.0, abs=1e-5)
+            if value == flip.value
+            else ((found[0].real > -1.0) == (value < flip.value))
+        )
     # The diagram shows it as long as it attracts.
     drawn = state.diagram.points("rising")
     for x in np.unique(drawn[0][drawn[0] < 2.11]):
         assert np.interp(x, *np.array(sorted((v, p[0]) for v, p in orbits)).T) == pytest.approx(
-            drawn[1][drawn[0] == x][-1], abs=2e-3)
+            drawn[1][drawn[0] == x][-1], abs=2e-3
+        )
 
 
 def turns_between(angles):
@@ -222,7 +269,8 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     for part in state.continuation.branches:
         for value, kind in zip(part.values, part.kinds, strict=True):
             assert abs(value - born.value) < 1e-6 or kind == (
-                "unstable focus" if value < born.value else "stable focus")
+                "unstable focus" if value < born.value else "stable focus"
+            )
     # The band of the diagram: narrow where the focus attracts, wider and wider beyond.
     x, y = state.diagram.points("falling")
     wide = [np.ptp(y[np.abs(x - value) < 6e-5]) for value in (-0.2475, -0.252, -0.256, -0.26)]
@@ -265,8 +313,10 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     assert abs(dimension - 2.25) < 0.02
     assert error < 0.03
     # Motions stay there, and later leave it.
-    stays, leaves = (ReturnMap(at(value), level("draft")).orbit(np.array(state.diagram.place), 10_000)[:, 0]
-                     for value in (-0.261, -0.2612))
+    stays, leaves = (
+        ReturnMap(at(value), level("draft")).orbit(np.array(state.diagram.place), 10_000)[:, 0]
+        for value in (-0.261, -0.2612)
+    )
     assert 0.6 < stays.min() < stays.max() < 2.2 < leaves.max()
 
 
@@ -281,8 +331,15 @@ def way_back(body, E, like):
     sense, found = np.sign(V[0, k].real), []
     along, across = sense * V[:, k].real, sense * np.linalg.inv(V)[k].real
     for sign in (1.0, -1.0):
-        orbit = solve_ivp(lambda t, y: field(body, y), (0.0, -45.0), root + sign * 1e-5 * along, method="DOP853",
-                          rtol=1e-11, atol=1e-13, t_eval=-np.arange(0.0, 45.0, 0.02)).y.T
+        orbit = solve_ivp(
+            lambda t, y: field(body, y),
+            (0.0, -45.0),
+            root + sign * 1e-5 * along,
+            method="DOP853",
+            rtol=1e-11,
+            atol=1e-13,
+            t_eval=-np.arange(0.0, 45.0, 0.02),
+        ).y.T
         away = np.linalg.norm(orbit - root, axis=1)
         gone = int(np.argmax(away > 0.3))
         back = gone + int(np.argmin(away[gone:]))
@@ -295,8 +352,7 @@ def test_a_motion_that_comes_to_a_saddle_focus_has_left_it_before():
     state, captions = complete("A spiral", ("section",))
     body, like = state.body, np.array([1.8373, 1.0187, -0.8746, -0.4849, 0.0])
     # On either side of the value in the words it misses the rotation on another side.
-    (values, low), (_, high) = (way_back(body, moved(state, "h", 5.015931 + off).E, like)
-                                for off in (-1e-6, 1e-6))
+    (values, low), (_, high) = (way_back(body, moved(state, "h", 5.015931 + off).E, like) for off in (-1e-6, 1e-6))
     assert sorted(values.real)[0] == pytest.approx(-0.723, abs=5e-4)
     assert max(values, key=lambda one: one.imag) == pytest.approx(0.282 + 2.035j, abs=1e-3)
     (one,) = (k for k in range(2) if low[k][0] < 0.05 and high[k][0] < 0.05)
@@ -332,19 +388,40 @@ def test_a_click_on_a_branch_shows_that_orbit_and_the_mouse_is_told_what_it_is_o
 
 
 def test_a_branch_folds_and_where_there_is_none_that_is_said():
-    view = View(SCENE, {**LIGHT, "along": "h", "I22": 2.5, "h": 2.0, "first": 1.7, "last": 2.4, "chosen": "1,1",
-                        "branch": "any period"}, seen=["diagram"])
+    view = View(
+        SCENE,
+        {
+            **LIGHT,
+            "along": "h",
+            "I22": 2.5,
+            "h": 2.0,
+            "first": 1.7,
+            "last": 2.4,
+            "chosen": "1,1",
+            "branch": "any period",
+        },
+        seen=["diagram"],
+    )
     m, fold = view.derived("fold of period # at h = # ± ")
     assert m == view.numbers("diagram", "\nPeriod #, saddle")[0] > 1
     # No orbit of the branch is beyond the fold, and there are two of each value before it.
     values = np.concatenate([part.values for part in view.result.continuation.branches])
     near = fold + 1e-3 * (1.0 if values.mean() > fold else -1.0)
     assert (values.min() if values.mean() > fold else -values.max()) >= (fold if values.mean() > fold else -fold) - 1e-7
-    crossed = sum(int(np.count_nonzero(np.diff(np.sign(part.values - near))))
-                  for part in view.result.continuation.branches)
+    crossed = sum(
+        int(np.count_nonzero(np.diff(np.sign(part.values - near)))) for part in view.result.continuation.branches
+    )
     assert crossed == 2
-    none = View(SCENE, {**LIGHT, **dict(next(one for one in SCENE.presets if one.name.startswith("Equal: v")).values),
-                        "branch": "period 1", "steps": 2.0}, seen=["diagram"])
+    none = View(
+        SCENE,
+        {
+            **LIGHT,
+            **dict(next(one for one in SCENE.presets if one.name.startswith("Equal: v")).values),
+            "branch": "period 1",
+            "steps": 2.0,
+        },
+        seen=["diagram"],
+    )
     assert none.text["diagram"].split("\n")[1] == "No periodic orbit is found from here: no branch."
     assert any("Newton's method finds no orbit of period 1" in note for note in none.report.notes)
 

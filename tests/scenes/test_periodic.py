@@ -23,12 +23,20 @@ from support.suslov import field
 from support.view import View
 
 NAMES = ("suslov", "quartic", "ball-section", "euler-poisson")
-LIGHT = {"suslov": {"orbits": 4.0, "count": 20.0, "long": 20.0}, "quartic": {"count": 20.0},
-         "ball-section": {"count": 20.0}, "euler-poisson": {"orbits": 4.0, "count": 20.0, "long": 20.0}}
+LIGHT = {
+    "suslov": {"orbits": 4.0, "count": 20.0, "long": 20.0},
+    "quartic": {"count": 20.0},
+    "ball-section": {"count": 20.0},
+    "euler-poisson": {"orbits": 4.0, "count": 20.0, "long": 20.0},
+}
 LAYERS = ("attracts", "neither", "repels", "stable-manifold", "unstable-manifold", "homoclinic")
 SADDLE = {"repels", "stable-manifold", "unstable-manifold"}
-PICTURES = {"suslov": ["section", "exponent", "sphere"], "quartic": ["section", "domain", "sphere"],
-            "ball-section": ["section", "omega", "returns"], "euler-poisson": ["section", "exponent", "sphere"]}
+PICTURES = {
+    "suslov": ["section", "exponent", "sphere"],
+    "quartic": ["section", "domain", "sphere"],
+    "ball-section": ["section", "omega", "returns"],
+    "euler-poisson": ["section", "exponent", "sphere"],
+}
 
 
 def preset(name, beginning):
@@ -57,19 +65,23 @@ def returned(body, E, place, count, sense=1.0):
         return y[4]
 
     height.direction = sense
-    found = solve_ivp(lambda _, y: sense * field(body, y), (0.0, 60.0 * count), start, "DOP853", rtol=1e-12, atol=1e-13,
-                      events=height)
+    found = solve_ivp(
+        lambda _, y: sense * field(body, y), (0.0, 60.0 * count), start, "DOP853", rtol=1e-12, atol=1e-13, events=height
+    )
     later = np.flatnonzero(found.t_events[0] > 1e-6)[count - 1]
     w1, w2, g1, g2, _ = found.y_events[0][later]
     psi = math.atan2(g2, g1)
     return np.array([psi, abs(math.remainder(math.atan2(w2, w1) - psi, 2.0 * math.pi))]), found.t_events[0][later]
 
 
-@pytest.mark.parametrize(("periodic", "start", "kind", "example"), [
-    ("period 1", "1,1", "saddle with reflection", "A chaotic"),
-    ("period 2", "1,1", "saddle with reflection", "Strange"),
-    ("any period", "0.245,2.399", "stable focus", "Two"),
-])
+@pytest.mark.parametrize(
+    ("periodic", "start", "kind", "example"),
+    [
+        ("period 1", "1,1", "saddle with reflection", "A chaotic"),
+        ("period 2", "1,1", "saddle with reflection", "Strange"),
+        ("any period", "0.245,2.399", "stable focus", "Two"),
+    ],
+)
 def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(periodic, start, kind, example):
     given = {**preset("suslov", example), **LIGHT["suslov"], "colours": "forward only", "starts": start}
     view = shown("suslov", periodic, *given.items())
@@ -80,18 +92,22 @@ def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(p
         there, _ = returned(state.body, state.E, place, 1)
         assert there == pytest.approx(orbit.places[(i + 1) % m], abs=1e-8)
     h = 1e-5
-    sides = [[returned(state.body, state.E, orbit.places[0] + sign * h * axis, m)[0] for sign in (1, -1)]
-             for axis in np.eye(2)]
+    sides = [
+        [returned(state.body, state.E, orbit.places[0] + sign * h * axis, m)[0] for sign in (1, -1)]
+        for axis in np.eye(2)
+    ]
     M = np.column_stack([(a - b) / (2.0 * h) for a, b in sides])
     exact = sorted(np.linalg.eigvals(M), key=abs, reverse=True)
     assert np.abs(orbit.multipliers - exact).max() < 1e-5 * max(1.0, abs(exact[0]))
     # The caption has period, kind, multipliers and what they may be off.
     if exact[0].imag:
         assert view.numbers("section", f"\nPeriod #, {kind}: μ = # ± #i to") == pytest.approx(
-            [m, exact[0].real, abs(exact[0].imag)], rel=1e-3)
+            [m, exact[0].real, abs(exact[0].imag)], rel=1e-3
+        )
     else:
         assert view.numbers("section", f"\nPeriod #, {kind}: μ = #, # to") == pytest.approx(
-            [m, *np.real(exact)], rel=1e-3)
+            [m, *np.real(exact)], rel=1e-3
+        )
     assert orbit.multiplier_error < 1e-6
     time = returned(state.body, state.E, orbit.places[0], m)[1]
     assert view.derived("T = #, periodic") == pytest.approx([time], rel=1e-5)
@@ -100,8 +116,11 @@ def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(p
     assert divergence == pytest.approx(math.log(abs(np.linalg.det(M))) / time, abs=1e-3)
     assert np.unique(view.curve("exponent-lambda")[1]) == pytest.approx([across], abs=1e-4)
     # Its points have the sign of its kind, and the linked pictures show it, once round.
-    assert drawn(view) == ({"attracts"} if kind.startswith("stable") else {
-        *SADDLE, *({"homoclinic"} if state.periodic_orbit.homoclinic else ())})
+    assert drawn(view) == (
+        {"attracts"}
+        if kind.startswith("stable")
+        else {*SADDLE, *({"homoclinic"} if state.periodic_orbit.homoclinic else ())}
+    )
     sign = "attracts" if kind.startswith("stable") else "repels"
     assert view.points(sign) == pytest.approx(orbit.places)
     track = view.data["data-orbit"]
@@ -150,8 +169,9 @@ def meetings(one, other):
     a, b, c, d = one[1:-1, None], one[2:, None], other[None, 1:-1], other[None, 2:]
 
     def side(p, q, r):
-        return np.sign((q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1])
-                       - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0]))
+        return np.sign(
+            (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0])
+        )
 
     return int(np.count_nonzero((side(a, b, c) != side(a, b, d)) & (side(c, d, a) != side(c, d, b))))
 
@@ -164,11 +184,13 @@ def test_homoclinic_points_come_from_the_saddle_and_go_to_it():
     assert said == len(found) == len(view.points("homoclinic")) > 20
     assert error == pytest.approx(max(one.error for one in found), rel=0.5)
     # As many as the curves have that are drawn, with those that are not certain.
-    stable, unstable = ([one.points for one in state.periodic_orbit.manifolds if one.stable is kind]
-                        for kind in (True, False))
+    stable, unstable = (
+        [one.points for one in state.periodic_orbit.manifolds if one.stable is kind] for kind in (True, False)
+    )
     shifts = 2.0 * math.pi * np.arange(-2, 3)
-    drawn_ = sum(meetings(one, other + np.array([shift, 0.0]))
-                 for one in unstable for other in stable for shift in shifts)
+    drawn_ = sum(
+        meetings(one, other + np.array([shift, 0.0])) for one in unstable for other in stable for shift in shifts
+    )
     assert sum(map(len, state.periodic_orbit._met)) == drawn_
     (unsure,) = (int(note.split()[1]) for note in view.report.notes if "within their error" in note)
     assert said + unsure == drawn_
@@ -178,10 +200,22 @@ def test_homoclinic_points_come_from_the_saddle_and_go_to_it():
         assert np.abs(view.points("homoclinic") - one.place).max(axis=1).min() < 1e-6
         start = state.poincare.states_at(*one.place[:, None])[0][0]
         for sense in (1.0, -1.0):
-            run = solve_ivp(lambda t, y, sense=sense: sense * np.array(rates(view.values)(t, y)), (0.0, 100.0), start,
-                            "DOP853", rtol=1e-9, atol=1e-11, events=height)
-            places = np.array([[math.atan2(y[3], y[2]), math.acos(y[:2] @ y[2:4] / math.hypot(*y[:2]))]
-                               for y in run.y_events[0] if y[2] * y[1] > y[3] * y[0]])
+            run = solve_ivp(
+                lambda t, y, sense=sense: sense * np.array(rates(view.values)(t, y)),
+                (0.0, 100.0),
+                start,
+                "DOP853",
+                rtol=1e-9,
+                atol=1e-11,
+                events=height,
+            )
+            places = np.array(
+                [
+                    [math.atan2(y[3], y[2]), math.acos(y[:2] @ y[2:4] / math.hypot(*y[:2]))]
+                    for y in run.y_events[0]
+                    if y[2] * y[1] > y[3] * y[0]
+                ]
+            )
             away = np.hypot(*apart((2.0 * math.pi, math.inf), places, saddle).T)
             assert away.min() < 0.02
 
@@ -207,11 +241,18 @@ def test_in_the_hess_case_the_saddle_has_the_multipliers_of_the_moebius_matrix_a
     said = view.numbers("section", "\nPeriod #, saddle: μ = #, # to")
     assert said == pytest.approx([1, exact, 1.0 / exact], rel=1e-3)
     # One of its manifolds is the Hess manifold itself.
-    off = {stable: max(float(np.abs(one.points[:, 1] - hess_curve(body, one.points[:, 0])).max())
-                       for one in state.periodic_orbit.manifolds if one.stable is stable) for stable in (True, False)}
+    off = {
+        stable: max(
+            float(np.abs(one.points[:, 1] - hess_curve(body, one.points[:, 0])).max())
+            for one in state.periodic_orbit.manifolds
+            if one.stable is stable
+        )
+        for stable in (True, False)
+    }
     assert min(off.values()) < 0.5 / max(state.section.pixels) < 0.1 < max(off.values())
     assert view.numbers("exponent", "\nNext to the periodic orbit: ln|μ₁|/T = #,") == pytest.approx(
-        [math.log(exact) / state.periodic_orbit.closed.time], rel=1e-3)
+        [math.log(exact) / state.periodic_orbit.closed.time], rel=1e-3
+    )
 
 
 def test_where_every_orbit_of_the_ball_closes_the_chosen_one_is_parabolic():
@@ -238,7 +279,8 @@ def test_a_point_in_the_quartic_potential_goes_round():
     assert (ring["x"][0], ring["y"][0]) == pytest.approx((0.0, orbit.places[0, 0]), abs=1e-6)
     assert len(view.result.periodic_orbit.manifolds) == 12
     assert [line for line in view.report.derived if line.startswith("its own image")] == [
-        "its own image: ω1, ω2, t → −"]
+        "its own image: ω1, ω2, t → −"
+    ]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -259,7 +301,8 @@ def test_where_none_is_found_the_chosen_orbit_is_shown_and_why():
     assert view.text["section"].split("\n")[1] == "No orbit of period 3 found from here: the chosen one is shown."
     assert view.report.notes == [
         "Newton's method finds no orbit of period 3 from here: start closer to one, where an orbit comes back close to "
-        "itself, or choose another period."]
+        "itself, or choose another period."
+    ]
     assert drawn(view) == set()
     assert len(view.points("own")) == 20
     assert view.data["data-orbit"]["t"][-1] == pytest.approx(view.values["span"])

@@ -31,7 +31,7 @@ def shown(scene, values, **more):
 
 
 def sentence(view):
-    said, = (part for part in view.report.status.split(" · ") if part.startswith("proved error"))
+    (said,) = (part for part in view.report.status.split(" · ") if part.startswith("proved error"))
     return said
 
 
@@ -40,15 +40,23 @@ def tasks(view):
 
 
 def test_every_scene_with_one_orbit_of_a_body_proves_its_error():
-    assert {"suslov", "ball-section", "quartic", "euler-poisson", "chaplygin-ball", "orbit-diagram",
-            "ball-diagram", "suslov-hess"} == set(PROVING)
+    assert {
+        "suslov",
+        "ball-section",
+        "quartic",
+        "euler-poisson",
+        "chaplygin-ball",
+        "orbit-diagram",
+        "ball-diagram",
+        "suslov-hess",
+    } == set(PROVING)
 
 
 @pytest.mark.parametrize("name", PROVING)
 def test_a_short_orbit_is_right_to_its_end_and_nothing_is_drawn(name):
     scene = SCENES[name]
     view = shown(scene, {"span": 1.0}, whole=False)
-    task, = tasks(view)
+    (task,) = tasks(view)
     found = task.now()
     assert found.said.startswith("proved error ≤ ")
     assert found.said.endswith("certainly right to ½ pixel to its end")
@@ -62,8 +70,13 @@ def test_a_band_holds_the_true_orbit_where_it_is_wider_than_a_pixel():
     said, (state, motion) = sentence(view), (view.result, view.result.motion())
     until = float(said.split("t = ")[1].split(";")[0].replace("−", "-"))
     assert 8.0 < until < 20.0
-    band = [np.column_stack(part) for part in zip(*(
-        [np.asarray(one[0][0], float) for one in view.data["omega-band"][key]] for key in ("xs", "ys")), strict=True)]
+    band = [
+        np.column_stack(part)
+        for part in zip(
+            *([np.asarray(one[0][0], float) for one in view.data["omega-band"][key]] for key in ("xs", "ys")),
+            strict=True,
+        )
+    ]
     # The true orbit by other means: 60 decimals.
     orbit, times = state.track.orbit, state.track.times
     truth = true_states(motion, orbit.times)
@@ -85,8 +98,9 @@ def test_a_band_holds_the_true_orbit_where_it_is_wider_than_a_pixel():
 
 def true_states(motion, times):
     """By decimals, from exactly these doubles."""
-    return np.array(oracle.orbits.orbit_in_decimals(SYSTEM, motion.state, motion.parameters, times.tolist(), 60),
-                    dtype=float)
+    return np.array(
+        oracle.orbits.orbit_in_decimals(SYSTEM, motion.state, motion.parameters, times.tolist(), 60), dtype=float
+    )
 
 
 def inside(place, polygon):
@@ -108,7 +122,7 @@ def test_an_orbit_that_leaves_an_unstable_cycle_is_not_called_right():
 
 def test_an_estimate_that_is_too_small_is_given_away():
     view = shown(HESS, {"span": 5.0, "accuracy": "draft"}, whole=False)
-    task, = tasks(view)
+    (task,) = tasks(view)
     finding, motion, units = task.arguments
     found = finding.now()
     least = np.abs(found.orbit.states - true_states(motion, found.orbit.times)).max()

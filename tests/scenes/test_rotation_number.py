@@ -39,7 +39,7 @@ def test_the_circle_map_of_an_example_is_as_its_caption_says(name):
     torus = tuple(view.values[key] for key in "ahf")
     shown = view.numbers("circle", "a = #, h = #, f = #")
     assert shown == pytest.approx(torus, rel=6e-4)
-    rho, = view.numbers("circle", "ρ = #.")
+    (rho,) = view.numbers("circle", "ρ = #.")
     assert rho == pytest.approx(iterated(*torus), abs=2e-4)
     hyperbolic = circle_map(*torus, REFERENCE).trace > 2.0
     assert ("two cycles" if hyperbolic else "no cycle") in view.text["circle"]
@@ -86,7 +86,7 @@ def test_the_plateaus_of_the_other_family_are_those_of_plain_iteration(name):
     view = example(name)
     line, epsilon = view.values["line"], view.values["epsilon"]
     torus = {key: float(view.values[key]) for key in "ahf"}
-    text, = (line for line in view.report.derived if line.startswith("plateaus"))
+    (text,) = (line for line in view.report.derived if line.startswith("plateaus"))
     named = text.rpartition(": ")[2].split(", ")
     assert len(named) >= 1
     x, perturbed = view.result.x, view.result.perturbed
@@ -104,8 +104,9 @@ def covered(region, x, y):
     inside = False
     for (xs,), (ys,) in zip((one[0] for one in region["xs"]), (one[0] for one in region["ys"]), strict=True):
         ends = zip(xs, ys, np.roll(xs, -1), np.roll(ys, -1), strict=True)
-        inside |= sum((y0 > y) != (y1 > y) and x < x0 + (y - y0) * (x1 - x0) / (y1 - y0)
-                      for x0, y0, x1, y1 in ends) % 2 == 1
+        inside |= (
+            sum((y0 > y) != (y1 > y) and x < x0 + (y - y0) * (x1 - x0) / (y1 - y0) for x0, y0, x1, y1 in ends) % 2 == 1
+        )
     return inside
 
 
@@ -203,8 +204,9 @@ def test_f_outside_the_region_is_put_on_its_edge_and_said():
     view.assert_finite()
 
 
-@pytest.mark.parametrize(("text", "window"), [
-    ("0.5,1;0.2,-1", "0.2,-1;0.5,1"), ("0.5,1;0.5,2", ""), ("0.5,1;0.7,1", ""), ("", "")])
+@pytest.mark.parametrize(
+    ("text", "window"), [("0.5,1;0.2,-1", "0.2,-1;0.5,1"), ("0.5,1;0.5,2", ""), ("0.5,1;0.7,1", ""), ("", "")]
+)
 def test_a_window_is_brought_into_order(text, window):
     assert SCENE.admit({**SCENE.defaults(), "part_hf": text})[0]["part_hf"] == window
 
@@ -225,9 +227,19 @@ def test_on_the_separatrix_there_is_no_circle_map():
     view.assert_finite()
 
 
-@pytest.mark.parametrize("values", [
-    {"a": 0.0}, {"a": 100.0, "f": 0.5}, {"a": -0.5}, {"h": 1e6, "f": 1.0}, {"h": -0.99, "f": 0.01},
-    {"h": -1.0 + 1e-9, "f": 0.0}, {"f": 0.0}, {"epsilon": 0.33}])
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"a": 0.0},
+        {"a": 100.0, "f": 0.5},
+        {"a": -0.5},
+        {"h": 1e6, "f": 1.0},
+        {"h": -0.99, "f": 0.01},
+        {"h": -1.0 + 1e-9, "f": 0.0},
+        {"f": 0.0},
+        {"epsilon": 0.33},
+    ],
+)
 def test_extreme_values_are_shown(values):
     view = View(SCENE, values, noted=values == {"h": -0.99, "f": 0.01})
     view.assert_finite()

@@ -69,12 +69,15 @@ def test_every_example_of_a_constrained_body_is_drawn_as_it_lies(name):
         assert axis == pytest.approx([0.0, 0.0, 1.0])
 
 
-@pytest.mark.parametrize(("tensor", "is_body"), [((2.0, 1.0, 0.3, 0.2), True), ((1.0, 2.5, 0.6, 0.6), False),
-                                                 ((0.1, 10.0, 9.0, -10.0), False)])
+@pytest.mark.parametrize(
+    ("tensor", "is_body"),
+    [((2.0, 1.0, 0.3, 0.2), True), ((1.0, 2.5, 0.6, 0.6), False), ((0.1, 10.0, 9.0, -10.0), False)],
+)
 def test_the_ellipsoid_is_that_of_a_rigid_body_where_there_is_one(tensor, is_body):
     I11, I22, I13, I23 = tensor
-    one = Constrained(np.zeros(2), np.zeros((2, 2)), np.tile([0.0, 0.0, 1.0], (2, 1)), tensor, (0.0, 0.0, 0.0),
-                      check_body(*tensor))
+    one = Constrained(
+        np.zeros(2), np.zeros((2, 2)), np.tile([0.0, 0.0, 1.0], (2, 1)), tensor, (0.0, 0.0, 0.0), check_body(*tensor)
+    )
     shape = one.shape()
     whole = np.array([[I11, 0.0, I13], [0.0, I22, I23], [I13, I23, one.I33]])
     # What is drawn is the surface (ω, Iω) = const.

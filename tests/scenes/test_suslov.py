@@ -66,8 +66,12 @@ def exponent_and_divergence(name, span):
         linear = 0.5 * (field(body, y + v) - field(body, y - v))
         size = v @ v
         growth = (v @ linear) / size
-        return [*field(body, y), *(linear - growth * v), growth,
-                body.I23 * y[0] / body.I22 - body.I13 * y[1] / body.I11]
+        return [
+            *field(body, y),
+            *(linear - growth * v),
+            growth,
+            body.I23 * y[0] / body.I22 - body.I13 * y[1] / body.I11,
+        ]
 
     v = np.array([0.3, -0.5, 0.2, 0.4, 0.6])
     z = np.array([*start_of(view), *(v / np.linalg.norm(v)), 0.0, 0.0])
@@ -122,15 +126,30 @@ def test_the_chosen_orbit_of_an_example_is_drawn_with_the_energy_of_its_caption(
     drawn = np.column_stack([track[key] for key in ("omega1", "omega2", "g1", "g2", "g3")]).astype(float)
     assert drawn[0] == pytest.approx(start, abs=1e-6)
     early = track["t"] < 10.0
-    exact = solve_ivp(lambda t, y: field(body, y), (0.0, 10.0), start, "DOP853", track["t"][early].astype(float),
-                      rtol=1e-10, atol=1e-11).y.T
+    exact = solve_ivp(
+        lambda t, y: field(body, y),
+        (0.0, 10.0),
+        start,
+        "DOP853",
+        track["t"][early].astype(float),
+        rtol=1e-10,
+        atol=1e-11,
+    ).y.T
     assert drawn[early] == pytest.approx(exact, abs=2e-5)
     assert track["t"][-1] == pytest.approx(view.values["span"])
 
 
-@pytest.mark.parametrize(("name", "span", "near"), [
-    (SEA, 400.0, 0.03), (REGULAR, 400.0, 0.02), (STRANGE, 400.0, 0.05), (TWO, 300.0, 0.04), (REVERSAL, 300.0, 0.02),
-    (PRINCIPAL, 300.0, 0.05)])
+@pytest.mark.parametrize(
+    ("name", "span", "near"),
+    [
+        (SEA, 400.0, 0.03),
+        (REGULAR, 400.0, 0.02),
+        (STRANGE, 400.0, 0.05),
+        (TWO, 300.0, 0.04),
+        (REVERSAL, 300.0, 0.02),
+        (PRINCIPAL, 300.0, 0.05),
+    ],
+)
 def test_exponent_and_divergence_of_an_example_are_near_those_of_the_linear_equations(name, span, near):
     view = example(name)
     exponent, spread, mean, end = view.numbers("exponent", "λ = # ± #, div = # after t = #.")
@@ -214,10 +233,18 @@ def test_the_basins_of_the_example_are_those_that_scipy_finds():
     body, means = body_of(view), {0.0: [], 1.0: []}
     for i, j in chosen:
         psi, delta = -math.pi + (j + 0.5) * 2.0 * math.pi / 36, (i + 0.5) * math.pi / 24
-        start = start_of(View(SCENE, {**view.values, **FEW, "colours": "forward only",
-                                         "starts": f"{psi},{delta}"}, seen=("sphere",)))
-        run = solve_ivp(lambda t, y: field(body, y), (0.0, 350.0), start, "DOP853", rtol=1e-7, atol=1e-8,
-                        t_eval=np.linspace(280.0, 350.0, 1401))
+        start = start_of(
+            View(SCENE, {**view.values, **FEW, "colours": "forward only", "starts": f"{psi},{delta}"}, seen=("sphere",))
+        )
+        run = solve_ivp(
+            lambda t, y: field(body, y),
+            (0.0, 350.0),
+            start,
+            "DOP853",
+            rtol=1e-7,
+            atol=1e-8,
+            t_eval=np.linspace(280.0, 350.0, 1401),
+        )
         up = np.flatnonzero((run.y[4][1:] > 0.0) & (run.y[4][:-1] <= 0.0))
         means[cells[i, j]].append(run.y[0][up].mean())
     assert [len(means[kind]) for kind in (0.0, 1.0)] == [3, 3]
@@ -342,7 +369,7 @@ def test_a_start_where_nothing_is_possible_is_replaced_and_said():
     # E = −0.1: not where (b, γ) > E, at the angle of b.
     values = {**FEW, "h": -0.1 + math.hypot(0.5, 0.5, 0.7), "starts": f"1,1;{math.atan2(-0.5, -0.5)},1"}
     view = View(SCENE, values)
-    note, = view.report.notes
+    (note,) = view.report.notes
     assert "no motion has this energy" in note
     psi, delta = view.points("chosen")[-1]
     assert -0.5 * (math.cos(psi) + math.sin(psi)) < -0.1
@@ -393,8 +420,12 @@ def test_without_starts_there_is_the_first_one():
 
 
 def test_nothing_possible_in_a_window_is_a_sentence():
-    values = {**SCENE.defaults(), "h": -0.1 + math.hypot(0.5, 0.5, 0.7), "starts": "-2.356,1",
-              "window": "-2.5,1;-2.2,2"}
+    values = {
+        **SCENE.defaults(),
+        "h": -0.1 + math.hypot(0.5, 0.5, 0.7),
+        "starts": "-2.356,1",
+        "window": "-2.5,1;-2.2,2",
+    }
     with pytest.raises(InvalidParameter, match=r"Nothing is possible in this window .* press Clear"):
         SCENE.compute(SCENE.admit(values)[0], SCENE.pictures, False)
 
@@ -407,9 +438,18 @@ def test_an_exponent_over_too_long_a_time_is_a_sentence():
             CACHE.get(task.function, *task.arguments)
 
 
-@pytest.mark.parametrize("values", [
-    {"b1": 0.0, "b2": 0.0, "b3": 0.0}, {"b1": 1e3, "b2": 0.0, "b3": 0.0, "h": 1e3}, {"I13": 0.0, "I23": 0.0},
-    {"h": 1e6}, {"I11": 1e-3}, {"I22": 1e3, "span": 1.0}, {"b1": 1e-6, "b2": 1e-6, "b3": 0.0, "h": 1e-6}])
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"b1": 0.0, "b2": 0.0, "b3": 0.0},
+        {"b1": 1e3, "b2": 0.0, "b3": 0.0, "h": 1e3},
+        {"I13": 0.0, "I23": 0.0},
+        {"h": 1e6},
+        {"I11": 1e-3},
+        {"I22": 1e3, "span": 1.0},
+        {"b1": 1e-6, "b2": 1e-6, "b3": 0.0, "h": 1e-6},
+    ],
+)
 def test_extreme_values_are_shown(values):
     view = View(SCENE, {**FEW, "span": 5.0, **values})
     view.assert_finite()
@@ -436,8 +476,15 @@ def test_on_a_principal_axis_both_times_and_the_brackets_are_drawn():
     view = View(SCENE, {**preset.values, **FEW, "span": 20.0}, seen={"conformal"})
     body, start = body_of(view), start_of(view)
     t, tau = view.curve("conformal-tau")
-    run = solve_ivp(lambda _, y: [*field(body, y[:5]), y[4]], (0.0, 20.0), [*start, 0.0], method="DOP853",
-                    rtol=1e-10, atol=1e-12, dense_output=True)
+    run = solve_ivp(
+        lambda _, y: [*field(body, y[:5]), y[4]],
+        (0.0, 20.0),
+        [*start, 0.0],
+        method="DOP853",
+        rtol=1e-10,
+        atol=1e-12,
+        dense_output=True,
+    )
     assert tau == pytest.approx(run.sol(t)[5], abs=1e-5)
     # γ_k over I γ3, with its poles cut out.
     for source, sign, k, moment in (("first", 1.0, 3, body.I11), ("second", -1.0, 2, body.I22)):

@@ -34,12 +34,14 @@ def test_the_curve_over_the_bottom_is_where_iterates_are(I23, h, f):
     orbit = circle_map(view.result.body.a, h, f, REFERENCE).iterate(0.3, 20_000)
     shares, edges = np.histogram(orbit, 12, (-math.pi, math.pi))
     fine = np.linspace(-math.pi, math.pi, 12 * 50 + 1)
-    expected = [np.trapezoid(np.interp(part, phi, density), part)
-                for part in (fine[i * 50 : (i + 1) * 50 + 1] for i in range(12))]
+    expected = [
+        np.trapezoid(np.interp(part, phi, density), part)
+        for part in (fine[i * 50 : (i + 1) * 50 + 1] for i in range(12))
+    ]
     assert edges[0] == pytest.approx(fine[0])
     assert shares / orbit.size == pytest.approx(expected, abs=3e-3)
     assert np.ptp(expected) > 0.01
-    zeta, = view.derived("ζ of the invariant density = #")
+    (zeta,) = view.derived("ζ of the invariant density = #")
     # Its kernel is largest on the ray to ζ, where it is (1 + |ζ|)/(1 − |ζ|) times the even density.
     assert density.max() * SIDE == pytest.approx((1.0 + abs(zeta)) / (1.0 - abs(zeta)), rel=1e-3)
 
@@ -49,37 +51,48 @@ def test_the_shade_of_the_torus_is_where_a_long_motion_is(I23, h, f):
     # A body of its own with this a, of which nothing is known yet.
     values = {"I22": 2.0, "I23": 2.0 * I23, "h": h, "f": f}
     view = View(SCENE, values, seen={"torus"})
-    shade, = view.data["torus-density"]["image"]
+    (shade,) = view.data["torus-density"]["image"]
     least, most = view.numbers("torus", "The flow keeps it: # to # times an even one")
     density = np.asarray(shade, float) * most
     assert (density.min(), density.mean()) == pytest.approx((least, 1.0), rel=6e-3)
     # The orbit on show, at even times by the general kernel.
     turning = turning_points(h, f)
     times = np.linspace(0.0, 700.0 * turning.period, 40_000)
-    states = solve(systems()["hess"].at((I23, 1.0)), turning.state_at_lower_turn(view.values["phi0"]), times,
-                   level("precise")).states
+    states = solve(
+        systems()["hess"].at((I23, 1.0)), turning.state_at_lower_turn(view.values["phi0"]), times, level("precise")
+    ).states
     sigma = np.remainder(times / turning.period + 0.5, 1.0) - 0.5
     shares = np.histogram2d(np.arctan2(states[:, 0], states[:, 1]), SIDE * sigma, [8, 6], [(-math.pi, math.pi)] * 2)[0]
     expected = density.reshape(8, 15, 6, 20).sum(axis=(1, 3)) / density.size
     assert shares / times.size == pytest.approx(expected, abs=3e-3 * expected.max() + 1e-3)
     # And the columns that the moving point follows.
     orbit = view.data["data-orbit"]
-    again = solve(systems()["hess"].at((I23, 1.0)), turning.state_at_lower_turn(view.values["phi0"]),
-                  view.result.track.orbit.times, level("precise")).states
+    again = solve(
+        systems()["hess"].at((I23, 1.0)),
+        turning.state_at_lower_turn(view.values["phi0"]),
+        view.result.track.orbit.times,
+        level("precise"),
+    ).states
     away = np.exp(1j * orbit["phi"]) - np.exp(1j * np.arctan2(again[:, 0], again[:, 1]))
     assert np.max(np.abs(away)) < 1e-4
     turns = view.result.track.orbit.times / turning.period
     assert np.exp(1j * orbit["sigma"]) == pytest.approx(np.exp(2j * math.pi * turns), abs=1e-5)
 
 
-@pytest.mark.parametrize(("values", "words"), [
-    ({"I23": 0.5, "h": 1.5, "f": 0.6}, "No density: |t| > 2, every motion but one tends to the stable limit cycle."),
-    ({"I23": 0.5, "h": 0.5, "f": 1.01563456028796105}, "No density at |t| = 2"),
-    ({"I23": 0.5, "h": 1.0, "f": 0.0}, "No density: on the separatrix"),
-    ({"I23": 0.5, "h": 0.3, "f": 0.0}, "No density is drawn at f = 0"),
-    ({"I23": 0.5, **dict(zip("hf", curve_point(0.5), strict=True))}, "No density: on the bifurcation curve"),
-    ({"I23": 4.0, "h": 0.9, "f": 1e-9}, "The density is too thin"),
-])
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        (
+            {"I23": 0.5, "h": 1.5, "f": 0.6},
+            "No density: |t| > 2, every motion but one tends to the stable limit cycle.",
+        ),
+        ({"I23": 0.5, "h": 0.5, "f": 1.01563456028796105}, "No density at |t| = 2"),
+        ({"I23": 0.5, "h": 1.0, "f": 0.0}, "No density: on the separatrix"),
+        ({"I23": 0.5, "h": 0.3, "f": 0.0}, "No density is drawn at f = 0"),
+        ({"I23": 0.5, **dict(zip("hf", curve_point(0.5), strict=True))}, "No density: on the bifurcation curve"),
+        ({"I23": 4.0, "h": 0.9, "f": 1e-9}, "The density is too thin"),
+    ],
+)
 def test_where_the_torus_has_no_density_the_reason_is_said(values, words):
     view = View(SCENE, {"I22": 1.0, **values}, seen={"torus"})
     assert words in view.text["torus"]
@@ -128,15 +141,16 @@ def ends(text):
     return [[Fraction(end.replace("−", "-")) for end in pair] for pair in re.findall(r"\[([^],]+),\s([^]]+)\]", text)]
 
 
-@pytest.mark.parametrize(("I23", "h", "f"), [
-    (0.5, 1.5, 0.6), (0.1, 1.5, 0.6), (0.5, 0.5, 1.01563456028796105), (0.3, 0.2, 0.0)])
+@pytest.mark.parametrize(
+    ("I23", "h", "f"), [(0.5, 1.5, 0.6), (0.1, 1.5, 0.6), (0.5, 0.5, 1.01563456028796105), (0.3, 0.2, 0.0)]
+)
 def test_the_caption_of_the_circle_map_says_what_is_proved_when_it_is_found(I23, h, f):
     # A body of its own with this a, of which nothing is known yet.
     values = {"I22": 2.0, "I23": 2.0 * I23, "h": h, "f": f}
     view = View(SCENE, values, seen={"circle"})
     assert any(task.function is proved for task in view.first.todo)
     said = view.text["circle"]
-    sentence, = (line for line in view.report.derived if line.startswith("Proved"))
+    (sentence,) = (line for line in view.report.derived if line.startswith("Proved"))
     theta = circle_map(I23, h, f, REFERENCE)
     for text, share in ((said, 2e-3), (sentence, 1e-8)):
         if theta.kind == "hyperbolic":
@@ -157,8 +171,10 @@ def test_the_caption_of_the_circle_map_says_what_is_proved_when_it_is_found(I23,
 
 def test_what_is_not_proved_is_said():
     """a = 0, f = 0 has trace 2; beyond the edge by 1e-16 no motion has exactly the numbers in the boxes."""
-    for values, words in (({"I22": 1.0, "I23": 0.0, "h": 2.0, "f": 0.0}, "Undecided at 256 bits: |trace| is too close"),
-                          ({"I22": 1.0, "I23": 0.5, "h": 0.5, "f": f_max(0.5)}, "Not proved: No motion has exactly")):
+    for values, words in (
+        ({"I22": 1.0, "I23": 0.0, "h": 2.0, "f": 0.0}, "Undecided at 256 bits: |trace| is too close"),
+        ({"I22": 1.0, "I23": 0.5, "h": 0.5, "f": f_max(0.5)}, "Not proved: No motion has exactly"),
+    ):
         view = View(SCENE, values, seen={"circle"})
         assert any(line.startswith(words) for line in view.report.derived), view.report.derived
 
@@ -168,7 +184,8 @@ def test_without_the_library_one_quiet_sentence_says_so(monkeypatch):
     view = View(SCENE, {"h": 1.45}, seen={"circle"})
     assert view.first.todo == ()
     assert [line for line in view.report.derived if "python-flint" in line] == [
-        "Proofs need python-flint: pip install 'hess-explorer[prove]'"]
+        "Proofs need python-flint: pip install 'hess-explorer[prove]'"
+    ]
     assert "roved" not in view.text["circle"]
 
 
@@ -186,7 +203,7 @@ def test_proved_cells_grow_and_their_outlines_lie_on_one_side_of_the_boundary(mo
         view = View(SCENE, values, seen={"bifurcation"}, whole=False)
         assert ("growing" in view.text["bifurcation"]) == (len(shares) == 1)
         assert ("No cell is proved yet." in view.text["bifurcation"]) == (not shares)
-        task, = (task for task in view.report.todo if task.function is proved_zone.outlined)
+        (task,) = (task for task in view.report.todo if task.function is proved_zone.outlined)
         CACHE.get(task.function, *task.arguments)
         shares.append(task.arguments[2])
         then = View(SCENE, values, seen={"bifurcation"}, whole=False)
@@ -198,7 +215,7 @@ def test_proved_cells_grow_and_their_outlines_lie_on_one_side_of_the_boundary(mo
     view = View(SCENE, values, seen={"bifurcation"}, whole=False)
     assert shares == [30, 60]
     assert not any(task.function is proved_zone.outlined for task in view.report.todo)
-    said, = view.numbers("bifurcation", "Proved cells: # % of the area.")
+    (said,) = view.numbers("bifurcation", "Proved cells: # % of the area.")
     outlines = [*zip(*view.data["bifurcation-proved"].values(), strict=True)]
     # Above f = 0 and below it; each on one side of |t| = 2, inside the region.
     assert len(outlines) % 2 == 0
@@ -206,11 +223,15 @@ def test_proved_cells_grow_and_their_outlines_lie_on_one_side_of_the_boundary(mo
         f = np.abs(np.asarray(signed, float))
         assert np.all(f <= [f_max(max(x, -1 + 1e-9)) * (1 + 1e-6) for x in h])
         inner = f < [0.999 * f_max(max(x, -1 + 1e-9)) for x in h]
-        kinds = {circle_map(0.45, float(x), float(y), REFERENCE).trace > 2
-                 for x, y in zip(np.asarray(h)[inner][::3], f[inner][::3], strict=True)}
+        kinds = {
+            circle_map(0.45, float(x), float(y), REFERENCE).trace > 2
+            for x, y in zip(np.asarray(h)[inner][::3], f[inner][::3], strict=True)
+        }
         assert len(kinds) <= 1
-    area = sum(0.5 * abs(np.sum(np.asarray(h)[:-1] * np.diff(f) - np.asarray(f)[:-1] * np.diff(h)))
-               for h, f in outlines) / 2
+    area = (
+        sum(0.5 * abs(np.sum(np.asarray(h)[:-1] * np.diff(f) - np.asarray(f)[:-1] * np.diff(h))) for h, f in outlines)
+        / 2
+    )
     assert 100 * area / quad(f_max, -1 + 1e-9, 4)[0] == pytest.approx(said, abs=0.5)
     # During a drag what is known stays, and nothing is begun; of another body nothing is known.
     held = View(SCENE, {**values, "h": 1.45}, seen={"bifurcation"}, dragging=True, whole=False)

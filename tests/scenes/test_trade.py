@@ -52,15 +52,18 @@ def test_every_scene_declares_what_it_computes(scene):
         assert set(trial.pictures) <= set(scene.pictures)
 
 
-CHEAP = [(name, trial) for name, scene in SCENES.items() for trial in scene.trials
-         if trial.kind in (Computation.ORBIT, Computation.MAP, Computation.COLOURS)]
+CHEAP = [
+    (name, trial)
+    for name, scene in SCENES.items()
+    for trial in scene.trials
+    if trial.kind in (Computation.ORBIT, Computation.MAP, Computation.COLOURS)
+]
 
 
 @pytest.mark.parametrize(("name", "trial"), CHEAP, ids=[f"{name}-{trial.kind}" for name, trial in CHEAP])
 def test_a_finer_level_has_a_smaller_error(name, trial):
     state = bare(SCENES[name].of(SCENES[name].defaults()))
-    truth = trial.run(state, dataclasses.replace(
-        PLANS[trial.kind]["reference"], level=REFERENCE.tightened()))
+    truth = trial.run(state, dataclasses.replace(PLANS[trial.kind]["reference"], level=REFERENCE.tightened()))
     errors = [trial.error(state, trial.run(state, plan), truth) for plan in PLANS[trial.kind].values()]
     # The truth of an unstable motion is not known to more than 1e-4 pixels.
     assert errors[0] > 30.0 * errors[2] > 0.0
@@ -85,8 +88,9 @@ def test_a_draft_follows_orbits_for_a_quarter_of_the_crossings():
 @pytest.mark.parametrize("name", ["draft", "standard", "precise"])
 def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_drawn(name):
     state, report = completed(SUSLOV, {**SMALL, "accuracy": name}, ("section",))
-    said = re.search(r"right to ½ pixel: the chosen orbit up to crossing (\d+), others up to crossing (\d+)",
-                     report.status)
+    said = re.search(
+        r"right to ½ pixel: the chosen orbit up to crossing (\d+), others up to crossing (\d+)", report.status
+    )
     own, others = map(int, said.groups())
     plan = PLANS[Computation.SECTION]["reference"]
     exact = suslov_points(state.body, 3, [state.start], 60, True, plan.level, threads=1)
@@ -108,7 +112,8 @@ def test_the_words_for_a_section():
     assert [*kept_status(None, 200)] == []
     assert [*kept_status((200, None), 200)] == ["right to ½ pixel: the chosen orbit to the end"]
     assert [*kept_status((16, 200), 200)] == [
-        "right to ½ pixel: the chosen orbit up to crossing 16, others to the end (median)"]
+        "right to ½ pixel: the chosen orbit up to crossing 16, others to the end (median)"
+    ]
 
 
 def test_orbits_that_chaos_takes_away_are_left_aside():
@@ -245,8 +250,12 @@ def test_the_cells_that_change_are_those_of_the_finer_grid_with_another_colour()
     axes = scene.of(scene.defaults()).window
     found = {}
     for name, (m, n) in (("draft", (150, 100)), ("standard", (300, 200))):
-        h, f = np.meshgrid(*(low + (high - low) * (np.arange(count) + 0.5) / count
-                             for (low, high), count in zip(axes, (m, n), strict=True)))
+        h, f = np.meshgrid(
+            *(
+                low + (high - low) * (np.arange(count) + 0.5) / count
+                for (low, high), count in zip(axes, (m, n), strict=True)
+            )
+        )
         values = values_at(0.5, h.ravel(), f.ravel(), LEVELS[name])
         # Locked tori have one tone, whatever ρ.
         shown = np.where(values.possible, np.where(values.locked, 9.0, values.rho), np.nan)
@@ -258,7 +267,8 @@ def test_the_cells_that_change_are_those_of_the_finer_grid_with_another_colour()
     share = 100.0 * changed[~nothing].mean()
     assert 3.0 < share < 12.0
     assert float(re.search(r"([\d.]+) % of the cells change\.", state.comparison.about())[1]) == (
-        pytest.approx(share, rel=0.05))
+        pytest.approx(share, rel=0.05)
+    )
     assert "difference" in scenes()["rotation-number-accuracy"].open_pictures
     # Of the same cells more digits change none.
     state, _ = difference("rotation-number", "grid", "standard")
@@ -271,9 +281,10 @@ def test_the_points_that_move_are_those_of_the_finer_run_that_lie_elsewhere():
     section, shown = SUSLOV.of({**SUSLOV.defaults(), **SMALL}), state.comparison.found
     starts, away, longer = [section.start, *section.poincare.spread(section.section.frame, 12)], [], 0
     for forward, some in ((True, starts), (False, starts[1:])):
-        coarse, fine = (suslov_points(section.body, 3, some, count, forward, PLANS[Computation.SECTION][name].level,
-                                      threads=1)
-                        for name, count in (("draft", 30), ("standard", 120)))
+        coarse, fine = (
+            suslov_points(section.body, 3, some, count, forward, PLANS[Computation.SECTION][name].level, threads=1)
+            for name, count in (("draft", 30), ("standard", 120))
+        )
         for one, other in zip(coarse.states, fine.states, strict=True):
             off = coordinates(one, 3) - coordinates(other, 3)[: len(one)]
             off[:, 0] -= 2.0 * math.pi * np.round(off[:, 0] / (2.0 * math.pi))
@@ -315,8 +326,10 @@ def test_what_is_compared_is_one_of_the_kinds_the_costliest_at_first():
     assert scenes()["suslov-accuracy"].defaults()["difference"] == "section"
     values, notes = decode("v=1&difference=everything", scene.specs)
     assert values["difference"] == "rotation number"
-    assert notes == ["What is compared was not one of orbit, section, indicator, exponent, rotation number: it is "
-                     "rotation number now."]
+    assert notes == [
+        "What is compared was not one of orbit, section, indicator, exponent, rotation number: it is "
+        "rotation number now."
+    ]
     admitted, notes = scene.admit({**scene.defaults(), "difference": "<b>"})
     assert admitted == scene.defaults()
     assert len(notes) == 1
@@ -331,7 +344,10 @@ def test_what_was_compared_is_remembered_when_one_comes_back():
     browser.ask(3, values={"h": 1.25}, hidden=hidden)
     browser.ask(4, scene="rotation-number-accuracy", hidden=hidden)
     assert {name: browser.session.values[name] for name in ("difference", "accuracy", "h")} == {
-        "difference": "line", "accuracy": "draft", "h": 1.25}
+        "difference": "line",
+        "accuracy": "draft",
+        "h": 1.25,
+    }
 
 
 def test_the_error_of_a_cloud_is_measured_on_the_same_points():
@@ -344,18 +360,29 @@ def test_the_error_of_a_cloud_is_measured_on_the_same_points():
         cloud, exact = found.cloud, state.task(1000, LEVELS["reference"]).now().cloud
         radius = 300.0
         # 1.1 × the largest |ω| fits, in round steps, so a unit of ω is between 150 and 300 pixels over it.
-        off = max(radius * np.linalg.norm(cloud.gamma - exact.gamma, axis=2).max(),
-                  radius / (1.1 * found.fastest) * np.linalg.norm(cloud.omega - exact.omega, axis=2).max())
+        off = max(
+            radius * np.linalg.norm(cloud.gamma - exact.gamma, axis=2).max(),
+            radius / (1.1 * found.fastest) * np.linalg.norm(cloud.omega - exact.omega, axis=2).max(),
+        )
         assert 0.5 * off < trial.error(state, found, None) <= 1.01 * off
         assert trial.error(state, found, None) < 20.0 * radius * cloud.error_estimate
 
 
 # ---- tables -----------------------------------------------------------------------------------------------------
 
-ROWS = [Row("here", "section", "pixels", tuple(
-    LevelCost(name, ms, error, name != "draft") for name, ms, error in zip(LEVELS, times, (0.2, 0.02, 0.002, 0.0),
-                                                                           strict=True)), "standard")
-        for times in ((1.0, 2.0, 4.0, 8.0), (10.0, 20.0, 40.0, 60.0))]
+ROWS = [
+    Row(
+        "here",
+        "section",
+        "pixels",
+        tuple(
+            LevelCost(name, ms, error, name != "draft")
+            for name, ms, error in zip(LEVELS, times, (0.2, 0.02, 0.002, 0.0), strict=True)
+        ),
+        "standard",
+    )
+    for times in ((1.0, 2.0, 4.0, 8.0), (10.0, 20.0, 40.0, 60.0))
+]
 
 
 def test_the_table_has_a_line_for_each_kind_and_the_ratio():
@@ -367,8 +394,16 @@ def test_the_table_has_a_line_for_each_kind_and_the_ratio():
 def test_the_data_have_an_entry_for_each_level():
     data = as_json(ROWS)
     assert len(data) == 8
-    assert data[4] == {"scene": "here", "kind": "section", "level": "draft", "ms": 10.0, "error": 0.2,
-                       "unit": "pixels", "complete": False, "enough": "standard"}
+    assert data[4] == {
+        "scene": "here",
+        "kind": "section",
+        "level": "draft",
+        "ms": 10.0,
+        "error": 0.2,
+        "unit": "pixels",
+        "complete": False,
+        "enough": "standard",
+    }
 
 
 def test_the_costliest_come_first():

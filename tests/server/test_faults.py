@@ -22,8 +22,14 @@ from support.visitor import Visitor
 ROOT = Path(__file__).resolve().parents[2]
 
 # No UTF-8, whatever Python would make of such a locale; an action and a category of warnings that Python does not know.
-BARE = {"LANG": "C", "LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0",
-        "PYTHONWARNINGS": "nonsense,ignore::no.SuchWarning", "HOME": "/nonexistent"}
+BARE = {
+    "LANG": "C",
+    "LC_ALL": "C",
+    "PYTHONCOERCECLOCALE": "0",
+    "PYTHONUTF8": "0",
+    "PYTHONWARNINGS": "nonsense,ignore::no.SuchWarning",
+    "HOME": "/nonexistent",
+}
 
 # Where root may write whatever the rights say: not without this capability.
 OBEYS_RIGHTS = ("setpriv", "--bounding-set=-dac_override") if os.getuid() == 0 else ()
@@ -51,8 +57,10 @@ def kernels(shared, package):
         if (there := shared / "hess-explorer" / source.parent.name).is_dir():
             shutil.copy2(source, there)
     spoiled = 0
-    for file in (*shared.rglob("circle_map_kernels.theta_of-*.nbi"),
-                 *shared.rglob("bifurcation_kernels.f_max_and_roots-*.nbc")):
+    for file in (
+        *shared.rglob("circle_map_kernels.theta_of-*.nbi"),
+        *shared.rglob("bifurcation_kernels.f_max_and_roots-*.nbc"),
+    ):
         file.write_bytes(file.read_bytes()[:40] if file.suffix == ".nbi" else b"of something else")
         spoiled += 1
     assert spoiled >= 2
@@ -63,11 +71,29 @@ def test_a_bare_machine_serves(tmp_path, read_only):
     shared, log, port = tmp_path / "kernels", tmp_path / "log", free_port()
     shared.mkdir()
     kernels(shared, read_only / "models" / "hess_mechanics")
-    environment = {**os.environ, **BARE, "NUMBA_CACHE_DIR": str(shared),
-                   "PYTHONPATH": f"{read_only}/app:{read_only}/models"}
+    environment = {
+        **os.environ,
+        **BARE,
+        "NUMBA_CACHE_DIR": str(shared),
+        "PYTHONPATH": f"{read_only}/app:{read_only}/models",
+    }
     with subprocess.Popen(
-            ["prlimit", "--fsize=0", *OBEYS_RIGHTS, sys.executable, *UNWARMED, "serve", "--port", str(port),
-             "--no-browser"], env=environment, cwd="/", stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as process:
+        [
+            "prlimit",
+            "--fsize=0",
+            *OBEYS_RIGHTS,
+            sys.executable,
+            *UNWARMED,
+            "serve",
+            "--port",
+            str(port),
+            "--no-browser",
+        ],
+        env=environment,
+        cwd="/",
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    ) as process:
         try:
             log.touch()
             wait_alive(process, port, log)
@@ -96,11 +122,17 @@ def test_without_any_folder_for_kernels_the_first_line_says_what_to_do(monkeypat
     monkeypatch.setattr(compiled, "KEEPS_KERNELS", False)
     assert serve._first_words() == (
         "Compiling, ready in about 20 s, and again at each start: no folder for what is compiled can be written; name "
-        "one of your own in NUMBA_CACHE_DIR.")
+        "one of your own in NUMBA_CACHE_DIR."
+    )
 
 
 def test_a_terminal_of_another_encoding_shows_greek_letters_by_their_numbers():
-    done = subprocess.run([sys.executable, "-m", "hess_explorer", "circle-map", "--help"], env={**os.environ, **BARE},
-                          capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-m", "hess_explorer", "circle-map", "--help"],
+        env={**os.environ, **BARE},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     assert r"\u0398" in done.stdout
     assert "Traceback" not in done.stderr

@@ -27,8 +27,9 @@ def started():
     end, threads = threading.Event(), []
 
     def start(garbage, asked, **more):
-        threads.append(threading.Thread(
-            target=garbage.collect_when_quiet, args=(asked, end), kwargs={"pause": 0.01, **more}))
+        threads.append(
+            threading.Thread(target=garbage.collect_when_quiet, args=(asked, end), kwargs={"pause": 0.01, **more})
+        )
         threads[-1].start()
 
     yield start

@@ -93,6 +93,7 @@ def test_a_message_of_hundred_kilobytes_is_none_too_large(base):
 
 def answer(base, path, **options):
     """Status and text of what a server says, also where it refuses."""
+
     async def fetch():
         try:
             return await AsyncHTTPClient().fetch(f"{base}/{path}", **options)
@@ -110,8 +111,10 @@ def test_a_link_that_is_too_long_is_refused_with_a_sentence(base):
         return visitor.state
 
     assert answer(base, "?" + "x" * (QUERY_LIMIT + 1)) == (
-        414, "The link is longer than 8000 characters, and the explorer's own are shorter than 2000: open the page "
-             "without the part of its address after “?”.")
+        414,
+        "The link is longer than 8000 characters, and the explorer's own are shorter than 2000: open the page "
+        "without the part of its address after “?”.",
+    )
     # Up to there the page opens.
     for length in (MAX_QUERY + 100, QUERY_LIMIT):
         state = finished(visit(length))
@@ -130,7 +133,9 @@ def test_what_nothing_here_takes_is_not_taken(base):
 def test_of_too_many_files_at_once_the_last_are_refused_with_a_sentence(base, monkeypatch):
     monkeypatch.setattr(Export, "waiting", 20)
     assert answer(base, "export?picture=circle") == (
-        503, "Too many files are being made at the moment: try again in a minute.")
+        503,
+        "Too many files are being made at the moment: try again in a minute.",
+    )
     monkeypatch.setattr(Export, "waiting", 19)
     code, table = answer(base, "export?picture=circle&accuracy=draft")
     assert (code, table[:1]) == (200, "#")

@@ -42,8 +42,10 @@ def test_the_page_runs_its_own_scripts_and_only_its_parts_are_shown_elsewhere():
         with pytest.raises(HTTPClientError, match="403"):
             finished(first_answer(base, "http://example.org"))
         assert finished(first_answer(base, base)) is not None
-    policies = [dict(one.split(" ", 1) for one in answer.headers["Content-Security-Policy"].split("; "))
-                for answer in (whole, part, again)]
+    policies = [
+        dict(one.split(" ", 1) for one in answer.headers["Content-Security-Policy"].split("; "))
+        for answer in (whole, part, again)
+    ]
     for answer, given in zip((whole, part, again), policies, strict=True):
         text = answer.body.decode()
         nonces = re.findall(r'<script nonce="([^"]+)"', text)
@@ -65,6 +67,7 @@ def test_the_page_runs_its_own_scripts_and_only_its_parts_are_shown_elsewhere():
 def test_a_page_whose_websocket_comes_to_another_process_asks_no_other_host():
     """As after a restart, or with several workers: the session is made by the websocket, and not with the HTML."""
     with served(unused_session_lifetime_milliseconds=1, check_unused_sessions_milliseconds=20) as base:
+
         async def late():
             visitor = await Visitor.open(base, "scene=scattering", pause=0.5)
             state = await visitor.ask(values={"theta": 1.0})

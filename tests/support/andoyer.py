@@ -58,7 +58,8 @@ def energies_at(body, f, l, x, G):
     s, c = math.sqrt(max(0.0, 1.0 - x * x)), f / G
     along = np.array([s * math.sin(l), s * math.cos(l), x])
     gamma = c[:, None] * along + np.sqrt(np.maximum(0.0, 1.0 - c * c))[:, None] * np.array(
-        [math.cos(l), -math.sin(l), 0.0])
+        [math.cos(l), -math.sin(l), 0.0]
+    )
     return energy(body, np.column_stack([G[:, None] * along, gamma]))
 
 
@@ -76,18 +77,28 @@ def start_by_hand(body, h, f, l, x):
     largest = brentq(lambda G: energies_at(body, f, l, x, G)[0] - h, G[i], G[i + 1], xtol=1e-14)
     s, c = math.sqrt(1.0 - x * x), f / largest
     along = np.array([s * math.sin(l), s * math.cos(l), x])
-    return np.concatenate([largest * along,
-                           c * along + math.sqrt(1.0 - c * c) * np.array([math.cos(l), -math.sin(l), 0.0])])
+    return np.concatenate(
+        [largest * along, c * along + math.sqrt(1.0 - c * c) * np.array([math.cos(l), -math.sin(l), 0.0])]
+    )
 
 
 def crossings_by_scipy(body, state, end):
     """Times and states where the angle g grows through π/2."""
+
     def event(_, y):
         return math.cos(angles(y)[1][0])
 
     event.direction = -1
-    run = solve_ivp(lambda _, y: rates(body, y), (0.0, end), state, method="DOP853", rtol=1e-12, atol=1e-13,
-                    events=event, max_step=0.02 * end)
+    run = solve_ivp(
+        lambda _, y: rates(body, y),
+        (0.0, end),
+        state,
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-13,
+        events=event,
+        max_step=0.02 * end,
+    )
     times, states = run.t_events[0], run.y_events[0].reshape(-1, 6)
     # cos g falls also where g comes down through −π/2.
     counted = (times > 1e-9 * end) & (np.sin(angles(states)[1]) > 0.0)

@@ -36,8 +36,9 @@ def rates(values):
 
 
 def integrate(values, state, times, **options):
-    run = solve_ivp(rates(values), (0.0, times[-1]), state, t_eval=times, method="DOP853", rtol=1e-11, atol=1e-14,
-                    **options)
+    run = solve_ivp(
+        rates(values), (0.0, times[-1]), state, t_eval=times, method="DOP853", rtol=1e-11, atol=1e-14, **options
+    )
     assert run.success
     return run.y.T
 
@@ -66,6 +67,7 @@ def shown(value, digits=4):
 
 def first_returns(values, start, count):
     """The first crossings (count, 5) of γ3 = 0 from below, by SciPy."""
+
     def height(_, y):
         return y[4]
 
@@ -93,7 +95,8 @@ def derivative(values, place, step=2e-4):
     """Of the return map of the ball, by differences of fourth order."""
     columns = []
     for axis in np.eye(2):
-        far, near = ([returned(values, place + sign * size * axis) for sign in (1.0, -1.0)]
-                     for size in (step, 0.5 * step))
+        far, near = (
+            [returned(values, place + sign * size * axis) for sign in (1.0, -1.0)] for size in (step, 0.5 * step)
+        )
         columns.append((8.0 * (near[0] - near[1]) - (far[0] - far[1])) / (6.0 * step))
     return np.column_stack(columns)

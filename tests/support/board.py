@@ -59,14 +59,22 @@ class Figure:
         # A range is from 0 to 1 unless it is said.
         self.ranges = [axis.get(end, first) for axis in axes for end, first in (("start", 0.0), ("end", 1.0))]
         self.logarithmic = tuple(objects[self.attributes[f"{side}_scale"]["id"]]["name"] == "LogScale" for side in "xy")
-        self.sources = {own["name"]: dict(own.get("data", {"entries": []})["entries"])
-                        for own in map(attributes, named("ColumnDataSource")) if own.get("name") is not None}
+        self.sources = {
+            own["name"]: dict(own.get("data", {"entries": []})["entries"])
+            for own in map(attributes, named("ColumnDataSource"))
+            if own.get("name") is not None
+        }
         self.glyphs = []
         for renderer in map(attributes, self.attributes["renderers"]):
             glyph, source = renderer["glyph"], attributes(renderer["data_source"])
             columns = [attributes(glyph).get(side, {}) for side in "xy"]
-            self.glyphs.append((objects[glyph["id"]]["name"], *(
-                column.get("field") if isinstance(column, dict) else None for column in columns), source.get("name")))
+            self.glyphs.append(
+                (
+                    objects[glyph["id"]]["name"],
+                    *(column.get("field") if isinstance(column, dict) else None for column in columns),
+                    source.get("name"),
+                )
+            )
 
 
 def objects_in(part):
@@ -122,8 +130,10 @@ class Screen:
         """What came; `fresh` are the sources among it.  Names that the browser does not know are errors."""
         assert set(tree) == {"sources", "ranges", "texts", "controls"}
         assert np.all(np.isfinite(np.frombuffer(block, "<f4")))
-        self.fresh = {name: {key: read(column, block) for key, column in columns.items()}
-                      for name, columns in tree["sources"].items()}
+        self.fresh = {
+            name: {key: read(column, block) for key, column in columns.items()}
+            for name, columns in tree["sources"].items()
+        }
         assert set(self.fresh) <= set(self.sources)
         assert set(tree["ranges"]) <= set(self.ranges)
         self.sources.update(self.fresh)

@@ -32,10 +32,17 @@ def period_of(h, f):
 
 def reduced(a):
     """`eq01` with b = 1, and the exponent of r·M."""
+
     def field(t, y):
         w1, w2, n1, n2, n3, _ = y
-        return [-a * w2 * w2 - n2, a * w1 * w2 + n1, -(a * n2 + n3) * w2, a * w2 * n1 + w1 * n3, n1 * w2 - n2 * w1,
-                -a * w1]
+        return [
+            -a * w2 * w2 - n2,
+            a * w1 * w2 + n1,
+            -(a * n2 + n3) * w2,
+            a * w2 * n1 + w1 * n3,
+            n1 * w2 - n2 * w1,
+            -a * w1,
+        ]
 
     return field
 
@@ -53,8 +60,9 @@ def growth_at(values):
     rho, phi = math.sqrt(2.0 * (h + lowest)), 0.5
     w = rho * np.array([math.sin(phi), math.cos(phi)])
     start = [*w, *(f / rho**2 * w), lowest, 0.0]
-    y = solve_ivp(reduced(a), (0.0, 16.0 * period), start, "DOP853", [15.0 * period, 16.0 * period],
-                  rtol=1e-11, atol=1e-12).y
+    y = solve_ivp(
+        reduced(a), (0.0, 16.0 * period), start, "DOP853", [15.0 * period, 16.0 * period], rtol=1e-11, atol=1e-12
+    ).y
     return float(y[5, 1] - y[5, 0])
 
 

@@ -31,7 +31,7 @@ def without_patience(said):
 
 def replaced(words, option, value):
     at = words.index(option)
-    return [*words[:at + 1], value, *words[at + 2:]]
+    return [*words[: at + 1], value, *words[at + 2 :]]
 
 
 def table(text):

@@ -46,13 +46,27 @@ class Image:
         """Nothing of the caller's: above all no PYTHONPATH and no home."""
         home = "/root" if self.user == "root" else f"/home/{self.user}"
         reached = {name: value for name, value in os.environ.items() if name.startswith(("PIP_", "SSL_"))}
-        return {**reached, "PATH": "/usr/local/bin:/usr/bin:/bin", "LANG": "C.UTF-8", "HOME": self.mapped(home),
-                **self.set}
+        return {
+            **reached,
+            "PATH": "/usr/local/bin:/usr/bin:/bin",
+            "LANG": "C.UTF-8",
+            "HOME": self.mapped(home),
+            **self.set,
+        }
 
     def run(self, command, **options):
         """Run as the image would at this point.  Fails with all the output if the command does."""
-        done = subprocess.run(self.here(command), cwd=self.at(self.workdir), env=self.environment, text=True,
-                              timeout=900, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, **options)
+        done = subprocess.run(
+            self.here(command),
+            cwd=self.at(self.workdir),
+            env=self.environment,
+            text=True,
+            timeout=900,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            check=False,
+            **options,
+        )
         assert done.returncode == 0, f"{command}\n{done.stdout}"
         return done.stdout
 
@@ -73,8 +87,9 @@ class Image:
             assert not self._is_ignored(source), f".dockerignore leaves out {source}"
             into = self.at(target) / source.rsplit("/", 1)[-1] if target.endswith("/") else self.at(target)
             if (self.project / source).is_dir():
-                shutil.copytree(self.project / source, into, dirs_exist_ok=True,
-                                ignore=shutil.ignore_patterns("__pycache__"))
+                shutil.copytree(
+                    self.project / source, into, dirs_exist_ok=True, ignore=shutil.ignore_patterns("__pycache__")
+                )
             else:
                 into.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy2(self.project / source, into)

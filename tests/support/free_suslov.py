@@ -58,7 +58,7 @@ def start_of(values):
         return omega, gamma, 0.0
     # There ω2 grows as e^t and γ turns about e1 with ω1 = 2, until ω2 = 1e-7: γ2 + iγ3 → e^{−2it}(γ2 + iγ3).
     assert (values["I13"], omega[0], values["I23"] * 2.0 / values["I22"]) == (0.0, 2.0, 1.0)
-    t = (math.log(1e-7) - math.log(values["w2"]))
+    t = math.log(1e-7) - math.log(values["w2"])
     turned = complex(gamma[1], gamma[2]) * np.exp(-2j * t)
     return (2.0, 1e-7), np.array([gamma[0], turned.real, turned.imag]), t
 

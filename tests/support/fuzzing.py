@@ -43,9 +43,33 @@ LONGEST = 60.0
 """The same for a command that has said that it goes on and how it is ended."""
 
 GARBAGE = (
-    "", "nan", "inf", "-inf", "1e400", "-1e308", "1e-320", "-0", "0x10", "1_0", "٣", "NaN,1",
-    "<script>alert(1)</script>", "%00", "\x00", "9" * 400, "null", "true", "[]", "../..", "1;DROP",
-    "é" * 50, "1e5e5", "++1", ",", ";;;")
+    "",
+    "nan",
+    "inf",
+    "-inf",
+    "1e400",
+    "-1e308",
+    "1e-320",
+    "-0",
+    "0x10",
+    "1_0",
+    "٣",
+    "NaN,1",
+    "<script>alert(1)</script>",
+    "%00",
+    "\x00",
+    "9" * 400,
+    "null",
+    "true",
+    "[]",
+    "../..",
+    "1;DROP",
+    "é" * 50,
+    "1e5e5",
+    "++1",
+    ",",
+    ";;;",
+)
 _NO_NUMBER = re.compile(r"(?<![\w−-])(?:nan|inf)(?![\w-])", re.IGNORECASE)
 
 
@@ -84,8 +108,10 @@ class Findings:
 
     def __str__(self):
         times = sorted(self.seconds) or [0.0]
-        lines = [f"{self.done} done; seconds: median {times[len(times) // 2]:.3f}, "
-                 f"99 of 100 {times[int(0.99 * (len(times) - 1))]:.2f}, slowest {times[-1]:.2f}"]
+        lines = [
+            f"{self.done} done; seconds: median {times[len(times) // 2]:.3f}, "
+            f"99 of 100 {times[int(0.99 * (len(times) - 1))]:.2f}, slowest {times[-1]:.2f}"
+        ]
         for kind, count in self.count.most_common():
             lines.append(f"{kind}: {count}")
             lines += [f"    {given}\n        {detail}" for given, detail in self.examples[kind]]
@@ -166,8 +192,12 @@ def _value(random, spec, wild=False):
     if isinstance(spec, Choice):
         return random.choice(spec.options)
     assert isinstance(spec, Places)
-    return written([tuple(random.uniform(low, high) for low, high in zip(spec.low, spec.high, strict=True))
-                    for _ in range(random.randint(0, spec.most + 2))])
+    return written(
+        [
+            tuple(random.uniform(low, high) for low, high in zip(spec.low, spec.high, strict=True))
+            for _ in range(random.randint(0, spec.most + 2))
+        ]
+    )
 
 
 def _some(random, specs):
@@ -218,14 +248,22 @@ def message(random, scene):
         return random.random() < share
 
     if sometimes(0.7):
-        given["values"] = {name: text if sometimes(0.1) or not isinstance(spec, Number) else _number(random, spec)
-                           for spec in scene.specs for name, text in [(spec.name, _value(random, spec))]
-                           if sometimes(0.3)}
+        given["values"] = {
+            name: text if sometimes(0.1) or not isinstance(spec, Number) else _number(random, spec)
+            for spec in scene.specs
+            for name, text in [(spec.name, _value(random, spec))]
+            if sometimes(0.3)
+        }
     if sometimes(0.15):
-        given["picked"] = [random.choice([*scene.pictures, "nobody", 3]),
-                           *(random.choice([random.uniform(-4.0, 4.0), 1e300, None, float("nan")])
-                             if sometimes(0.1) else random.uniform(-3.0, 3.0)
-                             for _ in range(random.choice([2, 2, 2, 4, 4, 1, 3])))]
+        given["picked"] = [
+            random.choice([*scene.pictures, "nobody", 3]),
+            *(
+                random.choice([random.uniform(-4.0, 4.0), 1e300, None, float("nan")])
+                if sometimes(0.1)
+                else random.uniform(-3.0, 3.0)
+                for _ in range(random.choice([2, 2, 2, 4, 4, 1, 3]))
+            ),
+        ]
     if sometimes(0.15):
         given["hover"] = [random.choice(scene.pictures), random.uniform(-4.0, 4.0), random.uniform(-4.0, 4.0)]
     if sometimes(0.1):
@@ -237,8 +275,11 @@ def message(random, scene):
     if sometimes(0.05):
         given["preset"] = random.choice([preset.name for preset in scene.presets])
     if sometimes(0.05):
-        given["expressions"] = {random.choice([spec.name for spec in scene.specs]): random.choice(
-            ["pi/3", "1/0", "9**9**9", "__import__('os')", "sqrt(-1)", "e", "(" * 60, *GARBAGE])}
+        given["expressions"] = {
+            random.choice([spec.name for spec in scene.specs]): random.choice(
+                ["pi/3", "1/0", "9**9**9", "__import__('os')", "sqrt(-1)", "e", "(" * 60, *GARBAGE]
+            )
+        }
     if sometimes(0.05):
         given["step"] = [random.choice(["introduction", scene.name, "nobody"]), random.randint(-2, 9), sometimes(0.5)]
     if sometimes(0.3):
@@ -250,7 +291,8 @@ def message(random, scene):
             given[name] = random.choice([True, False, 1, "x"])
     if sometimes(0.05):
         given[random.choice(["values", "picked", "hover", "hidden", "lesson", "step", "expressions", "restore"])] = (
-            random.choice([None, 3, "x", [], {}, [[]], {"a": []}, [None] * 5, 1e400, 10**400]))
+            random.choice([None, 3, "x", [], {}, [[]], {"a": []}, [None] * 5, 1e400, 10**400])
+        )
     return given
 
 
@@ -263,8 +305,18 @@ def _side(random, scene, names):
     # A coordinate of the section is no parameter of the scene.
     low, high = sorted(random.uniform(-4.0, 4.0) if spec is None else _number(random, spec) for _ in range(2))
     if random.random() < 0.08:
-        low, high = random.choice([(high, low), (low, low), (-1e308, 1e308), (0.0, 1e-300), (low, "x"), (low, 10**400),
-                                   (float("nan"), high), (True, None)])
+        low, high = random.choice(
+            [
+                (high, low),
+                (low, low),
+                (-1e308, 1e308),
+                (0.0, 1e-300),
+                (low, "x"),
+                (low, 10**400),
+                (float("nan"), high),
+                (True, None),
+            ]
+        )
     return [name, low, high, random.choice([2, 3, 5, 8, 16, 48, 256, -1, 10**9, 2.5, None, True])]
 
 
@@ -276,15 +328,31 @@ def chart_message(random, scene):
         "state": random.choice([link(random), urlencode({"scene": scene.name, **_some(random, scene.specs)})]),
         "quantity": "nobody" if charted is None or random.random() < 0.03 else charted.quantity,
         "part": random.choice([0, 0, 0, 0, 1, -1, 10**9, None, "0", True]),
-        "x": _side(random, scene, names), "y": _side(random, scene, names)}
+        "x": _side(random, scene, names),
+        "y": _side(random, scene, names),
+    }
     if random.random() < 0.03:
         given = random.choice([None, 3, [], {}, {"state": 3}, {**given, "state": "x" * 3000}])
     kind = random.random()
     if kind < 0.6:
         return {"start": given, "id": random.choice([1, 1, 1, 1, -1, 10**30, "1", None])}
     if kind < 0.8:
-        x, y = (random.choice([random.uniform(-4.0, 4.0), random.uniform(-4.0, 4.0), 1e300, -1e300, 0.0, float("inf"),
-                               None, "x", 10**400]) for _ in range(2))
+        x, y = (
+            random.choice(
+                [
+                    random.uniform(-4.0, 4.0),
+                    random.uniform(-4.0, 4.0),
+                    1e300,
+                    -1e300,
+                    0.0,
+                    float("inf"),
+                    None,
+                    "x",
+                    10**400,
+                ]
+            )
+            for _ in range(2)
+        )
         return {"why": given, "at": random.choice([[x, y], [x, y], [x, y], [x], None, x])}
     if kind < 0.9:
         return {"more": random.choice([0, 1, -5, 10**30, None, "0", 2.5]), "id": random.choice([1, 1, 2, None])}
@@ -411,9 +479,24 @@ def _argument(random, text):
         return random.choice(GARBAGE)
     if kind < 0.2:
         return random.choice([f"{text},{text}", text[:-1], f"-{text}", f"{text}:2", "draft", "reference", "0:10:11"])
-    return re.sub(r"\d+\.?\d*(e-?\d+)?", lambda found: found[0] if random.random() < 0.5 else random.choice([
-        "0", "1", f"{random.uniform(0.0, 5.0):.3g}", f"{10.0 ** random.uniform(-12.0, 4.0):.3g}", f"-{found[0]}",
-        f"{10.0 ** random.uniform(-300.0, 300.0):.3g}"]), text)
+    return re.sub(
+        r"\d+\.?\d*(e-?\d+)?",
+        lambda found: (
+            found[0]
+            if random.random() < 0.5
+            else random.choice(
+                [
+                    "0",
+                    "1",
+                    f"{random.uniform(0.0, 5.0):.3g}",
+                    f"{10.0 ** random.uniform(-12.0, 4.0):.3g}",
+                    f"-{found[0]}",
+                    f"{10.0 ** random.uniform(-300.0, 300.0):.3g}",
+                ]
+            )
+        ),
+        text,
+    )
 
 
 def command_line(random, examples):
@@ -428,8 +511,20 @@ def command_line(random, examples):
     if random.random() < 0.1:
         del words[random.randrange(1, len(words))]
     if random.random() < 0.1:
-        words.insert(random.randrange(1, len(words) + 1), random.choice(
-            ["--help", "--nobody", "--format=csv", "--format=xml", "--accuracy=draft", "--accuracy=nobody", *GARBAGE]))
+        words.insert(
+            random.randrange(1, len(words) + 1),
+            random.choice(
+                [
+                    "--help",
+                    "--nobody",
+                    "--format=csv",
+                    "--format=xml",
+                    "--accuracy=draft",
+                    "--accuracy=nobody",
+                    *GARBAGE,
+                ]
+            ),
+        )
     return words
 
 
@@ -449,8 +544,11 @@ def _fuzz_commands(random, count):
         words = command_line(random, examples)
         given, out, err = shlex.join(words), io.TextIOWrapper(io.BytesIO(), encoding="utf-8"), io.StringIO()
         code = None
-        with (_watched(findings, given, False, lambda err=err: PATIENCE in err.getvalue()), redirect_stdout(out),
-              redirect_stderr(err)):
+        with (
+            _watched(findings, given, False, lambda err=err: PATIENCE in err.getvalue()),
+            redirect_stdout(out),
+            redirect_stderr(err),
+        ):
             try:
                 code = main(words)
             except SystemExit as end:

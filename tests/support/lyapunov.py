@@ -32,9 +32,11 @@ def finite_exponent(body, state, span):
         M, gamma, dM, dgamma = z.reshape(4, 3).tolist()
         omega, domega = turning(M), turning(dM)
         return [
-            *map(sum, zip(cross(M, omega), cross(gravity, gamma), strict=True)), *cross(gamma, omega),
+            *map(sum, zip(cross(M, omega), cross(gravity, gamma), strict=True)),
+            *cross(gamma, omega),
             *map(sum, zip(cross(dM, omega), cross(M, domega), cross(gravity, dgamma), strict=True)),
-            *map(sum, zip(cross(dgamma, omega), cross(gamma, domega), strict=True))]
+            *map(sum, zip(cross(dgamma, omega), cross(gamma, domega), strict=True)),
+        ]
 
     run = solve_ivp(rates, (0.0, span), np.concatenate([state, direction]), method="DOP853", rtol=1e-11, atol=1e-12)
     return math.log(np.linalg.norm(run.y[6:, -1] / scale)) / abs(span)

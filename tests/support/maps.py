@@ -57,9 +57,12 @@ class Formula:
 
 def henon(a, b=0.3):
     """x′ = 1 − a x² + y, y′ = b x."""
-    return Formula(lambda x, y: (1.0 - a * x * x + y, b * x), lambda x, y: [[-2.0 * a * x, 1.0], [b, 0.0]],
-                   lambda x, y: (y / b, x - 1.0 + a * (y / b) ** 2),
-                   lambda x, y: [[0.0, 1.0 / b], [1.0, 2.0 * a * y / b**2]])
+    return Formula(
+        lambda x, y: (1.0 - a * x * x + y, b * x),
+        lambda x, y: [[-2.0 * a * x, 1.0], [b, 0.0]],
+        lambda x, y: (y / b, x - 1.0 + a * (y / b) ** 2),
+        lambda x, y: [[0.0, 1.0 / b], [1.0, 2.0 * a * y / b**2]],
+    )
 
 
 def delayed_logistic(a):
@@ -74,12 +77,17 @@ def pitchfork(r):
 
 def arnold(omega, k=0.8):
     """φ′ = φ + ω − k sin φ: two fixed points for |ω| < k, multipliers 1 ∓ √(k² − ω²), born in folds at ω = ±k."""
-    return Formula(lambda phi: (phi + omega - k * math.sin(phi),), lambda phi: [[1.0 - k * math.cos(phi)]],
-                   turns=(2.0 * math.pi,), names=("φ",))
+    return Formula(
+        lambda phi: (phi + omega - k * math.sin(phi),),
+        lambda phi: [[1.0 - k * math.cos(phi)]],
+        turns=(2.0 * math.pi,),
+        names=("φ",),
+    )
 
 
 def bent_saddle(stretch=2.5, shrink=0.3, bend=1.0):
     """A linear saddle (u, v) → (s u, c v) seen through x = u, y = v + bend u²: manifolds y = bend x² and x = 0."""
+
     def there(x, y):
         u, v = stretch * x, shrink * (y - bend * x * x)
         return u, v + bend * u * u
@@ -108,5 +116,9 @@ def pendulum(epsilon, mu=1.5, ripple=0.0):
     def slope(y):
         return 2.0 * mu * (1.0 - y * y) / (1.0 + y * y) ** 2 + 3.0 * ripple * y * y
 
-    return Formula(lambda x, y: (y, -rest * x + kick(y)), lambda x, y: [[0.0, 1.0], [-rest, slope(y)]],
-                   lambda x, y: ((kick(x) - y) / rest, x), lambda x, y: [[slope(x) / rest, -1.0 / rest], [1.0, 0.0]])
+    return Formula(
+        lambda x, y: (y, -rest * x + kick(y)),
+        lambda x, y: [[0.0, 1.0], [-rest, slope(y)]],
+        lambda x, y: ((kick(x) - y) / rest, x),
+        lambda x, y: [[slope(x) / rest, -1.0 / rest], [1.0, 0.0]],
+    )

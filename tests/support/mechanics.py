@@ -36,8 +36,9 @@ def lifted_return(a, h, f, phases):
     def rates(_, y):
         n, speed, phi = y[0], y[1], y[2:]
         w_squared = 2 * (h + n)
-        return np.concatenate(([speed, 1 - n * n - 2 * n * (h + n)],
-                               -a * np.sqrt(w_squared) * np.cos(phi) - f / w_squared))
+        return np.concatenate(
+            ([speed, 1 - n * n - 2 * n * (h + n)], -a * np.sqrt(w_squared) * np.cos(phi) - f / w_squared)
+        )
 
     start = np.concatenate(([turning.roots[1], 0.0], phases))
     run = solve_ivp(rates, (0.0, turning.period), start, method="DOP853", rtol=1e-12, atol=1e-12)

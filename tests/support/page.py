@@ -154,13 +154,17 @@ class Explorer:
         What is not finite comes as None.
         """
         # As one text: Playwright packs numbers one by one, which takes ten times as long.
-        return json.loads(self.page.evaluate(
-            """name => {
+        return json.loads(
+            self.page.evaluate(
+                """name => {
               const plain = (x) => ArrayBuffer.isView(x) || Array.isArray(x) ? Array.from(x, plain)
                 : x?.numbers ? plain(x.numbers) : x
               const columns = Object.entries(hess.source(name).data)
               return JSON.stringify(Object.fromEntries(columns.map(([key, column]) => [key, plain(column)])))
-            }""", name))
+            }""",
+                name,
+            )
+        )
 
     def here(self):
         """(h, f) where the ring stands in the bifurcation diagram."""
@@ -173,7 +177,9 @@ class Explorer:
             """name => {
               const { x_range: x, y_range: y } = hess.plots.find(({ model }) => model.name === name).model
               return [x.start, x.end, y.start, y.end]
-            }""", name)
+            }""",
+            name,
+        )
 
     def picture(self, name):
         """A picture of the scene on show, with its caption: those of scenes seen before stay where they are, unseen."""
@@ -226,7 +232,8 @@ class Explorer:
         """Wait until the address bar has these values, and return all that it has."""
         self.page.wait_for_function(
             "wanted => wanted.every(([key, value]) => new URLSearchParams(location.search).get(key) === value)",
-            arg=[[key, str(value)] for key, value in values.items()])
+            arg=[[key, str(value)] for key, value in values.items()],
+        )
         return dict(parse_qsl(urlsplit(self.page.url).query))
 
     # What a user does.
@@ -310,7 +317,9 @@ class Explorer:
         """Move the time slider."""
         self.page.locator("input.param-t").evaluate(
             "(slider, t) => { slider.value = t; slider.dispatchEvent(new Event('input'));"
-            " slider.dispatchEvent(new Event('change')) }", t)
+            " slider.dispatchEvent(new Event('change')) }",
+            t,
+        )
 
 
 UNFOLD = "item => item.closest('details')?.setAttribute('open', '')"
@@ -360,9 +369,11 @@ ENTER = f"""pairs => {{
 def one_tab(browser, server):
     """A tab for many tests: loading a page is what takes longest."""
     context = browser.new_context(
-        viewport={"width": WIDE[0], "height": WIDE[1]}, permissions=["clipboard-read", "clipboard-write"],
+        viewport={"width": WIDE[0], "height": WIDE[1]},
+        permissions=["clipboard-read", "clipboard-write"],
         # A scene begins at rest.
-        reduced_motion="reduce")
+        reduced_motion="reduce",
+    )
     yield Explorer(context.new_page(), server)
     context.close()
 
@@ -377,14 +388,16 @@ def default_state(tab):
 
 def one_phone(browser, server):
     """A tab on a phone for many tests, whose controls are as they are at first."""
-    context = browser.new_context(viewport={"width": 390, "height": 844}, reduced_motion="reduce", has_touch=True,
-                                  is_mobile=True)
+    context = browser.new_context(
+        viewport={"width": 390, "height": 844}, reduced_motion="reduce", has_touch=True, is_mobile=True
+    )
     yield Explorer(context.new_page(), server).open()
     context.close()
 
 
 def first_on_phone(phone_tab):
     """phone(scene) → the page on a phone in the first state of a scene, with its first picture."""
+
     def bring(scene=HESS):
         page = phone_tab.page
         if page.evaluate("document.documentElement.dataset.scene") != scene:
@@ -473,13 +486,13 @@ MOMENT = """names => {
 def wait_frames(explorer, count=6):
     """Let the browser paint so many frames."""
     explorer.page.evaluate(
-        "async (count) => { while (count-- > 0) await new Promise((done) => requestAnimationFrame(done)) }", count)
+        "async (count) => { while (count-- > 0) await new Promise((done) => requestAnimationFrame(done)) }", count
+    )
 
 
 def wait_time(explorer, condition):
     """Wait until the time slider fulfils a condition on t."""
-    explorer.page.wait_for_function(
-        f"() => {{ const {{ t }} = ({MOMENT})({list(POINTS)!r}); return {condition} }}")
+    explorer.page.wait_for_function(f"() => {{ const {{ t }} = ({MOMENT})({list(POINTS)!r}); return {condition} }}")
 
 
 def brought(tab, scene):

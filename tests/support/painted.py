@@ -23,7 +23,8 @@ def yellow(explorer):
             n += 1, x += (i / 4) % width, y += Math.floor(i / 4 / width)
           }
           return n > 20 ? [x / n / width, y / n / height] : null
-        }""")
+        }"""
+    )
 
 
 SOURCES = "hess.plotted()"
@@ -57,7 +58,8 @@ def assert_painted(explorer, scene):
                 [...(item.tagName === "CANVAS" ? [item] : []), ...(item.shadowRoot ? canvases(item.shadowRoot) : [])])
               return canvases(picture).map((canvas) => canvas.getContext("2d")
                 .getImageData(0, 0, canvas.width, canvas.height).data.some((value) => value !== 0))
-            }""")
+            }"""
+        )
         assert drawn
         assert any(drawn)
     explorer.assert_quiet()

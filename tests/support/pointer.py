@@ -15,7 +15,9 @@ def frame(explorer, name):
           const found = hess.plots.find(({ model }) => model.name === name)
           const [{ x, y }, { x0, y0, x1, y1 }] = [found.el.getBoundingClientRect(), found.frame.bbox]
           return [x + x0, y + y0, x + x1, y + y1]
-        }""", name)
+        }""",
+        name,
+    )
 
 
 def at(explorer, name, x, y):
@@ -37,7 +39,9 @@ def assert_turned(explorer, azimuth, elevation):
         """async (canvas, turn) => {
           const off = () => Math.max(...canvas.dataset.turn.split(" ").map((x, i) => Math.abs(Number(x) - turn[i])))
           for (let i = 0; i < 60 && off() > 2e-4; i++) await new Promise((done) => requestAnimationFrame(done))
-        }""", [azimuth, elevation])
+        }""",
+        [azimuth, elevation],
+    )
     assert explorer.turn == pytest.approx((azimuth, elevation), abs=2e-4)
 
 

@@ -16,13 +16,16 @@ from hess_explorer.server.liveness import is_alive
 __all__ = ["UNWARMED", "served"]
 
 # It gets no scene ready before somebody enters it: that takes longer than the test of one or two.
-UNWARMED = ("-c", """
+UNWARMED = (
+    "-c",
+    """
 from hess_explorer.__main__ import main
 from hess_explorer.server import serving
 
 serving.warm = lambda first_is_ready: first_is_ready()
 main()
-""")
+""",
+)
 """What Python is told to run as a server, for `running_server`."""
 
 

@@ -12,8 +12,15 @@ def field(body, y):
     """`Biz131`, with gravity."""
     w1, w2, g1, g2, g3 = y
     s = body.I13 * w1 + body.I23 * w2
-    return np.array([(-w2 * s + body.b3 * g2 - body.b2 * g3) / body.I11,
-                     (w1 * s + body.b1 * g3 - body.b3 * g1) / body.I22, -g3 * w2, g3 * w1, g1 * w2 - g2 * w1])
+    return np.array(
+        [
+            (-w2 * s + body.b3 * g2 - body.b2 * g3) / body.I11,
+            (w1 * s + body.b1 * g3 - body.b3 * g1) / body.I22,
+            -g3 * w2,
+            g3 * w1,
+            g1 * w2 - g2 * w1,
+        ]
+    )
 
 
 def divergence(body, y):
@@ -30,6 +37,7 @@ def energy(body, y):
 
 def permanent_rotations(body, E):
     """States γ3 = 0, ω = wγ with w²(I13γ1 + I23γ2) = b3 and energy E: the body turns for ever about the vertical."""
+
     def excess(psi):
         g1, g2 = math.cos(psi), math.sin(psi)
         squared = body.b3 / (body.I13 * g1 + body.I23 * g2)

@@ -46,8 +46,10 @@ class View:
                 break
         assert not whole or len(self.report.todo) == len(self.refused)
         tree, block = self.wire.pack()
-        self.data = {name: {key: read(column, block) for key, column in columns.items()}
-                     for name, columns in tree["sources"].items()}
+        self.data = {
+            name: {key: read(column, block) for key, column in columns.items()}
+            for name, columns in tree["sources"].items()
+        }
         self.axes, self.text = tree["ranges"], tree["texts"]
 
     def _complete(self, scene, seen, dragging, refusing):

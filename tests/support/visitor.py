@@ -57,16 +57,18 @@ class Visitor:
         origin : of the page that opens the websocket; pause : seconds before it does; headers : of both requests;
         trusted : whose certificates count, by https.
         """
-        answer = await AsyncHTTPClient().fetch(HTTPRequest(
-            f"{base}/?{query}", request_timeout=timeout, headers=headers, ssl_options=trusted))
+        answer = await AsyncHTTPClient().fetch(
+            HTTPRequest(f"{base}/?{query}", request_timeout=timeout, headers=headers, ssl_options=trusted)
+        )
         token = re.search(r'"token":"([^"]+)"', html.unescape(answer.body.decode()))
         assert token is not None, answer.body[:500]
         await asyncio.sleep(pause)
         headers = {"Origin": origin or base, **(headers or {})}
 
         async def connect(path, **given):
-            request = HTTPRequest(f"ws{base.removeprefix('http')}/{path}", headers=headers,
-                                  connect_timeout=timeout, ssl_options=trusted)
+            request = HTTPRequest(
+                f"ws{base.removeprefix('http')}/{path}", headers=headers, connect_timeout=timeout, ssl_options=trusted
+            )
             return await websocket_connect(request, max_message_size=2**28, **given)
 
         found = cls(await connect("ws", subprotocols=["bokeh", token[1]]), origin or base)
@@ -77,8 +79,9 @@ class Visitor:
             found._look()
             # As a browser says when it stands.
             ready = {"type": "event", "name": "document_ready", "values": {"type": "map", "entries": []}}
-            await found.say_to_panel("PATCH-DOC", {"events": [
-                {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": ready}]})
+            await found.say_to_panel(
+                "PATCH-DOC", {"events": [{"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": ready}]}
+            )
             found._states = await connect(f"states?{query}")
             while found.state is None:
                 await found.hear(timeout)
@@ -132,7 +135,7 @@ class Visitor:
         """The next answer: what is told, by name."""
         frame = await self._read(self._states, timeout)
         head, _ = struct.unpack_from("<II", frame)
-        told = json.loads(frame[8:8 + head])
+        told = json.loads(frame[8 : 8 + head])
         self.state = told.get("state", self.state)
         return told
 

@@ -17,8 +17,11 @@ def read_frame(frame):
     if not frame:
         return {}, b"", b""
     head, block = struct.unpack_from("<II", frame)
-    return (json.loads(frame[8:8 + head], parse_constant=_refuse), frame[8 + head:8 + head + block],
-            frame[8 + head + block:])
+    return (
+        json.loads(frame[8 : 8 + head], parse_constant=_refuse),
+        frame[8 + head : 8 + head + block],
+        frame[8 + head + block :],
+    )
 
 
 def read(item, block):

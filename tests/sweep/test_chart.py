@@ -121,14 +121,16 @@ def test_a_chart_is_the_sweep_of_the_same_numbers():
 
 def test_what_the_quantity_needs_follows_from_each_state():
     """Against the mechanics called by hand: I11 of the body follows from k, the start of a motion from q and p."""
-    values, _ = whole(Chart.read(wish("scene=scattering&I22=1.2&I13=0.1", "cos-chi", ("k", 0.5, 2.5, 3),
-                                      ("I23", 0.2, 0.8, 2))))
+    values, _ = whole(
+        Chart.read(wish("scene=scattering&I22=1.2&I13=0.1", "cos-chi", ("k", 0.5, 2.5, 3), ("I23", 0.2, 0.8, 2)))
+    )
     for i, I23 in enumerate((0.2, 0.8)):
         for j, k in enumerate((0.5, 1.5, 2.5)):
             body = SuslovBody(1.2 + k * k * (0.1**2 + I23**2) / 1.2, 1.2, 0.1, I23)
             assert values[i, j] == pytest.approx(cos_chi(body), rel=1e-12)
-    values, status = whole(Chart.read(wish("scene=kharlamova&p=0.7", "period", ("q1", -0.5, 2.0, 3),
-                                           ("alpha", 0.1, 1.1, 2))))
+    values, status = whole(
+        Chart.read(wish("scene=kharlamova&p=0.7", "period", ("q1", -0.5, 2.0, 3), ("alpha", 0.1, 1.1, 2)))
+    )
     body = PlaneBody(1.5, 1.0, 0.4, 0.7)
     for i, alpha in enumerate((0.1, 1.1)):
         for j, q1 in enumerate((-0.5, 0.75)):
@@ -140,8 +142,12 @@ def test_what_the_quantity_needs_follows_from_each_state():
 
 def test_the_place_of_a_start_on_a_section_is_a_place_of_a_chart():
     """Against sweeps over the coordinates of the section; where no motion starts there is no number of another one."""
-    given = wish("scene=suslov&accuracy=draft&starts=0.5,0.5;1,1&h=0.9", "megno-suslov", ("starts:0", -3.0, 3.0, 5),
-                 ("starts:1", 0.3, 2.0, 3))
+    given = wish(
+        "scene=suslov&accuracy=draft&starts=0.5,0.5;1,1&h=0.9",
+        "megno-suslov",
+        ("starts:0", -3.0, 3.0, 5),
+        ("starts:1", 0.3, 2.0, 3),
+    )
     chart = Chart.read(given)
     values, status = whole(chart)
     body = {name: chart.values[name] for name in ("I11", "I22", "I13", "I23", "b1", "b2", "b3", "h")}
@@ -151,18 +157,34 @@ def test_the_place_of_a_start_on_a_section_is_a_place_of_a_chart():
     assert np.array_equal(np.isnan(values), np.isnan(expected)) and np.isnan(values).any()
     assert values[~np.isnan(values)] == pytest.approx(expected[~np.isnan(values)], rel=0.05)
     assert (status[np.isnan(values)] == Outcome.OUTSIDE_REGION).all()
-    assert "no motion has this energy" in chart.why(*(side.places[i] for side, i in zip(
-        (chart.x, chart.y), np.argwhere(np.isnan(values))[0][::-1], strict=True)))
+    assert "no motion has this energy" in chart.why(
+        *(side.places[i] for side, i in zip((chart.x, chart.y), np.argwhere(np.isnan(values))[0][::-1], strict=True))
+    )
     # One coordinate alone: the other is that of the last place, and with other sides places stay as they are.
-    beside = Chart.read(wish("scene=euler-poisson&accuracy=draft&long=10", "crossings-euler-poisson",
-                             ("starts:0", -1.0, 1.0, 2), ("h", 40.0, 60.0, 2)))
+    beside = Chart.read(
+        wish(
+            "scene=euler-poisson&accuracy=draft&long=10",
+            "crossings-euler-poisson",
+            ("starts:0", -1.0, 1.0, 2),
+            ("h", 40.0, 60.0, 2),
+        )
+    )
     values, _ = whole(beside)
     for j, l in enumerate((-1.0, 1.0)):
         for i, h in enumerate((40.0, 60.0)):
             there = beside.scene.of({**beside.values, "starts": f"{l},0.2", "h": h})
-            found = sweep("crossings-euler-poisson", {"t": [100.0]}, level="draft",
-                          **dict(zip((*EULER_POISSON.parameters, *EULER_POISSON.arguments),
-                                     (*there.body.parameters, *there.start), strict=True)))
+            found = sweep(
+                "crossings-euler-poisson",
+                {"t": [100.0]},
+                level="draft",
+                **dict(
+                    zip(
+                        (*EULER_POISSON.parameters, *EULER_POISSON.arguments),
+                        (*there.body.parameters, *there.start),
+                        strict=True,
+                    )
+                ),
+            )
             assert values[i, j] == found.crossings_euler_poisson.item()
 
 
@@ -174,7 +196,11 @@ def test_a_server_prepares_every_quantity_of_a_scene_for_a_chart(monkeypatch):
     assert asked == [quantity for _, quantity in CHARTED]
     # Each is computed, and a number but for a torus without limit cycles.
     assert {int(one.status[0]) for one in found} <= {
-        Outcome.OK, Outcome.FLOOR, Outcome.PROMISE_NOT_MET, Outcome.NO_VALUE}
+        Outcome.OK,
+        Outcome.FLOOR,
+        Outcome.PROMISE_NOT_MET,
+        Outcome.NO_VALUE,
+    }
     prepared = []
     monkeypatch.setattr(warm, "at_first", lambda scene: prepared.append(scene.name) or [])
     warm.compute(scenes()["loxodrome"], folded=False)
@@ -189,7 +215,7 @@ def test_coarse_comes_first_and_every_cell_once(sides):
     order = chart.order
     assert np.array_equal(np.sort(order), np.arange(sides[0] * sides[1]))
     # After the first ones each cell is at most half a coarse one away from one that is known.
-    rows, columns = np.divmod(order[:24 * 24], sides[0])
+    rows, columns = np.divmod(order[: 24 * 24], sides[0])
     step = max(1, 2 ** math.ceil(math.log2(max(sides) / 24)))
     first = min(24 * 24, -(-sides[0] // step) * -(-sides[1] // step))
     assert not (rows[:first] % step).any() and not (columns[:first] % step).any()
@@ -222,29 +248,32 @@ def test_why_a_cell_has_no_number_is_said():
     assert far == edge
 
 
-@pytest.mark.parametrize(("given", "said"), [
-    ({}, "needs the link of a state"),
-    (wish(state="scene=nothing"), "needs the link of a state"),
-    (wish(state="scene=suslov-hess&h=1" + "0" * MAX_QUERY), "needs the link of a state"),
-    (wish(state=7), "needs the link of a state"),
-    (wish(quantity="period"), "can be charted"),
-    (wish(quantity=["h"]), "can be charted"),
-    (wish(state="scene=singular-measures"), "nothing can be charted"),
-    (wish(part=1), "has 1 numbers"),
-    (wish(part="0"), "has 1 numbers"),
-    (wish(quantity="limit-cycles", part=True), "has 3 numbers"),
-    (wish(x=("b3", -2.0, -1.0, 9)), "A side is one of h, f, I23, I22"),
-    (wish(x=("h", 0.0, "1", 9)), "A side is one of"),
-    (wish(x=("h", 0.0, 1.0)), "A side is one of"),
-    (wish(x=("h", 0.0, 1.0, 9.5)), "A side is one of"),
-    (wish(x=("h", math.nan, 1.0, 9)), "are no numbers"),
-    (wish(x=("h", 0.0, 10**400, 9)), "are no numbers"),
-    (wish(x=("h", 1.0, 1.0, 9)), "two different numbers"),
-    (wish(x=("h", -7.0, -5.0, 9)), "two different numbers"),
-    (wish(x=("f", 0.0, 1.0, 9)), "Both sides are f"),
-    (wish("scene=suslov", "megno-suslov", x=("starts:2", 0.0, 1.0, 9)), "A side is one of .*starts:0, starts:1"),
-    (wish("scene=suslov", "megno-suslov", x=("starts", 0.0, 1.0, 9)), "A side is one of .*starts:0, starts:1"),
-])
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({}, "needs the link of a state"),
+        (wish(state="scene=nothing"), "needs the link of a state"),
+        (wish(state="scene=suslov-hess&h=1" + "0" * MAX_QUERY), "needs the link of a state"),
+        (wish(state=7), "needs the link of a state"),
+        (wish(quantity="period"), "can be charted"),
+        (wish(quantity=["h"]), "can be charted"),
+        (wish(state="scene=singular-measures"), "nothing can be charted"),
+        (wish(part=1), "has 1 numbers"),
+        (wish(part="0"), "has 1 numbers"),
+        (wish(quantity="limit-cycles", part=True), "has 3 numbers"),
+        (wish(x=("b3", -2.0, -1.0, 9)), "A side is one of h, f, I23, I22"),
+        (wish(x=("h", 0.0, "1", 9)), "A side is one of"),
+        (wish(x=("h", 0.0, 1.0)), "A side is one of"),
+        (wish(x=("h", 0.0, 1.0, 9.5)), "A side is one of"),
+        (wish(x=("h", math.nan, 1.0, 9)), "are no numbers"),
+        (wish(x=("h", 0.0, 10**400, 9)), "are no numbers"),
+        (wish(x=("h", 1.0, 1.0, 9)), "two different numbers"),
+        (wish(x=("h", -7.0, -5.0, 9)), "two different numbers"),
+        (wish(x=("f", 0.0, 1.0, 9)), "Both sides are f"),
+        (wish("scene=suslov", "megno-suslov", x=("starts:2", 0.0, 1.0, 9)), "A side is one of .*starts:0, starts:1"),
+        (wish("scene=suslov", "megno-suslov", x=("starts", 0.0, 1.0, 9)), "A side is one of .*starts:0, starts:1"),
+    ],
+)
 def test_nothing_that_comes_from_outside_is_believed(given, said):
     with pytest.raises(InvalidParameter, match=said):
         Chart.read(given)
@@ -254,21 +283,35 @@ def test_nothing_that_comes_from_outside_is_believed(given, said):
 
 
 def test_numbers_are_clamped_and_turned_round():
-    chart = Chart.read(wish("scene=suslov-hess&I22=1e9&h=nonsense", x=("h", 1e9, -5.0, 10**9),
-                            y=("f", -1e300, 1e300, -4)))
+    chart = Chart.read(
+        wish("scene=suslov-hess&I22=1e9&h=nonsense", x=("h", 1e9, -5.0, 10**9), y=("f", -1e300, 1e300, -4))
+    )
     assert chart.x.low == pytest.approx(-1.0, abs=1e-8) and (chart.x.high, chart.x.count) == (1e6, MOST_SIDE)
     assert (chart.y.low, chart.y.high, chart.y.count) == (-1e4, 1e4, 2)
     assert chart.values["I22"] == 1000.0
     assert chart.level is level("standard")
 
 
-@pytest.mark.parametrize("message", [
-    None, [], {"chart": None}, {"chart": 7}, {"chart": {}}, {"chart": {"start": 1, "id": 2}}, {"chart": {"start": {}}},
-    {"chart": {"more": "x", "id": 1}}, {"chart": {"more": 3, "id": 1}}, {"chart": {"stop": 1}},
-    {"chart": {"stop": True}},
-    {"chart": {"why": wish(), "at": [1]}}, {"chart": {"why": wish(), "at": ["a", None]}},
-    {"chart": {"why": wish(), "at": [math.nan, 0.0]}}, {"values": {"h": 1.0}},
-])
+@pytest.mark.parametrize(
+    "message",
+    [
+        None,
+        [],
+        {"chart": None},
+        {"chart": 7},
+        {"chart": {}},
+        {"chart": {"start": 1, "id": 2}},
+        {"chart": {"start": {}}},
+        {"chart": {"more": "x", "id": 1}},
+        {"chart": {"more": 3, "id": 1}},
+        {"chart": {"stop": 1}},
+        {"chart": {"stop": True}},
+        {"chart": {"why": wish(), "at": [1]}},
+        {"chart": {"why": wish(), "at": ["a", None]}},
+        {"chart": {"why": wish(), "at": [math.nan, 0.0]}},
+        {"values": {"h": 1.0}},
+    ],
+)
 def test_a_message_that_means_nothing_has_no_answer(message):
     page = Page()
     assert page.send(message) is None
@@ -317,7 +360,7 @@ def test_it_takes_turns_with_what_others_wait_for(slow):
     ran = []
     other = Background()
     other.follow([Task(ran.append, (i,)) for i in range(5)])
-    wait_until(lambda: (let.release() or other.left == 0))
+    wait_until(lambda: let.release() or other.left == 0)
     assert sorted(ran) == [0, 1, 2, 3, 4]
     let.release(100)
     wait_until(lambda: not chart.running)
@@ -325,8 +368,14 @@ def test_it_takes_turns_with_what_others_wait_for(slow):
 
 
 def test_a_chart_has_so_much_of_the_processor_and_says_so(monkeypatch):
-    chart = Charting(Chart.read(wish("scene=suslov&accuracy=draft&long=10000", "lyapunov-suslov", ("h", 0.5, 4.0, 64),
-                                     ("I13", -0.4, 0.4, 64))), seconds=0.3)
+    chart = Charting(
+        Chart.read(
+            wish(
+                "scene=suslov&accuracy=draft&long=10000", "lyapunov-suslov", ("h", 0.5, 4.0, 64), ("I13", -0.4, 0.4, 64)
+            )
+        ),
+        seconds=0.3,
+    )
     wait_until(lambda: not chart.running)
     assert chart.said == running.USED_UP
     where, values, status = chart.since(0)
@@ -357,8 +406,10 @@ def test_a_fault_in_one_cell_is_of_this_cell_alone(monkeypatch, caplog):
 
 
 def test_the_part_of_a_quantity_that_has_several_numbers():
-    found = [whole(Chart.read(wish(quantity="limit-cycles", part=i, x=("h", 1.3, 1.7, 3), y=("f", 0.3, 0.6, 2))))[0]
-             for i in range(3)]
+    found = [
+        whole(Chart.read(wish(quantity="limit-cycles", part=i, x=("h", 1.3, 1.7, 3), y=("f", 0.3, 0.6, 2))))[0]
+        for i in range(3)
+    ]
     alone = sweep("limit-cycles", over={"h": (1.3, 1.7, 3), "f": (0.3, 0.6, 2)}, level="standard", a=0.28 / 0.96)
     for i in range(3):
         assert np.array_equal(found[i], alone.limit_cycles.values[:, :, i].T)
@@ -368,11 +419,24 @@ def file_of(given, head, values, status):
     """What the page saves, see "static/controls/chart_file.js"."""
     sides = {side: dict(zip(("name", "low", "high", "count"), head[side], strict=True), symbol="s") for side in "xy"}
     what = QUANTITIES[given["quantity"]]
-    return {"program": "hess-explorer chart", "title": what.title, "link": f"http://localhost/?{given['state']}",
-            "scene": "suslov-hess", "state": given["state"], "quantity": what.name, "part": given["part"],
-            "symbol": what.symbol, "units": what.units, "turn": what.turn, "level": head["level"],
-            "error": head["error"], "version": head["version"], **sides,
-            "values": [value if math.isfinite(value) else None for value in values.tolist()], "status": status.tolist()}
+    return {
+        "program": "hess-explorer chart",
+        "title": what.title,
+        "link": f"http://localhost/?{given['state']}",
+        "scene": "suslov-hess",
+        "state": given["state"],
+        "quantity": what.name,
+        "part": given["part"],
+        "symbol": what.symbol,
+        "units": what.units,
+        "turn": what.turn,
+        "level": head["level"],
+        "error": head["error"],
+        "version": head["version"],
+        **sides,
+        "values": [value if math.isfinite(value) else None for value in values.tolist()],
+        "status": status.tolist(),
+    }
 
 
 def test_a_chart_that_was_saved_is_read_as_sweeps_are(tmp_path, capsys):
@@ -408,10 +472,23 @@ def test_one_of_several_numbers_is_read_with_its_largest_error(tmp_path):
     assert found.attrs["largest_error"] == head["error"]
 
 
-@pytest.mark.parametrize("change", [
-    {"program": "a letter"}, {"quantity": "speed"}, {"values": [1.0]}, {"status": [1] * 62 + [300]},
-    {"status": [1] * 63}, {"status": [1] * 62 + [9]}, {"values": ["x"] * 63}, {"x": None},
-    {"y": {"name": "f", "low": 0, "high": 1, "count": 10**9}}, {"part": "first"}, {"level": "sloppy"}, {"state": None}])
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"program": "a letter"},
+        {"quantity": "speed"},
+        {"values": [1.0]},
+        {"status": [1] * 62 + [300]},
+        {"status": [1] * 63},
+        {"status": [1] * 62 + [9]},
+        {"values": ["x"] * 63},
+        {"x": None},
+        {"y": {"name": "f", "low": 0, "high": 1, "count": 10**9}},
+        {"part": "first"},
+        {"level": "sloppy"},
+        {"state": None},
+    ],
+)
 def test_a_file_that_is_no_whole_chart_is_refused(tmp_path, change):
     head, values, status = Page().all_of(wish())
     path = tmp_path / "chart.json"

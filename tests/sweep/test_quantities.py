@@ -78,8 +78,9 @@ def heavy_state(l, x):
 
 
 def heavy_exponent(l, x, t=10.0):
-    return lyapunov_exponent(HEAVY.at(HEAVY.example[1]), heavy_state(l, x), t,
-                             PLANS[Computation.EXPONENT]["draft"].level).value
+    return lyapunov_exponent(
+        HEAVY.at(HEAVY.example[1]), heavy_state(l, x), t, PLANS[Computation.EXPONENT]["draft"].level
+    ).value
 
 
 LOOPS = {
@@ -100,8 +101,12 @@ def test_a_sweep_is_the_loop_by_hand_bit_for_bit(name):
     value = found[name.replace("-", "_")]
     axes = [np.linspace(*places) if isinstance(places, tuple) else np.array(places) for places in over.values()]
     assert value.shape == tuple(axis.size for axis in axes)
-    by_hand = np.array([function(*(float(x) for x in place)) for place in
-                        np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(axes))])
+    by_hand = np.array(
+        [
+            function(*(float(x) for x in place))
+            for place in np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(axes))
+        ]
+    )
     assert value.values.ravel().tobytes() == by_hand.tobytes()
     for coordinate, axis in zip(over, axes, strict=True):
         assert found[coordinate].values.tobytes() == axis.tobytes()
@@ -127,8 +132,9 @@ def test_limit_cycles_are_several_numbers_at_a_cell():
 
 def test_trace_locking_and_birth_agree_with_the_rotation_number():
     over = {"h": (-0.5, 2.0, 6), "f": (0.1, 0.7, 4)}
-    rho, trace, locked = (sweep(name, over, a=0.5)[name.replace("-", "_")].values
-                          for name in ("rotation-number", "trace", "locked"))
+    rho, trace, locked = (
+        sweep(name, over, a=0.5)[name.replace("-", "_")].values for name in ("rotation-number", "trace", "locked")
+    )
     turning = locked == 0.0
     assert turning.any()
     assert (locked == 1.0).any()
@@ -161,17 +167,39 @@ def test_the_period_is_that_of_the_ball_without_a_ball():
 
 def test_a_free_symmetric_motion_crosses_as_often_as_it_turns():
     # b = 0, I13 = I23 = 0: ω is constant, and γ turns about it at the rate |ω|.
-    found = sweep("crossings-suslov", {"w1": [0.5, 1.0, 2.0]}, w2=0.0, I13=0.0, I23=0.0, b1=0.0, b2=0.0, b3=0.0,
-                  g1=0.0, g2=-1.0, g3=0.2, t=20.0)
+    found = sweep(
+        "crossings-suslov",
+        {"w1": [0.5, 1.0, 2.0]},
+        w2=0.0,
+        I13=0.0,
+        I23=0.0,
+        b1=0.0,
+        b2=0.0,
+        b3=0.0,
+        g1=0.0,
+        g2=-1.0,
+        g3=0.2,
+        t=20.0,
+    )
     # γ3 ~ 0.2 cos(w1 t) + sin(w1 t), through 0 from below once a turn.
-    assert found.crossings_suslov.values.tolist() == [
-        math.floor((20.0 * w + math.atan(0.2)) / (2 * math.pi)) for w in (0.5, 1.0, 2.0)] == [1.0, 3.0, 6.0]
+    assert (
+        found.crossings_suslov.values.tolist()
+        == [math.floor((20.0 * w + math.atan(0.2)) / (2 * math.pi)) for w in (0.5, 1.0, 2.0)]
+        == [1.0, 3.0, 6.0]
+    )
 
 
 def test_where_volume_is_kept_nothing_attracts():
     over = {"I13": [0.0, 0.4]}
-    body = {"I11": 1.5, "I22": 1.0, "I23": 0.0, "b1": 0.3, "b2": -0.5, "b3": 1.0,
-            "h": round(1.842 + math.hypot(0.3, 0.5, 1.0), 6)}
+    body = {
+        "I11": 1.5,
+        "I22": 1.0,
+        "I23": 0.0,
+        "b1": 0.3,
+        "b2": -0.5,
+        "b3": 1.0,
+        "h": round(1.842 + math.hypot(0.3, 0.5, 1.0), 6),
+    }
     divergence = sweep("divergence-suslov-section", over, **body, t=100.0)
     assert divergence.divergence_suslov_section.values[0] == 0.0
     assert divergence.error.values[0] == 0.0
@@ -234,10 +262,16 @@ def test_every_quantity_says_what_it_is():
             assert each.bounds[0] < each.bounds[1]
             assert each.bounds[0] <= each.default <= each.bounds[1]
             assert not each.whole or each.default == round(each.default)
-    of_any_system = {f"{what}-{system}" for what in ("lyapunov", "spectrum", "dimension", "megno", "crossings")
-                     for system in systems()}
-    of_any_section = {f"{what}-{system}-section" for what in ("lyapunov", "spectrum", "dimension", "megno", "crossings")
-                      for system in ("suslov", "ball", "euler-poisson")}
+    of_any_system = {
+        f"{what}-{system}"
+        for what in ("lyapunov", "spectrum", "dimension", "megno", "crossings")
+        for system in systems()
+    }
+    of_any_section = {
+        f"{what}-{system}-section"
+        for what in ("lyapunov", "spectrum", "dimension", "megno", "crossings")
+        for system in ("suslov", "ball", "euler-poisson")
+    }
     assert of_any_system | of_any_section <= set(QUANTITIES)
 
 
@@ -245,10 +279,15 @@ def test_kinds_of_motions_are_those_that_are_known():
     found = QUANTITIES["regime-suslov-section"]
     names = [one.name for one in found.parameters]
     # A permanent rotation attracts; a sea of chaos on an attractor; closed curves where I11 = I22 and b is along e.
-    bodies = [(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3, 3.0), (1.5, 2.9, -0.6, 1.0, 1.0, -0.6, 0.6, 2.600488),
-              (1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.4)]
-    rows = [(*body, 3, psi, delta, 300, 200, 300.0) for body, psi, delta in zip(
-        bodies, (1.0, -0.7446, 0.3), (1.0, 1.5603, 1.2), strict=True)]
+    bodies = [
+        (1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3, 3.0),
+        (1.5, 2.9, -0.6, 1.0, 1.0, -0.6, 0.6, 2.600488),
+        (1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.4),
+    ]
+    rows = [
+        (*body, 3, psi, delta, 300, 200, 300.0)
+        for body, psi, delta in zip(bodies, (1.0, -0.7446, 0.3), (1.0, 1.5603, 1.2), strict=True)
+    ]
     cells = {name: np.array(column, float) for name, column in zip(names, zip(*rows, strict=True), strict=True)}
     values = found.compute(cells, level("standard")).values
     assert values[:, 0].tolist() == [1.0, 4.0, 3.0]

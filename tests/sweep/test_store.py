@@ -33,6 +33,7 @@ def interrupted_after(cells):
     def report(now):
         if now.done >= cells:
             raise KeyboardInterrupt
+
     return report
 
 
@@ -111,15 +112,18 @@ def test_a_store_is_plain_zarr_that_says_what_it_is(tmp_path):
     assert len(meanings.split()) == len(Outcome)
 
 
-@pytest.mark.parametrize(("change", "said"), [
-    ({"quantity": "trace"}, "has quantity 'rotation-number', not 'trace'"),
-    ({"level": "draft"}, "has level 'precise', not 'draft'"),
-    ({"over": {"h": (-1.2, 2.0, 13), "f": (0.0, 1.2, 9)}}, "has other values of h"),
-    ({"over": {"h": (-1.2, 2.0, 12), "f": (0.0, 1.3, 9)}}, "has other values of f"),
-    ({"over": {"f": (0.0, 1.2, 9), "h": (-1.2, 2.0, 12)}}, "goes over h, f, not f, h"),
-    ({"over": {"h": (-1.2, 2.0, 12)}, "f": 0.1}, "goes over h, f, not h"),
-    ({"a": 0.25}, "has a = 0.5, not 0.25"),
-])
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"quantity": "trace"}, "has quantity 'rotation-number', not 'trace'"),
+        ({"level": "draft"}, "has level 'precise', not 'draft'"),
+        ({"over": {"h": (-1.2, 2.0, 13), "f": (0.0, 1.2, 9)}}, "has other values of h"),
+        ({"over": {"h": (-1.2, 2.0, 12), "f": (0.0, 1.3, 9)}}, "has other values of f"),
+        ({"over": {"f": (0.0, 1.2, 9), "h": (-1.2, 2.0, 12)}}, "goes over h, f, not f, h"),
+        ({"over": {"h": (-1.2, 2.0, 12)}, "f": 0.1}, "goes over h, f, not h"),
+        ({"a": 0.25}, "has a = 0.5, not 0.25"),
+    ],
+)
 def test_the_store_of_another_sweep_is_refused_and_not_touched(tmp_path, change, said):
     store = tmp_path / "rho.zarr"
     with pytest.raises(Interrupted):

@@ -25,8 +25,10 @@ TORI = {"h": (-1.2, 2.0, 12), "f": (0.0, 1.2, 9)}
 @pytest.fixture
 def in_pieces(monkeypatch):
     """Pieces of about so many cells."""
+
     def choose(cells):
         monkeypatch.setattr(running, "_cells_of_a_piece", lambda *_: cells)
+
     return choose
 
 
@@ -230,7 +232,9 @@ def test_work_is_capped_before_anything_is_made():
         sweep("limit-cycles", {"h": (0.0, 1.0, 10)}, a=0.5, f=0.1, most_cells=20)
 
 
-@pytest.mark.parametrize(("library", "workers"), [("xarray", None), ("zarr", None), ("distributed", "tcp://127.0.0.1:9")])
+@pytest.mark.parametrize(
+    ("library", "workers"), [("xarray", None), ("zarr", None), ("distributed", "tcp://127.0.0.1:9")]
+)
 def test_a_library_that_is_missing_is_named_with_the_command_that_installs_it(monkeypatch, library, workers):
     monkeypatch.setitem(sys.modules, library, None)
     with pytest.raises(MissingLibrary, match=r"pip install 'hess-explorer\[sweep\]'"):

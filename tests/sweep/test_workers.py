@@ -58,8 +58,15 @@ def test_workers_find_the_same_and_one_that_is_killed_is_no_loss(cluster, client
             killed.append(next(iter(before.values())))
             os.kill(killed[0], signal.SIGKILL)
 
-    found = sweep("lyapunov-suslov", MOTIONS, level="draft", t=TIME, workers=cluster, progress=kill_one,
-                  store=tmp_path / "lambda.zarr")
+    found = sweep(
+        "lyapunov-suslov",
+        MOTIONS,
+        level="draft",
+        t=TIME,
+        workers=cluster,
+        progress=kill_one,
+        store=tmp_path / "lambda.zarr",
+    )
     assert killed
     assert found.identical(alone)
     assert found.lyapunov_suslov.values.tobytes() == alone.lyapunov_suslov.values.tobytes()
@@ -88,8 +95,15 @@ def test_all_cores_find_the_same_one_that_is_killed_is_no_loss_and_none_is_left(
             killed.append(seen[-1][0])
             killed[0].kill()
 
-    found = sweep("lyapunov-suslov", MOTIONS, level="draft", t=TIME, workers="all", progress=kill_one,
-                  store=tmp_path / "lambda.zarr")
+    found = sweep(
+        "lyapunov-suslov",
+        MOTIONS,
+        level="draft",
+        t=TIME,
+        workers="all",
+        progress=kill_one,
+        store=tmp_path / "lambda.zarr",
+    )
     assert found.identical(alone)
     assert found.lyapunov_suslov.values.tobytes() == alone.lyapunov_suslov.values.tobytes()
     assert [len(some) for some in seen[:1]] == [2]
@@ -115,7 +129,10 @@ def test_a_piece_that_process_after_process_dies_of_is_said_and_the_others_are_k
 
     monkeypatch.setattr(processes, "_DEATHS", 2)
     # One piece, whoever gets it.
-    monkeypatch.setattr(processes, "_PROGRAM", f"""
+    monkeypatch.setattr(
+        processes,
+        "_PROGRAM",
+        f"""
 import os
 from hess_explorer.sweep import processes
 compute = processes.compute
@@ -124,15 +141,17 @@ def dies(piece):
         os._exit(1)
     return compute(piece)
 processes.compute = dies
-processes.serve()""")
+processes.serve()""",
+    )
     seen = []
     with pytest.raises(WorkersLost, match=r"1 pieces were given up, .*2 processes died of it\."):
         sweep("lyapunov-suslov", MOTIONS, level="draft", t=TIME, workers=2, progress=seen.append)
     assert 30 - seen[-1].done in (1, 2)
 
 
-def test_a_piece_that_no_worker_can_do_is_said_and_the_others_are_kept(cluster, client, pairs, alone, tmp_path,
-                                                                      monkeypatch):
+def test_a_piece_that_no_worker_can_do_is_said_and_the_others_are_kept(
+    cluster, client, pairs, alone, tmp_path, monkeypatch
+):
     from hess_explorer.sweep.work import compute
 
     bad = MOTIONS["w1"][0]

@@ -37,8 +37,10 @@ def test_what_the_finer_run_has_not_changes_and_an_angle_may_pass_its_cut():
 
 def test_a_point_changes_where_it_moves_in_another_picture():
     places = [[1.0, 1.0], [2.0, 1.0]]
-    one, other = (marks(places, elsewhere=((np.array(places), np.array(sphere)),))
-                  for sphere in ([[0.0, 0.0, 0.0]] * 2, [[0.0, 0.0, 0.4], [0.0, 0.6, 0.0]]))
+    one, other = (
+        marks(places, elsewhere=((np.array(places), np.array(sphere)),))
+        for sphere in ([[0.0, 0.0, 0.0]] * 2, [[0.0, 0.0, 0.4], [0.0, 0.6, 0.0]])
+    )
     assert compared(one, other).changed.tolist() == [[2.0, 1.0]]
 
 
@@ -81,8 +83,10 @@ def test_a_curve_that_only_one_has_is_there_and_not_elsewhere():
 
 
 def test_cells_are_compared_as_the_finer_picture_has_them():
-    coarse, fine = np.array([[1.0, 2.0], [np.nan, np.nan]]), np.array(
-        [[1.0, 1.2, 2.0, 2.0], [1.0, 1.0, 2.6, 2.0], [np.nan, 5.0, np.nan, np.nan], [np.nan] * 4])
+    coarse, fine = (
+        np.array([[1.0, 2.0], [np.nan, np.nan]]),
+        np.array([[1.0, 1.2, 2.0, 2.0], [1.0, 1.0, 2.6, 2.0], [np.nan, 5.0, np.nan, np.nan], [np.nan] * 4]),
+    )
     found = compared(Cells(FRAME, coarse, 0.5), Cells(FRAME, fine, 0.5))
     assert found.cells.tolist() == [[0, 0, 0, 0], [0, 0, 1, 0], [-1, 1, -1, -1], [-1] * 4]
     assert found.share == pytest.approx(2.0 / 9.0)

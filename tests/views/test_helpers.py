@@ -103,8 +103,9 @@ def test_the_circle_map_is_evaluated_once_for_all_states_that_show_it(monkeypatc
     theta = CircleMap.theta
     monkeypatch.setattr(CircleMap, "theta", lambda self, phi: calls.append(len(phi)) or theta(self, phi))
     found = computed(0.5, 1.5, 0.6, level("draft"))
-    plot = circle_map.picture(map=lambda state: found, iterates=lambda state: found.iterate(state, 90),
-                              caption=lambda state: "")
+    plot = circle_map.picture(
+        map=lambda state: found, iterates=lambda state: found.iterate(state, 90), caption=lambda state: ""
+    )
     first, second = plot.data(0.5), plot.data(0.7)
     assert len(calls) == 2  # at even φ, and at these with those of even Θ
     assert np.array_equal(first["circle-map"]["ys"][0], second["circle-map"]["ys"][0])

@@ -44,7 +44,8 @@ def test_lines_stand_out_and_what_is_impossible_is_quiet(page):
     assert contrast(shades["ink"], shades["forbidden"]) >= 4.5
     # Nothing else of a picture outshines the orbit on a dark page but what marks the orbit.
     assert page == 0 or all(
-        luminance(shades[name]) < luminance(shades["orbit"]) for name in ("forbidden", "locked", "muted", "unstable"))
+        luminance(shades[name]) < luminance(shades["orbit"]) for name in ("forbidden", "locked", "muted", "unstable")
+    )
 
 
 def test_the_browser_gets_its_shades_from_here():
@@ -60,7 +61,8 @@ def test_the_browser_gets_its_shades_from_here():
 def test_legends_follow_the_page():
     assert theme.in_css("border: 3px solid #0072B2") == "border: 3px solid var(--orbit, #0072B2)"
     assert theme.in_css("background: #009E7370") == (
-        "background: color-mix(in srgb, var(--stable, #009E73) 44%, transparent)")
+        "background: color-mix(in srgb, var(--stable, #009E73) 44%, transparent)"
+    )
     assert theme.in_css("background: #123456") == "background: #123456"
 
 

@@ -12,8 +12,20 @@ if TYPE_CHECKING:
     # Importing the mechanics takes a second, in which `serve` has already said that it starts.
     from hess_mechanics.parameters import Parameter
 
-__all__ = ["assigned", "checked", "ends", "integer", "listed", "number", "numbers", "samples", "shown", "state_of",
-           "values", "vector"]
+__all__ = [
+    "assigned",
+    "checked",
+    "ends",
+    "integer",
+    "listed",
+    "number",
+    "numbers",
+    "samples",
+    "shown",
+    "state_of",
+    "values",
+    "vector",
+]
 
 T = TypeVar("T")
 _SHOWN, _MAX_STATE = 60, 2000

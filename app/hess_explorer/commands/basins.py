@@ -24,20 +24,37 @@ def _computed(options: Options) -> Answer:
     m, n = _cells(options.cells)
     psi0, psi1, delta0, delta1 = options.window
     body = suslov_of(options)
-    found = basins(body, options.E, plane=options.k, cells=(m, n), window=((psi0, delta0), (psi1, delta1)),
-                   crossings=options.crossings, accuracy=options.accuracy)
+    found = basins(
+        body,
+        options.E,
+        plane=options.k,
+        cells=(m, n),
+        window=((psi0, delta0), (psi1, delta1)),
+        crossings=options.crossings,
+        accuracy=options.accuracy,
+    )
     on_each, known = found.divergence, found.group >= 0.0
     psi, delta = np.meshgrid(found.psi, found.delta)
     series: dict[str, list[Any]] = {"psi": psi.ravel().tolist(), "delta": delta.ravel().tolist()}
     for name, kind, column in (("mean", float, found.mean), ("group", int, found.group)):
-        series[name] = [kind(value) if there else None
-                        for value, there in zip(column.ravel().tolist(), known.ravel().tolist(), strict=True)]
+        series[name] = [
+            kind(value) if there else None
+            for value, there in zip(column.ravel().tolist(), known.ravel().tolist(), strict=True)
+        ]
     counts = np.bincount(found.group[known].astype(int), minlength=len(on_each)).tolist()
-    return Answer(series, {
-        "cells": [m, n], "counts": counts, "level": found.level,
-        "divergence": [one.mean for one in on_each], "divergence error": [one.error for one in on_each],
-        "attractors": found.attractors, **whether_body(check_of(body))},
-        _notes(body.I13 == 0.0 == body.I23, found.attractors))
+    return Answer(
+        series,
+        {
+            "cells": [m, n],
+            "counts": counts,
+            "level": found.level,
+            "divergence": [one.mean for one in on_each],
+            "divergence error": [one.error for one in on_each],
+            "attractors": found.attractors,
+            **whether_body(check_of(body)),
+        },
+        _notes(body.I13 == 0.0 == body.I23, found.attractors),
+    )
 
 
 def _notes(kept: bool, attractors: int) -> list[str]:
@@ -59,10 +76,20 @@ COMMAND = Command(
     "cell: the mean of ω1 over the last third of its crossings, and the group of that mean: 0, 1, … where the means "
     "lie far apart, else all 0.  A group is an attractor where the mean divergence on a motion of it is negative by "
     "three times its error.  Empty or null where no motion has this energy, or the orbit stops crossing.",
-    (*SUSLOV, number(E, help="energy"),
-     option("--k", "the section is γ_k = 0 (default 3)", type=int, choices=(1, 2, 3), default=3),
-     vector("--window", "psi0,psi1,delta0,delta1", "angles in radians (default: the whole section)",
-            (-math.pi, math.pi, 0.0, math.pi)),
-     vector("--cells", "across,up", "cells of the window (default 40,30)", (40.0, 30.0)),
-     whole("--crossings", 100, 10_000, "of each orbit", 300), *OUTPUT), table(_computed),
-    "--I 1.5,1,0.4,0 --b 0.3,-0.5,1 --E 0.68 --k 2 --cells 8,6 --crossings 150 --accuracy draft --format csv")
+    (
+        *SUSLOV,
+        number(E, help="energy"),
+        option("--k", "the section is γ_k = 0 (default 3)", type=int, choices=(1, 2, 3), default=3),
+        vector(
+            "--window",
+            "psi0,psi1,delta0,delta1",
+            "angles in radians (default: the whole section)",
+            (-math.pi, math.pi, 0.0, math.pi),
+        ),
+        vector("--cells", "across,up", "cells of the window (default 40,30)", (40.0, 30.0)),
+        whole("--crossings", 100, 10_000, "of each orbit", 300),
+        *OUTPUT,
+    ),
+    table(_computed),
+    "--I 1.5,1,0.4,0 --b 0.3,-0.5,1 --E 0.68 --k 2 --cells 8,6 --crossings 150 --accuracy draft --format csv",
+)

@@ -21,8 +21,10 @@ class _OfTheSources(Command):
     def declare(self, parser: argparse.ArgumentParser) -> None:
         """Declare its options.  Raises `CommandError` without the sources."""
         if not (_TESTS / "benchmarks" / "bench.py").is_file():
-            raise CommandError("The benchmark is not part of the package: in the folder of the sources, pip install -e "
-                               "'.[bench]' and run the command again.")
+            raise CommandError(
+                "The benchmark is not part of the package: in the folder of the sources, pip install -e "
+                "'.[bench]' and run the command again."
+            )
         if str(_TESTS) not in sys.path:
             sys.path.append(str(_TESTS))
         import_module("benchmarks.bench").COMMAND.declare(parser)

@@ -22,29 +22,49 @@ def _computed(options: Options) -> Answer:
     if options.t == 0.0:
         raise CommandError("In no time a cloud does not move: choose --t other than 0.")
     body = BallBody(*(*options.I, options.D))
-    found = clouds(body, options.h, options.angle, options.spread, options.count, options.t, None,
-                   level(options.accuracy))
-    return Answer(_TABLES[options.table](found), {
-        "count": options.count, "final_time": float(found.cloud.times[-1]), **quality(found.cloud),
-        **whether_body(check_of(body))})
+    found = clouds(
+        body, options.h, options.angle, options.spread, options.count, options.t, None, level(options.accuracy)
+    )
+    return Answer(
+        _TABLES[options.table](found),
+        {
+            "count": options.count,
+            "final_time": float(found.cloud.times[-1]),
+            **quality(found.cloud),
+            **whether_body(check_of(body)),
+        },
+    )
 
 
 def _course(found: Clouds) -> Mapping[str, list[Any]]:
     mean, least, largest = found.course.log_growth.tolist()
-    return {"t": found.cloud.times.tolist(), "volume": found.course.volume.tolist(), "growth_mean": mean,
-            "growth_least": least, "growth_largest": largest}
+    return {
+        "t": found.cloud.times.tolist(),
+        "volume": found.course.volume.tolist(),
+        "growth_mean": mean,
+        "growth_least": least,
+        "growth_largest": largest,
+    }
 
 
 def _density(found: Clouds) -> Mapping[str, list[Any]]:
     density = found.density
-    return {"log_s": density.log_s.tolist(), "first": density.first.tolist(), "last": density.last.tolist(),
-            "mean": density.mean.tolist()}
+    return {
+        "log_s": density.log_s.tolist(),
+        "first": density.first.tolist(),
+        "last": density.last.tolist(),
+        "mean": density.mean.tolist(),
+    }
 
 
 def _points(found: Clouds) -> Mapping[str, list[Any]]:
     cloud = found.cloud
-    columns = {"ω1": cloud.omega[:, -1, 0], "ω2": cloud.omega[:, -1, 1], "log_s": cloud.log_s[:, -1],
-               **{f"γ{i + 1}": cloud.gamma[:, -1, i] for i in range(3)}}
+    columns = {
+        "ω1": cloud.omega[:, -1, 0],
+        "ω2": cloud.omega[:, -1, 1],
+        "log_s": cloud.log_s[:, -1],
+        **{f"γ{i + 1}": cloud.gamma[:, -1, i] for i in range(3)},
+    }
     return {name: column.tolist() for name, column in columns.items()}
 
 
@@ -57,10 +77,23 @@ COMMAND = Command(
     "relative to that at t = 0, and mean, least and largest of ln s(t)/s(0)), density (shares of the points per unit "
     "of ln|s| at the start, at the end and in the mean over the time), points (the states at the last time, and their "
     "ln|s|).",
-    (FREE_TENSOR, INNER_BALL, number(H_FREE_BALL, help="energy in the middle of the cloud, h > 0"),
-     option("--spread", "δ, between 0 and 1 (default 0.1)", type=any_number, default=0.1),
-     number(CIRCLE_PHASE, name="--angle", help="a small patch about the ω at this angle, in radians, with γ = e3; δ is "
-            "its radius (default: the whole energy shell)", required=False),
-     whole("--count", 1, 100_000, "how many points", 1000), number(TIME),
-     option("--table", "what the table is (default: course)", choices=tuple(_TABLES), default="course"), *OUTPUT),
-    table(_computed), "--I 2,1,0.5,0.7 --h 2 --count 500 --t 10 --table density --format csv")
+    (
+        FREE_TENSOR,
+        INNER_BALL,
+        number(H_FREE_BALL, help="energy in the middle of the cloud, h > 0"),
+        option("--spread", "δ, between 0 and 1 (default 0.1)", type=any_number, default=0.1),
+        number(
+            CIRCLE_PHASE,
+            name="--angle",
+            help="a small patch about the ω at this angle, in radians, with γ = e3; δ is "
+            "its radius (default: the whole energy shell)",
+            required=False,
+        ),
+        whole("--count", 1, 100_000, "how many points", 1000),
+        number(TIME),
+        option("--table", "what the table is (default: course)", choices=tuple(_TABLES), default="course"),
+        *OUTPUT,
+    ),
+    table(_computed),
+    "--I 2,1,0.5,0.7 --h 2 --count 500 --t 10 --table density --format csv",
+)

@@ -24,4 +24,6 @@ COMMAND = Command(
     "describes. They leave the numbers in `data`, by the names of the CSV of `hess-explorer export` and equal to them "
     "bit for bit; or write a notebook of them.",
     (*picture(), option("--format", "py (default) or ipynb, a notebook", choices=holding("program"), default="py")),
-    _run, "--state 'h=1.2&f=0.3' --picture circle > circle.py")
+    _run,
+    "--state 'h=1.2&f=0.3' --picture circle > circle.py",
+)

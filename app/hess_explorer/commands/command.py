@@ -13,8 +13,21 @@ from hess_explorer.commands import arguments
 if TYPE_CHECKING:
     from hess_mechanics.parameters import Parameter
 
-__all__ = ["OUT", "OUTPUT", "STATE", "Command", "Option", "Options", "flag", "number", "option", "picture", "samples",
-           "vector", "whole"]
+__all__ = [
+    "OUT",
+    "OUTPUT",
+    "STATE",
+    "Command",
+    "Option",
+    "Options",
+    "flag",
+    "number",
+    "option",
+    "picture",
+    "samples",
+    "vector",
+    "whole",
+]
 
 Options = argparse.Namespace
 """The parsed options of a command."""
@@ -82,12 +95,18 @@ def number(of: Parameter, default: float | None = None, *, name: str = "", help:
     said = help or of.doc
     if default is not None:
         said += f" (default {default:g})"
-    return option(name or f"--{of.name}", said, type=arguments.checked(of), metavar=of.name.upper(),
-                  **{**_required(default), **settings})
+    return option(
+        name or f"--{of.name}",
+        said,
+        type=arguments.checked(of),
+        metavar=of.name.upper(),
+        **{**_required(default), **settings},
+    )
 
 
-def vector(name: str, of: str | Sequence[Parameter], help: str, default: tuple[float, ...] | None = None,
-           **settings: Any) -> Option:
+def vector(
+    name: str, of: str | Sequence[Parameter], help: str, default: tuple[float, ...] | None = None, **settings: Any
+) -> Option:
     """Return the option of several numbers, as one list with commas: parameters, or what has these names ("w1,w2")."""
     names = of if isinstance(of, str) else ",".join(one.name for one in of)
     return option(name, help, type=arguments.vector(of), metavar=names, **{**_required(default), **settings})
@@ -101,23 +120,47 @@ def whole(name: str, low: int, high: int, help: str, default: int | None = None)
 
 def samples(of: Parameter, help: str, default: list[float] | None = None) -> Option:
     """Return the option of many values of a parameter: a list, or lo:hi:n."""
-    return option(f"--{of.name}", f"{help}: a number, a list 1,2,3 or lo:hi:n", type=arguments.samples(of),
-                  metavar="VALUES", **_required(default))
+    return option(
+        f"--{of.name}",
+        f"{help}: a number, a list 1,2,3 or lo:hi:n",
+        type=arguments.samples(of),
+        metavar="VALUES",
+        **_required(default),
+    )
 
 
 OUT = option("--out", "write to this file instead of standard output", type=Path, metavar="FILE")
 OUTPUT = (
     option("--accuracy", "draft, standard, precise (default) or reference", default="precise", metavar="LEVEL"),
-    option("--format", "json (default): strict, all digits; csv: a table, the other results as # comments",
-           choices=("json", "csv"), default="json"),
-    OUT)
+    option(
+        "--format",
+        "json (default): strict, all digits; csv: a table, the other results as # comments",
+        choices=("json", "csv"),
+        default="json",
+    ),
+    OUT,
+)
 STATE = (
-    option("--state", "a link to the page, or what follows ? in it (default: its first view)", type=arguments.state_of,
-           default="", metavar="QUERY"),
-    flag("--lenient", "put right what is wrong in the state, and say so in the notes, instead of refusing it"))
+    option(
+        "--state",
+        "a link to the page, or what follows ? in it (default: its first view)",
+        type=arguments.state_of,
+        default="",
+        metavar="QUERY",
+    ),
+    flag("--lenient", "put right what is wrong in the state, and say so in the notes, instead of refusing it"),
+)
 
 
 def picture(more: str = "") -> tuple[Option, ...]:
     """Return the options of a state, of a picture of it and of a file; more : on several pictures."""
-    return (*STATE, option("--picture", "the name of the picture, as in pictures=… of a link that embeds (default: the "
-                           f"first{more})", default="", metavar="NAME"), OUT)
+    return (
+        *STATE,
+        option(
+            "--picture",
+            f"the name of the picture, as in pictures=… of a link that embeds (default: the first{more})",
+            default="",
+            metavar="NAME",
+        ),
+        OUT,
+    )

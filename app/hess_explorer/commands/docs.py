@@ -53,4 +53,7 @@ COMMAND = Command(
     "Open the pages of what can be imported from hess_mechanics and hess_explorer, of the version that is installed, "
     "with search, and no host to ask. Where the packages are installed to be edited, the pages are made from the "
     "sources, which needs the extra: pip install '.[docs]'.",
-    (option("--out", "write them there, and open none", type=Path, metavar="FOLDER"),), _run, "--out docs")
+    (option("--out", "write them there, and open none", type=Path, metavar="FOLDER"),),
+    _run,
+    "--out docs",
+)

@@ -60,12 +60,27 @@ COMMAND = Command(
     "point, or a film of its motion as WebM, MP4 or GIF. HTML has all pictures of the state in one file that plays and "
     "turns without a server. Every file says link, parameters, accuracy, errors and version. Figures and films need "
     "the extra: pip install '.[export]'.",
-    (*picture("; of HTML some with commas between, by default those that are open at first"),
-     option("--format", "default: csv", choices=holding("data", "figure", "film", "state"), default=Wish.kind),
-     option("--width", f"of a figure, {WIDTHS} millimetres (default 85, a column of a journal); of a film "
-            f"{FILM_WIDTHS}, at 8 pixels a millimetre", type=float, default=Wish.width, metavar="MM"),
-     option("--seconds", f"length of a film, of all of the motion: {SECONDS} (default 10), 25 frames a second",
-            type=float, default=Wish.seconds, metavar="S"),
-     flag("--black", "a figure or a film in black on white instead of the page's colours"),
-     flag("--progress", "say on standard error, a line each, how many frames of a film there are, of how many")), _run,
-    "--state 'h=1.2&f=0.3' --picture circle --format csv --out circle.csv")
+    (
+        *picture("; of HTML some with commas between, by default those that are open at first"),
+        option("--format", "default: csv", choices=holding("data", "figure", "film", "state"), default=Wish.kind),
+        option(
+            "--width",
+            f"of a figure, {WIDTHS} millimetres (default 85, a column of a journal); of a film "
+            f"{FILM_WIDTHS}, at 8 pixels a millimetre",
+            type=float,
+            default=Wish.width,
+            metavar="MM",
+        ),
+        option(
+            "--seconds",
+            f"length of a film, of all of the motion: {SECONDS} (default 10), 25 frames a second",
+            type=float,
+            default=Wish.seconds,
+            metavar="S",
+        ),
+        flag("--black", "a figure or a film in black on white instead of the page's colours"),
+        flag("--progress", "say on standard error, a line each, how many frames of a film there are, of how many"),
+    ),
+    _run,
+    "--state 'h=1.2&f=0.3' --picture circle --format csv --out circle.csv",
+)

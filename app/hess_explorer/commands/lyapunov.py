@@ -27,29 +27,60 @@ def _computed(name: str, options: Options) -> Answer:
         return _spectrum(options, body, start, notes)
     found = lyapunov_exponent(body, start, options.t)
     kept = np.unique(np.linspace(0, found.times.size - 1, _SHOWN).astype(int))
-    return Answer({"t": found.times[kept].tolist(), "average": found.rates[kept].tolist()},
-                  {"exponent": found.value, "spread": found.spread}, notes)
+    return Answer(
+        {"t": found.times[kept].tolist(), "average": found.rates[kept].tolist()},
+        {"exponent": found.value, "spread": found.spread},
+        notes,
+    )
 
 
 def _spectrum(options: Options, body: Body, state: tuple[float, ...], notes: list[str]) -> Answer:
     found = lyapunov_spectrum(body, state, options.t, level(options.accuracy))
     dimension, error = found.dimension
-    forced = ("Volume is kept, and all but two exponents are those of integrals and the motion: they must be pairs."
-              if found.pairs_forced else "No measure that is known forces them to be pairs.")
+    forced = (
+        "Volume is kept, and all but two exponents are those of integrals and the motion: they must be pairs."
+        if found.pairs_forced
+        else "No measure that is known forces them to be pairs."
+    )
     columns = [f"average {i + 1}" for i in range(found.values.size)]
     return Answer(
         {"t": found.times.tolist(), **dict(zip(columns, found.rates.T.tolist(), strict=True))},
-        {"exponents": found.values.tolist(), "errors": found.errors.tolist(), "signs": list(found.signs),
-         "sum": float(found.values.sum()), "divergence": found.divergence,
-         "divergence_error": found.divergence_error, "dimension": dimension, "dimension_error": error,
-         "paired": found.paired, "pairs_forced": found.pairs_forced, **quality(found)}, [*notes, forced])
+        {
+            "exponents": found.values.tolist(),
+            "errors": found.errors.tolist(),
+            "signs": list(found.signs),
+            "sum": float(found.values.sum()),
+            "divergence": found.divergence,
+            "divergence_error": found.divergence_error,
+            "dimension": dimension,
+            "dimension_error": error,
+            "paired": found.paired,
+            "pairs_forced": found.pairs_forced,
+            **quality(found),
+        },
+        [*notes, forced],
+    )
 
 
-COMMAND = Command(systems={
-    name: Command(
-        f"Largest Lyapunov exponent of an orbit of {MOTIONS[name].title}, and its running averages, per unit of time.",
-        (*MOTIONS[name].options, number(TIME, help="time over which to average; negative: backward"),
-         flag("--spectrum", "all exponents by the variational equations, with errors, the mean divergence and the "
-              "Kaplan–Yorke dimension"), *OUTPUT),
-        table(partial(_computed, name)), f"{MOTIONS[name].example} --t 200", MOTIONS[name].title)
-    for name in ("suslov", "ball", "euler-poisson")})
+COMMAND = Command(
+    systems={
+        name: Command(
+            f"Largest Lyapunov exponent of an orbit of {MOTIONS[name].title}, and its running averages, "
+            "per unit of time.",
+            (
+                *MOTIONS[name].options,
+                number(TIME, help="time over which to average; negative: backward"),
+                flag(
+                    "--spectrum",
+                    "all exponents by the variational equations, with errors, the mean divergence and the "
+                    "Kaplan–Yorke dimension",
+                ),
+                *OUTPUT,
+            ),
+            table(partial(_computed, name)),
+            f"{MOTIONS[name].example} --t 200",
+            MOTIONS[name].title,
+        )
+        for name in ("suslov", "ball", "euler-poisson")
+    }
+)

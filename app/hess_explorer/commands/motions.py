@@ -34,16 +34,34 @@ from hess_mechanics.parameters import (
 
 from .command import Option, Options, number, vector
 
-__all__ = ["BALL", "FREE_TENSOR", "HEAVY", "INNER_BALL", "MOTIONS", "START", "SUSLOV", "System", "ball_of",
-           "check_of", "heavy_of", "start_of", "suslov_of"]
+__all__ = [
+    "BALL",
+    "FREE_TENSOR",
+    "HEAVY",
+    "INNER_BALL",
+    "MOTIONS",
+    "START",
+    "SUSLOV",
+    "System",
+    "ball_of",
+    "check_of",
+    "heavy_of",
+    "start_of",
+    "suslov_of",
+]
 
 FREE_TENSOR = vector("--I", TENSOR, "inertia tensor (I12 = 0); I13 and I23 not both 0")
 INNER_BALL = number(D, 0.0, help="𝒟 = (R/R_s)² I_s of a ball inside, 0: none")
-SUSLOV = (vector("--I", TENSOR, "inertia tensor (I12 = 0)"),
-          vector("--b", FIELD, "field (default 0,0,0)", (0.0, 0.0, 0.0)))
+SUSLOV = (
+    vector("--I", TENSOR, "inertia tensor (I12 = 0)"),
+    vector("--b", FIELD, "field (default 0,0,0)", (0.0, 0.0, 0.0)),
+)
 BALL = (*SUSLOV, number(D, help="𝒟 = (R/R_s)² I_s of the ball inside"))
-HEAVY = (vector("--A", INVERSE_MOMENTS, "inverses of the principal moments of inertia"),
-         vector("--r", CENTRE, "centre of mass"), number(MU, help="weight; the potential is −μ(r, γ)"))
+HEAVY = (
+    vector("--A", INVERSE_MOMENTS, "inverses of the principal moments of inertia"),
+    vector("--r", CENTRE, "centre of mass"),
+    number(MU, help="weight; the potential is −μ(r, γ)"),
+)
 _VERTICAL = "the vertical at t = 0; normalised"
 START = (vector("--omega", OMEGA, "angular velocity at t = 0"), vector("--gamma", GAMMA, _VERTICAL))
 
@@ -88,8 +106,7 @@ class System:
     given: Callable[[Options], tuple[Body, BodyCheck]]
 
 
-def _of(body: Callable[[Options], SuslovBody | BallBody | HeavyBody]
-        ) -> Callable[[Options], tuple[Body, BodyCheck]]:
+def _of(body: Callable[[Options], SuslovBody | BallBody | HeavyBody]) -> Callable[[Options], tuple[Body, BodyCheck]]:
     def given(options: Options) -> tuple[Body, BodyCheck]:
         made = body(options)
         return made, check_of(made)
@@ -104,20 +121,37 @@ def _hess(options: Options) -> tuple[Body, BodyCheck]:
 
 MOTIONS: Mapping[str, System] = {
     "suslov": System(
-        "the Suslov problem with gravity", (*SUSLOV, *START),
-        "--I 1,2.5,0.6,0.6 --b=-1,-0.5,0.7 --omega 0.5,1.2 --gamma 0.6,0,0.8", _of(suslov_of)),
+        "the Suslov problem with gravity",
+        (*SUSLOV, *START),
+        "--I 1,2.5,0.6,0.6 --b=-1,-0.5,0.7 --omega 0.5,1.2 --gamma 0.6,0,0.8",
+        _of(suslov_of),
+    ),
     "ball": System(
-        "the Chaplygin ball with Suslov's constraint", (*BALL, *START),
-        "--I 1,4,0,0 --D 2 --b 0.3,0,1 --omega 0.5,0.9 --gamma 0.6,0,0.8", _of(ball_of)),
+        "the Chaplygin ball with Suslov's constraint",
+        (*BALL, *START),
+        "--I 1,4,0,0 --D 2 --b 0.3,0,1 --omega 0.5,0.9 --gamma 0.6,0,0.8",
+        _of(ball_of),
+    ),
     "hess": System(
         "the Suslov–Hess case in its reduced variables (w1, w2, n1, n2, n3)",
-        (number(A_HESS, help="inertia parameter a = I23/I22"), number(B_HESS, help="field"),
-         vector("--omega", REDUCED_OMEGA, "angular velocity at t = 0"), vector("--gamma", REDUCED_GAMMA, _VERTICAL)),
-        "--a 0.5 --b 1 --omega 0.7,1.1 --gamma 0.2,0.5,0.7", _hess),
+        (
+            number(A_HESS, help="inertia parameter a = I23/I22"),
+            number(B_HESS, help="field"),
+            vector("--omega", REDUCED_OMEGA, "angular velocity at t = 0"),
+            vector("--gamma", REDUCED_GAMMA, _VERTICAL),
+        ),
+        "--a 0.5 --b 1 --omega 0.7,1.1 --gamma 0.2,0.5,0.7",
+        _hess,
+    ),
     "euler-poisson": System(
         "a heavy rigid body with a fixed point in its principal axes, H = ½(M, AM) − μ(r, γ)",
-        (*HEAVY, vector("--M", MOMENTUM, "angular momentum at t = 0", dest="omega"),
-         vector("--gamma", GAMMA, _VERTICAL)),
-        "--A 1,1.6,2.6666666666666665 --r 3,0,4 --mu 1.995 --M 1.3,-2,0.7 --gamma 0.3,0.4,0.87", _of(heavy_of)),
+        (
+            *HEAVY,
+            vector("--M", MOMENTUM, "angular momentum at t = 0", dest="omega"),
+            vector("--gamma", GAMMA, _VERTICAL),
+        ),
+        "--A 1,1.6,2.6666666666666665 --r 3,0,4 --mu 1.995 --M 1.3,-2,0.7 --gamma 0.3,0.4,0.87",
+        _of(heavy_of),
+    ),
 }
 """By name."""

@@ -20,12 +20,23 @@ def _computed(name: str, options: Options) -> Answer:
     body, check = MOTIONS[name].given(options)
     start, notes = start_of(options)
     result = solve(body, start, options.t, level(options.accuracy))
-    return Answer({"t": result.times.tolist(), "y": result.states.tolist()},
-                  {"variables": list(body.system.variables), **quality(result), **whether_body(check)},
-                  notes, ("t", *body.system.variables))
+    return Answer(
+        {"t": result.times.tolist(), "y": result.states.tolist()},
+        {"variables": list(body.system.variables), **quality(result), **whether_body(check)},
+        notes,
+        ("t", *body.system.variables),
+    )
 
 
-COMMAND = Command(systems={
-    name: Command(f"Orbit of {of.title}.", (*of.options, TIMES, *OUTPUT), table(partial(_computed, name)),
-                  f"{of.example} --t 10,50", of.title)
-    for name, of in MOTIONS.items()})
+COMMAND = Command(
+    systems={
+        name: Command(
+            f"Orbit of {of.title}.",
+            (*of.options, TIMES, *OUTPUT),
+            table(partial(_computed, name)),
+            f"{of.example} --t 10,50",
+            of.title,
+        )
+        for name, of in MOTIONS.items()
+    }
+)

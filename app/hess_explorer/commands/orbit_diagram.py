@@ -19,8 +19,9 @@ def _computed(section: ReturnMap, options: Options) -> Answer:
     name, over = options.over
 
     def followed(of: ReturnMap, values: list[float], at: Any) -> Diagram:
-        return orbit_diagram(of, name, values, at, transient=options.transient, kept=options.crossings,
-                             follow=not options.anew)
+        return orbit_diagram(
+            of, name, values, at, transient=options.transient, kept=options.crossings, follow=not options.anew
+        )
 
     there = followed(section, over, options.at)
     ways = {"there": there}
@@ -31,16 +32,28 @@ def _computed(section: ReturnMap, options: Options) -> Answer:
         ways["backward"] = followed(section.inverse(), over, options.at)
     other = hysteresis(section.turns, there, ways["back"]) if options.back else ()
     located = _located(section, there, options.doublings) if options.doublings else None
-    rows = [(way, value, int(period), bool(settled), *place)
-            for way, one in ways.items()
-            for value, period, settled, places in zip(one.values.tolist(), one.periods, one.settled, one.places,
-                                                      strict=True) for place in places.tolist()]
+    rows = [
+        (way, value, int(period), bool(settled), *place)
+        for way, one in ways.items()
+        for value, period, settled, places in zip(
+            one.values.tolist(), one.periods, one.settled, one.places, strict=True
+        )
+        for place in places.tolist()
+    ]
     names = ("way", name, "period", "settled", *section.names)
-    return Answer({column: [row[i] for row in rows] for i, column in enumerate(names)}, {
-        "gaps": {way: [value for value, some in zip(one.values.tolist(), one.places, strict=True) if not len(some)]
-                 for way, one in ways.items()},
-        **({"hysteresis": [list(one) for one in other]} if options.back else {}),
-        **({} if located is None else _doublings(located)), "level": there.level}, _notes(options, there, located))
+    return Answer(
+        {column: [row[i] for row in rows] for i, column in enumerate(names)},
+        {
+            "gaps": {
+                way: [value for value, some in zip(one.values.tolist(), one.places, strict=True) if not len(some)]
+                for way, one in ways.items()
+            },
+            **({"hysteresis": [list(one) for one in other]} if options.back else {}),
+            **({} if located is None else _doublings(located)),
+            "level": there.level,
+        },
+        _notes(options, there, located),
+    )
 
 
 def _located(section: ReturnMap, there: Diagram, most: int) -> Cascade | str | None:
@@ -61,10 +74,17 @@ def _doublings(found: Cascade | str) -> dict[str, Any]:
     if isinstance(found, str):
         return {}
     ratios = [[float(ratio), float(error)] for ratio, error in zip(found.ratios, found.ratio_errors, strict=True)]
-    return {"doublings": [
-        {"value": float(value), "error": float(error), "period": int(period), "place": places[0].tolist()}
-        for value, error, period, places in zip(found.values, found.errors, found.periods, found.places, strict=True)],
-        "ratios": ratios, "limit": found.limit, "ended": found.ended}
+    return {
+        "doublings": [
+            {"value": float(value), "error": float(error), "period": int(period), "place": places[0].tolist()}
+            for value, error, period, places in zip(
+                found.values, found.errors, found.periods, found.places, strict=True
+            )
+        ],
+        "ratios": ratios,
+        "limit": found.limit,
+        "ended": found.ended,
+    }
 
 
 def _notes(options: Options, there: Diagram, located: Cascade | str | None) -> list[str]:
@@ -82,14 +102,29 @@ COMMAND = command_of_sections(
     "Where the orbit of {section} from a place {place} settles at each value of a parameter, from where it was at the "
     "value before: its places, and the period with which they repeat, 0 where none up to 64 is seen.",
     "where the orbit starts",
-    (option("--over", "the parameter and its values, in this order; or a list, NAME=1,2,3",
-            type=assigned(values, "E=1:2:50"), required=True, metavar="NAME=LO:HI:N"),
-     whole("--transient", 0, 20_000, "crossings left out at each value", 200),
-     whole("--crossings", 1, 20_000, "crossings shown of each value", 64),
-     flag("--anew", "start anew from --at at each value"),
-     flag("--back", "go back over the values as well, and say where that is another way (hysteresis)"),
-     flag("--backward", "backward in time as well, to repellers"),
-     whole("--doublings", 0, 6, "locate so many period doublings by Newton's method, from the first that is seen", 0)),
-    {"suslov": "--at 1.5,1.2 --over I13=0:0.4:9 --crossings 24", "quartic": "--at 0.9,0.1 --over h=0.7:0.9:5",
-     "ball": "--at 1.5,1.2 --over I13=0.1:0.3:5 --crossings 24", "euler-poisson": "--at 0,0.2 --over h=1.4:1.6:3",
-     "hess": "--at 1 --over a=0.3:0.7:9 --back --backward --format csv"}, _computed)
+    (
+        option(
+            "--over",
+            "the parameter and its values, in this order; or a list, NAME=1,2,3",
+            type=assigned(values, "E=1:2:50"),
+            required=True,
+            metavar="NAME=LO:HI:N",
+        ),
+        whole("--transient", 0, 20_000, "crossings left out at each value", 200),
+        whole("--crossings", 1, 20_000, "crossings shown of each value", 64),
+        flag("--anew", "start anew from --at at each value"),
+        flag("--back", "go back over the values as well, and say where that is another way (hysteresis)"),
+        flag("--backward", "backward in time as well, to repellers"),
+        whole(
+            "--doublings", 0, 6, "locate so many period doublings by Newton's method, from the first that is seen", 0
+        ),
+    ),
+    {
+        "suslov": "--at 1.5,1.2 --over I13=0:0.4:9 --crossings 24",
+        "quartic": "--at 0.9,0.1 --over h=0.7:0.9:5",
+        "ball": "--at 1.5,1.2 --over I13=0.1:0.3:5 --crossings 24",
+        "euler-poisson": "--at 0,0.2 --over h=1.4:1.6:3",
+        "hess": "--at 1 --over a=0.3:0.7:9 --back --backward --format csv",
+    },
+    _computed,
+)

@@ -23,8 +23,19 @@ if TYPE_CHECKING:
     from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
     from hess_mechanics.suslov.scattering import Scattering
 
-__all__ = ["LONG", "PATIENCE", "Answer", "computing", "quality", "show", "table", "text", "whether_body", "write",
-           "write_file"]
+__all__ = [
+    "LONG",
+    "PATIENCE",
+    "Answer",
+    "computing",
+    "quality",
+    "show",
+    "table",
+    "text",
+    "whether_body",
+    "write",
+    "write_file",
+]
 
 LONG = 2.0
 """Seconds after which a command says that it goes on."""
@@ -123,9 +134,14 @@ def _patience() -> Iterator[None]:
 def quality(result: CircleMap | Cloud | Orbit | Period | Scattering | SectionCrossings | Spectrum) -> dict[str, Any]:
     """How exact a result is and what it cost, as every command reports it."""
     drift = getattr(result, "drift", None)
-    return {"error_estimate": result.error_estimate, **({} if drift is None else {"drift": dict(drift)}),
-            "status": str(result.status), "level": result.level, "steps": result.cost.steps,
-            "wall_ms": result.cost.wall_ms}
+    return {
+        "error_estimate": result.error_estimate,
+        **({} if drift is None else {"drift": dict(drift)}),
+        "status": str(result.status),
+        "level": result.level,
+        "steps": result.cost.steps,
+        "wall_ms": result.cost.wall_ms,
+    }
 
 
 def whether_body(check: BodyCheck) -> dict[str, Any]:
@@ -161,11 +177,16 @@ def write(options: argparse.Namespace, answer: Answer) -> None:
     series, facts = answer.series, answer.facts
     for name, column in series.items():
         if not all(map(_is_number, column)):
-            raise CommandError(f"{name}: a number leaves the range of double precision; choose less extreme parameters "
-                               "or another time span.")
+            raise CommandError(
+                f"{name}: a number leaves the range of double precision; choose less extreme parameters "
+                "or another time span."
+            )
     strict = {key: _strict(value) for key, value in facts.items()}
-    lost = [f"{key}: null stands for a number beyond the range of double precision."
-            for key, value in facts.items() if strict[key] != value]
+    lost = [
+        f"{key}: null stands for a number beyond the range of double precision."
+        for key, value in facts.items()
+        if strict[key] != value
+    ]
     strict["notes"] = [*answer.notes, *lost]
     if options.format == "json":
         pairs = {**series, **strict}.items()

@@ -24,9 +24,16 @@ def _computed(options: Options) -> Answer:
         what = "rests on the equator" if closed.kind == "fixed" else "tends to a fixed point on the equator"
         raise InvalidParameter(f"This motion {what} and has no period: choose another start.")
     found = period(ball, start, accuracy)
-    return Answer({"crossing": list(found.crossings)}, {
-        "start": list(start), "period": found.value, "period_closed_form": None if closed is None else closed.period,
-        **quality(found)}, notes)
+    return Answer(
+        {"crossing": list(found.crossings)},
+        {
+            "start": list(start),
+            "period": found.value,
+            "period_closed_form": None if closed is None else closed.period,
+            **quality(found),
+        },
+        notes,
+    )
 
 
 COMMAND = Command(
@@ -35,5 +42,13 @@ COMMAND = Command(
     "Kharlamova's case) and for the Chaplygin ball with Suslov's constraint.  period_closed_form, for 𝒟 = 0 only: 2 "
     "∫dτ/√P(τ) by arithmetic-geometric means, P(τ) = 1 − γ1² − γ2² a quartic in the time τ, dτ = γ3 dt.  Times are in "
     "the units of ω and b.",
-    (vector("--I", TENSOR[:2], "moments of inertia"), vector("--b", FIELD[:2], "field (default 0,0)", (0.0, 0.0)),
-     INNER_BALL, *START, *OUTPUT), table(_computed), "--I 1.3,0.8 --b 0.5,-0.2 --omega 1,-0.5 --gamma 0,0.6,0.8")
+    (
+        vector("--I", TENSOR[:2], "moments of inertia"),
+        vector("--b", FIELD[:2], "field (default 0,0)", (0.0, 0.0)),
+        INNER_BALL,
+        *START,
+        *OUTPUT,
+    ),
+    table(_computed),
+    "--I 1.3,0.8 --b 0.5,-0.2 --omega 1,-0.5 --gamma 0,0.6,0.8",
+)

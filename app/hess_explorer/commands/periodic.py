@@ -21,10 +21,21 @@ def _computed(section: ReturnMap, options: Options) -> Answer:
         name, end = options.along
         return _of_branch(continued_orbit(section, orbit, name, end, options.points))
     if options.manifolds is not None:
-        return _of_manifolds(orbit, [manifold(section, orbit, options.manifolds, stable=stable, side=side)
-                                     for stable in (False, True) for side in (1, -1)])
-    return Answer({"return": list(range(orbit.period)),
-                   **{name: orbit.places[:, i].tolist() for i, name in enumerate(orbit.names)}}, _facts(orbit))
+        return _of_manifolds(
+            orbit,
+            [
+                manifold(section, orbit, options.manifolds, stable=stable, side=side)
+                for stable in (False, True)
+                for side in (1, -1)
+            ],
+        )
+    return Answer(
+        {
+            "return": list(range(orbit.period)),
+            **{name: orbit.places[:, i].tolist() for i, name in enumerate(orbit.names)},
+        },
+        _facts(orbit),
+    )
 
 
 def _pair(value: complex) -> list[float]:
@@ -33,46 +44,97 @@ def _pair(value: complex) -> list[float]:
 
 def _facts(orbit: PeriodicOrbit) -> dict[str, Any]:
     return {
-        "period": orbit.period, "kind": orbit.kind,
+        "period": orbit.period,
+        "kind": orbit.kind,
         "multipliers": [_pair(complex(one)) for one in orbit.multipliers],
-        "multiplier_error": float(orbit.multiplier_error), "error_estimate": float(orbit.error_estimate),
-        "condition": orbit.condition, "iterations": orbit.iterations, "symmetric": list(orbit.symmetric),
-        "level": orbit.level, "status": str(orbit.status)}
+        "multiplier_error": float(orbit.multiplier_error),
+        "error_estimate": float(orbit.error_estimate),
+        "condition": orbit.condition,
+        "iterations": orbit.iterations,
+        "symmetric": list(orbit.symmetric),
+        "level": orbit.level,
+        "status": str(orbit.status),
+    }
 
 
 def _of_branch(branch: Branch) -> Answer:
-    series: dict[str, Any] = {branch.parameter: branch.values.tolist(),
-                              **{name: branch.places[:, 0, i].tolist() for i, name in enumerate(branch.names)}}
+    series: dict[str, Any] = {
+        branch.parameter: branch.values.tolist(),
+        **{name: branch.places[:, 0, i].tolist() for i, name in enumerate(branch.names)},
+    }
     for i in range(branch.multipliers.shape[1]):
         series[f"real{i + 1}"] = branch.multipliers[:, i].real.tolist()
         series[f"imag{i + 1}"] = branch.multipliers[:, i].imag.tolist()
     series |= {"kind": list(branch.kinds), "error": branch.errors.tolist()}
-    found = [{"kind": one.kind, "value": one.value, "error": float(one.error), "place": one.places[0].tolist(),
-              "multipliers": [_pair(complex(value)) for value in one.multipliers]} for one in branch.bifurcations]
-    return Answer(series, {"period": branch.period, "bifurcations": found, "ended": branch.ended,
-                           "error_estimate": branch.error_estimate, "level": branch.level})
+    found = [
+        {
+            "kind": one.kind,
+            "value": one.value,
+            "error": float(one.error),
+            "place": one.places[0].tolist(),
+            "multipliers": [_pair(complex(value)) for value in one.multipliers],
+        }
+        for one in branch.bifurcations
+    ]
+    return Answer(
+        series,
+        {
+            "period": branch.period,
+            "bifurcations": found,
+            "ended": branch.ended,
+            "error_estimate": branch.error_estimate,
+            "level": branch.level,
+        },
+    )
 
 
 def _of_manifolds(orbit: PeriodicOrbit, curves: list[Manifold]) -> Answer:
     names = ["manifold", "side", "length", *orbit.names]
-    rows = [["stable" if curve.stable else "unstable", curve.side, float(length), *map(float, point)]
-            for curve in curves for length, point in zip(curve.lengths, curve.points, strict=True)]
-    return Answer(dict(zip(names, map(list, zip(*rows, strict=True)), strict=True)), {
-        **_facts(orbit), "saddle": orbit.places[0].tolist(), "errors": [float(one.error_estimate) for one in curves],
-        "ended": [one.ended for one in curves],
-        "status": next((status for status in (str(one.status) for one in curves) if status != "ok"), str(orbit.status)),
-    })
+    rows = [
+        ["stable" if curve.stable else "unstable", curve.side, float(length), *map(float, point)]
+        for curve in curves
+        for length, point in zip(curve.lengths, curve.points, strict=True)
+    ]
+    return Answer(
+        dict(zip(names, map(list, zip(*rows, strict=True)), strict=True)),
+        {
+            **_facts(orbit),
+            "saddle": orbit.places[0].tolist(),
+            "errors": [float(one.error_estimate) for one in curves],
+            "ended": [one.ended for one in curves],
+            "status": next(
+                (status for status in (str(one.status) for one in curves) if status != "ok"), str(orbit.status)
+            ),
+        },
+    )
 
 
 COMMAND = command_of_sections(
     "A periodic orbit of {section} found by Newton's method from a place {place}, with its multipliers and type.",
     "where the search begins",
-    (whole("--period", 1, 64, "returns (default: found, up to 12)"),
-     option("--along", "the branch of the orbit over a parameter, from its value here, through folds, with the "
-            "bifurcations on it", type=assigned(any_number, "E=2.5"), metavar="NAME=TO"),
-     option("--manifolds", "both branches of the stable and of the unstable manifold of a saddle, so long",
-            type=any_number, metavar="LENGTH"),
-     whole("--points", 2, 2000, "of the branch, at most", 200)),
-    {"suslov": "--at 1.5,1.2", "quartic": "--at 0.9,0.1", "ball": "--at 1.5,1.2",
-     "euler-poisson": "--at 0,0.2 --period 1 --manifolds 1", "hess": "--at 1 --period 1 --along a=0.3 --format csv"},
-    _computed, exclusive=("--along", "--manifolds"))
+    (
+        whole("--period", 1, 64, "returns (default: found, up to 12)"),
+        option(
+            "--along",
+            "the branch of the orbit over a parameter, from its value here, through folds, with the bifurcations on it",
+            type=assigned(any_number, "E=2.5"),
+            metavar="NAME=TO",
+        ),
+        option(
+            "--manifolds",
+            "both branches of the stable and of the unstable manifold of a saddle, so long",
+            type=any_number,
+            metavar="LENGTH",
+        ),
+        whole("--points", 2, 2000, "of the branch, at most", 200),
+    ),
+    {
+        "suslov": "--at 1.5,1.2",
+        "quartic": "--at 0.9,0.1",
+        "ball": "--at 1.5,1.2",
+        "euler-poisson": "--at 0,0.2 --period 1 --manifolds 1",
+        "hess": "--at 1 --period 1 --along a=0.3 --format csv",
+    },
+    _computed,
+    exclusive=("--along", "--manifolds"),
+)

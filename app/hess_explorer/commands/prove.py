@@ -30,19 +30,25 @@ def _words(proof: Proof | EdgeProof, found: dict[str, Any]) -> Iterator[str]:
     else:
         yield from _torus_words(found)
     versions = found["versions"]
-    effort = "" if isinstance(proof, EdgeProof) else (
-        f"{len(proof.steps)} Taylor steps, {proof.bits} bits, {proof.seconds:.2f} s; ")
+    effort = (
+        ""
+        if isinstance(proof, EdgeProof)
+        else (f"{len(proof.steps)} Taylor steps, {proof.bits} bits, {proof.seconds:.2f} s; ")
+    )
     yield f"{effort}python-flint {versions['python-flint']}, FLINT {versions['flint']}"
-    yield ("This holds for the equations with exactly these numbers, if the library's balls are right; --format json "
-           "gives the certificate.")
+    yield (
+        "This holds for the equations with exactly these numbers, if the library's balls are right; --format json "
+        "gives the certificate."
+    )
 
 
 def _torus_words(found: dict[str, Any]) -> Iterator[str]:
     yield f"|trace| {_interval(found['trace'])}"
     if found["rotation_number"] is not None:
         yield f"rotation number {_interval(found['rotation_number'])}"
-    for name, phi, multiplier in zip(("attracting", "repelling"), found["fixed_points"], found["multipliers"],
-                                     strict=False):
+    for name, phi, multiplier in zip(
+        ("attracting", "repelling"), found["fixed_points"], found["multipliers"], strict=False
+    ):
         yield f"{name} cycle: φ {_interval(phi)}, multiplier {_interval(multiplier)}"
 
 
@@ -65,8 +71,24 @@ COMMAND = Command(
     "orbit.  Multipliers, fixed points and rotation number are enclosed.  The JSON is a certificate: every Taylor step "
     "with what bounds its remainder, for an independent check such as tests/check_certificate.py.  Needs the extra: "
     "pip install 'hess-explorer[prove]'.",
-    (*(option(f"--{name}", f"{what}; exact: 0.1, -2e-3 or 1/3", required=True, metavar="NUMBER") for name, what in (
-        ("a", "inertia parameter a = I23/I22"), ("h", "energy, h > -1"), ("f", "area integral, |f| ≤ f_max(h)"))),
-     whole("--bits", 64, 4096, "the precision doubles from 64 bits to at most this", 512),
-     option("--format", "text (default): what is proved, in words; json: the whole certificate",
-            choices=("text", "json"), default="text"), OUT), text(_computed), "--a 0.5 --h 1.5 --f 0.6 --format json")
+    (
+        *(
+            option(f"--{name}", f"{what}; exact: 0.1, -2e-3 or 1/3", required=True, metavar="NUMBER")
+            for name, what in (
+                ("a", "inertia parameter a = I23/I22"),
+                ("h", "energy, h > -1"),
+                ("f", "area integral, |f| ≤ f_max(h)"),
+            )
+        ),
+        whole("--bits", 64, 4096, "the precision doubles from 64 bits to at most this", 512),
+        option(
+            "--format",
+            "text (default): what is proved, in words; json: the whole certificate",
+            choices=("text", "json"),
+            default="text",
+        ),
+        OUT,
+    ),
+    text(_computed),
+    "--a 0.5 --h 1.5 --f 0.6 --format json",
+)

@@ -20,9 +20,11 @@ __all__ = ["COMMAND"]
 
 _ROUND = 100
 """Proofs between two looks at the share decided."""
-_MEANS = ("alpha = (1 - n1^2)/(n1 + n2)^2, beta = (1 - n2^2)/(n1 + n2)^2 with n1 <= n2 between which n3 swings; "
-          "h = (alpha + beta - 1) s/2, f = sqrt(2 alpha beta) s^(3/2), s = 2/sqrt((1 + alpha + beta)^2 - 4 alpha beta)"
-          "; a statement is about the tori of a cell, alpha > beta or exchanged; alpha = beta is the edge: no torus")
+_MEANS = (
+    "alpha = (1 - n1^2)/(n1 + n2)^2, beta = (1 - n2^2)/(n1 + n2)^2 with n1 <= n2 between which n3 swings; "
+    "h = (alpha + beta - 1) s/2, f = sqrt(2 alpha beta) s^(3/2), s = 2/sqrt((1 + alpha + beta)^2 - 4 alpha beta)"
+    "; a statement is about the tori of a cell, alpha > beta or exchanged; alpha = beta is the edge: no torus"
+)
 
 
 def _computed(options: Options) -> str:
@@ -33,8 +35,9 @@ def _computed(options: Options) -> str:
         zone = refined(zone, min(_ROUND, options.cells - zone.tried))
         if zone.tried == before:
             break
-        progress.append({"cells": zone.tried, "seconds": round(time.perf_counter() - begun, 2),
-                         "decided": round(zone.decided, 6)})
+        progress.append(
+            {"cells": zone.tried, "seconds": round(time.perf_counter() - begun, 2), "decided": round(zone.decided, 6)}
+        )
     return "\n".join(_FORMATS[options.format](zone, progress))
 
 
@@ -52,11 +55,21 @@ def _words(zone: LockZone, progress: list[dict[str, Any]]) -> Iterator[str]:
 def _json(zone: LockZone, progress: list[dict[str, Any]]) -> Iterator[str]:
     library = flint()
     cells = [{"alpha": list(cell.alpha), "beta": list(cell.beta), "statement": cell.statement} for cell in zone.cells]
-    yield json.dumps({
-        "format": "Suslov–Hess lock zone, 1", "a": str(zone.a), "h_end": zone.h_end, "means": _MEANS,
-        "decided": zone.decided, "areas": zone.areas, "progress": progress, "cells": cells,
-        "versions": {"python-flint": library.__version__, "flint": library.__FLINT_VERSION__},
-    }, ensure_ascii=False, allow_nan=False)
+    yield json.dumps(
+        {
+            "format": "Suslov–Hess lock zone, 1",
+            "a": str(zone.a),
+            "h_end": zone.h_end,
+            "means": _MEANS,
+            "decided": zone.decided,
+            "areas": zone.areas,
+            "progress": progress,
+            "cells": cells,
+            "versions": {"python-flint": library.__version__, "flint": library.__FLINT_VERSION__},
+        },
+        ensure_ascii=False,
+        allow_nan=False,
+    )
 
 
 def _csv(zone: LockZone, progress: list[dict[str, Any]]) -> Iterator[str]:
@@ -74,11 +87,27 @@ COMMAND = Command(
     "(the JSON says how); its ends are doubles, meant exactly.  Where a cell meets the edge |f| = f_max(h), its "
     "statement is about its tori only: on the edge there is none.  Areas are computed, not proved.  Needs the extra: "
     "pip install 'hess-explorer[prove]'.",
-    (option("--a", "inertia parameter a = I23/I22, |a| ≤ 3; exact: 0.1, -2e-3 or 1/3", required=True,
-            metavar="NUMBER"),
-     number(H_PLANE, 4.0, name="--h-end", help="up to this energy h"),
-     whole("--cells", 1, 100_000, "at most so many proofs, of some 15 ms each", 400),
-     option("--share", "stop when this share of the area is decided, looked at after each 100 proofs", type=any_number,
-            default=1.0, metavar="S"),
-     option("--format", "text (default): the shares; json: all cells and the share over time; csv: all cells",
-            choices=tuple(_FORMATS), default="text"), OUT), text(_computed), "--a 0.5 --cells 50 --format json")
+    (
+        option(
+            "--a", "inertia parameter a = I23/I22, |a| ≤ 3; exact: 0.1, -2e-3 or 1/3", required=True, metavar="NUMBER"
+        ),
+        number(H_PLANE, 4.0, name="--h-end", help="up to this energy h"),
+        whole("--cells", 1, 100_000, "at most so many proofs, of some 15 ms each", 400),
+        option(
+            "--share",
+            "stop when this share of the area is decided, looked at after each 100 proofs",
+            type=any_number,
+            default=1.0,
+            metavar="S",
+        ),
+        option(
+            "--format",
+            "text (default): the shares; json: all cells and the share over time; csv: all cells",
+            choices=tuple(_FORMATS),
+            default="text",
+        ),
+        OUT,
+    ),
+    text(_computed),
+    "--a 0.5 --cells 50 --format json",
+)

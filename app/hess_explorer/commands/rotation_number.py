@@ -25,16 +25,30 @@ def _computed(options: Options) -> Answer:
     possible = found.possible.tolist()
     values = {"rotation_number": found.rho, "trace": np.minimum(found.trace, 1e308), "locked": found.locked}
     return Answer(
-        {"a": a.tolist(), "h": h.tolist(), "f": f.tolist(),
-         **{name: [value if there else None for value, there in zip(column.tolist(), possible, strict=True)]
-            for name, column in values.items()},
-         "possible": possible}, {"level": accuracy.name})
+        {
+            "a": a.tolist(),
+            "h": h.tolist(),
+            "f": f.tolist(),
+            **{
+                name: [value if there else None for value, there in zip(column.tolist(), possible, strict=True)]
+                for name, column in values.items()
+            },
+            "possible": possible,
+        },
+        {"level": accuracy.name},
+    )
 
 
 COMMAND = Command(
     "Rotation number ρ (turns per return) and |trace| of the circle map for every combination of the values of a, h "
     "and f, units b = 1; locked: whether it has two limit cycles; possible: whether there is such a torus (else the "
     "other three are null, in CSV empty).",
-    (samples(A_HESS, "inertia parameter a = I23/I22"), samples(H_PLANE, "energy, h > -1"),
-     samples(F_HESS, "area integral"), *OUTPUT), table(_computed),
-    "--a 0.5 --h -0.9:2:30 --f 0.6 --format csv")
+    (
+        samples(A_HESS, "inertia parameter a = I23/I22"),
+        samples(H_PLANE, "energy, h > -1"),
+        samples(F_HESS, "area integral"),
+        *OUTPUT,
+    ),
+    table(_computed),
+    "--a 0.5 --h -0.9:2:30 --f 0.6 --format csv",
+)

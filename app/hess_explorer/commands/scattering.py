@@ -17,26 +17,39 @@ __all__ = ["COMMAND"]
 def _computed(options: Options) -> Answer:
     body = SuslovBody(*options.I)
     result = scattering(body, level(options.accuracy), options.arc, options.distance)
-    return Answer({"phi": options.phi, "theta_plus": result.theta_plus(options.theta, options.phi).tolist()}, {
-        "theta": options.theta,
-        "cos_chi": result.cos_chi,
-        "cos_chi_closed_form": cos_chi(body),
-        "sin_chi": result.sin_chi,
-        "phi_star": result.phi_star,
-        "arc": result.arc,
-        "distance": result.distance,
-        **quality(result),
-        **whether_body(check_of(body)),
-    })
+    return Answer(
+        {"phi": options.phi, "theta_plus": result.theta_plus(options.theta, options.phi).tolist()},
+        {
+            "theta": options.theta,
+            "cos_chi": result.cos_chi,
+            "cos_chi_closed_form": cos_chi(body),
+            "sin_chi": result.sin_chi,
+            "phi_star": result.phi_star,
+            "arc": result.arc,
+            "distance": result.distance,
+            **quality(result),
+            **whether_body(check_of(body)),
+        },
+    )
 
 
 COMMAND = Command(
     "The free Suslov problem (b = 0): every motion comes from a circle at the angle θ⁻ from ξ round the unstable "
     "point, with a phase φ, and goes to one at the angle θ⁺ round the stable point.  cos_chi, sin_chi, phi_star: cos "
     "θ⁺ = cos χ cos θ⁻ + sin χ sin θ⁻ cos(φ − φ*).",
-    (FREE_TENSOR, number(THETA, help="θ⁻ in radians"),
-     samples(CIRCLE_PHASE, "phases in radians (default: none)", []),
-     option("--arc", "the sign of I13ω1 + I23ω2 on the way (default 1)", type=int, choices=(1, -1), default=1),
-     option("--distance", "phases of starts where the part of ω across ξ is this times the angular velocity at the "
-            "unstable point (default: phases for t → −∞)", type=any_number),
-     *OUTPUT), table(_computed), "--I 3.56,1,0,0.8 --theta 1.0 --phi 0,1,2 --accuracy reference")
+    (
+        FREE_TENSOR,
+        number(THETA, help="θ⁻ in radians"),
+        samples(CIRCLE_PHASE, "phases in radians (default: none)", []),
+        option("--arc", "the sign of I13ω1 + I23ω2 on the way (default 1)", type=int, choices=(1, -1), default=1),
+        option(
+            "--distance",
+            "phases of starts where the part of ω across ξ is this times the angular velocity at the "
+            "unstable point (default: phases for t → −∞)",
+            type=any_number,
+        ),
+        *OUTPUT,
+    ),
+    table(_computed),
+    "--I 3.56,1,0,0.8 --theta 1.0 --phi 0,1,2 --accuracy reference",
+)

@@ -28,9 +28,18 @@ def _of_heavy(options: Options) -> Answer:
     end = time_for(body, options.h, options.f, options.crossings) if options.t is None else options.t
     result = section(body, start, AndoyerPlane(options.f), end, accuracy, options.crossings)
     l, x = coordinates(result.states).T
-    return Answer({"t": result.times.tolist(), "l": l.tolist(), "x": x.tolist(), "M": result.states[:, :3].tolist(),
-                   "gamma": result.states[:, 3:].tolist()}, _facts(result, start, check_of(body)),
-                  _fewer(result, options.crossings, end), ("t", "l", "x", *HEAVY_SYSTEM.variables))
+    return Answer(
+        {
+            "t": result.times.tolist(),
+            "l": l.tolist(),
+            "x": x.tolist(),
+            "M": result.states[:, :3].tolist(),
+            "gamma": result.states[:, 3:].tolist(),
+        },
+        _facts(result, start, check_of(body)),
+        _fewer(result, options.crossings, end),
+        ("t", "l", "x", *HEAVY_SYSTEM.variables),
+    )
 
 
 def _of_plane(name: str, options: Options) -> Answer:
@@ -39,9 +48,12 @@ def _of_plane(name: str, options: Options) -> Answer:
     start, notes = start_of(options)
     plane = Plane(options.plane, options.offset, options.sense)
     result = section(body, start, plane, options.t, accuracy, options.crossings)
-    return Answer({"t": result.times.tolist(), "y": result.states.tolist()},
-                  {"variables": list(body.system.variables), **_facts(result, start, check)},
-                  [*_fewer(result, options.crossings, options.t), *notes], ("t", *body.system.variables))
+    return Answer(
+        {"t": result.times.tolist(), "y": result.states.tolist()},
+        {"variables": list(body.system.variables), **_facts(result, start, check)},
+        [*_fewer(result, options.crossings, options.t), *notes],
+        ("t", *body.system.variables),
+    )
 
 
 def _facts(result: SectionCrossings, start: tuple[float, ...], body: BodyCheck) -> Mapping[str, Any]:
@@ -59,27 +71,52 @@ def _plane(name: str, usual: tuple[float, ...] | None, example: str) -> Command:
     return Command(
         "Crossings of the plane n1 ω1 + n2 ω2 + n3 γ1 + n4 γ2 + n5 γ3 = offset"
         f"{', γ3 = 0 unless another one is given,' if usual else ''} by an orbit of {of.title}.",
-        (*of.options,
-         vector("--plane", "n1,n2,n3,n4,n5", f"the normal of the plane{' (default 0,0,0,0,1)' if usual else ''}",
-                usual),
-         option("--offset", "offset of the plane along its normal (default 0)", type=any_number, default=0.0),
-         option("--sense", "1 (default): crossed from below as time grows, -1: from above, 0: both", type=int,
-                choices=(-1, 0, 1), default=1),
-         number(TIME), _COUNT, *OUTPUT), table(partial(_of_plane, name)), f"{of.example} {example}",
-        f"{of.title}, any plane")
+        (
+            *of.options,
+            vector(
+                "--plane", "n1,n2,n3,n4,n5", f"the normal of the plane{' (default 0,0,0,0,1)' if usual else ''}", usual
+            ),
+            option("--offset", "offset of the plane along its normal (default 0)", type=any_number, default=0.0),
+            option(
+                "--sense",
+                "1 (default): crossed from below as time grows, -1: from above, 0: both",
+                type=int,
+                choices=(-1, 0, 1),
+                default=1,
+            ),
+            number(TIME),
+            _COUNT,
+            *OUTPUT,
+        ),
+        table(partial(_of_plane, name)),
+        f"{of.example} {example}",
+        f"{of.title}, any plane",
+    )
 
 
-COMMAND = Command(systems={
-    "euler-poisson": Command(
-        "Points (l, x = L/G) where the angle g of a heavy rigid body grows through π/2, with the energy h and the area "
-        "integral f.",
-        (*HEAVY, number(H_HEAVY, help="energy"),
-         number(F_HEAVY, help="area integral (M, γ); the section needs G ≥ |f|"),
-         vector("--start", (L, X), "the first point"),
-         number(TIME, help="the last time; negative: backward (default: what this many crossings usually need)",
-                required=False), _COUNT, *OUTPUT), table(_of_heavy),
-        "--A 1,1.6,2.6666666666666665 --r 3,0,4 --mu 1.995 --h 50 --f 5 --start 0,0.2 --crossings 20",
-        "a heavy body with a fixed point, in Andoyer–Deprit variables"),
-    "suslov": _plane("suslov", None, "--plane 0,0,0,1,0 --t 50"),
-    "ball": _plane("ball", (0.0, 0.0, 0.0, 0.0, 1.0), "--t 100"),
-})
+COMMAND = Command(
+    systems={
+        "euler-poisson": Command(
+            "Points (l, x = L/G) where the angle g of a heavy rigid body grows through π/2, with the energy h and the "
+            "area integral f.",
+            (
+                *HEAVY,
+                number(H_HEAVY, help="energy"),
+                number(F_HEAVY, help="area integral (M, γ); the section needs G ≥ |f|"),
+                vector("--start", (L, X), "the first point"),
+                number(
+                    TIME,
+                    help="the last time; negative: backward (default: what this many crossings usually need)",
+                    required=False,
+                ),
+                _COUNT,
+                *OUTPUT,
+            ),
+            table(_of_heavy),
+            "--A 1,1.6,2.6666666666666665 --r 3,0,4 --mu 1.995 --h 50 --f 5 --start 0,0.2 --crossings 20",
+            "a heavy body with a fixed point, in Andoyer–Deprit variables",
+        ),
+        "suslov": _plane("suslov", None, "--plane 0,0,0,1,0 --t 50"),
+        "ball": _plane("ball", (0.0, 0.0, 0.0, 0.0, 1.0), "--t 100"),
+    }
+)

@@ -52,42 +52,85 @@ def _heavy(options: Options) -> ReturnMap:
 
 def _hess(options: Options) -> ReturnMap:
     # I22 = 1, and b3 such that b = 1.
-    return return_map(HessBody(1.0, options.a, -math.hypot(1.0, options.a)), h=options.h, f=options.f,
-                      accuracy=options.accuracy)
+    return return_map(
+        HessBody(1.0, options.a, -math.hypot(1.0, options.a)), h=options.h, f=options.f, accuracy=options.accuracy
+    )
 
 
 _SYSTEMS: Mapping[str, _System] = {
     "suslov": _System(
-        "the Suslov problem with gravity", ("the section γ_k = 0 at the energy E", "(ψ, δ)"), "psi,delta",
-        (*SUSLOV, number(E, help="energy"),
-         option("--plane", "k of γ_k = 0 (default 3)", type=int, choices=(1, 2, 3), default=3)),
-        _suslov, "--I 1.5,1,0,0 --b 0.3,-0.5,1 --E 1.842"),
+        "the Suslov problem with gravity",
+        ("the section γ_k = 0 at the energy E", "(ψ, δ)"),
+        "psi,delta",
+        (
+            *SUSLOV,
+            number(E, help="energy"),
+            option("--plane", "k of γ_k = 0 (default 3)", type=int, choices=(1, 2, 3), default=3),
+        ),
+        _suslov,
+        "--I 1.5,1,0,0 --b 0.3,-0.5,1 --E 1.842",
+    ),
     "quartic": _System(
         "the Suslov problem with b1 = b2 = 0, as a point in a quartic potential",
-        ("the section along the axis of the region that a point may enter", "(q, p)"), "q,p",
-        (vector("--I", TENSOR[:2], "moments of inertia"), number(B3, help="field, not 0"),
-         number(H_QUARTIC, help="energy, h > -|b3|")), _quartic, "--I 2,1 --b3 1 --h 0.8"),
+        ("the section along the axis of the region that a point may enter", "(q, p)"),
+        "q,p",
+        (
+            vector("--I", TENSOR[:2], "moments of inertia"),
+            number(B3, help="field, not 0"),
+            number(H_QUARTIC, help="energy, h > -|b3|"),
+        ),
+        _quartic,
+        "--I 2,1 --b3 1 --h 0.8",
+    ),
     "ball": _System(
-        "the Chaplygin ball with Suslov's constraint, in a field", ("the section γ3 = 0 at the energy h", "(ψ, δ)"),
-        "psi,delta", (*BALL, number(E, name="--h", help="energy")), _ball,
-        "--I 1,3,0.2,-0.1 --D 5 --b 0.5,0.2,0.8 --h 2"),
+        "the Chaplygin ball with Suslov's constraint, in a field",
+        ("the section γ3 = 0 at the energy h", "(ψ, δ)"),
+        "psi,delta",
+        (*BALL, number(E, name="--h", help="energy")),
+        _ball,
+        "--I 1,3,0.2,-0.1 --D 5 --b 0.5,0.2,0.8 --h 2",
+    ),
     "euler-poisson": _System(
-        "a heavy body with a fixed point", ("the Andoyer–Deprit section g = π/2 at H = h, (M, γ) = f", "(l, L/G)"),
+        "a heavy body with a fixed point",
+        ("the Andoyer–Deprit section g = π/2 at H = h, (M, γ) = f", "(l, L/G)"),
         "l,x",
-        (*HEAVY, number(H_HEAVY, help="energy"), number(F_HEAVY, help="area integral (M, γ)"),
-         option("--sheet", "of the momenta G with this energy, 0 (default): the largest, 1: the second, 2: the third",
-                type=int, choices=(0, 1, 2), default=0)),
-        _heavy, "--A 1,0.625,0.25 --r 0.6,0,0.8 --mu 1 --h 1.5 --f -0.7"),
+        (
+            *HEAVY,
+            number(H_HEAVY, help="energy"),
+            number(F_HEAVY, help="area integral (M, γ)"),
+            option(
+                "--sheet",
+                "of the momenta G with this energy, 0 (default): the largest, 1: the second, 2: the third",
+                type=int,
+                choices=(0, 1, 2),
+                default=0,
+            ),
+        ),
+        _heavy,
+        "--A 1,0.625,0.25 --r 0.6,0,0.8 --mu 1 --h 1.5 --f -0.7",
+    ),
     "hess": _System(
         "the Suslov–Hess case, on a torus",
-        ("the torus (h, f) of the Suslov–Hess case, units b = 1, where n3 rises through the middle of its range,",
-         "φ, the angle of w"), "phi", TORUS, _hess, "--a 0.7 --h 0.5 --f 0.6"),
+        (
+            "the torus (h, f) of the Suslov–Hess case, units b = 1, where n3 rises through the middle of its range,",
+            "φ, the angle of w",
+        ),
+        "phi",
+        TORUS,
+        _hess,
+        "--a 0.7 --h 0.5 --f 0.6",
+    ),
 }
 
 
 def command_of_sections(
-        what: str, at: str, options: Sequence[Option], examples: Mapping[str, str],
-        compute: Callable[[ReturnMap, Options], Answer], exclusive: Sequence[str] = ()) -> Command:
+    what: str,
+    at: str,
+    options: Sequence[Option],
+    examples: Mapping[str, str],
+    compute: Callable[[ReturnMap, Options], Answer],
+    exclusive: Sequence[str] = (),
+) -> Command:
     """Return a command with a choice of systems.
 
     Parameters
@@ -103,8 +146,16 @@ def command_of_sections(
     def run(system: _System, options: Options) -> Answer:
         return compute(system.made(options), options)
 
-    return Command(systems={
-        name: Command(what.format(section=of.where[0], place=of.where[1]),
-                      (*of.options, vector("--at", of.place, at), *options, *OUTPUT), table(partial(run, of)),
-                      f"{of.example} {examples[name]}", of.purpose, exclusive=exclusive)
-        for name, of in _SYSTEMS.items()})
+    return Command(
+        systems={
+            name: Command(
+                what.format(section=of.where[0], place=of.where[1]),
+                (*of.options, vector("--at", of.place, at), *options, *OUTPUT),
+                table(partial(run, of)),
+                f"{of.example} {examples[name]}",
+                of.purpose,
+                exclusive=exclusive,
+            )
+            for name, of in _SYSTEMS.items()
+        }
+    )

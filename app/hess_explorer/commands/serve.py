@@ -63,8 +63,17 @@ def _run(options: Options) -> None:
 
         embedders = ["*"] if options.embedders is None else [one for one in options.embedders if one != "none"]
         try:
-            serve(port=options.port, address=options.address, show=show, origins=options.origins, ready=ready,
-                  lesson=lesson, embedders=embedders, workers=options.workers, sessions=options.sessions)
+            serve(
+                port=options.port,
+                address=options.address,
+                show=show,
+                origins=options.origins,
+                ready=ready,
+                lesson=lesson,
+                embedders=embedders,
+                workers=options.workers,
+                sessions=options.sessions,
+            )
         except HandlerMissing as error:
             raise CommandError(str(error)) from error
 
@@ -87,8 +96,10 @@ def _first_words() -> str:
     from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled
 
     if not KEEPS_KERNELS:
-        return ("Compiling, ready in about 20 s, and again at each start: no folder for what is compiled can be "
-                "written; name one of your own in NUMBA_CACHE_DIR.")
+        return (
+            "Compiling, ready in about 20 s, and again at each start: no folder for what is compiled can be "
+            "written; name one of your own in NUMBA_CACHE_DIR."
+        )
     return "Starting, ready in a few seconds." if all_compiled() else "Compiling, ready in about 20 s."
 
 
@@ -96,7 +107,8 @@ def _require_free(address: str, port: int) -> None:
     """Raise `CommandError` unless the port can be listened on."""
     try:
         family, kind, protocol, _, target = socket.getaddrinfo(
-            address, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0]
+            address, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+        )[0]
         with socket.socket(family, kind, protocol) as probe:
             if os.name == "posix":
                 # As the server does: a port whose last connections are still closing counts as free.
@@ -126,15 +138,40 @@ _HOSTS = {"nargs": "+", "action": "extend"}
 
 COMMAND = Command(
     "Serve the explorer on this machine and open it in the browser.",
-    (whole("--port", 1, 65535, "to listen on", 5006),
-     option("--address", "address to listen on (default 127.0.0.1, this machine only; 0.0.0.0: every network)",
-            default="127.0.0.1"),
-     option("--no-browser", "do not open a browser", dest="browser", action="store_false"),
-     option("--allow-origin", "host and port in the browser's address bar, if not this machine's", dest="origins",
-            type=_origin, default=[], metavar="HOST:PORT", **_HOSTS),
-     option("--embed-in", "whose pages may show parts of this one (embed=1): hosts like example.org or *.example.org, "
-            "or none (default: any)", dest="embedders", type=_embedder, metavar="HOST", **_HOSTS),
-     whole("--workers", 1, 64, "processes that serve; for a class about as many as there are cores", 1),
-     whole("--sessions", 1, 100_000, "pages that each of them serves at a time, 1000 for some 3 GB of memory", 1000),
-     option("--lesson", "a lesson of your own, in Markdown, to begin with (see app/README.md)", type=Path,
-            metavar="FILE")), _run)
+    (
+        whole("--port", 1, 65535, "to listen on", 5006),
+        option(
+            "--address",
+            "address to listen on (default 127.0.0.1, this machine only; 0.0.0.0: every network)",
+            default="127.0.0.1",
+        ),
+        option("--no-browser", "do not open a browser", dest="browser", action="store_false"),
+        option(
+            "--allow-origin",
+            "host and port in the browser's address bar, if not this machine's",
+            dest="origins",
+            type=_origin,
+            default=[],
+            metavar="HOST:PORT",
+            **_HOSTS,
+        ),
+        option(
+            "--embed-in",
+            "whose pages may show parts of this one (embed=1): hosts like example.org or *.example.org, "
+            "or none (default: any)",
+            dest="embedders",
+            type=_embedder,
+            metavar="HOST",
+            **_HOSTS,
+        ),
+        whole("--workers", 1, 64, "processes that serve; for a class about as many as there are cores", 1),
+        whole("--sessions", 1, 100_000, "pages that each of them serves at a time, 1000 for some 3 GB of memory", 1000),
+        option(
+            "--lesson",
+            "a lesson of your own, in Markdown, to begin with (see app/README.md)",
+            type=Path,
+            metavar="FILE",
+        ),
+    ),
+    _run,
+)

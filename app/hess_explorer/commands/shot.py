@@ -21,7 +21,8 @@ def _size(text: str) -> tuple[int, int]:
     match = re.fullmatch(r"(\d{1,5})[x×](\d{1,5})", text, re.ASCII)
     if not match or int(match[1]) not in _SIDE or int(match[2]) not in _SIDE:
         raise argparse.ArgumentTypeError(
-            f"{shown(text)} is not a size; write it like 1600x950, each side from {_SIDE[0]} to {_SIDE[-1]}")
+            f"{shown(text)} is not a size; write it like 1600x950, each side from {_SIDE[0]} to {_SIDE[-1]}"
+        )
     return int(match[1]), int(match[2])
 
 
@@ -52,8 +53,18 @@ def _run(options: Options) -> None:
 
 COMMAND = Command(
     "Draw the page in a headless Chromium and save it as PNG.",
-    (*STATE,
-     option("--size", f"pixels, each side {_SIDE[0]} to {_SIDE[-1]} (default 1600x950)", type=_size,
-            default=(1600, 950), metavar="WxH"),
-     flag("--dark", "in dark colours"), option("out", "the PNG file to write", type=Path, metavar="FILE")), _run,
-    "--state 'h=1.2&f=0.3' --size 1600x950 out.png")
+    (
+        *STATE,
+        option(
+            "--size",
+            f"pixels, each side {_SIDE[0]} to {_SIDE[-1]} (default 1600x950)",
+            type=_size,
+            default=(1600, 950),
+            metavar="WxH",
+        ),
+        flag("--dark", "in dark colours"),
+        option("out", "the PNG file to write", type=Path, metavar="FILE"),
+    ),
+    _run,
+    "--state 'h=1.2&f=0.3' --size 1600x950 out.png",
+)

@@ -76,11 +76,21 @@ def _swept(options: Options) -> xr.Dataset:
         what.parameter(name)
     rows = math.prod(values[2] if isinstance(values, tuple) else len(values) for values in over.values())
     if options.store is None and rows > _MOST_ROWS:
-        raise CommandError(f"These are {rows} cells, and a table has at most {_MOST_ROWS} rows: give a folder for "
-                           "them, --store FOLDER.")
+        raise CommandError(
+            f"These are {rows} cells, and a table has at most {_MOST_ROWS} rows: give a folder for "
+            "them, --store FOLDER."
+        )
     try:
-        return sweep(options.quantity, over, level=options.accuracy, store=options.store, workers=options.workers,
-                     progress=True, most_cells=options.most_cells or MAX_NUMBERS, **fixed)
+        return sweep(
+            options.quantity,
+            over,
+            level=options.accuracy,
+            store=options.store,
+            workers=options.workers,
+            progress=True,
+            most_cells=options.most_cells or MAX_NUMBERS,
+            **fixed,
+        )
     except Interrupted as stopped:
         # In a store it is kept already.
         if options.store is None:
@@ -95,8 +105,11 @@ def _listed(name: str | None) -> str:
     if name is None:
         return "".join(f"{one.name}\n    {one.symbol}: {one.title}\n" for one in QUANTITIES.values())
     one = quantity(name)
-    rows = (f"    {each.name}{'' if each.name in one.needed else f' = {each.default:g}'}: {each.doc} "
-            f"({each.bounds[0]:g} … {each.bounds[1]:g})\n" for each in one.parameters)
+    rows = (
+        f"    {each.name}{'' if each.name in one.needed else f' = {each.default:g}'}: {each.doc} "
+        f"({each.bounds[0]:g} … {each.bounds[1]:g})\n"
+        for each in one.parameters
+    )
     return f"{one.name}\n    {one.symbol}: {one.title}, {one.units}\n    {one.doc}\n\n{''.join(rows)}"
 
 
@@ -107,13 +120,21 @@ def _write(options: Options, found: xr.Dataset, table: bool) -> None:
 
     what = quantity(found.attrs["quantity"])
     status = found.status.values
-    counts = {Outcome(code).words: int(count) for code, count in zip(*np.unique(status, return_counts=True),
-                                                                     strict=True)}
-    facts = {"quantity": what.name, "title": what.title, "units": what.units,
-             "parameters": json.loads(found.attrs["parameters"]), "level": found.attrs["level"],
-             "version": found.attrs["version"], "cells": list(status.shape), "status_counts": counts,
-             **{name: found.attrs[name] for name in ("link", "largest_error") if name in found.attrs},
-             **({} if options.store is None else {"store": str(options.store)})}
+    counts = {
+        Outcome(code).words: int(count) for code, count in zip(*np.unique(status, return_counts=True), strict=True)
+    }
+    facts = {
+        "quantity": what.name,
+        "title": what.title,
+        "units": what.units,
+        "parameters": json.loads(found.attrs["parameters"]),
+        "level": found.attrs["level"],
+        "version": found.attrs["version"],
+        "cells": list(status.shape),
+        "status_counts": counts,
+        **{name: found.attrs[name] for name in ("link", "largest_error") if name in found.attrs},
+        **({} if options.store is None else {"store": str(options.store)}),
+    }
     series = _series(what, found) if table else {}
     write(options, Answer(series, facts))
 
@@ -123,11 +144,14 @@ def _series(what: Quantity, found: xr.Dataset) -> dict[str, list[Any]]:
 
     status = found.status.values
     if status.size > _MOST_ROWS:
-        raise CommandError(f"A table of {status.size} rows is too long; at most {_MOST_ROWS} are written: open the "
-                           "store with hess_explorer.sweep.read.")
+        raise CommandError(
+            f"A table of {status.size} rows is too long; at most {_MOST_ROWS} are written: open the "
+            "store with hess_explorer.sweep.read."
+        )
     axes = np.meshgrid(*(found[name].values for name in found.status.dims), indexing="ij")
-    series: dict[str, list[Any]] = {str(name): axis.ravel().tolist()
-                                    for name, axis in zip(found.status.dims, axes, strict=True)}
+    series: dict[str, list[Any]] = {
+        str(name): axis.ravel().tolist() for name, axis in zip(found.status.dims, axes, strict=True)
+    }
     values = found[what.variable].values
     columns = {what.variable: values}
     if what.parts:
@@ -146,17 +170,44 @@ COMMAND = Command(
     "how each cell ended; cells without a number have null, in CSV an empty field.  With --store every finished part "
     "is kept in that folder, and the same command goes on where it was ended; the table is then printed with "
     "--format.  Ctrl-C ends it, what is done is kept.  Needs the extra: pip install 'hess-explorer[sweep]'.",
-    (option("quantity", "what is computed, see --list", nargs="?", metavar="QUANTITY"),
-     flag("--list", "name all quantities; with one, its parameters"),
-     option("--over", "sweep this parameter over lo:hi:n, or a list 1,2,3; up to three times", action="append",
-            type=assigned(_values, "h=0:2:30"), default=[], metavar="NAME=VALUES"),
-     option("--set", "a parameter that stays, if not the default", action="append",
-            type=assigned(any_number, "h=1.5"), default=[], metavar="NAME=NUMBER"),
-     option("--store", "keep what is done here (Zarr), and go on with it", type=Path, metavar="FOLDER"),
-     option("--read", "compute nothing: write the table of this store, or of a chart that the page has saved",
-            type=Path, metavar="PLACE"),
-     option("--workers", "all: a process for each core; a number of processes; or the address of a Dask scheduler, "
-            "tcp://host:8786 (default: one thread)", type=_workers, metavar="WHO"),
-     whole("--most-cells", 1, 9_999_999_999, "how many numbers are allowed (default 10000000)"),
-     OUTPUT[0], option("--format", OUTPUT[1].settings["help"], choices=("json", "csv")), OUTPUT[2]), _run,
-    "rotation-number --over h=-0.9:2:30 --over f=0:1:20 --set a=0.5 --format csv")
+    (
+        option("quantity", "what is computed, see --list", nargs="?", metavar="QUANTITY"),
+        flag("--list", "name all quantities; with one, its parameters"),
+        option(
+            "--over",
+            "sweep this parameter over lo:hi:n, or a list 1,2,3; up to three times",
+            action="append",
+            type=assigned(_values, "h=0:2:30"),
+            default=[],
+            metavar="NAME=VALUES",
+        ),
+        option(
+            "--set",
+            "a parameter that stays, if not the default",
+            action="append",
+            type=assigned(any_number, "h=1.5"),
+            default=[],
+            metavar="NAME=NUMBER",
+        ),
+        option("--store", "keep what is done here (Zarr), and go on with it", type=Path, metavar="FOLDER"),
+        option(
+            "--read",
+            "compute nothing: write the table of this store, or of a chart that the page has saved",
+            type=Path,
+            metavar="PLACE",
+        ),
+        option(
+            "--workers",
+            "all: a process for each core; a number of processes; or the address of a Dask scheduler, "
+            "tcp://host:8786 (default: one thread)",
+            type=_workers,
+            metavar="WHO",
+        ),
+        whole("--most-cells", 1, 9_999_999_999, "how many numbers are allowed (default 10000000)"),
+        OUTPUT[0],
+        option("--format", OUTPUT[1].settings["help"], choices=("json", "csv")),
+        OUTPUT[2],
+    ),
+    _run,
+    "rotation-number --over h=-0.9:2:30 --over f=0:1:20 --set a=0.5 --format csv",
+)

@@ -18,13 +18,18 @@ __all__ = ["COMMAND"]
 
 def _shorter(found: Tube, end: float, seconds: float) -> str:
     """Why a tube ends before its last time, and what to do."""
-    there = (f"Enclosed up to t = {found.times[-1]:g} of {end:g}" if found.times.size else
-             "None of these times is enclosed")
+    there = (
+        f"Enclosed up to t = {found.times[-1]:g} of {end:g}" if found.times.size else "None of these times is enclosed"
+    )
     if found.spent:
-        return (f"{there}: {seconds:g} s of work are allowed. Ask for fewer digits or a shorter time, or allow more "
-                "with --seconds.")
-    return (f"{there}: from there on no step of it can be enclosed. Ask for fewer digits, a shorter time or less "
-            "extreme parameters.")
+        return (
+            f"{there}: {seconds:g} s of work are allowed. Ask for fewer digits or a shorter time, or allow more "
+            "with --seconds."
+        )
+    return (
+        f"{there}: from there on no step of it can be enclosed. Ask for fewer digits, a shorter time or less "
+        "extreme parameters."
+    )
 
 
 def _computed(options: Options) -> str:
@@ -40,17 +45,34 @@ def _computed(options: Options) -> str:
     if not found.times.size:
         raise WorkLimit(notes[0])
     orbit = solve(body, options.start, found.times, level(options.accuracy))
-    judged = {"accuracy": options.accuracy, "error_estimate": orbit.error_estimate,
-              "proved_error": list(proved_error(orbit, found)), "right_to": options.right_to,
-              "right_until": right_until(orbit, found, options.right_to)}
-    return json.dumps({
-        "system": system.name, "variables": list(system.variables), "start": list(options.start),
-        "parameters": list(options.parameters), "complete": found.complete,
-        "tube": [{"t": t, "state": [list(one.decimals(options.digits + 3)) for one in state]}
-                 for t, state in zip(found.times.tolist(), found.states, strict=True)],
-        "orbit": judged, "steps": found.steps, "bits": found.bits, "seconds": round(found.seconds, 3),
-        "notes": notes,
-    }, ensure_ascii=False, allow_nan=False, indent=1)
+    judged = {
+        "accuracy": options.accuracy,
+        "error_estimate": orbit.error_estimate,
+        "proved_error": list(proved_error(orbit, found)),
+        "right_to": options.right_to,
+        "right_until": right_until(orbit, found, options.right_to),
+    }
+    return json.dumps(
+        {
+            "system": system.name,
+            "variables": list(system.variables),
+            "start": list(options.start),
+            "parameters": list(options.parameters),
+            "complete": found.complete,
+            "tube": [
+                {"t": t, "state": [list(one.decimals(options.digits + 3)) for one in state]}
+                for t, state in zip(found.times.tolist(), found.states, strict=True)
+            ],
+            "orbit": judged,
+            "steps": found.steps,
+            "bits": found.bits,
+            "seconds": round(found.seconds, 3),
+            "notes": notes,
+        },
+        ensure_ascii=False,
+        allow_nan=False,
+        indent=1,
+    )
 
 
 COMMAND = Command(
@@ -58,15 +80,38 @@ COMMAND = Command(
     "balls of the library Arb enclose what they say; start and parameters are taken as exactly these doubles.  Says up "
     "to which of the times the orbit of `hess-explorer orbit` is certainly right.  Needs the extra: pip install "
     "'hess-explorer[prove]'.",
-    (option("system", "suslov, ball, hess, euler-poisson or plane-potential", metavar="SYSTEM"),
-     option("--start", "the state at t = 0, in the order of the system's variables", required=True, type=numbers,
-            metavar="NUMBERS"),
-     option("--parameters", "its parameters, likewise", required=True, type=numbers, metavar="NUMBERS"), TIMES,
-     whole("--digits", 1, 100, "how narrow intervals are", 18),
-     option("--accuracy", "of the orbit that is judged (default: standard)", choices=tuple(LEVELS),
-            default="standard"),
-     option("--right-to", "the error up to which the orbit counts as right (default: 1e-6)", type=number, default=1e-6,
-            metavar="ERROR"),
-     option("--seconds", "work allowed, in seconds of an ordinary core; it is counted, not timed, so the answer is the "
-            "same everywhere (default: 4)", type=number, default=4.0, metavar="S"), OUT), text(_computed),
-    "hess --start 0.3,0.9,0.6,0,0.8 --parameters 0.75,1 --t 0:2:5")
+    (
+        option("system", "suslov, ball, hess, euler-poisson or plane-potential", metavar="SYSTEM"),
+        option(
+            "--start",
+            "the state at t = 0, in the order of the system's variables",
+            required=True,
+            type=numbers,
+            metavar="NUMBERS",
+        ),
+        option("--parameters", "its parameters, likewise", required=True, type=numbers, metavar="NUMBERS"),
+        TIMES,
+        whole("--digits", 1, 100, "how narrow intervals are", 18),
+        option(
+            "--accuracy", "of the orbit that is judged (default: standard)", choices=tuple(LEVELS), default="standard"
+        ),
+        option(
+            "--right-to",
+            "the error up to which the orbit counts as right (default: 1e-6)",
+            type=number,
+            default=1e-6,
+            metavar="ERROR",
+        ),
+        option(
+            "--seconds",
+            "work allowed, in seconds of an ordinary core; it is counted, not timed, so the answer is the "
+            "same everywhere (default: 4)",
+            type=number,
+            default=4.0,
+            metavar="S",
+        ),
+        OUT,
+    ),
+    text(_computed),
+    "hess --start 0.3,0.9,0.6,0,0.8 --parameters 0.75,1 --t 0:2:5",
+)

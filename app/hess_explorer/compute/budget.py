@@ -57,8 +57,9 @@ _budget: ContextVar[Budget | None] = ContextVar("budget", default=None)
 
 
 @contextmanager
-def limited(left: threading.Event, seconds: float = SECONDS, wait: float = WAIT, what: str = "This state"
-            ) -> Iterator[Budget]:
+def limited(
+    left: threading.Event, seconds: float = SECONDS, wait: float = WAIT, what: str = "This state"
+) -> Iterator[Budget]:
     """What this thread computes inside is refused by `check` when that is used up, and abandoned once `left` is set.
 
     what : is computed, as the refusal says.
@@ -80,8 +81,12 @@ def check() -> None:
     if budget.left.is_set():
         raise Abandoned
     if budget.spent > budget.seconds:
-        raise OverBudget(f"{budget.what} takes more than {budget.seconds:g} s to compute, and no more is given to one: "
-                        "choose a shorter time span, fewer orbits or a cheaper accuracy.")
+        raise OverBudget(
+            f"{budget.what} takes more than {budget.seconds:g} s to compute, and no more is given to one: "
+            "choose a shorter time span, fewer orbits or a cheaper accuracy."
+        )
     if time.monotonic() > budget.clock_ends:
-        raise OverBudget(f"The server is too busy to compute this state within {budget.wait:g} s: try again later, or "
-                        "choose a shorter time span or a cheaper accuracy.")
+        raise OverBudget(
+            f"The server is too busy to compute this state within {budget.wait:g} s: try again later, or "
+            "choose a shorter time span or a cheaper accuracy."
+        )

@@ -115,8 +115,12 @@ class ResultCache:
     def metrics(self) -> dict[str, int]:
         """The counters, all of one moment."""
         with self._lock:
-            return {"cache_hits": self.hits, "cache_misses": self.misses, "cache_entries": len(self._results),
-                    "cache_bytes": self.bytes}
+            return {
+                "cache_hits": self.hits,
+                "cache_misses": self.misses,
+                "cache_entries": len(self._results),
+                "cache_bytes": self.bytes,
+            }
 
 
 def _key(function: Callable[..., Any], arguments: tuple[Hashable, ...]) -> Hashable:

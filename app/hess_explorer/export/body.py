@@ -102,8 +102,17 @@ class BodyDrawing:
         canvas = self.canvas
         from matplotlib.patches import Circle
 
-        canvas.frame.add_patch(Circle((0.0, 0.0), _CAVITY, facecolor="none", edgecolor=canvas.colour(theme.INK),
-                                     linewidth=0.7, alpha=0.5, zorder=canvas.above()))
+        canvas.frame.add_patch(
+            Circle(
+                (0.0, 0.0),
+                _CAVITY,
+                facecolor="none",
+                edgecolor=canvas.colour(theme.INK),
+                linewidth=0.7,
+                alpha=0.5,
+                zorder=canvas.above(),
+            )
+        )
         x, y, _ = canvas.at((0.0, 0.0, _INNER - _CAVITY))
         self._ball(x, y, _INNER, "#9AA0AA")
         x, y, _ = canvas.at((0.0, 0.0, -_CAVITY))
@@ -113,11 +122,27 @@ class BodyDrawing:
         from matplotlib.patches import Circle
 
         canvas = self.canvas
-        canvas.frame.add_patch(Circle((x, y), radius, facecolor=canvas.colour(colour), linewidth=0.9,
-                                      edgecolor=canvas.colour(theme.INK), zorder=canvas.above()))
+        canvas.frame.add_patch(
+            Circle(
+                (x, y),
+                radius,
+                facecolor=canvas.colour(colour),
+                linewidth=0.9,
+                edgecolor=canvas.colour(theme.INK),
+                zorder=canvas.above(),
+            )
+        )
         # The light comes over the left shoulder of whoever looks.
-        canvas.frame.add_patch(Circle((x - 0.35 * radius, y + 0.38 * radius), 0.28 * radius, facecolor="white",
-                                     edgecolor="none", alpha=0.85, zorder=canvas.above()))
+        canvas.frame.add_patch(
+            Circle(
+                (x - 0.35 * radius, y + 0.38 * radius),
+                0.28 * radius,
+                facecolor="white",
+                edgecolor="none",
+                alpha=0.85,
+                zorder=canvas.above(),
+            )
+        )
 
     def _trail(self, near: bool) -> None:
         count, most = len(self.path), _TRAIL // _PIECES
@@ -130,8 +155,9 @@ class BodyDrawing:
             if last < 1:
                 break
             share = 1.0 - k / _PIECES
-            self.canvas.stroke(self.path[first : last + 1], (ink, dash, 0.7 + 1.4 * share), near,
-                              (1.0 if near else 0.4) * share)
+            self.canvas.stroke(
+                self.path[first : last + 1], (ink, dash, 0.7 + 1.4 * share), near, (1.0 if near else 0.4) * share
+            )
 
     def _section(self) -> None:
         """The circular section, where the surface there looks to the eye."""
@@ -153,8 +179,11 @@ class BodyDrawing:
     def _rod(self, to: Array, look: Look, label: str, near: bool, ball: bool = False) -> None:
         """From the surface to its end, on the side where it leaves that."""
         canvas = self.canvas
-        at, is_near = (0.0, canvas.is_near(to)) if self.seen is None else solid.leaves(
-            self.seen, self.semi, seen(to[None, :], *canvas.view)[0])
+        at, is_near = (
+            (0.0, canvas.is_near(to))
+            if self.seen is None
+            else solid.leaves(self.seen, self.semi, seen(to[None, :], *canvas.view)[0])
+        )
         if is_near != near or at >= 1.0:
             return
         canvas.line(0.99 * at * to, to, look)
@@ -189,8 +218,13 @@ class BodyDrawing:
         rim, middle, ink = circle(axle, 0.0)[::4], (1.0 - _WHEEL) * touching, canvas.colour(theme.INK)
 
         def disc(along: float, size: float, face: str) -> None:
-            canvas.area(seen(middle + along * axle + size * rim, *canvas.view)[:, :2], facecolor=face, edgecolor=ink,
-                       linewidth=1.3, joinstyle="round")
+            canvas.area(
+                seen(middle + along * axle + size * rim, *canvas.view)[:, :2],
+                facecolor=face,
+                edgecolor=ink,
+                linewidth=1.3,
+                joinstyle="round",
+            )
 
         # The tread is what its discs cover.
         for along in (-side, -0.6 * side, -0.2 * side, 0.2 * side, 0.6 * side):

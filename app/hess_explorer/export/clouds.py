@@ -37,8 +37,16 @@ def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
         frame.plot(x, y, color=colour(ink), linestyle=dash, linewidth=weight)
     for look, a, b in own.get("points", ()):
         ink = colour(LOOKS[look][0])
-        frame.plot([a], [b], marker="o", markersize=5.0, markeredgecolor=ink, markeredgewidth=1.5,
-                   markerfacecolor="none" if look == "unstable" else ink, linestyle="none")
+        frame.plot(
+            [a],
+            [b],
+            marker="o",
+            markersize=5.0,
+            markeredgecolor=ink,
+            markeredgewidth=1.5,
+            markerfacecolor="none" if look == "unstable" else ink,
+            linestyle="none",
+        )
 
 
 def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float) -> None:
@@ -58,5 +66,14 @@ def on_sphere(canvas: SphereCanvas, clouds: Sequence[CloudFrame], near: bool) ->
 def _dots(frame: Frame, places: Array, colour: str, order: float, faint: float = 1.0) -> None:
     # The fewer, the darker.
     alpha = faint * float(np.clip(4300.0 / max(1, len(places)), 0.43, 0.9))
-    frame.plot(*places.T, linestyle="none", marker="s", markersize=_SIDE, markeredgewidth=0, color=colour, alpha=alpha,
-               zorder=order, rasterized=True)
+    frame.plot(
+        *places.T,
+        linestyle="none",
+        marker="s",
+        markersize=_SIDE,
+        markeredgewidth=0,
+        color=colour,
+        alpha=alpha,
+        zorder=order,
+        rasterized=True,
+    )

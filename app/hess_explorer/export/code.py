@@ -17,8 +17,9 @@ def code(address: Address) -> str:
 
     All parameters are named, so that it means the same when a default changes.
     """
-    return "\n".join([f"# {line}" for line in _about(address)] + [
-        "import hess_explorer as hess", "", *lines_of(address), ""])
+    return "\n".join(
+        [f"# {line}" for line in _about(address)] + ["import hess_explorer as hess", "", *lines_of(address), ""]
+    )
 
 
 def _about(address: Address) -> list[str]:

@@ -25,8 +25,14 @@ __all__ = ["STYLE", "as_file", "draw", "draw_moving", "draw_still", "in_black", 
 _DOTS_PER_INCH = 300
 STYLE: Mapping[str, Any] = {
     # The one without 𝒟 falls back on the other.
-    "font.family": ["DejaVu Sans", "STIXGeneral"], "font.size": 9.0, "axes.linewidth": 0.6,
-    "svg.fonttype": "none", "pdf.fonttype": 42, "svg.hashsalt": "hess-explorer", "mathtext.fontset": "dejavusans"}
+    "font.family": ["DejaVu Sans", "STIXGeneral"],
+    "font.size": 9.0,
+    "axes.linewidth": 0.6,
+    "svg.fonttype": "none",
+    "pdf.fonttype": 42,
+    "svg.hashsalt": "hess-explorer",
+    "mathtext.fontset": "dejavusans",
+}
 
 
 def as_file(shown: Shown, kind: str, width: float = 85.0, black: bool = False) -> bytes:
@@ -46,7 +52,8 @@ def as_file(shown: Shown, kind: str, width: float = 85.0, black: bool = False) -
         import matplotlib as mpl
     except ImportError as error:
         raise InvalidParameter(
-            "Figures need Matplotlib: pip install 'hess-explorer[export]'. CSV and JSON need nothing.") from error
+            "Figures need Matplotlib: pip install 'hess-explorer[export]'. CSV and JSON need nothing."
+        ) from error
     with mpl.rc_context(dict(STYLE)):
         return saved(draw(shown, width, black), shown, kind)
 
@@ -98,5 +105,10 @@ def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float, point: boo
 
 def in_black(colour: str) -> str:
     """Areas keep their lightness, everything else is black."""
-    return colour if colour in (theme.PAPER, "white") else {
-        theme.FORBIDDEN: "#E4E4E4", theme.LOCKED: "#BDBDBD", EVEN: "#D6D6D6", ODD: "#B2B2B2"}.get(colour, "#000000")
+    return (
+        colour
+        if colour in (theme.PAPER, "white")
+        else {theme.FORBIDDEN: "#E4E4E4", theme.LOCKED: "#BDBDBD", EVEN: "#D6D6D6", ODD: "#B2B2B2"}.get(
+            colour, "#000000"
+        )
+    )

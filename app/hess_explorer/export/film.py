@@ -29,12 +29,35 @@ if TYPE_CHECKING:
 __all__ = ["RATE", "as_film", "moves", "pictures_at", "times_of"]
 
 _CODECS: Mapping[str, tuple[str, ...]] = {
-    "webm": ("-c:v", "libvpx-vp9", "-b:v", "0", "-crf", "30", "-deadline", "realtime", "-cpu-used", "6",
-             "-pix_fmt", "yuv420p"),
-    "mp4": ("-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-movflags", "+faststart+use_metadata_tags",
-            "-pix_fmt", "yuv420p"),
+    "webm": (
+        "-c:v",
+        "libvpx-vp9",
+        "-b:v",
+        "0",
+        "-crf",
+        "30",
+        "-deadline",
+        "realtime",
+        "-cpu-used",
+        "6",
+        "-pix_fmt",
+        "yuv420p",
+    ),
+    "mp4": (
+        "-c:v",
+        "libx264",
+        "-preset",
+        "veryfast",
+        "-crf",
+        "20",
+        "-movflags",
+        "+faststart+use_metadata_tags",
+        "-pix_fmt",
+        "yuv420p",
+    ),
     # The colours of the film itself, which are few.
-    "gif": ("-filter_complex", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none")}
+    "gif": ("-filter_complex", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none"),
+}
 """What ffmpeg is told for each format: thin lines stay clear, and a minute of them is some megabytes."""
 
 RATE = 25
@@ -49,8 +72,12 @@ _AXIS, _LETTER, _CLOCK = 13.0, 1.75, 11
 def moves(shown: Shown) -> bool:
     """Whether something moves in the picture of this state."""
     picture = shown.picture
-    follows = bool(picture.followers) or bool(densities(shown)) or isinstance(picture, (BodyInSpace, CloudPlane)) or (
-        isinstance(picture, Sphere) and ("orbit" in picture.looks or bool(picture.clouds)))
+    follows = (
+        bool(picture.followers)
+        or bool(densities(shown))
+        or isinstance(picture, (BodyInSpace, CloudPlane))
+        or (isinstance(picture, Sphere) and ("orbit" in picture.looks or bool(picture.clouds)))
+    )
     return follows and end(shown.columns) > 0.0
 
 
@@ -104,8 +131,14 @@ def _title(title: str, width: float) -> str:
     return title if len(title) + _CLOCK <= room else textwrap.fill(title, room) + "\n"
 
 
-def as_film(shown: Shown, kind: str, width: float = 85.0, black: bool = False, seconds: float = 10.0,
-            tell: Callable[[int, int], None] = lambda done, of: None) -> bytes:
+def as_film(
+    shown: Shown,
+    kind: str,
+    width: float = 85.0,
+    black: bool = False,
+    seconds: float = 10.0,
+    tell: Callable[[int, int], None] = lambda done, of: None,
+) -> bytes:
     """The whole motion in so many seconds, as WebM, MP4 or GIF, square, 8 pixels a millimetre; its tags say the facts.
 
     tell : is told after each frame how many there are, and of how many.
@@ -125,16 +158,33 @@ def as_film(shown: Shown, kind: str, width: float = 85.0, black: bool = False, s
         import imageio_ffmpeg
         import matplotlib  # noqa: F401
     except ImportError as error:
-        raise InvalidParameter("Films need Matplotlib and imageio-ffmpeg: pip install 'hess-explorer[export]'. CSV and "
-                               "JSON need nothing.") from error
+        raise InvalidParameter(
+            "Films need Matplotlib and imageio-ffmpeg: pip install 'hess-explorer[export]'. CSV and JSON need nothing."
+        ) from error
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"film.{kind}"
         times = times_of(shown, seconds)
         tags = {"title": shown.title, "comment": shown.said, "description": shown.caption}
-        command = [imageio_ffmpeg.get_ffmpeg_exe(), "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24",
-                   "-s", f"{_side(width)}x{_side(width)}", "-r", str(RATE), "-i", "-", *_CODECS[kind],
-                   "-threads", "1", *(part for name, text in tags.items() for part in ("-metadata", f"{name}={text}")),
-                   str(path)]
+        command = [
+            imageio_ffmpeg.get_ffmpeg_exe(),
+            "-loglevel",
+            "error",
+            "-f",
+            "rawvideo",
+            "-pix_fmt",
+            "rgb24",
+            "-s",
+            f"{_side(width)}x{_side(width)}",
+            "-r",
+            str(RATE),
+            "-i",
+            "-",
+            *_CODECS[kind],
+            "-threads",
+            "1",
+            *(part for name, text in tags.items() for part in ("-metadata", f"{name}={text}")),
+            str(path),
+        ]
         with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as encoder:
             assert encoder.stdin is not None
             assert encoder.stderr is not None

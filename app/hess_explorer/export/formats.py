@@ -38,7 +38,8 @@ FORMATS: Mapping[str, Format] = {
     "gif": Format("film", "image/gif", "GIF: a film of the motion, for slides"),
     "html": Format("state", "text/html; charset=utf-8", "HTML: all pictures, plays without a server"),
     "py": Format("program", "text/x-python; charset=utf-8"),
-    "ipynb": Format("program", "application/x-ipynb+json")}
+    "ipynb": Format("program", "application/x-ipynb+json"),
+}
 """By the ending of the file."""
 
 WIDTHS, FILM_WIDTHS = Bounds(20.0, 400.0), Bounds(60.0, 160.0)

@@ -18,16 +18,32 @@ def notebook(address: Address) -> str:
 
     The format is a few lines of JSON, https://nbformat.readthedocs.io/en/latest/format_description.html: no library.
     """
-    said = f"# {address.scene.title}\n\n{address.scene.summary}\n\nThe state: `?{address.link}`\n\n" \
-           f"hess-explorer {version('hess-explorer')}: `pip install 'hess-explorer[notebook]'`."
+    said = (
+        f"# {address.scene.title}\n\n{address.scene.summary}\n\nThe state: `?{address.link}`\n\n"
+        f"hess-explorer {version('hess-explorer')}: `pip install 'hess-explorer[notebook]'`."
+    )
     made = lines_of(address)
-    cells = [("markdown", said), ("code", "import hess_explorer as hess"), ("code", "\n".join(made[:-1])),
-             ("code", made[-1]), ("code", "data")]
+    cells = [
+        ("markdown", said),
+        ("code", "import hess_explorer as hess"),
+        ("code", "\n".join(made[:-1])),
+        ("code", made[-1]),
+        ("code", "data"),
+    ]
     kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
-    return json.dumps({
-        "nbformat": 4, "nbformat_minor": 5, "metadata": {"kernelspec": kernel, "language_info": {"name": "python"}},
-        "cells": [_cell(number, kind, source) for number, (kind, source) in enumerate(cells)]}, ensure_ascii=False,
-        indent=1) + "\n"
+    return (
+        json.dumps(
+            {
+                "nbformat": 4,
+                "nbformat_minor": 5,
+                "metadata": {"kernelspec": kernel, "language_info": {"name": "python"}},
+                "cells": [_cell(number, kind, source) for number, (kind, source) in enumerate(cells)],
+            },
+            ensure_ascii=False,
+            indent=1,
+        )
+        + "\n"
+    )
 
 
 def _cell(number: int, kind: str, source: str) -> dict[str, Any]:

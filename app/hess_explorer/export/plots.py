@@ -37,8 +37,11 @@ def densities(shown: Shown) -> list[tuple[CloudPlane[Any], Layer[Any]]]:
     """Return the layers that show the density of a cloud at the moving time, each with its cloud."""
     plot = shown.picture
     layers = {plot.source_of(layer): layer for layer in plot.layers} if isinstance(plot, Plot) else {}
-    return [(view, layers[view.density]) for view in shown.scene.views
-            if isinstance(view, CloudPlane) and view.density in layers and view.name in plot.needs]
+    return [
+        (view, layers[view.density])
+        for view in shown.scene.views
+        if isinstance(view, CloudPlane) and view.density in layers and view.name in plot.needs
+    ]
 
 
 def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float, point: bool) -> None:

@@ -43,7 +43,8 @@ class Address:
     def link(self) -> str:
         """The query of the state: what follows ? in its address."""
         return encode(self.scene.name, self.values) + "".join(
-            f"&{name}={value!r}" for name, value in self.looks.items())
+            f"&{name}={value!r}" for name, value in self.looks.items()
+        )
 
     @property
     def looks(self) -> dict[str, float]:
@@ -82,16 +83,24 @@ class Shown:
     def facts(self) -> dict[str, Any]:
         """What every file says of itself."""
         return {
-            "link": self.link, "scene": self.scene.name, "picture": self.picture.name, "title": self.title,
-            "caption": self.caption, "parameters": dict(self.values), "status": list(self.status),
-            "notes": list(self.notes), "program": f"hess-explorer {version('hess-explorer')}"}
+            "link": self.link,
+            "scene": self.scene.name,
+            "picture": self.picture.name,
+            "title": self.title,
+            "caption": self.caption,
+            "parameters": dict(self.values),
+            "status": list(self.status),
+            "notes": list(self.notes),
+            "program": f"hess-explorer {version('hess-explorer')}",
+        }
 
     @property
     def said(self) -> str:
         """The same in one paragraph, for files whose metadata are sentences."""
         parameters = ", ".join(f"{name} = {value}" for name, value in self.values.items())
-        return (f"{self.facts['program']}, ?{self.link} | {parameters} | {'; '.join(self.status)}"
-                + "".join(f" | {note}" for note in self.notes))
+        return f"{self.facts['program']}, ?{self.link} | {parameters} | {'; '.join(self.status)}" + "".join(
+            f" | {note}" for note in self.notes
+        )
 
 
 def shown(query: str, picture: str = "", *, lenient: bool = False) -> Shown:
@@ -131,7 +140,8 @@ def picture_of(scene: Scene[Any], name: str) -> Picture[Any]:
     """The picture of that name, the first one without a name.  Raises `InvalidParameter`."""
     if name and name not in scene.pictures:
         raise InvalidParameter(
-            f"The scene {scene.name} has no picture {name!r}: choose one of {', '.join(scene.pictures)}.")
+            f"The scene {scene.name} has no picture {name!r}: choose one of {', '.join(scene.pictures)}."
+        )
     return next(view for view in scene.views if name in ("", view.name))
 
 
@@ -139,9 +149,21 @@ def show(address: Address) -> Shown:
     """The picture, with all that it shows computed to the end.  Raises `ModelError`."""
     scene, view = address.scene, address.picture
     state, (columns, axes, title, caption, status, said) = complete(
-        scene, address.values, [view.name], lambda state: _said(view, state))
-    return Shown(scene, view, address.values, address.client, state, columns, axes, title, caption,
-                 (f"accuracy: {state.work.chosen}", *status), tuple(dict.fromkeys([*address.notes, *said])))
+        scene, address.values, [view.name], lambda state: _said(view, state)
+    )
+    return Shown(
+        scene,
+        view,
+        address.values,
+        address.client,
+        state,
+        columns,
+        axes,
+        title,
+        caption,
+        (f"accuracy: {state.work.chosen}", *status),
+        tuple(dict.fromkeys([*address.notes, *said])),
+    )
 
 
 def complete(scene: Scene[Any], values: Values, pictures: Collection[str], made: Callable[[Any], T]) -> tuple[Any, T]:

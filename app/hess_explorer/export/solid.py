@@ -49,8 +49,9 @@ def leaves(axes: Array, semi: Array, along: Array) -> tuple[float, bool]:
     return 1.0 / float(np.linalg.norm(shares)), float(shares / semi @ axes[:, 2]) >= 0.0
 
 
-def shaded(axes: Array, semi: Array, tones: tuple[str, str], side: int, glass: bool = False
-           ) -> tuple[Array, float, float]:
+def shaded(
+    axes: Array, semi: Array, tones: tuple[str, str], side: int, glass: bool = False
+) -> tuple[Array, float, float]:
     """Colours (side, side, 4) from 0 to 1, from below, and half of the width and the height that they fill.
 
     The tone changes between octants of the principal axes, so that one sees it turn.
@@ -89,10 +90,23 @@ def paint(canvas: SphereCanvas, axes: Array, semi: Array, glass: bool, side: int
     colour: Colour = canvas.colour
     colours, width, height = shaded(axes, semi, (colour(EVEN), colour(ODD)), side, glass)
     a, b, angle = outline(axes, semi)
-    edge = Ellipse((0.0, 0.0), 2.0 * a, 2.0 * b, angle=math.degrees(angle), facecolor="none",
-                   edgecolor=colour(theme.INK), linewidth=0.7, alpha=0.55)
-    image = AxesImage(canvas.frame, extent=(-width, width, -height, height), origin="lower", interpolation="bilinear",
-                      zorder=canvas.above())
+    edge = Ellipse(
+        (0.0, 0.0),
+        2.0 * a,
+        2.0 * b,
+        angle=math.degrees(angle),
+        facecolor="none",
+        edgecolor=colour(theme.INK),
+        linewidth=0.7,
+        alpha=0.55,
+    )
+    image = AxesImage(
+        canvas.frame,
+        extent=(-width, width, -height, height),
+        origin="lower",
+        interpolation="bilinear",
+        zorder=canvas.above(),
+    )
     image.set_data(colours)
     edge.set_zorder(canvas.above())
     canvas.frame.add_patch(edge)

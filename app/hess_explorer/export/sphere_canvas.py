@@ -26,9 +26,15 @@ ROOM = 1.25
 """Half of the side of the picture, in radii of the sphere."""
 
 LOOKS: dict[str, Look] = {
-    "orbit": (theme.ORBIT, "-", 1.3), "second": (theme.MAP, "-", 1.3), "stable": (theme.STABLE, "-", 1.8),
-    "unstable": (theme.UNSTABLE, (0, (5, 3)), 1.8), "limit": (theme.INK, (0, (2, 3)), 0.7),
-    "muted": (theme.MUTED, "-", 0.7), "axis": (theme.INK, "-", 1.5), "mass": (theme.POINT, "-", 1.8)}
+    "orbit": (theme.ORBIT, "-", 1.3),
+    "second": (theme.MAP, "-", 1.3),
+    "stable": (theme.STABLE, "-", 1.8),
+    "unstable": (theme.UNSTABLE, (0, (5, 3)), 1.8),
+    "limit": (theme.INK, (0, (2, 3)), 0.7),
+    "muted": (theme.MUTED, "-", 0.7),
+    "axis": (theme.INK, "-", 1.5),
+    "mass": (theme.POINT, "-", 1.8),
+}
 """By the names of `Circle`, `Mark`, `Rod`, `Trail` and the tracks."""
 _ANGLES = np.linspace(0.0, 2.0 * math.pi, 181)
 _ASIDE = ((0, 0), (0, -1), (0, 1), (1, 0), (-1, 0), (1, -1), (-1, -1))
@@ -49,7 +55,8 @@ def circle(axis: Array, height: float) -> Array:
     across /= np.linalg.norm(across)
     radius = math.sqrt(max(0.0, 1.0 - height**2))
     turned: Array = height * axis + radius * (
-        np.cos(_ANGLES)[:, None] * across + np.sin(_ANGLES)[:, None] * np.cross(axis, across))
+        np.cos(_ANGLES)[:, None] * across + np.sin(_ANGLES)[:, None] * np.cross(axis, across)
+    )
     return turned
 
 
@@ -92,7 +99,7 @@ class SphereCanvas:
 
     def at(self, point: Point) -> tuple[float, float, float]:
         """A point (3,) as it is seen."""
-        (x, y, depth), = seen(np.asarray(point, float)[None, :], *self.view)
+        ((x, y, depth),) = seen(np.asarray(point, float)[None, :], *self.view)
         return float(x), float(y), float(depth)
 
     def is_near(self, point: Point) -> bool:
@@ -101,8 +108,14 @@ class SphereCanvas:
 
     def outline(self) -> None:
         """Of the sphere."""
-        self.frame.plot(np.cos(_ANGLES), np.sin(_ANGLES), color=self.colour(theme.INK), linewidth=0.6, alpha=0.5,
-                        zorder=self.above())
+        self.frame.plot(
+            np.cos(_ANGLES),
+            np.sin(_ANGLES),
+            color=self.colour(theme.INK),
+            linewidth=0.6,
+            alpha=0.5,
+            zorder=self.above(),
+        )
 
     def stroke(self, curve: Array, look: Look, near: bool, alpha: float = 1.0, sides: Array | None = None) -> None:
         """A curve (n, 3) where it, or the sides (n, 3), are on this half."""
@@ -113,14 +126,28 @@ class SphereCanvas:
         for run in np.split(at, np.flatnonzero(np.diff(at) > 1) + 1):
             if run.size:
                 part = place[run[0] : run[-1] + 2]
-                self.frame.plot(part[:, 0], part[:, 1], color=self.colour(ink), linestyle=dash, linewidth=weight,
-                                alpha=alpha, zorder=order)
+                self.frame.plot(
+                    part[:, 0],
+                    part[:, 1],
+                    color=self.colour(ink),
+                    linestyle=dash,
+                    linewidth=weight,
+                    alpha=alpha,
+                    zorder=order,
+                )
 
     def line(self, start: Point, end: Point, look: Look, alpha: float = 1.0) -> None:
         """A straight one, all of it."""
         (x0, y0, _), (x1, y1, _) = self.at(start), self.at(end)
-        self.frame.plot((x0, x1), (y0, y1), color=self.colour(look[0]), linewidth=look[2], alpha=alpha,
-                        solid_capstyle="round", zorder=self.above())
+        self.frame.plot(
+            (x0, x1),
+            (y0, y1),
+            color=self.colour(look[0]),
+            linewidth=look[2],
+            alpha=alpha,
+            solid_capstyle="round",
+            zorder=self.above(),
+        )
 
     def area(self, corners: Array, **style: Any) -> None:
         """A polygon (n, 2) in the plane of the picture."""
@@ -141,12 +168,24 @@ class SphereCanvas:
 
         size = float(rcParams["font.size"])
         across, up = 0.31 * size * len(label) * self.point, 0.62 * size * self.point
-        places = [(min(max(x + far * a * (across + size * self.point), across - ROOM), ROOM - across),
-                   min(max(y + far * 2.05 * b * up, up - ROOM), ROOM - up)) for far in (1, 2) for a, b in _ASIDE]
-        free = (place for place in places if all(
-            abs(place[0] - other) >= across + wide or abs(place[1] - high) >= 2.0 * up
-            for other, high, wide in self._taken))
+        places = [
+            (
+                min(max(x + far * a * (across + size * self.point), across - ROOM), ROOM - across),
+                min(max(y + far * 2.05 * b * up, up - ROOM), ROOM - up),
+            )
+            for far in (1, 2)
+            for a, b in _ASIDE
+        ]
+        free = (
+            place
+            for place in places
+            if all(
+                abs(place[0] - other) >= across + wide or abs(place[1] - high) >= 2.0 * up
+                for other, high, wide in self._taken
+            )
+        )
         left, top = next(free, places[0])
         self._taken.append((left, top, across))
-        self.frame.text(left, top, label, ha="center", va="center", color=self.colour(theme.INK), alpha=alpha,
-                        zorder=self.above())
+        self.frame.text(
+            left, top, label, ha="center", va="center", color=self.colour(theme.INK), alpha=alpha, zorder=self.above()
+        )

@@ -107,8 +107,15 @@ def _axis(canvas: SphereCanvas, axis: Any, label: str, near: bool) -> None:
 def _mark(canvas: SphereCanvas, at: tuple[float, float, float], look: str, label: str, alpha: float) -> None:
     x, y, _ = canvas.at(at)
     ink = canvas.colour(LOOKS[look][0])
-    canvas.dot(x, y, 4.5, markerfacecolor="none" if look == "unstable" else ink, markeredgecolor=ink,
-              markeredgewidth=1.4, alpha=alpha)
+    canvas.dot(
+        x,
+        y,
+        4.5,
+        markerfacecolor="none" if look == "unstable" else ink,
+        markeredgecolor=ink,
+        markeredgewidth=1.4,
+        alpha=alpha,
+    )
     canvas.write(label, 1.15 * x, 1.15 * y)
 
 
@@ -120,5 +127,11 @@ def _point(canvas: SphereCanvas, at: list[float]) -> None:
     if depth < 0.0:
         radius = 6.6 * canvas.point
         angles = np.linspace(0.0, 2.0 * np.pi, 49)
-        canvas.frame.plot(x + radius * np.cos(angles), y + radius * np.sin(angles), color=ink, linewidth=0.9,
-                         linestyle=(0, (2.2, 2.1)), zorder=canvas.above())
+        canvas.frame.plot(
+            x + radius * np.cos(angles),
+            y + radius * np.sin(angles),
+            color=ink,
+            linewidth=0.9,
+            linestyle=(0, (2.2, 2.1)),
+            zorder=canvas.above(),
+        )

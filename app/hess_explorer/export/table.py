@@ -31,14 +31,20 @@ def blocks(shown: Shown) -> list[Block]:
     Curves of several parts, and areas, number them in "part", and the curves that bound an area in "ring", 0 the outer
     one; a grid has the value at the centre (x, y) of each cell.
     """
-    return [{"layer": np.full(len(next(iter(block.values()))), layer), **block}
-            for layer, columns in _layers(shown).items() for block in _blocks_of(columns)]
+    return [
+        {"layer": np.full(len(next(iter(block.values()))), layer), **block}
+        for layer, columns in _layers(shown).items()
+        for block in _blocks_of(columns)
+    ]
 
 
 def rows(shown: Shown) -> list[Row]:
     """The same, one row for each point."""
-    return [dict(zip(block, numbers, strict=True)) for block in blocks(shown)
-            for numbers in zip(*(column.tolist() for column in block.values()), strict=True)]
+    return [
+        dict(zip(block, numbers, strict=True))
+        for block in blocks(shown)
+        for numbers in zip(*(column.tolist() for column in block.values()), strict=True)
+    ]
 
 
 def names_of(found: Sequence[Block]) -> list[str]:
@@ -64,8 +70,9 @@ def as_csv(shown: Shown) -> str:
 
 def as_json(shown: Shown) -> str:
     """The facts, the axes, and the columns of each layer by name; null stands for what is no number."""
-    layers = {layer: {name: _plain(column) for name, column in columns.items()}
-              for layer, columns in _layers(shown).items()}
+    layers = {
+        layer: {name: _plain(column) for name, column in columns.items()} for layer, columns in _layers(shown).items()
+    }
     return json.dumps({**shown.facts, **_axes(shown), "layers": layers}, ensure_ascii=False, allow_nan=False) + "\n"
 
 
@@ -79,8 +86,11 @@ def _layers(shown: Shown) -> dict[str, Columns]:
             found |= {f"{layer}-{name}": cloud for name, cloud in _clouds(columns, shown.client["t"]).items()}
         # Only of a plot are lists columns: elsewhere they are vectors, names and the like.
         is_short = _is_list if isinstance(shown.picture, Plot) and source.startswith(own) else _never
-        found[layer] = {name: np.array(column) if is_short(column) else column for name, column in columns.items()
-                        if name not in _FRAMES or "frames0" not in columns}
+        found[layer] = {
+            name: np.array(column) if is_short(column) else column
+            for name, column in columns.items()
+            if name not in _FRAMES or "frames0" not in columns
+        }
     return found
 
 
@@ -121,15 +131,19 @@ def _axes(shown: Shown) -> dict[str, Any]:
 def _blocks_of(columns: Columns) -> Iterator[dict[str, NDArray[Any]]]:
     if "image" in columns:
         for cells, x, y, width, height in zip(
-                *(columns[name] for name in ("image", "x", "y", "dw", "dh")), strict=True):
+            *(columns[name] for name in ("image", "x", "y", "dw", "dh")), strict=True
+        ):
             m, n = cells.shape
             across, up = x + (np.arange(n) + 0.5) * width / n, y + (np.arange(m) + 0.5) * height / m
             yield {"x": np.tile(across, m), "y": np.repeat(up, n), "value": cells.ravel()}
     elif "xs" in columns:
         for part, (xs, ys) in enumerate(zip(columns["xs"], columns["ys"], strict=True)):
             # An area is a list of parts, each of an outer curve and holes.
-            rings = [(None, xs, ys)] if isinstance(xs, np.ndarray) else [
-                (ring, x, y) for ring, (x, y) in enumerate(zip(xs[0], ys[0], strict=True))]
+            rings = (
+                [(None, xs, ys)]
+                if isinstance(xs, np.ndarray)
+                else [(ring, x, y) for ring, (x, y) in enumerate(zip(xs[0], ys[0], strict=True))]
+            )
             for ring, x, y in rings:
                 number = {} if ring is None else {"ring": np.full(len(x), ring)}
                 yield {"part": np.full(len(x), part), **number, "x": np.asarray(x), "y": np.asarray(y)}
@@ -153,9 +167,12 @@ def _is_column(column: Any) -> bool:
 
 def _besides(shown: Shown) -> dict[str, Any]:
     """What of the columns is no table: circles, marks, axes of a body."""
-    return {f"{layer}.{name}": _plain(column) for layer, columns in _layers(shown).items()
-            for name, column in columns.items()
-            if name not in ("xs", "ys", "image", "x", "y", "dw", "dh") and not _is_column(column)}
+    return {
+        f"{layer}.{name}": _plain(column)
+        for layer, columns in _layers(shown).items()
+        for name, column in columns.items()
+        if name not in ("xs", "ys", "image", "x", "y", "dw", "dh") and not _is_column(column)
+    }
 
 
 def _field(value: Any) -> str:

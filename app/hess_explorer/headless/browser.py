@@ -22,8 +22,7 @@ _COMMANDS = ("chromium", "chromium-headless-shell", "google-chrome")
 _INSTALL_SECONDS = 900
 _POLLING_MS = 10
 # No third-party requests by the browser itself.  Most are Playwright's defaults; here they are a promise.
-_QUIET = ("--disable-background-networking", "--disable-component-update", "--disable-domain-reliability",
-          "--no-pings")
+_QUIET = ("--disable-background-networking", "--disable-component-update", "--disable-domain-reliability", "--no-pings")
 
 
 class BrowserError(RuntimeError):
@@ -62,8 +61,10 @@ def _is_debian() -> bool:
 def install_browser() -> None:
     """Install a Chromium from Debian (as root there) or through Playwright.  Raises `BrowserError`."""
     if _is_root() and _is_debian():
-        commands = [["apt-get", "update"],
-                    ["apt-get", "install", "-y", "--no-install-recommends", "chromium-headless-shell"]]
+        commands = [
+            ["apt-get", "update"],
+            ["apt-get", "install", "-y", "--no-install-recommends", "chromium-headless-shell"],
+        ]
     else:
         commands = [[sys.executable, "-m", "playwright", "install", "--with-deps", "chromium"]]
     for command in commands:
@@ -123,5 +124,7 @@ def wait_ready(page: Page, after: int = -1, seconds: float = 120) -> None:
         "after => { const d = document.documentElement.dataset;"
         " return d.ready === 'true' && Number(d.state ?? 0) > after; }",
         # Asked with every frame, as is usual, the browser would make frames for as long as the server computes.
-        arg=after, timeout=1000 * seconds, polling=_POLLING_MS,
+        arg=after,
+        timeout=1000 * seconds,
+        polling=_POLLING_MS,
     )

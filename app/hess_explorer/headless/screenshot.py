@@ -52,8 +52,9 @@ def running_server(log: Path, program: Sequence[str] = _PROGRAM) -> Iterator[str
 
 
 @contextmanager
-def server_process(log: Path, program: Sequence[str] = _PROGRAM, options: Sequence[str] = ()
-                   ) -> Iterator[tuple[subprocess.Popen[bytes], str]]:
+def server_process(
+    log: Path, program: Sequence[str] = _PROGRAM, options: Sequence[str] = ()
+) -> Iterator[tuple[subprocess.Popen[bytes], str]]:
     """`hess-explorer serve` in a separate process on a free port: the process and its base URL.  Raises `ServerError`.
 
     log : file for all its output; program : arguments of Python that start the command line; options : of `serve`.
@@ -61,8 +62,12 @@ def server_process(log: Path, program: Sequence[str] = _PROGRAM, options: Sequen
     port = free_port()
     command = [sys.executable, *program, "serve", "--port", str(port), "--no-browser", *options]
     # `-m` looks in the current folder first: start in this package, where nothing can shadow it.
-    with log.open("wb") as out, subprocess.Popen(command, cwd=Path(__file__).resolve().parents[1],
-                                                 stdout=out, stderr=subprocess.STDOUT) as process:
+    with (
+        log.open("wb") as out,
+        subprocess.Popen(
+            command, cwd=Path(__file__).resolve().parents[1], stdout=out, stderr=subprocess.STDOUT
+        ) as process,
+    ):
         try:
             wait_alive(process, port, log)
             yield process, f"http://127.0.0.1:{port}"
@@ -81,8 +86,11 @@ def screenshot(query: str, size: tuple[int, int], *, dark: bool = False) -> byte
         from playwright.sync_api import Error
 
         with running_server(Path(folder) / "server.log") as base:
-            page = browser.new_page(viewport={"width": size[0], "height": size[1]},
-                                    color_scheme="dark" if dark else "light", reduced_motion="reduce")
+            page = browser.new_page(
+                viewport={"width": size[0], "height": size[1]},
+                color_scheme="dark" if dark else "light",
+                reduced_motion="reduce",
+            )
             try:
                 page.goto(f"{base}/?{query}", timeout=1000 * _LOAD_SECONDS)
                 wait_ready(page)

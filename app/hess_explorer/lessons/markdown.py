@@ -54,6 +54,8 @@ def to_html(text: str, line: int = 1, inline: bool = False) -> str:
     except _BadFormula as error:
         formula = str(error)
         shown = formula if len(formula) <= _SHOWN else formula[:_SHOWN] + "…"
-        raise LessonError(f"the formula {shown!r} cannot be set: write it in LaTeX between dollars, and a dollar "
-                          "itself as \\$.", line + text[:max(0, text.find(formula))].count("\n")) from error
+        raise LessonError(
+            f"the formula {shown!r} cannot be set: write it in LaTeX between dollars, and a dollar itself as \\$.",
+            line + text[: max(0, text.find(formula))].count("\n"),
+        ) from error
     return html

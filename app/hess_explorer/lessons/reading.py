@@ -65,7 +65,7 @@ def read_file(path: Path) -> Lesson:
     except OSError as error:
         raise LessonError(f"the file cannot be read: {error.strerror or error}.", 1, path.name) from error
     except UnicodeDecodeError as error:
-        line = error.object[:error.start].count(b"\n") + 1
+        line = error.object[: error.start].count(b"\n") + 1
         raise LessonError("the text is not in UTF-8: save the file in that encoding.", line, path.name) from error
     except LessonError as error:
         raise LessonError(error.message, error.line, path.name) from error
@@ -92,7 +92,7 @@ def read_tries(scene: Scene[Any]) -> Lesson | None:
     if begin == end:
         return None
     # At their lines in the file, for messages.
-    text = "\n" * (begin + 1) + "\n".join(lines[begin + 1:end])
+    text = "\n" * (begin + 1) + "\n".join(lines[begin + 1 : end])
     steps = _steps(text, 4, StateLink(scene.name, scene.defaults()))
     return Lesson(scene.name, f"{TRY_THIS}: {scene.title}", 0.0, steps)
 
@@ -127,8 +127,11 @@ def _parts(text: str, tag: str) -> Iterator[_Part]:
     """The parts under the headings of one level, with what their fences named `step` say."""
     lines = text.split("\n")
     tokens = [token for token in parser().parse(text) if token.level == 0]
-    heads = [(token.map[0], token.map[1]) for token in tokens if token.type == "heading_open" and token.tag == tag
-             and token.map]
+    heads = [
+        (token.map[0], token.map[1])
+        for token in tokens
+        if token.type == "heading_open" and token.tag == tag and token.map
+    ]
     for (at, begin), (end, _) in zip(heads, [*heads[1:], (len(lines), 0)], strict=False):
         inside = [token for token in tokens if token.map and begin <= token.map[0] < end]
         fences = [token for token in inside if _is_fence(token)]
@@ -137,9 +140,14 @@ def _parts(text: str, tag: str) -> Iterator[_Part]:
         kept = list(lines[begin:end])
         for token in fences:
             assert token.map
-            kept[token.map[0] - begin:token.map[1] - begin] = [""] * (token.map[1] - token.map[0])
-        yield _Part(re.sub(r"^#+\s*|\s*#*$", "", lines[at].strip()), "\n".join(kept), begin + 1,
-                    fences[0].content if fences else None, _line(fences[0]) + 1 if fences else 0)
+            kept[token.map[0] - begin : token.map[1] - begin] = [""] * (token.map[1] - token.map[0])
+        yield _Part(
+            re.sub(r"^#+\s*|\s*#*$", "", lines[at].strip()),
+            "\n".join(kept),
+            begin + 1,
+            fences[0].content if fences else None,
+            _line(fences[0]) + 1 if fences else 0,
+        )
 
 
 def _is_fence(token: Token) -> bool:
@@ -160,9 +168,11 @@ def _fields(text: str, line: int, allowed: tuple[str, ...]) -> dict[str, Any]:
         found = yaml.safe_load(text)
     except (yaml.YAMLError, ValueError) as error:
         mark = getattr(error, "problem_mark", None)
-        raise LessonError(f"this is not YAML ({getattr(error, 'problem', None) or 'it cannot be read'}): write one "
-                          f"“name: value” in a line, and quotes round a link.",
-                          line + (mark.line if mark else 0)) from error
+        raise LessonError(
+            f"this is not YAML ({getattr(error, 'problem', None) or 'it cannot be read'}): write one "
+            f"“name: value” in a line, and quotes round a link.",
+            line + (mark.line if mark else 0),
+        ) from error
     except RecursionError as error:
         raise LessonError("this is nested too deeply.", line) from error
     if found is None:
@@ -209,17 +219,31 @@ def _step(part: _Part, tag: str, place: StateLink | None) -> LessonStep:
     if "example" in fields:
         place = _example(fields["example"], place, line)
     if place is None:
-        raise LessonError('the first step needs a state: a link of the page, like state: "?scene=suslov-hess&h=1.5", '
-                          "in a fence named step.", line)
+        raise LessonError(
+            'the first step needs a state: a link of the page, like state: "?scene=suslov-hess&h=1.5", '
+            "in a fence named step.",
+            line,
+        )
     scene = scenes()[place.scene]
     look = fields.get("look", "")
     if look != "" and look not in scene.pictures:
         raise LessonError(_not_one("look", look, scene.pictures), line)
     text, asked = _split(part, tag)
-    step = LessonStep(part.title, text, place, look, _animation(fields.get("animate"), scene, line), **asked,
-                      prediction=_prediction(fields.get("predict"), place, line))
-    for words, first in ((step.title, part.line - 1), (step.text, part.line), (step.question, part.line),
-                         (step.answer, part.line)):
+    step = LessonStep(
+        part.title,
+        text,
+        place,
+        look,
+        _animation(fields.get("animate"), scene, line),
+        **asked,
+        prediction=_prediction(fields.get("predict"), place, line),
+    )
+    for words, first in (
+        (step.title, part.line - 1),
+        (step.text, part.line),
+        (step.question, part.line),
+        (step.answer, part.line),
+    ):
         to_html(words, first)
     return replace(step, text=step.text.strip())
 
@@ -229,16 +253,21 @@ def _split(part: _Part, tag: str) -> tuple[str, dict[str, str]]:
     found = {one.title.lower(): one for one in _parts(part.text, tag)}
     extra = [one for name, one in found.items() if name not in ("question", "answer")]
     if extra:
-        raise LessonError(f"{extra[0].title[:40]!r} is no part of a step: headings in it are Question and Answer.",
-                          part.line + extra[0].line - 2)
+        raise LessonError(
+            f"{extra[0].title[:40]!r} is no part of a step: headings in it are Question and Answer.",
+            part.line + extra[0].line - 2,
+        )
     if ("question" in found) != ("answer" in found):
-        raise LessonError("a question needs an answer, and an answer a question: write both headings.",
-                          part.line + next(iter(found.values())).line - 2)
+        raise LessonError(
+            "a question needs an answer, and an answer a question: write both headings.",
+            part.line + next(iter(found.values())).line - 2,
+        )
     if not found:
         return part.text, {}
     lines = part.text.split("\n")
-    return "\n".join(lines[:min(one.line for one in found.values()) - 2]), {
-        name: one.text.strip() for name, one in found.items()}
+    return "\n".join(lines[: min(one.line for one in found.values()) - 2]), {
+        name: one.text.strip() for name, one in found.items()
+    }
 
 
 def _not_one(what: str, given: object, allowed: tuple[str, ...]) -> str:
@@ -251,15 +280,20 @@ def _place(link: object, line: int) -> StateLink:
     given = dict(parse_qsl(query, keep_blank_values=True))
     scene = scenes().get(given.get("scene", ""))
     if scene is None:
-        raise LessonError("state is a link of this page with its scene, one of "
-                          f"{', '.join(name for name, one in scenes().items() if one.origin is None)}.", line)
+        raise LessonError(
+            "state is a link of this page with its scene, one of "
+            f"{', '.join(name for name, one in scenes().items() if one.origin is None)}.",
+            line,
+        )
     if len(query) > MAX_QUERY:
         raise LessonError(f"the link is longer than {MAX_QUERY} characters.", line)
     names = tuple(spec.name for spec in scene.specs)
     unknown = [name for name in given if name not in names and name not in PAGE_KEYS]
     if unknown:
-        raise LessonError(f"the link has {unknown[0][:40]!r}, which the scene {scene.name} does not: allowed are "
-                          f"{', '.join(names)}.", line)
+        raise LessonError(
+            f"the link has {unknown[0][:40]!r}, which the scene {scene.name} does not: allowed are {', '.join(names)}.",
+            line,
+        )
     values, notes = decode(query, scene.specs)
     if notes:
         raise LessonError(f"the link cannot be followed as it is. {refusal(notes[0])}", line)
@@ -271,8 +305,14 @@ def _example(begins: object, place: StateLink | None, line: int) -> StateLink:
     scene = next(iter(scenes().values())) if place is None else scenes()[place.scene]
     found = [one for one in scene.presets if isinstance(begins, str) and begins and one.name.startswith(begins)]
     if len(found) != 1:
-        raise LessonError(_not_one(f"example is the beginning of just one of the examples of {scene.name}; it", begins,
-                                   tuple(preset.name for preset in scene.presets)), line)
+        raise LessonError(
+            _not_one(
+                f"example is the beginning of just one of the examples of {scene.name}; it",
+                begins,
+                tuple(preset.name for preset in scene.presets),
+            ),
+            line,
+        )
     return StateLink(scene.name, scene.defaults() | scene.example(found[0]))
 
 
@@ -282,8 +322,9 @@ def _animation(found: object, scene: Scene[Any], line: int) -> Animation | None:
     names = ("name", "from", "to", "seconds")
     given = _only(found, line, "animate", names)
     if any(name not in given for name in names):
-        raise LessonError("animate needs name, from, to and seconds, like {name: h, from: 0.2, to: 1.5, seconds: 8}.",
-                          line)
+        raise LessonError(
+            "animate needs name, from, to and seconds, like {name: h, from: 0.2, to: 1.5, seconds: 8}.", line
+        )
     bounds = {TIME: (0.0, _MOST_TIME), **{spec.name: spec.bounds for spec in scene.specs if isinstance(spec, Number)}}
     name = given["name"]
     if name not in bounds:
@@ -313,5 +354,11 @@ def _prediction(found: object, place: StateLink, line: int) -> Prediction | None
     if truth not in layers:
         raise LessonError(_not_one("layer of predict", truth, tuple(layers)), line)
     layer = layers[truth]
-    return Prediction(plot.name, layer.name, plot.source_of(layer), (layer.columns[0], layer.columns[1]),
-                      "curve" if layer.glyph in _CURVES else "point", then)
+    return Prediction(
+        plot.name,
+        layer.name,
+        plot.source_of(layer),
+        (layer.columns[0], layer.columns[1]),
+        "curve" if layer.glyph in _CURVES else "point",
+        then,
+    )

@@ -53,8 +53,9 @@ def _painted(shown: Shown) -> Any:
     from matplotlib.image import imread
 
     pixels = imread(io.BytesIO(file))
-    return hv.RGB(pixels, bounds=(-1.0, -1.0, 1.0, 1.0)).opts(hv.opts.RGB(
-        frame_width=SIDE, frame_height=SIDE, title=shown.title, xaxis=None, yaxis=None))
+    return hv.RGB(pixels, bounds=(-1.0, -1.0, 1.0, 1.0)).opts(
+        hv.opts.RGB(frame_width=SIDE, frame_height=SIDE, title=shown.title, xaxis=None, yaxis=None)
+    )
 
 
 def draw_result(result: Result) -> Any:
@@ -68,9 +69,13 @@ def draw_result(result: Result) -> Any:
     if not axes:
         (x, (_, across)), (y, (_, up)), *_ = known.variables.items()
         return hv.Points((across, up), [_axis(known, x), _axis(known, y)]).opts(
-            hv.opts.Points(size=1.5, frame_width=SIDE, frame_height=SIDE, title=type(result).__name__))
-    panels = [_panel(known, name, axes) for name, (dims, values) in known.variables.items()
-              if dims[-1] in axes and values.dtype.kind == "f"]
+            hv.opts.Points(size=1.5, frame_width=SIDE, frame_height=SIDE, title=type(result).__name__)
+        )
+    panels = [
+        _panel(known, name, axes)
+        for name, (dims, values) in known.variables.items()
+        if dims[-1] in axes and values.dtype.kind == "f"
+    ]
     return hv.Layout(panels).cols(2) if len(panels) > 1 else panels[0]
 
 
@@ -83,8 +88,10 @@ def _panel(known: Labels, name: str, axes: list[str]) -> Any:
     dims, values = known.variables[name]
     x = known.coords[dims[-1]][1]
     if len(dims) > 1 and dims[-2] in axes:
-        return hv.Image((x, known.coords[dims[-2]][1], values), [_axis(known, dims[-1]), _axis(known, dims[-2])],
-                        _axis(known, name)).opts(hv.opts.Image(colorbar=True, title=name, frame_width=SIDE // 2))
+        return hv.Image(
+            (x, known.coords[dims[-2]][1], values), [_axis(known, dims[-1]), _axis(known, dims[-2])], _axis(known, name)
+        ).opts(hv.opts.Image(colorbar=True, title=name, frame_width=SIDE // 2))
     curves = [np.column_stack([x, one]) for one in values.reshape(-1, x.size)]
     return hv.Path(curves, [_axis(known, dims[-1]), _axis(known, name)]).opts(
-        hv.opts.Path(frame_width=SIDE, frame_height=SIDE // 3, color=theme.ORBIT))
+        hv.opts.Path(frame_width=SIDE, frame_height=SIDE // 3, color=theme.ORBIT)
+    )

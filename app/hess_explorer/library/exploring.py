@@ -38,8 +38,13 @@ class Exploration:
         port = free_port()
         self.url = f"http://127.0.0.1:{port}/{first.link}"
         # A process of its own: what a cell computes does not keep the page waiting, nor what the page does a cell.
-        self._child = subprocess.Popen([sys.executable, "-c", _CHILD, str(port)], stdin=subprocess.PIPE,
-                                       stdout=subprocess.PIPE, text=True, encoding="utf-8")
+        self._child = subprocess.Popen(
+            [sys.executable, "-c", _CHILD, str(port)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            encoding="utf-8",
+        )
         self._end = weakref.finalize(self, _end, self._child)
         threading.Thread(target=_listen, args=(self._child, weakref.ref(self)), daemon=True).start()
         if not self._ready.wait(_START_SECONDS) or self._child.poll() is not None:
@@ -65,15 +70,18 @@ class Exploration:
     def _repr_html_(self) -> str:
         """The pictures with the controls that matter, and a link to the whole page."""
         here = escape(self.url)
-        return (f'<iframe src="{here}&amp;embed=1" width="100%" height="{self._height}" style="border: 0" '
-                f'allowfullscreen></iframe><a href="{here}" target="_blank">Open the whole page</a>')
+        return (
+            f'<iframe src="{here}&amp;embed=1" width="100%" height="{self._height}" style="border: 0" '
+            f'allowfullscreen></iframe><a href="{here}" target="_blank">Open the whole page</a>'
+        )
 
     def __enter__(self) -> Exploration:
         """For as long as a block of code."""
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
-                 trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self.close()
 
 
@@ -98,8 +106,9 @@ def serve_alone(port: int) -> None:
         print(json.dumps([word, text]), flush=True)
 
     threading.Thread(target=end_with_stdin, daemon=True).start()
-    serve(port, "127.0.0.1", False, (), lambda: tell("ready"), sessions=_PAGES,
-          follow=lambda query: tell("state", query))
+    serve(
+        port, "127.0.0.1", False, (), lambda: tell("ready"), sessions=_PAGES, follow=lambda query: tell("state", query)
+    )
 
 
 def _listen(child: subprocess.Popen[str], of: weakref.ref[Exploration]) -> None:

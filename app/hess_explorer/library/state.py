@@ -130,8 +130,9 @@ class SceneState:
 
         return draw(self._shown(picture))
 
-    def save(self, file: str | Path, picture: str = "", *, width: float = 85.0, black: bool = False,
-             seconds: float = 10.0) -> Path:
+    def save(
+        self, file: str | Path, picture: str = "", *, width: float = 85.0, black: bool = False, seconds: float = 10.0
+    ) -> Path:
         """Write a picture as the file's ending says: csv and json, a figure as png, svg, pdf, a film as webm, mp4, gif.
 
         width : millimetres of a figure or film; black : black on white; seconds : of a film.
@@ -140,8 +141,9 @@ class SceneState:
         path = Path(file)
         kind = path.suffix.removeprefix(".").lower()
         if kind not in _ENDINGS:
-            raise InvalidParameter(f"A file whose name ends in {path.suffix!r} cannot be written: choose one of "
-                                   f".{', .'.join(_ENDINGS)}.")
+            raise InvalidParameter(
+                f"A file whose name ends in {path.suffix!r} cannot be written: choose one of .{', .'.join(_ENDINGS)}."
+            )
         path.write_bytes(content(self._shown(picture), Wish(kind, width, black, seconds)))
         return path
 
@@ -173,9 +175,12 @@ class SceneState:
         return self._known[found.picture.name]
 
     def _repr_html_(self) -> str:
-        rows = "".join(f"<tr><th>{escape(spec.symbol if isinstance(spec, Number) else spec.label)}</th>"
-                       f"<td>{escape(str(self.parameters[spec.name]))}</td></tr>"
-                       for spec in self._address.scene.specs if spec.name in self.parameters)
+        rows = "".join(
+            f"<tr><th>{escape(spec.symbol if isinstance(spec, Number) else spec.label)}</th>"
+            f"<td>{escape(str(self.parameters[spec.name]))}</td></tr>"
+            for spec in self._address.scene.specs
+            if spec.name in self.parameters
+        )
         said = f"<code>{escape(self.link)}</code><p>Pictures: {escape(', '.join(self.pictures))}.</p>"
         return f"<b>{escape(self._address.scene.title)}</b><table>{rows}</table>{said}"
 
@@ -236,8 +241,10 @@ def _checked(spec: Spec, value: Any) -> Value:
     note: str | None
     if isinstance(spec, Number):
         if isinstance(value, bool) or not isinstance(value, Real):
-            raise InvalidParameter(f"{value!r} is not a number: {spec.name} ({spec.label}) is one from "
-                                   f"{spec.bounds[0]:g} to {spec.bounds[1]:g}.")
+            raise InvalidParameter(
+                f"{value!r} is not a number: {spec.name} ({spec.label}) is one from "
+                f"{spec.bounds[0]:g} to {spec.bounds[1]:g}."
+            )
         if not math.isfinite(value):
             raise InvalidParameter(f"{spec.name} ({spec.label}) must be a finite number.")
         found, note = spec.admit(float(value))
@@ -256,5 +263,11 @@ def _checked(spec: Spec, value: Any) -> Value:
 
 def _first(state: Any, names: tuple[str, ...]) -> Any:
     """The first of these properties that the state of a scene has; None without one."""
-    return next((getattr(state, name) for name in names if isinstance(
-        getattr(type(state), name, None), (property, cached_property))), None)
+    return next(
+        (
+            getattr(state, name)
+            for name in names
+            if isinstance(getattr(type(state), name, None), (property, cached_property))
+        ),
+        None,
+    )

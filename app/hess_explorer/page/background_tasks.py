@@ -70,8 +70,10 @@ class BackgroundTasks:
         self.progress = (report.total - left, report.total) if left and not ended else None
         if not (left and ended):
             return []
-        return [self.background.error or (
-            f"Stopped: {report.total - left} of {report.total} parts are drawn. Change a value to compute again.")]
+        return [
+            self.background.error
+            or (f"Stopped: {report.total - left} of {report.total} parts are drawn. Change a value to compute again.")
+        ]
 
     def start(self) -> None:
         """Start the tasks, once the answer has been sent: they would hold it up while they have Python's lock."""

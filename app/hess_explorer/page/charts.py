@@ -84,10 +84,22 @@ class Charts:
         chart = charting.chart
         return Answer(
             chart=ChartCells(
-                self._id, cells=where.size, first=min(max(known, 0), progress.cells), running=running,
-                said=charting.said, done=progress.done, of=progress.cells, left=progress.left,
-                level=chart.level.name, error=charting.error, version=version(), x=_side(chart.x), y=_side(chart.y)),
-            cells=values.astype("<f8").tobytes() + where.astype("<i4").tobytes() + status.tobytes())
+                self._id,
+                cells=where.size,
+                first=min(max(known, 0), progress.cells),
+                running=running,
+                said=charting.said,
+                done=progress.done,
+                of=progress.cells,
+                left=progress.left,
+                level=chart.level.name,
+                error=charting.error,
+                version=version(),
+                x=_side(chart.x),
+                y=_side(chart.y),
+            ),
+            cells=values.astype("<f8").tobytes() + where.astype("<i4").tobytes() + status.tobytes(),
+        )
 
 
 def _side(side: Side) -> tuple[str, float, float, int]:

@@ -25,8 +25,9 @@ class Connection:
     follow : told the query of each state that the page shows.
     """
 
-    def __init__(self, query: str, lesson: Lesson | None, send: Callable[[bytes], object],
-                 follow: Callable[[str], None] | None) -> None:
+    def __init__(
+        self, query: str, lesson: Lesson | None, send: Callable[[bytes], object], follow: Callable[[str], None] | None
+    ) -> None:
         self._query, self._lesson = query, lesson
         self._send, self._follow = send, follow
         self._charts = Charts()

@@ -43,27 +43,29 @@ def describe(name: str) -> str:
 @cache
 def _describe(name: str) -> str:
     scene = scenes()[name]
-    return json.dumps({
-        "name": scene.name,
-        "title": scene.title,
-        "pictures": [{**view.describe(), "folded": view.folded or None} for view in scene.views],
-        "controls": [_control(spec) for spec in scene.specs if isinstance(spec, Number | Choice)],
-        "essential": list(scene.essential),
-        "handle": _handle(scene),
-        "moves": scene.moves,
-        "groups": list(GROUPS),
-        "drawn": not all(isinstance(spec, Number | Choice) for spec in scene.specs),
-        "charts": [_chart(scene, charted) for charted in scene.charts],
-        "sides": sides_of_places(scene),
-        "presets": [preset.name for preset in scene.presets],
-        "legend": scene.legend,
-        "words": _html(scene),
-        "tries": _steps(tries().get(scene.name)),
-        "tracks": [f"data-{name}" for name in scene.tracks],
-        "dots": {source: list(columns) for source, columns in scene.dots.items()},
-        "angles": list(scene.angles),
-        "shades": SHADES,
-    })
+    return json.dumps(
+        {
+            "name": scene.name,
+            "title": scene.title,
+            "pictures": [{**view.describe(), "folded": view.folded or None} for view in scene.views],
+            "controls": [_control(spec) for spec in scene.specs if isinstance(spec, Number | Choice)],
+            "essential": list(scene.essential),
+            "handle": _handle(scene),
+            "moves": scene.moves,
+            "groups": list(GROUPS),
+            "drawn": not all(isinstance(spec, Number | Choice) for spec in scene.specs),
+            "charts": [_chart(scene, charted) for charted in scene.charts],
+            "sides": sides_of_places(scene),
+            "presets": [preset.name for preset in scene.presets],
+            "legend": scene.legend,
+            "words": _html(scene),
+            "tries": _steps(tries().get(scene.name)),
+            "tracks": [f"data-{name}" for name in scene.tracks],
+            "dots": {source: list(columns) for source, columns in scene.dots.items()},
+            "angles": list(scene.angles),
+            "shades": SHADES,
+        }
+    )
 
 
 def _handle(scene: Scene[Any]) -> dict[str, Any] | None:
@@ -80,9 +82,17 @@ def _handle(scene: Scene[Any]) -> dict[str, Any] | None:
 def _chart(scene: Scene[Any], charted: Charted[Any]) -> dict[str, Any]:
     """What can be charted: over which of its parameters, those with open controls first; for which pictures."""
     what = quantity(charted.quantity)
-    return {"quantity": what.name, "symbol": what.symbol, "title": what.title, "units": what.units, "help": what.doc,
-            "turn": what.turn, "parts": list(what.parts),
-            "over": list(swept(scene.name, what.name)), "pictures": list(charted.pictures)}
+    return {
+        "quantity": what.name,
+        "symbol": what.symbol,
+        "title": what.title,
+        "units": what.units,
+        "help": what.doc,
+        "turn": what.turn,
+        "parts": list(what.parts),
+        "over": list(swept(scene.name, what.name)),
+        "pictures": list(charted.pictures),
+    }
 
 
 def _html(scene: Scene[Any]) -> str:
@@ -116,12 +126,21 @@ def _steps(lesson: Lesson | None) -> list[dict[str, Any]]:
 
 def _step(step: LessonStep) -> dict[str, Any]:
     found: dict[str, Any] = {
-        "title": to_html(step.title, inline=True), "text": to_html(step.text), "scene": step.at.scene,
-        "look": step.look, "question": to_html(step.question), "answer": to_html(step.answer)}
+        "title": to_html(step.title, inline=True),
+        "text": to_html(step.text),
+        "scene": step.at.scene,
+        "look": step.look,
+        "question": to_html(step.question),
+        "answer": to_html(step.answer),
+    }
     if step.animation:
         found["animation"] = dataclasses.asdict(step.animation)
     if step.prediction:
         guess = step.prediction
-        found["prediction"] = {"picture": guess.picture, "source": guess.source, "columns": guess.columns,
-                               "what": guess.what}
+        found["prediction"] = {
+            "picture": guess.picture,
+            "source": guess.source,
+            "columns": guess.columns,
+            "what": guess.what,
+        }
     return found

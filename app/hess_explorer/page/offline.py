@@ -68,8 +68,7 @@ _PAGE = """<!DOCTYPE html>
 """
 
 
-def as_html(query: str, pictures: Sequence[str] = (), home: str = HOME, *, lenient: bool = False
-            ) -> tuple[str, bytes]:
+def as_html(query: str, pictures: Sequence[str] = (), home: str = HOME, *, lenient: bool = False) -> tuple[str, bytes]:
     """The name of the scene of a query, and the file of its state with these pictures, or those open at first.
 
     home : the address of the explorer that the link in it leads to; lenient : as in `address`.
@@ -86,30 +85,50 @@ def as_html(query: str, pictures: Sequence[str] = (), home: str = HOME, *, lenie
     wire = Wire()
     stage = Stage(scene, wire)
     state, report = complete(scene, values, chosen, lambda state: stage.show(state, False))
-    for key, text in (("summary", report.summary), ("status", report.status), ("derived", "\n".join(report.derived)),
-                      ("notes", "\n".join([*found.notes, *report.notes]))):
+    for key, text in (
+        ("summary", report.summary),
+        ("status", report.status),
+        ("derived", "\n".join(report.derived)),
+        ("notes", "\n".join([*found.notes, *report.notes])),
+    ):
         wire.say(key, text)
     show_controls(scene, values, wire)
     tree, block = wire.pack()
     description = json.loads(describe(scene.name))
     # What would ask a server is not offered.
     description["handle"] = None
-    description["pictures"] = [{**one, "folded": None, "hands": "", **({"picks": []} if "picks" in one else {})}
-                               for one in description["pictures"] if one["name"] in chosen]
+    description["pictures"] = [
+        {**one, "folded": None, "hands": "", **({"picks": []} if "picks" in one else {})}
+        for one in description["pictures"]
+        if one["name"] in chosen
+    ]
     program = f"hess-explorer {version('hess-explorer')}"
     facts: dict[str, Any] = {
-        "link": link, "scene": scene.name, "title": scene.title, "pictures": chosen, "parameters": dict(values),
-        "status": [f"accuracy: {state.work.chosen}", *state.status()], "notes": [*found.notes, *report.notes],
-        "program": program}
+        "link": link,
+        "scene": scene.name,
+        "title": scene.title,
+        "pictures": chosen,
+        "parameters": dict(values),
+        "status": [f"accuracy: {state.work.chosen}", *state.status()],
+        "notes": [*found.notes, *report.notes],
+        "program": program,
+    }
     parameters = ", ".join(f"{name} = {value}" for name, value in values.items())
     looks = {"speed": "1", **{name: repr(value) for name, value in found.client.items()}}
     page = _PAGE.format(
-        policy=escape(_POLICY), program=escape(program), title=escape(scene.title), entry=_ENTRY,
+        policy=escape(_POLICY),
+        program=escape(program),
+        title=escape(scene.title),
+        entry=_ENTRY,
         said=escape(f"{program}, ?{link} | {parameters} | {'; '.join(facts['status'])}"),
-        link=escape(f"{home}?{link}"), style=(STATIC / "page/offline.css").read_text(encoding="utf-8"),
-        modules=json.dumps({"imports": bundled(_ENTRY)}), facts=_json(facts), block=base64.b64encode(block).decode(),
+        link=escape(f"{home}?{link}"),
+        style=(STATIC / "page/offline.css").read_text(encoding="utf-8"),
+        modules=json.dumps({"imports": bundled(_ENTRY)}),
+        facts=_json(facts),
+        block=base64.b64encode(block).decode(),
         state=_json({"description": description, "tree": tree, "client": looks, "sheets": styles()}),
-        bokeh="\n".join(Resources(mode="inline", components=["bokeh"]).js_raw).replace("</script", "<\\/script"))
+        bokeh="\n".join(Resources(mode="inline", components=["bokeh"]).js_raw).replace("</script", "<\\/script"),
+    )
     return scene.name, page.encode()
 
 

@@ -69,8 +69,12 @@ def opening(query: str, own: Lesson | None, *, lenient: bool = True) -> Opening:
     large = Names("large", "Enlarged pictures", scene.pictures, most=2)
     numbers = link.values(CLIENT)
     numbers["speed"] = min(SPEEDS, key=lambda speed: abs(speed - float(numbers["speed"])))
-    client = {**{name: repr(value) for name, value in numbers.items()}, large.name: str(link.value(large)),
-              "lesson": reading.name if reading else "", "step": str(at) if reading else ""}
+    client = {
+        **{name: repr(value) for name, value in numbers.items()},
+        large.name: str(link.value(large)),
+        "lesson": reading.name if reading else "",
+        "step": str(at) if reading else "",
+    }
     dark = link.value(THEME) == "dark"
     # What is not written into the address is empty.
     client |= {spec.name: str(link.value(spec)).strip("0") for spec in (PRESENT, EMBED)}
@@ -86,5 +90,7 @@ def opening(query: str, own: Lesson | None, *, lenient: bool = True) -> Opening:
 def _embedded(scene: Scene[Any]) -> tuple[Names, Names]:
     """The pictures and the controls of a page inside another one (`embed=1`); "none": no control."""
     controls = tuple(spec.name for spec in scene.specs if isinstance(spec, Number | Choice))
-    return (Names("pictures", "Embedded pictures", scene.pictures, len(scene.pictures), ",".join(scene.open_pictures)),
-            Names("controls", "Embedded controls", (*controls, "none"), len(controls), ",".join(scene.essential)))
+    return (
+        Names("pictures", "Embedded pictures", scene.pictures, len(scene.pictures), ",".join(scene.open_pictures)),
+        Names("controls", "Embedded controls", (*controls, "none"), len(controls), ",".join(scene.essential)),
+    )

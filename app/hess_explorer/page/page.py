@@ -26,8 +26,11 @@ __all__ = ["page"]
 
 logger = logging.getLogger("hess_explorer")
 
-_FILES = {"formats": [[kind, one.words, one.holds] for kind, one in FORMATS.items() if one.words],
-          "width": [*WIDTHS, Wish.width], "seconds": [*SERVED_SECONDS, Wish.seconds]}
+_FILES = {
+    "formats": [[kind, one.words, one.holds] for kind, one in FORMATS.items() if one.words],
+    "width": [*WIDTHS, Wish.width],
+    "seconds": [*SERVED_SECONDS, Wish.seconds],
+}
 # Of a chart, as of every map of numbers.
 _PALETTES = {"plain": [*Cividis256], "round": [*theme.TURN_MAP]}
 
@@ -91,5 +94,11 @@ def _page(query: str, own: Lesson | None) -> pmui.Page:
 
 def _entry(scene: Scene[Any]) -> dict[str, str | None]:
     """What the menu of scenes says of one."""
-    return {"name": scene.name, "title": scene.title, "summary": scene.summary, "picture": scene.thumbnail,
-            "origin": scene.origin, "group": scene.group}
+    return {
+        "name": scene.name,
+        "title": scene.title,
+        "summary": scene.summary,
+        "picture": scene.thumbnail,
+        "origin": scene.origin,
+        "group": scene.group,
+    }

@@ -55,8 +55,11 @@ class RequestedState:
             return
         # "Speed and accuracy" of a scene is of the very same state.
         carried = (scene.origin or scene.name) != (self.scene.origin or self.scene.name)
-        values = (scene.taken_over(self._left.get(scene.name, scene.defaults()), self.scene, self.values) if carried
-                  else {**self._left.get(scene.name, {}), **self.values})
+        values = (
+            scene.taken_over(self._left.get(scene.name, scene.defaults()), self.scene, self.values)
+            if carried
+            else {**self._left.get(scene.name, {}), **self.values}
+        )
         self._enter(scene, values, [])
         self.carried = carried
 
@@ -77,8 +80,9 @@ class RequestedState:
 
     def start_anew(self) -> None:
         """Go to the scene's own first state, in place of values that are impossible here."""
-        self._enter(self.scene, {}, [
-            "What was chosen before is not possible here: this is the scene's own first state."])
+        self._enter(
+            self.scene, {}, ["What was chosen before is not possible here: this is the scene's own first state."]
+        )
 
     def _set(self, values: Values) -> None:
         """Set values within the bounds of their parameters, and note each number that had to be changed."""

@@ -45,8 +45,14 @@ class Session:
     pictures : those in sight, until the browser says which are.
     """
 
-    def __init__(self, scene: Scene[Any], values: Values, notes: list[str], lessons: Mapping[str, Lesson],
-                 pictures: Collection[str] | None = None) -> None:
+    def __init__(
+        self,
+        scene: Scene[Any],
+        values: Values,
+        notes: list[str],
+        lessons: Mapping[str, Lesson],
+        pictures: Collection[str] | None = None,
+    ) -> None:
         self.requested = RequestedState(scene, values, notes)
         self.wire = Wire()
         self._lessons = lessons
@@ -109,8 +115,14 @@ class Session:
             return Answer(lesson=told)
         self._number += 1
         tree, block = self.wire.pack()
-        state = StateAnswer(self._number, request.requested, encode(self.scene.name, self.values), tree,
-                            self.scene.name, self._tasks.progress)
+        state = StateAnswer(
+            self._number,
+            request.requested,
+            encode(self.scene.name, self.values),
+            tree,
+            self.scene.name,
+            self._tasks.progress,
+        )
         # A scene that may be chosen next is described where this one was.
         near = request.near if self.scene is scene else None
         return Answer(self._description(near), told, state, block)
@@ -176,8 +188,11 @@ class Session:
     def _pick(self, picked: PicturePoint | PictureBox) -> None:
         """Set the values that a click or a box chooses, or note why there are none."""
         try:
-            chosen = (self.stage.pick(picked.picture, picked.x, picked.y) if isinstance(picked, PicturePoint)
-                      else self.stage.box(picked.picture, picked.corners))
+            chosen = (
+                self.stage.pick(picked.picture, picked.x, picked.y)
+                if isinstance(picked, PicturePoint)
+                else self.stage.box(picked.picture, picked.corners)
+            )
         except ModelError as error:
             self.requested.notes = [str(error)]
         else:
@@ -205,8 +220,12 @@ class Session:
         released = self._held and not held
         self._held = held
         wanted = self.requested
-        if (released or self._mistaken or self._drawn != (self.scene.name, wanted.values, wanted.notes)
-                or not set(self._in_sight) <= set(self._drawn_pictures)):
+        if (
+            released
+            or self._mistaken
+            or self._drawn != (self.scene.name, wanted.values, wanted.notes)
+            or not set(self._in_sight) <= set(self._drawn_pictures)
+        ):
             self._draw()
         elif self._tasks.progress is not None and self._tasks.news:
             self._draw(more=True)

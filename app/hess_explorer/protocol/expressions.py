@@ -22,18 +22,26 @@ MOST = 100
 """So many characters are read."""
 
 FUNCTIONS: Mapping[str, Callable[..., float]] = {
-    name: getattr(math, name) for name in (
-        "sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh")} | {"abs": abs}
+    name: getattr(math, name)
+    for name in ("sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh")
+} | {"abs": abs}
 
 _NAMES = {"pi": math.pi, "π": math.pi, "e": math.e}
 _KINDS = (ast.Expr, ast.Constant, ast.Name, ast.UnaryOp, ast.BinOp, ast.Call)
 # The power of floats: that of whole numbers may have millions of digits.
 _OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
-    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
-    ast.Pow: math.pow, ast.USub: operator.neg, ast.UAdd: operator.pos}
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.Pow: math.pow,
+    ast.USub: operator.neg,
+    ast.UAdd: operator.pos,
+}
 # No quotes, commas, dots or brackets but those of numbers: nothing else than numbers can be made of these.
 _TEXT = re.compile(
-    r"(?>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![\w.])|[A-Za-zπ]+[0-9]*(?![\w.])|[-+*/()]|\s)+")
+    r"(?>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![\w.])|[A-Za-zπ]+[0-9]*(?![\w.])|[-+*/()]|\s)+"
+)
 
 
 class NotANumber(ValueError):
@@ -66,7 +74,8 @@ def evaluate(text: str) -> float:
     except (InvalidExpression, SyntaxError, TypeError, RecursionError, MemoryError, Warning):
         raise NotANumber(
             "This is no number and no expression that can be read: + − * / **, parentheses, pi, e and "
-            f"{', '.join(FUNCTIONS)} are known.") from None
+            f"{', '.join(FUNCTIONS)} are known."
+        ) from None
     if not math.isfinite(value):
         raise NotANumber("This has no finite value: change the expression.")
     return value

@@ -30,8 +30,21 @@ from typing import Any
 from hess_explorer.protocol.parameters import Value
 
 __all__ = [
-    "Answer", "CellExplained", "ChartCells", "ChartEnded", "ChartRequest", "ContinueChart", "ExplainCell",
-    "PictureBox", "PicturePoint", "Request", "StartChart", "StateAnswer", "StepChoice", "StopChart", "parse",
+    "Answer",
+    "CellExplained",
+    "ChartCells",
+    "ChartEnded",
+    "ChartRequest",
+    "ContinueChart",
+    "ExplainCell",
+    "PictureBox",
+    "PicturePoint",
+    "Request",
+    "StartChart",
+    "StateAnswer",
+    "StepChoice",
+    "StopChart",
+    "parse",
 ]
 
 
@@ -143,8 +156,13 @@ def parse(message: Any) -> Request | ChartRequest | None:
         hover=hover if isinstance(hover, PicturePoint) else None,
         step=_step(message.get("step")),
         hidden=[name for name in hidden if isinstance(name, str)] if isinstance(hidden, list) else None,
-        scene=text("scene"), near=text("near"), preset=text("preset"), lesson=text("lesson"),
-        reset=message.get("reset") is True, clear=message.get("clear") is True, stop=message.get("stop") is True,
+        scene=text("scene"),
+        near=text("near"),
+        preset=text("preset"),
+        lesson=text("lesson"),
+        reset=message.get("reset") is True,
+        clear=message.get("clear") is True,
+        stop=message.get("stop") is True,
         held=message.get("held") is True,
     )
 

@@ -15,8 +15,24 @@ from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.parameters import Group, Parameter
 
 __all__ = [
-    "CLIENT", "MAX_QUERY", "PAGE_KEYS", "VERSION", "Choice", "Link", "Names", "Number", "Places",
-    "Spec", "Value", "Values", "decode", "encode", "places", "query_in", "refusal", "written",
+    "CLIENT",
+    "MAX_QUERY",
+    "PAGE_KEYS",
+    "VERSION",
+    "Choice",
+    "Link",
+    "Names",
+    "Number",
+    "Places",
+    "Spec",
+    "Value",
+    "Values",
+    "decode",
+    "encode",
+    "places",
+    "query_in",
+    "refusal",
+    "written",
 ]
 
 VERSION = "1"
@@ -90,16 +106,20 @@ class Places:
         """The last `most` of the points, as a text; the default where it is none; a note where it had to be changed."""
         try:
             pairs = [tuple(map(float, pair.split(","))) for pair in text.split(";") if pair]
-            inside = all(low <= value <= high for pair in pairs
-                         for value, low, high in zip(pair, self.low, self.high, strict=True))
+            inside = all(
+                low <= value <= high
+                for pair in pairs
+                for value, low, high in zip(pair, self.low, self.high, strict=True)
+            )
         except ValueError:
             inside = False
         if not inside:
             low, high = (",".join(f"{value:g}" for value in corner) for corner in (self.low, self.high))
-            return self.default, (f"{self.label} could not be read as points x,y;x,y from {low} to {high}: what it is "
-                                  "at first is shown.")
+            return self.default, (
+                f"{self.label} could not be read as points x,y;x,y from {low} to {high}: what it is at first is shown."
+            )
         note = f"{self.label} may be {self.most} at most: the last are kept." if len(pairs) > self.most else None
-        return written(pairs[-self.most:]), note
+        return written(pairs[-self.most :]), note
 
 
 @dataclass(frozen=True)
@@ -116,9 +136,13 @@ class Names:
         """The first `most` of the names, each once; a note where one is not of the list, the default if all are not."""
         names = list(dict.fromkeys(name for name in text.split(",") if name))
         known = [name for name in names if name in self.options]
-        note = (f"{self.label} may be {', '.join(self.options)}, {self.most} at most: what the link names besides is "
-                "left out." if len(known) < len(names) or len(known) > self.most else None)
-        return ",".join(known[:self.most]) or (self.default if note else ""), note
+        note = (
+            f"{self.label} may be {', '.join(self.options)}, {self.most} at most: what the link names besides is "
+            "left out."
+            if len(known) < len(names) or len(known) > self.most
+            else None
+        )
+        return ",".join(known[: self.most]) or (self.default if note else ""), note
 
 
 def written(places: Sequence[tuple[float, ...]]) -> str:
@@ -142,8 +166,19 @@ CLIENT: tuple[Number, ...] = (
 )
 """Keys of the URL that the browser itself keeps, besides the pictures enlarged: they need no computation."""
 
-PAGE_KEYS = ("v", "scene", *(spec.name for spec in CLIENT), "large", "theme", "present", "embed", "pictures",
-             "controls", "lesson", "step")
+PAGE_KEYS = (
+    "v",
+    "scene",
+    *(spec.name for spec in CLIENT),
+    "large",
+    "theme",
+    "present",
+    "embed",
+    "pictures",
+    "controls",
+    "lesson",
+    "step",
+)
 """Keys of the URL that are no parameters of a scene."""
 
 
@@ -221,8 +256,9 @@ class Link:
         """Refuse a key that is neither one of these names, of a scene, nor one of the page; leniently it is ignored."""
         unknown = [name for name in self.given if name not in names and name not in PAGE_KEYS]
         if unknown and not self._lenient:
-            raise InvalidParameter(f"The scene {scene} has no parameter {_short(unknown[0])}, but {', '.join(names)}; "
-                                   f"{_REMEDY}")
+            raise InvalidParameter(
+                f"The scene {scene} has no parameter {_short(unknown[0])}, but {', '.join(names)}; {_REMEDY}"
+            )
 
     def _refuse_repeated(self, names: list[str]) -> None:
         twice = [name for name in names if names.count(name) > 1]

@@ -19,19 +19,41 @@ from hess_mechanics.chaplygin_ball.section import BallSection
 from hess_mechanics.parameters import H_BALL
 
 
-def _ball(I11: float, I22: float, I13: float, I23: float, D: float, b1: float, b2: float, b3: float, h: float
-          ) -> dict[str, Value]:
+def _ball(
+    I11: float, I22: float, I13: float, I23: float, D: float, b1: float, b2: float, b3: float, h: float
+) -> dict[str, Value]:
     return {"I11": I11, "I22": I22, "I13": I13, "I23": I23, "D": D, "b1": b1, "b2": b2, "b3": b3, "h": h}
 
 
 PRESETS = (
     Preset("Period doubling along 𝒟"),
-    Preset("Apart: a strange attractor and its repeller", D=1.0, along="h", first=2.4, last=3.0, window="",
-           chosen="2.5,1.5"),
-    Preset("Apart: permanent rotations, and reversal", **_ball(0.9, 1.3, -0.3, 0.2, 2.3, -1.5, -1.3, 1.1, 4.116),
-           first=1.5, last=3.0, window="", chosen="1.62191,0.01002", span=150.0),
-    Preset("Equal: volume is kept", **_ball(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.0, 0.8, 2.0), along="h", first=1.0,
-           last=3.0, window="", chosen="1,1.5"),
+    Preset(
+        "Apart: a strange attractor and its repeller",
+        D=1.0,
+        along="h",
+        first=2.4,
+        last=3.0,
+        window="",
+        chosen="2.5,1.5",
+    ),
+    Preset(
+        "Apart: permanent rotations, and reversal",
+        **_ball(0.9, 1.3, -0.3, 0.2, 2.3, -1.5, -1.3, 1.1, 4.116),
+        first=1.5,
+        last=3.0,
+        window="",
+        chosen="1.62191,0.01002",
+        span=150.0,
+    ),
+    Preset(
+        "Equal: volume is kept",
+        **_ball(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.0, 0.8, 2.0),
+        along="h",
+        first=1.0,
+        last=3.0,
+        window="",
+        chosen="1,1.5",
+    ),
 )
 """All of them are rigid bodies for some I₃₃; the third was found by `tests/benchmarks/search_regimes.py --ball`."""
 
@@ -80,9 +102,14 @@ class BallDiagram(DiagramState):
 
 
 SCENE = Scene(
-    BallDiagram, __file__, place=17, presets=PRESETS, group="Ball",
+    BallDiagram,
+    __file__,
+    place=17,
+    presets=PRESETS,
+    group="Ball",
     charts=charts(BallDiagram, "regime-ball-section"),
-    essential=("D", "first", "last", "I13"), handle="D",
+    essential=("D", "first", "last", "I13"),
+    handle="D",
     title="Orbit diagram of the ball",
     summary="The ball in a field over a parameter: doublings along 𝒟, a strange attractor and its repeller, reversal.",
     tracks={"orbit": lambda s: orbit_columns(s.orbit.path, turning=s.turning)},

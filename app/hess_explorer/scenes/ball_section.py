@@ -61,19 +61,78 @@ _MOST_STEPS = 15_000
 _NAMES = ("ψ", "δ")
 
 _PLAIN = {"I13": 0.0, "I23": 0.0}
-PRESETS = (*map(plain, (
-    Preset("Mixed: curves and a sea, I₁₃ = I₂₃ = 0"),
-    Preset("Regular: I₁₁ = I₂₂, b ∥ e₃", **_PLAIN, I11=1.0, I22=1.0, D=3.0, b1=0.0, b3=1.0, h=1.5),
-    Preset("Every orbit closes: b₃ = 0", **_PLAIN, I11=1.0, I22=2.0, D=1.0, b1=1.0, b2=0.5, b3=0.0, h=2.618, psi=0.5),
-    Preset("A sea nearly everywhere", **_PLAIN, I11=1.0, I22=4.0, D=2.0, b1=0.3, b3=1.0, h=0.8),
-    Preset("Strange attractor, I₁₃ ≠ 0", I11=1.5, I22=3.0, I13=-0.3, I23=0.0, D=1.0, b1=1.0, b2=-0.7, b3=0.7, h=2.72,
-           psi=2.5, count=600.0, drop="the later half"),
-    Preset("A wider one, I₁₃I₂₃ ≠ 0", I11=1.5, I22=3.0, I13=-0.1, I23=0.4, D=4.0, b1=-0.8, b2=-0.3, b3=-0.7, h=1.0,
-           psi=0.4, count=600.0, drop="the later half"),
-    Preset("The orbit that doubles, over I₁₃", I11=1.5, I22=3.0, I13=-0.3, I23=0.0, D=1.0, b1=1.0, b2=-0.7, b3=0.7,
-           h=2.72, psi=-2.7834, delta=1.0275, reach=2.0, drop="the later half", periodic="period 1", over="I₁₃",
-           low=-0.55, high=-0.05),
-)),)
+PRESETS = (
+    *map(
+        plain,
+        (
+            Preset("Mixed: curves and a sea, I₁₃ = I₂₃ = 0"),
+            Preset("Regular: I₁₁ = I₂₂, b ∥ e₃", **_PLAIN, I11=1.0, I22=1.0, D=3.0, b1=0.0, b3=1.0, h=1.5),
+            Preset(
+                "Every orbit closes: b₃ = 0",
+                **_PLAIN,
+                I11=1.0,
+                I22=2.0,
+                D=1.0,
+                b1=1.0,
+                b2=0.5,
+                b3=0.0,
+                h=2.618,
+                psi=0.5,
+            ),
+            Preset("A sea nearly everywhere", **_PLAIN, I11=1.0, I22=4.0, D=2.0, b1=0.3, b3=1.0, h=0.8),
+            Preset(
+                "Strange attractor, I₁₃ ≠ 0",
+                I11=1.5,
+                I22=3.0,
+                I13=-0.3,
+                I23=0.0,
+                D=1.0,
+                b1=1.0,
+                b2=-0.7,
+                b3=0.7,
+                h=2.72,
+                psi=2.5,
+                count=600.0,
+                drop="the later half",
+            ),
+            Preset(
+                "A wider one, I₁₃I₂₃ ≠ 0",
+                I11=1.5,
+                I22=3.0,
+                I13=-0.1,
+                I23=0.4,
+                D=4.0,
+                b1=-0.8,
+                b2=-0.3,
+                b3=-0.7,
+                h=1.0,
+                psi=0.4,
+                count=600.0,
+                drop="the later half",
+            ),
+            Preset(
+                "The orbit that doubles, over I₁₃",
+                I11=1.5,
+                I22=3.0,
+                I13=-0.3,
+                I23=0.0,
+                D=1.0,
+                b1=1.0,
+                b2=-0.7,
+                b3=0.7,
+                h=2.72,
+                psi=-2.7834,
+                delta=1.0275,
+                reach=2.0,
+                drop="the later half",
+                periodic="period 1",
+                over="I₁₃",
+                low=-0.55,
+                high=-0.05,
+            ),
+        ),
+    ),
+)
 
 
 @dataclass(frozen=True)
@@ -89,10 +148,24 @@ class BallSection(State):
     b2: float = parameter(ball.B2)
     b3: float = parameter(ball.B3)
     h: float = parameter(H_BALL)
-    psi: float = number("ψ", 1.0, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Start: ψ, direction of γ",
-                        doc="On the section γ = (cos ψ, sin ψ, 0). A click in the section chooses ψ and δ.")
-    delta: float = number("δ", 1.5, (0.01, 3.13), 0.01, bounds=(1e-6, math.pi - 1e-6), label="Start: δ, from γ to ω",
-                          doc="On the section ω points at the angle δ from γ.")
+    psi: float = number(
+        "ψ",
+        1.0,
+        (-3.14, 3.14),
+        0.01,
+        bounds=(-math.pi, math.pi),
+        label="Start: ψ, direction of γ",
+        doc="On the section γ = (cos ψ, sin ψ, 0). A click in the section chooses ψ and δ.",
+    )
+    delta: float = number(
+        "δ",
+        1.5,
+        (0.01, 3.13),
+        0.01,
+        bounds=(1e-6, math.pi - 1e-6),
+        label="Start: δ, from γ to ω",
+        doc="On the section ω points at the angle δ from γ.",
+    )
     periodic: str = which()
     count: float = crossings_of_each()
     indicator: str = colouring()
@@ -122,8 +195,9 @@ class BallSection(State):
         """Move ψ out of the band that the energy forbids."""
         psi = self.psi if self.band is None else outside_band(self.band, self.psi)
         if psi != self.psi:
-            notes.append(f"With this energy γ cannot point at ψ = {digits(self.psi)} on the plane: ψ is {digits(psi)} "
-                         "now.")
+            notes.append(
+                f"With this energy γ cannot point at ψ = {digits(self.psi)} on the plane: ψ is {digits(psi)} now."
+            )
         return self.changed({"psi": psi})
 
     @cached_property
@@ -202,8 +276,10 @@ class BallSection(State):
         return Proof(self.orbit, self.certain)
 
     def _crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
-        return (Task(ball_section, (self.body, self.E, (self.given,), crossings, level, _MOST_STEPS)),
-                Task(spread_section, (self.body, self.E, _ORBITS, crossings, level, _MOST_STEPS)))
+        return (
+            Task(ball_section, (self.body, self.E, (self.given,), crossings, level, _MOST_STEPS)),
+            Task(spread_section, (self.body, self.E, _ORBITS, crossings, level, _MOST_STEPS)),
+        )
 
     # ---- the pictures -------------------------------------------------------------------------------------------
 
@@ -270,29 +346,56 @@ class BallSection(State):
 
 
 SCENE = Scene(
-    BallSection, __file__, place=10, presets=PRESETS, measures=(
-        section_trial(lambda s: s.section), indicator_trial(lambda s: s.megno)),
-    charts=exponents(SYSTEM.name, lambda s: s.given, ("section",)), group="Ball",
-    essential=("h", "I13", "D", "psi"), handle="psi",
+    BallSection,
+    __file__,
+    place=10,
+    presets=PRESETS,
+    measures=(section_trial(lambda s: s.section), indicator_trial(lambda s: s.megno)),
+    charts=exponents(SYSTEM.name, lambda s: s.given, ("section",)),
+    group="Ball",
+    essential=("h", "I13", "D", "psi"),
+    handle="psi",
     title="Ball with a field",
     summary="The ball in a field: a section at one energy shows curves, seas and, with I₁₃ or I₂₃, attractors.",
     tracks={"orbit": lambda s: orbit_columns(s.orbit.path)},
     views=(
         constrained_body(ball=True),
-        Plot(name="section", title="Section: γ₃ grows through 0", caption=BallSection._about_section,
-             axes=_NAMES, x=ANGLE, y=square.POLAR, ticks=ANGLE_TICKS,
-             y_ticks=square.POLAR_TICKS, message=lambda s: s.section.reason,
-             on_click=BallSection.start_at,
-             layers=(indicator_layer(lambda s: s.megno), *section_plane.layers(
-                 lambda s: s.section.points, others=lambda s: s.section.others, forbidden=BallSection.forbidden,
-                 start=lambda s: [] if s.section.points is None else [(s.psi, s.delta)]),
-                 *layers(lambda s: s.periodic_orbit))),
-        orbit_alone(BallSection.half_width, energy=lambda s: s.E, label="chosen orbit",
-                    proved=lambda s: s.proof.band),
+        Plot(
+            name="section",
+            title="Section: γ₃ grows through 0",
+            caption=BallSection._about_section,
+            axes=_NAMES,
+            x=ANGLE,
+            y=square.POLAR,
+            ticks=ANGLE_TICKS,
+            y_ticks=square.POLAR_TICKS,
+            message=lambda s: s.section.reason,
+            on_click=BallSection.start_at,
+            layers=(
+                indicator_layer(lambda s: s.megno),
+                *section_plane.layers(
+                    lambda s: s.section.points,
+                    others=lambda s: s.section.others,
+                    forbidden=BallSection.forbidden,
+                    start=lambda s: [] if s.section.points is None else [(s.psi, s.delta)],
+                ),
+                *layers(lambda s: s.periodic_orbit),
+            ),
+        ),
+        orbit_alone(BallSection.half_width, energy=lambda s: s.E, label="chosen orbit", proved=lambda s: s.proof.band),
         along_the_orbit(lambda s: s.r, lambda s: s.proof.around),
-        Plot(name="returns", title="First return", folded="Show the first return", caption=BallSection._about_returns,
-             axes=("ψ", "ψ at the next crossing"), x=ANGLE, y=ANGLE, ticks=ANGLE_TICKS,
-             message=lambda s: s.section.reason, layers=section_plane.layers(BallSection.returns)),
+        Plot(
+            name="returns",
+            title="First return",
+            folded="Show the first return",
+            caption=BallSection._about_returns,
+            axes=("ψ", "ψ at the next crossing"),
+            x=ANGLE,
+            y=ANGLE,
+            ticks=ANGLE_TICKS,
+            message=lambda s: s.section.reason,
+            layers=section_plane.layers(BallSection.returns),
+        ),
         branch_picture(lambda s: s.branch),
     ),
 )

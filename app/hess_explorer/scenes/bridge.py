@@ -64,9 +64,14 @@ def _without_round_off(value: float) -> float:
 class BothSides(State):
     """One motion on both sides."""
 
-    given: str = choice("Given in", (SUSLOV, HEAVY), HEAVY, group="State",
-                        doc="Whose parameters and integrals the sliders mean; those of the other side show its body. A "
-                            "change of sides keeps the motion.")
+    given: str = choice(
+        "Given in",
+        (SUSLOV, HEAVY),
+        HEAVY,
+        group="State",
+        doc="Whose parameters and integrals the sliders mean; those of the other side show its body. A "
+        "change of sides keeps the motion.",
+    )
     I22: float = parameter(hess_case.I22)
     I23: float = parameter(hess_case.I23)
     b3: float = parameter(hess_case.B3)
@@ -74,15 +79,32 @@ class BothSides(State):
     I2: float = parameter(known.I2)
     I3: float = parameter(known.I3)
     m: float = parameter(known.MU_R)
-    h: float = parameter(known.H_HEAVY, doc="Of the side that is given: in units b = 1 for Suslov–Hess, H itself for "
-                         "Euler–Poisson.")
-    f: float = parameter(known.F_HEAVY, doc="Of the side that is given: in units b = 1 for Suslov–Hess, (M, γ) for "
-                         "Euler–Poisson.")
+    h: float = parameter(
+        known.H_HEAVY, doc="Of the side that is given: in units b = 1 for Suslov–Hess, H itself for Euler–Poisson."
+    )
+    f: float = parameter(
+        known.F_HEAVY, doc="Of the side that is given: in units b = 1 for Suslov–Hess, (M, γ) for Euler–Poisson."
+    )
     phi0: float = parameter(hess_case.PHI0)
-    share: float = number("x", 0.5, (0.01, 1.0), 0.01, bounds=(1e-6, 1.0), label="Free moment, x",
-                          doc="Suslov–Hess leaves a moment of Euler–Poisson free: x = 1 is a flat body, where |a| < 1.")
-    span: float = number("t", 50.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e5), group="Computation", label="Time span",
-                         doc="How long the motion is followed, in the time that both sides share.")
+    share: float = number(
+        "x",
+        0.5,
+        (0.01, 1.0),
+        0.01,
+        bounds=(1e-6, 1.0),
+        label="Free moment, x",
+        doc="Suslov–Hess leaves a moment of Euler–Poisson free: x = 1 is a flat body, where |a| < 1.",
+    )
+    span: float = number(
+        "t",
+        50.0,
+        (1.0, 200.0),
+        1.0,
+        bounds=(0.01, 1e5),
+        group="Computation",
+        label="Time span",
+        doc="How long the motion is followed, in the time that both sides share.",
+    )
     accuracy: str = accuracy_level()
 
     @cached_property
@@ -102,8 +124,9 @@ class BothSides(State):
         h = max(self.h, _BOTTOM)
         if self.h < _BOTTOM:
             notes.append("In units b = 1 the energy is above −1: h is there now.")
-        return replace(self, h=h, I23=hess_case.possible_I23(self.I22, self.I23, notes),
-                       f=hess_case.possible_f(h, self.f, notes))
+        return replace(
+            self, h=h, I23=hess_case.possible_I23(self.I22, self.I23, notes), f=hess_case.possible_f(h, self.f, notes)
+        )
 
     def limits(self) -> Mapping[str, Slider]:
         """The ranges of h and f on the side that is given."""
@@ -169,8 +192,9 @@ class BothSides(State):
     @cached_property
     def track(self) -> Track:
         """The orbit on the Suslov side."""
-        return self.work.get(track, self.bridge.hess, self.turning.h, self.turning.f, self.phi0, self.span, self.level,
-                             self.half_width)
+        return self.work.get(
+            track, self.bridge.hess, self.turning.h, self.turning.f, self.phi0, self.span, self.level, self.half_width
+        )
 
     @cached_property
     def cycles(self) -> tuple[Track, Track] | None:
@@ -197,14 +221,18 @@ class BothSides(State):
     def solids(self) -> tuple[Hess, Heavy]:
         """Both bodies along it."""
         found = self.track
-        return (Hess(found.times, found.omega, found.gamma, self.bridge.hess),
-                Heavy.along(self.bridge.heavy, found.times, self.heavy_states))
+        return (
+            Hess(found.times, found.omega, found.gamma, self.bridge.hess),
+            Heavy.along(self.bridge.heavy, found.times, self.heavy_states),
+        )
 
     @cached_property
     def difference(self) -> SuslovDistance:
         """How far apart both sides are, computed each by itself."""
-        most = min(_IN_A_DRAG if self.dragging else _MOST_PERIODS,
-                   _MOST_GROWTH / (1.0 + 2.0 * math.pi * abs(self.bridge.hess.a)))
+        most = min(
+            _IN_A_DRAG if self.dragging else _MOST_PERIODS,
+            _MOST_GROWTH / (1.0 + 2.0 * math.pi * abs(self.bridge.hess.a)),
+        )
         end = min(self.span, most * self.period)
         start = tuple(self.turning.state_at_lower_turn(self.phi0).tolist())
         count = max(64, math.ceil(end / self.period * _IN_A_PERIOD)) + 1
@@ -220,8 +248,9 @@ class BothSides(State):
         found = self.track
         start = torus_plane.phases_at_returns(found, self.map, self.iterates)
         seen = self.known("difference")
-        apart = (np.full(found.times.size, LG_OF_0) if seen is None
-                 else np.interp(found.times, seen.times, lg(seen.held)))
+        apart = (
+            np.full(found.times.size, LG_OF_0) if seen is None else np.interp(found.times, seen.times, lg(seen.held))
+        )
         l, x = self.andoyer.T
         return torus_plane.track_columns(found, phi_start=start, l=l, x=x, apart=apart)
 
@@ -232,8 +261,10 @@ class BothSides(State):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_torus(self) -> str:
-        return (f"h = {digits(self.map.h, 6)}, f = {digits(self.map.f, 6)} in units b = 1; |w| "
-                f"{ranging(self.turning.initial_rho, self.turning.final_rho)}.")
+        return (
+            f"h = {digits(self.map.h, 6)}, f = {digits(self.map.f, 6)} in units b = 1; |w| "
+            f"{ranging(self.turning.initial_rho, self.turning.final_rho)}."
+        )
 
     def _about_andoyer(self) -> str:
         H, F1 = self.bridge.from_units_of_b(self.map.h, self.map.f)
@@ -252,8 +283,10 @@ class BothSides(State):
         bodies = ("yes" if one.check.is_body else "no" for one in (hess, heavy))
         yield f"Suslov: I₁₁ = {digits(hess.I11, 5)}, I₂₂ = {digits(hess.I22, 5)}, I₂₃ = {digits(hess.I23, 5)}"
         yield f"b₂ = {digits(hess.b2, 5)}, b₃ = {digits(hess.b3, 5)}"
-        yield (f"Euler–Poisson: I = ({', '.join(digits(1.0 / a, 5) for a in heavy.a)}), "
-               f"μ|r| = {digits(math.copysign(heavy.strength, heavy.mu), 5)}")
+        yield (
+            f"Euler–Poisson: I = ({', '.join(digits(1.0 / a, 5) for a in heavy.a)}), "
+            f"μ|r| = {digits(math.copysign(heavy.strength, heavy.mu), 5)}"
+        )
         yield f"r/|r| = ({digits(heavy.r[0], 5)}, 0, {digits(heavy.r[2], 5)})"
         yield f"a = I₂₃/I₂₂ = b′/a₁′ = {digits(hess.a, 6)}"
         yield f"b = a₁′μ|r| = {digits(hess.b, 6)}"
@@ -283,32 +316,70 @@ class BothSides(State):
 
 
 SCENE = Scene(
-    BothSides, __file__, place=13, presets=PRESETS,
+    BothSides,
+    __file__,
+    place=13,
+    presets=PRESETS,
     charts=of_torus(lambda s: (s.bridge.hess.a, s.turning.h, s.turning.f), trace=("circle",)),
-    group="Euler–Poisson", essential=("h", "f", "phi0"),
+    group="Euler–Poisson",
+    essential=("h", "f", "phi0"),
     title="Bridge: Suslov and Euler–Poisson",
     summary="The Suslov–Hess case and the Hess case of Euler–Poisson are one system: two orbits and their difference.",
-    tracks={"orbit": BothSides.orbit_columns, "stable": lambda s: torus_plane.cycle_columns(s.cycles, 0),
-            "unstable": lambda s: torus_plane.cycle_columns(s.cycles, 1)},
+    tracks={
+        "orbit": BothSides.orbit_columns,
+        "stable": lambda s: torus_plane.cycle_columns(s.cycles, 0),
+        "unstable": lambda s: torus_plane.cycle_columns(s.cycles, 1),
+    },
     angles=("phi", "phi_start", "l"),
     views=(
         constrained_body(lambda s: s.solids[0], section=True, title="The body of Suslov–Hess"),
         heavy_solid(lambda s: s.solids[1], name="heavy", title="The body of Euler–Poisson"),
-        picture(BothSides._about_torus, lambda s: s.half_width, title="Suslov–Hess: the torus, (ω₁, ω₂)",
-                layers=torus_plane.layers(BothSides.ring, half_width=lambda s: s.half_width)),
-        Plot(name="difference", title="Difference along the orbit", caption=BothSides._about_difference,
-             axes=("t", "lg |difference|"), x=lambda s: (0.0, float(s.difference.times[-1])),
-             y=lambda s: lg_axis(largest_distance(s.map.h)), dot=("t", "apart"),
-             layers=(over_time("free", lambda s: s.apart(s.difference.free), color=theme.MAP, dash="dotdash",
-                               label="difference, left to itself"),
-                     over_time("held", lambda s: s.apart(s.difference.held), color=theme.ORBIT,
-                               label="difference, held on r·M = 0"))),
-        replace(circle.picture(map=lambda s: s.map, iterates=lambda s: s.iterates,
-                               caption=lambda s: circle.about_cycles(s.map), title="Circle map of both",
-                               dot=("phi_start", "phi"), on_click=lambda s, x, y: {"phi0": x}),
-                folded="Show the circle map"),
-        replace(andoyer.picture("Euler–Poisson: (l, L/G)", BothSides._about_andoyer,
-                                relation=lambda s: hess_circle(s.bridge.heavy), orbit=lambda s: s.andoyer),
-                folded="Show (l, L/G)"),
+        picture(
+            BothSides._about_torus,
+            lambda s: s.half_width,
+            title="Suslov–Hess: the torus, (ω₁, ω₂)",
+            layers=torus_plane.layers(BothSides.ring, half_width=lambda s: s.half_width),
+        ),
+        Plot(
+            name="difference",
+            title="Difference along the orbit",
+            caption=BothSides._about_difference,
+            axes=("t", "lg |difference|"),
+            x=lambda s: (0.0, float(s.difference.times[-1])),
+            y=lambda s: lg_axis(largest_distance(s.map.h)),
+            dot=("t", "apart"),
+            layers=(
+                over_time(
+                    "free",
+                    lambda s: s.apart(s.difference.free),
+                    color=theme.MAP,
+                    dash="dotdash",
+                    label="difference, left to itself",
+                ),
+                over_time(
+                    "held", lambda s: s.apart(s.difference.held), color=theme.ORBIT, label="difference, held on r·M = 0"
+                ),
+            ),
+        ),
+        replace(
+            circle.picture(
+                map=lambda s: s.map,
+                iterates=lambda s: s.iterates,
+                caption=lambda s: circle.about_cycles(s.map),
+                title="Circle map of both",
+                dot=("phi_start", "phi"),
+                on_click=lambda s, x, y: {"phi0": x},
+            ),
+            folded="Show the circle map",
+        ),
+        replace(
+            andoyer.picture(
+                "Euler–Poisson: (l, L/G)",
+                BothSides._about_andoyer,
+                relation=lambda s: hess_circle(s.bridge.heavy),
+                orbit=lambda s: s.andoyer,
+            ),
+            folded="Show (l, L/G)",
+        ),
     ),
 )

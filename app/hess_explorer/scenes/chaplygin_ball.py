@@ -49,8 +49,9 @@ PRESETS = (
     Preset("𝒟 = 0: the free Suslov problem (not a rigid body)", D=0.0, span=15.0),
     Preset("𝒟 = 0.5, close to it (not a rigid body)", D=0.5, span=15.0),
     Preset("𝒟 = 2, I₁₃ = 0, k = 1: no longer flat", I11=1.64, I22=1.0, I13=0.0, I23=0.8, D=2.0, theta=1.0, span=30.0),
-    Preset("𝒟 = 0, I₁₃ = 0, k = 1: complete reversal", I11=1.64, I22=1.0, I13=0.0, I23=0.8, D=0.0, theta=1.0,
-           span=15.0),
+    Preset(
+        "𝒟 = 0, I₁₃ = 0, k = 1: complete reversal", I11=1.64, I22=1.0, I13=0.0, I23=0.8, D=0.0, theta=1.0, span=15.0
+    ),
 )
 
 
@@ -143,7 +144,8 @@ class ChaplyginBall(State):
         """Orbits over the strip."""
         plan = self.plan(Computation.CURVE)
         found: tuple[StripOrbit, ...] = self.work.sooner(
-            self.strip_orbits(plan.side(_ORBITS), plan.level), self.strip_orbits(_FEW_ORBITS, DRAFT))
+            self.strip_orbits(plan.side(_ORBITS), plan.level), self.strip_orbits(_FEW_ORBITS, DRAFT)
+        )
         return tuple((math.sqrt(self.h) * track, place) for track, place in found)
 
     @cached_property
@@ -166,8 +168,11 @@ class ChaplyginBall(State):
         if self.map is None:
             return []
         phis = self.map.phis
-        return [np.column_stack([phis, self.work.get(
-            model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist()))])]
+        return [
+            np.column_stack(
+                [phis, self.work.get(model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist()))]
+            )
+        ]
 
     def ellipse_names(self) -> list[tuple[float, float, str]]:
         """σ2 and σ1 beside their curves, in a quadrant that the line of rest does not cross."""
@@ -179,8 +184,11 @@ class ChaplyginBall(State):
 
     def _about_sphere(self) -> str:
         left, last = in_digits(math.cos(self.theta)), in_digits(self.Gamma[-1])
-        return (f"Leaves the circle Γ = {left} and comes back to it in the end." if left == last else
-                f"Leaves the circle Γ = {left} and comes to Γ = {last} in the end.")
+        return (
+            f"Leaves the circle Γ = {left} and comes back to it in the end."
+            if left == last
+            else f"Leaves the circle Γ = {left} and comes to Γ = {last} in the end."
+        )
 
     def _about_curve(self) -> str:
         if self.map is None:
@@ -216,61 +224,116 @@ class ChaplyginBall(State):
 
 # The phases and orbits found are not those of the truth: the exact ones are computed again.
 _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
-    Trial(Computation.MAP, ("curve",), lambda s, plan: s.phases(plan.side(_PHASES), plan.level).now(),
-          lambda s, found, truth: curve_error(
-              found.theta_plus, s.phases(found.phis.size, REFERENCE).now().theta_plus, math.pi),
-          lambda s, found: Curves(square.FRAME, (found.curve,))),
-    Trial(Computation.CURVE, ("omega",), lambda s, plan: s.strip_orbits(plan.side(_ORBITS), plan.level).now(),
-          lambda s, found, truth: math.sqrt(s.h) * 0.5 * PIXELS / s.half_width * largest_distance(
-              found, s.strip_orbits(len(found), REFERENCE).now()),
-          lambda s, found: Curves(plane.frame(s.half_width), tuple(
-              math.sqrt(s.h) * track for track, _ in found), in_pairs=True), alike=True))
+    Trial(
+        Computation.MAP,
+        ("curve",),
+        lambda s, plan: s.phases(plan.side(_PHASES), plan.level).now(),
+        lambda s, found, truth: curve_error(
+            found.theta_plus, s.phases(found.phis.size, REFERENCE).now().theta_plus, math.pi
+        ),
+        lambda s, found: Curves(square.FRAME, (found.curve,)),
+    ),
+    Trial(
+        Computation.CURVE,
+        ("omega",),
+        lambda s, plan: s.strip_orbits(plan.side(_ORBITS), plan.level).now(),
+        lambda s, found, truth: (
+            math.sqrt(s.h)
+            * 0.5
+            * PIXELS
+            / s.half_width
+            * largest_distance(found, s.strip_orbits(len(found), REFERENCE).now())
+        ),
+        lambda s, found: Curves(
+            plane.frame(s.half_width), tuple(math.sqrt(s.h) * track for track, _ in found), in_pairs=True
+        ),
+        alike=True,
+    ),
+)
+
 
 def _change(first: float, last: float) -> str:
     """What an angle cosine does in all."""
     shown = in_digits(first), in_digits(last)
-    return f"Γ is {shown[0]} again in the end." if shown[0] == shown[1] else (
-        f"Γ {'grows' if last > first else 'falls'} from {shown[0]} to {shown[1]}.")
+    return (
+        f"Γ is {shown[0]} again in the end."
+        if shown[0] == shown[1]
+        else (f"Γ {'grows' if last > first else 'falls'} from {shown[0]} to {shown[1]}.")
+    )
 
 
 SCENE = Scene(
-    ChaplyginBall, __file__, place=9, presets=PRESETS, measures=_MEASURES, charts=(
-        Charted("ball-theta-plus", lambda s: {**tensor_of(s.body), "D": s.D, "theta": s.theta, "phi": s.phi,
-                                              "distance": s.distance}),
-        *exponents(SYSTEM.name, lambda s: s.start)),
-    group="Ball", essential=("D", "h", "theta", "phi"), handle="phi",
+    ChaplyginBall,
+    __file__,
+    place=9,
+    presets=PRESETS,
+    measures=_MEASURES,
+    charts=(
+        Charted(
+            "ball-theta-plus",
+            lambda s: {**tensor_of(s.body), "D": s.D, "theta": s.theta, "phi": s.phi, "distance": s.distance},
+        ),
+        *exponents(SYSTEM.name, lambda s: s.start),
+    ),
+    group="Ball",
+    essential=("D", "h", "theta", "phi"),
+    handle="phi",
     title="Chaplygin ball",
     summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",
     tracks={"orbit": lambda s: plane.orbit_columns(s.orbit.path, Gamma=s.Gamma)},
     views=(
         constrained_body(ball=True, field=False),
         plane.picture(
-            lambda s: "Every orbit crosses the strip between σ₂ and σ₁ from Nᵘ to Nˢ.", lambda s: s.half_width, layers=(
-                region("forbidden", lambda s: plane.ring_outside(
-                    s.strip.sigma2(_ANGLES), s.strip.sigma1(_ANGLES), s.half_width),
-                    edge=theme.MUTED, label="impossible", moving=True),
+            lambda s: "Every orbit crosses the strip between σ₂ and σ₁ from Nᵘ to Nˢ.",
+            lambda s: s.half_width,
+            layers=(
+                region(
+                    "forbidden",
+                    lambda s: plane.ring_outside(s.strip.sigma2(_ANGLES), s.strip.sigma1(_ANGLES), s.half_width),
+                    edge=theme.MUTED,
+                    label="impossible",
+                    moving=True,
+                ),
                 names("names", ChaplyginBall.ellipse_names),
                 plane.arcs(lambda s: [track for track, _ in s.crowd if len(track) > 1]),
-                *plane.halves(lambda s, _: s.strip.stable, lambda s, _: s.strip.unstable,
-                              ("Nˢ, circle joined", "Nᵘ, circle left")),
+                *plane.halves(
+                    lambda s, _: s.strip.stable, lambda s, _: s.strip.unstable, ("Nˢ, circle joined", "Nᵘ, circle left")
+                ),
                 plane.band(lambda s: s.proof.band),
                 plane.orbit("orbits; the chosen one bold"),
                 # Not in the middle of each, where all of them are slow, but where the strip is covered evenly.
-                arrows("arrows", lambda s: plane.arrows_at(s.crowd), color=theme.ORBIT, alpha=0.8))),
-        sphere(ChaplyginBall._about_sphere, xi=lambda s: s.strip.xi, left=lambda s: s.theta,
-               joined=lambda s: float(np.clip(s.Gamma[-1], -1.0, 1.0))),
+                arrows("arrows", lambda s: plane.arrows_at(s.crowd), color=theme.ORBIT, alpha=0.8),
+            ),
+        ),
+        sphere(
+            ChaplyginBall._about_sphere,
+            xi=lambda s: s.strip.xi,
+            left=lambda s: s.theta,
+            joined=lambda s: float(np.clip(s.Gamma[-1], -1.0, 1.0)),
+        ),
         square.over_phases(
-            ChaplyginBall._about_curve, message=lambda s: s.map_or_reason[1], layers=(
+            ChaplyginBall._about_curve,
+            message=lambda s: s.map_or_reason[1],
+            layers=(
                 levels("levels", lambda s: [] if s.map is None else [s.theta, math.pi - s.theta]),
-                curves("free", lambda s: s.free(), color=theme.MAP, dash="dashed",
-                       label="θ⁺ for 𝒟 = 0"),
+                curves("free", lambda s: s.free(), color=theme.MAP, dash="dashed", label="θ⁺ for 𝒟 = 0"),
                 curves("ball", lambda s: [] if s.map is None else [s.map.curve], color=theme.ORBIT),
-                ring("chosen", lambda s: [] if s.map is None else [(s.phi, s.map.at(s.phi))], size=18.0))),
+                ring("chosen", lambda s: [] if s.map is None else [(s.phi, s.map.at(s.phi))], size=18.0),
+            ),
+        ),
         Plot(
-            name="Gamma", title="Γ = (ξ, γ) against time", caption=ChaplyginBall._about_Gamma, axes=("t", "Γ"),
+            name="Gamma",
+            title="Γ = (ξ, γ) against time",
+            caption=ChaplyginBall._about_Gamma,
+            axes=("t", "Γ"),
             folded="Show Γ against time",
-            x=lambda s: (0.0, s.span), y=(-1.05, 1.05), dot=("t", "Gamma"),
-            layers=(levels("levels", lambda s: [math.cos(s.theta), s.Gamma[-1]]),
-                    over_time("first", lambda s: (s.orbit.path.times, s.Gamma), color=theme.ORBIT))),
+            x=lambda s: (0.0, s.span),
+            y=(-1.05, 1.05),
+            dot=("t", "Gamma"),
+            layers=(
+                levels("levels", lambda s: [math.cos(s.theta), s.Gamma[-1]]),
+                over_time("first", lambda s: (s.orbit.path.times, s.Gamma), color=theme.ORBIT),
+            ),
+        ),
     ),
 )

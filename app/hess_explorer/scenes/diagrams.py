@@ -63,8 +63,12 @@ _COORDINATES = ("ψ", "δ")
 
 def parameter_of_diagram(symbols: tuple[str, ...], default: str) -> str:
     """Declare over what the diagram is."""
-    declared: str = choice("Parameter of the diagram", symbols, default,
-                           doc="What changes from left to right. All others are as they stand.")
+    declared: str = choice(
+        "Parameter of the diagram",
+        symbols,
+        default,
+        doc="What changes from left to right. All others are as they stand.",
+    )
     return declared
 
 
@@ -94,25 +98,64 @@ class DiagramState(State, ABC):
     b3: float = parameter(B3)
     h: float = parameter(H_SUSLOV)
     along: str = parameter_of_diagram(("h",), "h")
-    first: float = number("from", -0.15, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram from",
-                          doc="The value at its left edge.")
-    last: float = number("to", 0.3, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram to",
-                         doc="The value at its right edge.")
+    first: float = number(
+        "from", -0.15, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram from", doc="The value at its left edge."
+    )
+    last: float = number(
+        "to", 0.3, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram to", doc="The value at its right edge."
+    )
     shown: str = choice("Coordinate of the section", _COORDINATES, "ψ", doc="What the diagram shows, upwards.")
-    ways: str = choice("Followed", tuple(WAYS), next(iter(WAYS)),
-                       doc="There: the parameter rises; back: it falls. Backward in time motions come to repellers.")
-    begins: str = choice("Each value starts", (FOLLOWED, ANEW), FOLLOWED,
-                         doc="Followed, an orbit stays with its attractor, and the way back may be another one.")
-    steps: float = number("n", 150.0, (30.0, 300.0), 10.0, bounds=(2.0, 600.0), label="Values of the parameter",
-                          doc="At how many even values.", group="Computation")
-    transient: float = number("N₀", 300.0, (0.0, 1000.0), 10.0, bounds=(0.0, 5000.0), label="Crossings left out",
-                              doc="Until the orbit has settled, at each value.", group="Computation")
-    count: float = number("N", 60.0, (10.0, 200.0), 5.0, bounds=(2.0, 500.0), label="Crossings shown",
-                          doc="At each value, after those left out.", group="Computation")
+    ways: str = choice(
+        "Followed",
+        tuple(WAYS),
+        next(iter(WAYS)),
+        doc="There: the parameter rises; back: it falls. Backward in time motions come to repellers.",
+    )
+    begins: str = choice(
+        "Each value starts",
+        (FOLLOWED, ANEW),
+        FOLLOWED,
+        doc="Followed, an orbit stays with its attractor, and the way back may be another one.",
+    )
+    steps: float = number(
+        "n",
+        150.0,
+        (30.0, 300.0),
+        10.0,
+        bounds=(2.0, 600.0),
+        label="Values of the parameter",
+        doc="At how many even values.",
+        group="Computation",
+    )
+    transient: float = number(
+        "N₀",
+        300.0,
+        (0.0, 1000.0),
+        10.0,
+        bounds=(0.0, 5000.0),
+        label="Crossings left out",
+        doc="Until the orbit has settled, at each value.",
+        group="Computation",
+    )
+    count: float = number(
+        "N",
+        60.0,
+        (10.0, 200.0),
+        5.0,
+        bounds=(2.0, 500.0),
+        label="Crossings shown",
+        doc="At each value, after those left out.",
+        group="Computation",
+    )
     window: str = places("The window of the diagram", 2, *BOUNDS)
-    branch: str = choice("Branch of a periodic orbit", (NONE, *PERIODS), NONE, group="State",
-                         doc="Over the diagram: the periodic orbit that Newton's method finds from the chosen place, "
-                             "continued in the parameter, through folds. A click on it shows that orbit.")
+    branch: str = choice(
+        "Branch of a periodic orbit",
+        (NONE, *PERIODS),
+        NONE,
+        group="State",
+        doc="Over the diagram: the periodic orbit that Newton's method finds from the chosen place, "
+        "continued in the parameter, through folds. A click on it shows that orbit.",
+    )
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
     long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
     certain: str = proved_error_shown()
@@ -228,14 +271,20 @@ class DiagramState(State, ABC):
         if not len(times):
             return "The body does not turn round in this time."
         many = "once" if len(times) == 1 else f"{len(times)} times"
-        return (f"It turns round {many}, at first at t = {digits(float(times[0]), 6)}, "
-                f"to {digits(self.turned.error_estimate, 1)}.")
+        return (
+            f"It turns round {many}, at first at t = {digits(float(times[0]), 6)}, "
+            f"to {digits(self.turned.error_estimate, 1)}."
+        )
 
     def derived(self) -> list[str]:
         """Return the energy, the place on show, the bifurcations of the branch, whether this is a rigid body."""
         psi, delta = map(digits, self.diagram.place)
-        return [f"E = {digits(self.E, 6)}", f"chosen: ψ = {psi}, δ = {delta}", *super().derived(),
-                check_body(*self.body.parameters[:4]).sentence]
+        return [
+            f"E = {digits(self.E, 6)}",
+            f"chosen: ψ = {psi}, δ = {delta}",
+            *super().derived(),
+            check_body(*self.body.parameters[:4]).sentence,
+        ]
 
 
 S = TypeVar("S", bound=DiagramState)
@@ -243,44 +292,92 @@ S = TypeVar("S", bound=DiagramState)
 
 def charts(state: type[S], quantity: str, **more: float) -> tuple[Charted[S]]:
     """Return what can be charted of such states: the regime of the motion."""
+
     def arguments(s: S) -> Mapping[str, float]:
         psi, delta = s.diagram.place
-        return {**dict(zip(s.body.system.parameters, s.body.parameters, strict=True)), "h": s.h, "psi": psi,
-                "delta": delta, **more}
+        return {
+            **dict(zip(s.body.system.parameters, s.body.parameters, strict=True)),
+            "h": s.h,
+            "psi": psi,
+            "delta": delta,
+            **more,
+        }
 
     return (Charted(quantity, arguments, pictures=("diagram", "section")),)
 
 
 def pictures(state: type[S], ball: bool = False) -> tuple[Picture[S], ...]:
     """Return the diagram with its branch, the body, its section, its turning, and its Poisson sphere folded."""
+
     def closed(s: S) -> PeriodicOrbit | None:
         found = s.continuation.closed
         return None if found is None else found.orbit
 
     return (
         diagram_picture(
-            lambda s: s.diagram, (state.first, state.last), caption=lambda s: s._about_diagram(),
-            on_click=lambda s, x, y: s.choose(x, y), on_hover=lambda s, x, y: s.continuation.about(x, y),
-            over=branch.layers(lambda s: s.continuation.branches, lambda s: s.diagram.side,
-                               lambda s: s.poincare.turns[s.diagram.side])),
+            lambda s: s.diagram,
+            (state.first, state.last),
+            caption=lambda s: s._about_diagram(),
+            on_click=lambda s, x, y: s.choose(x, y),
+            on_hover=lambda s, x, y: s.continuation.about(x, y),
+            over=branch.layers(
+                lambda s: s.continuation.branches, lambda s: s.diagram.side, lambda s: s.poincare.turns[s.diagram.side]
+            ),
+        ),
         constrained_body(ball=ball),
-        Plot(name="section", title="Its section γ₃ = 0, growing", caption=lambda s: s.regime.caption,
-             axes=_COORDINATES, x=(-math.pi, math.pi), y=(0.0, math.pi), on_click=lambda s, x, y: s.start_here(x, y),
-             layers=(*layered_section.layers(
-                 lambda s: s.regime.attractor, lambda s: s.regime.repeller, lambda s: np.empty((0, 2)),
-                 chosen=lambda s: [s.diagram.place], window=lambda s: _WINDOW,
-                 impossible=lambda s: s.poincare.impossible(_WINDOW), labels=("attractor", "repeller")),
-                 points("few", lambda s: few(s.regime.attractor), color=theme.ORBIT, size=9),
-                 *periodic.places(closed),
-                 points("few-repelling", lambda s: few(s.regime.repeller), color=theme.UNSTABLE, size=9))),
-        Plot(name="reversal", title="Turning about the vertical, (ω, γ)", caption=lambda s: s._about_turning(),
-             axes=("t", "(ω, γ)"), dot=("t", "turning"), first=Axes((0.0, 60.0), (-2.0, 2.0)),
-             x=lambda s: (0.0, s.span), y=lambda s: about_0(s.turning, 1e-6),
-             layers=(levels("levels", lambda s: [0.0]),
-                     over_time("turning", lambda s: (s.orbit.path.times, s.turning), color=theme.ORBIT,
-                               label="(ω, γ) of the chosen orbit"),
-                     points("moments", lambda s: (s.turned.times, np.zeros(len(s.turned.times))), color=theme.UNSTABLE,
-                            size=11, hollow=True, edge_width=2.5, label="moments of reversal"))),
-        replace(along_the_orbit(lambda s: centre_of_mass((s.b1, s.b2, s.b3)), lambda s: s.proof.around),
-                folded="Show the Poisson sphere"),
+        Plot(
+            name="section",
+            title="Its section γ₃ = 0, growing",
+            caption=lambda s: s.regime.caption,
+            axes=_COORDINATES,
+            x=(-math.pi, math.pi),
+            y=(0.0, math.pi),
+            on_click=lambda s, x, y: s.start_here(x, y),
+            layers=(
+                *layered_section.layers(
+                    lambda s: s.regime.attractor,
+                    lambda s: s.regime.repeller,
+                    lambda s: np.empty((0, 2)),
+                    chosen=lambda s: [s.diagram.place],
+                    window=lambda s: _WINDOW,
+                    impossible=lambda s: s.poincare.impossible(_WINDOW),
+                    labels=("attractor", "repeller"),
+                ),
+                points("few", lambda s: few(s.regime.attractor), color=theme.ORBIT, size=9),
+                *periodic.places(closed),
+                points("few-repelling", lambda s: few(s.regime.repeller), color=theme.UNSTABLE, size=9),
+            ),
+        ),
+        Plot(
+            name="reversal",
+            title="Turning about the vertical, (ω, γ)",
+            caption=lambda s: s._about_turning(),
+            axes=("t", "(ω, γ)"),
+            dot=("t", "turning"),
+            first=Axes((0.0, 60.0), (-2.0, 2.0)),
+            x=lambda s: (0.0, s.span),
+            y=lambda s: about_0(s.turning, 1e-6),
+            layers=(
+                levels("levels", lambda s: [0.0]),
+                over_time(
+                    "turning",
+                    lambda s: (s.orbit.path.times, s.turning),
+                    color=theme.ORBIT,
+                    label="(ω, γ) of the chosen orbit",
+                ),
+                points(
+                    "moments",
+                    lambda s: (s.turned.times, np.zeros(len(s.turned.times))),
+                    color=theme.UNSTABLE,
+                    size=11,
+                    hollow=True,
+                    edge_width=2.5,
+                    label="moments of reversal",
+                ),
+            ),
+        ),
+        replace(
+            along_the_orbit(lambda s: centre_of_mass((s.b1, s.b2, s.b3)), lambda s: s.proof.around),
+            folded="Show the Poisson sphere",
+        ),
     )

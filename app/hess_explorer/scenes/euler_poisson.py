@@ -70,34 +70,102 @@ _ALONG, _ABOUT = "along l", "about the middle"
 _LARGEST, _SECOND = "largest G", "second G"
 
 # An example says also along what the rotation number is looked at: else choices stay as they were.
-_RIS: dict[str, Value] = {"turns": _ALONG, "sheet": _LARGEST, "I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5),
-                          "span": 60.0}
+_RIS: dict[str, Value] = {
+    "turns": _ALONG,
+    "sheet": _LARGEST,
+    "I1": 1.0,
+    "I2": 1.5,
+    "I3": 2.0,
+    "m": -math.sqrt(0.5),
+    "span": 60.0,
+}
 _THERE, _LOW = "2.8,0.3", "-1.54,-0.86"
 """At the lowest energies the first of these starts is not possible."""
 _BELOW, _AT, _ABOVE = "a curve in a regular leaf", "the separatrix", "two layers part"
 _LS = np.array([-2.9, -2.7, -2.5, -2.2, 2.2, 2.5, 2.7, 2.9])
 _ON_HESS = written([*zip(_LS, hess_curve(HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5)), _LS), strict=True)])
 _NONE, _STABLE, _UNSTABLE = "no Hess motion yet", "the Hess motion is stable", "it is unstable, two layers part"
-PRESETS = (*map(plain, (
-    Preset("Two layers that never mix (figure 11)", turns=_ALONG, sheet=_LARGEST),
-    Preset("Meandering torus (figure 12)", sheet=_LARGEST, window="-2.25,-0.27;-1.45,0.33", turns=_ABOUT,
-           starts="-1.558,0.03", orbits=40.0, count=600.0),
-    Preset("The barrier breaks: 0.02 away from Hess", turns=_ALONG, sheet=_LARGEST, away=0.02, count=600.0),
-    *(Preset(f"Figure 13 {letter}: f = 0, h = {h:.4g}, {what}", **_RIS, h=h, f=0.0, starts=_THERE)
-      for letter, h, what in (("a", -0.4, _BELOW), ("b", 0.0, _BELOW), ("c", 0.5, _BELOW), ("d", math.sqrt(0.5), _AT),
-                              ("e", 1.0, _ABOVE), ("f", 2.0, _ABOVE))),
-    *(Preset(f"Figure 14 {letter}: f = 1, h = {h:.4g}, {what}", **_RIS, h=h, f=1.0, starts=_THERE if h > 0.4 else _LOW)
-      for letter, h, what in (("a", 0.0, _NONE), ("b", 0.2, _STABLE), ("c", 0.5, _STABLE), ("d", 0.8, _UNSTABLE),
-                              ("e", 1.0, _UNSTABLE), ("f", 1.3, _UNSTABLE), ("g", 2.0, _UNSTABLE),
-                              ("h", 4.0, _UNSTABLE))),
-    Preset("On the Hess curve, f = 0, h below: fixed points, some in pairs", **_RIS, h=0.2, f=0.0, starts=_ON_HESS),
-    Preset("h → ∞: Euler's case, h = 5000", turns=_ALONG, sheet=_LARGEST, h=5000.0, span=1.0, long=20.0,
-           starts="0,0.5"),
-    Preset("The second sheet of figure 14 a: a smaller G", **_RIS, h=0.0, f=1.0, starts="2.5,-0.92",
-           window="2,-0.97;2.6,-0.86", count=600.0),
-    Preset("Where the two Hess cycles meet, over h", **_RIS, h=2.0, f=1.0, starts="-0.1497,0.2064", reach=2.0,
-           periodic="period 1", over="h", low=0.4, high=2.2),
-)),)
+PRESETS = (
+    *map(
+        plain,
+        (
+            Preset("Two layers that never mix (figure 11)", turns=_ALONG, sheet=_LARGEST),
+            Preset(
+                "Meandering torus (figure 12)",
+                sheet=_LARGEST,
+                window="-2.25,-0.27;-1.45,0.33",
+                turns=_ABOUT,
+                starts="-1.558,0.03",
+                orbits=40.0,
+                count=600.0,
+            ),
+            Preset("The barrier breaks: 0.02 away from Hess", turns=_ALONG, sheet=_LARGEST, away=0.02, count=600.0),
+            *(
+                Preset(f"Figure 13 {letter}: f = 0, h = {h:.4g}, {what}", **_RIS, h=h, f=0.0, starts=_THERE)
+                for letter, h, what in (
+                    ("a", -0.4, _BELOW),
+                    ("b", 0.0, _BELOW),
+                    ("c", 0.5, _BELOW),
+                    ("d", math.sqrt(0.5), _AT),
+                    ("e", 1.0, _ABOVE),
+                    ("f", 2.0, _ABOVE),
+                )
+            ),
+            *(
+                Preset(
+                    f"Figure 14 {letter}: f = 1, h = {h:.4g}, {what}",
+                    **_RIS,
+                    h=h,
+                    f=1.0,
+                    starts=_THERE if h > 0.4 else _LOW,
+                )
+                for letter, h, what in (
+                    ("a", 0.0, _NONE),
+                    ("b", 0.2, _STABLE),
+                    ("c", 0.5, _STABLE),
+                    ("d", 0.8, _UNSTABLE),
+                    ("e", 1.0, _UNSTABLE),
+                    ("f", 1.3, _UNSTABLE),
+                    ("g", 2.0, _UNSTABLE),
+                    ("h", 4.0, _UNSTABLE),
+                )
+            ),
+            Preset(
+                "On the Hess curve, f = 0, h below: fixed points, some in pairs", **_RIS, h=0.2, f=0.0, starts=_ON_HESS
+            ),
+            Preset(
+                "h → ∞: Euler's case, h = 5000",
+                turns=_ALONG,
+                sheet=_LARGEST,
+                h=5000.0,
+                span=1.0,
+                long=20.0,
+                starts="0,0.5",
+            ),
+            Preset(
+                "The second sheet of figure 14 a: a smaller G",
+                **_RIS,
+                h=0.0,
+                f=1.0,
+                starts="2.5,-0.92",
+                window="2,-0.97;2.6,-0.86",
+                count=600.0,
+            ),
+            Preset(
+                "Where the two Hess cycles meet, over h",
+                **_RIS,
+                h=2.0,
+                f=1.0,
+                starts="-0.1497,0.2064",
+                reach=2.0,
+                periodic="period 1",
+                over="h",
+                low=0.4,
+                high=2.2,
+            ),
+        ),
+    ),
+)
 
 
 @dataclass(frozen=True)
@@ -107,9 +175,16 @@ class EulerPoisson(State):
     I1: float = parameter(I1)
     I2: float = parameter(I2)
     I3: float = parameter(I3)
-    away: float = number("ε", 0.0, (-0.5, 0.5), 0.005, bounds=(-math.pi, math.pi), label="Distance from Hess, ε",
-                         doc="The angle, in radians, by which the centre of mass r is turned away from the direction "
-                             "that the Hess condition asks for. At 0 the barrier r·M = 0 cannot be crossed.")
+    away: float = number(
+        "ε",
+        0.0,
+        (-0.5, 0.5),
+        0.005,
+        bounds=(-math.pi, math.pi),
+        label="Distance from Hess, ε",
+        doc="The angle, in radians, by which the centre of mass r is turned away from the direction "
+        "that the Hess condition asks for. At 0 the barrier r·M = 0 cannot be crossed.",
+    )
     m: float = parameter(MU_R)
     h: float = parameter(H_HEAVY, softbounds=(-1.0, 60.0), doc="H = h.")
     f: float = parameter(F_HEAVY, doc="(M, γ) = f; the section needs G ≥ |f|.")
@@ -124,12 +199,20 @@ class EulerPoisson(State):
     upwards: str = coordinate_of_branch(_NAMES)
     span: float = time_span(20.0, 200.0, what="the chosen orbit")
     long: float = exponent_time(200.0, 1000.0, 1e4, "the Lyapunov exponent is")
-    turns: str = choice("Rotation number", (_ALONG, _ABOUT), _ALONG,
-                        doc="Turns counted by the angle l, on a vertical line through the first chosen start; or about "
-                            " the middle of the window, on a line from there to the right.")
-    sheet: str = choice("Sheet", (_LARGEST, _SECOND), _LARGEST,
-                        doc="Of the momenta G with this energy at one point of the section, where there are two: on "
-                            "which orbits start.")
+    turns: str = choice(
+        "Rotation number",
+        (_ALONG, _ABOUT),
+        _ALONG,
+        doc="Turns counted by the angle l, on a vertical line through the first chosen start; or about "
+        " the middle of the window, on a line from there to the right.",
+    )
+    sheet: str = choice(
+        "Sheet",
+        (_LARGEST, _SECOND),
+        _LARGEST,
+        doc="Of the momenta G with this energy at one point of the section, where there are two: on "
+        "which orbits start.",
+    )
     certain: str = proved_error_shown()
     accuracy: str = accuracy_level()
     starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "0,0.2")
@@ -140,8 +223,10 @@ class EulerPoisson(State):
     def limits(self) -> Mapping[str, Slider]:
         """Return the sliders of the energy, from the bottom of the potential, and of the moments in their order."""
         bottom = -math.floor(100.0 * abs(self.m)) / 100.0
-        return {**limits_of_moments(*self.moments),
-                "h": (bottom, max(60.0 if abs(self.m) > 2.0 else 6.0, bottom + 1.0), 0.01)}
+        return {
+            **limits_of_moments(*self.moments),
+            "h": (bottom, max(60.0 if abs(self.m) > 2.0 else 6.0, bottom + 1.0), 0.01),
+        }
 
     # ---- the motion ---------------------------------------------------------------------------------------------
 
@@ -178,8 +263,17 @@ class EulerPoisson(State):
 
     def parts(self) -> tuple[Part[Host], ...]:
         """Return what is computed, in the order of its words."""
-        return (self.split, self.section, self.megno, self.periodic_orbit, self.branch, self.orbit, self.proof,
-                self.exponent, self.rotation)
+        return (
+            self.split,
+            self.section,
+            self.megno,
+            self.periodic_orbit,
+            self.branch,
+            self.orbit,
+            self.proof,
+            self.exponent,
+            self.rotation,
+        )
 
     @cached_property
     def section(self) -> FilledSection:
@@ -238,10 +332,14 @@ class EulerPoisson(State):
     def impossible_here(self) -> str:
         """What is said where nothing is possible in the window."""
         if self.sheet == _SECOND:
-            return (f"No motion crosses a second sheet here with h = {self.h:.6g} and f = {self.f:.6g}: choose the "
-                    "largest G, or press Clear for the whole section.")
-        return (f"Nothing is possible here with h = {self.h:.6g} and f = {self.f:.6g}: choose a larger h, a smaller "
-                "|f|, or press Clear for the whole section.")
+            return (
+                f"No motion crosses a second sheet here with h = {self.h:.6g} and f = {self.f:.6g}: choose the "
+                "largest G, or press Clear for the whole section."
+            )
+        return (
+            f"Nothing is possible here with h = {self.h:.6g} and f = {self.f:.6g}: choose a larger h, a smaller "
+            "|f|, or press Clear for the whole section."
+        )
 
     # ---- what the pictures show ---------------------------------------------------------------------------------
 
@@ -284,38 +382,65 @@ class EulerPoisson(State):
 
 
 def _batch(section: AndoyerSection, starts: tuple[Start, ...], crossings: int, level: Level) -> OrbitBatch:
-    found = andoyer_points(section.body, section.h, section.f, starts, crossings, level, threads=1,
-                           most_steps=_MOST_STEPS)
+    found = andoyer_points(
+        section.body, section.h, section.f, starts, crossings, level, threads=1, most_steps=_MOST_STEPS
+    )
     signs = np.sign(relation(section.body, np.array(starts)))
-    kept = (bool(np.all(sign * relation(section.body, states) >= 0.0))
-            for states, sign in zip(found.states, signs, strict=True))
+    kept = (
+        bool(np.all(sign * relation(section.body, states) >= 0.0))
+        for states, sign in zip(found.states, signs, strict=True)
+    )
     other = [section.places_of(states)[~section.is_on(states)] for states in found.states]
-    return OrbitBatch(tuple(frozen(section.places_of(states)) for states in found.states),
-                      tuple(bool(sign > 0.0) for sign in signs), found.drift, tuple(kept), frozen(joined(other)))
+    return OrbitBatch(
+        tuple(frozen(section.places_of(states)) for states in found.states),
+        tuple(bool(sign > 0.0) for sign in signs),
+        found.drift,
+        tuple(kept),
+        frozen(joined(other)),
+    )
 
 
 SCENE = Scene(
-    EulerPoisson, __file__, place=11, presets=PRESETS, measures=(
-        filled_trial(lambda s: s.section), indicator_trial(lambda s: s.megno), exponent_trial(lambda s: s.exponent),
-        rotation_trial(lambda s: s.rotation)),
+    EulerPoisson,
+    __file__,
+    place=11,
+    presets=PRESETS,
+    measures=(
+        filled_trial(lambda s: s.section),
+        indicator_trial(lambda s: s.megno),
+        exponent_trial(lambda s: s.exponent),
+        rotation_trial(lambda s: s.rotation),
+    ),
     charts=exponents(SYSTEM.name, lambda s: s.section.asked_start, ("section",), time=lambda s: s.long),
-    placed=Placed("starts", _NAMES), group="Euler–Poisson", essential=("away", "h", "f"),
+    placed=Placed("starts", _NAMES),
+    group="Euler–Poisson",
+    essential=("away", "h", "f"),
     title="Euler–Poisson: sections",
     summary="A heavy body near the Hess case: two stochastic layers with a barrier between them, a meandering torus.",
     tracks={"orbit": EulerPoisson.track},
     angles=("l",),
     views=(
         filled_picture(
-            lambda s: s.section, ((-math.pi, -1.0), (math.pi, 1.0)), axes=_NAMES,
-            title="Section g = π/2 (Andoyer–Deprit)", caption=EulerPoisson._about_section,
-            labels=("r·M > 0", "r·M < 0"), dot=("l", "x"), under=(indicator_layer(lambda s: s.megno),),
-            over=layers(lambda s: s.periodic_orbit), between=andoyer.between(
-                elsewhere=lambda s: s.section.elsewhere, curve=EulerPoisson.hess_curve,
-                across=lambda s: inside(s.rotation.ends, s.section.frame))),
+            lambda s: s.section,
+            ((-math.pi, -1.0), (math.pi, 1.0)),
+            axes=_NAMES,
+            title="Section g = π/2 (Andoyer–Deprit)",
+            caption=EulerPoisson._about_section,
+            labels=("r·M > 0", "r·M < 0"),
+            dot=("l", "x"),
+            under=(indicator_layer(lambda s: s.megno),),
+            over=layers(lambda s: s.periodic_orbit),
+            between=andoyer.between(
+                elsewhere=lambda s: s.section.elsewhere,
+                curve=EulerPoisson.hess_curve,
+                across=lambda s: inside(s.rotation.ends, s.section.frame),
+            ),
+        ),
         heavy_solid(),
         rotation_picture(lambda s: s.rotation),
-        along_the_orbit(lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r"),
-                        lambda s: s.proof.around),
+        along_the_orbit(
+            lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r"), lambda s: s.proof.around
+        ),
         exponent_picture(lambda s: s.exponent, folded="Show the Lyapunov exponent"),
         split_picture(lambda s: s.split),
         branch_picture(lambda s: s.branch),

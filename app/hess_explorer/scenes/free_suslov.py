@@ -45,8 +45,16 @@ _SLANTING: Values = {"I13": 0.2, "I23": 0.3, "k": 1.2, "w1": 3.0, "w2": -2.001}
 
 def _portrait(I13: float, I23: float) -> Values:
     """Next to the unstable half, whose direction is (I23, −I13)."""
-    return {"I13": I13, "I23": I23, "k": 1.0, "w1": math.copysign(1.4, I23), "w2": math.copysign(0.9, -I13),
-            "Gamma": 0.7, "phi": 0.5, "span": 20.0}
+    return {
+        "I13": I13,
+        "I23": I23,
+        "k": 1.0,
+        "w1": math.copysign(1.4, I23),
+        "w2": math.copysign(0.9, -I13),
+        "Gamma": 0.7,
+        "phi": 0.5,
+        "span": 20.0,
+    }
 
 
 PRESETS = (
@@ -55,10 +63,16 @@ PRESETS = (
     Preset("Γ(t), k = 1: F₂ exists, Γ⁺ = −Γ⁻ (figure 3)", **_ON_CIRCLE, k=1.0),
     Preset("Γ(t), k = 3: F₂ exists, Γ⁺ = −Γ⁻ (figure 3)", **_ON_CIRCLE, k=3.0),
     Preset("Γ(t), k = 1.5: two phases, two circles (figure 3)", **_ON_CIRCLE, k=1.5),
-    Preset("Γ(t), I₁₃ ≠ 0: two phases, two circles (figure 3)", **_SLANTING, Gamma=-0.4687, phi=math.pi,
-           phi2=math.pi / 2),
-    Preset("Its second orbit as printed, γ₁ = −0.49: off that circle (figure 3)", **_SLANTING, Gamma=-0.5306,
-           phi=1.6337, phi2=math.pi),
+    Preset(
+        "Γ(t), I₁₃ ≠ 0: two phases, two circles (figure 3)", **_SLANTING, Gamma=-0.4687, phi=math.pi, phi2=math.pi / 2
+    ),
+    Preset(
+        "Its second orbit as printed, γ₁ = −0.49: off that circle (figure 3)",
+        **_SLANTING,
+        Gamma=-0.5306,
+        phi=1.6337,
+        phi2=math.pi,
+    ),
     Preset("Portrait, I₁₃ > 0, I₂₃ < 0 (figure 1)", **_portrait(0.2, -0.25)),
     Preset("Portrait, I₁₃ > 0, I₂₃ > 0", **_portrait(0.2, 0.25)),
     Preset("Portrait, I₁₃ < 0, I₂₃ < 0", **_portrait(-0.2, -0.25)),
@@ -80,11 +94,17 @@ class FreeSuslov(State):
     Gamma: float = parameter(known.GAMMA_CIRCLE)
     phi: float = parameter(known.CIRCLE_PHASE, 1.2672, label="Phase φ(0)", bounds=ONE_TURN)
     phi2: float = parameter(
-        known.CIRCLE_PHASE, -0.6, symbol="φ′", label="Phase of the second orbit", bounds=ONE_TURN,
-        doc="A second orbit with the same ω leaves the same circle Γ⁻, turned along it by φ′ − φ.")
+        known.CIRCLE_PHASE,
+        -0.6,
+        symbol="φ′",
+        label="Phase of the second orbit",
+        bounds=ONE_TURN,
+        doc="A second orbit with the same ω leaves the same circle Γ⁻, turned along it by φ′ − φ.",
+    )
     span: float = time_span(30.0, 100.0, most=1e5)
-    across: str = choice("γ₁ against", ("time", "phase"), "time",
-                         doc="The horizontal axis of the third picture: t or φ.")
+    across: str = choice(
+        "γ₁ against", ("time", "phase"), "time", doc="The horizontal axis of the third picture: t or φ."
+    )
     accuracy: str = accuracy_level()
 
     def limits(self) -> Mapping[str, Slider]:
@@ -136,8 +156,9 @@ class FreeSuslov(State):
 
     def _motion(self, gamma: tuple[float, float, float]) -> free.FreeMotion:
         radius = 0.5 * PIXELS
-        return self.work.get(free.sampled_motion, self.body, self.omega, gamma, self.span,
-                             (radius / self.half_width, radius), self.level)
+        return self.work.get(
+            free.sampled_motion, self.body, self.omega, gamma, self.span, (radius / self.half_width, radius), self.level
+        )
 
     @cached_property
     def orbit(self) -> free.FreeMotion:
@@ -147,8 +168,9 @@ class FreeSuslov(State):
     @cached_property
     def second(self) -> free.FreeMotion:
         """The second orbit."""
-        return self._motion(self.work.get(
-            free.turned_along_circle, self.body, self.omega, self.gamma, self.phi2 - self.phi, self.level))
+        return self._motion(
+            self.work.get(free.turned_along_circle, self.body, self.omega, self.gamma, self.phi2 - self.phi, self.level)
+        )
 
     @cached_property
     def F2(self) -> tuple[AdditionalIntegral, float] | None:
@@ -158,8 +180,9 @@ class FreeSuslov(State):
 
     def motion(self) -> Motion:
         """The orbit as one of the general system."""
-        return Motion(SYSTEM, (*self.omega, *self.gamma), self.body.parameters, self.span,
-                      plane.pixels_per_unit(self.half_width))
+        return Motion(
+            SYSTEM, (*self.omega, *self.gamma), self.body.parameters, self.span, plane.pixels_per_unit(self.half_width)
+        )
 
     @cached_property
     def solid(self) -> Constrained:
@@ -171,8 +194,13 @@ class FreeSuslov(State):
     def orbit_columns(self) -> Columns:
         """The orbit, and what the moving points of the other pictures follow."""
         found = self.orbit
-        return plane.velocity_columns(found.times, found.omega, found.gamma, Gamma=found.Gamma,
-                                across=found.phase if self.across == "phase" else found.times)
+        return plane.velocity_columns(
+            found.times,
+            found.omega,
+            found.gamma,
+            Gamma=found.Gamma,
+            across=found.phase if self.across == "phase" else found.times,
+        )
 
     def ellipses(self) -> list[Array]:
         """Both arcs of some other energies."""
@@ -181,8 +209,11 @@ class FreeSuslov(State):
     def circles(self) -> list[Circle]:
         """The circle that is left and those that are joined, and what the level of F2 is on the way."""
         xi, limits = self.points.xi, self.orbit.limits
-        found = [Circle(xi, limits[0], "unstable"), Circle(xi, limits[1], "stable"),
-                 Circle(xi, self.second.limits[1], "stable")]
+        found = [
+            Circle(xi, limits[0], "unstable"),
+            Circle(xi, limits[1], "stable"),
+            Circle(xi, self.second.limits[1], "stable"),
+        ]
         if self.F2 is not None:
             integral, f = self.F2
             arc = self.arcs[0 if self.passage.arc > 0 else 1]
@@ -199,8 +230,7 @@ class FreeSuslov(State):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_velocity(self) -> str:
-        return (f"From the unstable to the stable point at rate ω₀ = {digits(self.points.rate)}, "
-                f"E = {digits(self.h)}.")
+        return f"From the unstable to the stable point at rate ω₀ = {digits(self.points.rate)}, E = {digits(self.h)}."
 
     def _about_sphere(self) -> str:
         came, went, other = map(digits, (*self.orbit.limits, self.second.limits[1]))
@@ -245,44 +275,83 @@ class FreeSuslov(State):
 
 
 SCENE = Scene(
-    FreeSuslov, __file__, place=2, presets=PRESETS, charts=(Charted("cos-chi", lambda s: tensor_of(s.body)),),
-    group="Free body", essential=("k", "I23", "Gamma", "phi"),
+    FreeSuslov,
+    __file__,
+    place=2,
+    presets=PRESETS,
+    charts=(Charted("cos-chi", lambda s: tensor_of(s.body)),),
+    group="Free body",
+    essential=("k", "I23", "Gamma", "phi"),
     title="Free Suslov problem",
     summary="No field: ω passes from an unstable to a stable state; γ leaves one circle and joins another.",
-    tracks={"orbit": FreeSuslov.orbit_columns,
-            "second": lambda s: plane.velocity_columns(None, s.second.omega, s.second.gamma)},
+    tracks={
+        "orbit": FreeSuslov.orbit_columns,
+        "second": lambda s: plane.velocity_columns(None, s.second.omega, s.second.gamma),
+    },
     angles=("across",),
     views=(
         plane.picture(
-            FreeSuslov._about_velocity, lambda s: s.half_width, on_click=lambda s, x, y: {"w1": x, "w2": y}, layers=(
+            FreeSuslov._about_velocity,
+            lambda s: s.half_width,
+            on_click=lambda s, x, y: {"w1": x, "w2": y},
+            layers=(
                 *plane.energy_levels(FreeSuslov.ellipses, lambda s: s.half_width, "energy levels; level of F₂"),
                 plane.arcs(lambda s: s.arcs),
-                *plane.halves(lambda s, axes: plane.to_the_edge(s.points.stable, s.half_width, axes),
-                        lambda s, axes: plane.to_the_edge(s.points.unstable, s.half_width, axes),
-                        ("stable half, circle joined", "unstable half, circle left")),
-                line("second", track="second", columns=("omega1", "omega2"), color=theme.MAP, dash="dotdash",
-                     label="second orbit"),
+                *plane.halves(
+                    lambda s, axes: plane.to_the_edge(s.points.stable, s.half_width, axes),
+                    lambda s, axes: plane.to_the_edge(s.points.unstable, s.half_width, axes),
+                    ("stable half, circle joined", "unstable half, circle left"),
+                ),
+                line(
+                    "second",
+                    track="second",
+                    columns=("omega1", "omega2"),
+                    color=theme.MAP,
+                    dash="dotdash",
+                    label="second orbit",
+                ),
                 plane.orbit("orbit"),
                 arrows("arrows", lambda s: plane.arrows_on(s.arcs, s.half_width), color=theme.ORBIT, alpha=0.8),
-                *plane.equilibria(lambda s: s.points.stable, lambda s: s.points.unstable))),
+                *plane.equilibria(lambda s: s.points.stable, lambda s: s.points.unstable),
+            ),
+        ),
         constrained_body(field=False),
         Sphere(
-            caption=FreeSuslov._about_sphere, looks={"orbit": "orbit", "second": "second"},
-            axis=lambda s: Direction(s.points.xi, "ξ"), circles=FreeSuslov.circles, marks=lambda s: ends(s.points.xi),
-            signs=(Sign("fixed points Γ = ±1", "dot", f"background: {theme.MUTED}"),)),
+            caption=FreeSuslov._about_sphere,
+            looks={"orbit": "orbit", "second": "second"},
+            axis=lambda s: Direction(s.points.xi, "ξ"),
+            circles=FreeSuslov.circles,
+            marks=lambda s: ends(s.points.xi),
+            signs=(Sign("fixed points Γ = ±1", "dot", f"background: {theme.MUTED}"),),
+        ),
         Plot(
-            name="gamma1", caption=FreeSuslov._about_gamma1, axes=(" ", "γ₁"), dot=("across", "g1"),
+            name="gamma1",
+            caption=FreeSuslov._about_gamma1,
+            axes=(" ", "γ₁"),
+            dot=("across", "g1"),
             title=lambda s: f"γ₁ against {'phase φ about ξ' if s.across == 'phase' else 'time'}",
-            x=lambda s: plane.centred(math.pi) if s.across == "phase" else (0.0, s.span), y=_ROOM_BELOW,
-            layers=(curves("second", lambda s: s.gamma1(s.second), color=theme.MAP, dash="dotdash"),
-                    curves("first", lambda s: s.gamma1(s.orbit), color=theme.ORBIT),
-                    text("across", lambda s: "φ" if s.across == "phase" else "t"))),
+            x=lambda s: plane.centred(math.pi) if s.across == "phase" else (0.0, s.span),
+            y=_ROOM_BELOW,
+            layers=(
+                curves("second", lambda s: s.gamma1(s.second), color=theme.MAP, dash="dotdash"),
+                curves("first", lambda s: s.gamma1(s.orbit), color=theme.ORBIT),
+                text("across", lambda s: "φ" if s.across == "phase" else "t"),
+            ),
+        ),
         Plot(
-            name="Gamma", title="Γ = (ξ, γ) against time", caption=FreeSuslov._about_Gamma, axes=("t", "Γ"),
+            name="Gamma",
+            title="Γ = (ξ, γ) against time",
+            caption=FreeSuslov._about_Gamma,
+            axes=("t", "Γ"),
             folded="Show Γ against time",
-            x=lambda s: (0.0, s.span), y=(-1.05, 1.05), dot=("t", "Gamma"),
-            layers=(levels("levels", lambda s: [*s.orbit.limits, s.second.limits[1]]),
-                    over_time("second", lambda s: (s.second.times, s.second.Gamma), color=theme.MAP, dash="dotdash"),
-                    over_time("first", lambda s: (s.orbit.times, s.orbit.Gamma), color=theme.ORBIT))),
+            x=lambda s: (0.0, s.span),
+            y=(-1.05, 1.05),
+            dot=("t", "Gamma"),
+            layers=(
+                levels("levels", lambda s: [*s.orbit.limits, s.second.limits[1]]),
+                over_time("second", lambda s: (s.second.times, s.second.Gamma), color=theme.MAP, dash="dotdash"),
+                over_time("first", lambda s: (s.orbit.times, s.orbit.Gamma), color=theme.ORBIT),
+            ),
+        ),
     ),
 )

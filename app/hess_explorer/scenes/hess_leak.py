@@ -55,10 +55,19 @@ class HessLeak(State):
     m: float = parameter(known.MU_R)
     h: float = parameter(known.H_HEAVY)
     f: float = parameter(known.F_HEAVY)
-    phi0: float = parameter(PHI0, doc="Phase of the start on the torus, at the lowest place of the centre of mass, in "
-                            "radians.")
-    returns: float = number("N", 20.0, (5.0, 60.0), 1.0, bounds=(1.0, 200.0), group="Computation", label="Periods",
-                            doc="How many periods of n₃ are followed.")
+    phi0: float = parameter(
+        PHI0, doc="Phase of the start on the torus, at the lowest place of the centre of mass, in radians."
+    )
+    returns: float = number(
+        "N",
+        20.0,
+        (5.0, 60.0),
+        1.0,
+        bounds=(1.0, 200.0),
+        group="Computation",
+        label="Periods",
+        doc="How many periods of n₃ are followed.",
+    )
     accuracy: str = accuracy_level()
 
     @cached_property
@@ -97,8 +106,13 @@ class HessLeak(State):
     def exact(self) -> Orbit:
         """The motion of the reduced system, in units b = 1."""
         start = tuple(self.hess.turning.state_at_lower_turn(self.phi0).tolist())
-        return self.work.get(mechanics.exact_motion, self.bridge.hess.a, start, self._periods * self.map.period,
-                             self._periods * _IN_A_PERIOD + 1)
+        return self.work.get(
+            mechanics.exact_motion,
+            self.bridge.hess.a,
+            start,
+            self._periods * self.map.period,
+            self._periods * _IN_A_PERIOD + 1,
+        )
 
     @cached_property
     def states(self) -> Array:
@@ -110,8 +124,10 @@ class HessLeak(State):
         """The orbit left to itself: "own" at the accuracy chosen, and "reference"."""
         end = float(self.exact.times[-1]) / self.bridge.hess.frequency_unit
         asked = (self.bridge.heavy, tuple(self.states[0].tolist()), end, self.exact.times.size)
-        runs = {name: self.work.get(mechanics.run_free, *asked, rung)
-                for name, rung in (("own", level(self.work.chosen)), ("reference", REFERENCE))}
+        runs = {
+            name: self.work.get(mechanics.run_free, *asked, rung)
+            for name, rung in (("own", level(self.work.chosen)), ("reference", REFERENCE))
+        }
         return {name: mechanics.Leak(self.bridge, run, self.exact, _IN_A_PERIOD) for name, run in runs.items()}
 
     @property
@@ -142,8 +158,13 @@ class HessLeak(State):
     def exact_columns(self) -> Columns:
         """The exact motion, and what the moving points of the graphs follow."""
         l, x = self.run.andoyer.T
-        return {**self.leaking(), "lg": column(lg(np.abs(self.run.off))), "l": column(l), "x": column(x),
-                **gamma_columns(self.states[:, 3:])}
+        return {
+            **self.leaking(),
+            "lg": column(lg(np.abs(self.run.off))),
+            "l": column(l),
+            "x": column(x),
+            **gamma_columns(self.states[:, 3:]),
+        }
 
     def heights(self) -> list[Circle]:
         """The circles between which n3 swings."""
@@ -170,8 +191,10 @@ class HessLeak(State):
         sign, stays = self.leaks["own"].side
         if sign == 0:
             return "The orbit keeps to the Hess relation, to round-off."
-        return (f"The orbit falls into the layer r·M {'>' if sign > 0 else '<'} 0"
-                f"{' and stays in it' if stays else ', and changes it later'}.")
+        return (
+            f"The orbit falls into the layer r·M {'>' if sign > 0 else '<'} 0"
+            f"{' and stays in it' if stays else ', and changes it later'}."
+        )
 
     def _about_sphere(self) -> str:
         return f"The exact γ, n₃ {ranging(*self.hess.turning.roots[1:])}, and the one that leaks."
@@ -188,8 +211,11 @@ class HessLeak(State):
             yield f"ln(multiplier) = ±{digits(growth, 6)}"
             yield f"Rate = {digits(growth / self.period, 6)} in a unit of time"
         if "leak" in self.seen and self.map.kind == "hyperbolic":
-            yield from (f"Measured, {leak.run.level}: {digits(leak.growth.per_period, 7)} a period"
-                        for leak in self.leaks.values() if leak.growth is not None)
+            yield from (
+                f"Measured, {leak.run.level}: {digits(leak.growth.per_period, 7)} a period"
+                for leak in self.leaks.values()
+                if leak.growth is not None
+            )
         yield f"A rigid body? {'yes' if self.bridge.heavy.check.is_body else 'no'}"
 
     def status(self) -> Iterator[str]:
@@ -209,26 +235,61 @@ class HessLeak(State):
 
 
 SCENE = Scene(
-    HessLeak, __file__, place=12, presets=PRESETS,
+    HessLeak,
+    __file__,
+    place=12,
+    presets=PRESETS,
     charts=of_torus(lambda s: (s.bridge.hess.a, s.hess.turning.h, s.hess.turning.f)),
-    group="Euler–Poisson", essential=("h", "f", "phi0", "returns"),
+    group="Euler–Poisson",
+    essential=("h", "f", "phi0", "returns"),
     title="Leak off the Hess manifold",
     summary="An orbit on the Hess manifold of Euler–Poisson leaves it by round-off alone, at the rate of the cycle.",
-    tracks={"orbit": HessLeak.exact_columns, "second": HessLeak.leaking}, angles=("l",),
+    tracks={"orbit": HessLeak.exact_columns, "second": HessLeak.leaking},
+    angles=("l",),
     views=(
         heavy_solid(),
-        Plot(name="leak", title="r·M against time", caption=HessLeak._about_leak, axes=("t", "lg |r·M|"),
-             x=HessLeak.times, y=_RANGE, dot=("t", "lg"),
-             layers=(*distances(lambda s: s.leaks, lambda leak: np.abs(leak.run.off)),
-                     curves("slope", lambda s: s.leaks["own"].straight_line(mechanics.exact_growth(s.map), _RANGE),
-                            color=theme.MUTED, dash="dashed", label="slope ln(multiplier) per period"))),
-        andoyer.picture("Andoyer variables (l, L/G)", HessLeak._about_side,
-                        relation=lambda s: hess_circle(s.bridge.heavy), orbit=lambda s: s.run.andoyer, color=theme.MAP),
-        Sphere(caption=HessLeak._about_sphere, looks={"orbit": "orbit", "second": "second"},
-               axis=lambda s: Direction(s.bridge.heavy.r, "r"), circles=HessLeak.heights),
-        Plot(name="difference", title="Distance from the exact motion", caption=HessLeak._about_difference,
-             folded="Show the distance from the exact motion", axes=("t", "lg |difference|"),
-             x=HessLeak.times, y=lambda s: lg_axis(largest_distance(s.map.h)),
-             dot=("t", "apart"), layers=distances(lambda s: s.leaks, lambda leak: leak.apart)),
+        Plot(
+            name="leak",
+            title="r·M against time",
+            caption=HessLeak._about_leak,
+            axes=("t", "lg |r·M|"),
+            x=HessLeak.times,
+            y=_RANGE,
+            dot=("t", "lg"),
+            layers=(
+                *distances(lambda s: s.leaks, lambda leak: np.abs(leak.run.off)),
+                curves(
+                    "slope",
+                    lambda s: s.leaks["own"].straight_line(mechanics.exact_growth(s.map), _RANGE),
+                    color=theme.MUTED,
+                    dash="dashed",
+                    label="slope ln(multiplier) per period",
+                ),
+            ),
+        ),
+        andoyer.picture(
+            "Andoyer variables (l, L/G)",
+            HessLeak._about_side,
+            relation=lambda s: hess_circle(s.bridge.heavy),
+            orbit=lambda s: s.run.andoyer,
+            color=theme.MAP,
+        ),
+        Sphere(
+            caption=HessLeak._about_sphere,
+            looks={"orbit": "orbit", "second": "second"},
+            axis=lambda s: Direction(s.bridge.heavy.r, "r"),
+            circles=HessLeak.heights,
+        ),
+        Plot(
+            name="difference",
+            title="Distance from the exact motion",
+            caption=HessLeak._about_difference,
+            folded="Show the distance from the exact motion",
+            axes=("t", "lg |difference|"),
+            x=HessLeak.times,
+            y=lambda s: lg_axis(largest_distance(s.map.h)),
+            dot=("t", "apart"),
+            layers=distances(lambda s: s.leaks, lambda leak: leak.apart),
+        ),
     ),
 )

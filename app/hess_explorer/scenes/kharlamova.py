@@ -50,8 +50,15 @@ PRESETS = (
     Preset("Fixed point on the equator, unstable", **_ROUND, q1=0.0, q2=-1.0, p=0.5, alpha=0.0),
     Preset("Fixed point, stable by its spin", **_ROUND, q1=0.0, q2=-1.0, p=1.5, alpha=0.0),
     # (γ1, γ2) = (1 − τ²/2, τ/2) touches the circle at τ = 0; the start is at τ = 1.
-    Preset("Asymptotic: touches the equator from inside", **_ROUND, q1=0.5, q2=-0.5, p=math.sqrt(1.25),
-           alpha=math.atan2(1.0, 0.5), span=15.0),
+    Preset(
+        "Asymptotic: touches the equator from inside",
+        **_ROUND,
+        q1=0.5,
+        q2=-0.5,
+        p=math.sqrt(1.25),
+        alpha=math.atan2(1.0, 0.5),
+        span=15.0,
+    ),
     Preset("Next to it: a long period", **_ROUND, q1=0.5, q2=-0.5, p=math.sqrt(1.25), alpha=1.1072, span=40.0),
 )
 
@@ -63,21 +70,49 @@ class Kharlamova(State):
     # These bounds are narrower than in other scenes.
     I11: float = parameter(known.I11, bounds=(1e-2, 1e2))
     I22: float = parameter(known.I22, 1.0, bounds=(1e-2, 1e2))
-    b1: float = parameter(known.B1, 0.4, softbounds=(-2.0, 2.0), bounds=(-1e2, 1e2),
-                          doc="b = −mg r, r the mass centre; b₃ = 0.")
-    b2: float = parameter(known.B2, 0.7, softbounds=(-2.0, 2.0), bounds=(-1e2, 1e2),
-                          doc="b = −mg r; b₁ = b₂ = 0: straight lines.")
-    q1: float = number("q₁", 0.3, (-1.22, 1.22), 0.01, bounds=(-10.0, 10.0), label="Start q₁ = √I₁₁ γ₂",
-                       doc="A click in the plane chooses the start, on the half γ₃ ≥ 0 of the sphere.")
-    q2: float = number("q₂", -0.2, (-1.0, 1.0), 0.01, bounds=(-10.0, 10.0), label="Start q₂ = −√I₂₂ γ₁",
-                       doc="A click in the plane chooses the start.")
-    p: float = number("|p|", 1.0, (0.0, 4.0), 0.01, bounds=(0.0, 1e3), label="Start |p|",
-                      doc="p = (√I₁₁ ω₁, √I₂₂ ω₂), at the start.")
-    alpha: float = number("α", 0.5, (-3.14, 3.14), 0.01, bounds=ONE_TURN, label="Start: direction α",
-                          doc="p = |p| (cos α, sin α), the first direction; a click in the graph of T chooses it.")
+    b1: float = parameter(
+        known.B1, 0.4, softbounds=(-2.0, 2.0), bounds=(-1e2, 1e2), doc="b = −mg r, r the mass centre; b₃ = 0."
+    )
+    b2: float = parameter(
+        known.B2, 0.7, softbounds=(-2.0, 2.0), bounds=(-1e2, 1e2), doc="b = −mg r; b₁ = b₂ = 0: straight lines."
+    )
+    q1: float = number(
+        "q₁",
+        0.3,
+        (-1.22, 1.22),
+        0.01,
+        bounds=(-10.0, 10.0),
+        label="Start q₁ = √I₁₁ γ₂",
+        doc="A click in the plane chooses the start, on the half γ₃ ≥ 0 of the sphere.",
+    )
+    q2: float = number(
+        "q₂",
+        -0.2,
+        (-1.0, 1.0),
+        0.01,
+        bounds=(-10.0, 10.0),
+        label="Start q₂ = −√I₂₂ γ₁",
+        doc="A click in the plane chooses the start.",
+    )
+    p: float = number(
+        "|p|", 1.0, (0.0, 4.0), 0.01, bounds=(0.0, 1e3), label="Start |p|", doc="p = (√I₁₁ ω₁, √I₂₂ ω₂), at the start."
+    )
+    alpha: float = number(
+        "α",
+        0.5,
+        (-3.14, 3.14),
+        0.01,
+        bounds=ONE_TURN,
+        label="Start: direction α",
+        doc="p = |p| (cos α, sin α), the first direction; a click in the graph of T chooses it.",
+    )
     span: float = time_span(20.0, 100.0)
-    potential: str = choice("Another potential", tuple(POTENTIALS), "Hénon–Heiles",
-                            doc="Of the last picture, shown by its button; it has no b₁, b₂. Quadratic: integrable.")
+    potential: str = choice(
+        "Another potential",
+        tuple(POTENTIALS),
+        "Hénon–Heiles",
+        doc="Of the last picture, shown by its button; it has no b₁, b₂. Quadratic: integrable.",
+    )
     accuracy: str = accuracy_level()
 
     def admitted(self, notes: list[str]) -> Kharlamova:
@@ -87,8 +122,9 @@ class Kharlamova(State):
         if size <= 1.0 + 1e-13:
             return self
         state = replace(self, q1=self.q1 / size, q2=self.q2 / size)
-        notes.append(f"The start was outside the ellipse: it is on its edge now, q = ({digits(state.q1)}, "
-                     f"{digits(state.q2)}).")
+        notes.append(
+            f"The start was outside the ellipse: it is on its edge now, q = ({digits(state.q1)}, {digits(state.q2)})."
+        )
         return state
 
     def limits(self) -> Mapping[str, Slider]:
@@ -162,8 +198,15 @@ class Kharlamova(State):
         orbit, mirror = self.sampled
         q, mirror_q = (mechanics.to_plane(self.body, states)[0] for states in (orbit.states, mirror))
         tau, mirror_tau = (mechanics.rescaled_time(self.arc, states) for states in (orbit.states, mirror))
-        return plane_columns(orbit, q, mirror_q1=mirror_q[:, 0], mirror_q2=mirror_q[:, 1],
-                             tau=tau, mirror_tau=mirror_tau, mirror_g3=mirror[:, 4])
+        return plane_columns(
+            orbit,
+            q,
+            mirror_q1=mirror_q[:, 0],
+            mirror_q2=mirror_q[:, 1],
+            tau=tau,
+            mirror_tau=mirror_tau,
+            mirror_g3=mirror[:, 4],
+        )
 
     def half_width(self) -> float:
         """Of the frame of the domain."""
@@ -178,8 +221,9 @@ class Kharlamova(State):
         """The parabola, also beyond the domain."""
         low, high = self.arc.ends
         more = 0.5 * self.arc.length
-        return [] if self.arc.kind == "fixed" else [
-            self.body.place(self.arc.u(np.linspace(low - more, high + more, 181)))]
+        return (
+            [] if self.arc.kind == "fixed" else [self.body.place(self.arc.u(np.linspace(low - more, high + more, 181)))]
+        )
 
     def force(self) -> Direction | None:
         """The direction of the centre of mass; None without a field."""
@@ -188,8 +232,10 @@ class Kharlamova(State):
     def marks(self) -> list[Mark]:
         """Where the orbit crosses the equator, touches it, or stays on it."""
         if self.arc.kind != "fixed":
-            return [Mark((*u, 0.0), "unstable" if tau == self.arc.touch else "muted")
-                    for tau, u in zip(self.arc.tau, self.arc.u(np.array(self.arc.tau)), strict=True)]
+            return [
+                Mark((*u, 0.0), "unstable" if tau == self.arc.touch else "muted")
+                for tau, u in zip(self.arc.tau, self.arc.u(np.array(self.arc.tau)), strict=True)
+            ]
         return [Mark(self.start[2:], "stable" if self.arc.stable else "unstable")] if self.start[4] == 0.0 else []
 
     def tau_axis(self) -> tuple[float, float]:
@@ -257,51 +303,108 @@ class Kharlamova(State):
             yield f"So long a motion is drawn with {MOST_SAMPLES} points: choose a shorter time span to see its curves."
 
 
-_MIRROR: Layer[Kharlamova] = points("mirror", color=theme.MAP, edge=theme.INK, edge_width=1.5, size=11,
-                                    label="its mirror image, t → −t")
+_MIRROR: Layer[Kharlamova] = points(
+    "mirror", color=theme.MAP, edge=theme.INK, edge_width=1.5, size=11, label="its mirror image, t → −t"
+)
 
 SCENE = Scene(
-    Kharlamova, __file__, place=6, presets=PRESETS, charts=(Charted("period", lambda s: {
-        "I11": s.I11, "I22": s.I22, "b1": s.b1, "b2": s.b2,
-        **dict(zip(SYSTEM.arguments, s.start, strict=True))}),),
-    group="Heavy body", essential=("q1", "q2", "p", "alpha"), handle="alpha",
+    Kharlamova,
+    __file__,
+    place=6,
+    presets=PRESETS,
+    charts=(
+        Charted(
+            "period",
+            lambda s: {
+                "I11": s.I11,
+                "I22": s.I22,
+                "b1": s.b1,
+                "b2": s.b2,
+                **dict(zip(SYSTEM.arguments, s.start, strict=True)),
+            },
+        ),
+    ),
+    group="Heavy body",
+    essential=("q1", "q2", "p", "alpha"),
+    handle="alpha",
     title="Principal axis, b₃ = 0",
     summary="Parabolas in an ellipse, run to and fro: every orbit closes but those that touch the equator from inside.",
     tracks={"orbit": Kharlamova.orbit_columns},
     views=(
         constrained_body(),
         plane_domain.picture(
-             "Domain of (q₁, q₂)", Kharlamova._about_domain, Kharlamova.half_width, names=("q1", "q2"),
-             dots={"mirror": ("mirror_q1", "mirror_q2")}, layers=(
-                 *plane_domain.ground(edge=lambda s: s.work.get(mechanics.fixed_point_kinds, s.body, s.h)[0],
-                                      forbidden=lambda s: mechanics.forbidden(s.body, s.h),
-                                      levels=lambda s: mechanics.equipotentials(s.body, _LEVELS)),
-                 curves("path", Kharlamova.path, color=theme.ORBIT, width=1.5, dash="dotted", alpha=0.7),
-                 curves("stable", lambda s: s.fixed_points(1.0), color=theme.STABLE, width=3,
-                        label="stable fixed points"),
-                 curves("unstable", lambda s: s.fixed_points(-1.0), color=theme.UNSTABLE, width=3, dash="dashed",
-                        label="unstable fixed points"),
-                 *plane_domain.orbit(start=lambda s: (s.q1, s.q2)),
-                 _MIRROR)),
-        Sphere(caption=Kharlamova._about_sphere, looks={"orbit": "orbit"}, marks=Kharlamova.marks,
-               axis=Kharlamova.force, circles=lambda s: [EQUATOR, *levels_about(s.force(), _LEVELS)]),
-        Plot(name="period", title="Period T against direction α", caption=Kharlamova._about_period, axes=("α", "T"),
-             x=(-math.pi, math.pi), y=lambda s: period_axis(s.periods, s.arc.period),
-             on_click=lambda s, x, y: {"alpha": x},
-             on_drag=True, message=lambda s: "" if has_periods(s.periods) else "Nothing moves: no period.",
-             layers=period_graph.layers(
-                 lambda s: s.periods,
-                 here=lambda s: None if s.arc.kind == "fixed" else (s.alpha, s.arc.period))),
-        plane_potential.picture(lambda s: s.potential, lambda s: s.body, lambda s: s.other_body, lambda s: s.other,
-                                Kharlamova.half_width),
-        Plot(name="curve", title="γ₃ against τ", folded="Show γ₃ against τ", axes=("τ", "γ₃"),
-             caption=Kharlamova._about_curve, x=Kharlamova.tau_axis, y=(-1.1, 1.1),
-             dot=("tau", "g3"), dots={"mirror": ("mirror_tau", "mirror_g3")},
-             layers=(
-                 curves("other", lambda s: [s.arc.oval(s.arc.other)] if s.arc.other else [], color=theme.MUTED,
-                        dash="dashed"),
-                 curves("own", lambda s: [s.arc.oval(s.arc.tau)], color=theme.ORBIT),
-                 ring("chosen", lambda s: [(0.0, s.start[4])], size=18),
-                 _MIRROR)),
+            "Domain of (q₁, q₂)",
+            Kharlamova._about_domain,
+            Kharlamova.half_width,
+            names=("q1", "q2"),
+            dots={"mirror": ("mirror_q1", "mirror_q2")},
+            layers=(
+                *plane_domain.ground(
+                    edge=lambda s: s.work.get(mechanics.fixed_point_kinds, s.body, s.h)[0],
+                    forbidden=lambda s: mechanics.forbidden(s.body, s.h),
+                    levels=lambda s: mechanics.equipotentials(s.body, _LEVELS),
+                ),
+                curves("path", Kharlamova.path, color=theme.ORBIT, width=1.5, dash="dotted", alpha=0.7),
+                curves(
+                    "stable", lambda s: s.fixed_points(1.0), color=theme.STABLE, width=3, label="stable fixed points"
+                ),
+                curves(
+                    "unstable",
+                    lambda s: s.fixed_points(-1.0),
+                    color=theme.UNSTABLE,
+                    width=3,
+                    dash="dashed",
+                    label="unstable fixed points",
+                ),
+                *plane_domain.orbit(start=lambda s: (s.q1, s.q2)),
+                _MIRROR,
+            ),
+        ),
+        Sphere(
+            caption=Kharlamova._about_sphere,
+            looks={"orbit": "orbit"},
+            marks=Kharlamova.marks,
+            axis=Kharlamova.force,
+            circles=lambda s: [EQUATOR, *levels_about(s.force(), _LEVELS)],
+        ),
+        Plot(
+            name="period",
+            title="Period T against direction α",
+            caption=Kharlamova._about_period,
+            axes=("α", "T"),
+            x=(-math.pi, math.pi),
+            y=lambda s: period_axis(s.periods, s.arc.period),
+            on_click=lambda s, x, y: {"alpha": x},
+            on_drag=True,
+            message=lambda s: "" if has_periods(s.periods) else "Nothing moves: no period.",
+            layers=period_graph.layers(
+                lambda s: s.periods, here=lambda s: None if s.arc.kind == "fixed" else (s.alpha, s.arc.period)
+            ),
+        ),
+        plane_potential.picture(
+            lambda s: s.potential, lambda s: s.body, lambda s: s.other_body, lambda s: s.other, Kharlamova.half_width
+        ),
+        Plot(
+            name="curve",
+            title="γ₃ against τ",
+            folded="Show γ₃ against τ",
+            axes=("τ", "γ₃"),
+            caption=Kharlamova._about_curve,
+            x=Kharlamova.tau_axis,
+            y=(-1.1, 1.1),
+            dot=("tau", "g3"),
+            dots={"mirror": ("mirror_tau", "mirror_g3")},
+            layers=(
+                curves(
+                    "other",
+                    lambda s: [s.arc.oval(s.arc.other)] if s.arc.other else [],
+                    color=theme.MUTED,
+                    dash="dashed",
+                ),
+                curves("own", lambda s: [s.arc.oval(s.arc.tau)], color=theme.ORBIT),
+                ring("chosen", lambda s: [(0.0, s.start[4])], size=18),
+                _MIRROR,
+            ),
+        ),
     ),
 )

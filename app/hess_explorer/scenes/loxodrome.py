@@ -50,8 +50,14 @@ class Loxodrome(State):
     I2: float = parameter(known.I2, 1.5, doc="Middle principal moment: it must lie between I₁ and I₃.")
     I3: float = parameter(known.I3, 2.0)
     # Of either sign the pendulum is the same.
-    m: float = parameter(known.MU_R, 0.7071, softbounds=(0.05, 20.0), step=0.05, bounds=(1e-3, 1e3),
-                         doc="It sets the unit of energy and of time; the direction of r follows from the moments.")
+    m: float = parameter(
+        known.MU_R,
+        0.7071,
+        softbounds=(0.05, 20.0),
+        step=0.05,
+        bounds=(1e-3, 1e3),
+        doc="It sets the unit of energy and of time; the direction of r follows from the moments.",
+    )
     energy: float = parameter(known.H_PENDULUM)
     l: float = parameter(known.L_PENDULUM)
     span: float = time_span(30.0, 200.0, what="the motion")
@@ -79,8 +85,14 @@ class Loxodrome(State):
     def motion(self) -> Motion:
         """The reduced motion, in units b = 1."""
         p = self.pendulum
-        return Motion(SYSTEM, tuple(p.start[:5]), (p.a, 1.0), p.length(self.span),
-                      pixels_per_unit(math.sqrt(2.0 * (p.h + 1.0))), 1.0 / p.frequency_unit)
+        return Motion(
+            SYSTEM,
+            tuple(p.start[:5]),
+            (p.a, 1.0),
+            p.length(self.span),
+            pixels_per_unit(math.sqrt(2.0 * (p.h + 1.0))),
+            1.0 / p.frequency_unit,
+        )
 
     def shape(self) -> Shape | None:
         """The gyration ellipsoid; None where this is no rigid body."""
@@ -150,46 +162,94 @@ class Loxodrome(State):
         if not self.pendulum.body.check.is_body:
             yield self.pendulum.body.check.sentence
         if self.found.times[-1] < self.span * (1 - 1e-9):
-            yield (f"The motion is shown up to t = {digits(float(self.found.times[-1]))}: after that it is at rest to "
-                   "the eye.")
+            yield (
+                f"The motion is shown up to t = {digits(float(self.found.times[-1]))}: after that it is at rest to "
+                "the eye."
+            )
 
 
 SCENE = Scene(
-    Loxodrome, __file__, place=14, presets=PRESETS,
+    Loxodrome,
+    __file__,
+    place=14,
+    presets=PRESETS,
     charts=of_torus(lambda s: (s.pendulum.a, s.pendulum.h, 0.0))[:-1],
-    group="Euler–Poisson", essential=("energy", "l", "I2"),
+    group="Euler–Poisson",
+    essential=("energy", "l", "I2"),
     title="Loxodromic pendulum",
     summary="A heavy body whose centre of mass swings in a plane while its middle axis runs along a loxodrome.",
     tracks={"orbit": Loxodrome.track},
     views=(
         BodyInSpace(
-            name="body", title="The body in space", caption=Loxodrome._about_body, bare=True, shape=Loxodrome.shape,
-            motion=lambda s: (s.found.attitude, s.found.times), rods=Loxodrome.rods,
-            curves=lambda s: [Curve(s.found.centre, "stable", 2.0)], trail=lambda s: Trail((0.0, 1.0, 0.0), "orbit"),
-            signs=(Sign("gyration ellipsoid", "line", "border-top: 2px solid #808080"),
-                   Sign("circular section", "line", "border-top: 2px solid #BF6699"))),
+            name="body",
+            title="The body in space",
+            caption=Loxodrome._about_body,
+            bare=True,
+            shape=Loxodrome.shape,
+            motion=lambda s: (s.found.attitude, s.found.times),
+            rods=Loxodrome.rods,
+            curves=lambda s: [Curve(s.found.centre, "stable", 2.0)],
+            trail=lambda s: Trail((0.0, 1.0, 0.0), "orbit"),
+            signs=(
+                Sign("gyration ellipsoid", "line", "border-top: 2px solid #808080"),
+                Sign("circular section", "line", "border-top: 2px solid #BF6699"),
+            ),
+        ),
         BodyInSpace(
-            name="space", title="Sphere fixed in space", caption=Loxodrome._about_space, attitude="body",
+            name="space",
+            title="Sphere fixed in space",
+            caption=Loxodrome._about_space,
+            attitude="body",
             rods=lambda s: s.rods("2"),
-            curves=lambda s: [Curve(s.loxodrome(), "muted", 2.0), Curve(s.found.middle, "orbit", 4.0),
-                              Curve(s.found.centre, "stable", 2.0)],
+            curves=lambda s: [
+                Curve(s.loxodrome(), "muted", 2.0),
+                Curve(s.found.middle, "orbit", 4.0),
+                Curve(s.found.centre, "stable", 2.0),
+            ],
             circles=(Circle((1.0, 0.0, 0.0), 0.0, "limit"),),
             marks=(Mark((1.0, 0.0, 0.0), "muted", "e"), Mark((-1.0, 0.0, 0.0), "muted", "−e")),
-            signs=(Sign("loxodrome", "line", "border-top: 2px solid #808080"),
-                   Sign("middle axis, its track", "line", "border-top: 2px solid #0072B2"),
-                   Sign("centre of mass", "dot", "background: #F0E442; border: 1.5px solid black"))),
+            signs=(
+                Sign("loxodrome", "line", "border-top: 2px solid #808080"),
+                Sign("middle axis, its track", "line", "border-top: 2px solid #0072B2"),
+                Sign("centre of mass", "dot", "background: #F0E442; border: 1.5px solid black"),
+            ),
+        ),
         Plot(
-            name="angle", title="Angles θ and l", caption=Loxodrome._about_angle, axes=("t", "θ, l"),
-            x=lambda s: (0.0, s.span), y=(0.0, math.pi), dot=("t", "l"),
+            name="angle",
+            title="Angles θ and l",
+            caption=Loxodrome._about_angle,
+            axes=("t", "θ, l"),
+            x=lambda s: (0.0, s.span),
+            y=(0.0, math.pi),
+            dot=("t", "l"),
             layers=(
                 line("l", lambda s: (s.found.times, s.found.l), color=theme.MAP, label="l"),
                 line("theta", lambda s: s.found.measured, color=theme.ORBIT, label="θ"),
-                line("promised", lambda s: ((0.0, s.found.times[-1]), (s.pendulum.angle,) * 2), color=theme.MUTED,
-                     dash="dotted"))),
+                line(
+                    "promised",
+                    lambda s: ((0.0, s.found.times[-1]), (s.pendulum.angle,) * 2),
+                    color=theme.MUTED,
+                    dash="dotted",
+                ),
+            ),
+        ),
         Plot(
-            name="height", title="Height of the centre of mass", caption=Loxodrome._about_height,
-            axes=("t", "height"), x=lambda s: (0.0, s.span), y=(-1.05, 1.05), dot=("t", "height"),
-            layers=(line("orbit", track="orbit", columns=("t", "height"), color=theme.STABLE,
-                         label="path of the centre of mass"),)),
+            name="height",
+            title="Height of the centre of mass",
+            caption=Loxodrome._about_height,
+            axes=("t", "height"),
+            x=lambda s: (0.0, s.span),
+            y=(-1.05, 1.05),
+            dot=("t", "height"),
+            layers=(
+                line(
+                    "orbit",
+                    track="orbit",
+                    columns=("t", "height"),
+                    color=theme.STABLE,
+                    label="path of the centre of mass",
+                ),
+            ),
+        ),
     ),
 )

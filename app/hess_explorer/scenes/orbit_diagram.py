@@ -19,27 +19,66 @@ from hess_mechanics.suslov.section import SuslovSection
 _PARAMETERS = {"h": "h", "I₁₁": "I11", "I₂₂": "I22", "I₁₃": "I13", "I₂₃": "I23", "b₁": "b1", "b₂": "b2", "b₃": "b3"}
 
 
-def _body(I11: float, I22: float, I13: float, I23: float, b1: float, b2: float, b3: float, h: float
-          ) -> dict[str, Value]:
+def _body(
+    I11: float, I22: float, I13: float, I23: float, b1: float, b2: float, b3: float, h: float
+) -> dict[str, Value]:
     return {"I11": I11, "I22": I22, "I13": I13, "I23": I23, "b1": b1, "b2": b2, "b3": b3, "h": h}
 
 
 PRESETS = (
     Preset("Period doubling along I₂₃", along="I₂₃"),
     Preset("Apart: a strange attractor and its repeller", along="h", first=2.0, last=2.6),
-    Preset("Touching: a strange attractor and its repeller", **_body(2.7, 1.4, -0.2, 0.8, -0.4, 1.9, -1.4, 4.6),
-           along="h", first=4.2, last=5.0, chosen="-0.5986,1.6433"),
-    Preset("A torus breaks up: an invariant curve, then chaos", **_body(1.5, 1.0, -0.2605, 0.4, 1.1, -1.6, 1.8, 4.2),
-           along="I₁₃", first=-0.261, last=-0.247, window="-0.261,0.5;-0.247,2.2", chosen="1.2,1.45",
-           branch="period 1"),
-    Preset("A spiral: back to a saddle-focus", **_body(0.7, 2.8, 0.2, 0.2, 1.0, -1.8, -1.2, 5.015931), along="h",
-           first=4.9, last=5.1, chosen="-2.62543193,3.13213405"),
-    Preset("Apart: permanent rotations, and reversal", **_body(1.0, 2.5, 0.4, -0.1, -0.9, 0.8, -0.1, 2.2),
-           along="I₁₃", first=0.2, last=0.6, chosen="-2.01067,0.01001", span=60.0),
-    Preset("Equal: a sea that keeps no volume", **_body(1.5, 1.7, 0.1, -0.3, -1.7, 1.0, 2.0, 1.9), along="h",
-           first=1.7, last=2.1, chosen="-1.0063,1.1872"),
-    Preset("Equal: volume is kept", **_body(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.8, 1.643398), along="h", first=1.0,
-           last=3.0, chosen="1,1"),
+    Preset(
+        "Touching: a strange attractor and its repeller",
+        **_body(2.7, 1.4, -0.2, 0.8, -0.4, 1.9, -1.4, 4.6),
+        along="h",
+        first=4.2,
+        last=5.0,
+        chosen="-0.5986,1.6433",
+    ),
+    Preset(
+        "A torus breaks up: an invariant curve, then chaos",
+        **_body(1.5, 1.0, -0.2605, 0.4, 1.1, -1.6, 1.8, 4.2),
+        along="I₁₃",
+        first=-0.261,
+        last=-0.247,
+        window="-0.261,0.5;-0.247,2.2",
+        chosen="1.2,1.45",
+        branch="period 1",
+    ),
+    Preset(
+        "A spiral: back to a saddle-focus",
+        **_body(0.7, 2.8, 0.2, 0.2, 1.0, -1.8, -1.2, 5.015931),
+        along="h",
+        first=4.9,
+        last=5.1,
+        chosen="-2.62543193,3.13213405",
+    ),
+    Preset(
+        "Apart: permanent rotations, and reversal",
+        **_body(1.0, 2.5, 0.4, -0.1, -0.9, 0.8, -0.1, 2.2),
+        along="I₁₃",
+        first=0.2,
+        last=0.6,
+        chosen="-2.01067,0.01001",
+        span=60.0,
+    ),
+    Preset(
+        "Equal: a sea that keeps no volume",
+        **_body(1.5, 1.7, 0.1, -0.3, -1.7, 1.0, 2.0, 1.9),
+        along="h",
+        first=1.7,
+        last=2.1,
+        chosen="-1.0063,1.1872",
+    ),
+    Preset(
+        "Equal: volume is kept",
+        **_body(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.8, 1.643398),
+        along="h",
+        first=1.0,
+        last=3.0,
+        chosen="1,1",
+    ),
 )
 """All of them are rigid bodies for some I₃₃, found by `tests/benchmarks/search_regimes.py`."""
 
@@ -83,9 +122,14 @@ class SuslovDiagram(DiagramState):
 
 
 SCENE = Scene(
-    SuslovDiagram, __file__, place=15, presets=PRESETS, group="Heavy body",
+    SuslovDiagram,
+    __file__,
+    place=15,
+    presets=PRESETS,
+    group="Heavy body",
     charts=charts(SuslovDiagram, "regime-suslov-section", k=3.0),
-    essential=("h", "first", "last", "I13"), handle="h",
+    essential=("h", "first", "last", "I13"),
+    handle="h",
     title="Orbit diagram",
     summary="Attractors and repellers over a parameter: doublings, hysteresis, reversal.",
     tracks={"orbit": lambda s: orbit_columns(s.orbit.path, turning=s.turning)},

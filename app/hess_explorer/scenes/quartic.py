@@ -58,16 +58,23 @@ _P_AXIS = centred(1.05)
 _HEIGHTS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
 """Values of γ3 on the equipotentials."""
 
-PRESETS = (*map(plain, (
-    Preset("Mixed: in the sea"),
-    Preset("Mixed: on a curve", Q1=0.2, Q2=1.9, beta=0.0),
-    Preset("Integrable: I₁₁ = I₂₂", ratio=1.0, h=0.6),
-    Preset("Integrable, in a ring: h > |b₃|", ratio=1.0, h=1.5, Q1=1.8, Q2=0.0),
-    Preset("Regular: nearly round", ratio=1.05, h=0.6),
-    Preset("A sea nearly everywhere", ratio=3.0, h=1.2, Q1=0.9, Q2=1.2),
-    Preset("In a ring: bouncing at its far end", ratio=1.5, h=3.0, Q1=0.3, Q2=3.0, beta=1.571, span=60.0),
-    Preset("A pitchfork, over h", Q1=0.0, Q2=0.266, beta=0.0, periodic="period 1", over="h", low=0.6, high=0.95),
-)),)
+PRESETS = (
+    *map(
+        plain,
+        (
+            Preset("Mixed: in the sea"),
+            Preset("Mixed: on a curve", Q1=0.2, Q2=1.9, beta=0.0),
+            Preset("Integrable: I₁₁ = I₂₂", ratio=1.0, h=0.6),
+            Preset("Integrable, in a ring: h > |b₃|", ratio=1.0, h=1.5, Q1=1.8, Q2=0.0),
+            Preset("Regular: nearly round", ratio=1.05, h=0.6),
+            Preset("A sea nearly everywhere", ratio=3.0, h=1.2, Q1=0.9, Q2=1.2),
+            Preset("In a ring: bouncing at its far end", ratio=1.5, h=3.0, Q1=0.3, Q2=3.0, beta=1.571, span=60.0),
+            Preset(
+                "A pitchfork, over h", Q1=0.0, Q2=0.266, beta=0.0, periodic="period 1", over="h", low=0.6, high=0.95
+            ),
+        ),
+    ),
+)
 
 
 @dataclass(frozen=True)
@@ -79,13 +86,33 @@ class Quartic(State):
     ratio: float = parameter(RATIO)
     b3: float = parameter(B3, 1.0, bounds=(-1e2, 1e2), doc="b = −mg r; not 0 here, b₁ = b₂ = 0.")
     h: float = parameter(H_QUARTIC)
-    Q1: float = number("q₁", 0.6, (-2.0, 2.0), 0.01, bounds=(-1e30, 1e30), label="Start q₁ = I₂₂ω₂/b₃",
-                       doc="A click in the plane chooses the start.")
-    Q2: float = number("q₂", 0.3, (-2.0, 2.0), 0.01, bounds=(-1e30, 1e30), label="Start q₂ = −I₁₁ω₁/b₃",
-                       doc="A click in the plane chooses the start.")
-    beta: float = number("β", 1.0, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Start: direction β",
-                         doc="Where the point runs at first: q̇ = −p, |p| = √(1 − γ₃²). A click in the section chooses "
-                             "all three.")
+    Q1: float = number(
+        "q₁",
+        0.6,
+        (-2.0, 2.0),
+        0.01,
+        bounds=(-1e30, 1e30),
+        label="Start q₁ = I₂₂ω₂/b₃",
+        doc="A click in the plane chooses the start.",
+    )
+    Q2: float = number(
+        "q₂",
+        0.3,
+        (-2.0, 2.0),
+        0.01,
+        bounds=(-1e30, 1e30),
+        label="Start q₂ = −I₁₁ω₁/b₃",
+        doc="A click in the plane chooses the start.",
+    )
+    beta: float = number(
+        "β",
+        1.0,
+        (-3.14, 3.14),
+        0.01,
+        bounds=(-math.pi, math.pi),
+        label="Start: direction β",
+        doc="Where the point runs at first: q̇ = −p, |p| = √(1 − γ₃²). A click in the section chooses all three.",
+    )
     periodic: str = which()
     count: float = crossings_of_each()
     indicator: str = colouring()
@@ -108,8 +135,10 @@ class Quartic(State):
     def limits(self) -> Mapping[str, Slider]:
         """The slider of h begins above −|b3|, those of q span the region."""
         low, top, step = slider_within(abs(self.body.b3))
-        return {"h": (0.9 * low, 4.0 * top, step),
-                **dict(zip(("Q1", "Q2"), map(slider_within, self.body.axes), strict=True))}
+        return {
+            "h": (0.9 * low, 4.0 * top, step),
+            **dict(zip(("Q1", "Q2"), map(slider_within, self.body.axes), strict=True)),
+        }
 
     @cached_property
     def body(self) -> model.QuarticBody:
@@ -192,8 +221,10 @@ class Quartic(State):
         return Proof(self.orbit, self.certain)
 
     def _crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
-        return (Task(model.quartic_section, (self.body, (self.given,), crossings, level, _MOST_STEPS)),
-                Task(model.spread_section, (self.body, _ORBITS, crossings, level, _MOST_STEPS)))
+        return (
+            Task(model.quartic_section, (self.body, (self.given,), crossings, level, _MOST_STEPS)),
+            Task(model.spread_section, (self.body, _ORBITS, crossings, level, _MOST_STEPS)),
+        )
 
     # ---- the pictures -------------------------------------------------------------------------------------------
 
@@ -261,33 +292,63 @@ class Quartic(State):
 
 
 SCENE = Scene(
-    Quartic, __file__, place=7, presets=PRESETS, measures=(
-        section_trial(lambda s: s.section), indicator_trial(lambda s: s.megno)),
+    Quartic,
+    __file__,
+    place=7,
+    presets=PRESETS,
+    measures=(section_trial(lambda s: s.section), indicator_trial(lambda s: s.megno)),
     charts=exponents(SYSTEM.name, lambda s: s.given),
-    group="Heavy body", essential=("ratio", "h", "Q1", "Q2"),
+    group="Heavy body",
+    essential=("ratio", "h", "Q1", "Q2"),
     title="Principal axis, b₁ = b₂ = 0",
     summary="The body as a point in a quartic potential: integrable for I₁₁ = I₂₂, else curves and seas in a section.",
-    tracks={"orbit": lambda s: plane_domain.plane_columns(
-        s.orbit.path, s.body.to_plane(s.orbit.path.states)[0], momentum=s.momentum)},
+    tracks={
+        "orbit": lambda s: plane_domain.plane_columns(
+            s.orbit.path, s.body.to_plane(s.orbit.path.states)[0], momentum=s.momentum
+        )
+    },
     views=(
         constrained_body(),
         plane_domain.picture(
-            "Point in the potential γ₃²/2", Quartic._about_domain, lambda s: s.half_width, names=("Q1", "Q2"),
-            layers=(*plane_domain.ground(lambda s: s.body.ellipse(), lambda s: s.body.holes(),
-                                         lambda s: s.body.equipotentials(_HEIGHTS)),
-                    *plane_domain.orbit(Quartic.first, label="where it starts"))),
-        Plot(name="section", caption=Quartic._about_section, axes=_NAMES,
-             on_click=Quartic.start_at,
-             title=lambda s: "Section {0} = 0, {0} growing".format("q₂" if s.body.across else "q₁"),
-             x=lambda s: s.section_axes().x, y=_P_AXIS, message=lambda s: s.section.reason,
-             layers=(indicator_layer(lambda s: s.megno), *section_plane.layers(
-                 lambda s: s.section.points, others=lambda s: s.section.others, forbidden=Quartic.impossible),
-                 *layers(lambda s: s.periodic_orbit))),
-        Sphere(caption=Quartic._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: centre_of_mass((0.0, 0.0, s.b3)),
-               circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3]), *s.proof.around]),
+            "Point in the potential γ₃²/2",
+            Quartic._about_domain,
+            lambda s: s.half_width,
+            names=("Q1", "Q2"),
+            layers=(
+                *plane_domain.ground(
+                    lambda s: s.body.ellipse(), lambda s: s.body.holes(), lambda s: s.body.equipotentials(_HEIGHTS)
+                ),
+                *plane_domain.orbit(Quartic.first, label="where it starts"),
+            ),
+        ),
+        Plot(
+            name="section",
+            caption=Quartic._about_section,
+            axes=_NAMES,
+            on_click=Quartic.start_at,
+            title=lambda s: "Section {0} = 0, {0} growing".format("q₂" if s.body.across else "q₁"),
+            x=lambda s: s.section_axes().x,
+            y=_P_AXIS,
+            message=lambda s: s.section.reason,
+            layers=(
+                indicator_layer(lambda s: s.megno),
+                *section_plane.layers(
+                    lambda s: s.section.points, others=lambda s: s.section.others, forbidden=Quartic.impossible
+                ),
+                *layers(lambda s: s.periodic_orbit),
+            ),
+        ),
+        Sphere(
+            caption=Quartic._about_sphere,
+            looks={"orbit": "orbit"},
+            axis=lambda s: centre_of_mass((0.0, 0.0, s.b3)),
+            circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3]), *s.proof.around],
+        ),
         plane_domain.momentum_picture(
-            lambda s: (s.orbit.path.times, s.momentum), least=lambda s: 1e-3 * max(s.body.axes),
-            is_integral=lambda s: s.body.integrable),
+            lambda s: (s.orbit.path.times, s.momentum),
+            least=lambda s: 1e-3 * max(s.body.axes),
+            is_integral=lambda s: s.body.integrable,
+        ),
         branch_picture(lambda s: s.branch),
     ),
 )

@@ -63,8 +63,9 @@ PRESETS = (
     Preset("One plateau, and no ladder", over="h, f", line="f"),
     Preset("Along h", over="h, f", line="h", f=0.6),
     Preset("Along a, to the boundary of the plateau", over="h, a", line="a", h=0.5, f=0.6),
-    Preset("A closer look at ρ = −1/3", over="h, f", line="f", part_hf="0.1,0.4;0.3,0.6", rational="−1/3", h=0.25,
-           f=0.45),
+    Preset(
+        "A closer look at ρ = −1/3", over="h, f", line="f", part_hf="0.1,0.4;0.3,0.6", rational="−1/3", h=0.25, f=0.45
+    ),
     Preset("Euler–Poisson, figure 11", over="h, f", line="h", h=5.01253, f=2.0025, part_hf="-1,-4;8,4"),
 )
 
@@ -77,12 +78,25 @@ class RotationNumber(State):
     h: float = parameter(known.H_HESS, 0.5, step=0.005)
     f: float = parameter(known.F_HESS, 0.8, step=0.005, doc="Area integral in units b = 1.")
     over: str = choice("Map over", PLANES, "h, f", group="State", doc="The two parameters of the map; the third stays.")
-    line: str = choice("Line along", ("f", "h", "a"), "f",
-                       group="State", doc="The parameter along which ρ and the trace are drawn.")
-    rational: str = choice("Rational number", _RATIONALS, "−1/4", group="State",
-                           doc="On the line the torus with this ρ is looked for, and how many cycles it has.")
-    epsilon: float = number("ε", 0.25, (0.0, 0.3), 0.005, bounds=(0.0, 0.33), label="Away from Möbius, ε",
-                            doc="The other family: Θ(φ + ε sin 3φ). It is no Möbius map, and its ρ makes a ladder.")
+    line: str = choice(
+        "Line along", ("f", "h", "a"), "f", group="State", doc="The parameter along which ρ and the trace are drawn."
+    )
+    rational: str = choice(
+        "Rational number",
+        _RATIONALS,
+        "−1/4",
+        group="State",
+        doc="On the line the torus with this ρ is looked for, and how many cycles it has.",
+    )
+    epsilon: float = number(
+        "ε",
+        0.25,
+        (0.0, 0.3),
+        0.005,
+        bounds=(0.0, 0.33),
+        label="Away from Möbius, ε",
+        doc="The other family: Θ(φ + ε sin 3φ). It is no Möbius map, and its ρ makes a ladder.",
+    )
     accuracy: str = accuracy_level()
     # Each map has a window of its own.
     part_hf: str = _window("h, f")
@@ -91,8 +105,13 @@ class RotationNumber(State):
 
     def admitted(self, notes: list[str]) -> RotationNumber:
         """f inside the region of this h, and windows that are some."""
-        return replace(self, f=possible_f(self.h, self.f, notes), part_hf=tidy_window(self.part_hf),
-                       part_ha=tidy_window(self.part_ha), part_fa=tidy_window(self.part_fa))
+        return replace(
+            self,
+            f=possible_f(self.h, self.f, notes),
+            part_hf=tidy_window(self.part_hf),
+            part_ha=tidy_window(self.part_ha),
+            part_fa=tidy_window(self.part_fa),
+        )
 
     @property
     def torus(self) -> Torus:
@@ -133,9 +152,14 @@ class RotationNumber(State):
         common = (self.over, self.beside, self.window)
         plan = self.plan(Computation.GRID)
         fine = plan.grid(_FINE)
-        parts = [] if self.dragging else [
-            self.work.later(mechanics.rows, *common, fine, first, min(first + _ROWS, fine[1]), plan.level)
-            for first in range(0, fine[1], _ROWS)]
+        parts = (
+            []
+            if self.dragging
+            else [
+                self.work.later(mechanics.rows, *common, fine, first, min(first + _ROWS, fine[1]), plan.level)
+                for first in range(0, fine[1], _ROWS)
+            ]
+        )
         known = [part for part in parts if part is not None]
         if parts and len(known) == len(parts):
             return mechanics.together(known), fine
@@ -148,8 +172,10 @@ class RotationNumber(State):
 
     def lock(self, plan: Plan) -> Task:
         """What finds |t| = 2 in the map, (n, 2)."""
-        return Task(mechanics.lock_curve, (self.over, self.beside, (*self.window[0], *self.window[1]), plan.level,
-                                           plan.side(_ON_CURVE)))
+        return Task(
+            mechanics.lock_curve,
+            (self.over, self.beside, (*self.window[0], *self.window[1]), plan.level, plan.side(_ON_CURVE)),
+        )
 
     @property
     def frame(self) -> Frame:
@@ -184,9 +210,18 @@ class RotationNumber(State):
     @cached_property
     def perturbed(self) -> Array | None:
         """ρ of the other family there, as soon as it is known; NaN where there is no torus."""
-        return None if self.dragging else self.work.later(
-            mechanics.perturbed_along, self.on_line, self.x.size, self.epsilon, self.plan(Computation.LINE).level,
-            self.plan(Computation.LINE).part(mechanics.TURNS))
+        return (
+            None
+            if self.dragging
+            else self.work.later(
+                mechanics.perturbed_along,
+                self.on_line,
+                self.x.size,
+                self.epsilon,
+                self.plan(Computation.LINE).level,
+                self.plan(Computation.LINE).part(mechanics.TURNS),
+            )
+        )
 
     @property
     def sought(self) -> Fraction:
@@ -217,8 +252,9 @@ class RotationNumber(State):
     def line_in_map(self) -> list[Array]:
         """The line through the torus, as far as the map shows it."""
         (x, y), (across, up) = self.place, self.sides
-        return rotation_plane.across(*self.window, y=y if self.line == across else None,
-                                     x=x if self.line == up else None)
+        return rotation_plane.across(
+            *self.window, y=y if self.line == across else None, x=x if self.line == up else None
+        )
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -226,16 +262,20 @@ class RotationNumber(State):
         rho = str(self.sought).replace("-", "−")
         if self.periodic is not None:
             place = digits(self.on_line.place(self.periodic.torus), 6)
-            return (f"ρ = {rho} at {self.line} = {place}: |Θ^{self.sought.denominator} − id| ≤ "
-                    f"{digits(self.periodic.defect, 1)}, every orbit is periodic.")
+            return (
+                f"ρ = {rho} at {self.line} = {place}: |Θ^{self.sought.denominator} − id| ≤ "
+                f"{digits(self.periodic.defect, 1)}, every orbit is periodic."
+            )
         return "No plateau but ρ = 0." if self.perturbed is None else f"No torus of the line has ρ = {rho}."
 
     def _about_circle(self) -> str:
         if self.map is None:
             return "Separatrix: no return."
         kind = {"elliptic": "no cycle", "parabolic": "one cycle", "hyperbolic": "two cycles"}[self.map.kind]
-        return (f"a = {digits(self.a)}, h = {digits(self.h)}, f = {digits(self.f)}: {self.map.kind}, {kind}, "
-                f"ρ = {digits(self.map.rotation_number)}.")
+        return (
+            f"a = {digits(self.a)}, h = {digits(self.h)}, f = {digits(self.f)}: {self.map.kind}, {kind}, "
+            f"ρ = {digits(self.map.rotation_number)}."
+        )
 
     def derived(self) -> Iterator[str]:
         """The circle map, and the ladder of the other family."""
@@ -253,8 +293,13 @@ class RotationNumber(State):
         """The map and the circle map."""
         if self.known("grid"):
             m, n = self.grid[1]
-            error = None if self.dragging else self.work.later(
-                mechanics.rows_error, self.over, self.beside, self.window, self.plan(Computation.GRID).level)
+            error = (
+                None
+                if self.dragging
+                else self.work.later(
+                    mechanics.rows_error, self.over, self.beside, self.window, self.plan(Computation.GRID).level
+                )
+            )
             yield f"map {m} × {n}" + (f", ρ to {error:.1e} (99 of 100 cells)" if error is not None else "")
         if self.map is not None:
             yield f"{self.map.level}: circle map error ≤ {self.map.error_estimate:.1e} ({self.map.status})"
@@ -291,8 +336,12 @@ def _map_look(s: RotationNumber, found: Map) -> Cells:
 def _line(s: RotationNumber, places: int, level: Level, turns: int = mechanics.TURNS) -> Array:
     """ρ of the tori on the line, and that of the other family."""
     values = mechanics.along(s.on_line, places, level)
-    return np.stack([np.where(values.possible, values.rho, np.nan),
-                     mechanics.perturbed_along(s.on_line, places, s.epsilon, level, turns)])
+    return np.stack(
+        [
+            np.where(values.possible, values.rho, np.nan),
+            mechanics.perturbed_along(s.on_line, places, s.epsilon, level, turns),
+        ]
+    )
 
 
 def _line_error(s: RotationNumber, found: Array, truth: Array) -> float:
@@ -304,47 +353,97 @@ def _line_error(s: RotationNumber, found: Array, truth: Array) -> float:
 
 def _line_look(s: RotationNumber, found: Array) -> Curves:
     x = s.on_line.places(found.shape[1])
-    return Curves(Frame(Axes(s.on_line.ends, rotation_line.RHO), (s.line, "ρ")), tuple(
-        part for rho in found
-        for part in pieces(np.column_stack([x, np.nan_to_num(rho)]), np.isfinite(rho), rotation_line.JUMP)))
+    return Curves(
+        Frame(Axes(s.on_line.ends, rotation_line.RHO), (s.line, "ρ")),
+        tuple(
+            part
+            for rho in found
+            for part in pieces(np.column_stack([x, np.nan_to_num(rho)]), np.isfinite(rho), rotation_line.JUMP)
+        ),
+    )
 
 
 _MEASURES: tuple[Trial[RotationNumber], ...] = (
-    Trial(Computation.GRID, ("map",), lambda s, plan: (_rows(s, plan.grid(_FINE), plan.level), plan.grid(_FINE)),
-          _map_error, _map_look, COLOUR_UNIT),
-    Trial(Computation.LINE, ("line", "trace"),
-          lambda s, plan: _line(s, plan.side(_ON_LINE), plan.level, plan.part(mechanics.TURNS)),
-          _line_error, _line_look),
-    boundary("map", lambda s, plan: s.lock(plan).now(), lambda s: s.frame))
+    Trial(
+        Computation.GRID,
+        ("map",),
+        lambda s, plan: (_rows(s, plan.grid(_FINE), plan.level), plan.grid(_FINE)),
+        _map_error,
+        _map_look,
+        COLOUR_UNIT,
+    ),
+    Trial(
+        Computation.LINE,
+        ("line", "trace"),
+        lambda s, plan: _line(s, plan.side(_ON_LINE), plan.level, plan.part(mechanics.TURNS)),
+        _line_error,
+        _line_look,
+    ),
+    boundary("map", lambda s, plan: s.lock(plan).now(), lambda s: s.frame),
+)
 
 SCENE = Scene(
-    RotationNumber, __file__, place=8, presets=PRESETS, measures=_MEASURES,
+    RotationNumber,
+    __file__,
+    place=8,
+    presets=PRESETS,
+    measures=_MEASURES,
     charts=of_torus(lambda s: (s.a, s.h, s.f), trace=("trace", "circle")),
-    group="Heavy body", essential=("a", "h", "f"),
+    group="Heavy body",
+    essential=("a", "h", "f"),
     title="Rotation number",
     summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? One plateau, and a family that has many.",
     views=(
-        Plot(name="map", title=lambda s: f"Rotation number ρ over ({s.over})", axes=lambda s: s.sides,
-             caption=lambda s: "One plateau, ρ = 0, where it locks; else ρ changes everywhere.",
-             x=lambda s: s.window[0], y=lambda s: s.window[1], on_click=lambda s, x, y: {s.sides[0]: x, s.sides[1]: y},
-             on_box=lambda s, corners: boxed(corners, _corners(s.over, _AT_MOST), s.part),
-             layers=rotation_plane.layers(
-                 grids=lambda s: s.grids, boundary=lambda s: s.boundary, across=RotationNumber.line_in_map,
-                 impossible=lambda s: rotation_plane.outside(s.over, s.torus, *s.window),
-                 edges=lambda s: rotation_plane.edges(s.over, s.torus, *s.window),
-                 here=RotationNumber.here)),
-        Plot(name="line", title=lambda s: f"ρ along {s.line}", caption=RotationNumber._about_line,
-             axes=lambda s: (s.line, "ρ"), x=lambda s: s.on_line.ends, y=rotation_line.RHO,
-             on_click=lambda s, x, y: {s.line: x}, layers=rotation_line.rho_layers(
-                 line=lambda s: s.on_line, values=lambda s: s.along, perturbed=lambda s: s.perturbed,
-                 rational=lambda s: None if s.periodic is None else float(s.sought),
-                 place=lambda s: s.on_line.place(s.torus))),
-        Plot(name="trace", title=lambda s: f"|trace| along {s.line}", axes=lambda s: (s.line, "|trace|"),
-             caption=lambda s: "Elliptic below 2: no cycle; hyperbolic above: two limit cycles.",
-             x=lambda s: s.on_line.ends, y=rotation_line.TRACE, on_click=lambda s, x, y: {s.line: x},
-             layers=rotation_line.trace_layers(line=lambda s: s.on_line, values=lambda s: s.along,
-                                               place=lambda s: s.on_line.place(s.torus))),
-        circle.picture(map=lambda s: s.map, caption=RotationNumber._about_circle,
-                       iterates=lambda s: None if s.map is None else s.map.iterate(0.5, _ITERATES)),
+        Plot(
+            name="map",
+            title=lambda s: f"Rotation number ρ over ({s.over})",
+            axes=lambda s: s.sides,
+            caption=lambda s: "One plateau, ρ = 0, where it locks; else ρ changes everywhere.",
+            x=lambda s: s.window[0],
+            y=lambda s: s.window[1],
+            on_click=lambda s, x, y: {s.sides[0]: x, s.sides[1]: y},
+            on_box=lambda s, corners: boxed(corners, _corners(s.over, _AT_MOST), s.part),
+            layers=rotation_plane.layers(
+                grids=lambda s: s.grids,
+                boundary=lambda s: s.boundary,
+                across=RotationNumber.line_in_map,
+                impossible=lambda s: rotation_plane.outside(s.over, s.torus, *s.window),
+                edges=lambda s: rotation_plane.edges(s.over, s.torus, *s.window),
+                here=RotationNumber.here,
+            ),
+        ),
+        Plot(
+            name="line",
+            title=lambda s: f"ρ along {s.line}",
+            caption=RotationNumber._about_line,
+            axes=lambda s: (s.line, "ρ"),
+            x=lambda s: s.on_line.ends,
+            y=rotation_line.RHO,
+            on_click=lambda s, x, y: {s.line: x},
+            layers=rotation_line.rho_layers(
+                line=lambda s: s.on_line,
+                values=lambda s: s.along,
+                perturbed=lambda s: s.perturbed,
+                rational=lambda s: None if s.periodic is None else float(s.sought),
+                place=lambda s: s.on_line.place(s.torus),
+            ),
+        ),
+        Plot(
+            name="trace",
+            title=lambda s: f"|trace| along {s.line}",
+            axes=lambda s: (s.line, "|trace|"),
+            caption=lambda s: "Elliptic below 2: no cycle; hyperbolic above: two limit cycles.",
+            x=lambda s: s.on_line.ends,
+            y=rotation_line.TRACE,
+            on_click=lambda s, x, y: {s.line: x},
+            layers=rotation_line.trace_layers(
+                line=lambda s: s.on_line, values=lambda s: s.along, place=lambda s: s.on_line.place(s.torus)
+            ),
+        ),
+        circle.picture(
+            map=lambda s: s.map,
+            caption=RotationNumber._about_circle,
+            iterates=lambda s: None if s.map is None else s.map.iterate(0.5, _ITERATES),
+        ),
     ),
 )

@@ -55,13 +55,20 @@ class Scattering(State):
     I22: float = parameter(free_body.I22)
     I13: float = parameter(free_body.I13)
     I23: float = parameter(free_body.I23, 0.8)
-    k: float = parameter(known.K_DRIVES_I11, 2.0, doc="I₁₁ = I₂₂ + k|k| (I₁₃² + I₂₃²)/I₂₂. With I₁₃ = 0 and k odd all "
-                         "orbits are reversed: θ⁺ = π − θ⁻.")
+    k: float = parameter(
+        known.K_DRIVES_I11,
+        2.0,
+        doc="I₁₁ = I₂₂ + k|k| (I₁₃² + I₂₃²)/I₂₂. With I₁₃ = 0 and k odd all orbits are reversed: θ⁺ = π − θ⁻.",
+    )
     theta: float = parameter(known.THETA, math.pi / 2)
     phi: float = parameter(PHI, label="Phase φ of the orbit shown")
-    digits: float = parameter(DIGITS, 5.30103, softbounds=(1.0, 12.0), bounds=(0.5, 300.0),
-                              doc="The start is δ = 10^−digits of |ω| away from the unstable point; it only shifts the "
-                                  "phase.")
+    digits: float = parameter(
+        DIGITS,
+        5.30103,
+        softbounds=(1.0, 12.0),
+        bounds=(0.5, 300.0),
+        doc="The start is δ = 10^−digits of |ω| away from the unstable point; it only shifts the phase.",
+    )
     accuracy: str = accuracy_level()
 
     def limits(self) -> Mapping[str, Slider]:
@@ -175,8 +182,10 @@ class Scattering(State):
     def status(self) -> Iterator[str]:
         """The rotation and the orbit."""
         found = self.map
-        yield (f"{found.level}: rotation {found.cost.steps} Taylor steps, error ≤ {found.error_estimate:.1e} "
-               f"({found.status})")
+        yield (
+            f"{found.level}: rotation {found.cost.steps} Taylor steps, error ≤ {found.error_estimate:.1e} "
+            f"({found.status})"
+        )
         if self.known("orbit"):
             yield f"orbit {self.orbit.times.size} points, error ≤ {self.orbit.error_estimate:.1e}"
             yield from drift_status([self.orbit.drift])
@@ -184,8 +193,10 @@ class Scattering(State):
     def notes(self) -> Iterator[str]:
         """A start that is rounded."""
         if self.I13 * self.I23 != 0.0 and self.digits > 8.0:
-            yield ("With I₁₃I₂₃ ≠ 0 the start of the orbit is rounded to 1e−16: its passage is a little early or late, "
-                   f"and its Γ⁺ is off by up to 1e−{16.0 - self.digits:.0f}.")
+            yield (
+                "With I₁₃I₂₃ ≠ 0 the start of the orbit is rounded to 1e−16: its passage is a little early or late, "
+                f"and its Γ⁺ is off by up to 1e−{16.0 - self.digits:.0f}."
+            )
 
 
 def _map(s: Scattering, plan: Plan) -> Array:
@@ -195,27 +206,54 @@ def _map(s: Scattering, plan: Plan) -> Array:
 
 
 _MAP: Trial[Scattering] = Trial(
-    Computation.MAP, ("curve", "map"), _map, lambda s, found, truth: curve_error(found, truth, math.pi),
-    lambda s, found: Curves(square.FRAME, (np.column_stack([_PHASES, found]),)))
+    Computation.MAP,
+    ("curve", "map"),
+    _map,
+    lambda s, found, truth: curve_error(found, truth, math.pi),
+    lambda s, found: Curves(square.FRAME, (np.column_stack([_PHASES, found]),)),
+)
 
 SCENE = Scene(
-    Scattering, __file__, place=4, presets=PRESETS, measures=(_MAP,), charts=(
+    Scattering,
+    __file__,
+    place=4,
+    presets=PRESETS,
+    measures=(_MAP,),
+    charts=(
         Charted("theta-plus", lambda s: {**tensor_of(s.body), "theta": s.theta, "phi": s.phi}),
-        Charted("cos-chi", lambda s: tensor_of(s.body), ("chi",))),
-    group="Free body", essential=("k", "I23", "theta", "phi"), handle="phi",
+        Charted("cos-chi", lambda s: tensor_of(s.body), ("chi",)),
+    ),
+    group="Free body",
+    essential=("k", "I23", "theta", "phi"),
+    handle="phi",
     title="Scattering",
     summary="No field: from the circle γ leaves and its phase to the circle it joins, exact for all phases at once.",
     tracks={"orbit": lambda s: velocity_columns(s.orbit.times, s.orbit.omega, s.orbit.gamma)},
     views=(
         constrained_body(field=False),
-        square.over_phases(Scattering._about_curve, layers=(
-            levels("levels", lambda s: (s.theta, math.pi - s.theta)),
-            curves("theta", lambda s: [np.column_stack([_PHASES, s.curve])], color=theme.ORBIT, label="θ⁺(φ); orbit"),
-            ring("chosen", lambda s: [(s.phi, s.theta_plus)], size=18.0, label="chosen"))),
+        square.over_phases(
+            Scattering._about_curve,
+            layers=(
+                levels("levels", lambda s: (s.theta, math.pi - s.theta)),
+                curves(
+                    "theta", lambda s: [np.column_stack([_PHASES, s.curve])], color=theme.ORBIT, label="θ⁺(φ); orbit"
+                ),
+                ring("chosen", lambda s: [(s.phi, s.theta_plus)], size=18.0, label="chosen"),
+            ),
+        ),
         square.over_square(Scattering._about_map, Scattering.grid, lambda s: (s.phi, s.theta)),
-        sphere(Scattering._about_sphere, xi=lambda s: s.points.xi, left=lambda s: s.theta,
-               joined=lambda s: math.cos(s.theta_plus), signs=CIRCLES),
-        square.over_orders(lambda s: s.k_axis, lambda s: s.orders, lambda s: (s.k, s.limit.cos_chi),
-                           closed=lambda s: model.cos_chi(s.body)),
+        sphere(
+            Scattering._about_sphere,
+            xi=lambda s: s.points.xi,
+            left=lambda s: s.theta,
+            joined=lambda s: math.cos(s.theta_plus),
+            signs=CIRCLES,
+        ),
+        square.over_orders(
+            lambda s: s.k_axis,
+            lambda s: s.orders,
+            lambda s: (s.k, s.limit.cos_chi),
+            closed=lambda s: model.cos_chi(s.body),
+        ),
     ),
 )

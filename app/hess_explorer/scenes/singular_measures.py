@@ -41,8 +41,17 @@ PRESETS = (
     Preset("A small patch and its volume", **_PATCH, beside="nothing"),
     Preset("Beside: on a principal axis volume is kept", **_PATCH, beside="principal axis"),
     Preset("A density that vanishes: |F₂|/|s| on F₂ = 0", **_CHOICES, I11=1.64, I22=1.0, I13=0.0, I23=0.8),
-    Preset("Chaplygin ball, 𝒟 = 3: γ gathers too (not a rigid body)", **_CHOICES, I11=1.0, I22=1.5, I13=0.7,
-           I23=1.2, D=3.0, h=3.0, span=11.0),
+    Preset(
+        "Chaplygin ball, 𝒟 = 3: γ gathers too (not a rigid body)",
+        **_CHOICES,
+        I11=1.0,
+        I22=1.5,
+        I13=0.7,
+        I23=1.2,
+        D=3.0,
+        h=3.0,
+        span=11.0,
+    ),
 )
 
 
@@ -52,37 +61,76 @@ class SingularMeasures(State):
 
     I11: float = parameter(known.I11, 2.0)
     I22: float = parameter(known.I22)
-    I13: float = parameter(known.I13, 0.5,
-                           doc="Product of inertia; with I₂₃ it sets the manifold s = I₁₃ω₁ + I₂₃ω₂ = 0.")
+    I13: float = parameter(
+        known.I13, 0.5, doc="Product of inertia; with I₂₃ it sets the manifold s = I₁₃ω₁ + I₂₃ω₂ = 0."
+    )
     I23: float = parameter(known.I23, 0.7, doc="Product of inertia; not 0 together with I₁₃.")
-    D: float = parameter(known.D, 0.0, doc="0: free Suslov problem; otherwise the Chaplygin ball, whose inner ball has "
-                         "this 𝒟.")
+    D: float = parameter(
+        known.D, 0.0, doc="0: free Suslov problem; otherwise the Chaplygin ball, whose inner ball has this 𝒟."
+    )
     h: float = parameter(known.H_FREE_BALL, 2.0, doc="Of the middle of the cloud; without a field h > 0.")
-    spread: float = number("δ", 0.1, (0.01, 0.5), 0.01, bounds=(1e-3, 0.9), label="Spread δ",
-                           doc="Shell: E = h(1 ± δ). Patch: radius of its disc of ω, in |ω|, and of its cap of γ, in "
-                               "radians.")
-    angle: float = number("φ", -0.3, (-3.14, 3.14), 0.01, bounds=ONE_TURN, label="Direction φ of the patch",
-                          doc="Angle of the patch in the plane of ω₁ and ω₂, in radians. A click there chooses it.")
+    spread: float = number(
+        "δ",
+        0.1,
+        (0.01, 0.5),
+        0.01,
+        bounds=(1e-3, 0.9),
+        label="Spread δ",
+        doc="Shell: E = h(1 ± δ). Patch: radius of its disc of ω, in |ω|, and of its cap of γ, in radians.",
+    )
+    angle: float = number(
+        "φ",
+        -0.3,
+        (-3.14, 3.14),
+        0.01,
+        bounds=ONE_TURN,
+        label="Direction φ of the patch",
+        doc="Angle of the patch in the plane of ω₁ and ω₂, in radians. A click there chooses it.",
+    )
     span: float = time_span(14.0, 40.0, step=0.5, what="the cloud")
-    b3: float = parameter(known.B3, 1.0, label="Field b₃ of the cloud beside", group="State",
-                          doc="With I₁₃ = I₂₃ = 0 nothing would move without a field; the first cloud has none.")
-    start: str = choice("Cloud", ("energy shell", "small patch"), "energy shell",
-                        group="State",
-                        doc="All states with about the energy h, or those about one state; evenly spread over the "
-                            "phase volume.")
-    direction: str = choice("Time", ("forward", "backward"), "forward",
-                            group="State", doc="Forward to the stable half of s = 0, backward to the other.")
-    beside: str = choice("Beside", ("nothing", "principal axis"), "nothing",
-                         group="State", doc="The same points with I₁₃ = I₂₃ = 0 and the field b₃, in another colour.")
-    along: str = choice("Fourth picture", ("divergence", "volume"), "divergence",
-                        doc="The divergence div v at the points, or the logarithm of small volumes about them.")
+    b3: float = parameter(
+        known.B3,
+        1.0,
+        label="Field b₃ of the cloud beside",
+        group="State",
+        doc="With I₁₃ = I₂₃ = 0 nothing would move without a field; the first cloud has none.",
+    )
+    start: str = choice(
+        "Cloud",
+        ("energy shell", "small patch"),
+        "energy shell",
+        group="State",
+        doc="All states with about the energy h, or those about one state; evenly spread over the phase volume.",
+    )
+    direction: str = choice(
+        "Time",
+        ("forward", "backward"),
+        "forward",
+        group="State",
+        doc="Forward to the stable half of s = 0, backward to the other.",
+    )
+    beside: str = choice(
+        "Beside",
+        ("nothing", "principal axis"),
+        "nothing",
+        group="State",
+        doc="The same points with I₁₃ = I₂₃ = 0 and the field b₃, in another colour.",
+    )
+    along: str = choice(
+        "Fourth picture",
+        ("divergence", "volume"),
+        "divergence",
+        doc="The divergence div v at the points, or the logarithm of small volumes about them.",
+    )
     points: str = choice("Points", ("1000", "10000"), "10000", doc="How many points both clouds have together.")
     accuracy: str = accuracy_level()
 
     def idle(self) -> Mapping[str, float]:
         """Of a patch, and of a cloud beside, that are not there."""
-        return {**({} if self.start == "small patch" else {"angle": self.angle}),
-                **({} if self.beside == "principal axis" else {"b3": self.b3})}
+        return {
+            **({} if self.start == "small patch" else {"angle": self.angle}),
+            **({} if self.beside == "principal axis" else {"b3": self.b3}),
+        }
 
     @cached_property
     def body(self) -> BallBody:
@@ -177,34 +225,63 @@ def _count(found: Clouds) -> int:
 
 
 _CLOUD: Trial[SingularMeasures] = Trial(
-    Computation.CLOUD, (), lambda s, plan: s.task(plan.part(int(s.points), _FEW), plan.level).now(),
+    Computation.CLOUD,
+    (),
+    lambda s, plan: s.task(plan.part(int(s.points), _FEW), plan.level).now(),
     lambda s, found, truth: compared(cloud.look(found), cloud.look(_exact(s, found))).largest,
-    lambda s, found: cloud.look(found), alike=True)
+    lambda s, found: cloud.look(found),
+    alike=True,
+)
 
 SCENE = Scene(
-    SingularMeasures, __file__, place=16, presets=PRESETS, measures=(_CLOUD,),
-    group="Free body", essential=("h", "I23", "D", "spread"),
+    SingularMeasures,
+    __file__,
+    place=16,
+    presets=PRESETS,
+    measures=(_CLOUD,),
+    group="Free body",
+    essential=("h", "I23", "D", "spread"),
     title="Singular measures",
     summary="10 000 phase points are drawn onto an invariant manifold, where an invariant density is infinite.",
     tracks={"orbit": SingularMeasures.track},
     views=(
         cloud.CloudPlane(
-            name="omega", title="Angular velocity (ω₁, ω₂)", caption=SingularMeasures._about_velocity,
-            clouds=lambda s: s.clouds, strip=lambda s: s.strip, b3=lambda s: s.b3, density="density-now",
+            name="omega",
+            title="Angular velocity (ω₁, ω₂)",
+            caption=SingularMeasures._about_velocity,
+            clouds=lambda s: s.clouds,
+            strip=lambda s: s.strip,
+            b3=lambda s: s.b3,
+            density="density-now",
             half_width=lambda s: cloud.room(s.clouds),
-            on_click=lambda s, x, y: {"start": "small patch", "angle": math.atan2(y, x)}),
-        Sphere(caption=SingularMeasures._about_sphere, looks={}, clouds="omega",
-               axis=lambda s: Direction(s.strip.xi, "ξ")),
+            on_click=lambda s, x, y: {"start": "small patch", "angle": math.atan2(y, x)},
+        ),
+        Sphere(
+            caption=SingularMeasures._about_sphere, looks={}, clouds="omega", axis=lambda s: Direction(s.strip.xi, "ξ")
+        ),
         Plot(
-            name="density", title="Density against |s|", caption=SingularMeasures._about_density, log="xy",
-            axes=("|s| = |I₁₃ω₁ + I₂₃ω₂|", "share of points per |s|"), y_tick_count=5, drawn_from=("omega",),
-            x=lambda s: cloud.density_axes(s.clouds).x, y=lambda s: cloud.density_axes(s.clouds).y,
-            layers=cloud.density_layers(lambda s: s.clouds.density)),
+            name="density",
+            title="Density against |s|",
+            caption=SingularMeasures._about_density,
+            log="xy",
+            axes=("|s| = |I₁₃ω₁ + I₂₃ω₂|", "share of points per |s|"),
+            y_tick_count=5,
+            drawn_from=("omega",),
+            x=lambda s: cloud.density_axes(s.clouds).x,
+            y=lambda s: cloud.density_axes(s.clouds).y,
+            layers=cloud.density_layers(lambda s: s.clouds.density),
+        ),
         Plot(
-            name="divergence", caption=SingularMeasures._about_course, axes=("t", "div v, or ln s(t)/s(0)"),
+            name="divergence",
+            caption=SingularMeasures._about_course,
+            axes=("t", "div v, or ln s(t)/s(0)"),
             title=lambda s: f"{'Divergence' if s.along == 'divergence' else 'Small volumes'} along the way",
-            x=lambda s: (0.0, float(s.times[-1])), y=lambda s: s.heights, dot=("t", "mean"),
-            layers=cloud.course_layers(lambda s: s.times, lambda s: s.on_show,
-                                       beside=lambda s: s.clouds.other is not None)),
+            x=lambda s: (0.0, float(s.times[-1])),
+            y=lambda s: s.heights,
+            dot=("t", "mean"),
+            layers=cloud.course_layers(
+                lambda s: s.times, lambda s: s.on_show, beside=lambda s: s.clouds.other is not None
+            ),
+        ),
     ),
 )

@@ -23,9 +23,19 @@ __all__ = ["SpeedAccuracy", "speed_and_accuracy"]
 _COMPARED = "difference"
 """The parameter that says what is compared."""
 _COSTLIEST = (
-    Computation.ROTATION, Computation.BASINS, Computation.INDICATOR, Computation.SECTION, Computation.GRID,
-    Computation.CLOUD, Computation.COLOURS, Computation.MAP, Computation.CURVE, Computation.LINE, Computation.EXPONENT,
-    Computation.ORBIT)
+    Computation.ROTATION,
+    Computation.BASINS,
+    Computation.INDICATOR,
+    Computation.SECTION,
+    Computation.GRID,
+    Computation.CLOUD,
+    Computation.COLOURS,
+    Computation.MAP,
+    Computation.CURVE,
+    Computation.LINE,
+    Computation.EXPONENT,
+    Computation.ORBIT,
+)
 """From what takes longest on: as `hess-explorer bench --trade` measures it."""
 
 
@@ -111,8 +121,13 @@ class SpeedAccuracy(Scene[Study]):
     def specs(self) -> tuple[Spec, ...]:
         """The parameters of the other scene, and which of its computations is compared, where there are several."""
         kinds = tuple(str(trial.kind) for trial in self.other.trials)
-        choice = Choice(_COMPARED, "What is compared", kinds, self._costliest,
-                        "Of the scene, at the chosen level and at the next more exact one.")
+        choice = Choice(
+            _COMPARED,
+            "What is compared",
+            kinds,
+            self._costliest,
+            "Of the scene, at the chosen level and at the next more exact one.",
+        )
         return (*self.other.specs, choice) if len(kinds) > 1 else self.other.specs
 
     @cached_property
@@ -143,14 +158,25 @@ class SpeedAccuracy(Scene[Study]):
 def speed_and_accuracy(other: Scene[Any]) -> SpeedAccuracy:
     """The scene "Speed and accuracy" of another one, whether or not that shows a motion."""
     moving = other.has_motion
-    words, about = (("speed_accuracy", "Error, drift and cost of the motion on show") if moving else
-                    ("speed_accuracy_of_maps", "Cost and error of all that the scene computes"))
+    words, about = (
+        ("speed_accuracy", "Error, drift and cost of the motion on show")
+        if moving
+        else ("speed_accuracy_of_maps", "Cost and error of all that the scene computes")
+    )
     pictures: list[Picture[Study]] = [one.of_part(_precision) for one in Precision.pictures()] if moving else []
     if other.measures:
         pictures.append(Costs.picture(other.trials, folded=moving).of_part(lambda s: s.costs))
     pictures.append(Comparison.picture(folded=moving).of_part(lambda s: s.comparison))
     return SpeedAccuracy(
-        Study, str(Path(__file__).with_name(f"{words}.md")), other=other, title="Speed and accuracy",
-        presets=other.presets, place=other.place, group="Accuracy", essential=other.essential,
+        Study,
+        str(Path(__file__).with_name(f"{words}.md")),
+        other=other,
+        title="Speed and accuracy",
+        presets=other.presets,
+        place=other.place,
+        group="Accuracy",
+        essential=other.essential,
         summary=f"{about}, at every level of accuracy, measured here and now.",
-        tracks={"orbit": lambda s: _precision(s).track()} if moving else {}, views=tuple(pictures))
+        tracks={"orbit": lambda s: _precision(s).track()} if moving else {},
+        views=tuple(pictures),
+    )

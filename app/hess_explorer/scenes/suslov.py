@@ -57,25 +57,66 @@ _PLANES = {"γ₃ = 0": 3, "γ₁ = 0": 1, "γ₂ = 0": 2}
 _BOTH = "forward and backward in time"
 
 
-def _body(I11: float, I22: float, I13: float, I23: float, b1: float, b2: float, b3: float, E: float
-          ) -> dict[str, Value]:
-    return {"I11": I11, "I22": I22, "I13": I13, "I23": I23, "b1": b1, "b2": b2, "b3": b3,
-            "h": round(E + math.hypot(b1, b2, b3), 6), "plane": "γ₃ = 0"}
+def _body(
+    I11: float, I22: float, I13: float, I23: float, b1: float, b2: float, b3: float, E: float
+) -> dict[str, Value]:
+    return {
+        "I11": I11,
+        "I22": I22,
+        "I13": I13,
+        "I23": I23,
+        "b1": b1,
+        "b2": b2,
+        "b3": b3,
+        "h": round(E + math.hypot(b1, b2, b3), 6),
+        "plane": "γ₃ = 0",
+    }
 
 
-PRESETS = (*map(plain, (
-    Preset("A chaotic sea", plane="γ₃ = 0", colours=_BOTH, drop="all"),
-    Preset("Regular orbits (not a rigid body)", **_body(1.5, 4.0, 0.0, 0.8, 0.0, 1.0, 0.7, -0.521),
-           colours=_BOTH, drop="all", starts="-1.5,1"),
-    Preset("Strange attractor (not a rigid body)", **_body(1.0, 2.5, 0.6, 0.6, -1.0, -0.5, 0.7, 0.681),
-           colours="forward only", count=600.0, drop="the later half", long=3000.0),
-    Preset("Two attractors, and their basins", **_body(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0, 1.842), colours="basins",
-           count=400.0, drop="the later half"),
-    Preset("Reversal: what attracts, and what repels (not a rigid body)",
-           **_body(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3, 1.743), colours=_BOTH, count=100.0, drop="all"),
-    Preset("On a principal axis, I₁₃ = I₂₃ = 0: volume is kept", **_body(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.8, 0.7),
-           colours="forward only", drop="all", starts="0,1.5"),
-)),)
+PRESETS = (
+    *map(
+        plain,
+        (
+            Preset("A chaotic sea", plane="γ₃ = 0", colours=_BOTH, drop="all"),
+            Preset(
+                "Regular orbits (not a rigid body)",
+                **_body(1.5, 4.0, 0.0, 0.8, 0.0, 1.0, 0.7, -0.521),
+                colours=_BOTH,
+                drop="all",
+                starts="-1.5,1",
+            ),
+            Preset(
+                "Strange attractor (not a rigid body)",
+                **_body(1.0, 2.5, 0.6, 0.6, -1.0, -0.5, 0.7, 0.681),
+                colours="forward only",
+                count=600.0,
+                drop="the later half",
+                long=3000.0,
+            ),
+            Preset(
+                "Two attractors, and their basins",
+                **_body(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0, 1.842),
+                colours="basins",
+                count=400.0,
+                drop="the later half",
+            ),
+            Preset(
+                "Reversal: what attracts, and what repels (not a rigid body)",
+                **_body(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3, 1.743),
+                colours=_BOTH,
+                count=100.0,
+                drop="all",
+            ),
+            Preset(
+                "On a principal axis, I₁₃ = I₂₃ = 0: volume is kept",
+                **_body(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.8, 0.7),
+                colours="forward only",
+                drop="all",
+                starts="0,1.5",
+            ),
+        ),
+    ),
+)
 
 
 @dataclass(frozen=True)
@@ -90,10 +131,15 @@ class Suslov(State):
     b2: float = parameter(B2)
     b3: float = parameter(B3)
     h: float = parameter(H_SUSLOV)
-    plane: str = choice("Section", tuple(_PLANES), "γ₃ = 0",
-                        doc="The plane is crossed while that component of γ grows.")
-    colours: str = choice("Show", (_BOTH, "forward only", "basins"), _BOTH,
-                          doc="Basins: to which group of motions, or attractor, each point of the section leads.")
+    plane: str = choice(
+        "Section", tuple(_PLANES), "γ₃ = 0", doc="The plane is crossed while that component of γ grows."
+    )
+    colours: str = choice(
+        "Show",
+        (_BOTH, "forward only", "basins"),
+        _BOTH,
+        doc="Basins: to which group of motions, or attractor, each point of the section leads.",
+    )
     drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows what attracts.")
     periodic: str = which()
     indicator: str = colouring()
@@ -113,8 +159,7 @@ class Suslov(State):
         bottom = lowest_energy(self.body, _PLANES[self.plane]) + math.hypot(self.b1, self.b2, self.b3)
         if self.h <= bottom * (1.0 + 1e-9):
             state = replace(state, h=bottom * 1.01 + 1e-6)
-            notes.append(
-                f"Motions reach {self.plane} only for h > {digits(bottom)}: h is {digits(state.h)} now.")
+            notes.append(f"Motions reach {self.plane} only for h > {digits(bottom)}: h is {digits(state.h)} now.")
         return state
 
     # ---- the motion ---------------------------------------------------------------------------------------------
@@ -181,8 +226,7 @@ class Suslov(State):
     @cached_property
     def megno(self) -> Indicator:
         """The cells of the section by MEGNO, unless basins are shown."""
-        return Indicator(self.section, self.indicator == MEGNO and not self.basins.wanted,
-                         lambda: self.section.batches)
+        return Indicator(self.section, self.indicator == MEGNO and not self.basins.wanted, lambda: self.section.batches)
 
     @cached_property
     def basins(self) -> Basins:
@@ -216,14 +260,21 @@ class Suslov(State):
     @property
     def impossible_here(self) -> str:
         """What is said where nothing is possible in the window."""
-        return (f"Nothing is possible in this window with the energy E = {self.E:.6g}: choose a larger h, or press "
-                "Clear for the whole section.")
+        return (
+            f"Nothing is possible in this window with the energy E = {self.E:.6g}: choose a larger h, or press "
+            "Clear for the whole section."
+        )
 
     @cached_property
     def course(self) -> MeanDivergence | None:
         """The mean divergence along the orbit on show, when it is known; not while a slider is held."""
-        return None if self.exponent.later else self.work.later(
-            mean_divergence, self.body, self.start, self.plan(Computation.EXPONENT).share * self.long)
+        return (
+            None
+            if self.exponent.later
+            else self.work.later(
+                mean_divergence, self.body, self.start, self.plan(Computation.EXPONENT).share * self.long
+            )
+        )
 
     # ---- the other pictures -------------------------------------------------------------------------------------
 
@@ -236,8 +287,11 @@ class Suslov(State):
         if self.exponent.growth is not None:
             return tuple((np.array([0.0, self.long]), np.full(2, rate)) for rate in self.exponent.growth)
         exponent, course = self.exponent.found, self.course
-        return () if exponent is None or course is None else (
-            (exponent.times, exponent.rates), (course.times, course.mean))
+        return (
+            ()
+            if exponent is None or course is None
+            else ((exponent.times, exponent.rates), (course.times, course.mean))
+        )
 
     def rate(self, i: int) -> tuple[Array, Array] | None:
         """Return the curve of the exponent (0), or of the mean divergence (1)."""
@@ -273,8 +327,10 @@ class Suslov(State):
         backward = f", {len(second)} backward" if len(second) else ""
         # The later halves of the forward orbits show what attracts.
         later = joined(orbit[len(orbit) // 2 :] for orbit in self.section.kind(True))
-        return (f"{len(first)} points forward{backward}; the later forward ones lie in "
-                f"{occupied_cells(later, _CELLS)} of {_CELLS**2} cells.")
+        return (
+            f"{len(first)} points forward{backward}; the later forward ones lie in "
+            f"{occupied_cells(later, _CELLS)} of {_CELLS**2} cells."
+        )
 
     def _about_rates(self) -> str:
         if self.exponent.growth is not None:
@@ -283,8 +339,10 @@ class Suslov(State):
         exponent, course = self.exponent.found, self.course
         if exponent is None or course is None:
             return self.awaited("They are")
-        return (f"λ = {digits(exponent.value, 3)} ± {digits(exponent.spread, 2)}, "
-                f"div = {digits(float(course.mean[-1]), 3)} after t = {digits(float(course.times[-1]))}.")
+        return (
+            f"λ = {digits(exponent.value, 3)} ± {digits(exponent.spread, 2)}, "
+            f"div = {digits(float(course.mean[-1]), 3)} after t = {digits(float(course.times[-1]))}."
+        )
 
     def derived(self) -> Iterator[str]:
         """The energy, the start of the orbit on show, whether this is a rigid body."""
@@ -294,45 +352,76 @@ class Suslov(State):
         yield check_body(self.I11, self.I22, self.I13, self.I23).sentence
 
 
-def _batch(section: SuslovSection, starts: tuple[Start, ...], crossings: int, forward: bool,
-           level: Level) -> OrbitBatch:
-    points = suslov_points(section.body, section.k, starts, crossings, forward, level, threads=1,
-                           most_steps=_MOST_STEPS)
-    return OrbitBatch(tuple(frozen(section.places_of(states)) for states in points.states), (forward,) * len(starts),
-                      points.drift)
+def _batch(
+    section: SuslovSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
+) -> OrbitBatch:
+    points = suslov_points(
+        section.body, section.k, starts, crossings, forward, level, threads=1, most_steps=_MOST_STEPS
+    )
+    return OrbitBatch(
+        tuple(frozen(section.places_of(states)) for states in points.states), (forward,) * len(starts), points.drift
+    )
 
 
 SCENE = Scene(
-    Suslov, __file__, place=5, presets=PRESETS, measures=(
-        filled_trial(lambda s: s.section), indicator_trial(lambda s: s.megno), exponent_trial(lambda s: s.exponent),
-        basins_trial(lambda s: s.basins)),
+    Suslov,
+    __file__,
+    place=5,
+    presets=PRESETS,
+    measures=(
+        filled_trial(lambda s: s.section),
+        indicator_trial(lambda s: s.megno),
+        exponent_trial(lambda s: s.exponent),
+        basins_trial(lambda s: s.basins),
+    ),
     charts=(
         *exponents(SYSTEM.name, lambda s: s.section.asked_start, ("section",), time=lambda s: s.long),
         Charted("divergence-suslov", lambda s: {**motion_of(s.body, s.section.asked_start), "t": s.long}),
-        Charted("attractors", lambda s: {
-            **dict(zip(SYSTEM.parameters, s.body.parameters, strict=True)), "h": s.h, "k": s.poincare.k})),
+        Charted(
+            "attractors",
+            lambda s: {**dict(zip(SYSTEM.parameters, s.body.parameters, strict=True)), "h": s.h, "k": s.poincare.k},
+        ),
+    ),
     placed=Placed("starts", _NAMES),
-    group="Heavy body", essential=("h", "I13", "I23", "b3"),
+    group="Heavy body",
+    essential=("h", "I13", "I23", "b3"),
     title="Suslov problem with gravity",
     summary="Regular orbits, seas, strange attractors: sections forward and backward in time.",
     tracks={"orbit": lambda s: orbit_columns(s.orbit.path)},
     views=(
         filled_picture(
-            lambda s: s.section, ((-math.pi, 0.0), (math.pi, math.pi)), axes=_NAMES, title=Suslov._section_title,
-            caption=Suslov._about_section, labels=("forward in time", "backward"),
-            under=(layered_section.basins(lambda s: s.basins.basin, lambda s: s.section.frame),
-                   indicator_layer(lambda s: s.megno)), over=layers(lambda s: s.periodic_orbit)),
+            lambda s: s.section,
+            ((-math.pi, 0.0), (math.pi, math.pi)),
+            axes=_NAMES,
+            title=Suslov._section_title,
+            caption=Suslov._about_section,
+            labels=("forward in time", "backward"),
+            under=(
+                layered_section.basins(lambda s: s.basins.basin, lambda s: s.section.frame),
+                indicator_layer(lambda s: s.megno),
+            ),
+            over=layers(lambda s: s.periodic_orbit),
+        ),
         constrained_body(),
-        Plot(name="exponent", title="Lyapunov exponent and divergence", caption=Suslov._about_rates,
-             axes=("t", "λ"), first=Axes((0.0, 1000.0), (-0.2, 0.2)), x=lambda s: (0.0, s.long),
-             y=lambda s: settled_range([y for _, y in s.rates]) if s.rates else None,
-             layers=(levels("levels", lambda s: [0.0] if s.rates else []),
-                     over_time("divergence", lambda s: s.rate(1), color=theme.MAP, dash="dashed",
-                               label="mean divergence"),
-                     over_time("lambda", lambda s: s.rate(0), color=theme.ORBIT, label="exponent λ"))),
+        Plot(
+            name="exponent",
+            title="Lyapunov exponent and divergence",
+            caption=Suslov._about_rates,
+            axes=("t", "λ"),
+            first=Axes((0.0, 1000.0), (-0.2, 0.2)),
+            x=lambda s: (0.0, s.long),
+            y=lambda s: settled_range([y for _, y in s.rates]) if s.rates else None,
+            layers=(
+                levels("levels", lambda s: [0.0] if s.rates else []),
+                over_time("divergence", lambda s: s.rate(1), color=theme.MAP, dash="dashed", label="mean divergence"),
+                over_time("lambda", lambda s: s.rate(0), color=theme.ORBIT, label="exponent λ"),
+            ),
+        ),
         along_the_orbit(lambda s: centre_of_mass((s.b1, s.b2, s.b3)), lambda s: s.proof.around),
-        replace(orbit_alone(lambda s: s.half_width, energy=lambda s: s.E, proved=lambda s: s.proof.band),
-                folded="Show the angular velocity"),
+        replace(
+            orbit_alone(lambda s: s.half_width, energy=lambda s: s.E, proved=lambda s: s.proof.band),
+            folded="Show the angular velocity",
+        ),
         conformal_time.picture(lambda s: s._conformal[0], lambda s: s._conformal[1], lambda s: s.lasts),
     ),
 )

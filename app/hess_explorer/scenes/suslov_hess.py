@@ -69,11 +69,23 @@ class SuslovHess(State):
     h: float = parameter(known.H_HESS)
     f: float = parameter(known.F_HESS)
     phi0: float = parameter(hess_case.PHI0)
-    span: float = number("t", 40.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e5), group="Computation", label="Time span",
-                         doc="How long the orbit is followed, in the time of the body (at most 100 returns).")
-    cells: str = choice("Proved cells", (HIDDEN, SHOWN), HIDDEN,
-                        doc="Cells of the bifurcation diagram of which it is proved that all their tori have two limit "
-                            "cycles, or that none has: their number grows while you look.")
+    span: float = number(
+        "t",
+        40.0,
+        (1.0, 200.0),
+        1.0,
+        bounds=(0.01, 1e5),
+        group="Computation",
+        label="Time span",
+        doc="How long the orbit is followed, in the time of the body (at most 100 returns).",
+    )
+    cells: str = choice(
+        "Proved cells",
+        (HIDDEN, SHOWN),
+        HIDDEN,
+        doc="Cells of the bifurcation diagram of which it is proved that all their tori have two limit "
+        "cycles, or that none has: their number grows while you look.",
+    )
     certain: str = proved_error_shown()
     accuracy: str = accuracy_level()
 
@@ -201,8 +213,12 @@ class SuslovHess(State):
         if self.map is not None and self.iterates is not None:
             start = torus_plane.phases_at_returns(found, self.map, self.iterates)
         return torus_plane.track_columns(
-            found, phi_start=start, sigma=torus_density.phases(found, self.map), h=np.full(found.n3.size, self.h),
-            reach=math.copysign(1.0, self.f) * reach(self.h, found.n3))
+            found,
+            phi_start=start,
+            sigma=torus_density.phases(found, self.map),
+            h=np.full(found.n3.size, self.h),
+            reach=math.copysign(1.0, self.f) * reach(self.h, found.n3),
+        )
 
     def heights(self) -> list[Circle]:
         """The circles between which n3 swings; where the true γ is."""
@@ -265,45 +281,89 @@ class SuslovHess(State):
 
 
 _MEASURES: tuple[Trial[SuslovHess], ...] = (
-    Trial(Computation.MAP, ("circle",), lambda s, plan: circle_map(s.body.a, s.h, s.f, plan.level).theta(_PHASES),
-          lambda s, theta, truth: curve_error(theta, truth, 2.0 * math.pi, period=2.0 * math.pi),
-          lambda s, theta: circle.look(_PHASES, theta)),
-    Trial(Computation.COLOURS, ("bifurcation",),
-          lambda s, plan: s.colours(affordable_cells(s.body.a, plan.grid(CELLS)), plan.level).now(),
-          # At the centres of the cells found, which are not those of the truth.
-          lambda s, found, truth: colour_error(found, s.colours(found.shape[::-1], REFERENCE).now()),
-          lambda s, found: Cells(diagram.frame(s.h), found, COLOUR), COLOUR_UNIT),
-    boundary("bifurcation", lambda s, plan: lock_boundary(s.body.a, plan.level, plan.side(_ON_BOUNDARY)),
-             lambda s: diagram.frame(s.h)),
+    Trial(
+        Computation.MAP,
+        ("circle",),
+        lambda s, plan: circle_map(s.body.a, s.h, s.f, plan.level).theta(_PHASES),
+        lambda s, theta, truth: curve_error(theta, truth, 2.0 * math.pi, period=2.0 * math.pi),
+        lambda s, theta: circle.look(_PHASES, theta),
+    ),
+    Trial(
+        Computation.COLOURS,
+        ("bifurcation",),
+        lambda s, plan: s.colours(affordable_cells(s.body.a, plan.grid(CELLS)), plan.level).now(),
+        # At the centres of the cells found, which are not those of the truth.
+        lambda s, found, truth: colour_error(found, s.colours(found.shape[::-1], REFERENCE).now()),
+        lambda s, found: Cells(diagram.frame(s.h), found, COLOUR),
+        COLOUR_UNIT,
+    ),
+    boundary(
+        "bifurcation",
+        lambda s, plan: lock_boundary(s.body.a, plan.level, plan.side(_ON_BOUNDARY)),
+        lambda s: diagram.frame(s.h),
+    ),
 )
 
 SCENE = Scene(
-    SuslovHess, __file__, place=1, presets=PRESETS, measures=_MEASURES,
+    SuslovHess,
+    __file__,
+    place=1,
+    presets=PRESETS,
+    measures=_MEASURES,
     charts=of_torus(lambda s: (s.body.a, s.h, s.f), trace=("circle",)),
-    group="Heavy body", essential=("h", "f", "I23", "phi0"), handle="bifurcation/here",
+    group="Heavy body",
+    essential=("h", "f", "I23", "phi0"),
+    handle="bifurcation/here",
     title="The Suslov–Hess case",
     summary="A heavy rigid body with ω₃ = 0 whose motions live on tori: rotation, locking, limit cycles.",
-    tracks={"orbit": SuslovHess.orbit_columns, "stable": lambda s: torus_plane.cycle_columns(s.cycles, 0),
-            "unstable": lambda s: torus_plane.cycle_columns(s.cycles, 1)},
+    tracks={
+        "orbit": SuslovHess.orbit_columns,
+        "stable": lambda s: torus_plane.cycle_columns(s.cycles, 0),
+        "unstable": lambda s: torus_plane.cycle_columns(s.cycles, 1),
+    },
     angles=("phi", "phi_start", "sigma"),
     views=(
         constrained_body(section=True),
-        picture(lambda s: torus_plane.about(s.map, s.turning), lambda s: s.half_width, torus_plane.layers(
-            lambda s: annulus(s.body, s.h, s.turning), lambda s: s.half_width, proved=lambda s: s.orbit_proof.band)),
-        Sphere(caption=lambda s: torus_plane.about_heights(s.turning), circles=SuslovHess.heights,
-               axis=lambda s: Direction(s.body.n3, "n₃"), looks={one: one for one in ("orbit", "stable", "unstable")}),
-        Plot(name="bifurcation", title="Bifurcation diagram", axes=("h", "f"),
-             caption=SuslovHess.about_diagram, dot=("h", "reach"),
-             x=lambda s: diagram.window(s.h).x, y=lambda s: diagram.window(s.h).y,
-             on_click=lambda s, x, y: {"h": x, "f": y}, on_drag=True,
-             on_hover=lambda s, h, f: diagram.about_torus(s.body.a, h, f),
-             layers=diagram.layers(
-                 rotation=lambda s: s.rotation, boundary=lambda s: s.locked, curve=lambda s: s.edge,
-                 here=lambda s: [(s.h, s.f)], axes=lambda s: diagram.window(s.h),
-                 proved=lambda s: () if s.zone is None else s.zone.outlines)),
-        circle.picture(map=lambda s: s.map, iterates=lambda s: s.iterates,
-                       caption=lambda s: circle.about(s.map, "" if s.proof is None else s.proof.badge),
-                       dot=("phi_start", "phi"), on_click=lambda s, x, y: {"phi0": x}),
+        picture(
+            lambda s: torus_plane.about(s.map, s.turning),
+            lambda s: s.half_width,
+            torus_plane.layers(
+                lambda s: annulus(s.body, s.h, s.turning), lambda s: s.half_width, proved=lambda s: s.orbit_proof.band
+            ),
+        ),
+        Sphere(
+            caption=lambda s: torus_plane.about_heights(s.turning),
+            circles=SuslovHess.heights,
+            axis=lambda s: Direction(s.body.n3, "n₃"),
+            looks={one: one for one in ("orbit", "stable", "unstable")},
+        ),
+        Plot(
+            name="bifurcation",
+            title="Bifurcation diagram",
+            axes=("h", "f"),
+            caption=SuslovHess.about_diagram,
+            dot=("h", "reach"),
+            x=lambda s: diagram.window(s.h).x,
+            y=lambda s: diagram.window(s.h).y,
+            on_click=lambda s, x, y: {"h": x, "f": y},
+            on_drag=True,
+            on_hover=lambda s, h, f: diagram.about_torus(s.body.a, h, f),
+            layers=diagram.layers(
+                rotation=lambda s: s.rotation,
+                boundary=lambda s: s.locked,
+                curve=lambda s: s.edge,
+                here=lambda s: [(s.h, s.f)],
+                axes=lambda s: diagram.window(s.h),
+                proved=lambda s: () if s.zone is None else s.zone.outlines,
+            ),
+        ),
+        circle.picture(
+            map=lambda s: s.map,
+            iterates=lambda s: s.iterates,
+            caption=lambda s: circle.about(s.map, "" if s.proof is None else s.proof.badge),
+            dot=("phi_start", "phi"),
+            on_click=lambda s, x, y: {"phi0": x},
+        ),
         torus_density.picture(lambda s: s.density),
     ),
 )

@@ -28,5 +28,7 @@ class Capacity:
     @property
     def sentence(self) -> str:
         """For who finds none."""
-        return (f"The explorer is full: as many pages are open as this server has room for ({self.most}). Try again in "
-                "a minute, or install the explorer on your own machine.")
+        return (
+            f"The explorer is full: as many pages are open as this server has room for ({self.most}). Try again in "
+            "a minute, or install the explorer on your own machine."
+        )

@@ -26,10 +26,13 @@ from hess_mechanics.errors import ModelError
 
 __all__ = ["Export"]
 
-_SPECS = (Choice("format", "Format", tuple(FORMATS), "csv"), Choice("black", "Black", ("0", "1"), "0"),
-          Number("width", "width", "Width", Wish.width, WIDTHS, 5.0, WIDTHS),
-          Number("seconds", "seconds", "Seconds", Wish.seconds, SERVED_SECONDS, 1.0, SERVED_SECONDS),
-          Choice("progress", "Progress", ("0", "1"), "0"))
+_SPECS = (
+    Choice("format", "Format", tuple(FORMATS), "csv"),
+    Choice("black", "Black", ("0", "1"), "0"),
+    Number("width", "width", "Width", Wish.width, WIDTHS, 5.0, WIDTHS),
+    Number("seconds", "seconds", "Seconds", Wish.seconds, SERVED_SECONDS, 1.0, SERVED_SECONDS),
+    Choice("progress", "Progress", ("0", "1"), "0"),
+)
 
 # One file at a time, and one film: those who look at pages come first.
 _files = ThreadPoolExecutor(max_workers=1, thread_name_prefix="export")
@@ -107,9 +110,18 @@ class Export(RequestHandler):
     async def _answer_film(self, state: dict[str, str], picture: str, read: dict[str, Any]) -> None:
         """The film, after lines about it where they are asked for.  Raises `ModelError`, `Abandoned`."""
         loop, kind, lines = asyncio.get_running_loop(), str(read["format"]), read["progress"] == "1"
-        words = [f"--state={urlencode(state)}", "--lenient", f"--picture={picture}", "--format", kind,
-                 "--width", f"{read['width']:g}", "--seconds", f"{read['seconds']:g}",
-                 *(["--black"] if read["black"] == "1" else [])]
+        words = [
+            f"--state={urlencode(state)}",
+            "--lenient",
+            f"--picture={picture}",
+            "--format",
+            kind,
+            "--width",
+            f"{read['width']:g}",
+            "--seconds",
+            f"{read['seconds']:g}",
+            *(["--black"] if read["black"] == "1" else []),
+        ]
 
         def say(line: str) -> None:
             if not self._left.is_set():

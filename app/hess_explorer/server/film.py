@@ -49,8 +49,14 @@ class Film:
                 raise Abandoned
             # `-m` looks in the current folder first: start in this package, where nothing can shadow it.
             with subprocess.Popen(
-                    command, cwd=Path(__file__).resolve().parents[1], env={**os.environ, "TMPDIR": folder},
-                    stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+                command,
+                cwd=Path(__file__).resolve().parents[1],
+                env={**os.environ, "TMPDIR": folder},
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+                text=True,
+            ) as process:
                 self._process = process
                 if hasattr(os, "setpriority"):
                     os.setpriority(os.PRIO_PROCESS, process.pid, _LATER)

@@ -30,8 +30,9 @@ class Garbage:
         """A session has been destroyed: there may be circles to collect."""
         self._pages_gone = True
 
-    def collect_when_quiet(self, asked: Callable[[], int], end: threading.Event, pause: float = PAUSE,
-                           overdue: float = OVERDUE) -> None:
+    def collect_when_quiet(
+        self, asked: Callable[[], int], end: threading.Event, pause: float = PAUSE, overdue: float = OVERDUE
+    ) -> None:
         """Collect until `end` is set; asked() : how many results have been asked for, so nobody does where it stays."""
         before, last = -1, time.monotonic()
         while not end.wait(pause):

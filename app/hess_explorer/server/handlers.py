@@ -37,5 +37,6 @@ def replace_handlers(embedders: Sequence[str]) -> None:
         if at is None:
             raise HandlerMissing(
                 f"Bokeh's server has no {theirs.__name__} of Panel to replace, so the page would be served without its "
-                "limits and security headers: install the versions of panel and bokeh that hess-explorer asks for.")
+                "limits and security headers: install the versions of panel and bokeh that hess-explorer asks for."
+            )
         per_app_patterns[at] = (per_app_patterns[at][0], ours)

@@ -25,22 +25,24 @@ def policy(nonce: str, embedders: tuple[str, ...]) -> str:
     """Return the Content-Security-Policy of an answer; embedders : who may show it."""
     # Where any page may, also one of a file, which "*" does not mean, nothing is said.
     ancestors = "" if "*" in embedders else " ".join(embedders)
-    return "; ".join([
-        "default-src 'none'",
-        # Panel makes modules of texts, as blobs, which import those of this server.
-        f"script-src 'self' blob: 'nonce-{nonce}' 'unsafe-eval'",
-        "style-src 'self' 'unsafe-inline'",
-        "img-src 'self' data: blob:",
-        "font-src 'self' data:",
-        "media-src 'self' blob:",
-        "worker-src 'self' blob:",
-        # The websocket, and those modules; a page that compares states shows two of itself.
-        "connect-src 'self' blob:",
-        "frame-src 'self'",
-        "base-uri 'self'",
-        "form-action 'none'",
-        *([f"frame-ancestors {ancestors}"] if ancestors else []),
-    ])
+    return "; ".join(
+        [
+            "default-src 'none'",
+            # Panel makes modules of texts, as blobs, which import those of this server.
+            f"script-src 'self' blob: 'nonce-{nonce}' 'unsafe-eval'",
+            "style-src 'self' 'unsafe-inline'",
+            "img-src 'self' data: blob:",
+            "font-src 'self' data:",
+            "media-src 'self' blob:",
+            "worker-src 'self' blob:",
+            # The websocket, and those modules; a page that compares states shows two of itself.
+            "connect-src 'self' blob:",
+            "frame-src 'self'",
+            "base-uri 'self'",
+            "form-action 'none'",
+            *([f"frame-ancestors {ancestors}"] if ancestors else []),
+        ]
+    )
 
 
 class GuardedDocument(DocHandler):
@@ -57,13 +59,16 @@ class GuardedDocument(DocHandler):
         self._nonce = secrets.token_urlsafe(16)
         # Before anything is made of it; what is a little too long opens the page, with a note.
         if len(self.request.query) > QUERY_LIMIT:
-            refuse(self, 414, f"The link is longer than {QUERY_LIMIT} characters, and the explorer's own are shorter "
-                              f"than {MAX_QUERY}: open the page without the part of its address after “?”.")
+            refuse(
+                self,
+                414,
+                f"The link is longer than {QUERY_LIMIT} characters, and the explorer's own are shorter "
+                f"than {MAX_QUERY}: open the page without the part of its address after “?”.",
+            )
             return
         await super().prepare()  # type: ignore[no-untyped-call]  # Panel declares no types
         embedded = self.get_query_argument("embed", "") == "1"
-        self.set_header("Content-Security-Policy",
-                        policy(self._nonce, self.embedders if embedded else ("'self'",)))
+        self.set_header("Content-Security-Policy", policy(self._nonce, self.embedders if embedded else ("'self'",)))
         if not embedded:
             # For what does not know the policy.
             self.set_header("X-Frame-Options", "SAMEORIGIN")

@@ -33,8 +33,12 @@ class QrCode(RequestHandler):
         length = len(text.encode())
         self.set_header("X-Content-Type-Options", "nosniff")
         if not 0 < length <= MOST:
-            refuse(self, 400, f"The link has {length} characters, and a QR code that a camera reads at most {MOST}: "
-                              "share the link itself.")
+            refuse(
+                self,
+                400,
+                f"The link has {length} characters, and a QR code that a camera reads at most {MOST}: "
+                "share the link itself.",
+            )
             return
         # The largest takes a tenth of a second, in which the page of others should not wait.
         svg = await asyncio.get_running_loop().run_in_executor(None, drawing, text)

@@ -54,8 +54,12 @@ class Metrics(RequestHandler):
     def get(self) -> None:
         """Answer with the counters as they are now."""
         self.set_header("Content-Type", "text/plain; version=0.0.4; charset=utf-8")
-        counters = {**CACHE.metrics(), "sessions": self._capacity.there, "websockets": len(OPEN_SOCKETS),
-                    "threads": threading.active_count()}
+        counters = {
+            **CACHE.metrics(),
+            "sessions": self._capacity.there,
+            "websockets": len(OPEN_SOCKETS),
+            "threads": threading.active_count(),
+        }
         self.finish("".join(f"hess_explorer_{name} {value}\n" for name, value in counters.items()))
 
 
@@ -92,8 +96,15 @@ def _own_styles(document: Document) -> None:
         patch_model_css(root, dist_url=LOCAL_DIST)
 
 
-def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | None = None, *,
-            sessions: int, follow: Callable[[str], None] | None = None) -> dict[str, Any]:
+def options(
+    port: int,
+    address: str,
+    origins: Sequence[str],
+    lesson: Lesson | None = None,
+    *,
+    sessions: int,
+    follow: Callable[[str], None] | None = None,
+) -> dict[str, Any]:
     """What `panel.serve` is told; the arguments are those of `serve`."""
     capacity = Capacity(sessions)
     return {
@@ -102,9 +113,13 @@ def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | No
         "port": port,
         "address": address,
         "websocket_origin": [f"localhost:{port}", f"127.0.0.1:{port}", *origins],
-        "extra_patterns": [("/states", StateSocket, {"capacity": capacity, "lesson": lesson, "follow": follow}),
-                           ("/metrics", Metrics, {"capacity": capacity}), ("/qr.svg", QrCode), ("/export", Export),
-                           *module_routes()],
+        "extra_patterns": [
+            ("/states", StateSocket, {"capacity": capacity, "lesson": lesson, "follow": follow}),
+            ("/metrics", Metrics, {"capacity": capacity}),
+            ("/qr.svg", QrCode),
+            ("/export", Export),
+            *module_routes(),
+        ],
         "liveness": True,
         "verbose": False,
         # `RateLimit` says in a sentence what a frame may have; beyond this Tornado closes the websocket with two words.
@@ -117,9 +132,19 @@ def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | No
     }
 
 
-def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Callable[[], None],
-          lesson: Lesson | None = None, embedders: Sequence[str] = ("*",), workers: int = 1, *,
-          sessions: int, follow: Callable[[str], None] | None = None) -> NoReturn:
+def serve(
+    port: int,
+    address: str,
+    show: bool,
+    origins: Sequence[str],
+    ready: Callable[[], None],
+    lesson: Lesson | None = None,
+    embedders: Sequence[str] = ("*",),
+    workers: int = 1,
+    *,
+    sessions: int,
+    follow: Callable[[str], None] | None = None,
+) -> NoReturn:
     """Serve the explorer until Ctrl-C or SIGTERM, then end the process with exit code 0.
 
     address : to listen on; show : open the browser; origins : HOST:PORT pairs whose pages may open a websocket,
@@ -147,8 +172,9 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Ca
         CORES.shared_by(workers)
     # Kernels are compiled while the browser loads the page.
     threading.Thread(target=_prepare, args=(address, port, ready), name="warm", daemon=True).start()
-    threading.Thread(target=GARBAGE.collect_when_quiet, args=(lambda: CACHE.asked, threading.Event()), name="garbage",
-                     daemon=True).start()
+    threading.Thread(
+        target=GARBAGE.collect_when_quiet, args=(lambda: CACHE.asked, threading.Event()), name="garbage", daemon=True
+    ).start()
     server.start()
     server.io_loop.start()
     leave(server)

@@ -44,6 +44,7 @@ class Workers:
 
     def end_together(self, loop: IOLoop) -> None:
         """In a worker: its loop stops when the process that began ends."""
+
         def stop(*_: object) -> None:
             # What is closed can be read from for ever, and the loop runs once more.
             loop.remove_handler(self._read)
@@ -55,6 +56,7 @@ class Workers:
 
 def end_on_signals(loop: IOLoop) -> None:
     """In a process that serves: from now on both signals stop its loop."""
+
     def stop(number: int, frame: FrameType | None) -> None:
         loop.add_callback_from_signal(loop.stop)
 

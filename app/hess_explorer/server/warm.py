@@ -77,8 +77,9 @@ def compile_beside() -> None:
     It shares no pipe with this process: whoever waits for the end of this one's output would wait for the compiler too.
     """
     # A session of its own: Ctrl-C in the terminal ends the server, which closes the compiler's standard input.
-    with subprocess.Popen([sys.executable, "-c", _COMPILER], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
-                          start_new_session=True) as compiler:
+    with subprocess.Popen(
+        [sys.executable, "-c", _COMPILER], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, start_new_session=True
+    ) as compiler:
         compiler.wait()
 
 

@@ -78,8 +78,12 @@ class StateSocket(WebSocketHandler):
         OPEN_SOCKETS.add(self)
         self.set_nodelay(True)
         self._limit, loop = RateLimit(frames=1), IOLoop.current()
-        self._connection = Connection(query_of(self.request.arguments), self._lesson,
-                                      lambda frame: loop.add_callback(self._send, frame), self._follow)
+        self._connection = Connection(
+            query_of(self.request.arguments),
+            self._lesson,
+            lambda frame: loop.add_callback(self._send, frame),
+            self._follow,
+        )
 
     async def on_message(self, message: str | bytes) -> None:
         """Take a request, unless it is one too many or too large."""

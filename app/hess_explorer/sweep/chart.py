@@ -79,8 +79,9 @@ class Chart:
         link = Link(query if isinstance(query, str) else "")
         scene = scenes().get(link.given.get("scene", ""))
         if scene is None:
-            raise InvalidParameter("A chart needs the link of a state, with the name of its scene: open the scene and "
-                                   "choose Chart again.")
+            raise InvalidParameter(
+                "A chart needs the link of a state, with the name of its scene: open the scene and choose Chart again."
+            )
         charted = next((one for one in scene.charts if one.quantity == given.get("quantity")), None)
         if charted is None:
             can = ", ".join(one.quantity for one in scene.charts) or "nothing"
@@ -148,8 +149,11 @@ class Chart:
                 status[i], why[i] = refused(error, {self.x.name: x, self.y.name: y})
         if asked:
             own = [i for i, _ in asked]
-            found = evaluate(self.quantity, {one.name: np.array([cell[one.name] for _, cell in asked])
-                                             for one in self.quantity.parameters}, self.level)
+            found = evaluate(
+                self.quantity,
+                {one.name: np.array([cell[one.name] for _, cell in asked]) for one in self.quantity.parameters},
+                self.level,
+            )
             values[own] = found.values[:, self.part] if self.quantity.parts else found.values
             errors[own], status[own] = found.errors, found.status
             why |= {own[i]: said for i, said in found.why.items()}
@@ -181,8 +185,10 @@ def _numbers(scene: Scene[Any]) -> dict[str, tuple[str, Ends, Ends]]:
         spec = next(spec for spec in scene.specs if spec.name == scene.placed.places)
         assert isinstance(spec, Places)
         ends = zip(spec.low, spec.high, strict=True)
-        found |= {name: (symbol, each, each)
-                  for name, symbol, each in zip(scene.placed.names, scene.placed.symbols, ends, strict=True)}
+        found |= {
+            name: (symbol, each, each)
+            for name, symbol, each in zip(scene.placed.names, scene.placed.symbols, ends, strict=True)
+        }
     return found
 
 
@@ -197,8 +203,15 @@ def sides_of_places(scene: Scene[Any]) -> list[dict[str, Any]]:
     if scene.placed is None:
         return []
     numbers = _numbers(scene)
-    return [{"name": name, "symbol": numbers[name][0], "range": list(numbers[name][1]),
-             "place": scene.defaults()[scene.placed.places]} for name in scene.placed.names]
+    return [
+        {
+            "name": name,
+            "symbol": numbers[name][0],
+            "range": list(numbers[name][1]),
+            "place": scene.defaults()[scene.placed.places],
+        }
+        for name in scene.placed.names
+    ]
 
 
 def at_first(scene: Scene[Any]) -> Iterator[Found]:
@@ -228,8 +241,11 @@ def swept(scene: str, quantity: str) -> tuple[str, ...]:
 
     defaults = found.defaults()
     before = tried(defaults)
-    names = [name for name, (_, ends, _) in _numbers(found).items()
-             if any(tried(_put(found, defaults, {name: end})) != before for end in ends)]
+    names = [
+        name
+        for name, (_, ends, _) in _numbers(found).items()
+        if any(tried(_put(found, defaults, {name: end})) != before for end in ends)
+    ]
     return tuple(sorted(names, key=lambda name: [*found.essential, name].index(name)))
 
 
@@ -246,7 +262,9 @@ def _side(scene: Scene[Any], over: tuple[str, ...], given: Any) -> Side:
                 raise InvalidParameter(f"The ends of {symbol} are no numbers: give two.")
             low, high = sorted(min(max(end, least), most) for end in ends)
             if not high > low:
-                raise InvalidParameter(f"{symbol} goes from {low:g} to {high:g}: give two different numbers "
-                                       f"between {least:g} and {most:g}.")
+                raise InvalidParameter(
+                    f"{symbol} goes from {low:g} to {high:g}: give two different numbers "
+                    f"between {least:g} and {most:g}."
+                )
             return Side(name, low, high, min(max(count, 2), MOST_SIDE))
     raise InvalidParameter(f"A side is one of {', '.join(over)}, with two ends and a number of cells.")

@@ -51,15 +51,30 @@ def read_chart(path: Path) -> xr.Dataset:
     except OSError as failure:
         raise StoreError(f"{str(path)!r} cannot be read ({failure.strerror}): choose another file.") from failure
     except (ValueError, TypeError, KeyError, IndexError, AttributeError, OverflowError, InvalidParameter) as failure:
-        raise StoreError(f"{str(path)!r} holds no whole chart: choose a file that Save in the page has written, or the "
-                         "folder of a sweep.") from failure
+        raise StoreError(
+            f"{str(path)!r} holds no whole chart: choose a file that Save in the page has written, or the "
+            "folder of a sweep."
+        ) from failure
     given = {name: value for name, value in Link(state).given.items() if name not in places}
-    axes = {name: (axis, {"symbol": str(side.get("symbol", name))})
-            for (name, axis), side in zip(places.items(), sides, strict=True)}
+    axes = {
+        name: (axis, {"symbol": str(side.get("symbol", name))})
+        for (name, axis), side in zip(places.items(), sides, strict=True)
+    }
     return described(
-        what, axes, values[..., None] if own else values, status, parts=own, program=PROGRAM, version=version,
-        level=level, parameters=json.dumps(given, ensure_ascii=False, sort_keys=True), link=link, state=state,
-        part=part, **({} if error is None else {"largest_error": float(error)}))
+        what,
+        axes,
+        values[..., None] if own else values,
+        status,
+        parts=own,
+        program=PROGRAM,
+        version=version,
+        level=level,
+        parameters=json.dumps(given, ensure_ascii=False, sort_keys=True),
+        link=link,
+        state=state,
+        part=part,
+        **({} if error is None else {"largest_error": float(error)}),
+    )
 
 
 def _places(side: Any) -> Array:
@@ -71,7 +86,16 @@ def _places(side: Any) -> Array:
 
 def chart_of(found: xr.Dataset) -> Chart:
     """What computes on from such a Dataset.  Raises `InvalidParameter` where that is of another version of a scene."""
-    x, y = ([name, float(found[name].min()), float(found[name].max()), found.sizes[name]]
-            for name in map(str, found.status.dims))
-    return Chart.read({"state": found.attrs["state"], "quantity": found.attrs["quantity"],
-                       "part": int(found.attrs["part"]), "x": x, "y": y})
+    x, y = (
+        [name, float(found[name].min()), float(found[name].max()), found.sizes[name]]
+        for name in map(str, found.status.dims)
+    )
+    return Chart.read(
+        {
+            "state": found.attrs["state"],
+            "quantity": found.attrs["quantity"],
+            "part": int(found.attrs["part"]),
+            "x": x,
+            "y": y,
+        }
+    )

@@ -27,8 +27,10 @@ _MOST = 4096
 """Cells of a piece."""
 
 STOPPED = "Stopped."
-USED_UP = (f"A chart may take {SECONDS:g} s of the processor, and this one has: choose fewer cells, a cheaper accuracy "
-           "or a shorter time.")
+USED_UP = (
+    f"A chart may take {SECONDS:g} s of the processor, and this one has: choose fewer cells, a cheaper accuracy "
+    "or a shorter time."
+)
 FAILED = "This chart could not be computed. Please report the link."
 
 
@@ -59,7 +61,7 @@ class Charting:
     def since(self, first: int) -> tuple[Indices, Array, Outcomes]:
         """The cells known after the first ones, in the order in which they were computed: where, numbers, status."""
         with self._lock:
-            own = self._order[min(max(first, 0), self._done):self._done]
+            own = self._order[min(max(first, 0), self._done) : self._done]
             return own, self._values[own], self._status[own]
 
     def _hear(self, progress: Progress) -> None:
@@ -74,7 +76,7 @@ class Charting:
         """Compute one piece; whether there are more."""
         if not self.running:
             return False
-        piece = self._order[self._done:self._done + self._size]
+        piece = self._order[self._done : self._done + self._size]
         began = time.perf_counter()
         try:
             with limited(self._stopped, self._left_to_spend) as budget, np.errstate(all="ignore"):

@@ -19,8 +19,16 @@ PART = "number"
 """The dimension of several numbers at a cell."""
 
 
-def described(what: Quantity, axes: Mapping[str, tuple[Array, Mapping[str, str]]], values: Any, status: Any,
-              errors: Any = None, *, parts: Sequence[str] = (), **facts: Any) -> xr.Dataset:
+def described(
+    what: Quantity,
+    axes: Mapping[str, tuple[Array, Mapping[str, str]]],
+    values: Any,
+    status: Any,
+    errors: Any = None,
+    *,
+    parts: Sequence[str] = (),
+    **facts: Any,
+) -> xr.Dataset:
     """Arrays of any kind over the axes, places and attributes of each; facts : what is said of all of it.
 
     parts : the names of the numbers at a cell; none for a scalar.
@@ -32,11 +40,22 @@ def described(what: Quantity, axes: Mapping[str, tuple[Array, Mapping[str, str]]
     if parts:
         coordinates[PART] = (PART, np.array(parts, object), {"long_name": what.doc})
     variables = {
-        what.variable: ((*dimensions, PART) if parts else dimensions, values, {
-            "long_name": what.title, "symbol": what.symbol, "units": what.units, "description": what.doc}),
-        "status": (dimensions, status, {
-            "long_name": "how each cell ended", "units": "1", "flag_values": [int(one) for one in Outcome],
-            "flag_meanings": " ".join(one.words.replace(" ", "_") for one in Outcome)})}
+        what.variable: (
+            (*dimensions, PART) if parts else dimensions,
+            values,
+            {"long_name": what.title, "symbol": what.symbol, "units": what.units, "description": what.doc},
+        ),
+        "status": (
+            dimensions,
+            status,
+            {
+                "long_name": "how each cell ended",
+                "units": "1",
+                "flag_values": [int(one) for one in Outcome],
+                "flag_meanings": " ".join(one.words.replace(" ", "_") for one in Outcome),
+            },
+        ),
+    }
     if errors is not None:
         variables["error"] = (dimensions, errors, {"long_name": f"estimated error: {what.error}", "units": what.units})
     return xr.Dataset(variables, coordinates, {"title": what.title, "quantity": what.name, **facts})

@@ -50,11 +50,14 @@ class SweepGrid:
         if not 1 <= most <= HARD_LIMIT:
             raise WorkLimit(f"At most {HARD_LIMIT:g} numbers can be allowed, and at least 1, not {most:g}.")
         if numbers > most:
-            raise WorkLimit(f"These are {numbers} numbers; at most {most} are allowed: choose fewer values, or allow "
-                            f"more with most_cells (on the command line --most-cells), up to {HARD_LIMIT:g}.")
+            raise WorkLimit(
+                f"These are {numbers} numbers; at most {most} are allowed: choose fewer values, or allow "
+                f"more with most_cells (on the command line --most-cells), up to {HARD_LIMIT:g}."
+            )
         axes = {name: _axis(quantity.parameter(name), values) for name, values in over.items()}
-        return cls(axes, {one.name: _value(one, quantity, fixed) for one in quantity.parameters
-                          if one.name not in over})
+        return cls(
+            axes, {one.name: _value(one, quantity, fixed) for one in quantity.parameters if one.name not in over}
+        )
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -82,21 +85,28 @@ class SweepGrid:
         """All boxes of this shape, the last of each axis may be smaller."""
         starts = [range(0, whole, side) for whole, side in zip(self.shape, shape, strict=True)]
         for corner in product(*starts):
-            yield tuple((low, min(low + side, whole))
-                        for low, side, whole in zip(corner, shape, self.shape, strict=True))
+            yield tuple(
+                (low, min(low + side, whole)) for low, side, whole in zip(corner, shape, self.shape, strict=True)
+            )
 
 
 def expanded(pieces: Mapping[str, Array], fixed: Mapping[str, float]) -> CellArrays:
     """The parameters at each cell of the product of pieces, the last one fastest."""
     swept = np.meshgrid(*pieces.values(), indexing="ij")
     count = swept[0].size
-    return {**{name: np.ascontiguousarray(column.ravel()) for name, column in zip(pieces, swept, strict=True)},
-            **{name: np.full(count, value) for name, value in fixed.items()}}
+    return {
+        **{name: np.ascontiguousarray(column.ravel()) for name, column in zip(pieces, swept, strict=True)},
+        **{name: np.full(count, value) for name, value in fixed.items()},
+    }
 
 
 def _is_range(values: Axis) -> bool:
-    return isinstance(values, tuple) and len(values) == 3 and isinstance(values[2], (int, np.integer)) \
+    return (
+        isinstance(values, tuple)
+        and len(values) == 3
+        and isinstance(values[2], (int, np.integer))
         and not isinstance(values[2], bool)
+    )
 
 
 def _count(values: Axis, name: str) -> int:

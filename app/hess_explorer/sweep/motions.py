@@ -62,9 +62,27 @@ class _Motions:
 # ---- where motions start ----------------------------------------------------------------------------------------
 
 
-_OF_SYSTEMS: Mapping[str, Parameter] = {one.name: one for one in (
-    *known.TENSOR, *known.FIELD, known.D, *known.INVERSE_MOMENTS, *known.CENTRE, known.MU, known.A_HESS, known.B_HESS,
-    known.C1, known.C2, known.CUBIC, known.QUARTIC, *known.OMEGA, *known.GAMMA, *known.MOMENTUM, *known.REDUCED_GAMMA)}
+_OF_SYSTEMS: Mapping[str, Parameter] = {
+    one.name: one
+    for one in (
+        *known.TENSOR,
+        *known.FIELD,
+        known.D,
+        *known.INVERSE_MOMENTS,
+        *known.CENTRE,
+        known.MU,
+        known.A_HESS,
+        known.B_HESS,
+        known.C1,
+        known.C2,
+        known.CUBIC,
+        known.QUARTIC,
+        *known.OMEGA,
+        *known.GAMMA,
+        *known.MOMENTUM,
+        *known.REDUCED_GAMMA,
+    )
+}
 """Parameters and variables of the systems, by name."""
 
 
@@ -84,8 +102,9 @@ def _given(system: System, values: Values) -> tuple[Body, Start]:
 
 def _body(system: System) -> tuple[Parameter, ...]:
     """Its parameters, by default those of its example."""
-    return tuple(usual(_OF_SYSTEMS[name], value)
-                 for name, value in zip(system.parameters, system.example[1], strict=True))
+    return tuple(
+        usual(_OF_SYSTEMS[name], value) for name, value in zip(system.parameters, system.example[1], strict=True)
+    )
 
 
 SUSLOV_ENERGY = (*_body(SUSLOV), known.H_SUSLOV, whole("k", "k", 3, 1, 3, "The section is γ_k = 0, γ_k growing."))
@@ -118,8 +137,9 @@ def _on_ball(values: Values) -> tuple[Body, Start]:
 
 def _heavy_section(values: Values) -> andoyer.AndoyerSection:
     a1, a2, a3, r1, r2, r3, mu = (values[name] for name in HEAVY.parameters)
-    return andoyer.AndoyerSection(HeavyBody((a1, a2, a3), (r1, r2, r3), mu), values["h"], values["f"],
-                                  int(values["sheet"]))
+    return andoyer.AndoyerSection(
+        HeavyBody((a1, a2, a3), (r1, r2, r3), mu), values["h"], values["f"], int(values["sheet"])
+    )
 
 
 def _on_heavy(values: Values) -> tuple[Body, Start]:
@@ -128,17 +148,45 @@ def _on_heavy(values: Values) -> tuple[Body, Start]:
 
 
 _ON_SECTIONS = (
-    _Motions("suslov-section", "Suslov problem, a place of a section", SUSLOV,
-             (*SUSLOV_ENERGY, known.PSI, known.DELTA), _on_suslov, suslov_section, ("psi", "delta")),
-    _Motions("ball-section", "Chaplygin ball, a place of a section", BALL,
-             (*_body(BALL), known.H_BALL, known.PSI, known.DELTA), _on_ball, _ball_section, ("psi", "delta")),
-    _Motions("euler-poisson-section", "Euler–Poisson, a place of the Andoyer–Deprit section", HEAVY,
-             (*_body(HEAVY), usual(known.H_HEAVY, 2.0), usual(known.F_HEAVY, 0.5), known.L, known.X, known.SHEET),
-             _on_heavy, _heavy_section, ("l", "x")),
+    _Motions(
+        "suslov-section",
+        "Suslov problem, a place of a section",
+        SUSLOV,
+        (*SUSLOV_ENERGY, known.PSI, known.DELTA),
+        _on_suslov,
+        suslov_section,
+        ("psi", "delta"),
+    ),
+    _Motions(
+        "ball-section",
+        "Chaplygin ball, a place of a section",
+        BALL,
+        (*_body(BALL), known.H_BALL, known.PSI, known.DELTA),
+        _on_ball,
+        _ball_section,
+        ("psi", "delta"),
+    ),
+    _Motions(
+        "euler-poisson-section",
+        "Euler–Poisson, a place of the Andoyer–Deprit section",
+        HEAVY,
+        (*_body(HEAVY), usual(known.H_HEAVY, 2.0), usual(known.F_HEAVY, 0.5), known.L, known.X, known.SHEET),
+        _on_heavy,
+        _heavy_section,
+        ("l", "x"),
+    ),
 )
 
-_OFFSET = Parameter("offset", "c", "Offset of the plane", 0.0, (-1.0, 1.0), 0.01, (-1e3, 1e3),
-                    "The value of that variable on the plane.")
+_OFFSET = Parameter(
+    "offset",
+    "c",
+    "Offset of the plane",
+    0.0,
+    (-1.0, 1.0),
+    0.01,
+    (-1e3, 1e3),
+    "The value of that variable on the plane.",
+)
 
 # ---- what is computed of them -----------------------------------------------------------------------------------
 
@@ -162,8 +210,9 @@ def _megno(of: _Motions, level: Level, t: float, **values: float) -> Cell:
     return Cell(float(megno(body, [state], t, level, threads=1).values[0]))
 
 
-def _crossings(of: _Motions, level: Level, variable: float, offset: float, sense: float, t: float,
-               **values: float) -> Cell:
+def _crossings(
+    of: _Motions, level: Level, variable: float, offset: float, sense: float, t: float, **values: float
+) -> Cell:
     plane = Plane(tuple(float(i + 1 == variable) for i in range(len(of.system.variables))), offset, int(sense))
     found = section(*of.start(values), plane, t, level)
     return Cell(float(len(found.times)), found.error_estimate, found.status)
@@ -186,42 +235,114 @@ def _quantities(of: _Motions) -> tuple[Quantity, ...]:
     long = usual(known.SPAN, 500.0, "Time over which to average.")
     counted = usual(known.SPAN, 100.0, "Time up to which crossings are counted.")
 
-    def one(name: str, symbol: str, title: str, units: str, doc: str, function: Callable[..., Cell],
-            *parameters: Parameter, parts: tuple[str, ...] = (), error: str = "") -> Quantity:
-        return Quantity(f"{name}-{of.name}", symbol, f"{title}: {of.title}", units, doc, (*of.parameters, *parameters),
-                        one_by_one(partial(function, of), len(parts)), parts, error)
+    def one(
+        name: str,
+        symbol: str,
+        title: str,
+        units: str,
+        doc: str,
+        function: Callable[..., Cell],
+        *parameters: Parameter,
+        parts: tuple[str, ...] = (),
+        error: str = "",
+    ) -> Quantity:
+        return Quantity(
+            f"{name}-{of.name}",
+            symbol,
+            f"{title}: {of.title}",
+            units,
+            doc,
+            (*of.parameters, *parameters),
+            one_by_one(partial(function, of), len(parts)),
+            parts,
+            error,
+        )
 
     found = [
-        one("lyapunov", "λ", "Largest Lyapunov exponent", "1/time",
-            "Mean rate at which neighbours part over the time t (Benettin, Galgani, Strelcyn 1976).", _lyapunov, long,
-            error="range of the running average in its second half"),
-        one("spectrum", "λᵢ", "All Lyapunov exponents", "1/time",
+        one(
+            "lyapunov",
+            "λ",
+            "Largest Lyapunov exponent",
+            "1/time",
+            "Mean rate at which neighbours part over the time t (Benettin, Galgani, Strelcyn 1976).",
+            _lyapunov,
+            long,
+            error="range of the running average in its second half",
+        ),
+        one(
+            "spectrum",
+            "λᵢ",
+            "All Lyapunov exponents",
+            "1/time",
             "Mean rates at which a frame of neighbours grows over the last four fifths of the time t, the largest "
-            "first, by the variational equations.", _spectrum, long, parts=tuple(str(i + 1) for i in range(size)),
-            error="largest of their errors, from 12 stretches of time"),
-        one("dimension", "D", "Kaplan–Yorke dimension", "1",
-            "Of what the motion fills on its level of the integrals, from all exponents over the time t.", _dimension,
-            long, error="from those of the exponents"),
-        one("megno", "Ȳ", "MEGNO", "1",
-            "Mean exponential growth of nearby orbits: 2 at the most on regular motions, λt/2 on chaotic ones.", _megno,
-            usual(known.SPAN, 200.0)),
+            "first, by the variational equations.",
+            _spectrum,
+            long,
+            parts=tuple(str(i + 1) for i in range(size)),
+            error="largest of their errors, from 12 stretches of time",
+        ),
+        one(
+            "dimension",
+            "D",
+            "Kaplan–Yorke dimension",
+            "1",
+            "Of what the motion fills on its level of the integrals, from all exponents over the time t.",
+            _dimension,
+            long,
+            error="from those of the exponents",
+        ),
+        one(
+            "megno",
+            "Ȳ",
+            "MEGNO",
+            "1",
+            "Mean exponential growth of nearby orbits: 2 at the most on regular motions, λt/2 on chaotic ones.",
+            _megno,
+            usual(known.SPAN, 200.0),
+        ),
     ]
     if of.section is None:
-        found.append(one(
-            "crossings", "n", "Crossings of a plane", "1",
-            "How often the motion crosses the plane y_variable = offset up to the time t.", _crossings,
-            whole("variable", "i", size, 1, size, "Which of the variables, counted from 1."), _OFFSET,
-            whole("sense", "s", 1, -1, 1, "1: crossed from below, −1: from above, 0: both."), counted,
-            error="of the states at the crossings"))
+        found.append(
+            one(
+                "crossings",
+                "n",
+                "Crossings of a plane",
+                "1",
+                "How often the motion crosses the plane y_variable = offset up to the time t.",
+                _crossings,
+                whole("variable", "i", size, 1, size, "Which of the variables, counted from 1."),
+                _OFFSET,
+                whole("sense", "s", 1, -1, 1, "1: crossed from below, −1: from above, 0: both."),
+                counted,
+                error="of the states at the crossings",
+            )
+        )
     else:
-        found.append(one("crossings", "n", "Returns to the section", "1",
-                         "How often the motion comes back to the section up to the time t.", _returns, counted,
-                         error="of the states at the crossings"))
+        found.append(
+            one(
+                "crossings",
+                "n",
+                "Returns to the section",
+                "1",
+                "How often the motion comes back to the section up to the time t.",
+                _returns,
+                counted,
+                error="of the states at the crossings",
+            )
+        )
     if of.system is SUSLOV:
-        found.append(one(
-            "divergence", "⟨div ẏ⟩", "Mean divergence", "1/time",
-            "Mean of div ẏ over the later two thirds of the time t: negative where phase volume shrinks.", _divergence,
-            usual(known.SPAN, 1000.0), error="standard error of the mean, from 12 stretches of time"))
+        found.append(
+            one(
+                "divergence",
+                "⟨div ẏ⟩",
+                "Mean divergence",
+                "1/time",
+                "Mean of div ẏ over the later two thirds of the time t: negative where phase volume shrinks.",
+                _divergence,
+                usual(known.SPAN, 1000.0),
+                error="standard error of the mean, from 12 stretches of time",
+            )
+        )
     return tuple(found)
 
 
@@ -230,25 +351,36 @@ def _regime(of: _Motions, level: Level, transient: float, kept: float, t: float,
     place = tuple(values[name] for name in of.place)
     found = regime(ReturnMap(of.section(values), level), place, int(transient), int(kept), t)
     if found.kind in (MotionKind.UNDECIDED, MotionKind.SETTLING):
-        raise NoValue(f"The motion is {found.kind.words}: MEGNO is {found.megno:.3g} after t = {found.t:.4g}. Choose a "
-                      "longer time, or leave more crossings out.")
+        raise NoValue(
+            f"The motion is {found.kind.words}: MEGNO is {found.megno:.3g} after t = {found.t:.4g}. Choose a "
+            "longer time, or leave more crossings out."
+        )
     return Cell((float(found.kind), float(found.period), float(found.volume)))
 
 
 def _regimes(of: _Motions) -> Quantity:
     """Return the kind of the motion from a place of a section."""
     return Quantity(
-        f"regime-{of.name}", "kind", f"Kind of the motion: {of.title}", "1",
+        f"regime-{of.name}",
+        "kind",
+        f"Kind of the motion: {of.title}",
+        "1",
         "Kind: 0 not seen to return, 1 fixed point, 2 periodic, 3 quasi-periodic, 4 chaotic, 6 regular without a "
         "period up to 64; period, 0 where none is seen; volume: −1 shrinks about the motion, 1 grows, 0 neither to "
         "three times the error. What is undecided has no value.",
-        (*of.parameters, whole("transient", "N₀", 300, 0, 20_000, "Crossings left out."),
-         whole("kept", "N", 200, 8, 20_000, "Crossings looked at."),
-         usual(known.SPAN, 200.0, "Time of MEGNO and of the mean divergence.")),
-        one_by_one(partial(_regime, of), 3), ("kind", "period", "volume"))
+        (
+            *of.parameters,
+            whole("transient", "N₀", 300, 0, 20_000, "Crossings left out."),
+            whole("kept", "N", 200, 8, 20_000, "Crossings looked at."),
+            usual(known.SPAN, 200.0, "Time of MEGNO and of the mean divergence."),
+        ),
+        one_by_one(partial(_regime, of), 3),
+        ("kind", "period", "volume"),
+    )
 
 
 MOTIONS: tuple[Quantity, ...] = (
     *(one for of in (*map(_anywhere, systems().values()), *_ON_SECTIONS) for one in _quantities(of)),
-    *map(_regimes, _ON_SECTIONS))
+    *map(_regimes, _ON_SECTIONS),
+)
 """Of every system, then of every section."""

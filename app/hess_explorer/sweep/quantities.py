@@ -38,12 +38,15 @@ _TORUS = (known.A_HESS, known.H_PLANE, known.F_HESS)
 _TENSOR = tuple(usual(one, value) for one, value in zip(known.TENSOR, (2.0, 1.0, 0.3, 0.5), strict=True))
 _D = usual(known.D, 1.0)
 _CIRCLE = (usual(known.THETA, 1.0), usual(known.CIRCLE_PHASE, 0.0))
-_PLANE_BODY = tuple(usual(one, value) for one, value in zip(
-    (*known.TENSOR[:2], *known.FIELD[:2]), (1.3, 0.8, 0.5, -0.2), strict=True))
-_PLANE_START = tuple(usual(one, value) for one, value in zip(
-    (*known.OMEGA, *known.GAMMA), (1.0, -0.5, 0.0, 0.6, 0.8), strict=True))
-_DISTANCE = Parameter("distance", "δ", "Distance of the start", 1e-3, (-0.1, 0.1), 1e-3, (-0.1, 0.1),
-                      "Distance of the start from N^u.")
+_PLANE_BODY = tuple(
+    usual(one, value) for one, value in zip((*known.TENSOR[:2], *known.FIELD[:2]), (1.3, 0.8, 0.5, -0.2), strict=True)
+)
+_PLANE_START = tuple(
+    usual(one, value) for one, value in zip((*known.OMEGA, *known.GAMMA), (1.0, -0.5, 0.0, 0.6, 0.8), strict=True)
+)
+_DISTANCE = Parameter(
+    "distance", "δ", "Distance of the start", 1e-3, (-0.1, 0.1), 1e-3, (-0.1, 0.1), "Distance of the start from N^u."
+)
 
 # ---- Suslov–Hess: tori (a, h, f) --------------------------------------------------------------------------------
 
@@ -89,18 +92,33 @@ def _cos_chi(level: Level, I11: float, I22: float, I13: float, I23: float) -> Ce
 # ---- periods ----------------------------------------------------------------------------------------------------
 
 
-def _period(level: Level, I11: float, I22: float, b1: float, b2: float, w1: float, w2: float, g1: float, g2: float,
-            g3: float) -> Cell:
+def _period(
+    level: Level, I11: float, I22: float, b1: float, b2: float, w1: float, w2: float, g1: float, g2: float, g3: float
+) -> Cell:
     gamma, _ = unit_vector((g1, g2, g3))
     found = arc(PlaneBody(I11, I22, b1, b2), (w1, w2, *gamma))
     if found.kind != "periodic":
-        raise NoValue("This motion rests on the equator and has no period." if found.kind == "fixed" else
-                      "This motion tends to a fixed point on the equator and has no period.")
+        raise NoValue(
+            "This motion rests on the equator and has no period."
+            if found.kind == "fixed"
+            else "This motion tends to a fixed point on the equator and has no period."
+        )
     return Cell(found.period)
 
 
-def _ball_period(level: Level, I11: float, I22: float, b1: float, b2: float, D: float, w1: float, w2: float, g1: float,
-                 g2: float, g3: float) -> Cell:
+def _ball_period(
+    level: Level,
+    I11: float,
+    I22: float,
+    b1: float,
+    b2: float,
+    D: float,
+    w1: float,
+    w2: float,
+    g1: float,
+    g2: float,
+    g3: float,
+) -> Cell:
     gamma, _ = unit_vector((g1, g2, g3))
     found = period(BallBody(I11, I22, 0.0, 0.0, D, b1, b2, 0.0), (w1, w2, *gamma), level)
     return Cell(found.value, found.error_estimate, found.status)
@@ -109,8 +127,9 @@ def _ball_period(level: Level, I11: float, I22: float, b1: float, b2: float, D: 
 # ---- Chaplygin ball ---------------------------------------------------------------------------------------------
 
 
-def _ball_theta_plus(level: Level, I11: float, I22: float, I13: float, I23: float, D: float, theta: float, phi: float,
-                     distance: float) -> Cell:
+def _ball_theta_plus(
+    level: Level, I11: float, I22: float, I13: float, I23: float, D: float, theta: float, phi: float, distance: float
+) -> Cell:
     found = ball_scattering(BallBody(I11, I22, I13, I23, D), theta, [phi], 1.0, distance, level)
     return Cell(float(found.theta_plus[0]), float(found.errors[0]), found.status)
 
@@ -126,43 +145,122 @@ def _attractors(level: Level, across: float, up: float, crossings: float, t: flo
 # ---- the table --------------------------------------------------------------------------------------------------
 
 _TABLE: tuple[Quantity, ...] = (
-    Quantity("rotation-number", "ρ", "Rotation number of Suslov–Hess tori", "turns per return",
-             "Rotation number of the circle map of the torus (h, f).", _TORUS,
-             partial(_of_tori, lambda found: found.rho), turn=1.0, needed=_GIVEN),
-    Quantity("trace", "|t|", "Trace of the circle map of Suslov–Hess tori", "1",
-             "|trace| of the circle map as a matrix of SU(1,1): above 2 it has two limit cycles.", _TORUS,
-             partial(_of_tori, lambda found: found.trace), needed=_GIVEN),
-    Quantity("locked", "locked", "Mode locking of Suslov–Hess tori", "1",
-             "1 where the circle map has two limit cycles, 0 elsewhere.", _TORUS,
-             partial(_of_tori, lambda found: found.locked.astype(float)), needed=_GIVEN),
-    Quantity("limit-cycles", "φ*", "Limit cycles of Suslov–Hess tori", "rad, the last 1",
-             "Angles of the stable and of the unstable limit cycle, and the logarithm of the multiplier of the stable "
-             "one.", _TORUS, one_by_one(_limit_cycles, 3), ("stable", "unstable", "log_multiplier"),
-             error="of Θ and of the trace", needed=_GIVEN),
-    Quantity("critical-a", "a*", "Birth of the limit cycles of Suslov–Hess tori", "1",
-             "The a at which the limit cycles of the torus (h, f) appear, |trace| = 2.", _TORUS[1:],
-             one_by_one(_critical_a), needed=_GIVEN[1:]),
-    Quantity("theta-plus", "θ⁺", "Scattering of the free Suslov problem", "rad",
-             "Angle of the circle that the motion from the circle θ⁻ with the phase φ goes to.",
-             (*_TENSOR, *_CIRCLE), one_by_one(_theta_plus), error="of cos θ⁺"),
-    Quantity("cos-chi", "cos χ", "Angle of scattering of the free Suslov problem", "1",
-             "cos χ in closed form: cos θ⁺ = cos χ cos θ⁻ + sin χ sin θ⁻ cos(φ − φ*).", _TENSOR, one_by_one(_cos_chi)),
-    Quantity("ball-theta-plus", "θ⁺", "Scattering of the Chaplygin ball", "rad",
-             "Angle of the circle that the motion from the circle θ⁻ with the phase φ goes to, without a field.",
-             (*_TENSOR, _D, *_CIRCLE, _DISTANCE),
-             one_by_one(_ball_theta_plus), error="of θ⁺"),
-    Quantity("period", "T", "Period with b₃ = 0 on a principal axis", "time",
-             "Period of the motion with I₁₃ = I₂₃ = 0 and b₃ = 0, by arithmetic-geometric means (Kharlamova's case).",
-             (*_PLANE_BODY, *_PLANE_START), one_by_one(_period)),
-    Quantity("ball-period", "T", "Period of the Chaplygin ball with b₃ = 0", "time",
-             "Twice the time between the first two crossings of γ₃ = 0, with I₁₃ = I₂₃ = 0 and b₃ = 0.",
-             (*_PLANE_BODY, _D, *_PLANE_START), one_by_one(_ball_period), error="of T"),
-    Quantity("attractors", "N", "Number of attractors: Suslov problem with gravity", "1",
-             "Groups of motions of a section whose mean divergence is negative by three times its error.",
-             (*SUSLOV_ENERGY, whole("across", "m", 8, 2, 400, "Orbits across the section."),
-              whole("up", "n", 6, 2, 400, "Orbits up the section."),
-              whole("crossings", "N", 150, 100, 10_000, "Crossings of each orbit."),
-              usual(known.SPAN, 1000.0, "Time over which the divergence is averaged.")), one_by_one(_attractors)),
+    Quantity(
+        "rotation-number",
+        "ρ",
+        "Rotation number of Suslov–Hess tori",
+        "turns per return",
+        "Rotation number of the circle map of the torus (h, f).",
+        _TORUS,
+        partial(_of_tori, lambda found: found.rho),
+        turn=1.0,
+        needed=_GIVEN,
+    ),
+    Quantity(
+        "trace",
+        "|t|",
+        "Trace of the circle map of Suslov–Hess tori",
+        "1",
+        "|trace| of the circle map as a matrix of SU(1,1): above 2 it has two limit cycles.",
+        _TORUS,
+        partial(_of_tori, lambda found: found.trace),
+        needed=_GIVEN,
+    ),
+    Quantity(
+        "locked",
+        "locked",
+        "Mode locking of Suslov–Hess tori",
+        "1",
+        "1 where the circle map has two limit cycles, 0 elsewhere.",
+        _TORUS,
+        partial(_of_tori, lambda found: found.locked.astype(float)),
+        needed=_GIVEN,
+    ),
+    Quantity(
+        "limit-cycles",
+        "φ*",
+        "Limit cycles of Suslov–Hess tori",
+        "rad, the last 1",
+        "Angles of the stable and of the unstable limit cycle, and the logarithm of the multiplier of the stable one.",
+        _TORUS,
+        one_by_one(_limit_cycles, 3),
+        ("stable", "unstable", "log_multiplier"),
+        error="of Θ and of the trace",
+        needed=_GIVEN,
+    ),
+    Quantity(
+        "critical-a",
+        "a*",
+        "Birth of the limit cycles of Suslov–Hess tori",
+        "1",
+        "The a at which the limit cycles of the torus (h, f) appear, |trace| = 2.",
+        _TORUS[1:],
+        one_by_one(_critical_a),
+        needed=_GIVEN[1:],
+    ),
+    Quantity(
+        "theta-plus",
+        "θ⁺",
+        "Scattering of the free Suslov problem",
+        "rad",
+        "Angle of the circle that the motion from the circle θ⁻ with the phase φ goes to.",
+        (*_TENSOR, *_CIRCLE),
+        one_by_one(_theta_plus),
+        error="of cos θ⁺",
+    ),
+    Quantity(
+        "cos-chi",
+        "cos χ",
+        "Angle of scattering of the free Suslov problem",
+        "1",
+        "cos χ in closed form: cos θ⁺ = cos χ cos θ⁻ + sin χ sin θ⁻ cos(φ − φ*).",
+        _TENSOR,
+        one_by_one(_cos_chi),
+    ),
+    Quantity(
+        "ball-theta-plus",
+        "θ⁺",
+        "Scattering of the Chaplygin ball",
+        "rad",
+        "Angle of the circle that the motion from the circle θ⁻ with the phase φ goes to, without a field.",
+        (*_TENSOR, _D, *_CIRCLE, _DISTANCE),
+        one_by_one(_ball_theta_plus),
+        error="of θ⁺",
+    ),
+    Quantity(
+        "period",
+        "T",
+        "Period with b₃ = 0 on a principal axis",
+        "time",
+        "Period of the motion with I₁₃ = I₂₃ = 0 and b₃ = 0, by arithmetic-geometric means (Kharlamova's case).",
+        (*_PLANE_BODY, *_PLANE_START),
+        one_by_one(_period),
+    ),
+    Quantity(
+        "ball-period",
+        "T",
+        "Period of the Chaplygin ball with b₃ = 0",
+        "time",
+        "Twice the time between the first two crossings of γ₃ = 0, with I₁₃ = I₂₃ = 0 and b₃ = 0.",
+        (*_PLANE_BODY, _D, *_PLANE_START),
+        one_by_one(_ball_period),
+        error="of T",
+    ),
+    Quantity(
+        "attractors",
+        "N",
+        "Number of attractors: Suslov problem with gravity",
+        "1",
+        "Groups of motions of a section whose mean divergence is negative by three times its error.",
+        (
+            *SUSLOV_ENERGY,
+            whole("across", "m", 8, 2, 400, "Orbits across the section."),
+            whole("up", "n", 6, 2, 400, "Orbits up the section."),
+            whole("crossings", "N", 150, 100, 10_000, "Crossings of each orbit."),
+            usual(known.SPAN, 1000.0, "Time over which the divergence is averaged."),
+        ),
+        one_by_one(_attractors),
+    ),
     *MOTIONS,
 )
 

@@ -25,8 +25,19 @@ from hess_mechanics.numerics.accuracy import Level, Status
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import Parameter
 
-__all__ = ["Cell", "CellArrays", "Found", "Outcome", "Outcomes", "Quantity", "evaluate", "one_by_one", "refused",
-           "usual", "whole"]
+__all__ = [
+    "Cell",
+    "CellArrays",
+    "Found",
+    "Outcome",
+    "Outcomes",
+    "Quantity",
+    "evaluate",
+    "one_by_one",
+    "refused",
+    "usual",
+    "whole",
+]
 
 logger = logging.getLogger("hess_explorer")
 
@@ -78,9 +89,15 @@ _WORDS = {
 _OF_STATUS = {Status.OK: Outcome.OK, Status.FLOOR: Outcome.FLOOR, Status.PROMISE_NOT_MET: Outcome.PROMISE_NOT_MET}
 
 _OF_ERROR: tuple[tuple[type[Exception], Outcome], ...] = (
-    (OutsideRegion, Outcome.OUTSIDE_REGION), (Separatrix, Outcome.SEPARATRIX), (NoField, Outcome.NO_FIELD),
-    (NotPositiveDefinite, Outcome.NO_BODY), (WorkLimit, Outcome.WORK_LIMIT), (NoValue, Outcome.NO_VALUE),
-    (InvalidParameter, Outcome.INVALID_PARAMETER), (ArithmeticError, Outcome.BEYOND_RANGE))
+    (OutsideRegion, Outcome.OUTSIDE_REGION),
+    (Separatrix, Outcome.SEPARATRIX),
+    (NoField, Outcome.NO_FIELD),
+    (NotPositiveDefinite, Outcome.NO_BODY),
+    (WorkLimit, Outcome.WORK_LIMIT),
+    (NoValue, Outcome.NO_VALUE),
+    (InvalidParameter, Outcome.INVALID_PARAMETER),
+    (ArithmeticError, Outcome.BEYOND_RANGE),
+)
 
 
 def usual(of: Parameter, default: float, doc: str = "") -> Parameter:
@@ -154,8 +171,9 @@ class Quantity:
         for one in self.parameters:
             if one.name == name:
                 return one
-        raise InvalidParameter(f"{self.name} has no parameter {name!r}; choose from "
-                               f"{', '.join(one.name for one in self.parameters)}.")
+        raise InvalidParameter(
+            f"{self.name} has no parameter {name!r}; choose from {', '.join(one.name for one in self.parameters)}."
+        )
 
 
 def refused(error: Exception, cell: Mapping[str, float]) -> tuple[Outcome, str]:
@@ -215,8 +233,13 @@ def _evaluated(quantity: Quantity, cells: CellArrays, level: Level) -> Found:
             return Found(np.full(shape, np.nan), np.full(1, np.nan), np.full(1, outcome, np.uint8), {0: said})
     # One cell refuses all: find it by halves.
     middle = count // 2
-    first, second = (_evaluated(quantity, {name: column[own] for name, column in cells.items()}, level)
-                     for own in (slice(None, middle), slice(middle, None)))
-    return Found(np.concatenate([first.values, second.values]), np.concatenate([first.errors, second.errors]),
-                 np.concatenate([first.status, second.status]),
-                 {**first.why, **{middle + i: said for i, said in second.why.items()}})
+    first, second = (
+        _evaluated(quantity, {name: column[own] for name, column in cells.items()}, level)
+        for own in (slice(None, middle), slice(middle, None))
+    )
+    return Found(
+        np.concatenate([first.values, second.values]),
+        np.concatenate([first.errors, second.errors]),
+        np.concatenate([first.status, second.status]),
+        {**first.why, **{middle + i: said for i, said in second.why.items()}},
+    )

@@ -65,12 +65,30 @@ def _slices(box: Box) -> tuple[slice, ...]:
 def _described(what: Quantity, grid: SweepGrid, level: str, values: Any, errors: Any, status: Any) -> xr.Dataset:
     """A Dataset with names, units and words, around arrays of any kind."""
     known = {one.name: one for one in what.parameters}
-    axes = {name: (places, {"long_name": known[name].label, "description": known[name].doc,
-                            "symbol": known[name].symbol, "units": known[name].unit})
-            for name, places in grid.axes.items()}
-    return described(what, axes, values, status, errors if what.error else None, parts=what.parts, program=_PROGRAM,
-                     version=version(), level=level,
-                     parameters=json.dumps(dict(grid.fixed), ensure_ascii=False, sort_keys=True))
+    axes = {
+        name: (
+            places,
+            {
+                "long_name": known[name].label,
+                "description": known[name].doc,
+                "symbol": known[name].symbol,
+                "units": known[name].unit,
+            },
+        )
+        for name, places in grid.axes.items()
+    }
+    return described(
+        what,
+        axes,
+        values,
+        status,
+        errors if what.error else None,
+        parts=what.parts,
+        program=_PROGRAM,
+        version=version(),
+        level=level,
+        parameters=json.dumps(dict(grid.fixed), ensure_ascii=False, sort_keys=True),
+    )
 
 
 def _arrays(what: Quantity, grid: SweepGrid) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -127,8 +145,14 @@ class Store:
         from zarr.codecs import Crc32cCodec, ZstdCodec
 
         of_values, of_status = _arrays(what, grid)
-        empty = _described(what, grid, level, np.broadcast_to(np.nan, of_values),
-                           np.broadcast_to(np.nan, of_status), np.broadcast_to(np.uint8(0), of_status))
+        empty = _described(
+            what,
+            grid,
+            level,
+            np.broadcast_to(np.nan, of_values),
+            np.broadcast_to(np.nan, of_status),
+            np.broadcast_to(np.uint8(0), of_status),
+        )
         # Checksums tell a file that is not whole.  Doubles of a chart are as good as noise: packing them takes more
         # than it saves; how cells ended is mostly one number.
         packed = {"status": ZstdCodec(level=1, checksum=True)}
@@ -139,9 +163,15 @@ class Store:
             group = _group(begun, "r+")
             for name, one in empty.data_vars.items():
                 group.create_array(
-                    name, shape=one.shape, dtype=one.dtype, chunks=(*shape, *one.shape[len(shape):]),
-                    compressors=(packed.get(str(name), Crc32cCodec()),), fill_value=one.values.flat[0],
-                    dimension_names=one.dims, attributes=one.attrs)
+                    name,
+                    shape=one.shape,
+                    dtype=one.dtype,
+                    chunks=(*shape, *one.shape[len(shape) :]),
+                    compressors=(packed.get(str(name), Crc32cCodec()),),
+                    fill_value=one.values.flat[0],
+                    dimension_names=one.dims,
+                    attributes=one.attrs,
+                )
             # Whole or not at all.
             begun.rename(path)
         except OSError as error:
@@ -172,8 +202,10 @@ class Store:
                 self._refuse(f"has {name} = {fixed.get(name)}, not {one}")
 
     def _refuse(self, why: str) -> None:
-        raise OtherSweep(f"{str(self.path)!r} is the store of another sweep: it {why}.  Choose another folder, or ask "
-                         "for the same sweep.")
+        raise OtherSweep(
+            f"{str(self.path)!r} is the store of another sweep: it {why}.  Choose another folder, or ask "
+            "for the same sweep."
+        )
 
     def has(self, box: Box) -> bool:
         """Whether this box is done, and can be read."""
@@ -236,8 +268,9 @@ def read(path: str | Path) -> xr.Dataset:
     try:
         return found.load() if math.prod(found.sizes.values()) <= MAX_NUMBERS else found
     except (OSError, ValueError, RuntimeError) as error:
-        raise StoreError(f"A part of {str(path)!r} cannot be read: run the same sweep again, which computes it "
-                         "anew.") from error
+        raise StoreError(
+            f"A part of {str(path)!r} cannot be read: run the same sweep again, which computes it anew."
+        ) from error
 
 
 def opened(path: Path, what: Quantity, grid: SweepGrid, level: str) -> Store | None:
@@ -246,9 +279,10 @@ def opened(path: Path, what: Quantity, grid: SweepGrid, level: str) -> Store | N
         return None
     held = _group(path, "r").attrs.get("quantity")
     if held != what.name and held in QUANTITIES:
-        raise OtherSweep(f"{str(path)!r} is the store of another sweep: it has quantity {held!r}, not {what.name!r}.  "
-                         "Choose another folder, or ask for the same sweep.")
+        raise OtherSweep(
+            f"{str(path)!r} is the store of another sweep: it has quantity {held!r}, not {what.name!r}.  "
+            "Choose another folder, or ask for the same sweep."
+        )
     found = Store(path, what)
     found.require(grid, level)
     return found
-

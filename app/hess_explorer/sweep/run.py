@@ -52,9 +52,18 @@ def _cells_of_a_piece(what: Quantity, grid: SweepGrid, accuracy: Level, workers:
     return min(seconds_of_a_piece(cost * grid.cells, workers) / cost, _MOST_NUMBERS / what.numbers)
 
 
-def sweep(quantity: str, over: Mapping[str, Axis], *, level: Accuracy = "precise", store: str | Path | None = None,
-          workers: WorkerCount = None, progress: bool | Report | None = None, most_cells: int = MAX_NUMBERS,
-          stop: threading.Event | None = None, **fixed: float) -> xr.Dataset:
+def sweep(
+    quantity: str,
+    over: Mapping[str, Axis],
+    *,
+    level: Accuracy = "precise",
+    store: str | Path | None = None,
+    workers: WorkerCount = None,
+    progress: bool | Report | None = None,
+    most_cells: int = MAX_NUMBERS,
+    stop: threading.Event | None = None,
+    **fixed: float,
+) -> xr.Dataset:
     """A quantity over one to three of its parameters.
 
     >>> from hess_explorer.sweep import sweep
@@ -109,8 +118,9 @@ def sweep(quantity: str, over: Mapping[str, Axis], *, level: Accuracy = "precise
                 if interrupted.is_set():
                     raise KeyboardInterrupt("stopped before anything was computed.")
                 shape = grid.box_of(_cells_of_a_piece(what, grid, accuracy, hands.size))
-                kept = Memory(what, grid, level, shape) if path is None else \
-                    Store.create(path, what, grid, level, shape)
+                kept = (
+                    Memory(what, grid, level, shape) if path is None else Store.create(path, what, grid, level, shape)
+                )
                 todo = grid.boxes(shape)
             pieces = ((box, Chunk(what.name, level, version(), grid.pieces(box), grid.fixed)) for box in todo)
             report = stack.enter_context(reporting(progress, grid.cells, grid.cells - missing))
@@ -124,8 +134,9 @@ def sweep(quantity: str, over: Mapping[str, Axis], *, level: Accuracy = "precise
             raise
         found = kept.dataset()
         ended = int(np.count_nonzero(found.status))
-        raise Interrupted(" ".join([f"stopped after {ended} of {grid.cells} cells.", kept.said]).strip(),
-                          found) from error
+        raise Interrupted(
+            " ".join([f"stopped after {ended} of {grid.cells} cells.", kept.said]).strip(), found
+        ) from error
     except WorkersLost as error:
         raise WorkersLost(" ".join([str(error), kept.said if kept else ""]).strip()) from error
     return kept.dataset()

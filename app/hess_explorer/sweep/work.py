@@ -55,13 +55,18 @@ class Done:
 def compute(piece: Chunk) -> Done:
     """Compute a box.  Raises `WorkersLost` where this process has another version than the one that asks."""
     if piece.version != version():
-        raise WorkersLost(f"A worker has version {version()} of hess-explorer, and {piece.version} is asked for: "
-                          "install the same on all.")
+        raise WorkersLost(
+            f"A worker has version {version()} of hess-explorer, and {piece.version} is asked for: "
+            "install the same on all."
+        )
     what = quantity(piece.quantity)
     found = evaluate(what, expanded(piece.axes, piece.fixed), level(piece.level))
     shape = tuple(part.size for part in piece.axes.values())
-    return Done(found.values.reshape(*shape, *found.values.shape[1:]),
-                found.errors.reshape(shape) if what.error else None, found.status.reshape(shape))
+    return Done(
+        found.values.reshape(*shape, *found.values.shape[1:]),
+        found.errors.reshape(shape) if what.error else None,
+        found.status.reshape(shape),
+    )
 
 
 _LONG_ENOUGH = 0.05
@@ -88,8 +93,9 @@ def cost_of_a_cell(what: Quantity, grid: SweepGrid, accuracy: Level) -> float:
         count *= 2
 
 
-def _trial(what: Quantity, grid: SweepGrid, accuracy: Level, count: int,
-           random: np.random.Generator) -> tuple[int, float]:
+def _trial(
+    what: Quantity, grid: SweepGrid, accuracy: Level, count: int, random: np.random.Generator
+) -> tuple[int, float]:
     """Cells computed, and seconds: of some boxes, as they will be computed together."""
     places = min(_PLACES, count)
     shape = grid.box_of(count / places)

@@ -131,8 +131,10 @@ def crew(workers: WorkerCount, stopped: Callable[[], bool]) -> Iterator[Crew]:
     with ExitStack() as stack:
         if isinstance(wanted, int) and not isinstance(wanted, bool):
             if not 1 <= wanted <= 4 * _cores():
-                raise InvalidParameter(f"This machine has {_cores()} cores: choose 1 to {4 * _cores()} workers, or "
-                                       "the address of a Dask cluster.")
+                raise InvalidParameter(
+                    f"This machine has {_cores()} cores: choose 1 to {4 * _cores()} workers, or "
+                    "the address of a Dask cluster."
+                )
             count = wanted
             yield _Others(stack.enter_context(processes(count)), lambda: count)
             return
@@ -168,8 +170,10 @@ def _connected(stack: ExitStack, address: str, stopped: Callable[[], bool]) -> C
                 raise TimeoutError
             time.sleep(_LOOK)
     except (OSError, TimeoutError, ValueError) as error:
-        raise WorkersLost(f"At {address} no Dask scheduler with a worker answers within {_WAIT:g} s: "
-                          "start one with `dask scheduler`, and workers with `dask worker`.") from error
+        raise WorkersLost(
+            f"At {address} no Dask scheduler with a worker answers within {_WAIT:g} s: "
+            "start one with `dask scheduler`, and workers with `dask worker`."
+        ) from error
     return client
 
 

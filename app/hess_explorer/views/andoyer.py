@@ -21,30 +21,55 @@ S = TypeVar("S")
 _X_TICKS = [(-1.0, "−1"), (-0.5, "−½"), (0.0, "0"), (0.5, "½"), (1.0, "1")]
 
 
-def picture(title: str, caption: Callable[[S], str], relation: Callable[[S], Array], orbit: Callable[[S], Array],
-            color: str = theme.ORBIT) -> Plot[S]:
+def picture(
+    title: str,
+    caption: Callable[[S], str],
+    relation: Callable[[S], Array],
+    orbit: Callable[[S], Array],
+    color: str = theme.ORBIT,
+) -> Plot[S]:
     """The Hess relation and an orbit, (l, L/G) in rows (n, 2) of each, with a ring where the orbit starts."""
     return Plot(
-        name="andoyer", title=title, caption=caption, axes=("l", "L/G"), x=ANGLE, y=(-1.0, 1.0),
-        ticks=ANGLE_TICKS, y_ticks=_X_TICKS, dot=("l", "x"), layers=(
+        name="andoyer",
+        title=title,
+        caption=caption,
+        axes=("l", "L/G"),
+        x=ANGLE,
+        y=(-1.0, 1.0),
+        ticks=ANGLE_TICKS,
+        y_ticks=_X_TICKS,
+        dot=("l", "x"),
+        layers=(
             curves("hess", lambda s: _parts(relation(s)), color=theme.STABLE, label="Hess manifold, r·M = 0"),
             curves("orbit", lambda s: _parts(orbit(s)), color=color),
-            ring("chosen", lambda s: [(float(orbit(s)[0, 0]), float(orbit(s)[0, 1]))], size=18, label="start")))
+            ring("chosen", lambda s: [(float(orbit(s)[0, 0]), float(orbit(s)[0, 1]))], size=18, label="start"),
+        ),
+    )
 
 
-def between(elsewhere: Callable[[S], Array], curve: Callable[[S], tuple[Array, Array]],
-            across: Callable[[S], Sequence[tuple[float, float]]]) -> tuple[Layer[S], ...]:
+def between(
+    elsewhere: Callable[[S], Array],
+    curve: Callable[[S], tuple[Array, Array]],
+    across: Callable[[S], Sequence[tuple[float, float]]],
+) -> tuple[Layer[S], ...]:
     """What lies between the orbits of a section and the chosen ones, whose track is drawn too.
 
     elsewhere : points (n, 2) on another sheet; curve : l and L/G of the Hess relation.
     across : both ends of the line of the rotation number, as far as it is in the window.
     """
-    return (dots("elsewhere", lambda s: elsewhere(s).T, color=theme.SHEET, size=12,
-                 label="on another sheet: another G"),
-            line("curve", curve, color=theme.STABLE, label="Hess manifold, r·M = 0"),
-            dots("path", track="orbit", columns=("l", "x"), size=3, color=theme.MAP, alpha=0.4),
-            line("line", lambda s: tuple(zip(*across(s), strict=True)) or None, color=theme.MUTED, dash="dashed",
-                 width=1.5, label="line of the rotation number"))
+    return (
+        dots("elsewhere", lambda s: elsewhere(s).T, color=theme.SHEET, size=12, label="on another sheet: another G"),
+        line("curve", curve, color=theme.STABLE, label="Hess manifold, r·M = 0"),
+        dots("path", track="orbit", columns=("l", "x"), size=3, color=theme.MAP, alpha=0.4),
+        line(
+            "line",
+            lambda s: tuple(zip(*across(s), strict=True)) or None,
+            color=theme.MUTED,
+            dash="dashed",
+            width=1.5,
+            label="line of the rotation number",
+        ),
+    )
 
 
 def _parts(points: Array) -> list[Array]:

@@ -58,9 +58,14 @@ def _locked(boundary: Array, axes: Axes) -> list[list[Array]]:
     return [[np.array([*boundary, *mirrored, [h, -top], [far, -top], [far, top], [h, top]])]]
 
 
-def layers(rotation: Callable[[S], CellGrid], boundary: Callable[[S], Array], curve: Callable[[S], Array],
-           here: Callable[[S], Sequence[tuple[float, float]]], axes: Callable[[S], Axes],
-           proved: Callable[[S], Sequence[Array]]) -> tuple[Layer[S], ...]:
+def layers(
+    rotation: Callable[[S], CellGrid],
+    boundary: Callable[[S], Array],
+    curve: Callable[[S], Array],
+    here: Callable[[S], Sequence[tuple[float, float]]],
+    axes: Callable[[S], Axes],
+    proved: Callable[[S], Sequence[Array]],
+) -> tuple[Layer[S], ...]:
     """Colours: rotation number ρ.  One tone where it is locked.  Grey: no motion.  A ring: the torus on show.
 
     rotation : over the window; boundary : |t| = 2, (n, 2) with f ≥ 0; curve : upper branch of the edge, (n, 2);
@@ -73,25 +78,43 @@ def layers(rotation: Callable[[S], CellGrid], boundary: Callable[[S], Array], cu
         return _mirrored(found) if len(found) else []
 
     return (
-        image("rotation", rotation, palette=theme.TURN_MAP, low=-0.5, high=0.5, cyclic=True,
-              legend=(TURNS,)),
+        image("rotation", rotation, palette=theme.TURN_MAP, low=-0.5, high=0.5, cyclic=True, legend=(TURNS,)),
         region("locked", lambda s: _locked(boundary(s), axes(s)), color=theme.LOCKED, label="locked"),
-        curves("proved", lambda s: [one for outline in proved(s) for one in _mirrored(outline)], moving=False,
-               color=theme.INK, width=0.75, alpha=0.5, label="proved cell"),
+        curves(
+            "proved",
+            lambda s: [one for outline in proved(s) for one in _mirrored(outline)],
+            moving=False,
+            color=theme.INK,
+            width=0.75,
+            alpha=0.5,
+            label="proved cell",
+        ),
         curves("boundary", lock, moving=False, color=theme.INK),
         region("forbidden", lambda s: impossible(curve(s), axes(s)), label="impossible"),
         curves("curve", lambda s: _mirrored(curve(s)), moving=False, color=theme.INK),
-        points("special", lambda s: ((1.0, -1.0), (0.0, 0.0)), columns=corners, moving=False, marker="diamond",
-               color=theme.PAPER, edge=theme.INK, size=11),
+        points(
+            "special",
+            lambda s: ((1.0, -1.0), (0.0, 0.0)),
+            columns=corners,
+            moving=False,
+            marker="diamond",
+            color=theme.PAPER,
+            edge=theme.INK,
+            size=11,
+        ),
         *target("here", here, columns=corners),
     )
 
 
 def about(h: float, f: float, theta: CircleMap | None) -> str:
     """In which zone a torus lies, from its circle map, None on the separatrix."""
-    zone = "the separatrix" if theta is None else {
-        "hyperbolic": "locked, two limit cycles", "parabolic": "on the lock boundary"}.get(
-            theta.kind, f"not locked, ρ = {digits(theta.rotation_number)}")
+    zone = (
+        "the separatrix"
+        if theta is None
+        else {"hyperbolic": "locked, two limit cycles", "parabolic": "on the lock boundary"}.get(
+            theta.kind, f"not locked, ρ = {digits(theta.rotation_number)}"
+        )
+    )
     return f"h = {digits(h)}, f = {digits(f)}: {zone}."
 
 

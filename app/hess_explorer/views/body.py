@@ -107,8 +107,11 @@ def seen_in_space(points: Array) -> Array:
     return np.stack([points[..., 1], -points[..., 2], -points[..., 0]], axis=-1)
 
 
-_WHEELS = Sign("wheels of the constraint: (ω, e) = 0, e in their plane", "dot",
-               f"background: {theme.FORBIDDEN}; border: 2.5px solid")
+_WHEELS = Sign(
+    "wheels of the constraint: (ω, e) = 0, e in their plane",
+    "dot",
+    f"background: {theme.FORBIDDEN}; border: 2.5px solid",
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -157,8 +160,13 @@ class BodyInSpace(Picture[S]):
     def describe(self) -> dict[str, Any]:
         """What the browser needs to know."""
         title = self.title if isinstance(self.title, str) else "The body in space"
-        return {**super().describe(), "tracks": {}, "attitude": self.attitude or self.name, "title": title,
-                "bare": self.bare}
+        return {
+            **super().describe(),
+            "tracks": {},
+            "attitude": self.attitude or self.name,
+            "title": title,
+            "bare": self.bare,
+        }
 
     def data(self, state: S) -> dict[str, Columns]:
         """The body, its motion, and what is drawn beside."""
@@ -174,8 +182,13 @@ class BodyInSpace(Picture[S]):
         if shape is not None:
             semi = [LARGEST] * 3 if self.hollow else shape.semi_axes.tolist()
             radius = LARGEST * math.sqrt(float(np.median(shape.moments) / np.max(shape.moments)))
-            columns |= {"axes": shape.axes.tolist(), "semi": semi, "names": list(shape.names), "hollow": self.hollow,
-                        "section": [] if shape.section is None else [*map(float, shape.section), radius]}
+            columns |= {
+                "axes": shape.axes.tolist(),
+                "semi": semi,
+                "names": list(shape.names),
+                "hollow": self.hollow,
+                "section": [] if shape.section is None else [*map(float, shape.section), radius],
+            }
         if self.wheels is not None:
             wheels = self.wheels(state)
             columns["wheels"] = [*map(float, wheels.at), *map(float, wheels.e)]
@@ -184,13 +197,17 @@ class BodyInSpace(Picture[S]):
             columns["trail"] = [*map(float, trail.along), trail.look]
         rods = () if self.rods is None else self.rods(state)
         curves = () if self.curves is None else self.curves(state)
-        return {self.name: {
-            **columns,
-            "rods": [[*map(float, one.along), one.look, one.label] for one in rods],
-            "curves": [[one.look, one.weight, *column(seen_in_space(one.points).T)] for one in curves],
-            "axis": [0.0, 0.0, -1.0], "label": "γ, gravity" if self.heavy is None or self.heavy(state) else "γ",
-            "circles": [[*map(float, one.axis), float(one.height), one.look] for one in self.circles],
-            "marks": [[*map(float, one.at), one.look, one.label] for one in self.marks]}}
+        return {
+            self.name: {
+                **columns,
+                "rods": [[*map(float, one.along), one.look, one.label] for one in rods],
+                "curves": [[one.look, one.weight, *column(seen_in_space(one.points).T)] for one in curves],
+                "axis": [0.0, 0.0, -1.0],
+                "label": "γ, gravity" if self.heavy is None or self.heavy(state) else "γ",
+                "circles": [[*map(float, one.axis), float(one.height), one.look] for one in self.circles],
+                "marks": [[*map(float, one.at), one.look, one.label] for one in self.marks],
+            }
+        }
 
     def nothing(self, sentence: str, axes: Axes | None) -> dict[str, Columns]:
         """The empty sphere; the reason is for the caption to say."""

@@ -34,13 +34,21 @@ _LETTERS = 26
 """As many stand side by side under the smallest picture; beside it there is room for any number."""
 
 _GLYPHS: Mapping[str, tuple[type[Glyph], tuple[str, ...]]] = {
-    "line": (glyphs.Line, ("x", "y")), "scatter": (glyphs.Scatter, ("x", "y")),
-    "multi_line": (glyphs.MultiLine, ("xs", "ys")), "multi_polygons": (glyphs.MultiPolygons, ("xs", "ys")),
-    "segment": (glyphs.Segment, ("x0", "y0", "x1", "y1")), "text": (glyphs.Text, ("x", "y", "text")),
-    "quad": (glyphs.Quad, ("left", "right", "top", "bottom"))}
+    "line": (glyphs.Line, ("x", "y")),
+    "scatter": (glyphs.Scatter, ("x", "y")),
+    "multi_line": (glyphs.MultiLine, ("xs", "ys")),
+    "multi_polygons": (glyphs.MultiPolygons, ("xs", "ys")),
+    "segment": (glyphs.Segment, ("x0", "y0", "x1", "y1")),
+    "text": (glyphs.Text, ("x", "y", "text")),
+    "quad": (glyphs.Quad, ("left", "right", "top", "bottom")),
+}
 """Those that Bokeh draws, and which of their properties are columns, by the glyph of a layer."""
-_BOX: Layer[Any] = Layer("box", "quad", ("left", "right", "top", "bottom"), {
-    "fill_alpha": 0.1, "fill_color": theme.UNSTABLE, "line_color": theme.UNSTABLE})
+_BOX: Layer[Any] = Layer(
+    "box",
+    "quad",
+    ("left", "right", "top", "bottom"),
+    {"fill_alpha": 0.1, "fill_color": theme.UNSTABLE, "line_color": theme.UNSTABLE},
+)
 """The box that the mouse draws."""
 
 
@@ -49,14 +57,29 @@ def build(plot: Plot[Any]) -> figure:
     axes, names = plot.first_axes, plot.axes if isinstance(plot.axes, tuple) else (" ", " ")
     # Plain arrays: any other form of data makes HoloViews import pandas (0.25 s).
     point = {"x": np.array([axes.x[0]]), "y": np.array([axes.y[0]])}
-    background = hv.Curve(point, "x", "y", datatype=["dictionary"]).opts(hv.opts.Curve(
-        **elements.frame(plot, axes, names), backend="bokeh", toolbar=None, default_tools=[], responsive=True,
-        title="", fontsize={"labels": theme.FONT_SIZE, "ticks": "12px"}))
+    background = hv.Curve(point, "x", "y", datatype=["dictionary"]).opts(
+        hv.opts.Curve(
+            **elements.frame(plot, axes, names),
+            backend="bokeh",
+            toolbar=None,
+            default_tools=[],
+            responsive=True,
+            title="",
+            fontsize={"labels": theme.FONT_SIZE, "ticks": "12px"},
+        )
+    )
     root: figure = _renderer.get_plot(background).state
     # The page shines through, whatever its theme.  An invisible background that is painted all the same makes Bokeh
     # begin a new path for the outline; without one it strokes the ticks of the last painting once more.
-    root.update(name=plot.name, min_border=4, sizing_mode="stretch_both", aspect_ratio=None,
-                background_fill_color="#00000000", background_fill_alpha=1, border_fill_alpha=0)
+    root.update(
+        name=plot.name,
+        min_border=4,
+        sizing_mode="stretch_both",
+        aspect_ratio=None,
+        background_fill_color="#00000000",
+        background_fill_alpha=1,
+        border_fill_alpha=0,
+    )
     for axis in root.axis:
         axis.major_label_policy = NoOverlap(min_distance=4)
     if plot.y_tick_count is not None:
@@ -88,10 +111,17 @@ def _item(root: figure) -> dict[str, Any]:
 def describe(plot: Plot[Any]) -> dict[str, Any]:
     """What the browser needs to know of a plot, see "plot.js"."""
     return {
-        "item": _item(build(plot)), "renamed": not isinstance(plot.axes, tuple), "picks": list(plot.events),
-        "letters": [None if plot.ticks is not None or side in plot.log else letters
-                    for side, letters in (("x", _LETTERS), ("y", 1000))],
+        "item": _item(build(plot)),
+        "renamed": not isinstance(plot.axes, tuple),
+        "picks": list(plot.events),
+        "letters": [
+            None if plot.ticks is not None or side in plot.log else letters
+            for side, letters in (("x", _LETTERS), ("y", 1000))
+        ],
         "cells": [{"source": plot.source_of(layer), **layer.style} for layer in plot.layers if layer.glyph == "image"],
-        "dots": [{"source": plot.source_of(layer), "x": layer.columns[0], "y": layer.columns[1], **layer.style}
-                 for layer in plot.layers if layer.glyph == "dots"],
+        "dots": [
+            {"source": plot.source_of(layer), "x": layer.columns[0], "y": layer.columns[1], **layer.style}
+            for layer in plot.layers
+            if layer.glyph == "dots"
+        ],
     }

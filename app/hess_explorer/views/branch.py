@@ -30,8 +30,10 @@ def strands(branch: Branch, side: int, sign: str) -> list[Array]:
         run: list[tuple[float, float]] = []
         for i, (value, places) in enumerate(zip(branch.values, branch.places, strict=True)):
             here = (float(value), float(places[j, side]))
-            between = sorted((one for one in branch.bifurcations if one.after == i - 1),
-                             key=lambda one: float(np.abs(one.places - branch.places[max(0, i - 1)]).max()))
+            between = sorted(
+                (one for one in branch.bifurcations if one.after == i - 1),
+                key=lambda one: float(np.abs(one.places - branch.places[max(0, i - 1)]).max()),
+            )
             for one in between:
                 met = (one.value, float(one.places[j, side]))
                 run = _ended(found, [*run, met] if run else [])
@@ -51,15 +53,20 @@ def _ended(found: list[Array], run: list[tuple[float, float]]) -> list[tuple[flo
     return []
 
 
-def layers(branches: Callable[[S], Sequence[Branch]], side: Callable[[S], int], turn: Callable[[S], float]
-           ) -> tuple[Layer[S], ...]:
+def layers(
+    branches: Callable[[S], Sequence[Branch]], side: Callable[[S], int], turn: Callable[[S], float]
+) -> tuple[Layer[S], ...]:
     """Branches over their parameter, to the right, with one coordinate of all places, an angle with that turn, or ∞."""
 
     def parts(sign: str) -> Callable[[S, Axes], list[Array]]:
         def of(state: S, axes: Axes) -> list[Array]:
             up = Axes(axes.y, axes.x)
-            return [part[:, ::-1] for one in branches(state) for strand in strands(one, side(state), sign)
-                    for part in within(strand[:, ::-1], turn(state), up)]
+            return [
+                part[:, ::-1]
+                for one in branches(state)
+                for strand in strands(one, side(state), sign)
+                for part in within(strand[:, ::-1], turn(state), up)
+            ]
 
         return of
 
@@ -70,8 +77,10 @@ def layers(branches: Callable[[S], Sequence[Branch]], side: Callable[[S], int], 
             there = seen(np.column_stack([y, np.full(len(y), one.value)]), turn(state), up)
             inside = [(float(x), float(height)) for height, x in there if axes.x[0] <= x <= axes.x[1]]
             # One of its places, the highest, has its name: names beside all of them would cover each other.
-            found += [(x, y, _SHORT.get(one.kind, one.kind) if y == max(inside, key=lambda at: at[1])[1] else "")
-                      for x, y in inside]
+            found += [
+                (x, y, _SHORT.get(one.kind, one.kind) if y == max(inside, key=lambda at: at[1])[1] else "")
+                for x, y in inside
+            ]
         return found
 
     def places(state: S, axes: Axes) -> Array | None:
@@ -79,14 +88,37 @@ def layers(branches: Callable[[S], Sequence[Branch]], side: Callable[[S], int], 
         return np.array(found).T if found else None
 
     return (
-        curves("branch-attracts", within=parts("attracts"), color=theme.STABLE, width=3.0,
-               label="branch of a stable periodic orbit"),
-        curves("branch-neither", within=parts("neither"), color=theme.SHEET, width=3.0,
-               label="of an elliptic or parabolic one"),
-        curves("branch-repels", within=parts("repels"), color=theme.UNSTABLE, width=3.0, dash="dashed",
-               label="of an unstable one"),
-        points("bifurcations", within=places, size=10, color=theme.POINT, edge=theme.INK, edge_width=1.5,
-               label="its bifurcations"),
+        curves(
+            "branch-attracts",
+            within=parts("attracts"),
+            color=theme.STABLE,
+            width=3.0,
+            label="branch of a stable periodic orbit",
+        ),
+        curves(
+            "branch-neither",
+            within=parts("neither"),
+            color=theme.SHEET,
+            width=3.0,
+            label="of an elliptic or parabolic one",
+        ),
+        curves(
+            "branch-repels",
+            within=parts("repels"),
+            color=theme.UNSTABLE,
+            width=3.0,
+            dash="dashed",
+            label="of an unstable one",
+        ),
+        points(
+            "bifurcations",
+            within=places,
+            size=10,
+            color=theme.POINT,
+            edge=theme.INK,
+            edge_width=1.5,
+            label="its bifurcations",
+        ),
         names("bifurcation-names", within=marked, size=13, above=7),
     )
 
@@ -95,7 +127,8 @@ def bifurcations(branches: Sequence[Branch]) -> list[Bifurcation]:
     """All of them, each once, by the parameter."""
     found: list[Bifurcation] = []
     for one in (one for branch in branches for one in branch.bifurcations):
-        if not any(one.kind == known.kind and abs(one.value - known.value) <= one.error + known.error
-                   for known in found):
+        if not any(
+            one.kind == known.kind and abs(one.value - known.value) <= one.error + known.error for known in found
+        ):
             found.append(one)
     return sorted(found, key=lambda one: one.value)

@@ -57,36 +57,79 @@ def _density(circle_map: CircleMap) -> list[Array]:
     return [np.column_stack([_DENSITY, -math.pi + EVENLY * 2.0 * math.pi * relative])]
 
 
-def picture(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None], caption: Callable[[S], str],
-            title: str = "Circle map", dot: tuple[str, str] | None = None, on_click: Click[S] | None = None) -> Plot[S]:
+def picture(
+    map: Callable[[S], CircleMap | None],
+    iterates: Callable[[S], Array | None],
+    caption: Callable[[S], str],
+    title: str = "Circle map",
+    dot: tuple[str, str] | None = None,
+    on_click: Click[S] | None = None,
+) -> Plot[S]:
     """The map of a torus, None on the separatrix, with fixed points or density and the cobweb of the first iterates."""
-    return Plot(name="circle", title=title, caption=caption, axes=("φ", "Θ(φ)"), x=ANGLE, y=ANGLE, ticks=ANGLE_TICKS,
-                dot=dot, message=lambda s: "" if map(s) is not None else "Separatrix: no return",
-                on_click=on_click, layers=_layers(map, iterates))
+    return Plot(
+        name="circle",
+        title=title,
+        caption=caption,
+        axes=("φ", "Θ(φ)"),
+        x=ANGLE,
+        y=ANGLE,
+        ticks=ANGLE_TICKS,
+        dot=dot,
+        message=lambda s: "" if map(s) is not None else "Separatrix: no return",
+        on_click=on_click,
+        layers=_layers(map, iterates),
+    )
 
 
 def look(phi: Array, theta: Array) -> Curves:
     """Θ (n,) over the phases (n,) and its copies, for comparisons."""
     lifted = np.unwrap(theta)
     lifted = lifted - 2.0 * math.pi * np.round(lifted[len(lifted) // 2] / (2.0 * math.pi))
-    return Curves(Frame(Axes(ANGLE, ANGLE), ("φ", "Θ(φ)")), tuple(
-        np.column_stack([phi, lifted + turn]) for turn in (0.0, -2.0 * math.pi, 2.0 * math.pi)))
+    return Curves(
+        Frame(Axes(ANGLE, ANGLE), ("φ", "Θ(φ)")),
+        tuple(np.column_stack([phi, lifted + turn]) for turn in (0.0, -2.0 * math.pi, 2.0 * math.pi)),
+    )
 
 
 def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None]) -> tuple[Layer[S], ...]:
     """Θ, the diagonal, fixed points, stable ones filled and unstable ones hollow, or the density; the cobweb."""
     here = ("phi", "theta")
     return (
-        line("diagonal", mapped(map, lambda theta: (ANGLE, ANGLE)), columns=here, moving=False,
-             color=theme.MUTED, dash="dotted", width=1.5),
+        line(
+            "diagonal",
+            mapped(map, lambda theta: (ANGLE, ANGLE)),
+            columns=here,
+            moving=False,
+            color=theme.MUTED,
+            dash="dotted",
+            width=1.5,
+        ),
         curves("density", mapped(map, _density), color=theme.STABLE, width=1.5, label="invariant density"),
-        line("cobweb", mapped(iterates, lambda found: cobweb(found[: _COBWEB + 1])), columns=here,
-             color=theme.ORBIT, width=1),
+        line(
+            "cobweb",
+            mapped(iterates, lambda found: cobweb(found[: _COBWEB + 1])),
+            columns=here,
+            color=theme.ORBIT,
+            width=1,
+        ),
         curves("map", mapped(map, _copies), color=theme.MAP, width=2.5, label="circle map Θ"),
-        points("stable", mapped(map, lambda theta: _fixed(theta, True)), columns=here, size=12, edge_width=3,
-               color=theme.STABLE),
-        points("unstable", mapped(map, lambda theta: _fixed(theta, False)), columns=here, size=12, edge_width=3,
-               hollow=True, color=theme.UNSTABLE),
+        points(
+            "stable",
+            mapped(map, lambda theta: _fixed(theta, True)),
+            columns=here,
+            size=12,
+            edge_width=3,
+            color=theme.STABLE,
+        ),
+        points(
+            "unstable",
+            mapped(map, lambda theta: _fixed(theta, False)),
+            columns=here,
+            size=12,
+            edge_width=3,
+            hollow=True,
+            color=theme.UNSTABLE,
+        ),
     )
 
 
@@ -103,8 +146,10 @@ def about(theta: CircleMap | None, proof: str = "") -> str:
     if "cycle" in proof:
         enclosed = "" if theta.kind == "elliptic" else f"|trace| {digits(theta.trace, 5)}, "
         return f"{theta.kind}, {enclosed}ρ = {digits(theta.rotation_number)}. {proof}"
-    points = {"hyperbolic": f"multipliers {', '.join(digits(point.multiplier) for point in theta.fixed_points)}",
-              "parabolic": "multiplier 1"}.get(theta.kind, "no fixed point")
+    points = {
+        "hyperbolic": f"multipliers {', '.join(digits(point.multiplier) for point in theta.fixed_points)}",
+        "parabolic": "multiplier 1",
+    }.get(theta.kind, "no fixed point")
     said = f"{theta.kind}, |trace| {digits(theta.trace, 5)}, ρ = {digits(theta.rotation_number)}; {points}."
     return f"{said} {proof}" if proof else said
 
@@ -112,8 +157,10 @@ def about(theta: CircleMap | None, proof: str = "") -> str:
 def riccati_matrix(theta: CircleMap) -> str:
     """The two numbers of its matrix."""
     alpha, beta = theta.alpha_beta
-    return (f"Riccati matrix α = {digits(alpha.real)} {'−' if alpha.imag < 0.0 else '+'} {digits(abs(alpha.imag))} i, "
-            f"β = {digits(beta.imag)} i")
+    return (
+        f"Riccati matrix α = {digits(alpha.real)} {'−' if alpha.imag < 0.0 else '+'} {digits(abs(alpha.imag))} i, "
+        f"β = {digits(beta.imag)} i"
+    )
 
 
 def about_cycles(theta: CircleMap) -> str:

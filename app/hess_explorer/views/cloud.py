@@ -22,7 +22,14 @@ from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.results import Array
 
 __all__ = [
-    "CloudPlane", "about_course", "about_ends", "course_layers", "density_axes", "density_layers", "look", "room",
+    "CloudPlane",
+    "about_course",
+    "about_ends",
+    "course_layers",
+    "density_axes",
+    "density_layers",
+    "look",
+    "room",
     "status_of",
 ]
 
@@ -51,8 +58,10 @@ def about_ends(found: Clouds) -> str:
 def status_of(found: Clouds) -> Iterator[str]:
     """For the status line: size, cost and errors of the clouds."""
     cloud, other = found.cloud, found.other
-    yield (f"{cloud.level}: {cloud.signs.size} points, {cloud.times.size} frames, {cloud.cost.steps} Taylor steps, "
-           f"error of ω/ν, γ and ln|s| ≤ {cloud.error_estimate:.1e} ({cloud.status})")
+    yield (
+        f"{cloud.level}: {cloud.signs.size} points, {cloud.times.size} frames, {cloud.cost.steps} Taylor steps, "
+        f"error of ω/ν, γ and ln|s| ≤ {cloud.error_estimate:.1e} ({cloud.status})"
+    )
     if other is not None:
         yield f"beside ≤ {other.errors.max():.1e}"
 
@@ -63,8 +72,10 @@ def about_course(found: Clouds, of_patch: bool) -> str:
     if of_patch:
         said = f"The patch has {digits(course.volume[-1], 3)} of its volume left"
     else:
-        said = (f"Mean of div v {ranging(course.divergence[0, 0], course.divergence[0, -1], 3)}; "
-                f"mean of ln s(t)/s(0) in the end {digits(course.log_growth[0, -1], 3)}")
+        said = (
+            f"Mean of div v {ranging(course.divergence[0, 0], course.divergence[0, -1], 3)}; "
+            f"mean of ln s(t)/s(0) in the end {digits(course.log_growth[0, -1], 3)}"
+        )
     return f"{said}; beside, all of it." if found.other is not None else f"{said}."
 
 
@@ -75,8 +86,11 @@ def look(found: Clouds) -> Marks:
     clouds = [(found.cloud.omega, found.cloud.gamma)]
     if found.other is not None:
         clouds.append((found.other.states[..., :2], found.other.states[..., 2:]))
-    return Marks(frame(half_width), tuple(omega[:, -1] for omega, _ in clouds),
-                  elsewhere=tuple((w * omega, radius * gamma) for omega, gamma in clouds))
+    return Marks(
+        frame(half_width),
+        tuple(omega[:, -1] for omega, _ in clouds),
+        elsewhere=tuple((w * omega, radius * gamma) for omega, gamma in clouds),
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,8 +124,11 @@ class CloudPlane(Picture[S]):
     @property
     def legend(self) -> tuple[Sign, ...]:
         """What it adds to the legend of its scene."""
-        return (Sign("stable half, s = 0", "line", f"border-top: 3px solid {theme.STABLE}"),
-                Sign("unstable half, s = 0", "line", f"border-top: 3px dashed {theme.UNSTABLE}"), *self.signs)
+        return (
+            Sign("stable half, s = 0", "line", f"border-top: 3px solid {theme.STABLE}"),
+            Sign("unstable half, s = 0", "line", f"border-top: 3px dashed {theme.UNSTABLE}"),
+            *self.signs,
+        )
 
     def describe(self) -> dict[str, Any]:
         """What the browser needs to know."""
@@ -127,14 +144,24 @@ class CloudPlane(Picture[S]):
         found, strip = self.clouds(state), self.strip(state)
         cloud, body, log_s = found.cloud, strip.body, found.density.log_s
         count = 2 if body.D else 1
-        marks = [[look, *map(float, point)] for look, ends in (("stable", strip.stable), ("unstable", strip.unstable))
-                 for point in ends[:count]]
+        marks = [
+            [look, *map(float, point)]
+            for look, ends in (("stable", strip.stable), ("unstable", strip.unstable))
+            for point in ends[:count]
+        ]
         second = {} if found.other is None else {"frames1": _frames(list(np.moveaxis(found.other.states, -1, 0)))}
-        return {self.name: {
-            "times": column(np.abs(cloud.times)), "sense": -1 if cloud.times[-1] < 0.0 else 1,
-            "frames0": _frames([cloud.along, cloud.log_s, *np.moveaxis(cloud.gamma, -1, 0)]),
-            "signs0": column(cloud.signs), "body": [body.I11, body.I22, body.I13, body.I23, body.D, self.b3(state)],
-            "points": marks, "bins": [float(log_s[0]) - 0.5 * BIN, BIN, log_s.size], **second}}
+        return {
+            self.name: {
+                "times": column(np.abs(cloud.times)),
+                "sense": -1 if cloud.times[-1] < 0.0 else 1,
+                "frames0": _frames([cloud.along, cloud.log_s, *np.moveaxis(cloud.gamma, -1, 0)]),
+                "signs0": column(cloud.signs),
+                "body": [body.I11, body.I22, body.I13, body.I23, body.D, self.b3(state)],
+                "points": marks,
+                "bins": [float(log_s[0]) - 0.5 * BIN, BIN, log_s.size],
+                **second,
+            }
+        }
 
     def framed(self, state: S, axes: Axes | None) -> dict[str, Columns]:
         """The axes, σ1 and σ2, and the line of equilibria out of the picture."""
@@ -143,9 +170,16 @@ class CloudPlane(Picture[S]):
         xi, _ = line_of_rest(strip.body)
         far = 3.0 * half * xi
         edges = [strip.sigma1(_ANGLES)] + ([strip.sigma2(_ANGLES)] if strip.body.D else [])
-        return {self.name: {"half": half, "curves": [
-            *(["muted", *column(edge.T)] for edge in edges),
-            ["stable", [0.0, -far[0]], [0.0, -far[1]]], ["unstable", [0.0, far[0]], [0.0, far[1]]]]}}
+        return {
+            self.name: {
+                "half": half,
+                "curves": [
+                    *(["muted", *column(edge.T)] for edge in edges),
+                    ["stable", [0.0, -far[0]], [0.0, -far[1]]],
+                    ["unstable", [0.0, far[0]], [0.0, far[1]]],
+                ],
+            }
+        }
 
     def nothing(self, sentence: str, axes: Axes | None) -> dict[str, Columns]:
         """The axes alone; the reason is for the caption to say."""
@@ -174,6 +208,7 @@ def density_layers(density: Callable[[S], Density]) -> tuple[Layer[S], ...]:
 
     The browser fills "now", the one at the moving time.
     """
+
     def limit(state: S, axes: Axes) -> tuple[Array, Array]:
         ends = np.array(axes.x)
         return ends, density(state).height / ends
@@ -184,24 +219,36 @@ def density_layers(density: Callable[[S], Density]) -> tuple[Layer[S], ...]:
     now: Layer[S] = points("now", color=theme.POINT, edge=theme.INK, size=7, label="at the moving time")
     return (
         line("limit", within=limit, color=theme.MUTED, width=3, dash="dotted", label="c/|s|"),
-        line("first", within=of(lambda one: one.first), color=theme.MUTED, width=1, dash="dashed",
-             label="at the start"),
+        line(
+            "first", within=of(lambda one: one.first), color=theme.MUTED, width=1, dash="dashed", label="at the start"
+        ),
         line("last", within=of(lambda one: one.last), color=theme.MUTED, width=1, label="at the end; energy h"),
         line("mean", within=of(lambda one: one.mean), color=theme.ORBIT, label="cloud; its mean"),
-        now)
+        now,
+    )
 
 
-def course_layers(times: Callable[[S], Array], course: Callable[[S], Array], beside: Callable[[S], bool]
-                  ) -> tuple[Layer[S], ...]:
+def course_layers(
+    times: Callable[[S], Array], course: Callable[[S], Array], beside: Callable[[S], bool]
+) -> tuple[Layer[S], ...]:
     """Mean, least and largest (3, m) of something over the cloud at times (m,); the mean is that of the track "orbit".
 
     beside : whether there is a cloud on a principal axis, where it is 0.
     """
+
     def extreme(name: str, i: int) -> Layer[S]:
         return over_time(name, lambda s: (times(s), course(s)[i]), color=theme.MUTED, dash="dashed")
 
     return (
-        levels("levels", lambda s: [0.0]), extreme("least", 1), extreme("largest", 2),
-        line("beside", lambda s: ((0.0, times(s)[-1]), (0.0, 0.0)) if beside(s) else None, color=theme.MAP,
-             dash="dotdash", label="cloud on a principal axis"),
-        line("mean", track="orbit", columns=("t", "mean"), color=theme.ORBIT))
+        levels("levels", lambda s: [0.0]),
+        extreme("least", 1),
+        extreme("largest", 2),
+        line(
+            "beside",
+            lambda s: ((0.0, times(s)[-1]), (0.0, 0.0)) if beside(s) else None,
+            color=theme.MAP,
+            dash="dotdash",
+            label="cloud on a principal axis",
+        ),
+        line("mean", track="orbit", columns=("t", "mean"), color=theme.ORBIT),
+    )

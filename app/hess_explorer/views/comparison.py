@@ -133,16 +133,22 @@ def _sorted(frame: Frame, points: Array, away: Array) -> tuple[Array, Array, flo
     """Those of the points in the frame that stay, those that do not; the largest distance of them."""
     seen = frame.inside(points)
     points, away = points[seen], away[seen]
-    return (frozen(points[away <= HALF_A_PIXEL]), frozen(points[away > HALF_A_PIXEL]),
-            float(away[np.isfinite(away)].max(initial=0.0)))
+    return (
+        frozen(points[away <= HALF_A_PIXEL]),
+        frozen(points[away > HALF_A_PIXEL]),
+        float(away[np.isfinite(away)].max(initial=0.0)),
+    )
 
 
 def _points(one: Marks, finer: Marks) -> Difference:
     kept, away, added, lost = [], [], [], []
     for i, (orbit, exact) in enumerate(zip(one.orbits, finer.orbits, strict=True)):
         both = min(len(orbit), len(exact))
-        found = (errors_in_pixels(orbit, exact, finer.frame.pixels, one.periods) if not one.elsewhere else
-                 np.max([*_distances(one.elsewhere[i], finer.elsewhere[i], both)], axis=0))
+        found = (
+            errors_in_pixels(orbit, exact, finer.frame.pixels, one.periods)
+            if not one.elsewhere
+            else np.max([*_distances(one.elsewhere[i], finer.elsewhere[i], both)], axis=0)
+        )
         wrong = np.flatnonzero(found > HALF_A_PIXEL)
         if one.crossings and wrong.size and torn_away(found):
             lost.append(int(wrong[0]) + 1)
@@ -152,8 +158,15 @@ def _points(one: Marks, finer: Marks) -> Difference:
         added.append(exact[both:])
     same, changed, largest = _sorted(finer.frame, _joined(kept), np.concatenate([np.empty(0), *away]))
     more = _joined(added)
-    return Difference(finer.frame, same, changed, frozen(more[finer.frame.inside(more)]), largest=largest,
-                      orbits=len(one.orbits) if one.crossings else 0, lost=tuple(lost))
+    return Difference(
+        finer.frame,
+        same,
+        changed,
+        frozen(more[finer.frame.inside(more)]),
+        largest=largest,
+        orbits=len(one.orbits) if one.crossings else 0,
+        lost=tuple(lost),
+    )
 
 
 def _distances(left: Sequence[Array], right: Sequence[Array], both: int) -> Iterator[Array]:
@@ -203,8 +216,7 @@ def _curves(one: Curves, finer: Curves) -> Difference:
     points, away = _one_way(finer.frame, one.curves, finer.curves, pairs)
     same, changed, largest = _sorted(finer.frame, points, away)
     there, missing = _one_way(finer.frame, finer.curves, one.curves, pairs)
-    return Difference(finer.frame, same, changed, frozen(there[missing > HALF_A_PIXEL]),
-                      largest=largest)
+    return Difference(finer.frame, same, changed, frozen(there[missing > HALF_A_PIXEL]), largest=largest)
 
 
 def _cells(one: Cells, finer: Cells) -> Difference:
@@ -220,4 +232,3 @@ def _cells(one: Cells, finer: Cells) -> Difference:
 def _enlarged(values: Array, shape: Sequence[int]) -> Array:
     rows, columns = (np.arange(fine) * coarse // fine for coarse, fine in zip(values.shape, shape, strict=True))
     return np.asarray(values[np.ix_(rows, columns)])
-

@@ -32,6 +32,7 @@ def about(found: Conformal) -> str:
 
 def _bracket(found: Found[S], i: int) -> Callable[[S, Axes], list[Array]]:
     """Its graph, cut at the equator, where it is infinite."""
+
     def graph(state: S, axes: Axes) -> list[Array]:
         motion = found(state)
         if motion is None:
@@ -45,6 +46,7 @@ def _bracket(found: Found[S], i: int) -> Callable[[S, Axes], list[Array]]:
 
 def picture(found: Found[S], reason: Callable[[S], str], span: Callable[[S], float]) -> Plot[S]:
     """τ and {ω1, γ3}, {ω2, γ3} against t, or the reason why there is none."""
+
     def caption(state: S) -> str:
         motion = found(state)
         return reason(state) if motion is None else about(motion)
@@ -52,11 +54,29 @@ def picture(found: Found[S], reason: Callable[[S], str], span: Callable[[S], flo
     layers: tuple[Layer[S], ...] = (
         levels("levels", lambda s: [] if found(s) is None else [0.0]),
         curves("first", within=_bracket(found, 2), color=theme.MAP, width=1.5, label="{ω₁, γ₃} = γ₂/(I₁₁γ₃)"),
-        curves("second", within=_bracket(found, 3), color=theme.MUTED, width=1.5, dash="dashed",
-               label="{ω₂, γ₃} = −γ₁/(I₂₂γ₃)"),
-        over_time("tau", mapped(found, lambda motion: thinned(motion.orbit.times, motion.tau)), color=theme.ORBIT,
-                  label="conformal time τ"))
-    return Plot(name="conformal", title="Conformal time and brackets", caption=caption, axes=("t", "τ"),
-                first=Axes((0.0, 60.0), (-3.0, 3.0)), x=lambda s: (0.0, span(s)),
-                y=mapped(found, lambda motion: about_0(motion.tau, _LEAST)),
-                layers=layers, folded="Show the conformal time")
+        curves(
+            "second",
+            within=_bracket(found, 3),
+            color=theme.MUTED,
+            width=1.5,
+            dash="dashed",
+            label="{ω₂, γ₃} = −γ₁/(I₂₂γ₃)",
+        ),
+        over_time(
+            "tau",
+            mapped(found, lambda motion: thinned(motion.orbit.times, motion.tau)),
+            color=theme.ORBIT,
+            label="conformal time τ",
+        ),
+    )
+    return Plot(
+        name="conformal",
+        title="Conformal time and brackets",
+        caption=caption,
+        axes=("t", "τ"),
+        first=Axes((0.0, 60.0), (-3.0, 3.0)),
+        x=lambda s: (0.0, span(s)),
+        y=mapped(found, lambda motion: about_0(motion.tau, _LEAST)),
+        layers=layers,
+        folded="Show the conformal time",
+    )

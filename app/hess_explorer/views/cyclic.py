@@ -24,7 +24,9 @@ def _scale() -> tuple[str, ...]:
     step = _COUNT // len(anchors)
     mixed = (
         [((step - j) * x + j * y) / step for x, y in zip(anchor, anchors[(i + 1) % len(anchors)], strict=True)]
-        for i, anchor in enumerate(anchors) for j in range(step))
+        for i, anchor in enumerate(anchors)
+        for j in range(step)
+    )
     return tuple("#" + "".join(f"{round(part):02X}" for part in colour) for colour in mixed)
 
 

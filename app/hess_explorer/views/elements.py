@@ -35,8 +35,7 @@ _DOT = 0.6
 _MOST_VECTORS = 5000
 """More markers than these are pixels in a vector file, which would else take a viewer seconds."""
 _MARKERS = {"circle": "o", "triangle": "^", "diamond": "D", "square": "s"}
-_DASHES: Mapping[str, Any] = {
-    "solid": "-", "dashed": (0, (6, 3)), "dotted": (0, (2, 4)), "dotdash": (0, (2, 4, 6, 4))}
+_DASHES: Mapping[str, Any] = {"solid": "-", "dashed": (0, (6, 3)), "dotted": (0, (2, 4)), "dotdash": (0, (2, 4, 6, 4))}
 
 
 def as_it_is(colour: str) -> str:
@@ -44,8 +43,14 @@ def as_it_is(colour: str) -> str:
     return colour
 
 
-def overlay(plot: Plot[Any], columns: Mapping[str, Columns], axes: Axes, names: tuple[str, str], title: str = "",
-            colour: Colour = as_it_is) -> hv.Overlay:
+def overlay(
+    plot: Plot[Any],
+    columns: Mapping[str, Columns],
+    axes: Axes,
+    names: tuple[str, str],
+    title: str = "",
+    colour: Colour = as_it_is,
+) -> hv.Overlay:
     """Return the layers of a plot from the back to the front, with options for all backends that are loaded.
 
     Parameters
@@ -56,21 +61,34 @@ def overlay(plot: Plot[Any], columns: Mapping[str, Columns], axes: Axes, names: 
     """
     # Cells lie under everything else.
     layers = sorted((*plot.layers, POINT, MESSAGE), key=lambda layer: layer.glyph != "image")
-    drawn = [_element(layer, columns[plot.source_of(layer)], colour) for layer in layers
-             if len(columns.get(plot.source_of(layer), {}).get(layer.columns[0], ()))]
+    drawn = [
+        _element(layer, columns[plot.source_of(layer)], colour)
+        for layer in layers
+        if len(columns.get(plot.source_of(layer), {}).get(layer.columns[0], ()))
+    ]
     found = hv.Overlay(drawn or [hv.Curve([])])
     shared = {**frame(plot, axes, names), "title": title, "show_legend": False}
-    return _with_options(found, {
-        "bokeh": {**shared, "frame_width": SIDE, "frame_height": SIDE, "fontsize": {"labels": 13}},
-        "matplotlib": {**shared, "show_frame": True, "aspect": "auto", "hooks": [_finish]}})
+    return _with_options(
+        found,
+        {
+            "bokeh": {**shared, "frame_width": SIDE, "frame_height": SIDE, "fontsize": {"labels": 13}},
+            "matplotlib": {**shared, "show_frame": True, "aspect": "auto", "hooks": [_finish]},
+        },
+    )
 
 
 def frame(plot: Plot[Any], axes: Axes, names: tuple[str, str]) -> Options:
     """Return the options of both backends for ranges, names, scales and ticks of the axes."""
     ticks = [(plot.ticks or plot.x_ticks, "xticks"), (plot.y_ticks or plot.ticks, "yticks")]
-    return {"xlim": axes.x, "ylim": axes.y, "xlabel": names[0], "ylabel": names[1],
-            "logx": "x" in plot.log, "logy": "y" in plot.log,
-            **{name: list(places) for places, name in ticks if places is not None}}
+    return {
+        "xlim": axes.x,
+        "ylim": axes.y,
+        "xlabel": names[0],
+        "ylabel": names[1],
+        "logx": "x" in plot.log,
+        "logy": "y" in plot.log,
+        **{name: list(places) for places, name in ticks if places is not None},
+    }
 
 
 def on_paper(layer: Layer[Any], colour: Colour) -> Options:
@@ -130,14 +148,22 @@ def _labels(label: str, x: Any, y: Any, text: Any) -> hv.Element:
 
 
 def _stroke(style: Style) -> Options:
-    return {"color": style["line_color"], "linewidth": _PAPER * style["line_width"],
-            "linestyle": _DASHES[style.get("line_dash", "solid")], "alpha": style.get("line_alpha", 1.0)}
+    return {
+        "color": style["line_color"],
+        "linewidth": _PAPER * style["line_width"],
+        "linestyle": _DASHES[style.get("line_dash", "solid")],
+        "alpha": style.get("line_alpha", 1.0),
+    }
 
 
 def _area(style: Style) -> Options:
     # Without a color of its own: HoloViews has one from its cycle, which would win.
-    return {"color": None, "facecolor": style["fill_color"], "edgecolor": style["line_color"] or "none",
-            "linewidth": 0.6}
+    return {
+        "color": None,
+        "facecolor": style["fill_color"],
+        "edgecolor": style["line_color"] or "none",
+        "linewidth": 0.6,
+    }
 
 
 def _turning(style: Style) -> Options:
@@ -146,10 +172,14 @@ def _turning(style: Style) -> Options:
 
 def _marker(style: Style) -> Options:
     filled, edged = style.get("fill_alpha", 1.0), style.get("line_alpha", 1.0)
-    return {"s": (_PAPER * style["size"]) ** 2, "marker": _MARKERS[style.get("marker", "circle")],
-            "linewidth": _PAPER * style["line_width"], "alpha": max(filled, edged),
-            "facecolors": style["fill_color"] if filled else "none",
-            "edgecolors": style["line_color"] if edged else "none"}
+    return {
+        "s": (_PAPER * style["size"]) ** 2,
+        "marker": _MARKERS[style.get("marker", "circle")],
+        "linewidth": _PAPER * style["line_width"],
+        "alpha": max(filled, edged),
+        "facecolors": style["fill_color"] if filled else "none",
+        "edgecolors": style["line_color"] if edged else "none",
+    }
 
 
 def _small(style: Style) -> Options:
@@ -176,8 +206,12 @@ def _word(style: Style) -> Options:
 
 def _letters(style: Style) -> Options:
     upright = {"middle": "center"}.get(style.get("text_baseline", "bottom"), "bottom")
-    return {"color": style["text_color"], "size": "medium", "horizontalalignment": style["text_align"],
-            "verticalalignment": upright}
+    return {
+        "color": style["text_color"],
+        "size": "medium",
+        "horizontalalignment": style["text_align"],
+        "verticalalignment": upright,
+    }
 
 
 def _finish(plot: Any, element: hv.Overlay) -> None:
@@ -204,7 +238,7 @@ def _pixels(style: Style) -> Hook:
         artist = plot.handles["artist"]
         artist.set_rasterized(len(element) > _MOST_VECTORS)
         if element.vdims:
-            path, = artist.get_paths()
+            (path,) = artist.get_paths()
             artist.set_paths([path.transformed(Affine2D().rotate(angle)) for angle in element["angle"]])
 
     return hook
@@ -241,5 +275,6 @@ _KINDS: Mapping[str, _Kind] = {
     "scatter": _Kind(_points, _turning, _marker, _pixels),
     "dots": _Kind(_points, _small, _dot, _pixels),
     "image": _Kind(_cells, _scale, _interpolated),
-    "text": _Kind(_labels, _word, _letters, _moved)}
+    "text": _Kind(_labels, _word, _letters, _moved),
+}
 """By the glyph of a layer."""

@@ -12,8 +12,17 @@ from hess_explorer.views.layers import Layer, Range, curves, mapped
 from hess_explorer.views.velocity_plane import centred, nice_above
 from hess_mechanics.numerics.results import Array, Mask
 
-__all__ = ["ANGLE", "ANGLE_TICKS", "about_0", "branches", "over_time", "pieces", "settled_range", "thinned",
-           "with_room"]
+__all__ = [
+    "ANGLE",
+    "ANGLE_TICKS",
+    "about_0",
+    "branches",
+    "over_time",
+    "pieces",
+    "settled_range",
+    "thinned",
+    "with_room",
+]
 
 S = TypeVar("S")
 
@@ -24,8 +33,9 @@ _POINTS = 600
 """Of a curve over a long time, as many as a picture shows."""
 
 
-def over_time(name: str, data: Callable[[S], tuple[Array, Array] | None], *, color: str, dash: str = "solid",
-              label: str = "") -> Layer[S]:
+def over_time(
+    name: str, data: Callable[[S], tuple[Array, Array] | None], *, color: str, dash: str = "solid", label: str = ""
+) -> Layer[S]:
     """A graph: data(state) = times and values (n,), or None where it is not known."""
     return curves(name, mapped(data, lambda found: [np.column_stack(found)]), color=color, dash=dash, label=label)
 
@@ -72,5 +82,8 @@ def branches(x: Array, y: Array, period: float) -> list[Array]:
 def pieces(curve: Array, kept: Mask, jump: float = math.inf) -> list[Array]:
     """For `curves`: the parts of one (n, 2) along which `kept` (n,) holds, not joined across jumps in height."""
     cuts = np.flatnonzero((kept[1:] != kept[:-1]) | (np.abs(np.diff(curve[:, 1])) > jump)) + 1
-    return [part for part, whole in zip(np.split(curve, cuts), np.split(kept, cuts), strict=True)
-            if whole[0] and len(part) > 1]
+    return [
+        part
+        for part, whole in zip(np.split(curve, cuts), np.split(kept, cuts), strict=True)
+        if whole[0] and len(part) > 1
+    ]

@@ -44,13 +44,27 @@ def _grid(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> 
     return grid
 
 
-def _kinds(name: str, cells: Callable[[S], Array | None], window: Callable[[S], Window], colors: tuple[str, ...],
-           labels: tuple[str, ...]) -> Layer[S]:
+def _kinds(
+    name: str,
+    cells: Callable[[S], Array | None],
+    window: Callable[[S], Window],
+    colors: tuple[str, ...],
+    labels: tuple[str, ...],
+) -> Layer[S]:
     """Cells (m, n) over the window: 0, 1, … by the kind of each, any others as the last; −1 where there is nothing."""
     shifted = mapped(cells, lambda found: np.minimum(found, len(colors) - 1) + 1.5)
-    return image(name, _grid(shifted, window), palette=(_CLEAR, *colors), low=0.0, high=len(colors) + 1.0, kinds=True,
-                 legend=tuple(Sign(label, "box", f"background: {color}", i + 1.0)
-                              for i, (label, color) in enumerate(zip(labels, colors, strict=True))))
+    return image(
+        name,
+        _grid(shifted, window),
+        palette=(_CLEAR, *colors),
+        low=0.0,
+        high=len(colors) + 1.0,
+        kinds=True,
+        legend=tuple(
+            Sign(label, "box", f"background: {color}", i + 1.0)
+            for i, (label, color) in enumerate(zip(labels, colors, strict=True))
+        ),
+    )
 
 
 def basins(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Layer[S]:
@@ -62,22 +76,36 @@ def basins(cells: Callable[[S], Array | None], window: Callable[[S], Window]) ->
 def indicator(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Layer[S]:
     """Cells (m, n) over the window by MEGNO: 0 regular, 1 chaotic, 2 more where volume shrinks; −1 where nothing is."""
     colors = (theme.SHEET + "50", theme.UNSTABLE + "60", theme.STABLE + "70", theme.MAP + "80")
-    return _kinds("megno", cells, window, colors, (
-        "regular", "chaotic", "regular, volume shrinks", "chaotic, volume shrinks"))
+    return _kinds(
+        "megno", cells, window, colors, ("regular", "chaotic", "regular, volume shrinks", "chaotic, volume shrinks")
+    )
 
 
-def layers(first: Callable[[S], Array], second: Callable[[S], Array], own: Callable[[S], Array],
-           chosen: Callable[[S], Sequence[tuple[float, float]]], impossible: Callable[[S], Array],
-           window: Callable[[S], Window], labels: tuple[str, str], between: tuple[Layer[S], ...] = ()
-           ) -> tuple[Layer[S], ...]:
+def layers(
+    first: Callable[[S], Array],
+    second: Callable[[S], Array],
+    own: Callable[[S], Array],
+    chosen: Callable[[S], Sequence[tuple[float, float]]],
+    impossible: Callable[[S], Array],
+    window: Callable[[S], Window],
+    labels: tuple[str, str],
+    between: tuple[Layer[S], ...] = (),
+) -> tuple[Layer[S], ...]:
     """Points (n, 2) of either kind, and of the chosen orbits, which start in rings; grey: impossible.
 
     impossible : cells (m, n) over the window, 1 where nothing is; labels : of the kinds, for the legend; between :
     further layers, over the points of all orbits and under those of the chosen ones.
     """
     return (
-        image("impossible", _grid(impossible, window), palette=(_CLEAR, theme.FORBIDDEN), low=0.0, high=1.0, kinds=True,
-              legend=(Sign("impossible", "box", f"background: {theme.FORBIDDEN}", 1.0),)),
+        image(
+            "impossible",
+            _grid(impossible, window),
+            palette=(_CLEAR, theme.FORBIDDEN),
+            low=0.0,
+            high=1.0,
+            kinds=True,
+            legend=(Sign("impossible", "box", f"background: {theme.FORBIDDEN}", 1.0),),
+        ),
         _points("first", first, window, 5, theme.ORBIT, labels[0]),
         _points("second", second, window, 5, theme.UNSTABLE, labels[1]),
         *between,
@@ -86,6 +114,7 @@ def layers(first: Callable[[S], Array], second: Callable[[S], Array], own: Calla
     )
 
 
-def _points(name: str, of: Callable[[S], Array], window: Callable[[S], Window], size: float, color: str, label: str
-          ) -> Layer[S]:
+def _points(
+    name: str, of: Callable[[S], Array], window: Callable[[S], Window], size: float, color: str, label: str
+) -> Layer[S]:
     return dots(name, lambda s: apart(of(s), window(s)).T, color=color, size=size, label=label)

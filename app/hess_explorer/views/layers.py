@@ -107,9 +107,18 @@ class Layer(Generic[S]):
     legend: tuple[Sign, ...] = ()
 
 
-MESSAGE: Layer[Any] = Layer("message", "text", ("x", "y", "text"), {
-    "text_color": theme.MUTED, "text_font_style": "bold", "text_font_size": "15px", "text_align": "center",
-    "text_baseline": "middle"})
+MESSAGE: Layer[Any] = Layer(
+    "message",
+    "text",
+    ("x", "y", "text"),
+    {
+        "text_color": theme.MUTED,
+        "text_font_style": "bold",
+        "text_font_size": "15px",
+        "text_align": "center",
+        "text_baseline": "middle",
+    },
+)
 """A sentence where there is nothing to see."""
 
 
@@ -150,11 +159,18 @@ def _cells(value: CellGrid | None) -> Columns:
     return {"image": [column(value.cells)], "x": [x0], "y": [y0], "dw": [x1 - x0], "dh": [y1 - y0]}
 
 
-def _layer(layer: Layer[S], convert: Callable[[Any], Columns], data: Callable[[S], Any] | None,
-           within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+def _layer(
+    layer: Layer[S],
+    convert: Callable[[Any], Columns],
+    data: Callable[[S], Any] | None,
+    within: Callable[[S, Axes], Any] | None = None,
+) -> Layer[S]:
     """The layer with its data converted to columns."""
-    return replace(layer, data=None if data is None else lambda state: convert(data(state)),
-                   within=None if within is None else lambda state, axes: convert(within(state, axes)))
+    return replace(
+        layer,
+        data=None if data is None else lambda state: convert(data(state)),
+        within=None if within is None else lambda state, axes: convert(within(state, axes)),
+    )
 
 
 def _signed(label: str, kind: str, style: str) -> tuple[Sign, ...]:
@@ -164,72 +180,169 @@ def _signed(label: str, kind: str, style: str) -> tuple[Sign, ...]:
 def _stroked(layer: Layer[S], color: str, width: float, dash: str, alpha: float, label: str) -> Layer[S]:
     # CSS has no word for dashes and dots.
     sign = f"border-top: {max(2.0, width):g}px {'dashed' if dash == 'dotdash' else dash} {color}"
-    return replace(layer, legend=_signed(label, "line", sign), style={
-        "line_color": color, "line_width": width, "line_dash": dash, "line_alpha": alpha})
+    return replace(
+        layer,
+        legend=_signed(label, "line", sign),
+        style={"line_color": color, "line_width": width, "line_dash": dash, "line_alpha": alpha},
+    )
 
 
-def line(name: str, data: Callable[[S], Any] | None = None, *, color: str, width: float = 2.0, dash: str = "solid",
-         alpha: float = 1.0, label: str = "", moving: bool = True, columns: tuple[str, str] = ("x", "y"),
-         track: str | None = None, within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+def line(
+    name: str,
+    data: Callable[[S], Any] | None = None,
+    *,
+    color: str,
+    width: float = 2.0,
+    dash: str = "solid",
+    alpha: float = 1.0,
+    label: str = "",
+    moving: bool = True,
+    columns: tuple[str, str] = ("x", "y"),
+    track: str | None = None,
+    within: Callable[[S, Axes], Any] | None = None,
+) -> Layer[S]:
     """One curve: data(state) = (x, y), or None; `track`: columns of a track of the scene."""
     layer: Layer[S] = Layer(name, "line", columns, track=track, moving=moving)
-    return _layer(_stroked(layer, color, width, dash, alpha, label), lambda value: _positions(columns, value), data,
-                  within)
+    return _layer(
+        _stroked(layer, color, width, dash, alpha, label), lambda value: _positions(columns, value), data, within
+    )
 
 
-def curves(name: str, data: Callable[[S], Sequence[Array] | None] | None = None, *, color: str, width: float = 2.0,
-           dash: str = "solid", alpha: float = 1.0, label: str = "", moving: bool = True,
-           within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+def curves(
+    name: str,
+    data: Callable[[S], Sequence[Array] | None] | None = None,
+    *,
+    color: str,
+    width: float = 2.0,
+    dash: str = "solid",
+    alpha: float = 1.0,
+    label: str = "",
+    moving: bool = True,
+    within: Callable[[S, Axes], Any] | None = None,
+) -> Layer[S]:
     """Some curves: data(state) = arrays (n, 2), or None."""
     layer: Layer[S] = Layer(name, "multi_line", ("xs", "ys"), moving=moving)
     return _layer(_stroked(layer, color, width, dash, alpha, label), _parts, data, within)
 
 
-def region(name: str, data: Callable[[S], Sequence[Sequence[Array]]] | None = None, *, color: str = theme.FORBIDDEN,
-           edge: str | None = None, label: str = "", moving: bool = False,
-           within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+def region(
+    name: str,
+    data: Callable[[S], Sequence[Sequence[Array]]] | None = None,
+    *,
+    color: str = theme.FORBIDDEN,
+    edge: str | None = None,
+    label: str = "",
+    moving: bool = False,
+    within: Callable[[S, Axes], Any] | None = None,
+) -> Layer[S]:
     """Filled parts: data(state) = parts, each an outer closed curve (n, 2) and those of its holes."""
-    layer: Layer[S] = Layer(name, "multi_polygons", ("xs", "ys"), {"fill_color": color, "line_color": edge},
-                            moving=moving, legend=_signed(label, "box", f"background: {color}"))
+    layer: Layer[S] = Layer(
+        name,
+        "multi_polygons",
+        ("xs", "ys"),
+        {"fill_color": color, "line_color": edge},
+        moving=moving,
+        legend=_signed(label, "box", f"background: {color}"),
+    )
     return _layer(layer, _regions, data, within)
 
 
-def points(name: str, data: Callable[[S], Any] | None = None, *, color: str, size: float, marker: str = "circle",
-           hollow: bool = False, edge: str | None = None, edge_width: float = 1.0, alpha: float = 1.0, label: str = "",
-           moving: bool = True, columns: tuple[str, ...] = ("x", "y"), track: str | None = None,
-           within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+def points(
+    name: str,
+    data: Callable[[S], Any] | None = None,
+    *,
+    color: str,
+    size: float,
+    marker: str = "circle",
+    hollow: bool = False,
+    edge: str | None = None,
+    edge_width: float = 1.0,
+    alpha: float = 1.0,
+    label: str = "",
+    moving: bool = True,
+    columns: tuple[str, ...] = ("x", "y"),
+    track: str | None = None,
+    within: Callable[[S, Axes], Any] | None = None,
+) -> Layer[S]:
     """Markers: data(state) = (x, y), or (x, y, angle), or None."""
     small = size < 10 and not hollow
-    look = f"background: none; border: {min(3.0, max(2.0, edge_width)):g}px solid {color}" if hollow else (
-        f"background: {color}" + (f"; border: 1.5px solid {edge}" if edge else ""))
-    layer: Layer[S] = Layer(name, "scatter", columns, {
-        "marker": marker, "size": size, "line_width": edge_width, "fill_color": color, "line_color": edge or color,
-        "fill_alpha": 0.0 if hollow else alpha, "line_alpha": alpha,
-        **({"angle": "angle"} if "angle" in columns else {})}, track=track, moving=moving,
-        legend=_signed(label, "dot small" if small else "dot", look))
+    look = (
+        f"background: none; border: {min(3.0, max(2.0, edge_width)):g}px solid {color}"
+        if hollow
+        else (f"background: {color}" + (f"; border: 1.5px solid {edge}" if edge else ""))
+    )
+    layer: Layer[S] = Layer(
+        name,
+        "scatter",
+        columns,
+        {
+            "marker": marker,
+            "size": size,
+            "line_width": edge_width,
+            "fill_color": color,
+            "line_color": edge or color,
+            "fill_alpha": 0.0 if hollow else alpha,
+            "line_alpha": alpha,
+            **({"angle": "angle"} if "angle" in columns else {}),
+        },
+        track=track,
+        moving=moving,
+        legend=_signed(label, "dot small" if small else "dot", look),
+    )
     return _layer(layer, lambda value: _positions(columns, value), data, within)
 
 
-def dots(name: str, data: Callable[[S], Any] | None = None, *, color: str, size: float, alpha: float = 1.0,
-         label: str = "", columns: tuple[str, str] = ("x", "y"), track: str | None = None,
-         within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+def dots(
+    name: str,
+    data: Callable[[S], Any] | None = None,
+    *,
+    color: str,
+    size: float,
+    alpha: float = 1.0,
+    label: str = "",
+    columns: tuple[str, str] = ("x", "y"),
+    track: str | None = None,
+    within: Callable[[S, Axes], Any] | None = None,
+) -> Layer[S]:
     """Points by the thousand, which the page draws itself: data(state) = (x, y), or None."""
-    layer: Layer[S] = Layer(name, "dots", columns, {"size": size, "color": color, "alpha": alpha}, track=track,
-                            legend=_signed(label, "dot small", f"background: {color}"))
+    layer: Layer[S] = Layer(
+        name,
+        "dots",
+        columns,
+        {"size": size, "color": color, "alpha": alpha},
+        track=track,
+        legend=_signed(label, "dot small", f"background: {color}"),
+    )
     return _layer(layer, lambda value: _positions(columns, value), data, within)
 
 
-def arrows(name: str, data: Callable[[S], Any] | None = None, *, color: str, size: float = 10.0, alpha: float = 1.0,
-           within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+def arrows(
+    name: str,
+    data: Callable[[S], Any] | None = None,
+    *,
+    color: str,
+    size: float = 10.0,
+    alpha: float = 1.0,
+    within: Callable[[S, Axes], Any] | None = None,
+) -> Layer[S]:
     """Triangles that point along a motion: data(state) = (x, y, angle), angle 0 upwards, or None."""
-    layer: Layer[S] = points(name, data, color=color, size=size, marker="triangle", alpha=alpha,
-                             columns=("x", "y", "angle"), within=within)
+    layer: Layer[S] = points(
+        name, data, color=color, size=size, marker="triangle", alpha=alpha, columns=("x", "y", "angle"), within=within
+    )
     return replace(layer, style={**layer.style, "line_alpha": 0.0})
 
 
-def ring(name: str, data: Callable[[S], Sequence[tuple[float, float]]] | None = None, *, color: str = theme.UNSTABLE,
-         size: float = 16.0, width: float = 3.0, label: str = "", columns: tuple[str, str] = ("x", "y"),
-         within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+def ring(
+    name: str,
+    data: Callable[[S], Sequence[tuple[float, float]]] | None = None,
+    *,
+    color: str = theme.UNSTABLE,
+    size: float = 16.0,
+    width: float = 3.0,
+    label: str = "",
+    columns: tuple[str, str] = ("x", "y"),
+    within: Callable[[S, Axes], Any] | None = None,
+) -> Layer[S]:
     """Rings about some places [(x, y), …]."""
     layer: Layer[S] = points(name, color=color, size=size, hollow=True, edge_width=width, label=label, columns=columns)
     return _layer(layer, lambda value: _rows(columns, value), data, within)
@@ -240,24 +353,52 @@ def _rows(columns: Sequence[str], value: Sequence[Sequence[Any]]) -> Columns:
     return dict(zip(columns, map(list, zip(*value, strict=True)), strict=False))
 
 
-def target(name: str, data: Callable[[S], Sequence[tuple[float, float]]], size: float = 21.0,
-           columns: tuple[str, str] = ("x", "y")) -> tuple[Layer[S], Layer[S]]:
+def target(
+    name: str,
+    data: Callable[[S], Sequence[tuple[float, float]]],
+    size: float = 21.0,
+    columns: tuple[str, str] = ("x", "y"),
+) -> tuple[Layer[S], Layer[S]]:
     """A ring that is seen on any colour: white, and black on it."""
-    return (ring(name, data, color="white", size=size, width=6.0, columns=columns),
-            ring(f"{name}-too", data, color="black", size=size, width=2.5, columns=columns))
+    return (
+        ring(name, data, color="white", size=size, width=6.0, columns=columns),
+        ring(f"{name}-too", data, color="black", size=size, width=2.5, columns=columns),
+    )
 
 
-def image(name: str, data: Callable[[S], CellGrid | None], *, palette: str | tuple[str, ...], low: float, high: float,
-          smooth: bool = False, cyclic: bool = False, kinds: bool = False, legend: tuple[Sign, ...] = ()) -> Layer[S]:
+def image(
+    name: str,
+    data: Callable[[S], CellGrid | None],
+    *,
+    palette: str | tuple[str, ...],
+    low: float,
+    high: float,
+    smooth: bool = False,
+    cyclic: bool = False,
+    kinds: bool = False,
+    legend: tuple[Sign, ...] = (),
+) -> Layer[S]:
     """Numbers on a grid, under all other layers.
 
     smooth : of a continuous function, interpolated between the centres of cells; cyclic : so, and `low` and `high` are
     the same; kinds : numbers that are names, with smooth borders between them.
     """
     colors = getattr(palettes, palette) if isinstance(palette, str) else palette
-    layer: Layer[S] = Layer(name, "image", ("image", "x", "y", "dw", "dh"), {
-        "palette": list(colors), "low": low, "high": high, "smooth": smooth or cyclic, "cyclic": cyclic,
-        "kinds": kinds}, moving=False, legend=legend)
+    layer: Layer[S] = Layer(
+        name,
+        "image",
+        ("image", "x", "y", "dw", "dh"),
+        {
+            "palette": list(colors),
+            "low": low,
+            "high": high,
+            "smooth": smooth or cyclic,
+            "cyclic": cyclic,
+            "kinds": kinds,
+        },
+        moving=False,
+        legend=legend,
+    )
     return _layer(layer, _cells, data)
 
 
@@ -274,12 +415,27 @@ def levels(name: str, data: Callable[[S], Sequence[float]]) -> Layer[S]:
     return Layer(name, "segment", ("x0", "y0", "x1", "y1"), style, within=across)
 
 
-def names(name: str, data: Callable[[S], Sequence[tuple[float, float, str]]] | None = None, *, size: int = 16,
-          above: int = 0, within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+def names(
+    name: str,
+    data: Callable[[S], Sequence[tuple[float, float, str]]] | None = None,
+    *,
+    size: int = 16,
+    above: int = 0,
+    within: Callable[[S, Axes], Any] | None = None,
+) -> Layer[S]:
     """Words at places, or so many pixels above them: data(state) = [(x, y, word), …]."""
-    layer: Layer[S] = Layer(name, "text", ("x", "y", "text"), {
-        "text_color": theme.INK, "text_font_size": f"{size}px", "text_align": "center",
-        "text_baseline": "bottom" if above else "middle", "y_offset": -above})
+    layer: Layer[S] = Layer(
+        name,
+        "text",
+        ("x", "y", "text"),
+        {
+            "text_color": theme.INK,
+            "text_font_size": f"{size}px",
+            "text_align": "center",
+            "text_baseline": "bottom" if above else "middle",
+            "y_offset": -above,
+        },
+    )
     return _layer(layer, lambda value: _rows(layer.columns, value), data, within)
 
 
@@ -290,8 +446,13 @@ def text(name: str, data: Callable[[S], str]) -> Layer[S]:
         said = data(state)
         return {"x": [axes.x[1]], "y": [axes.y[0]], "text": [said]} if said else {}
 
-    style = {"text_color": theme.MUTED, "text_font_size": theme.FONT_SIZE, "text_align": "right", "x_offset": -6,
-             "y_offset": -4}
+    style = {
+        "text_color": theme.MUTED,
+        "text_font_size": theme.FONT_SIZE,
+        "text_align": "right",
+        "x_offset": -6,
+        "y_offset": -4,
+    }
     return Layer(name, "text", ("x", "y", "text"), style, within=there)
 
 

@@ -17,15 +17,20 @@ __all__ = ["distances"]
 S = TypeVar("S")
 
 
-def distances(leaks: Callable[[S], Mapping[str, Leak]], distance: Callable[[Leak], Array]
-              ) -> tuple[Layer[S], Layer[S]]:
+def distances(leaks: Callable[[S], Mapping[str, Leak]], distance: Callable[[Leak], Array]) -> tuple[Layer[S], Layer[S]]:
     """lg of a distance (n,) over time, of the orbits "own", at the accuracy chosen, and "reference"."""
 
     def curve(state: S, name: str) -> tuple[Array, Array]:
         leak = leaks(state)[name]
         return leak.run.times, lg(distance(leak))
 
-    return (over_time("reference", lambda s: curve(s, "reference"), color=theme.LEVELS["reference"], dash="dotdash",
-                      label="the same at reference"),
-            over_time("own", lambda s: curve(s, "own"), color=theme.MAP,
-                      label="orbit that leaks, at the chosen accuracy"))
+    return (
+        over_time(
+            "reference",
+            lambda s: curve(s, "reference"),
+            color=theme.LEVELS["reference"],
+            dash="dotdash",
+            label="the same at reference",
+        ),
+        over_time("own", lambda s: curve(s, "own"), color=theme.MAP, label="orbit that leaks, at the chosen accuracy"),
+    )

@@ -44,9 +44,20 @@ def methods(method: Callable[[S, str], Curve], level: Callable[[S, str], Curve])
         return points(f"at-{name}", lambda s: level(s, name), color=theme.LEVELS[name], size=12, label=name)
 
     def other(name: str, marker: str) -> tuple[Layer[S], Layer[S]]:
-        return (line(name, lambda s: method(s, name), color=theme.MUTED, dash="dashed"),
-                points(f"{name}-marks", lambda s: method(s, name), color=theme.MUTED, marker=marker, size=10,
-                       label=f"{name} (SciPy), {marker}s"))
+        return (
+            line(name, lambda s: method(s, name), color=theme.MUTED, dash="dashed"),
+            points(
+                f"{name}-marks",
+                lambda s: method(s, name),
+                color=theme.MUTED,
+                marker=marker,
+                size=10,
+                label=f"{name} (SciPy), {marker}s",
+            ),
+        )
 
-    return (line("Taylor", lambda s: method(s, "Taylor"), color=theme.MUTED), *map(at, LEVELS),
-            *(layer for name, marker in _OTHERS.items() for layer in other(name, marker)))
+    return (
+        line("Taylor", lambda s: method(s, "Taylor"), color=theme.MUTED),
+        *map(at, LEVELS),
+        *(layer for name, marker in _OTHERS.items() for layer in other(name, marker)),
+    )

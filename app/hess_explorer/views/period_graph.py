@@ -31,8 +31,7 @@ def period_axis(periods: Array, here: float = 0.0) -> Range:
     return 0.0, nice_above(max(1.5 * float(np.median(finite)), 1.1 * here if math.isfinite(here) else 0.0))
 
 
-def layers(periods: Callable[[S], Array], here: Callable[[S], tuple[float, float] | None]
-           ) -> tuple[Layer[S], Layer[S]]:
+def layers(periods: Callable[[S], Array], here: Callable[[S], tuple[float, float] | None]) -> tuple[Layer[S], Layer[S]]:
     """T against α from (α, T), (n, 2), and a ring round the one on show; what is infinite is beyond the frame."""
 
     def curve(state: S, axes: Axes) -> list[Array]:

@@ -26,8 +26,11 @@ def within(curve: Array, turn: float, axes: Axes) -> list[Array]:
     """
     low, high = axes.x
     x = curve[:, 0]
-    shifts = [0.0] if math.isinf(turn) else [
-        turn * k for k in range(math.ceil((low - x.max()) / turn), math.floor((high - x.min()) / turn) + 1)]
+    shifts = (
+        [0.0]
+        if math.isinf(turn)
+        else [turn * k for k in range(math.ceil((low - x.max()) / turn), math.floor((high - x.min()) / turn) + 1)]
+    )
     parts = []
     for shift in shifts:
         seen = (x + shift >= low) & (x + shift <= high)
@@ -46,13 +49,17 @@ def seen(places: Array, turn: float, axes: Axes) -> Array:
     return np.column_stack([x[there], y[there]])
 
 
-def layers(orbit: Callable[[S], PeriodicOrbit | None], manifolds: Callable[[S], Sequence[Manifold]],
-           homoclinic: Callable[[S], Sequence[Intersection]]) -> tuple[Layer[S], ...]:
+def layers(
+    orbit: Callable[[S], PeriodicOrbit | None],
+    manifolds: Callable[[S], Sequence[Manifold]],
+    homoclinic: Callable[[S], Sequence[Intersection]],
+) -> tuple[Layer[S], ...]:
     """The places of an orbit, over the manifolds of a saddle and where they cross."""
 
     def parts(stable: bool) -> Callable[[S, Axes], list[Array]]:
-        return lambda s, axes: [part for one in manifolds(s) if one.stable is stable
-                                for part in within(one.points, one.turns[0], axes)]
+        return lambda s, axes: [
+            part for one in manifolds(s) if one.stable is stable for part in within(one.points, one.turns[0], axes)
+        ]
 
     def crossed(state: S, axes: Axes) -> Array | None:
         found = [one.place for one in homoclinic(state)]
@@ -60,8 +67,14 @@ def layers(orbit: Callable[[S], PeriodicOrbit | None], manifolds: Callable[[S], 
 
     return (
         curves("stable-manifold", within=parts(True), color=theme.STABLE, width=3.0, label="stable manifold"),
-        curves("unstable-manifold", within=parts(False), color=theme.UNSTABLE, width=3.0,
-               dash="dashed", label="unstable manifold"),
+        curves(
+            "unstable-manifold",
+            within=parts(False),
+            color=theme.UNSTABLE,
+            width=3.0,
+            dash="dashed",
+            label="unstable manifold",
+        ),
         points("homoclinic", within=crossed, size=7, color=theme.POINT, edge=theme.INK, label="homoclinic point"),
         *places(orbit),
     )
@@ -78,12 +91,34 @@ def places(orbit: Callable[[S], PeriodicOrbit | None]) -> tuple[Layer[S], ...]:
         return of
 
     return (
-        points("attracts", of_sign("attracts"), size=12, color=theme.STABLE, edge=theme.INK, edge_width=1.5,
-               label="periodic orbit that attracts"),
-        points("neither", of_sign("neither"), size=14, marker="diamond", color=theme.SHEET, edge=theme.INK,
-               edge_width=1.5, label="elliptic or parabolic periodic orbit"),
-        points("repels", of_sign("repels"), size=12, color=theme.UNSTABLE, hollow=True, edge_width=2.5,
-               label="unstable periodic orbit"),
+        points(
+            "attracts",
+            of_sign("attracts"),
+            size=12,
+            color=theme.STABLE,
+            edge=theme.INK,
+            edge_width=1.5,
+            label="periodic orbit that attracts",
+        ),
+        points(
+            "neither",
+            of_sign("neither"),
+            size=14,
+            marker="diamond",
+            color=theme.SHEET,
+            edge=theme.INK,
+            edge_width=1.5,
+            label="elliptic or parabolic periodic orbit",
+        ),
+        points(
+            "repels",
+            of_sign("repels"),
+            size=12,
+            color=theme.UNSTABLE,
+            hollow=True,
+            edge_width=2.5,
+            label="unstable periodic orbit",
+        ),
     )
 
 

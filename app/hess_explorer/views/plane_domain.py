@@ -23,22 +23,43 @@ S = TypeVar("S")
 
 def plane_columns(orbit: Orbit, q: Array, **more: Array) -> Columns:
     """The columns of an orbit, states (ω, γ), for this plane and the sphere: q (m, 2), and more for the player."""
-    return {"t": column(orbit.times), "q1": column(q[:, 0]), "q2": column(q[:, 1]),
-            **gamma_columns(orbit.states[:, 2:]), **{name: column(one) for name, one in more.items()}}
+    return {
+        "t": column(orbit.times),
+        "q1": column(q[:, 0]),
+        "q2": column(q[:, 1]),
+        **gamma_columns(orbit.states[:, 2:]),
+        **{name: column(one) for name, one in more.items()},
+    }
 
 
-def picture(title: str, caption: Callable[[S], str], half_width: Callable[[S], float], names: tuple[str, str],
-            layers: tuple[Layer[S], ...], dots: Mapping[str, tuple[str, str]] | None = None,
-            signs: tuple[Sign, ...] = ()) -> Plot[S]:
+def picture(
+    title: str,
+    caption: Callable[[S], str],
+    half_width: Callable[[S], float],
+    names: tuple[str, str],
+    layers: tuple[Layer[S], ...],
+    dots: Mapping[str, tuple[str, str]] | None = None,
+    signs: tuple[Sign, ...] = (),
+) -> Plot[S]:
     """The plane about 0, in which a moving point follows the orbit; a click chooses the parameters of these names."""
     return Plot(
-        name="domain", title=title, caption=caption, axes=("q₁", "q₂"), x=lambda s: centred(half_width(s)),
-        y=lambda s: centred(half_width(s)), dot=("q1", "q2"), dots=dots, signs=signs, layers=layers,
-        on_click=lambda s, x, y: dict(zip(names, (x, y), strict=True)))
+        name="domain",
+        title=title,
+        caption=caption,
+        axes=("q₁", "q₂"),
+        x=lambda s: centred(half_width(s)),
+        y=lambda s: centred(half_width(s)),
+        dot=("q1", "q2"),
+        dots=dots,
+        signs=signs,
+        layers=layers,
+        on_click=lambda s, x, y: dict(zip(names, (x, y), strict=True)),
+    )
 
 
-def ground(edge: Callable[[S], Array], forbidden: Callable[[S], Sequence[Array]],
-           levels: Callable[[S], Sequence[Array]]) -> tuple[Layer[S], Layer[S]]:
+def ground(
+    edge: Callable[[S], Array], forbidden: Callable[[S], Sequence[Array]], levels: Callable[[S], Sequence[Array]]
+) -> tuple[Layer[S], Layer[S]]:
     """What lies under the orbit: grey outside the edge (n, 2) and inside closed curves; equipotentials."""
 
     def grey(state: S, axes: Axes) -> list[list[Array]]:
@@ -47,18 +68,23 @@ def ground(edge: Callable[[S], Array], forbidden: Callable[[S], Sequence[Array]]
         frame = square(2.0 * max(axes.x[1], float(abs(outer).max())))
         return [[frame, outer], *([part] for part in forbidden(state))]
 
-    return (region("forbidden", within=grey, label="impossible"),
-            curves("levels", levels, color=theme.MUTED, width=1, label="equipotentials"))
+    return (
+        region("forbidden", within=grey, label="impossible"),
+        curves("levels", levels, color=theme.MUTED, width=1, label="equipotentials"),
+    )
 
 
 def orbit(start: Callable[[S], tuple[float, float]], label: str = "") -> tuple[Layer[S], Layer[S]]:
     """The track of the orbit, and a ring where it starts."""
-    return (line("orbit", track="orbit", columns=("q1", "q2"), color=theme.ORBIT, label="orbit"),
-            ring("start", lambda s: [start(s)], label=label))
+    return (
+        line("orbit", track="orbit", columns=("q1", "q2"), color=theme.ORBIT, label="orbit"),
+        ring("start", lambda s: [start(s)], label=label),
+    )
 
 
-def momentum_picture(momentum: Callable[[S], tuple[Array, Array]], least: Callable[[S], float],
-                     is_integral: Callable[[S], bool]) -> Plot[S]:
+def momentum_picture(
+    momentum: Callable[[S], tuple[Array, Array]], least: Callable[[S], float], is_integral: Callable[[S], bool]
+) -> Plot[S]:
     """q1p2 − q2p1 over time, (n,) each: an integral of a central force.
 
     least : half the height of its axis at least; is_integral : whether the force is central.
@@ -72,6 +98,13 @@ def momentum_picture(momentum: Callable[[S], tuple[Array, Array]], least: Callab
         return f"I₁₁ ≠ I₂₂: no integral, {f'but here it {stays}' if stays.startswith('stays') else stays}."
 
     return Plot(
-        name="momentum", title="q₁p₂ − q₂p₁ against time", caption=about, axes=("t", "q₁p₂ − q₂p₁"),
-        folded="Show q₁p₂ − q₂p₁ against time", x=lambda s: (0.0, float(momentum(s)[0][-1])), dot=("t", "momentum"),
-        y=lambda s: about_0(momentum(s)[1], least(s)), layers=(over_time("G", momentum, color=theme.ORBIT),))
+        name="momentum",
+        title="q₁p₂ − q₂p₁ against time",
+        caption=about,
+        axes=("t", "q₁p₂ − q₂p₁"),
+        folded="Show q₁p₂ − q₂p₁ against time",
+        x=lambda s: (0.0, float(momentum(s)[0][-1])),
+        dot=("t", "momentum"),
+        y=lambda s: about_0(momentum(s)[1], least(s)),
+        layers=(over_time("G", momentum, color=theme.ORBIT),),
+    )

@@ -36,12 +36,20 @@ def about(body: PotentialBody, motion: PlaneMotion) -> str:
     if motion.fixed:
         return "A fixed point: nothing changes."
     if motion.period is not None:
-        return (f"It crosses the equator twice and so closes: T = {digits(motion.period, 6)}, back to "
-                f"{power(motion.missed)}.")
-    where = ("Too slow for the equator, it stays on one side" if motion.energy < equator_energy(body)
-             else f"The equator is not crossed twice up to t = {digits(float(motion.orbit.times[-1]))}")
-    integral = (f"is kept to {power(motion.integral)}: integrable" if body.separates
-                else f"changes by {digits(100.0 * motion.integral, 2)} %")
+        return (
+            f"It crosses the equator twice and so closes: T = {digits(motion.period, 6)}, back to "
+            f"{power(motion.missed)}."
+        )
+    where = (
+        "Too slow for the equator, it stays on one side"
+        if motion.energy < equator_energy(body)
+        else f"The equator is not crossed twice up to t = {digits(float(motion.orbit.times[-1]))}"
+    )
+    integral = (
+        f"is kept to {power(motion.integral)}: integrable"
+        if body.separates
+        else f"changes by {digits(100.0 * motion.integral, 2)} %"
+    )
     return f"{where}. F₂ {integral}."
 
 
@@ -50,9 +58,15 @@ def _largest(body: PotentialBody) -> float:
     return float(body.potential(np.stack([np.cos(angle), np.sin(angle)], axis=-1)).max())
 
 
-def picture(name: Callable[[S], str], plane: Callable[[S], PlaneBody], body: Callable[[S], PotentialBody],
-            motion: Callable[[S], PlaneMotion], half_width: Callable[[S], float]) -> Plot[S]:
+def picture(
+    name: Callable[[S], str],
+    plane: Callable[[S], PlaneBody],
+    body: Callable[[S], PotentialBody],
+    motion: Callable[[S], PlaneMotion],
+    half_width: Callable[[S], float],
+) -> Plot[S]:
     """The domain with equipotentials of U; the motion from the same start as the scene's, and where it starts."""
+
     def edge(state: S) -> Array:
         angle = np.linspace(0.0, 2.0 * np.pi, 241)
         return plane(state).place(np.stack([np.cos(angle), np.sin(angle)], axis=-1))
@@ -73,9 +87,17 @@ def picture(name: Callable[[S], str], plane: Callable[[S], PlaneBody], body: Cal
         return [(float(x[0]), float(y[0]))]
 
     return Plot(
-        name="potential", title=lambda s: f"Potential: {name(s)}", caption=lambda s: about(body(s), motion(s)),
-        axes=("q₁", "q₂"), x=lambda s: centred(half_width(s)), y=lambda s: centred(half_width(s)),
+        name="potential",
+        title=lambda s: f"Potential: {name(s)}",
+        caption=lambda s: about(body(s), motion(s)),
+        axes=("q₁", "q₂"),
+        x=lambda s: centred(half_width(s)),
+        y=lambda s: centred(half_width(s)),
         folded="Show another potential",
-        layers=(*ground(edge, too_high, levels),
-                curves("border", lambda s: [edge(s)], color=theme.MUTED, width=1),
-                line("orbit", orbit, color=theme.ORBIT, width=1.3), ring("start", start)))
+        layers=(
+            *ground(edge, too_high, levels),
+            curves("border", lambda s: [edge(s)], color=theme.MUTED, width=1),
+            line("orbit", orbit, color=theme.ORBIT, width=1.3),
+            ring("start", start),
+        ),
+    )

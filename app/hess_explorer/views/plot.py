@@ -58,8 +58,10 @@ class Plot(Picture[S]):
     def events(self) -> tuple[str, ...]:
         """What the browser tells of the mouse: Bokeh's events, "box" and "hover"."""
         return (
-            *(("tap", "doubletap") if self.on_click else ()), *(("pan",) if self.on_click and self.on_drag else ()),
-            *(("box",) if self.on_box else ()), *(("hover",) if self.on_hover else ()),
+            *(("tap", "doubletap") if self.on_click else ()),
+            *(("pan",) if self.on_click and self.on_drag else ()),
+            *(("box",) if self.on_box else ()),
+            *(("hover",) if self.on_hover else ()),
         )
 
     @property
@@ -81,13 +83,20 @@ class Plot(Picture[S]):
     @property
     def legend(self) -> tuple[Sign, ...]:
         """What it adds to the legend of its scene."""
-        return (*(sign for layer in self.layers for sign in layer.legend), *self.signs,
-                *((MOVING_POINT,) if self.dot is not None else ()))
+        return (
+            *(sign for layer in self.layers for sign in layer.legend),
+            *self.signs,
+            *((MOVING_POINT,) if self.dot is not None else ()),
+        )
 
     def there(self, drawn: Mapping[str, Columns]) -> tuple[Sign, ...]:
         """Those of its legend that are drawn, where these are the columns of all sources."""
-        found = (sign for layer in self.layers for sign in layer.legend
-                 if _has(drawn.get(self.source_of(layer), {}), layer, sign))
+        found = (
+            sign
+            for layer in self.layers
+            for sign in layer.legend
+            if _has(drawn.get(self.source_of(layer), {}), layer, sign)
+        )
         return (*found, *self.signs, *((MOVING_POINT,) if self.dot is not None and drawn.get("data-orbit") else ()))
 
     @property
@@ -130,9 +139,15 @@ class Plot(Picture[S]):
 
     def _words(self, names: tuple[str, str], sentence: str, axes: Axes) -> dict[str, Columns]:
         """The columns of the names of its axes, where those depend on the state, and of the message."""
-        message: Columns = {} if not sentence else {
-            "x": [_middle(axes.x, "x" in self.log)], "y": [_middle(axes.y, "y" in self.log)],
-            "text": [textwrap.fill(sentence, 24)]}
+        message: Columns = (
+            {}
+            if not sentence
+            else {
+                "x": [_middle(axes.x, "x" in self.log)],
+                "y": [_middle(axes.y, "y" in self.log)],
+                "text": [textwrap.fill(sentence, 24)],
+            }
+        )
         renamed = {f"{self.name}-axes": {"text": list(names)}} if callable(self.axes) else {}
         return {**renamed, f"{self.name}-message": message}
 

@@ -13,8 +13,17 @@ from hess_explorer.views.picture import Picture
 from hess_mechanics.numerics.results import Array
 
 __all__ = [
-    "EQUATOR", "Circle", "Direction", "Mark", "Sphere", "along_the_orbit", "centre_of_mass", "ends", "gamma_columns",
-    "levels_about", "parallels",
+    "EQUATOR",
+    "Circle",
+    "Direction",
+    "Mark",
+    "Sphere",
+    "along_the_orbit",
+    "centre_of_mass",
+    "ends",
+    "gamma_columns",
+    "levels_about",
+    "parallels",
 ]
 
 S = TypeVar("S")
@@ -116,10 +125,13 @@ class Sphere(Picture[S]):
 
     def data(self, state: S) -> dict[str, Columns]:
         """Its axis, circles and marks."""
-        return {self.name: _drawn(
-            None if self.axis is None else self.axis(state),
-            () if self.circles is None else self.circles(state),
-            () if self.marks is None else self.marks(state))}
+        return {
+            self.name: _drawn(
+                None if self.axis is None else self.axis(state),
+                () if self.circles is None else self.circles(state),
+                () if self.marks is None else self.marks(state),
+            )
+        }
 
     def nothing(self, sentence: str, axes: Axes | None) -> dict[str, Columns]:
         """Neither axis nor circles nor marks; the reason is for the caption to say."""
@@ -129,14 +141,20 @@ class Sphere(Picture[S]):
 def along_the_orbit(axis: Callable[[S], Direction | None], circles: Callable[[S], Sequence[Circle]]) -> Sphere[S]:
     """The vertical along the track "orbit", and the axis of the centre of mass, where there is a field."""
     return Sphere(
-        looks={"orbit": "orbit"}, axis=axis, circles=circles,
-        caption=lambda s: "The vertical γ along the chosen orbit; " + (
-            "no field, b = 0." if axis(s) is None else "r: the centre of mass."))
+        looks={"orbit": "orbit"},
+        axis=axis,
+        circles=circles,
+        caption=lambda s: (
+            "The vertical γ along the chosen orbit; "
+            + ("no field, b = 0." if axis(s) is None else "r: the centre of mass.")
+        ),
+    )
 
 
 def _drawn(axis: Direction | None, circles: Sequence[Circle], marks: Sequence[Mark]) -> Columns:
     return {
-        "axis": [] if axis is None else [float(x) for x in axis.along], "label": "" if axis is None else axis.label,
+        "axis": [] if axis is None else [float(x) for x in axis.along],
+        "label": "" if axis is None else axis.label,
         "circles": [[*map(float, one.axis), float(one.height), one.look] for one in circles],
         "marks": [[*map(float, one.at), one.look, one.label] for one in marks],
     }

@@ -46,8 +46,13 @@ def _here(line: LineOf[S], place: Callable[[S], float], curve: Callable[[S], Arr
     return (ring("chosen", within=chosen, size=18),)
 
 
-def rho_layers(line: LineOf[S], values: ValuesOf[S], perturbed: Callable[[S], Array | None],
-               rational: Callable[[S], float | None], place: Callable[[S], float]) -> tuple[Layer[S], ...]:
+def rho_layers(
+    line: LineOf[S],
+    values: ValuesOf[S],
+    perturbed: Callable[[S], Array | None],
+    rational: Callable[[S], float | None],
+    place: Callable[[S], float],
+) -> tuple[Layer[S], ...]:
     """ρ along a line, that of another family, and the height that is looked for, where there is a torus with it."""
 
     def other(state: S) -> list[Array]:
@@ -61,8 +66,9 @@ def rho_layers(line: LineOf[S], values: ValuesOf[S], perturbed: Callable[[S], Ar
     return (
         levels("levels", sought),
         curves("other", other, color=theme.MAP, dash="dashed", label="ρ of Θ(φ + ε sin 3φ)"),
-        curves("rho", lambda s: _curve(line(s), values(s), values(s).rho, JUMP), color=theme.ORBIT,
-               label="ρ, trace of Θ"),
+        curves(
+            "rho", lambda s: _curve(line(s), values(s), values(s).rho, JUMP), color=theme.ORBIT, label="ρ, trace of Θ"
+        ),
         *_here(line, place, lambda s: values(s).rho),
     )
 

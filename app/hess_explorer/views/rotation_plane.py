@@ -78,8 +78,7 @@ def outside(plane: str, torus: Torus, x: Range, y: Range) -> list[list[Array]]:
     """For a `region`: all of the window that is not possible."""
     (x0, x1), (y0, y1) = x, y
     if plane == "h, f":
-        return impossible(_upper(x), Axes(x, (min(y0, -y1), max(y1, -y0)))) if x1 > -1.0 else [
-            [_rectangle(x0, x1, y)]]
+        return impossible(_upper(x), Axes(x, (min(y0, -y1), max(y1, -y0)))) if x1 > -1.0 else [[_rectangle(x0, x1, y)]]
     if plane == "h, a":
         parts = [(x0, min(x1, h_min(torus.f)))]
     else:
@@ -92,18 +91,29 @@ def _rectangle(low: float, high: float, y: Range) -> Array:
     return np.array([[low, y[0]], [high, y[0]], [high, y[1]], [low, y[1]]])
 
 
-def layers(grids: Callable[[S], tuple[CellGrid, CellGrid]], boundary: Callable[[S], Sequence[Array]],
-           impossible: Callable[[S], Sequence[Sequence[Array]]], edges: Callable[[S], Sequence[Array]],
-           across: Callable[[S], Sequence[Array]], here: Callable[[S], Sequence[tuple[float, float]]]
-           ) -> tuple[Layer[S], ...]:
+def layers(
+    grids: Callable[[S], tuple[CellGrid, CellGrid]],
+    boundary: Callable[[S], Sequence[Array]],
+    impossible: Callable[[S], Sequence[Sequence[Array]]],
+    edges: Callable[[S], Sequence[Array]],
+    across: Callable[[S], Sequence[Array]],
+    here: Callable[[S], Sequence[tuple[float, float]]],
+) -> tuple[Layer[S], ...]:
     """Colours and zones; curves (n, 2) where |t| = 2; the line, and the torus on show, if it is in sight.
 
     impossible, edges : `outside` and `edges`.
     """
     return (
         image("rho", lambda s: grids(s)[0], palette=theme.TURN_MAP, low=-0.5, high=0.5, cyclic=True, legend=(TURNS,)),
-        image("zones", lambda s: grids(s)[1], palette=(_CLEAR, theme.LOCKED), low=-1.0, high=1.0, smooth=True,
-              legend=(Sign("locked, two limit cycles", "box", f"background: {theme.LOCKED}"),)),
+        image(
+            "zones",
+            lambda s: grids(s)[1],
+            palette=(_CLEAR, theme.LOCKED),
+            low=-1.0,
+            high=1.0,
+            smooth=True,
+            legend=(Sign("locked, two limit cycles", "box", f"background: {theme.LOCKED}"),),
+        ),
         curves("boundary", boundary, moving=False, color=theme.INK, label="its boundary, |trace| = 2"),
         region("forbidden", impossible, label="impossible"),
         curves("edge", edges, moving=False, color=theme.INK, width=1.5),

@@ -19,8 +19,14 @@ from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.numerics.results import Array
 
 __all__ = [
-    "FRAME", "POLAR", "POLAR_TICKS", "cosine_axis", "over_orders", "over_phases",
-    "over_square", "spread",
+    "FRAME",
+    "POLAR",
+    "POLAR_TICKS",
+    "cosine_axis",
+    "over_orders",
+    "over_phases",
+    "over_square",
+    "spread",
 ]
 
 S = TypeVar("S")
@@ -31,34 +37,60 @@ FRAME = Frame(Axes(ANGLE, POLAR), ("φ", "θ⁺"))
 POLAR_TICKS = ((0.0, "0"), (math.pi / 4, "π/4"), (math.pi / 2, "π/2"), (3 * math.pi / 4, "3π/4"), (math.pi, "π"))
 
 
-def over_square(caption: Callable[[S], str], theta_plus: Callable[[S], Array],
-                here: Callable[[S], tuple[float, float]]) -> Plot[S]:
+def over_square(
+    caption: Callable[[S], str], theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]
+) -> Plot[S]:
     """θ⁺ over (φ, θ⁻); a click or a drag chooses both."""
     return Plot(
-        name="map", title="θ⁺ over (φ, θ⁻)", caption=caption, axes=("φ", "θ⁻"), x=ANGLE, y=POLAR,
-        ticks=ANGLE_TICKS, y_ticks=POLAR_TICKS, on_click=lambda s, x, y: {"phi": x, "theta": y}, on_drag=True,
-        layers=_layers(theta_plus, here))
+        name="map",
+        title="θ⁺ over (φ, θ⁻)",
+        caption=caption,
+        axes=("φ", "θ⁻"),
+        x=ANGLE,
+        y=POLAR,
+        ticks=ANGLE_TICKS,
+        y_ticks=POLAR_TICKS,
+        on_click=lambda s, x, y: {"phi": x, "theta": y},
+        on_drag=True,
+        layers=_layers(theta_plus, here),
+    )
 
 
 def _layers(theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]) -> tuple[Layer[S], ...]:
     """Colours: θ⁺ from 0 to π, at the centres of cells, rows of equal θ⁻.  A ring: (φ, θ⁻); a line: the curve there."""
     return (
-        image("theta", lambda s: CellGrid(theta_plus(s), ANGLE, POLAR), palette=theme.NUMBER_MAP, low=0.0,
-              high=math.pi,
-              smooth=True,
-              legend=(Sign("θ⁺ from 0 to π", "box rho", f"background: {theme.gradient(Cividis256)}"),)),
+        image(
+            "theta",
+            lambda s: CellGrid(theta_plus(s), ANGLE, POLAR),
+            palette=theme.NUMBER_MAP,
+            low=0.0,
+            high=math.pi,
+            smooth=True,
+            legend=(Sign("θ⁺ from 0 to π", "box rho", f"background: {theme.gradient(Cividis256)}"),),
+        ),
         line("line", lambda s: (ANGLE, (here(s)[1],) * 2), color="white", dash="dashed"),
         *target("here", lambda s: [here(s)], size=19.0),
     )
 
 
-def over_phases(caption: Callable[[S], str], layers: tuple[Layer[S], ...],
-                message: Callable[[S], str] | None = None) -> Plot[S]:
+def over_phases(
+    caption: Callable[[S], str], layers: tuple[Layer[S], ...], message: Callable[[S], str] | None = None
+) -> Plot[S]:
     """Curves θ⁺(φ); a click or a drag chooses the phase."""
     return Plot(
-        name="curve", title="θ⁺ against the phase φ", caption=caption, axes=("φ", "θ⁺"), x=ANGLE, y=POLAR,
-        ticks=ANGLE_TICKS, y_ticks=POLAR_TICKS, message=message, on_click=lambda s, x, y: {"phi": x}, on_drag=True,
-        layers=layers)
+        name="curve",
+        title="θ⁺ against the phase φ",
+        caption=caption,
+        axes=("φ", "θ⁺"),
+        x=ANGLE,
+        y=POLAR,
+        ticks=ANGLE_TICKS,
+        y_ticks=POLAR_TICKS,
+        message=message,
+        on_click=lambda s, x, y: {"phi": x},
+        on_drag=True,
+        layers=layers,
+    )
 
 
 def spread(theta_plus: Array) -> str:
@@ -67,8 +99,12 @@ def spread(theta_plus: Array) -> str:
     return f"θ⁺ = {digits(low)} for every φ" if high - low < 1e-4 else f"θ⁺ from {digits(low)} to {digits(high)}"
 
 
-def over_orders(ends: Callable[[S], Range], orders: Callable[[S], Array], here: Callable[[S], tuple[float, float]],
-                closed: Callable[[S], float]) -> Plot[S]:
+def over_orders(
+    ends: Callable[[S], Range],
+    orders: Callable[[S], Array],
+    here: Callable[[S], tuple[float, float]],
+    closed: Callable[[S], float],
+) -> Plot[S]:
     """cos χ over k; a click chooses k.
 
     orders : the closed form, rows (k, cos χ); closed : its value at the body; here : k of that, and what was computed.
@@ -76,15 +112,26 @@ def over_orders(ends: Callable[[S], Range], orders: Callable[[S], Array], here: 
 
     def about(state: S) -> str:
         computed, exact = here(state)[1], closed(state)
-        return (f"Computed {digits(computed, 6)}; closed form {digits(exact, 6)}, "
-                f"difference {digits(abs(computed - exact), 2)}.")
+        return (
+            f"Computed {digits(computed, 6)}; closed form {digits(exact, 6)}, "
+            f"difference {digits(abs(computed - exact), 2)}."
+        )
 
     return Plot(
-        name="chi", title="cos χ against k", caption=about, axes=("k", "cos χ"), folded="Show cos χ against k", x=ends,
-        y=lambda s: cosine_axis(orders(s)[:, 1].max(initial=here(s)[1])), on_click=lambda s, x, y: {"k": x},
-        on_drag=True, layers=(
+        name="chi",
+        title="cos χ against k",
+        caption=about,
+        axes=("k", "cos χ"),
+        folded="Show cos χ against k",
+        x=ends,
+        y=lambda s: cosine_axis(orders(s)[:, 1].max(initial=here(s)[1])),
+        on_click=lambda s, x, y: {"k": x},
+        on_drag=True,
+        layers=(
             curves("closed", lambda s: [orders(s)], color=theme.MAP, dash="dashed", label="closed form"),
-            ring("chosen", lambda s: [here(s)], size=18.0)))
+            ring("chosen", lambda s: [here(s)], size=18.0),
+        ),
+    )
 
 
 def cosine_axis(largest: float) -> Range:

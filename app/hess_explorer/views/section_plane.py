@@ -19,9 +19,12 @@ _CLOSES = 12
 """An orbit with no more places in the section is one that closes, to the eye."""
 
 
-def layers(own: Points[S], others: Points[S] | None = None,
-           forbidden: Callable[[S, Axes], Sequence[Sequence[Array]]] | None = None,
-           start: Callable[[S], Sequence[tuple[float, float]]] | None = None) -> tuple[Layer[S], ...]:
+def layers(
+    own: Points[S],
+    others: Points[S] | None = None,
+    forbidden: Callable[[S, Axes], Sequence[Sequence[Array]]] | None = None,
+    start: Callable[[S], Sequence[tuple[float, float]]] | None = None,
+) -> tuple[Layer[S], ...]:
     """Points (n, 2) of the chosen orbit and small ones of others, a ring where it starts; grey where all is impossible.
 
     forbidden : parts as of `region`.

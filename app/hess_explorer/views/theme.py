@@ -66,7 +66,6 @@ def in_css(style: str) -> str:
         if colour not in _NAMES:
             return found[0]
         shade = f"var(--{_NAMES[colour]}, {colour})"
-        return shade if not opacity else (
-            f"color-mix(in srgb, {shade} {round(int(opacity, 16) / 2.55)}%, transparent)")
+        return shade if not opacity else (f"color-mix(in srgb, {shade} {round(int(opacity, 16) / 2.55)}%, transparent)")
 
     return re.sub(r"#[0-9A-Fa-f]{6}(?:[0-9A-Fa-f]{2})?\b", variable, style)

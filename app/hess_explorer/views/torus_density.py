@@ -55,6 +55,7 @@ def about(density: Array) -> str:
 
 def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
     """The density (n, m) relative to an even one, or why there is none; the track "orbit" on the torus."""
+
     def caption(state: S) -> str:
         found, reason = density(state)
         return reason if found is None else about(found)
@@ -64,8 +65,25 @@ def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
         return None if found is None else CellGrid(found / found.max(), ANGLE, ANGLE)
 
     layers: tuple[Layer[S], ...] = (
-        image("density", shares, palette=_SHADES, low=0.0, high=1.0,
-              legend=(Sign("density on the torus", "box", f"background: {theme.STABLE}"),)),
-        dots("path", track="orbit", columns=("sigma", "phi"), color=theme.ORBIT, size=8))
-    return Plot(name="torus", title="Density on the torus", caption=caption, axes=("σ", "φ"), x=ANGLE, y=ANGLE,
-                ticks=ANGLE_TICKS, dot=("sigma", "phi"), folded="Show the density on the torus", layers=layers)
+        image(
+            "density",
+            shares,
+            palette=_SHADES,
+            low=0.0,
+            high=1.0,
+            legend=(Sign("density on the torus", "box", f"background: {theme.STABLE}"),),
+        ),
+        dots("path", track="orbit", columns=("sigma", "phi"), color=theme.ORBIT, size=8),
+    )
+    return Plot(
+        name="torus",
+        title="Density on the torus",
+        caption=caption,
+        axes=("σ", "φ"),
+        x=ANGLE,
+        y=ANGLE,
+        ticks=ANGLE_TICKS,
+        dot=("sigma", "phi"),
+        folded="Show the density on the torus",
+        layers=layers,
+    )

@@ -23,17 +23,32 @@ S = TypeVar("S")
 _PLANE = ("omega1", "omega2")
 
 
-def layers(ring: Callable[[S], tuple[Array, Array]], half_width: Callable[[S], float],
-           proved: Callable[[S], Sequence[Sequence[Array]]] = lambda s: ()) -> tuple[Layer[S], ...]:
+def layers(
+    ring: Callable[[S], tuple[Array, Array]],
+    half_width: Callable[[S], float],
+    proved: Callable[[S], Sequence[Sequence[Array]]] = lambda s: (),
+) -> tuple[Layer[S], ...]:
     """The tracks "orbit", "stable" and "unstable" in the ring between two ellipses (n, 2); a band about an orbit."""
     return (
-        region("forbidden", lambda s: ring_outside(*ring(s), half_width(s)), edge=theme.MUTED, label="impossible",
-               moving=True),
+        region(
+            "forbidden",
+            lambda s: ring_outside(*ring(s), half_width(s)),
+            edge=theme.MUTED,
+            label="impossible",
+            moving=True,
+        ),
         band(proved),
         line("orbit", track="orbit", columns=_PLANE, color=theme.ORBIT, width=1.3, label="orbit"),
         line("stable", track="stable", columns=_PLANE, color=theme.STABLE, width=3, label="stable cycle"),
-        line("unstable", track="unstable", columns=_PLANE, color=theme.UNSTABLE, width=3, dash="dashed",
-             label="unstable cycle"),
+        line(
+            "unstable",
+            track="unstable",
+            columns=_PLANE,
+            color=theme.UNSTABLE,
+            width=3,
+            dash="dashed",
+            label="unstable cycle",
+        ),
     )
 
 
@@ -58,9 +73,10 @@ def about(theta: CircleMap | None, turning: TurningPoints | None) -> str:
     if theta is None or turning is None:
         return "The orbit needs infinite time to come to rest."
     n1, n2 = turning.roots[1:]
-    orbit = {"hyperbolic": "The orbit tends to the stable limit cycle",
-             "parabolic": "The two limit cycles have merged"}.get(
-                 theta.kind, "The orbit winds round the torus, no limit cycle")
+    orbit = {
+        "hyperbolic": "The orbit tends to the stable limit cycle",
+        "parabolic": "The two limit cycles have merged",
+    }.get(theta.kind, "The orbit winds round the torus, no limit cycle")
     if n2 - n1 < 1e-6:
         orbit = "On the bifurcation curve the torus is a circle"
     return f"{orbit}; |w| {ranging(turning.initial_rho, turning.final_rho)}."

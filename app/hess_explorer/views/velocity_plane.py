@@ -18,10 +18,28 @@ from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.results import Array, Orbit
 
 __all__ = [
-    "arcs", "arrows_at", "arrows_on", "band", "beside", "centred", "energy_levels", "equilibria", "frame", "halves",
+    "arcs",
+    "arrows_at",
+    "arrows_on",
+    "band",
+    "beside",
+    "centred",
+    "energy_levels",
+    "equilibria",
+    "frame",
+    "halves",
     "nice_above",
-    "orbit", "orbit_alone", "orbit_columns", "outside", "picture", "pixels_per_unit", "ring_outside", "room_for",
-    "square", "to_the_edge", "velocity_columns",
+    "orbit",
+    "orbit_alone",
+    "orbit_columns",
+    "outside",
+    "picture",
+    "pixels_per_unit",
+    "ring_outside",
+    "room_for",
+    "square",
+    "to_the_edge",
+    "velocity_columns",
 ]
 
 S = TypeVar("S")
@@ -30,8 +48,13 @@ S = TypeVar("S")
 def velocity_columns(times: Array | None, omega: Array, gamma: Array, **more: Array) -> Columns:
     """The columns of a motion for this plane and the sphere: ω (m, 2), γ (m, 3), and further ones for the player."""
     moving = {} if times is None else {"t": column(times)}
-    return {**moving, "omega1": column(omega[:, 0]), "omega2": column(omega[:, 1]),
-            **gamma_columns(gamma), **{name: column(one) for name, one in more.items()}}
+    return {
+        **moving,
+        "omega1": column(omega[:, 0]),
+        "omega2": column(omega[:, 1]),
+        **gamma_columns(gamma),
+        **{name: column(one) for name, one in more.items()},
+    }
 
 
 def orbit_columns(orbit: Orbit, **more: Array) -> Columns:
@@ -46,13 +69,25 @@ def pixels_per_unit(half_width: float) -> tuple[float, ...]:
     return w, w, radius, radius, radius
 
 
-def picture(caption: Callable[[S], str], half_width: Callable[[S], float], layers: tuple[Layer[S], ...],
-            title: str = "Angular velocity (ω₁, ω₂)", on_click: Callable[[S, float, float], Values] | None = None
-            ) -> Plot[S]:
+def picture(
+    caption: Callable[[S], str],
+    half_width: Callable[[S], float],
+    layers: tuple[Layer[S], ...],
+    title: str = "Angular velocity (ω₁, ω₂)",
+    on_click: Callable[[S, float, float], Values] | None = None,
+) -> Plot[S]:
     """The plane about 0, in which the moving point follows the orbit."""
     return Plot(
-        name="omega", title=title, caption=caption, axes=("ω₁", "ω₂"), x=lambda s: centred(half_width(s)),
-        y=lambda s: centred(half_width(s)), dot=("omega1", "omega2"), on_click=on_click, layers=layers)
+        name="omega",
+        title=title,
+        caption=caption,
+        axes=("ω₁", "ω₂"),
+        x=lambda s: centred(half_width(s)),
+        y=lambda s: centred(half_width(s)),
+        dot=("omega1", "omega2"),
+        on_click=on_click,
+        layers=layers,
+    )
 
 
 def orbit(label: str) -> Layer[S]:
@@ -65,11 +100,14 @@ def band(data: Callable[[S], Sequence[Sequence[Array]]]) -> Layer[S]:
     return region("band", data, color=theme.SHEET, label="the true orbit, as proved", moving=True)
 
 
-def orbit_alone(half_width: Callable[[S], float], energy: Callable[[S], float],
-                proved: Callable[[S], Sequence[Sequence[Array]]], label: str = "") -> Plot[S]:
+def orbit_alone(
+    half_width: Callable[[S], float],
+    energy: Callable[[S], float],
+    proved: Callable[[S], Sequence[Sequence[Array]]],
+    label: str = "",
+) -> Plot[S]:
     """The plane with nothing but the track of the orbit, which has this energy, and where the true one is."""
-    return picture(lambda s: f"The chosen orbit, E = {digits(energy(s))}.", half_width,
-                   (band(proved), orbit(label)))
+    return picture(lambda s: f"The chosen orbit, E = {digits(energy(s))}.", half_width, (band(proved), orbit(label)))
 
 
 def nice_above(value: float) -> float:
@@ -115,12 +153,21 @@ def beside(inner: Array, outer: Array, half_width: float) -> Array:
     return np.array([inner * (1.0 - min(1.0, gap / lengths[0])), outer * (1.0 + gap / lengths[1])])
 
 
-def halves(stable: Callable[[S, Axes], Array], unstable: Callable[[S, Axes], Array], labels: tuple[str, str]
-           ) -> tuple[Layer[S], Layer[S]]:
+def halves(
+    stable: Callable[[S, Axes], Array], unstable: Callable[[S, Axes], Array], labels: tuple[str, str]
+) -> tuple[Layer[S], Layer[S]]:
     """The stable and the unstable half of the line of equilibria, (2, 2) each, from one end to the other."""
-    return (line("stable", within=lambda s, axes: stable(s, axes).T, color=theme.STABLE, width=3, label=labels[0]),
-            line("unstable", within=lambda s, axes: unstable(s, axes).T, color=theme.UNSTABLE, width=3, dash="dashed",
-                 label=labels[1]))
+    return (
+        line("stable", within=lambda s, axes: stable(s, axes).T, color=theme.STABLE, width=3, label=labels[0]),
+        line(
+            "unstable",
+            within=lambda s, axes: unstable(s, axes).T,
+            color=theme.UNSTABLE,
+            width=3,
+            dash="dashed",
+            label=labels[1],
+        ),
+    )
 
 
 def to_the_edge(point: Array, half_width: float, axes: Axes) -> Array:
@@ -131,16 +178,22 @@ def to_the_edge(point: Array, half_width: float, axes: Axes) -> Array:
 
 def equilibria(stable: Callable[[S], Array], unstable: Callable[[S], Array]) -> tuple[Layer[S], Layer[S]]:
     """A stable point (2,), filled, and an unstable one, hollow."""
-    return (points("stable-point", lambda s: stable(s)[:, None], color=theme.STABLE, size=11, edge_width=3),
-            points("unstable-point", lambda s: unstable(s)[:, None], color=theme.UNSTABLE, size=11, edge_width=3,
-                   hollow=True))
+    return (
+        points("stable-point", lambda s: stable(s)[:, None], color=theme.STABLE, size=11, edge_width=3),
+        points(
+            "unstable-point", lambda s: unstable(s)[:, None], color=theme.UNSTABLE, size=11, edge_width=3, hollow=True
+        ),
+    )
 
 
-def energy_levels(data: Callable[[S], Sequence[Array]], half_width: Callable[[S], float], label: str
-                  ) -> tuple[Layer[S], Layer[S]]:
+def energy_levels(
+    data: Callable[[S], Sequence[Array]], half_width: Callable[[S], float], label: str
+) -> tuple[Layer[S], Layer[S]]:
     """Curves (m, 2) of other energies, passed from their first to their last point, with arrows."""
-    return (curves("levels", data, color=theme.MUTED, width=1, label=label),
-            arrows("level-arrows", lambda s: arrows_on(data(s), half_width(s)), color=theme.MUTED, size=8))
+    return (
+        curves("levels", data, color=theme.MUTED, width=1, label=label),
+        arrows("level-arrows", lambda s: arrows_on(data(s), half_width(s)), color=theme.MUTED, size=8),
+    )
 
 
 def arcs(data: Callable[[S], Sequence[Array]]) -> Layer[S]:

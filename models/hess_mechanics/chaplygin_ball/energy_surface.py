@@ -114,8 +114,9 @@ def lowest_energy(body: BallBody) -> float:
     return -math.hypot(body.b1, body.b2, body.b3)
 
 
-def omega_of_energy(body: BallBody, direction: Sequence[float], gamma: Sequence[float], h: float
-                    ) -> tuple[float, float]:
+def omega_of_energy(
+    body: BallBody, direction: Sequence[float], gamma: Sequence[float], h: float
+) -> tuple[float, float]:
     """(ω1, ω2) along `direction` (2,) with E = h at this γ (3,).
 
     Raises `OutsideRegion` for h < (b, γ), `InvalidParameter` for a direction that is 0 or not finite.

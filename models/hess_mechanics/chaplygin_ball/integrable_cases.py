@@ -72,8 +72,9 @@ class Period(Labelled):
 
     def labels(self) -> Labels:
         """The times of both crossings."""
-        return Labels({}, {"t": (("crossing",), np.array(self.crossings))}, {"t": "T"},
-                      {"period": self.value, **facts_of(self)})
+        return Labels(
+            {}, {"t": (("crossing",), np.array(self.crossings))}, {"t": "T"}, {"period": self.value, **facts_of(self)}
+        )
 
 
 def period(body: BallBody, state: Sequence[float], accuracy: Accuracy = "precise") -> Period:
@@ -94,12 +95,15 @@ def period(body: BallBody, state: Sequence[float], accuracy: Accuracy = "precise
     least = min(body.I11, body.I22)
     nu = float(SYSTEM.frequency(given, p)) or 1.0
     end = _TURNS * math.sqrt(moment / least) / nu
-    coarse, fine = (section(body, start, _EITHER_WAY, end, each, crossings=2)
-                    for start, each in ((given, level), (nearby(given), level.tightened())))
+    coarse, fine = (
+        section(body, start, _EITHER_WAY, end, each, crossings=2)
+        for start, each in ((given, level), (nearby(given), level.tightened()))
+    )
     speeds = np.abs(SYSTEM.field(list(coarse.states.T), body.parameters)[4]) if len(coarse.times) else np.zeros(1)
     if min(len(coarse.times), len(fine.times)) < 2 or np.min(speeds) <= _TOUCHES * nu:
         raise InvalidParameter(
-            f"Up to t = {end:.6g} this orbit does not cross the equator γ3 = 0 twice: choose another start.")
+            f"Up to t = {end:.6g} this orbit does not cross the equator γ3 = 0 twice: choose another start."
+        )
     first, second = coarse.times.tolist()
     value, again = 2.0 * (second - first), 2.0 * (fine.times[1] - fine.times[0])
     error = 4.0 * abs(value - again) + 8e-16 * abs(second)

@@ -92,11 +92,18 @@ class Cloud(Result):
     def labels(self) -> Labels:
         """ω, γ and ln|s| of each point over t."""
         dims = ("point", "t")
-        named = {"ω1": self.omega[..., 0], "ω2": self.omega[..., 1],
-                 **{f"γ{i + 1}": self.gamma[..., i] for i in range(3)}, "ln|s|": self.log_s}
-        return Labels({"t": (("t",), self.times)}, {name: (dims, values) for name, values in named.items()},
-                      {"t": "T", **{name: unit_of(name) for name in named}},
-                      facts_of(self))
+        named = {
+            "ω1": self.omega[..., 0],
+            "ω2": self.omega[..., 1],
+            **{f"γ{i + 1}": self.gamma[..., i] for i in range(3)},
+            "ln|s|": self.log_s,
+        }
+        return Labels(
+            {"t": (("t",), self.times)},
+            {name: (dims, values) for name, values in named.items()},
+            {"t": "T", **{name: unit_of(name) for name in named}},
+            facts_of(self),
+        )
 
     @property
     def log_growth(self) -> Array:
@@ -116,7 +123,8 @@ def _axes(body: BallBody) -> tuple[float, float, float]:
     if not J > 0.0:
         raise InvalidParameter(
             "With I13 = I23 = 0 and no field ω does not change, and 1/|I13ω1 + I23ω2| has no meaning. "
-            "Choose I13 or I23 other than 0.")
+            "Choose I13 or I23 other than 0."
+        )
     return J, body.I13 / J, body.I23 / J
 
 
@@ -212,15 +220,23 @@ def frame_times(body: BallBody, states: Array, span: float, field: float = 0.0) 
         longest = abs(span) * _SPARSE * most / wanted
         raise WorkLimit(
             f"In this time the cloud turns too often for {most} frames: choose a time span below {longest:.2g}, or "
-            "fewer points.")
+            "fewer points."
+        )
     return np.linspace(0.0, span, max(_LEAST_FRAMES, min(most, math.ceil(wanted))))
 
 
 def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) -> tuple[Array, int]:
     out, steps = integrated(
-        integrate, states, p, times, level, max_steps, THREADS,
+        integrate,
+        states,
+        p,
+        times,
+        level,
+        max_steps,
+        THREADS,
         f"Points of this cloud need more than {max_steps} steps each: choose a shorter time span, a smaller 𝒟 or fewer "
-        "points.")
+        "points.",
+    )
     if not np.all(np.abs(out[..., 1]) > _CLOSEST):
         raise WorkLimit("The cloud comes closer to N than double precision can say: choose a shorter time span.")
     out[..., 1] = np.log(np.abs(out[..., 1]))
@@ -263,9 +279,17 @@ def carried(body: BallBody, states: Array, times: Array, level: Accuracy) -> Clo
         out, steps = _run(first, p, t * nu, current, max_steps)
         total += steps
     return Cloud(
-        body, frozen(t), frozen(out[..., 0] * nu), frozen(out[..., 1] + math.log(J * nu)), frozen(np.sign(first[:, 1])),
-        frozen(out[..., 2:]), level.name, status_of(error, level), error,
-        Cost(total, (time.perf_counter() - start) * 1e3))
+        body,
+        frozen(t),
+        frozen(out[..., 0] * nu),
+        frozen(out[..., 1] + math.log(J * nu)),
+        frozen(np.sign(first[:, 1])),
+        frozen(out[..., 2:]),
+        level.name,
+        status_of(error, level),
+        error,
+        Cost(total, (time.perf_counter() - start) * 1e3),
+    )
 
 
 _PARTS = 2

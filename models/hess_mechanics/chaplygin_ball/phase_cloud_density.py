@@ -95,6 +95,7 @@ class Clouds:
 
 def course(cloud: Cloud) -> CloudHistory:
     """Along all of its times."""
+
     def of(values: Array) -> Array:
         return frozen(np.stack([values.mean(axis=0), values.min(axis=0), values.max(axis=0)]))
 
@@ -109,12 +110,25 @@ def density(cloud: Cloud) -> Density:
     # What each point spends per unit of ln|s| in the end, where ln|s| falls at an even rate.
     late = 3 * cloud.times.size // 4
     rate = np.abs(cloud.log_s[:, -1] - cloud.log_s[:, late]) / abs(cloud.times[-1] - cloud.times[late])
-    return Density(frozen(0.5 * (edges[1:] + edges[:-1])), histogram(cloud, 0, edges), histogram(cloud, -1, edges),
-                   occupation(cloud, edges), 1.0 / float(np.median(rate) * abs(cloud.times[-1])))
+    return Density(
+        frozen(0.5 * (edges[1:] + edges[:-1])),
+        histogram(cloud, 0, edges),
+        histogram(cloud, -1, edges),
+        occupation(cloud, edges),
+        1.0 / float(np.median(rate) * abs(cloud.times[-1])),
+    )
 
 
-def clouds(body: BallBody, h: float, angle: float | None, spread: float, count: int, span: float,
-           field: float | None, level: Accuracy) -> Clouds:
+def clouds(
+    body: BallBody,
+    h: float,
+    angle: float | None,
+    spread: float,
+    count: int,
+    span: float,
+    field: float | None,
+    level: Accuracy,
+) -> Clouds:
     """`count` points of a `patch` at an angle, or of a `shell`; times reach to `span`, which may be negative.
 
     field : b3, in which half of them move with I13 = I23 = 0; None for no second cloud.

@@ -64,10 +64,12 @@ class BallScattering(Result):
 
     def labels(self) -> Labels:
         """θ⁺ and its error over φ."""
-        return Labels({"φ": (("φ",), self.phis)}, {"θ⁺": (("φ",), self.theta_plus), "error": (("φ",), self.errors)},
-                      {"φ": "rad", "θ⁺": "rad", "error": "rad"},
-                      {"θ⁻": self.theta_minus, "level": self.level, "status": str(self.status),
-                       "steps": self.cost.steps})
+        return Labels(
+            {"φ": (("φ",), self.phis)},
+            {"θ⁺": (("φ",), self.theta_plus), "error": (("φ",), self.errors)},
+            {"φ": "rad", "θ⁺": "rad", "error": "rad"},
+            {"θ⁻": self.theta_minus, "level": self.level, "status": str(self.status), "steps": self.cost.steps},
+        )
 
     @property
     def curve(self) -> Array:
@@ -90,8 +92,10 @@ def _circle(body: BallBody, theta: Array | float, phi: Array) -> Array:
     """γ = cos θ ξ + sin θ (cos φ η + sin φ e3), shape (..., 3)."""
     xi, eta = line_of_rest(body)
     across = np.sin(theta) * np.cos(phi)
-    return np.stack([np.cos(theta) * xi[0] + across * eta[0], np.cos(theta) * xi[1] + across * eta[1],
-                     np.sin(theta) * np.sin(phi)], axis=-1)
+    return np.stack(
+        [np.cos(theta) * xi[0] + across * eta[0], np.cos(theta) * xi[1] + across * eta[1], np.sin(theta) * np.sin(phi)],
+        axis=-1,
+    )
 
 
 def _moment(body: BallBody, theta: Array | float) -> Array:
@@ -166,8 +170,15 @@ def _speed_and_rate(strip: Strip, theta: Array) -> tuple[Array, Array]:
     return speeds, speeds * np.mean(_growth(strip.body, theta, _phases(strip.body)), axis=1)
 
 
-def ball_scattering(body: BallBody, theta_minus: float, phis: Sequence[float] | Array, h: float, distance: float,
-                    level: Accuracy, most_steps: float = MOST_STEPS) -> BallScattering:
+def ball_scattering(
+    body: BallBody,
+    theta_minus: float,
+    phis: Sequence[float] | Array,
+    h: float,
+    distance: float,
+    level: Accuracy,
+    most_steps: float = MOST_STEPS,
+) -> BallScattering:
     """θ⁺ for each phase φ of γ(0) ≈ cos θ⁻ ξ + sin θ⁻ (cos φ η + sin φ e3), η = e3 × ξ; see `starts`.
 
     The motion starts with ω along ξ + distance·η and E = h, and is followed until γ has settled on a circle of N^s.
@@ -199,13 +210,16 @@ def ball_scattering(body: BallBody, theta_minus: float, phis: Sequence[float] | 
     # It leaves N^u at the rate of θ⁻ and approaches N^s at that of the slowest circle; the factors cover the middle.
     span = math.log(4.0 / abs(distance)) / rates[0] + math.log(40.0 / level.promise) / rates.min()
     # Steps must resolve the small distance too, which decides when γ leaves; half the promise is for other errors.
-    tight = Level(level.name, 0.5 * level.promise, max(0.01 * abs(distance) * level.promise, REFERENCE.tolerance),
-                 REFERENCE.order)
+    tight = Level(
+        level.name, 0.5 * level.promise, max(0.01 * abs(distance) * level.promise, REFERENCE.tolerance), REFERENCE.order
+    )
     nu = float(np.max(SYSTEM.frequency(states.T, np.array(body.parameters))))
     steps = _STEPS * (1e-9 / tight.tolerance) ** (1.0 / tight.order) * (nu + rates.max()) * span * phis.size
     if steps > most_steps:
-        raise WorkLimit(f"γ settles on its circle so slowly that θ⁺ takes some {steps:.0e} steps: choose larger I13 or "
-                        "I23, or a smaller 𝒟.")
+        raise WorkLimit(
+            f"γ settles on its circle so slowly that θ⁺ takes some {steps:.0e} steps: choose larger I13 or "
+            "I23, or a smaller 𝒟."
+        )
     found = ensemble(body, states, [span], tight)
     end = found.states[:, 0]
     along, across = end[:, 2:4] @ xi, np.hypot(end[:, 2:4] @ eta, end[:, 4])
@@ -215,12 +229,20 @@ def ball_scattering(body: BallBody, theta_minus: float, phis: Sequence[float] | 
     _, last = _speed_and_rate(strip, theta_plus)
     errors = found.errors + before + np.abs(end[:, :2] @ eta) / last
     wall_ms = (time.perf_counter() - start) * 1e3
-    return BallScattering(float(theta_minus), frozen(phis), frozen(theta_plus), frozen(errors), level.name,
-                          status_of(float(errors.max()), level), Cost(found.cost.steps, wall_ms))
+    return BallScattering(
+        float(theta_minus),
+        frozen(phis),
+        frozen(theta_plus),
+        frozen(errors),
+        level.name,
+        status_of(float(errors.max()), level),
+        Cost(found.cost.steps, wall_ms),
+    )
 
 
-def all_phases(body: BallBody, theta_minus: float, count: int, distance: float, level: Accuracy, most_steps: float
-               ) -> BallScattering:
+def all_phases(
+    body: BallBody, theta_minus: float, count: int, distance: float, level: Accuracy, most_steps: float
+) -> BallScattering:
     """`ball_scattering` at so many even phases from −π to π; θ⁺ does not depend on the energy.
 
     Raises `InvalidParameter`, `WorkLimit`.

@@ -28,8 +28,16 @@ from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 
 __all__ = [
-    "EQUATOR", "BallSection", "ball_section", "coordinates", "fastest", "forbidden_band", "outside_band", "seeds",
-    "spread_section", "state_at",
+    "EQUATOR",
+    "BallSection",
+    "ball_section",
+    "coordinates",
+    "fastest",
+    "forbidden_band",
+    "outside_band",
+    "seeds",
+    "spread_section",
+    "state_at",
 ]
 
 EQUATOR = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
@@ -65,7 +73,8 @@ def forbidden_band(body: BallBody, h: float) -> tuple[float, float] | None:
     size = math.hypot(body.b1, body.b2)
     if h <= -size:
         raise InvalidParameter(
-            f"With the energy h = {h:g} the ball never reaches the plane γ3 = 0: choose h above {-size:.6g}.")
+            f"With the energy h = {h:g} the ball never reaches the plane γ3 = 0: choose h above {-size:.6g}."
+        )
     if h >= size:
         return None
     return math.atan2(body.b2, body.b1), math.acos(h / size)
@@ -94,8 +103,14 @@ def seeds(body: BallBody, h: float, count: int) -> list[tuple[float, ...]]:
     return found
 
 
-def ball_section(body: BallBody, h: float, starts: Sequence[Sequence[float]], crossings: int, level: Accuracy,
-                 most_steps: int = MAX_STEPS) -> SectionPoints:
+def ball_section(
+    body: BallBody,
+    h: float,
+    starts: Sequence[Sequence[float]],
+    crossings: int,
+    level: Accuracy,
+    most_steps: int = MAX_STEPS,
+) -> SectionPoints:
     """The first `crossings` crossings of each orbit from `starts`, on all cores, as in `section_points`.
 
     most_steps : per orbit.  Raises `InvalidParameter`, `WorkLimit`.
@@ -105,12 +120,15 @@ def ball_section(body: BallBody, h: float, starts: Sequence[Sequence[float]], cr
     try:
         return section_points(body, starts, EQUATOR, end, level, crossings, most_steps=most_steps)
     except WorkLimit:
-        raise WorkLimit(f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
-                        "or smaller I13 and I23.") from None
+        raise WorkLimit(
+            f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
+            "or smaller I13 and I23."
+        ) from None
 
 
-def spread_section(body: BallBody, h: float, orbits: int, crossings: int, level: Accuracy,
-                   most_steps: int) -> SectionPoints:
+def spread_section(
+    body: BallBody, h: float, orbits: int, crossings: int, level: Accuracy, most_steps: int
+) -> SectionPoints:
     """The section of so many orbits, spread over what is possible of it: `ball_section` from `seeds`."""
     return ball_section(body, h, seeds(body, h, orbits), crossings, level, most_steps)
 

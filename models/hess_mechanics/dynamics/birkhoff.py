@@ -55,8 +55,9 @@ def rotation_number(points: Array, centre: tuple[float, float] | None = None) ->
     Raises `InvalidParameter` for fewer than five points.
     """
     if len(points) < 5:
-        raise InvalidParameter(f"A rotation number needs five points of an orbit, and there are {len(points)}: follow "
-                               "it for longer.")
+        raise InvalidParameter(
+            f"A rotation number needs five points of an orbit, and there are {len(points)}: follow it for longer."
+        )
     if centre is None:
         angle = points[:, 0]
     else:

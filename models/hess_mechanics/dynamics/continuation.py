@@ -109,15 +109,30 @@ class Branch(Result):
     def labels(self) -> Labels:
         """The first place, the multipliers and the type over the points of the branch."""
         along = ("point",)
-        parts = {f"{part}{i + 1}": (along, getattr(self.multipliers[:, i], part).copy())
-                 for i in range(self.multipliers.shape[1]) for part in ("real", "imag")}
-        return Labels({self.parameter: (along, self.values)}, {
-            **{name: (along, self.places[:, 0, i]) for i, name in enumerate(self.names)},
-            **parts, "kind": (along, np.array(self.kinds)), "error": (along, self.errors),
-        }, place_units(self.names), {
-            "period": self.period, "level": self.level, "error_estimate": self.error_estimate, "ended": self.ended,
-            "bifurcations": "; ".join(f"{one.kind} at {one.value:.12g} ± {one.error:.1g}"
-                                      for one in self.bifurcations)})
+        parts = {
+            f"{part}{i + 1}": (along, getattr(self.multipliers[:, i], part).copy())
+            for i in range(self.multipliers.shape[1])
+            for part in ("real", "imag")
+        }
+        return Labels(
+            {self.parameter: (along, self.values)},
+            {
+                **{name: (along, self.places[:, 0, i]) for i, name in enumerate(self.names)},
+                **parts,
+                "kind": (along, np.array(self.kinds)),
+                "error": (along, self.errors),
+            },
+            place_units(self.names),
+            {
+                "period": self.period,
+                "level": self.level,
+                "error_estimate": self.error_estimate,
+                "ended": self.ended,
+                "bifurcations": "; ".join(
+                    f"{one.kind} at {one.value:.12g} ± {one.error:.1g}" for one in self.bifurcations
+                ),
+            },
+        )
 
 
 @dataclass(frozen=True)
@@ -219,13 +234,22 @@ def _happens(kind: str, before: _Point, after: _Point, values: tuple[float, floa
         return False
     if kind == "Neimark–Sacker":
         return max(map(abs, values)) > _CONSERVATIVE and all(
-            bool(multipliers_of(one.shot.derivatives)[0][0].imag) for one in (before, after))
+            bool(multipliers_of(one.shot.derivatives)[0][0].imag) for one in (before, after)
+        )
     return True
 
 
-def continued(family: MapFamily, orbit: PeriodicOrbit, parameter: str, start: float, end: float,
-              points: int = 200, symmetries: Symmetric | None = None, edge: float | None = None,
-              longest: float = _LONGEST) -> Branch:
+def continued(
+    family: MapFamily,
+    orbit: PeriodicOrbit,
+    parameter: str,
+    start: float,
+    end: float,
+    points: int = 200,
+    symmetries: Symmetric | None = None,
+    edge: float | None = None,
+    longest: float = _LONGEST,
+) -> Branch:
     """The branch of an orbit of the map at λ = `start`, towards λ = `end`.
 
     It ends where it leaves the range, or after so many points, or where the map ends.
@@ -244,14 +268,33 @@ def continued(family: MapFamily, orbit: PeriodicOrbit, parameter: str, start: fl
     try:
         point = track.corrected(z, along)
     except NotConverged as error:
-        raise NotConverged(f"The branch cannot be begun at {parameter} = {start:g}: the orbit is at a bifurcation, or "
-                           "one of a family at this parameter. Begin a little aside.") from error
-    return _followed(track, parameter, orbit.names, orbit.level, point, point.tangent(along), (edge, end), points,
-                     symmetries, (min(_FIRST, longest), longest))
+        raise NotConverged(
+            f"The branch cannot be begun at {parameter} = {start:g}: the orbit is at a bifurcation, or "
+            "one of a family at this parameter. Begin a little aside."
+        ) from error
+    return _followed(
+        track,
+        parameter,
+        orbit.names,
+        orbit.level,
+        point,
+        point.tangent(along),
+        (edge, end),
+        points,
+        symmetries,
+        (min(_FIRST, longest), longest),
+    )
 
 
-def gone_on(family: MapFamily, branch: Branch, end: float, edge: float, points: int = 200,
-            symmetries: Symmetric | None = None, longest: float = _LONGEST) -> Branch:
+def gone_on(
+    family: MapFamily,
+    branch: Branch,
+    end: float,
+    edge: float,
+    points: int = 200,
+    symmetries: Symmetric | None = None,
+    longest: float = _LONGEST,
+) -> Branch:
     """What follows a branch that has a `heading`, between the same ends of the range; its first point is the last one
     of that.
 
@@ -263,8 +306,18 @@ def gone_on(family: MapFamily, branch: Branch, end: float, edge: float, points: 
     track = _Track(family, abs(end - edge), *branch.places.shape[1:])
     along, step = branch.heading
     point = track.corrected(track.joined(branch.places[-1], float(branch.values[-1])), along)
-    return _followed(track, branch.parameter, branch.names, branch.level, point, point.tangent(along), (edge, end),
-                     points, symmetries, (step, longest))
+    return _followed(
+        track,
+        branch.parameter,
+        branch.names,
+        branch.level,
+        point,
+        point.tangent(along),
+        (edge, end),
+        points,
+        symmetries,
+        (step, longest),
+    )
 
 
 def _check(points: int) -> None:
@@ -272,9 +325,18 @@ def _check(points: int) -> None:
         raise WorkLimit(f"A branch has from 2 to {MAX_POINTS} points: choose a number between them.")
 
 
-def _followed(track: _Track, parameter: str, names: tuple[str, ...], level: str, point: _Point, t: Array,
-              ends: tuple[float, float], points: int, symmetries: Symmetric | None, steps: tuple[float, float]
-              ) -> Branch:
+def _followed(
+    track: _Track,
+    parameter: str,
+    names: tuple[str, ...],
+    level: str,
+    point: _Point,
+    t: Array,
+    ends: tuple[float, float],
+    points: int,
+    symmetries: Symmetric | None,
+    steps: tuple[float, float],
+) -> Branch:
     """The branch from a point of it along t, with a first and a longest step."""
     found = [point]
     errors = [track.error(point, t)]
@@ -313,8 +375,17 @@ def _followed(track: _Track, parameter: str, names: tuple[str, ...], level: str,
             ended = f"At {parameter} = {track.split(following.z)[1]:.9g}, the end of the range."
             is_over = True
             break
-    return _branch(track, parameter, names, level, found, errors, bifurcations, ended,
-                   None if is_over else (frozen(t.copy()), step))
+    return _branch(
+        track,
+        parameter,
+        names,
+        level,
+        found,
+        errors,
+        bifurcations,
+        ended,
+        None if is_over else (frozen(t.copy()), step),
+    )
 
 
 def _to_edge(z: float, rate: float, low: float, high: float) -> float:
@@ -327,12 +398,16 @@ def _to_edge(z: float, rate: float, low: float, high: float) -> float:
 def _told_apart(found: Sequence[Bifurcation]) -> list[Bifurcation]:
     """Without the fold where two branches cross at one: seen from the branch that is born in a pitchfork, it turns."""
     crossings = [one for one in found if one.kind in ("branch point", "pitchfork")]
-    return [one for one in found if one.kind != "fold" or not any(
-        abs(one.value - other.value) <= one.error + other.error for other in crossings)]
+    return [
+        one
+        for one in found
+        if one.kind != "fold" or not any(abs(one.value - other.value) <= one.error + other.error for other in crossings)
+    ]
 
 
-def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, after: int, symmetries: Symmetric | None
-             ) -> Bifurcation:
+def _located(
+    track: _Track, kind: str, last: _Point, t: Array, ahead: float, after: int, symmetries: Symmetric | None
+) -> Bifurcation:
     """Where on the branch a sign changes: regula falsi (Illinois) in the distance along the tangent."""
 
     def at(s: float) -> tuple[_Point, float]:
@@ -378,12 +453,19 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
     name = kind
     if kind == "branch point" and symmetries is not None:
         name = _pitchfork(track.at(value), places, point, symmetries)
-    return Bifurcation(name, value, off * track.width + 4e-16 * max(1.0, abs(value)), frozen(places.copy()),
-                       frozen(multipliers_of(point.shot.derivatives)[0]), after)
+    return Bifurcation(
+        name,
+        value,
+        off * track.width + 4e-16 * max(1.0, abs(value)),
+        frozen(places.copy()),
+        frozen(multipliers_of(point.shot.derivatives)[0]),
+        after,
+    )
 
 
-def _closed_in(track: _Track, at: Callable[[float], tuple[_Point, float]], bracket: tuple[float, float], point: _Point,
-               t: Array) -> tuple[float, _Point]:
+def _closed_in(
+    track: _Track, at: Callable[[float], tuple[_Point, float]], bracket: tuple[float, float], point: _Point, t: Array
+) -> tuple[float, _Point]:
     """How far off λ over its width is at a zero next to which the equations are singular, and the branch there.
 
     From a narrower bracket, within which λ changes no faster than at its ends; the zero by the secant.
@@ -409,8 +491,9 @@ def _closed_in(track: _Track, at: Callable[[float], tuple[_Point, float]], brack
     return rate * (high - low) + track.at(track.split(point.z)[1]).promise, point
 
 
-def _first_of(at: Callable[[float], tuple[_Point, float]], distances: Sequence[float]
-              ) -> tuple[float, _Point, float] | None:
+def _first_of(
+    at: Callable[[float], tuple[_Point, float]], distances: Sequence[float]
+) -> tuple[float, _Point, float] | None:
     """The first of some distances at which the equations are not singular."""
     for s in distances:
         with suppress(*_SINGULAR):
@@ -419,7 +502,7 @@ def _first_of(at: Callable[[float], tuple[_Point, float]], distances: Sequence[f
 
 
 def _pitchfork(map_: Map, places: Array, point: _Point, symmetries: Symmetric) -> str:
-    """"pitchfork" where the orbit is symmetric and those of the other branch are not."""
+    """ "pitchfork" where the orbit is symmetric and those of the other branch are not."""
     own = set(symmetries(map_, places))
     if not own:
         return "branch point"
@@ -428,11 +511,30 @@ def _pitchfork(map_: Map, places: Array, point: _Point, symmetries: Symmetric) -
     return "pitchfork" if own - aside else "branch point"
 
 
-def _branch(track: _Track, parameter: str, names: tuple[str, ...], level: str, found: list[_Point],
-            errors: list[float], bifurcations: list[Bifurcation], ended: str, heading: tuple[Array, float] | None
-            ) -> Branch:
+def _branch(
+    track: _Track,
+    parameter: str,
+    names: tuple[str, ...],
+    level: str,
+    found: list[_Point],
+    errors: list[float],
+    bifurcations: list[Bifurcation],
+    ended: str,
+    heading: tuple[Array, float] | None,
+) -> Branch:
     places, values = zip(*(track.split(one.z) for one in found), strict=True)
     multipliers = np.array([multipliers_of(one.shot.derivatives)[0] for one in found])
     kinds = tuple(kind_of(one, max(1e-9, 10.0 * error)) for one, error in zip(multipliers, errors, strict=True))
-    return Branch(parameter, names, frozen(np.array(values)), frozen(np.array(places)), frozen(multipliers), kinds,
-                  frozen(np.array(errors)), tuple(_told_apart(bifurcations)), ended, level, heading)
+    return Branch(
+        parameter,
+        names,
+        frozen(np.array(values)),
+        frozen(np.array(places)),
+        frozen(multipliers),
+        kinds,
+        frozen(np.array(errors)),
+        tuple(_told_apart(bifurcations)),
+        ended,
+        level,
+        heading,
+    )

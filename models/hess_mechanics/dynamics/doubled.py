@@ -67,7 +67,9 @@ def doubled(body: Body, state: Sequence[float] | Array, times: Sequence[float] |
         part = slice(first, first + _AT_ONCE)
         steps = body.system.doubled(here, start, p, problem.scale, unit, t[part], left, out[part])
         if steps == STEP_LIMIT_REACHED:
-            raise WorkLimit(f"With 31 digits this motion needs more than {_MOST_STEPS} steps: choose a shorter time span.")
+            raise WorkLimit(
+                f"With 31 digits this motion needs more than {_MOST_STEPS} steps: choose a shorter time span."
+            )
         require_finite_states(out[part].real)
         here, start, left = out[part][-1].copy(), float(t[part][-1]), left - steps
     return Doubled(frozen(t), frozen(out), frozen(problem.scale))

@@ -27,8 +27,16 @@ _SHARE = 64
 """Orbits per piece of work: enough to fill the lanes, few enough for the threads to finish together."""
 
 
-def integrated(kernel: Callable[..., int], states: Array, parameters: Array, times: Array, level: Level,
-               most_steps: int, threads: int, too_long: str) -> tuple[Array, int]:
+def integrated(
+    kernel: Callable[..., int],
+    states: Array,
+    parameters: Array,
+    times: Array,
+    level: Level,
+    most_steps: int,
+    threads: int,
+    too_long: str,
+) -> tuple[Array, int]:
     """Return the states (n, m, d) of many orbits at the times (m,), and the steps taken, on so many threads.
 
     Raises `WorkLimit` with the sentence `too_long`, and `InvalidParameter`.
@@ -48,8 +56,13 @@ def integrated(kernel: Callable[..., int], states: Array, parameters: Array, tim
     return out, int(steps.sum())
 
 
-def ensemble(body: Body, states: Sequence[Sequence[float]] | Array, times: Sequence[float] | Array, level: Accuracy,
-             threads: int = THREADS) -> Ensemble:
+def ensemble(
+    body: Body,
+    states: Sequence[Sequence[float]] | Array,
+    times: Sequence[float] | Array,
+    level: Accuracy,
+    threads: int = THREADS,
+) -> Ensemble:
     """The orbits from the rows of `states` (n, d), sampled at the times (m,).
 
     Errors are measured as in `solve`, orbit by orbit; orbits that miss the level's promise are recomputed with
@@ -74,9 +87,15 @@ def ensemble(body: Body, states: Sequence[Sequence[float]] | Array, times: Seque
     scaled_times = problem.times(t)
 
     starts = (problem.states, problem.nearby().states)
-    run = partial(integrated, body.system.ensemble, parameters=problem.parameters, times=scaled_times,
-                  most_steps=MAX_STEPS, threads=threads,
-                  too_long=f"One of these orbits needs more than {MAX_STEPS} steps: choose a shorter time span.")
+    run = partial(
+        integrated,
+        body.system.ensemble,
+        parameters=problem.parameters,
+        times=scaled_times,
+        most_steps=MAX_STEPS,
+        threads=threads,
+        too_long=f"One of these orbits needs more than {MAX_STEPS} steps: choose a shorter time span.",
+    )
     out, total = run(states=starts[level.aside], level=level)
     errors, scaled_errors = np.zeros(count), np.zeros(count)
     todo, before = np.arange(count), out
@@ -101,5 +120,14 @@ def ensemble(body: Body, states: Sequence[Sequence[float]] | Array, times: Seque
     out *= problem.scale
     drift = drift_of(body.system, np.array(states, float, ndmin=2), out, np.asarray(body.parameters, float))
     wall_ms = (time.perf_counter() - start) * 1e3
-    return Ensemble(body.system.name, level.name, frozen(t), frozen(out), status_of(float(scaled_errors.max()), level),
-                    frozen(errors), drift, Cost(total, wall_ms), body.system.variables)
+    return Ensemble(
+        body.system.name,
+        level.name,
+        frozen(t),
+        frozen(out),
+        status_of(float(scaled_errors.max()), level),
+        frozen(errors),
+        drift,
+        Cost(total, wall_ms),
+        body.system.variables,
+    )

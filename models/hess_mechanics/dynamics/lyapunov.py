@@ -53,8 +53,12 @@ class Exponent(Result):
 
     def labels(self) -> Labels:
         """The mean growth rate over the time up to which it is taken."""
-        return Labels({"t": (("t",), self.times)}, {"rate": (("t",), self.rates)}, {"t": "T", "rate": "1/T"},
-                      {"exponent": self.value, "spread": self.spread})
+        return Labels(
+            {"t": (("t",), self.times)},
+            {"rate": (("t",), self.rates)},
+            {"t": "T", "rate": "1/T"},
+            {"exponent": self.value, "spread": self.spread},
+        )
 
     @property
     def is_regular(self) -> bool:
@@ -68,8 +72,10 @@ def _checked(body: Body, state: Sequence[float], span: float) -> tuple[Problem, 
     problem = Problem.of(body, [state])
     returns = abs(span) / _INTERVAL * problem.nu
     if not returns <= MAX_RETURNS:
-        raise WorkLimit(f"This takes {returns:.3g} returns of the neighbour, at most {MAX_RETURNS} are allowed: choose "
-                        "a shorter time span.")
+        raise WorkLimit(
+            f"This takes {returns:.3g} returns of the neighbour, at most {MAX_RETURNS} are allowed: choose "
+            "a shorter time span."
+        )
     return problem, max(1, math.ceil(returns))
 
 
@@ -97,7 +103,8 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
     for i in range(count):
         for start, end in zip((y, neighbour), ends, strict=True):
             taken = body.system.orbit(
-                start, problem.parameters, interval, level.order, level.tolerance, MAX_STEPS - steps, end)
+                start, problem.parameters, interval, level.order, level.tolerance, MAX_STEPS - steps, end
+            )
             if taken == STEP_LIMIT_REACHED:
                 raise WorkLimit(f"This exponent needs more than {MAX_STEPS} steps: choose a shorter time span.")
             steps += taken
@@ -108,9 +115,11 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
         distance = math.hypot(*away.tolist())
         require_finite_neighbours(np.array(distance))
         if distance == 0.0:
-            raise InvalidParameter("A neighbour falls onto the motion, to the last digit of double precision, and has "
-                                   "no rate: choose less extreme parameters, or take all exponents, which need no "
-                                   "distance.")
+            raise InvalidParameter(
+                "A neighbour falls onto the motion, to the last digit of double precision, and has "
+                "no rate: choose less extreme parameters, or take all exponents, which need no "
+                "distance."
+            )
         growth[i] = math.log(distance / _DISTANCE)
         neighbour = y + away * (_DISTANCE / distance)
     times = np.abs(span) * np.arange(1, count + 1) / count

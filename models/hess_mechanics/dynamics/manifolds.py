@@ -82,14 +82,24 @@ class Manifold(Result):
 
     def labels(self) -> Labels:
         """The points over the length along the curve."""
-        return Labels({"length": (("length",), self.lengths)},
-                      {**{name: (("length",), self.points[:, i]) for i, name in enumerate(self.names)},
-                       "τ": (("length",), self.parameters)},
-                      place_units(self.names),
-                      {"manifold": "stable" if self.stable else "unstable", "side": self.side,
-                       "multiplier": self.multiplier, "sagitta": self.sagitta, "error_estimate": self.error_estimate,
-                       "status": str(self.status),
-                       "ended": self.ended, "level": self.level})
+        return Labels(
+            {"length": (("length",), self.lengths)},
+            {
+                **{name: (("length",), self.points[:, i]) for i, name in enumerate(self.names)},
+                "τ": (("length",), self.parameters),
+            },
+            place_units(self.names),
+            {
+                "manifold": "stable" if self.stable else "unstable",
+                "side": self.side,
+                "multiplier": self.multiplier,
+                "sagitta": self.sagitta,
+                "error_estimate": self.error_estimate,
+                "status": str(self.status),
+                "ended": self.ended,
+                "level": self.level,
+            },
+        )
 
 
 @dataclass(frozen=True)
@@ -131,8 +141,10 @@ def _begun(map_: Map, orbit: PeriodicOrbit, side: int, place: int) -> _Curve:
     values, vectors = np.linalg.eig(M)
     big = int(np.argmax(np.abs(values)))
     if values.imag.any() or not abs(values[big]) > 1.0 + 1e-6 or abs(values[1 - big]) >= 1.0:
-        raise InvalidParameter("Only a saddle has these manifolds: choose a periodic orbit with one multiplier inside "
-                               "and one outside of the unit circle.")
+        raise InvalidParameter(
+            "Only a saddle has these manifolds: choose a periodic orbit with one multiplier inside "
+            "and one outside of the unit circle."
+        )
     value, returns = float(values[big].real), orbit.period
     v = np.asarray(vectors[:, big].real, float)
     v = v * math.copysign(1.0 / math.hypot(*v), v[np.argmax(np.abs(v))])
@@ -162,8 +174,18 @@ def _begun(map_: Map, orbit: PeriodicOrbit, side: int, place: int) -> _Curve:
     return replace(curve, first_error=error if math.isfinite(third) else math.inf)
 
 
-def grown(map_: Map, orbit: PeriodicOrbit, length: float, stable: bool = False, side: int = 1, place: int = 0,
-          sagitta: float = 1e-3, longest: float = 0.1, most: int = 4000, returns: int = MAX_RETURNS) -> Manifold:
+def grown(
+    map_: Map,
+    orbit: PeriodicOrbit,
+    length: float,
+    stable: bool = False,
+    side: int = 1,
+    place: int = 0,
+    sagitta: float = 1e-3,
+    longest: float = 0.1,
+    most: int = 4000,
+    returns: int = MAX_RETURNS,
+) -> Manifold:
     """The branch of a manifold of a saddle up to a length along the curve.
 
     place : from which of the places of the orbit; sagitta : the largest distance of the curve from its polyline;
@@ -182,12 +204,26 @@ def grown(map_: Map, orbit: PeriodicOrbit, length: float, stable: bool = False, 
     curve = _begun(forwards, orbit, side, place)
     points, parameters, ended = _followed(curve, length, sagitta, longest, most, returns)
     lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    return Manifold(map_.names, map_.turns, stable, side, curve.multiplier, frozen(points), frozen(parameters),
-                    frozen(lengths), sagitta, _error(curve, points, parameters), ended, map_.level, curve.at)
+    return Manifold(
+        map_.names,
+        map_.turns,
+        stable,
+        side,
+        curve.multiplier,
+        frozen(points),
+        frozen(parameters),
+        frozen(lengths),
+        sagitta,
+        _error(curve, points, parameters),
+        ended,
+        map_.level,
+        curve.at,
+    )
 
 
-def _followed(curve: _Curve, length: float, sagitta: float, longest: float, most: int, returns: int
-              ) -> tuple[Array, Array, str]:
+def _followed(
+    curve: _Curve, length: float, sagitta: float, longest: float, most: int, returns: int
+) -> tuple[Array, Array, str]:
     """Points and parameters, adaptively, from the saddle up to the length; and why the curve ends."""
     turns = curve.map_.turns
     points, parameters = [curve.saddle.copy(), curve.at(0.0)], [-math.inf, 0.0]
@@ -232,8 +268,11 @@ def _followed(curve: _Curve, length: float, sagitta: float, longest: float, most
             while len(points) > 2 and float(np.linalg.norm(points[-2] - here)) < sagitta:
                 points.pop()
                 parameters.pop()
-            return np.array(points), np.array(parameters), (
-                f"At the length {total:.6g} the map jumps: an orbit touches the plane of the section.")
+            return (
+                np.array(points),
+                np.array(parameters),
+                (f"At the length {total:.6g} the map jumps: an orbit touches the plane of the section."),
+            )
         waiting.pop()
         # The middle is known anyway, and halves the sagitta twice.
         for parameter, point in ((0.5 * (tau + right), middle), (right, there)):
@@ -289,8 +328,9 @@ def crossings_of(one: Manifold, other: Manifold, most: int = 100) -> list[Inters
     for i, j in _meeting(one, other):
         crossing = _refined(one, other, (i, j))
         if crossing is not None and all(
-                np.abs(apart(one.turns, crossing.place, known.place)).max() > 1e-9 + crossing.error + known.error
-                for known in found):
+            np.abs(apart(one.turns, crossing.place, known.place)).max() > 1e-9 + crossing.error + known.error
+            for known in found
+        ):
             found.append(crossing)
             if len(found) == most:
                 break
@@ -340,8 +380,13 @@ def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Intersect
     u, v = (slopes[:, k] / np.linalg.norm(slopes[:, k]) for k in (0, 1))
     angle = math.atan2(abs(float(u[0] * v[1] - u[1] * v[0])), abs(float(u @ v)))
     off = (one.error_estimate + other.error_estimate + float(np.abs(left).max())) / max(math.sin(angle), 1e-6)
-    return Intersection(frozen(place), (float(tau[0]), float(tau[1])), angle, off,
-                        _changes_sides(one, other, tau, float(np.ptp(ends[0])), -slopes[:, 1]))
+    return Intersection(
+        frozen(place),
+        (float(tau[0]), float(tau[1])),
+        angle,
+        off,
+        _changes_sides(one, other, tau, float(np.ptp(ends[0])), -slopes[:, 1]),
+    )
 
 
 def _changes_sides(one: Manifold, other: Manifold, tau: Array, chord: float, along: Array) -> bool:
@@ -374,8 +419,9 @@ def heights_at(curve: Manifold, axis: int, value: float) -> Array:
     along = curve.points[:, axis] - value
     change = np.flatnonzero((along[1:-1] <= 0.0) != (along[2:] <= 0.0)) + 1
     if not change.size:
-        raise NotConverged(f"This manifold does not come to {curve.names[axis]} = {value:g}: grow it to a greater "
-                           "length.")
+        raise NotConverged(
+            f"This manifold does not come to {curve.names[axis]} = {value:g}: grow it to a greater length."
+        )
     return np.array([_height_on(curve, axis, value, int(i), along) for i in change])
 
 

@@ -73,10 +73,16 @@ class Megno(Result):
 
     def labels(self) -> Labels:
         """Ȳ and the divergence of each motion."""
-        return Labels({}, {"MEGNO": (("motion",), self.values), "divergence": (("motion",), self.divergence),
-                           "divergence error": (("motion",), self.divergence_error)},
-                      {"MEGNO": "1", "divergence": "1/T", "divergence error": "1/T"},
-                      {"t": self.t, "level": self.level, "steps": self.cost.steps})
+        return Labels(
+            {},
+            {
+                "MEGNO": (("motion",), self.values),
+                "divergence": (("motion",), self.divergence),
+                "divergence error": (("motion",), self.divergence_error),
+            },
+            {"MEGNO": "1", "divergence": "1/T", "divergence error": "1/T"},
+            {"t": self.t, "level": self.level, "steps": self.cost.steps},
+        )
 
 
 def longest_span(body: Body, state: Sequence[float] | Array) -> float:
@@ -87,8 +93,13 @@ def longest_span(body: Body, state: Sequence[float] | Array) -> float:
     return _LONGEST / (1.5 * Problem.of(body, [state]).nu)
 
 
-def megno(body: Body, states: Sequence[Sequence[float]] | Array, span: float, level: Accuracy = STANDARD,
-          threads: int = THREADS) -> Megno:
+def megno(
+    body: Body,
+    states: Sequence[Sequence[float]] | Array,
+    span: float,
+    level: Accuracy = STANDARD,
+    threads: int = THREADS,
+) -> Megno:
     """Ȳ of the motions from the rows of `states` (n, d) after the time `span` (negative: backwards), on all cores.
 
     Raises `InvalidParameter`, `WorkLimit`.
@@ -104,8 +115,9 @@ def megno(body: Body, states: Sequence[Sequence[float]] | Array, span: float, le
     begun = time.perf_counter()
     problem = Problem.of(body, states)
     if abs(span) * problem.nu > _LONGEST:
-        raise WorkLimit(f"An indicator takes a time of at most {_LONGEST / problem.nu:.4g} here: it is meant to "
-                        "be short.")
+        raise WorkLimit(
+            f"An indicator takes a time of at most {_LONGEST / problem.nu:.4g} here: it is meant to be short."
+        )
     count, size = problem.states.shape
     # As many samples as keep one per 1/ν, in twelve stretches after the first fifth.
     samples = 60 * max(4, math.ceil(abs(span) * problem.nu / 60))
@@ -118,8 +130,20 @@ def megno(body: Body, states: Sequence[Sequence[float]] | Array, span: float, le
     def one(i: int) -> None:
         along, frames = np.empty((samples, size)), np.empty((samples, size, 1))
         grown, volume = np.empty((samples, 1)), np.empty(samples)
-        steps[i] = body.system.vary_one(problem.states[i], frame, problem.parameters, t, level.order, level.tolerance,
-                                        MAX_STEPS, _LIMIT, along, frames, grown, volume)
+        steps[i] = body.system.vary_one(
+            problem.states[i],
+            frame,
+            problem.parameters,
+            t,
+            level.order,
+            level.tolerance,
+            MAX_STEPS,
+            _LIMIT,
+            along,
+            frames,
+            grown,
+            volume,
+        )
         if steps[i] == STEP_LIMIT_REACHED:
             raise WorkLimit(f"This indicator needs more than {MAX_STEPS} steps: choose a shorter time span.")
         require_finite_states(along)
@@ -129,7 +153,7 @@ def megno(body: Body, states: Sequence[Sequence[float]] | Array, span: float, le
         number = np.arange(1, samples + 1)
         below = np.cumsum(0.5 * (length[1:] + length[:-1]))
         y = 2.0 * (length[1:] - below / number)
-        mean, error = batch_error(volume[first - 1:, None], np.abs(t[first - 1:]) / problem.nu)
+        mean, error = batch_error(volume[first - 1 :, None], np.abs(t[first - 1 :]) / problem.nu)
         found[:, i] = y.mean(), mean[0], error[0]
         require_finite_rates(found[:, i])
 
@@ -138,5 +162,11 @@ def megno(body: Body, states: Sequence[Sequence[float]] | Array, span: float, le
             one(j)
 
     share(part, -(-count // _SHARE), threads)
-    return Megno(abs(span), frozen(found[0].copy()), frozen(found[1].copy()), frozen(found[2].copy()), level.name,
-                 Cost(int(steps.sum()), (time.perf_counter() - begun) * 1e3))
+    return Megno(
+        abs(span),
+        frozen(found[0].copy()),
+        frozen(found[1].copy()),
+        frozen(found[2].copy()),
+        level.name,
+        Cost(int(steps.sum()), (time.perf_counter() - begun) * 1e3),
+    )

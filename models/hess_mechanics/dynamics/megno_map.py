@@ -45,13 +45,17 @@ class MegnoMap(Result):
     def labels(self) -> Labels:
         """MEGNO and kind over both coordinates."""
         across, up = self.names
-        return Labels({up: ((up,), self.y), across: ((across,), self.x)},
-                      {"MEGNO": ((up, across), self.values), "kind": ((up, across), self.kind)},
-                      {**place_units(self.names), "MEGNO": "1"}, {"t": self.t, "level": self.level})
+        return Labels(
+            {up: ((up,), self.y), across: ((across,), self.x)},
+            {"MEGNO": ((up, across), self.values), "kind": ((up, across), self.kind)},
+            {**place_units(self.names), "MEGNO": "1"},
+            {"t": self.t, "level": self.level},
+        )
 
 
-def row_of_cells(section: PoincareSection, window: Window, cells: tuple[int, int], row: int, t: float,
-                 level: Accuracy) -> Array:
+def row_of_cells(
+    section: PoincareSection, window: Window, cells: tuple[int, int], row: int, t: float, level: Accuracy
+) -> Array:
     """Ȳ and kind, (2, m), of the motions from the middles of the cells of a row.
 
     cells : (m, n) across and up the window; the row is counted from below.  Raises `InvalidParameter`, `WorkLimit`.
@@ -66,8 +70,9 @@ def row_of_cells(section: PoincareSection, window: Window, cells: tuple[int, int
     return frozen(out)
 
 
-def megno_map(map_: ReturnMap, cells: tuple[int, int] = (16, 12), window: Window | None = None, t: float = 200.0
-              ) -> MegnoMap:
+def megno_map(
+    map_: ReturnMap, cells: tuple[int, int] = (16, 12), window: Window | None = None, t: float = 200.0
+) -> MegnoMap:
     """Return MEGNO of the motions from the cells of a section after the time t, computed on all cores.
 
     Parameters
@@ -97,15 +102,24 @@ def megno_map(map_: ReturnMap, cells: tuple[int, int] = (16, 12), window: Window
 
     share(row, n)
     across, up = section.names
-    return MegnoMap((across, up), frozen(centres(x0, x1, m)), frozen(centres(y0, y1, n)), frozen(rows[:, 0].copy()),
-                    frozen(rows[:, 1].astype(int)), abs(span), level.name)
+    return MegnoMap(
+        (across, up),
+        frozen(centres(x0, x1, m)),
+        frozen(centres(y0, y1, n)),
+        frozen(rows[:, 0].copy()),
+        frozen(rows[:, 1].astype(int)),
+        abs(span),
+        level.name,
+    )
 
 
 def require_plane(section: PoincareSection) -> None:
     """Raise `InvalidParameter` where a section has only one coordinate."""
     if len(section.names) != 2:
-        raise InvalidParameter(f"The section of this body has the coordinate {section.names[0]} alone: there is no "
-                               "plane to fill with cells.")
+        raise InvalidParameter(
+            f"The section of this body has the coordinate {section.names[0]} alone: there is no "
+            "plane to fill with cells."
+        )
 
 
 def _corners(section: PoincareSection, window: Window | None) -> Window:
@@ -115,12 +129,16 @@ def _corners(section: PoincareSection, window: Window | None) -> Window:
     given = tuple(zip(*sides, strict=True)) if window is None else window
     (x0, y0), (x1, y1) = (as_place(names, corner) for corner in given)
     # An angle may begin where it likes.
-    inside = all(math.isfinite(turn) or (low <= a and b <= high) for turn, (low, high), a, b in zip(
-        section.turns, sides, (x0, y0), (x1, y1), strict=True))
+    inside = all(
+        math.isfinite(turn) or (low <= a and b <= high)
+        for turn, (low, high), a, b in zip(section.turns, sides, (x0, y0), (x1, y1), strict=True)
+    )
     if not (x0 < x1 and y0 < y1 and inside):
         across, up = (f"{low:.6g} to {high:.6g}" for low, high in sides)
-        raise InvalidParameter("A window is (x0, y0), (x1, y1) with x0 < x1, y0 < y1: here "
-                               f"{names[0]} goes from {across}, {names[1]} from {up}.")
+        raise InvalidParameter(
+            "A window is (x0, y0), (x1, y1) with x0 < x1, y0 < y1: here "
+            f"{names[0]} goes from {across}, {names[1]} from {up}."
+        )
     return (x0, y0), (x1, y1)
 
 

@@ -17,8 +17,18 @@ from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.results import Array, Cost, Orbit, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["MAX_SAMPLES", "MAX_STEPS", "checked_span", "checked_times", "drift_of", "require_finite_neighbours",
-           "require_finite_rates", "require_finite_states", "solve", "status_of"]
+__all__ = [
+    "MAX_SAMPLES",
+    "MAX_STEPS",
+    "checked_span",
+    "checked_times",
+    "drift_of",
+    "require_finite_neighbours",
+    "require_finite_rates",
+    "require_finite_states",
+    "solve",
+    "status_of",
+]
 
 MAX_STEPS = 1_000_000
 MAX_SAMPLES = 200_000
@@ -45,8 +55,10 @@ def checked_times(times: float | Sequence[float] | Array) -> Array:
 def checked_span(span: float, what: str) -> float:
     """The time span over which `what` is taken, checked.  Raises `InvalidParameter`."""
     if isinstance(span, Real) and not _SHORTEST <= abs(span) < math.inf:
-        raise InvalidParameter(f"The time span of {what} must be a finite number other than 0, of {_SHORTEST:g} or "
-                               "more: choose one like 100, or -100 for backwards.")
+        raise InvalidParameter(
+            f"The time span of {what} must be a finite number other than 0, of {_SHORTEST:g} or "
+            "more: choose one like 100, or -100 for backwards."
+        )
     return as_number("t", span)
 
 
@@ -59,15 +71,19 @@ def require_finite_states(states: Array) -> None:
 def require_finite_neighbours(*found: Array) -> None:
     """Raise `WorkLimit` where what is known of an orbit's neighbours has left double range."""
     if not all(np.all(np.isfinite(one)) for one in found):
-        raise WorkLimit("Neighbours part beyond the range of double precision: choose a shorter time span, or less "
-                        "extreme parameters.")
+        raise WorkLimit(
+            "Neighbours part beyond the range of double precision: choose a shorter time span, or less "
+            "extreme parameters."
+        )
 
 
 def require_finite_rates(*rates: Array | float) -> None:
     """Raise `InvalidParameter` where a rate per unit of time has left double range."""
     if not all(np.all(np.isfinite(one)) for one in rates):
-        raise InvalidParameter("Rates over this time span leave the range of double precision: choose a longer one, or "
-                               "less extreme parameters.")
+        raise InvalidParameter(
+            "Rates over this time span leave the range of double precision: choose a longer one, or "
+            "less extreme parameters."
+        )
 
 
 def status_of(error: float, level: Level) -> Status:
@@ -93,8 +109,13 @@ def drift_of(system: System, start: Array, states: Array, parameters: Array) -> 
     return drift
 
 
-def solve(body: Body, state: Sequence[float] | Array, t: float | Sequence[float] | Array,
-          accuracy: Accuracy = "precise", samples: int = 500) -> Orbit:
+def solve(
+    body: Body,
+    state: Sequence[float] | Array,
+    t: float | Sequence[float] | Array,
+    accuracy: Accuracy = "precise",
+    samples: int = 500,
+) -> Orbit:
     """Return the orbit of a body from `state` (d,), with a measured error.
 
     Parameters
@@ -126,8 +147,9 @@ def solve(body: Body, state: Sequence[float] | Array, t: float | Sequence[float]
     """
     level = as_level(accuracy)
     start = time.perf_counter()
-    times = checked_times(t if np.ndim(t) else
-                          np.linspace(0.0, as_number("t", t), as_whole("samples", samples, 2, MAX_SAMPLES)))
+    times = checked_times(
+        t if np.ndim(t) else np.linspace(0.0, as_number("t", t), as_whole("samples", samples, 2, MAX_SAMPLES))
+    )
     problem = Problem.of(body, [state])
     scaled_times = problem.times(times)
     starts = (problem.states[0], problem.nearby().states[0])
@@ -136,11 +158,13 @@ def solve(body: Body, state: Sequence[float] | Array, t: float | Sequence[float]
     def run(at: Level) -> Array:
         nonlocal total
         out = np.empty((times.size, problem.scale.size))
-        steps = body.system.orbit(starts[at.aside], problem.parameters, scaled_times, at.order, at.tolerance,
-                                  MAX_STEPS - total, out)
+        steps = body.system.orbit(
+            starts[at.aside], problem.parameters, scaled_times, at.order, at.tolerance, MAX_STEPS - total, out
+        )
         if steps == STEP_LIMIT_REACHED:
-            raise WorkLimit(f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper "
-                            "accuracy.")
+            raise WorkLimit(
+                f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper accuracy."
+            )
         require_finite_states(out)
         total += steps
         return out
@@ -149,7 +173,17 @@ def solve(body: Body, state: Sequence[float] | Array, t: float | Sequence[float]
     states = found.result * problem.scale
     drift = drift_of(body.system, np.asarray(state, float), states, np.asarray(body.parameters, float))
     wall_ms = (time.perf_counter() - start) * 1e3
-    absolute = (found.safety * float((np.abs(found.result - found.other) * problem.scale).max())
-                + 2e-16 * max(1.0, problem.nu))
-    return Orbit(body.system.name, level.name, frozen(times), frozen(states), status_of(found.error, level), absolute,
-                 drift, Cost(total, wall_ms), variables=body.system.variables)
+    absolute = found.safety * float((np.abs(found.result - found.other) * problem.scale).max()) + 2e-16 * max(
+        1.0, problem.nu
+    )
+    return Orbit(
+        body.system.name,
+        level.name,
+        frozen(times),
+        frozen(states),
+        status_of(found.error, level),
+        absolute,
+        drift,
+        Cost(total, wall_ms),
+        variables=body.system.variables,
+    )

@@ -26,7 +26,14 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask, frozen
 
 __all__ = [
-    "COMPARED", "MAX_VALUES", "Cascade", "Diagram", "Followed", "cascade", "diagram_over", "doubling_seen",
+    "COMPARED",
+    "MAX_VALUES",
+    "Cascade",
+    "Diagram",
+    "Followed",
+    "cascade",
+    "diagram_over",
+    "doubling_seen",
     "hysteresis",
     "period_of",
 ]
@@ -91,22 +98,30 @@ class Diagram(Result):
         value = np.repeat(self.values, [len(one) for one in self.places])
         points = np.concatenate([np.empty((0, len(self.names))), *self.places])
         along = ("point",)
-        return Labels({self.parameter: (along, value)},
-                      {name: (along, points[:, i]) for i, name in enumerate(self.names)},
-                      place_units(self.names), {"level": self.level})
+        return Labels(
+            {self.parameter: (along, value)},
+            {name: (along, points[:, i]) for i, name in enumerate(self.names)},
+            place_units(self.names),
+            {"level": self.level},
+        )
 
 
-def period_of(turns: Sequence[float], places: Array, promise: float = 0.0, most: int = MAX_PERIOD
-              ) -> tuple[int, bool]:
+def period_of(turns: Sequence[float], places: Array, promise: float = 0.0, most: int = MAX_PERIOD) -> tuple[int, bool]:
     """The least period with which the places (n, d) of an orbit repeat, 0 where none is seen, and whether it stays so.
 
     Seen is a period of which the orbit shows at least three; it is on its way to one where its halves say so.
     promise : the error of the map that the places have; most : the longest period that is looked for.
     """
     most = min(most, len(places) // 3)
-    ways = np.array([[np.abs(apart(turns, one[m:], one[:-m])).max()
-                      for one in (places[: len(places) // 2 + m // 2], places[len(places) // 2 - m // 2 :])]
-                     for m in range(1, most + 1)])
+    ways = np.array(
+        [
+            [
+                np.abs(apart(turns, one[m:], one[:-m])).max()
+                for one in (places[: len(places) // 2 + m // 2], places[len(places) // 2 - m // 2 :])
+            ]
+            for m in range(1, most + 1)
+        ]
+    )
     if not len(ways):
         return 0, False
     first, second = ways.T
@@ -114,16 +129,26 @@ def period_of(turns: Sequence[float], places: Array, promise: float = 0.0, most:
     if closed.size:
         m = int(closed[0]) + 1
         # A multiplier near −1 makes an orbit look twice as long while it is still coming.
-        return (m, True) if all(second[k - 1] >= _SETTLING * first[k - 1] for k in range(1, m) if m % k == 0) else (
-            0, False)
+        return (
+            (m, True)
+            if all(second[k - 1] >= _SETTLING * first[k - 1] for k in range(1, m) if m % k == 0)
+            else (0, False)
+        )
     # All of them close better and better, or the one that closes best does: then the orbit comes to a periodic one.
     ratios = second / first
     return 0, min(float(np.median(ratios)), float(ratios[second.argmin()])) >= _SETTLING
 
 
-def diagram_over(family: Callable[[float], Followed], parameter: str, values: Sequence[float] | Array,
-                 start: Sequence[float] | Array, transient: int = 200, kept: int = 64, follow: bool = True,
-                 again: Sequence[float] | Array | None = None) -> Diagram:
+def diagram_over(
+    family: Callable[[float], Followed],
+    parameter: str,
+    values: Sequence[float] | Array,
+    start: Sequence[float] | Array,
+    transient: int = 200,
+    kept: int = 64,
+    follow: bool = True,
+    again: Sequence[float] | Array | None = None,
+) -> Diagram:
     """Where the orbit from a place `start` (d,) settles at each of the values (n,), in their order.
 
     family : value → map.  transient, kept : crossings that are left out, and shown.
@@ -171,8 +196,17 @@ def diagram_over(family: Callable[[float], Followed], parameter: str, values: Se
             ends[i] = place = found[-1]
         else:
             place = anew
-    return Diagram(parameter, names, frozen(along), tuple(places), frozen(periods), frozen(settled), frozen(ends),
-                   frozen(conservative), level)
+    return Diagram(
+        parameter,
+        names,
+        frozen(along),
+        tuple(places),
+        frozen(periods),
+        frozen(settled),
+        frozen(ends),
+        frozen(conservative),
+        level,
+    )
 
 
 def doubling_seen(parts: Sequence[Diagram]) -> tuple[float, Array, float] | None:
@@ -181,8 +215,9 @@ def doubling_seen(parts: Sequence[Diagram]) -> tuple[float, Array, float] | None
     parts : of the diagram, in their order.  The value, the places (m, d) there, and the value at the end of that way;
     None where no period doubles between neighbours.
     """
-    known = [one for part in parts
-             for one in zip(part.values.tolist(), part.periods.tolist(), part.places, strict=True)]
+    known = [
+        one for part in parts for one in zip(part.values.tolist(), part.periods.tolist(), part.places, strict=True)
+    ]
     for way in (known, known[::-1]):
         steps = [(m, k) for k, ((_, m, _), (_, following, _)) in enumerate(pairwise(way)) if m and following == 2 * m]
         if steps:
@@ -264,14 +299,22 @@ class Cascade(Result):
         ratio, off = np.full((2, len(self.values)), np.nan)
         if len(self.values) > 2:
             ratio[1:-1], off[1:-1] = self.ratios, self.ratio_errors
-        return Labels({"period": (along, self.periods)},
-                      {self.parameter: (along, self.values), "error": (along, self.errors), "ratio": (along, ratio),
-                       "ratio error": (along, off)}, {},
-                      {"ended": self.ended, "limit": self.limit, "level": self.level})
+        return Labels(
+            {"period": (along, self.periods)},
+            {
+                self.parameter: (along, self.values),
+                "error": (along, self.errors),
+                "ratio": (along, ratio),
+                "ratio error": (along, off),
+            },
+            {},
+            {"ended": self.ended, "limit": self.limit, "level": self.level},
+        )
 
 
-def cascade(family: Callable[[float], Map], parameter: str, orbit: PeriodicOrbit, start: float, end: float,
-            doublings: int = 6) -> Cascade:
+def cascade(
+    family: Callable[[float], Map], parameter: str, orbit: PeriodicOrbit, start: float, end: float, doublings: int = 6
+) -> Cascade:
     """The doublings of the period of an orbit of the map at λ = `start`, towards λ = `end`.
 
     The orbit is continued up to its flip; just beyond, Newton's method finds the one of twice the period, from the
@@ -308,10 +351,16 @@ def cascade(family: Callable[[float], Map], parameter: str, orbit: PeriodicOrbit
         at, orbit = born
         # Room for a first step that is no guide yet.
         far = end if len(found) == 1 else flip.value + direction * 4.0 * step
-    return Cascade(parameter, orbit.names, frozen(np.array([one.value for one in found])),
-                   frozen(np.array([one.error for one in found])),
-                   frozen(np.array([len(one.places) for one in found], np.int64)),
-                   tuple(one.places for one in found), ended, orbit.level)
+    return Cascade(
+        parameter,
+        orbit.names,
+        frozen(np.array([one.value for one in found])),
+        frozen(np.array([one.error for one in found])),
+        frozen(np.array([len(one.places) for one in found], np.int64)),
+        tuple(one.places for one in found),
+        ended,
+        orbit.level,
+    )
 
 
 def _doubled(family: Callable[[float], Map], flip: Bifurcation, step: float) -> tuple[float, PeriodicOrbit] | None:

@@ -26,17 +26,30 @@ Place = tuple[float, ...]
 SectionFamily = Callable[[float], PoincareSection]
 
 
-def diagram(family: SectionFamily, name: str, values: tuple[float, ...], start: Place, again: Place, transient: int,
-            kept: int, follow: bool, backward: bool, level: Accuracy) -> Diagram:
+def diagram(
+    family: SectionFamily,
+    name: str,
+    values: tuple[float, ...],
+    start: Place,
+    again: Place,
+    transient: int,
+    kept: int,
+    follow: bool,
+    backward: bool,
+    level: Accuracy,
+) -> Diagram:
     """`orbit_diagram` of the sections of a family."""
     level = as_level(level)
-    return diagram_over(lambda value: ReturnMap(family(value), level, backward), name, values, start, transient, kept,
-                         follow, again)
+    return diagram_over(
+        lambda value: ReturnMap(family(value), level, backward), name, values, start, transient, kept, follow, again
+    )
 
 
-def doublings(family: SectionFamily, name: str, at: float, places: tuple[Place, ...], end: float, most: int
-              ) -> Cascade | str:
+def doublings(
+    family: SectionFamily, name: str, at: float, places: tuple[Place, ...], end: float, most: int
+) -> Cascade | str:
     """The cascade of the orbit with these places at a value of the parameter, towards another; or why there is none."""
+
     def map_at(value: float) -> ReturnMap:
         return ReturnMap(family(value), PRECISE)
 
@@ -59,8 +72,10 @@ class Sets:
 def sets_of(section: PoincareSection, start: Place, transient: int, kept: int, level: Accuracy) -> Sets:
     """Of the orbit from a place.  Raises `OutsideRegion`, `WorkLimit`."""
     level = as_level(level)
-    found = (ReturnMap(section, level, backward).orbit(np.array(start), transient + kept)[transient:]
-             for backward in (False, True))
+    found = (
+        ReturnMap(section, level, backward).orbit(np.array(start), transient + kept)[transient:]
+        for backward in (False, True)
+    )
     return Sets(*(frozen(one.copy()) for one in found))
 
 

@@ -22,7 +22,15 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Complex, frozen
 
 __all__ = [
-    "MAX_PERIOD", "Map", "PeriodicOrbit", "Shot", "apart", "find_periodic", "kind_of", "multipliers_of", "place_units",
+    "MAX_PERIOD",
+    "Map",
+    "PeriodicOrbit",
+    "Shot",
+    "apart",
+    "find_periodic",
+    "kind_of",
+    "multipliers_of",
+    "place_units",
     "shoot",
 ]
 
@@ -223,12 +231,23 @@ class PeriodicOrbit(Result):
     def labels(self) -> Labels:
         """The places, one after the other."""
         multipliers = {f"multiplier {i + 1}": _shown(complex(one)) for i, one in enumerate(self.multipliers)}
-        return Labels({"return": (("return",), np.arange(self.period))},
-                      {name: (("return",), self.places[:, i]) for i, name in enumerate(self.names)},
-                      place_units(self.names), {
-            "period": self.period, "kind": self.kind, **multipliers, "multiplier_error": self.multiplier_error,
-            "error_estimate": self.error_estimate, "condition": self.condition, "iterations": self.iterations,
-            "symmetric": ", ".join(self.symmetric), "level": self.level, "status": str(self.status)})
+        return Labels(
+            {"return": (("return",), np.arange(self.period))},
+            {name: (("return",), self.places[:, i]) for i, name in enumerate(self.names)},
+            place_units(self.names),
+            {
+                "period": self.period,
+                "kind": self.kind,
+                **multipliers,
+                "multiplier_error": self.multiplier_error,
+                "error_estimate": self.error_estimate,
+                "condition": self.condition,
+                "iterations": self.iterations,
+                "symmetric": ", ".join(self.symmetric),
+                "level": self.level,
+                "status": str(self.status),
+            },
+        )
 
 
 def _shown(value: complex) -> float | str:
@@ -269,12 +288,15 @@ def _converged(map_: Map, places: Array) -> tuple[Shot, int]:
 
 
 def _not_converged(m: int) -> NotConverged:
-    return NotConverged(f"Newton's method finds no orbit of period {m} from here: start closer to one, where an orbit "
-                        "comes back close to itself, or choose another period.")
+    return NotConverged(
+        f"Newton's method finds no orbit of period {m} from here: start closer to one, where an orbit "
+        "comes back close to itself, or choose another period."
+    )
 
 
-def find_periodic(map_: Map, start: Sequence[float] | Array, period: int | None = None, most: int = 12,
-                  near: bool = False) -> PeriodicOrbit:
+def find_periodic(
+    map_: Map, start: Sequence[float] | Array, period: int | None = None, most: int = 12, near: bool = False
+) -> PeriodicOrbit:
     """The periodic orbit that Newton's method finds from a place (d,), or from the places (m, d) of an orbit.
 
     period : the least one; None: of the periods up to `most` those are tried at which
@@ -292,24 +314,27 @@ def find_periodic(map_: Map, start: Sequence[float] | Array, period: int | None 
     if period is not None:
         return _of_period(map_, places[0], period, near)
     orbit = _orbit_from(map_, places[0], most)
-    for back in np.argsort(_closeness(map_, orbit[1:], orbit[0]), kind="stable")[:1 if near else _TRIED]:
+    for back in np.argsort(_closeness(map_, orbit[1:], orbit[0]), kind="stable")[: 1 if near else _TRIED]:
         try:
             return _measured(map_, *_converged(map_, orbit[: back + 1]))
         except NotConverged:
             continue
-    raise NotConverged(f"Newton's method finds no periodic orbit up to period {most} from here: start closer to one, "
-                       "or give its period.")
+    raise NotConverged(
+        f"Newton's method finds no periodic orbit up to period {most} from here: start closer to one, "
+        "or give its period."
+    )
 
 
 def _of_period(map_: Map, place: Array, m: int, near: bool) -> PeriodicOrbit:
     """The orbit whose least period is m, from the place or from where its orbit later comes back closest."""
     orbit = _orbit_from(map_, place, m - 1 if near else _FOLLOWED * m + m)
     if len(orbit) < m:
-        raise NotConverged(f"From here a motion returns {len(orbit) - 1} times only: start elsewhere for an orbit of "
-                           f"period {m}.")
+        raise NotConverged(
+            f"From here a motion returns {len(orbit) - 1} times only: start elsewhere for an orbit of period {m}."
+        )
     later = np.argsort(_closeness(map_, orbit[m:], orbit[:-m]), kind="stable") if len(orbit) > m else np.empty(0, int)
     others: set[int] = set()
-    for first in (0, *later[: _TRIED]):
+    for first in (0, *later[:_TRIED]):
         try:
             found = _measured(map_, *_converged(map_, orbit[first : first + m]))
         except NotConverged:
@@ -318,8 +343,10 @@ def _of_period(map_: Map, place: Array, m: int, near: bool) -> PeriodicOrbit:
             return found
         others.add(found.period)
     if others:
-        raise NotConverged(f"From here Newton's method comes to orbits of period {', '.join(map(str, sorted(others)))} "
-                           f"and to none of period {m}: start closer to one, or ask for such a period.")
+        raise NotConverged(
+            f"From here Newton's method comes to orbits of period {', '.join(map(str, sorted(others)))} "
+            f"and to none of period {m}: start closer to one, or ask for such a period."
+        )
     raise _not_converged(m)
 
 
@@ -346,8 +373,11 @@ def _least_period(map_: Map, places: Array, error: float) -> int:
     """The least divisor of m after which the places (m, d) repeat."""
     m = len(places)
     near = max(1e3 * error, 1e-7)
-    return next(k for k in range(1, m + 1)
-                if m % k == 0 and np.abs(apart(map_.turns, places, np.roll(places, -k, axis=0))).max() <= near)
+    return next(
+        k
+        for k in range(1, m + 1)
+        if m % k == 0 and np.abs(apart(map_.turns, places, np.roll(places, -k, axis=0))).max() <= near
+    )
 
 
 def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
@@ -379,7 +409,16 @@ def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
     for i, turn in enumerate(map_.turns):
         if math.isfinite(turn):
             places[:, i] -= turn * np.ceil(places[:, i] / turn - 0.5)
-    status = (Status.OK if error <= map_.promise else
-              Status.FLOOR if map_.is_floor else Status.PROMISE_NOT_MET)
-    return PeriodicOrbit(map_.names, frozen(places), frozen(multipliers), kind_of(multipliers, off), error, off,
-                         condition, iterations, map_.level, status)
+    status = Status.OK if error <= map_.promise else Status.FLOOR if map_.is_floor else Status.PROMISE_NOT_MET
+    return PeriodicOrbit(
+        map_.names,
+        frozen(places),
+        frozen(multipliers),
+        kind_of(multipliers, off),
+        error,
+        off,
+        condition,
+        iterations,
+        map_.level,
+        status,
+    )

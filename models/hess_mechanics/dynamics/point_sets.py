@@ -92,8 +92,9 @@ def how_far_apart(turns: Sequence[float], a: Array, b: Array) -> Apart:
     sizes = [float(np.abs(apart(turns, one, one[0])).max()) for one in (a, b)]
     settled = all(grain < _SETTLED * size or grain == _RESOLVED for grain, size in zip(grains, sizes, strict=True))
     whole = distance(turns, a, b)
-    parts = [distance(turns, p, q) for p, q in zip(np.array_split(a, _BATCHES), np.array_split(b, _BATCHES),
-                                                  strict=True)]
+    parts = [
+        distance(turns, p, q) for p, q in zip(np.array_split(a, _BATCHES), np.array_split(b, _BATCHES), strict=True)
+    ]
     shared = []
     for (first, second), other in zip(halves, (b, a), strict=True):
         # As close as 95 of 100 places of one half are to the other half.

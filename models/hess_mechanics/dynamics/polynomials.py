@@ -92,8 +92,12 @@ class Along(_Number):
 
     def __mul__(self, other: Any) -> Along:
         if not isinstance(other, Along):
-            return Along(self.polynomial * other, self.delta, self.terms,
-                         None if self.rest is None else self.rest * abs(other + 0 * self.delta))
+            return Along(
+                self.polynomial * other,
+                self.delta,
+                self.terms,
+                None if self.rest is None else self.rest * abs(other + 0 * self.delta),
+            )
         rest = None
         for one, two in ((self, other), (other, self)):
             if one.rest is not None:
@@ -166,8 +170,10 @@ class Slope(_Number):
     def __mul__(self, other: Any) -> Slope:
         if not isinstance(other, Slope):
             return Slope(self.value * other, [x * other for x in self.slopes])
-        return Slope(self.value * other.value, [
-            x * other.value + self.value * y for x, y in zip(self.slopes, other.slopes, strict=True)])
+        return Slope(
+            self.value * other.value,
+            [x * other.value + self.value * y for x, y in zip(self.slopes, other.slopes, strict=True)],
+        )
 
     def __pow__(self, exponent: int) -> Slope:
         slope = exponent * self.value ** (exponent - 1) if exponent else 0 * self.value

@@ -159,17 +159,30 @@ class Regime(Result):
             return f"{kind[0].upper()}{kind[1:]}{case}; phase volume is kept."
         if self.volume:
             volume = f"phase volume {'shrinks' if self.volume < 0 else 'grows'}"
-            return (f"{kind[0].upper()}{kind[1:]}{case}; {volume} about it: mean divergence {self.divergence:.3g} ± "
-                    f"{self.divergence_error:.1g}.")
+            return (
+                f"{kind[0].upper()}{kind[1:]}{case}; {volume} about it: mean divergence {self.divergence:.3g} ± "
+                f"{self.divergence_error:.1g}."
+            )
         return f"{kind[0].upper()}{kind[1:]}{case}; |mean divergence| < {self.bound:.1g}."
 
     def labels(self) -> Labels:
         """The places, and what was found of them."""
-        return Labels({}, {name: (("crossing",), self.places[:, i].copy()) for i, name in enumerate(self.names)},
-                      place_units(self.names), {
-            "kind": self.kind.words, "period": self.period, "MEGNO": self.megno, "K": self.k, "t": self.t,
-            "divergence": self.divergence, "divergence error": self.divergence_error, "integrable": self.integrable,
-            "level": self.level})
+        return Labels(
+            {},
+            {name: (("crossing",), self.places[:, i].copy()) for i, name in enumerate(self.names)},
+            place_units(self.names),
+            {
+                "kind": self.kind.words,
+                "period": self.period,
+                "MEGNO": self.megno,
+                "K": self.k,
+                "t": self.t,
+                "divergence": self.divergence,
+                "divergence error": self.divergence_error,
+                "integrable": self.integrable,
+                "level": self.level,
+            },
+        )
 
 
 @dataclass(frozen=True)
@@ -211,8 +224,9 @@ class _Evidence:
         return MotionKind.UNDECIDED
 
 
-def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300, kept: int = 200, t: float = 200.0
-           ) -> Regime:
+def regime(
+    map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300, kept: int = 200, t: float = 200.0
+) -> Regime:
     """Return the kind of the motion from a place of a section.
 
     Parameters
@@ -277,15 +291,38 @@ def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300
     if kind is MotionKind.QUASI_PERIODIC and changes and not _has_a_curve(map_, places[-1], span):
         kind = MotionKind.NO_PERIOD
     period = evidence.period if kind in (MotionKind.FIXED_POINT, MotionKind.PERIODIC) else 0
-    return Regime(kind, period, map_.names, frozen(places.copy()), span, evidence.late, evidence.k,
-                  evidence.divergence, evidence.divergence_error, map_.volume_kept, map_.section.integrable,
-                  map_.level)
+    return Regime(
+        kind,
+        period,
+        map_.names,
+        frozen(places.copy()),
+        span,
+        evidence.late,
+        evidence.k,
+        evidence.divergence,
+        evidence.divergence_error,
+        map_.volume_kept,
+        map_.section.integrable,
+        map_.level,
+    )
 
 
 def _not_seen(map_: ReturnMap, places: Array, start: Sequence[float] | Array) -> Regime:
     last = places[-1] if len(places) else np.array(start, float)
-    return Regime(MotionKind.NO_RETURN, 0, map_.names, frozen(places.copy()), map_.wait(last), 0.0, math.nan, 0.0, 0.0,
-                  map_.volume_kept, map_.section.integrable, map_.level)
+    return Regime(
+        MotionKind.NO_RETURN,
+        0,
+        map_.names,
+        frozen(places.copy()),
+        map_.wait(last),
+        0.0,
+        math.nan,
+        0.0,
+        0.0,
+        map_.volume_kept,
+        map_.section.integrable,
+        map_.level,
+    )
 
 
 def _evidence(map_: ReturnMap, places: Array, span: float) -> _Evidence:
@@ -293,13 +330,24 @@ def _evidence(map_: ReturnMap, places: Array, span: float) -> _Evidence:
     # A periodic orbit is one whatever its neighbours do; of others an ensemble tells.
     found = [_indicated(map_, places[-1:] if period else _ensemble(map_, places), time) for time in (span / 2.0, span)]
     late = found[1]
-    mean, error = ((float(late.divergence[0]), float(late.divergence_error[0])) if len(late.values) == 1
-                   else ensemble_mean(late.divergence))
+    mean, error = (
+        (float(late.divergence[0]), float(late.divergence_error[0]))
+        if len(late.values) == 1
+        else ensemble_mean(late.divergence)
+    )
     series = _series(map_.turns, places)
     enough = len(places) >= LEAST
-    return _Evidence(len(places), period, settled, float(np.median(found[0].values)), float(np.median(late.values)),
-                     zero_one_test(series.sum(axis=1)) if enough else math.nan,
-                     agreeing_digits(series) if enough else 0.0, mean, error)
+    return _Evidence(
+        len(places),
+        period,
+        settled,
+        float(np.median(found[0].values)),
+        float(np.median(late.values)),
+        zero_one_test(series.sum(axis=1)) if enough else math.nan,
+        agreeing_digits(series) if enough else 0.0,
+        mean,
+        error,
+    )
 
 
 def _ensemble(map_: ReturnMap, places: Array) -> Array:
@@ -318,17 +366,24 @@ def _ensemble(map_: ReturnMap, places: Array) -> Array:
 
 def _indicated(map_: ReturnMap, places: Array, t: float) -> Megno:
     states = np.array([map_.state_at(place) for place in places])
-    return megno(map_.section, states, -t if map_.backward else t, map_.accuracy,
-                 threads=1)
+    return megno(map_.section, states, -t if map_.backward else t, map_.accuracy, threads=1)
 
 
 def _series(turns: Sequence[float], places: Array) -> Array:
     """Bounded functions along an orbit (n, m): cos and sin of angles, other coordinates in units of their range."""
     away = places - places.mean(axis=0)
     size = max(float(np.ptp(away, axis=0).max()), 1e-300)
-    return np.column_stack([one for i, turn in enumerate(turns) for one in (
-        (np.cos(2.0 * math.pi * places[:, i] / turn), np.sin(2.0 * math.pi * places[:, i] / turn))
-        if math.isfinite(turn) else (away[:, i] / size,))])
+    return np.column_stack(
+        [
+            one
+            for i, turn in enumerate(turns)
+            for one in (
+                (np.cos(2.0 * math.pi * places[:, i] / turn), np.sin(2.0 * math.pi * places[:, i] / turn))
+                if math.isfinite(turn)
+                else (away[:, i] / size,)
+            )
+        ]
+    )
 
 
 def _has_a_curve(map_: ReturnMap, place: Array, t: float) -> bool:
@@ -336,8 +391,7 @@ def _has_a_curve(map_: ReturnMap, place: Array, t: float) -> bool:
 
     An attracting invariant curve has it; an attracting periodic orbit, however long, has not.
     """
-    found = lyapunov_spectrum(map_.section, map_.state_at(place), -t if map_.backward else t,
-                              map_.accuracy)
+    found = lyapunov_spectrum(map_.section, map_.state_at(place), -t if map_.backward else t, map_.accuracy)
     return found.zeros >= found.integrals + 2
 
 
@@ -382,7 +436,7 @@ class Dynamics(Result):
 
     @property
     def verdict(self) -> str:
-        """"conservative", "dissipative", "mixed" or "not told apart"."""
+        """ "conservative", "dissipative", "mixed" or "not told apart"."""
         if self.motion.volume_kept:
             return "conservative"
         if sum(one.settled for one in self.comparisons) >= _ENOUGH and self.motion.volume < 0:
@@ -399,24 +453,35 @@ class Dynamics(Result):
             return "Conservative: the field keeps the volume."
         if self.verdict == "not told apart":
             return f"Not told apart: |mean divergence| < {self.motion.bound:.1g}."
-        return (f"Looks {self.verdict}: attractor and repeller are {self.distance:.2g} ± {self.distance_error:.1g} "
-                f"apart and share {100.0 * self.shared:.2g} % of their places.")
+        return (
+            f"Looks {self.verdict}: attractor and repeller are {self.distance:.2g} ± {self.distance_error:.1g} "
+            f"apart and share {100.0 * self.shared:.2g} % of their places."
+        )
 
     def labels(self) -> Labels:
         """The places of both sets, and what was found of them."""
         which = np.repeat(["attractor", "repeller"], [len(self.attractor), len(self.repeller)])
         points = np.concatenate([self.attractor, self.repeller])
         along, names = ("crossing",), self.motion.names
-        return Labels({"set": (along, which)},
-                      {name: (along, points[:, i].copy()) for i, name in enumerate(names)},
-                      place_units(names), {
-            "verdict": self.verdict, "distance": self.distance, "distance error": self.distance_error,
-            "shared": self.shared, "divergence": self.motion.divergence,
-            "divergence error": self.motion.divergence_error, "level": self.motion.level})
+        return Labels(
+            {"set": (along, which)},
+            {name: (along, points[:, i].copy()) for i, name in enumerate(names)},
+            place_units(names),
+            {
+                "verdict": self.verdict,
+                "distance": self.distance,
+                "distance error": self.distance_error,
+                "shared": self.shared,
+                "divergence": self.motion.divergence,
+                "divergence error": self.motion.divergence_error,
+                "level": self.motion.level,
+            },
+        )
 
 
-def dynamics_of(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 500, kept: int = 2000,
-                t: float = 1000.0) -> Dynamics:
+def dynamics_of(
+    map_: ReturnMap, start: Sequence[float] | Array, transient: int = 500, kept: int = 2000, t: float = 1000.0
+) -> Dynamics:
     """Return to what the orbits from a place come forward and backward in time, and how far apart that is.
 
     Parameters
@@ -459,8 +524,10 @@ def compared(map_: ReturnMap, motion: Regime, start: Sequence[float] | Array, tr
             orbit = one.orbit(origin + _SHIFT * i, transient + kept)
             if len(orbit) < transient + kept:
                 way = "backward" if one.backward else "forward"
-                raise NoReturn(f"Followed {way} in time, the motion was seen to return {len(orbit)} times only: choose "
-                               "another place.")
+                raise NoReturn(
+                    f"Followed {way} in time, the motion was seen to return {len(orbit)} times only: choose "
+                    "another place."
+                )
             pair.append(frozen(orbit[transient:].copy()))
         pairs.append((pair[0], pair[1]))
     return Dynamics(motion, *pairs[0], tuple(how_far_apart(map_.turns, a, b) for a, b in pairs))

@@ -151,8 +151,9 @@ class ReturnMap:
     def constant(self, name: str) -> float:
         """A constant of the section.  Raises `InvalidParameter`, which lists them."""
         if name not in self.section.constants:
-            raise InvalidParameter(f"There is no {name} here to change: choose one of "
-                                   f"{', '.join(self.section.constants)}.")
+            raise InvalidParameter(
+                f"There is no {name} here to change: choose one of {', '.join(self.section.constants)}."
+            )
         return self.section.constants[name]
 
     def state_at(self, place: Array) -> Array:
@@ -190,8 +191,9 @@ class ReturnMap:
             wanted = min(left, _PIECE)
             found, times, states = self._crossed(problem, wanted + 1, _WAIT)
             if found == STEP_LIMIT_REACHED:
-                raise WorkLimit(f"{wanted} returns need more than {MAX_STEPS} steps here: choose another place, or a "
-                                "cheaper level.")
+                raise WorkLimit(
+                    f"{wanted} returns need more than {MAX_STEPS} steps here: choose another place, or a cheaper level."
+                )
             first = int(found > 0 and abs(times[0]) < _AT_ONCE)
             states = states[first : min(found, first + wanted)] * problem.scale
             require_finite_states(states)
@@ -221,8 +223,9 @@ class ReturnMap:
         start = self.state_at(place)
         problem, time, scaled = self._crossing(start, 1, _LONGEST)
         system = self.section.system
-        steps, _, frames, _ = followed(system, problem, np.array([time]), self.accuracy.order, self.accuracy.tolerance,
-                                       MAX_STEPS)
+        steps, _, frames, _ = followed(
+            system, problem, np.array([time]), self.accuracy.order, self.accuracy.tolerance, MAX_STEPS
+        )
         if steps == STEP_LIMIT_REACHED:
             raise WorkLimit(f"This return needs more than {MAX_STEPS} steps: choose another place, or a cheaper level.")
         require_finite_states(frames)
@@ -243,8 +246,19 @@ class ReturnMap:
         cross, normal, offset = section.surface.scaled(section.system, problem)
         end = longest * section.slowness * (-1.0 if self.backward else 1.0)
         times, states = np.empty(wanted), np.empty((wanted, problem.scale.size))
-        found, _ = cross(problem.states[0], problem.parameters, normal, offset, section.surface.sense, end,
-                         accuracy.order, accuracy.tolerance, MAX_STEPS, times, states)
+        found, _ = cross(
+            problem.states[0],
+            problem.parameters,
+            normal,
+            offset,
+            section.surface.sense,
+            end,
+            accuracy.order,
+            accuracy.tolerance,
+            MAX_STEPS,
+            times,
+            states,
+        )
         return found, times, states
 
     def _crossing(self, start: Array, count: int, longest: float) -> tuple[Problem, float, Array]:
@@ -260,8 +274,10 @@ class ReturnMap:
         if found == STEP_LIMIT_REACHED:
             raise WorkLimit(f"This return needs more than {MAX_STEPS} steps: choose another place, or a cheaper level.")
         if found < wanted:
-            raise NoReturn(f"From here the motion was not seen to return to the section {_times(count)} within t = "
-                           f"{longest * count * self.section.slowness / problem.nu:.4g}: choose another place.")
+            raise NoReturn(
+                f"From here the motion was not seen to return to the section {_times(count)} within t = "
+                f"{longest * count * self.section.slowness / problem.nu:.4g}: choose another place."
+            )
         require_finite_states(states)
         if not self.section.is_on(states[-1:] * problem.scale)[0]:
             raise NoReturn("From here the motion returns on another sheet of the section: choose another place.")
@@ -304,16 +320,21 @@ class ReturnMap:
         system, p = self.section.system, list(self.section.parameters)
         d = len(system.variables)
         states = np.cos(1.0 + np.arange(3 * d).reshape(3, d) ** 2)
-        total = sum(np.array(system.field(list((states + e).T), p)[i])
-                    - np.array(system.field(list((states - e).T), p)[i]) for i, e in enumerate(np.eye(d)))
+        total = sum(
+            np.array(system.field(list((states + e).T), p)[i]) - np.array(system.field(list((states - e).T), p)[i])
+            for i, e in enumerate(np.eye(d))
+        )
         size = max(1.0, *(float(np.abs(one).max()) for one in system.field(list(states.T), p)))
         return bool(np.abs(total).max() <= 1e-12 * size)
 
     @cached_property
     def mirrors(self) -> tuple[Mirror, ...]:
         """The changes of sign of variables that map the motions, forward or backward in time, and this section."""
-        return tuple(one for one in sign_symmetries(self.section.system, self.section.parameters)
-                     if self._mirrored(one) is not None)
+        return tuple(
+            one
+            for one in sign_symmetries(self.section.system, self.section.parameters)
+            if self._mirrored(one) is not None
+        )
 
     def mirrored(self, mirror: Mirror, place: Array) -> Array | None:
         """The image (k,) of a place; None where it is not on the section."""
@@ -327,8 +348,9 @@ class ReturnMap:
         """The image of the first place of a few where motions cross."""
         for i in range(1, _TRIED):
             shares = np.array([0.7548776662466927, 0.5698402909980532]) * i % 1.0
-            place = np.array([low + share * (high - low)
-                              for share, (low, high) in zip(shares, self.section.window, strict=False)])
+            place = np.array(
+                [low + share * (high - low) for share, (low, high) in zip(shares, self.section.window, strict=False)]
+            )
             try:
                 return self.mirrored(mirror, place)
             except (OutsideRegion, InvalidParameter):
@@ -340,9 +362,11 @@ class ReturnMap:
         found = []
         for mirror in self.mirrors:
             images = [self.mirrored(mirror, place) for place in places]
-            if all(image is not None and
-                   np.abs(apart(self.turns, places, image)).max(axis=1).min() < max(1e-7, 1e3 * self.promise)
-                   for image in images):
+            if all(
+                image is not None
+                and np.abs(apart(self.turns, places, image)).max(axis=1).min() < max(1e-7, 1e3 * self.promise)
+                for image in images
+            ):
                 found.append(mirror.name)
         return tuple(found)
 

@@ -44,8 +44,15 @@ def sample_times(body: Body, state: Array, span: float, weights: Array, sagitta:
     while True:
         even = np.linspace(0.0, span, count)
         states = np.empty((count, problem.scale.size))
-        steps = body.system.orbit(problem.states[0], problem.parameters, even * problem.nu, PRECISE.order,
-                             PRECISE.tolerance, MAX_STEPS, states)
+        steps = body.system.orbit(
+            problem.states[0],
+            problem.parameters,
+            even * problem.nu,
+            PRECISE.order,
+            PRECISE.tolerance,
+            MAX_STEPS,
+            states,
+        )
         if steps < 0 or not np.all(np.isfinite(states)):
             return np.linspace(0.0, span, min(most, count))
         # Short steps mean that the motion is faster than its angular velocity suggests: sample it more densely.
@@ -66,8 +73,9 @@ def sample_times(body: Body, state: Array, span: float, weights: Array, sagitta:
     return times
 
 
-def sampled_orbit(body: Body, state: Sequence[float], span: float, weights: Sequence[float], level: Accuracy,
-                  most: int = MOST_SAMPLES) -> Orbit:
+def sampled_orbit(
+    body: Body, state: Sequence[float], span: float, weights: Sequence[float], level: Accuracy, most: int = MOST_SAMPLES
+) -> Orbit:
     """The orbit from `state` over `span`, sampled as `sample_times` says for pictures of these weights, in pixels.
 
     Raises as `solve`.

@@ -22,8 +22,16 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Cost, SectionCrossings, frozen, unit_of
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["MAX_CROSSINGS", "Plane", "SectionPoints", "Surface", "occupied_cells", "section", "section_points",
-           "sections"]
+__all__ = [
+    "MAX_CROSSINGS",
+    "Plane",
+    "SectionPoints",
+    "Surface",
+    "occupied_cells",
+    "section",
+    "section_points",
+    "sections",
+]
 
 MAX_CROSSINGS = 100_000
 MAX_STEPS = 5_000_000
@@ -95,8 +103,15 @@ class _Search:
     crossings: int
 
     @classmethod
-    def of(cls, body: Body, states: Sequence[Sequence[float]] | Array, plane: Surface, end: float, level: Level,
-           crossings: int) -> _Search:
+    def of(
+        cls,
+        body: Body,
+        states: Sequence[Sequence[float]] | Array,
+        plane: Surface,
+        end: float,
+        level: Level,
+        crossings: int,
+    ) -> _Search:
         """Check everything.  Raises `InvalidParameter`, `WorkLimit`."""
         if not math.isfinite(end):
             raise InvalidParameter("The end of the time span must be finite.")
@@ -114,8 +129,18 @@ class _Search:
         while True:
             times, states = np.empty(room), np.empty((room, self.problem.scale.size))
             found, steps = self.cross(
-                start, self.problem.parameters, self.normal, self.offset, self.sense, self.end,
-                level.order, level.tolerance, max_steps - total, times, states)
+                start,
+                self.problem.parameters,
+                self.normal,
+                self.offset,
+                self.sense,
+                self.end,
+                level.order,
+                level.tolerance,
+                max_steps - total,
+                times,
+                states,
+            )
             if found == STEP_LIMIT_REACHED:
                 raise WorkLimit(f"This section needs more than {max_steps} steps: choose a shorter time span.")
             total += steps
@@ -158,8 +183,17 @@ class _Search:
         states = found.states * scale
         absolute = float((found.difference * scale).max(initial=0.0)) + 2e-16 * max(1.0, nu)
         drift = drift_of(self.system, start, states, parameters)
-        return SectionCrossings(self.system.name, self.level.name, frozen(found.times / nu), frozen(states),
-                                status_of(found.error, self.level), absolute, drift, found.cost, self.system.variables)
+        return SectionCrossings(
+            self.system.name,
+            self.level.name,
+            frozen(found.times / nu),
+            frozen(states),
+            status_of(found.error, self.level),
+            absolute,
+            drift,
+            found.cost,
+            self.system.variables,
+        )
 
 
 @dataclass(frozen=True)
@@ -173,8 +207,14 @@ class _Found:
     cost: Cost
 
 
-def section(body: Body, state: Sequence[float] | Array, plane: Surface, end: float, level: Accuracy,
-            crossings: int = MAX_CROSSINGS) -> SectionCrossings:
+def section(
+    body: Body,
+    state: Sequence[float] | Array,
+    plane: Surface,
+    end: float,
+    level: Accuracy,
+    crossings: int = MAX_CROSSINGS,
+) -> SectionCrossings:
     """The first `crossings` crossings of the plane from t = 0 to t = `end`, which may be negative.
 
     Crossings are roots of the orbit's own Taylor polynomials.  The error is measured as in `solve`, crossing by
@@ -190,8 +230,15 @@ def section(body: Body, state: Sequence[float] | Array, plane: Surface, end: flo
     return sections(body, np.array(state, float)[None], plane, end, level, crossings, threads=1)[0]
 
 
-def sections(body: Body, states: Sequence[Sequence[float]] | Array, plane: Surface, end: float, level: Accuracy,
-             crossings: int = MAX_CROSSINGS, threads: int = THREADS) -> list[SectionCrossings]:
+def sections(
+    body: Body,
+    states: Sequence[Sequence[float]] | Array,
+    plane: Surface,
+    end: float,
+    level: Accuracy,
+    crossings: int = MAX_CROSSINGS,
+    threads: int = THREADS,
+) -> list[SectionCrossings]:
     """`section` for each row of `states` (n, d), on all cores; the fastest orbit sets the unit of time for all.
 
     >>> from hess_mechanics import Plane, level, sections, systems
@@ -235,11 +282,20 @@ class SectionPoints(Result):
             {"orbit": (("crossing",), orbit)},
             {name: (("crossing",), points[:, i]) for i, name in enumerate(self.variables)},
             {name: unit_of(name) for name in self.variables},
-            {**{f"drift of {name}": value for name, value in self.drift.items()}, "steps": self.cost.steps})
+            {**{f"drift of {name}": value for name, value in self.drift.items()}, "steps": self.cost.steps},
+        )
 
 
-def section_points(body: Body, states: Sequence[Sequence[float]] | Array, plane: Surface, end: float, level: Accuracy,
-                   crossings: int, threads: int = THREADS, most_steps: int = MAX_STEPS) -> SectionPoints:
+def section_points(
+    body: Body,
+    states: Sequence[Sequence[float]] | Array,
+    plane: Surface,
+    end: float,
+    level: Accuracy,
+    crossings: int,
+    threads: int = THREADS,
+    most_steps: int = MAX_STEPS,
+) -> SectionPoints:
     """The first `crossings` crossings of the orbits from the rows of `states` (n, d), in one run, for pictures.
 
     An orbit that falls behind the average rate of crossings in one part of the time span ends there.
@@ -291,8 +347,12 @@ def section_points(body: Body, states: Sequence[Sequence[float]] | Array, plane:
     drifts = [drift_of(body.system, starts[i], found[i][0], p) for i in range(count) if len(found[i][0])]
     drift = {name: max(one[name] for one in drifts) for name in (drifts[0] if drifts else ())}
     wall_ms = (time.perf_counter() - begun) * 1e3
-    return SectionPoints([frozen(found[i][0]) for i in range(count)], drift,
-                         Cost(sum(steps for _, steps in found.values()), wall_ms), body.system.variables)
+    return SectionPoints(
+        [frozen(found[i][0]) for i in range(count)],
+        drift,
+        Cost(sum(steps for _, steps in found.values()), wall_ms),
+        body.system.variables,
+    )
 
 
 def occupied_cells(points: Array, across: int = 32) -> int:

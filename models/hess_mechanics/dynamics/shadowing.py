@@ -22,8 +22,9 @@ _LOST, _CHAOTIC, _NOTHING = 30.0, 30.0, 1e-6
 where neighbours part exponentially; and pixels that are round-off."""
 
 
-def errors_in_pixels(orbit: Array, exact: Array, pixels: Sequence[float], periods: Sequence[float] = (math.inf,) * 2
-                     ) -> Array:
+def errors_in_pixels(
+    orbit: Array, exact: Array, pixels: Sequence[float], periods: Sequence[float] = (math.inf,) * 2
+) -> Array:
     """Distances (m,) of the points of an orbit (n, 2) from those of a more exact run, as far as both go.
 
     pixels : per unit of each coordinate; periods : of each, ∞ for one that is no angle.
@@ -52,8 +53,9 @@ def away_from(points: Array, curve: Array) -> Array:
     return np.asarray(np.linalg.norm(points[:, None] - start - shares[..., None] * along, axis=2).min(axis=1), float)
 
 
-def right_crossings(orbits: Sequence[Array], exact: Sequence[Array], pixels: Sequence[float],
-                    periods: Sequence[float] = (math.inf,) * 2) -> tuple[int, ...]:
+def right_crossings(
+    orbits: Sequence[Array], exact: Sequence[Array], pixels: Sequence[float], periods: Sequence[float] = (math.inf,) * 2
+) -> tuple[int, ...]:
     """For each orbit (n, 2), how many of its first points lie within half a pixel of those of a more exact run."""
     counts = []
     for one, other in zip(orbits, exact, strict=True):

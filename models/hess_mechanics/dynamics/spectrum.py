@@ -37,7 +37,13 @@ from hess_mechanics.numerics.results import Array, Cost, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
 __all__ = [
-    "LIMIT", "Spectrum", "batch_error", "ensemble_mean", "first_frame", "kaplan_yorke", "lyapunov_spectrum",
+    "LIMIT",
+    "Spectrum",
+    "batch_error",
+    "ensemble_mean",
+    "first_frame",
+    "kaplan_yorke",
+    "lyapunov_spectrum",
     "volume_sign",
 ]
 
@@ -86,9 +92,11 @@ class Spectrum(Result):
 
     @property
     def signs(self) -> tuple[str, ...]:
-        """"+", "0" or "-" for each exponent: 0 is what is 0 to three times its error."""
-        return tuple("0" if abs(value) <= _ERRORS * error else "+" if value > 0.0 else "-"
-                     for value, error in zip(self.values.tolist(), self.errors.tolist(), strict=True))
+        """ "+", "0" or "-" for each exponent: 0 is what is 0 to three times its error."""
+        return tuple(
+            "0" if abs(value) <= _ERRORS * error else "+" if value > 0.0 else "-"
+            for value, error in zip(self.values.tolist(), self.errors.tolist(), strict=True)
+        )
 
     @property
     def zeros(self) -> int:
@@ -126,7 +134,7 @@ class Spectrum(Result):
         zero = [sign == "0" for sign in self.signs]
         values, errors = np.where(zero, 0.0, self.values), np.where(zero, 0.0, self.errors)
         order = np.argsort(-values, kind="stable")
-        kept = np.delete(order, np.flatnonzero(np.array(zero)[order])[:self.integrals])
+        kept = np.delete(order, np.flatnonzero(np.array(zero)[order])[: self.integrals])
         return kaplan_yorke(values[kept], errors[kept], self.divergence, self.divergence_error)
 
     def labels(self) -> Labels:
@@ -135,16 +143,29 @@ class Spectrum(Result):
         dimension, error = self.dimension
         return Labels(
             {"t": (("t",), self.times), "number": (("number",), number)},
-            {"rate": (("t", "number"), self.rates), "exponent": (("number",), self.values),
-             "error": (("number",), self.errors)},
+            {
+                "rate": (("t", "number"), self.rates),
+                "exponent": (("number",), self.values),
+                "error": (("number",), self.errors),
+            },
             {"t": "T", "rate": "1/T", "exponent": "1/T", "error": "1/T"},
-            {"system": self.system, "level": self.level, "status": str(self.status), "signs": " ".join(self.signs),
-             "divergence": self.divergence, "divergence error": self.divergence_error, "dimension": dimension,
-             "dimension error": error, "steps": self.cost.steps})
+            {
+                "system": self.system,
+                "level": self.level,
+                "status": str(self.status),
+                "signs": " ".join(self.signs),
+                "divergence": self.divergence,
+                "divergence error": self.divergence_error,
+                "dimension": dimension,
+                "dimension error": error,
+                "steps": self.cost.steps,
+            },
+        )
 
 
-def kaplan_yorke(values: Array, errors: Array, total: float | None = None, total_error: float = 0.0
-                 ) -> tuple[float, float]:
+def kaplan_yorke(
+    values: Array, errors: Array, total: float | None = None, total_error: float = 0.0
+) -> tuple[float, float]:
     """Return the dimension k + Σ_(i≤k) λ_i/|λ_(k+1)| of exponents and its error.
 
     Parameters
@@ -266,8 +287,9 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, l
 
     def stretch(ahead: bool) -> tuple[Array, Array, Array, Array]:
         nonlocal steps
-        taken, states, frames, logs, traces = neighbours(system, y, frame, problem.parameters, part, level.order,
-                                                         level.tolerance, MAX_STEPS - steps, LIMIT, ahead)
+        taken, states, frames, logs, traces = neighbours(
+            system, y, frame, problem.parameters, part, level.order, level.tolerance, MAX_STEPS - steps, LIMIT, ahead
+        )
         if taken == STEP_LIMIT_REACHED:
             raise WorkLimit(f"These exponents need more than {MAX_STEPS} steps: choose a shorter time span.")
         steps += taken
@@ -305,6 +327,16 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, l
     promise = plans[level.name].promise * problem.nu if level.name in plans else worst
     number = len(system.integrals(list(state), list(body.parameters)))
     return Spectrum(
-        system.name, level.name, frozen(times[1:]), frozen(rates), frozen(mean[order]), frozen(error[order] + floor),
-        float(mean[-1]), float(error[-1]) + floor, number, not np.any(volume),
-        Status.OK if worst <= promise else Status.PROMISE_NOT_MET, Cost(steps, (time.perf_counter() - begun) * 1e3))
+        system.name,
+        level.name,
+        frozen(times[1:]),
+        frozen(rates),
+        frozen(mean[order]),
+        frozen(error[order] + floor),
+        float(mean[-1]),
+        float(error[-1]) + floor,
+        number,
+        not np.any(volume),
+        Status.OK if worst <= promise else Status.PROMISE_NOT_MET,
+        Cost(steps, (time.perf_counter() - begun) * 1e3),
+    )

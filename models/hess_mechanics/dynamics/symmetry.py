@@ -53,8 +53,9 @@ def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror
         for reverses, image in ((False, here), (True, -here)):
             if float(np.abs(there - image).max()) < 1e-13 * size:
                 changed = [name for name, sign in zip(system.variables, choice, strict=True) if sign < 0.0]
-                found.append(Mirror(f"{', '.join([*changed, *(['t'] if reverses else [])])} → −", frozen(signs),
-                                    reverses))
+                found.append(
+                    Mirror(f"{', '.join([*changed, *(['t'] if reverses else [])])} → −", frozen(signs), reverses)
+                )
     return tuple(found)
 
 

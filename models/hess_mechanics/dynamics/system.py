@@ -103,8 +103,10 @@ class System:
 
     def __post_init__(self) -> None:
         if not 0 <= self.angular_velocities <= len(self.variables):
-            raise WrongScaling(f"{self.title}: angular_velocities counts the leading variables that scale with 1/time, "
-                               f"so it is from 0 to {len(self.variables)}.")
+            raise WrongScaling(
+                f"{self.title}: angular_velocities counts the leading variables that scale with 1/time, "
+                f"so it is from 0 to {len(self.variables)}."
+            )
         self._check_scaling()
 
     def _check_scaling(self) -> None:
@@ -122,8 +124,9 @@ class System:
             except ModelError:
                 continue  # no motion there
             except ValueError as error:
-                raise WrongScaling(f"{self.title}: `rescale` and `frequency` take states (d,) and (d, n): {error}."
-                                   ) from error
+                raise WrongScaling(
+                    f"{self.title}: `rescale` and `frequency` take states (d,) and (d, n): {error}."
+                ) from error
             for y, scaled in zip(states, problem.states, strict=True):
                 self._compare(y, p, scaled, problem)
 
@@ -137,10 +140,12 @@ class System:
         for name, one, other in zip(names, expected, found, strict=True):
             if abs(one - other) > _ROUNDING * float(np.max(np.abs(expected))):
                 leading = ", ".join(self.variables[: self.angular_velocities]) or "none"
-                raise WrongScaling(f"{self.title}: in units of time 1/ν, ν = {problem.nu:.4g}, {name} becomes "
-                                   f"{other:.4g} and should stay {one:.4g}. Correct `rescale`, or "
-                                   "`angular_velocities`, which counts the leading variables that scale with 1/time "
-                                   f"(now: {leading}).")
+                raise WrongScaling(
+                    f"{self.title}: in units of time 1/ν, ν = {problem.nu:.4g}, {name} becomes "
+                    f"{other:.4g} and should stay {one:.4g}. Correct `rescale`, or "
+                    "`angular_velocities`, which counts the leading variables that scale with 1/time "
+                    f"(now: {leading})."
+                )
 
     def _rates(self, y: Array, p: Array) -> Array | None:
         """Return the field (d,) in floats; None where it has no d finite values."""
@@ -167,8 +172,9 @@ class System:
         if self.recursion.is_quadratic and self.tolerance is None:
             return self._kernel("ensemble", "states, p, times, order, tolerance, max_steps, out", ensemble_integrator)
         orbit = self.orbit
-        return self._kernel("ensemble", "states, p, times, order, tolerance, max_steps, out",
-                            lambda _: one_by_one(orbit), adjusts=False)
+        return self._kernel(
+            "ensemble", "states, p, times, order, tolerance, max_steps, out", lambda _: one_by_one(orbit), adjusts=False
+        )
 
     @cached_property
     def cross(self) -> Callable[..., tuple[int, int]]:
@@ -177,14 +183,18 @@ class System:
 
     def crosses(self, task: str, surface: SurfaceKernels) -> Callable[..., tuple[int, int]]:
         """The same of another surface, made anew by each call; task : its name among the kernels of the system."""
-        return self._kernel(task, "y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states",
-                            lambda recursion: crossing_finder(recursion, surface))
+        return self._kernel(
+            task,
+            "y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states",
+            lambda recursion: crossing_finder(recursion, surface),
+        )
 
     @cached_property
     def doubled(self) -> Callable[..., int]:
         """The kernel of one orbit with 31 digits, see `doubled_kernels.doubled_integrator`."""
-        return self._kernel("doubled", "state, start, p, scale, unit, times, max_steps, out", doubled_integrator,
-                            adjusts=False)
+        return self._kernel(
+            "doubled", "state, start, p, scale, unit, times, max_steps, out", doubled_integrator, adjusts=False
+        )
 
     @cached_property
     def variation(self) -> Variation:
@@ -207,11 +217,15 @@ class System:
         return self._vary("vary_one", 1)
 
     def _vary(self, task: str, columns: int, ahead: bool = False) -> Callable[..., int]:
-        return self._kernel(task, "y, frame, p, times, order, tolerance, max_steps, limit, states, frames, growth, "
-                            "divergence", lambda _: variation_integrator(self.variation, columns, ahead))
+        return self._kernel(
+            task,
+            "y, frame, p, times, order, tolerance, max_steps, limit, states, frames, growth, divergence",
+            lambda _: variation_integrator(self.variation, columns, ahead),
+        )
 
-    def _kernel(self, task: str, arguments: str, make: Callable[[Recursion], Callable[..., Any]],
-                adjusts: bool = True) -> Callable[..., Any]:
+    def _kernel(
+        self, task: str, arguments: str, make: Callable[[Recursion], Callable[..., Any]], adjusts: bool = True
+    ) -> Callable[..., Any]:
         """The compiled `make(recursion)`; adjusts : whether it has to ask for the tolerance of its orbit."""
         with _DERIVING:
             name = f"{re.sub(r'[^0-9A-Za-z]', '_', self.name)}_{task}"
@@ -222,8 +236,10 @@ class System:
                 passed = arguments.replace("tolerance", "adjusted(y, p, order, tolerance)")
             # The comment tells one system's file from another's, and whoever reads it what is computed.
             derived = "".join(f"# {line}".rstrip() + "\n" for line in self.recursion.source.splitlines())
-            source = (f"# The {task} of the system {self.name!r}, derived from its field.  The Taylor recursion:\n#\n"
-                      f"{derived}\n\ndef {name}({arguments}):\n    return run({passed})\n")
+            source = (
+                f"# The {task} of the system {self.name!r}, derived from its field.  The Taylor recursion:\n#\n"
+                f"{derived}\n\ndef {name}({arguments}):\n    return run({passed})\n"
+            )
             return derived_kernel(name, source, self.field.__module__, **names)
 
     def at(self, parameters: Sequence[float] | Array) -> ParametrizedSystem:
@@ -301,14 +317,18 @@ class Problem:
     def of(cls, body: Body, states: Sequence[Sequence[float] | Array] | Array) -> Problem:
         """Check a body and states (n, d), and scale them.  Raises `InvalidParameter`."""
         if not (isinstance(getattr(body, "system", None), System) and hasattr(body, "parameters")):
-            raise InvalidParameter(f"{body!r} is no body that moves: give a SuslovBody, a PlaneBody, a QuarticBody, "
-                                   "a BallBody or a HeavyBody.")
+            raise InvalidParameter(
+                f"{body!r} is no body that moves: give a SuslovBody, a PlaneBody, a QuarticBody, "
+                "a BallBody or a HeavyBody."
+            )
         system = body.system
         try:
             given, p = np.array(states, float, ndmin=2), np.asarray(body.parameters, float)
         except (TypeError, ValueError):
-            raise InvalidParameter(f"{system.title}: a state is {len(system.variables)} numbers, "
-                                   f"{', '.join(system.variables)}; write them like 1.5 or -2e-3.") from None
+            raise InvalidParameter(
+                f"{system.title}: a state is {len(system.variables)} numbers, "
+                f"{', '.join(system.variables)}; write them like 1.5 or -2e-3."
+            ) from None
         for shape, names in ((given.shape[1:], system.variables), (p.shape, system.parameters)):
             if shape != (len(names),):
                 raise InvalidParameter(f"{system.title} takes {len(names)} numbers here: {', '.join(names)}.")
@@ -324,8 +344,10 @@ class Problem:
         with np.errstate(all="ignore"):
             scaled, p = system.rescale(given.T, p, nu)
         if not all(np.all(np.isfinite(one)) for one in (scaled, p, scale)):
-            raise InvalidParameter("In units in which the state is of size 1 these numbers leave the range of double "
-                                   "precision: choose less extreme parameters.")
+            raise InvalidParameter(
+                "In units in which the state is of size 1 these numbers leave the range of double "
+                "precision: choose less extreme parameters."
+            )
         return cls(np.ascontiguousarray(scaled.T), p, nu, scale)
 
     def nearby(self) -> Problem:

@@ -41,8 +41,9 @@ def _sample(plan: Plan, run: Callable[[Plan], R], error: Callable[[R, R], float]
     return LevelCost(plan.level.name, 1e3 * best, error(result, truth), plan.share >= 1.0 and plan.cells >= 1.0)
 
 
-def measure(kind: Computation, run: Callable[[Plan], R], error: Callable[[R, R], float], repeats: int = 1
-            ) -> tuple[LevelCost, ...]:
+def measure(
+    kind: Computation, run: Callable[[Plan], R], error: Callable[[R, R], float], repeats: int = 1
+) -> tuple[LevelCost, ...]:
     """A computation at each level, from the cheapest on.
 
     error(result, truth) : how far a result is from that of the plan `beyond`; repeats : of which the fastest counts.

@@ -79,8 +79,9 @@ class Tube:
     spent: bool = False
 
 
-def tube(body: Body, state: Sequence[float], times: Sequence[float] | Array, digits: int = 18,
-         most_work: float = MOST_WORK) -> Tube:
+def tube(
+    body: Body, state: Sequence[float], times: Sequence[float] | Array, digits: int = 18, most_work: float = MOST_WORK
+) -> Tube:
     """Enclose the motion from `state` at time 0, to so many digits at all times; these doubles are taken as exact.
 
     Where that needs more than `most_work` (some 4 s) the tube is shorter.  Raises `MissingLibrary`, `InvalidParameter`,
@@ -105,8 +106,17 @@ def tube(body: Body, state: Sequence[float], times: Sequence[float] | Array, dig
             found, width = walk.through(asked, 10.0 ** (-digits), left)
         left -= walk.work
         if best is None or len(found) > len(best.states):
-            best = Tube(system.name, asked[: len(found)], tuple(found), width, len(found) == asked.size, walk.steps,
-                        bits, 0.0, system.variables)
+            best = Tube(
+                system.name,
+                asked[: len(found)],
+                tuple(found),
+                width,
+                len(found) == asked.size,
+                walk.steps,
+                bits,
+                0.0,
+                system.variables,
+            )
         following = _more_bits(walk, digits, length, left)
         if best.complete or following <= bits:
             spent = not best.complete and (walk.spent or (bool(walk.t) and bits < _MOST_BITS))
@@ -197,8 +207,10 @@ class _Walk:
             while len(found) < len(wanted) and sign * (wanted[len(found)] - end) <= 0:
                 gone = abs(wanted[len(found)] - self.t)
                 radius = step.radius if gone else self.radius
-                y = [one(arb(rational(gone))) + arb(0, (radius * size).abs_upper())
-                     for one, size in zip(step.series, self.scale, strict=True)]
+                y = [
+                    one(arb(rational(gone))) + arb(0, (radius * size).abs_upper())
+                    for one, size in zip(step.series, self.scale, strict=True)
+                ]
                 width = max(2.0 * float(x.rad()) / size for x, size in zip(y, self.scale, strict=True))
                 if width > tolerance:
                     return found, widest
@@ -229,8 +241,10 @@ class _Walk:
         """Return the next step, of the time that is left at most; None where there is none, or no work for it."""
         from flint import arb_poly
 
-        series = [[c.mid() * (sign if k % 2 else 1) for k, c in enumerate(one)]
-                  for one in _series(self.system.recursion, self.centre, self.p, self.terms)]
+        series = [
+            [c.mid() * (sign if k % 2 else 1) for k, c in enumerate(one)]
+            for one in _series(self.system.recursion, self.centre, self.p, self.terms)
+        ]
         length = min(left, self._length(series), _LONGER * self.last)
         along = [arb_poly(one) for one in series]
         for _ in range(_TRIED):
@@ -295,8 +309,10 @@ class _Walk:
 
         n, scale = len(box), [arb(size) for size in self.scale]
         rates = self.system.field([Slope.of(x, i, n) for i, x in enumerate(box)], self.p)
-        J = [[rate.slopes[j] * sign * scale[j] / scale[i] if isinstance(rate, Slope) else 0 * box[0]
-              for j in range(n)] for i, rate in enumerate(rates)]
+        J = [
+            [rate.slopes[j] * sign * scale[j] / scale[i] if isinstance(rate, Slope) else 0 * box[0] for j in range(n)]
+            for i, rate in enumerate(rates)
+        ]
         if not all(x.is_finite() for row in J for x in row):
             return None
         S = arb_mat([[(J[i][j] + J[j][i]) / 2 for j in range(n)] for i in range(n)])
@@ -314,8 +330,9 @@ def _norm(sizes: Sequence[ArbBall]) -> ArbBall:
     return sum(map(mul, sizes, sizes), 0 * sizes[0]).sqrt().upper()
 
 
-def _series(recursion: Recursion, y: Sequence[ArbBall], parameters: Sequence[ArbBall],
-            terms: int) -> list[list[ArbBall]]:
+def _series(
+    recursion: Recursion, y: Sequence[ArbBall], parameters: Sequence[ArbBall], terms: int
+) -> list[list[ArbBall]]:
     """The first Taylor coefficients of each variable, by the recursion in balls."""
     from flint import arb
 
@@ -334,9 +351,12 @@ def _series(recursion: Recursion, y: Sequence[ArbBall], parameters: Sequence[Arb
             """Of order k, without the terms of order k that are not known yet."""
             if k == 0:
                 return tuple(now[a] * now[b] if max(a, b) < len(now) else zero for a, b in recursion.pairs)
-            return tuple(inner + (series[a][0] * now[b] if b < len(now) else zero)
-                         + (now[a] * series[b][0] if a < len(now) else zero)
-                         for (a, b), inner in zip(recursion.pairs, middle, strict=True))
+            return tuple(
+                inner
+                + (series[a][0] * now[b] if b < len(now) else zero)
+                + (now[a] * series[b][0] if a < len(now) else zero)
+                for (a, b), inner in zip(recursion.pairs, middle, strict=True)
+            )
 
         for stage in stages:
             now = [*now, *stage(tuple(now), products(now), p, one)]
@@ -372,9 +392,13 @@ def _errors(orbit: Orbit, found: Tube) -> list[tuple[Fraction, Fraction]]:
 def error_bounds(orbit: Orbit, found: Tube) -> Array:
     """Bounds (m, d) of the true error of each component at the times of the tube.  Raises `InvalidParameter`."""
     _check(orbit, found)
-    bounds = [[math.nextafter(float(max(one.high - Fraction(float(x)), Fraction(float(x)) - one.low)), math.inf)
-               for x, one in zip(state, intervals, strict=True)]
-              for state, intervals in zip(orbit.states, found.states, strict=False)]
+    bounds = [
+        [
+            math.nextafter(float(max(one.high - Fraction(float(x)), Fraction(float(x)) - one.low)), math.inf)
+            for x, one in zip(state, intervals, strict=True)
+        ]
+        for state, intervals in zip(orbit.states, found.states, strict=False)
+    ]
     return frozen(np.array(bounds, float).reshape(len(bounds), orbit.states.shape[1]))
 
 
@@ -392,8 +416,10 @@ def proved_error(orbit: Orbit, found: Tube) -> tuple[float, float]:
     bounds = _errors(orbit, found)
     if not bounds:
         raise InvalidParameter("The tube ends before the first of its times: allow more work, or begin earlier.")
-    return (math.nextafter(float(max(least for least, _ in bounds)), 0.0),
-            math.nextafter(float(max(most for _, most in bounds)), math.inf))
+    return (
+        math.nextafter(float(max(least for least, _ in bounds)), 0.0),
+        math.nextafter(float(max(most for _, most in bounds)), math.inf),
+    )
 
 
 def right_until(orbit: Orbit, found: Tube, error: float) -> float:

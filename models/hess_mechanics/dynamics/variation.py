@@ -34,7 +34,13 @@ from hess_mechanics.numerics.results import Array, Cost, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
 __all__ = [
-    "Return", "Transition", "followed", "frame_ahead", "neighbours", "onto_surface", "return_matrix",
+    "Return",
+    "Transition",
+    "followed",
+    "frame_ahead",
+    "neighbours",
+    "onto_surface",
+    "return_matrix",
     "transition_matrix",
 ]
 
@@ -68,13 +74,21 @@ class Transition(Labelled):
         of, by = np.array(self.variables), np.array([f"{name}(0)" for name in self.variables])
         return Labels(
             {"t": (("t",), self.times), "of": (("of",), of), "by": (("by",), by)},
-            {"derivative": (("t", "of", "by"), self.matrices)}, {"t": "T"},
-            {"system": self.system, "level": self.level, "status": str(self.status),
-             "error_estimate": self.error_estimate, "steps": self.cost.steps})
+            {"derivative": (("t", "of", "by"), self.matrices)},
+            {"t": "T"},
+            {
+                "system": self.system,
+                "level": self.level,
+                "status": str(self.status),
+                "error_estimate": self.error_estimate,
+                "steps": self.cost.steps,
+            },
+        )
 
 
-def transition_matrix(body: Body, state: Sequence[float] | Array, times: float | Sequence[float] | Array,
-                      level: Accuracy) -> Transition:
+def transition_matrix(
+    body: Body, state: Sequence[float] | Array, times: float | Sequence[float] | Array, level: Accuracy
+) -> Transition:
     """∂y(t)/∂y(0) of the orbit from `state` (d,) at the given times (n,), monotonic from 0, or at one time.
 
     As in `solve`, all is computed twice, and again where the level's promise is not kept.
@@ -97,11 +111,13 @@ def transition_matrix(body: Body, state: Sequence[float] | Array, times: float |
 
     def run(level: Level) -> tuple[Array, Array, Array]:
         nonlocal total
-        steps, states, frames, volume = followed(system, problems[level.aside], scaled_times, level.order,
-                                                 level.tolerance, MAX_STEPS - total)
+        steps, states, frames, volume = followed(
+            system, problems[level.aside], scaled_times, level.order, level.tolerance, MAX_STEPS - total
+        )
         if steps == STEP_LIMIT_REACHED:
-            raise WorkLimit(f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper "
-                            "accuracy.")
+            raise WorkLimit(
+                f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper accuracy."
+            )
         require_finite_states(states)
         require_finite_neighbours(frames, volume)
         total += steps
@@ -116,20 +132,40 @@ def transition_matrix(body: Body, state: Sequence[float] | Array, times: float |
     with np.errstate(over="ignore"):
         matrices = problem.scale[:, None] * frames / problem.scale
     require_finite_neighbours(matrices)
-    return Transition(system.name, level.name, frozen(t), frozen(states * problem.scale), frozen(matrices),
-                      frozen(volume), status_of(found.error, level), found.error,
-                      Cost(total, (time.perf_counter() - begun) * 1e3), system.variables)
+    return Transition(
+        system.name,
+        level.name,
+        frozen(t),
+        frozen(states * problem.scale),
+        frozen(matrices),
+        frozen(volume),
+        status_of(found.error, level),
+        found.error,
+        Cost(total, (time.perf_counter() - begun) * 1e3),
+        system.variables,
+    )
 
 
-def followed(system: System, problem: Problem, times: Array, order: int, tolerance: float, most_steps: int
-             ) -> tuple[int, Array, Array, Array]:
+def followed(
+    system: System, problem: Problem, times: Array, order: int, tolerance: float, most_steps: int
+) -> tuple[int, Array, Array, Array]:
     """Steps, states (n, d), V (n, d, d) and ∫ tr J dt (n,) at the times (n,), all in the units of the problem.
 
     The number of steps is `STEP_LIMIT_REACHED` where they do not suffice.
     """
     basis, speed = frame_ahead(system, problem, np.eye(len(system.variables)), _MOVES)
-    steps, states, frames, _, volume = neighbours(system, problem.states[0], basis, problem.parameters, times, order,
-                                                  tolerance, most_steps, math.inf, speed > _MOVES)
+    steps, states, frames, _, volume = neighbours(
+        system,
+        problem.states[0],
+        basis,
+        problem.parameters,
+        times,
+        order,
+        tolerance,
+        most_steps,
+        math.inf,
+        speed > _MOVES,
+    )
     return steps, states, frames @ basis.T, volume
 
 
@@ -147,8 +183,18 @@ def frame_ahead(system: System, problem: Problem, frame: Array, slow: float) -> 
     return np.linalg.qr(np.column_stack([rate, frame]) if speed > slow else frame)[0], speed
 
 
-def neighbours(system: System, state: Array, frame: Array, parameters: Array, times: Array, order: int,
-               tolerance: float, most_steps: int, limit: float, ahead: bool) -> tuple[int, Array, Array, Array, Array]:
+def neighbours(
+    system: System,
+    state: Array,
+    frame: Array,
+    parameters: Array,
+    times: Array,
+    order: int,
+    tolerance: float,
+    most_steps: int,
+    limit: float,
+    ahead: bool,
+) -> tuple[int, Array, Array, Array, Array]:
     """Steps, states (n, d), V (n, d, d), ln of the lengths taken from V's columns (n, d) and ∫ tr J dt (n,).
 
     state (d,), frame (d, d), orthonormal : y and V at the time 0.  All as `variation_integrator` has them.
@@ -160,8 +206,19 @@ def neighbours(system: System, state: Array, frame: Array, parameters: Array, ti
     states, volume = np.tile(state, (times.size, 1)), np.empty(times.size)
     frames, growth = np.empty((times.size, size, size - known)), np.empty((times.size, size - known))
     steps = (system.vary_others if known else system.vary)(
-        state, np.ascontiguousarray(frame[:, known:]), parameters, times, order, tolerance, most_steps, limit, states,
-        frames, growth, volume)
+        state,
+        np.ascontiguousarray(frame[:, known:]),
+        parameters,
+        times,
+        order,
+        tolerance,
+        most_steps,
+        limit,
+        states,
+        frames,
+        growth,
+        volume,
+    )
     if known:
         # Who asked for them looks whether they are numbers.
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
@@ -198,8 +255,9 @@ class Return:
     transition: Transition
 
 
-def return_matrix(body: Body, state: Sequence[float] | Array, surface: Surface, end: float, level: Accuracy,
-                  returns: int = 1) -> Return | None:
+def return_matrix(
+    body: Body, state: Sequence[float] | Array, surface: Surface, end: float, level: Accuracy, returns: int = 1
+) -> Return | None:
     """The return of this number to the surface before the time `end`, which may be negative; None if there is none.
 
     Raises `InvalidParameter`, `WorkLimit`.

@@ -5,8 +5,9 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import count
+from typing import TypeVar
 
 import numpy as np
 
@@ -18,9 +19,19 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = [
-    "SLOW_METHODS", "ErrorGrowth", "WorkPoint", "growth", "longest_span", "measure_levels", "measure_others",
-    "others_take_long", "quickest_other", "truth",
+    "SLOW_METHODS",
+    "ErrorGrowth",
+    "WorkPoint",
+    "growth",
+    "longest_span",
+    "measure_levels",
+    "measure_others",
+    "others_take_long",
+    "quickest_other",
+    "truth",
 ]
+
+T = TypeVar("T")
 
 SLOW_METHODS = ("DOP853", "LSODA")
 _TOLERANCES = (1e-4, 1e-7, 1e-10)
@@ -68,8 +79,14 @@ def truth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], sp
     return doubled(systems()[name].at(parameters), state, np.linspace(0.0, span, samples))
 
 
-def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float,
-           weights: tuple[float, ...], samples: int) -> ErrorGrowth:
+def growth(
+    name: str,
+    state: tuple[float, ...],
+    parameters: tuple[float, ...],
+    span: float,
+    weights: tuple[float, ...],
+    samples: int,
+) -> ErrorGrowth:
     """Errors of all levels at `samples` even times up to `span`.
 
     name : of the system; weights (d,) : pixels per unit of each variable.
@@ -85,8 +102,9 @@ def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], s
         difference = exact.away(states)
         errors[level.name] = frozen(np.max(difference / exact.scale, axis=1))
         weighted = difference * np.asarray(weights)
-        pixels[level.name] = frozen(np.maximum(np.linalg.norm(weighted[:, :first], axis=1),
-                                               np.linalg.norm(weighted[:, first:], axis=1)))
+        pixels[level.name] = frozen(
+            np.maximum(np.linalg.norm(weighted[:, :first], axis=1), np.linalg.norm(weighted[:, first:], axis=1))
+        )
         initial = system.integrals(state, parameters)
         drifts[level.name] = {
             key: frozen(np.abs(value - initial[key]) / max(1.0, abs(float(initial[key]))))
@@ -95,7 +113,7 @@ def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], s
     return ErrorGrowth(exact.times, errors, pixels, drifts)
 
 
-def _best_of(run: Callable[[], Array], repeats: int) -> tuple[float, Array]:
+def _best_of(run: Callable[[], T], repeats: int) -> tuple[float, T]:
     """Milliseconds of the fastest of `repeats` runs, and the result; what takes long is run once."""
     best = np.inf
     for _ in range(repeats):
@@ -108,8 +126,9 @@ def _best_of(run: Callable[[], Array], repeats: int) -> tuple[float, Array]:
     return best * 1e3, result
 
 
-def measure_levels(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float, samples: int
-                   ) -> tuple[WorkPoint, ...]:
+def measure_levels(
+    name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float, samples: int
+) -> tuple[WorkPoint, ...]:
     """Cost and error of each level, measured now; the cost includes the error estimate.  Raises as `growth`."""
     body, exact = systems()[name].at(parameters), truth(name, state, parameters, span, samples)
     points = []
@@ -130,12 +149,15 @@ def others_take_long(name: str, state: Sequence[float], parameters: Sequence[flo
     Decided by steps and not by a clock, so that equal states always show the same.
     """
     body = systems()[name].at(parameters)
-    return (span * Problem.of(body, [state]).nu > _LONGEST_FOR_OTHERS
-            or solve(body, state, np.array([0.0, span]), REFERENCE).cost.steps > _MOST_STEPS_FOR_OTHERS)
+    return (
+        span * Problem.of(body, [state]).nu > _LONGEST_FOR_OTHERS
+        or solve(body, state, np.array([0.0, span]), REFERENCE).cost.steps > _MOST_STEPS_FOR_OTHERS
+    )
 
 
-def measure_others(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float, samples: int
-                   ) -> tuple[WorkPoint, ...]:
+def measure_others(
+    name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float, samples: int
+) -> tuple[WorkPoint, ...]:
     """`measure_levels` for SciPy's methods on the plain field, at three tolerances each, without error estimates."""
     from scipy.integrate import solve_ivp  # imported here because it takes 0.3 s
 
@@ -150,10 +172,11 @@ def measure_others(name: str, state: tuple[float, ...], parameters: tuple[float,
     points = []
     for method in SLOW_METHODS:
         for tolerance in _TOLERANCES:
-            ms, states = _best_of(
-                lambda: solve_ivp(rates, (0.0, span), state, t_eval=exact.times,
-                                  method=method, rtol=tolerance, atol=tolerance).y.T, 1)  # noqa: B023 (called at once)
-            points.append(WorkPoint(method, f"{tolerance:.0e}", ms, float(np.max(exact.away(states) / exact.scale))))
+            run = partial(solve_ivp, rates, (0.0, span), state, method, exact.times, rtol=tolerance, atol=tolerance)
+            ms, solved = _best_of(run, 1)
+            points.append(
+                WorkPoint(method, f"{tolerance:.0e}", ms, float(np.max(exact.away(solved.y.T) / exact.scale)))
+            )
     return tuple(points)
 
 

@@ -53,8 +53,9 @@ def zero_one_test(series: Array) -> float:
     True
     """
     if len(series) < LEAST:
-        raise InvalidParameter(f"The 0–1 test needs {LEAST} crossings, and there are {len(series)}: follow the motion "
-                               "for longer.")
+        raise InvalidParameter(
+            f"The 0–1 test needs {LEAST} crossings, and there are {len(series)}: follow the motion for longer."
+        )
     phi = np.array(series, float)
     n = phi.size
     # A mean that is far from 0 drowns the displacement in an oscillation; without it the formula needs no correction.

@@ -38,8 +38,20 @@ from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 
 __all__ = [
-    "SHEETS", "AndoyerPlane", "AndoyerSection", "andoyer_points", "coordinates", "hess_circle", "hess_curve",
-    "possible", "relation", "roots", "seeds", "sheet_of", "state_at", "states_at",
+    "SHEETS",
+    "AndoyerPlane",
+    "AndoyerSection",
+    "andoyer_points",
+    "coordinates",
+    "hess_circle",
+    "hess_curve",
+    "possible",
+    "relation",
+    "roots",
+    "seeds",
+    "sheet_of",
+    "state_at",
+    "states_at",
 ]
 
 
@@ -152,8 +164,9 @@ def states_at(body: HeavyBody, h: float, f: float, l: Array, x: Array, sheet: in
     s, c = np.sqrt(np.maximum(0.0, 1.0 - x * x)), f / safe
     across = np.sqrt(np.maximum(0.0, 1.0 - c * c))
     sin, cos = np.sin(l), np.cos(l)
-    y = np.stack([
-        safe * s * sin, safe * s * cos, safe * x, c * s * sin + across * cos, c * s * cos - across * sin, c * x])
+    y = np.stack(
+        [safe * s * sin, safe * s * cos, safe * x, c * s * sin + across * cos, c * s * cos - across * sin, c * x]
+    )
     rates = np.stack(field(list(y), body.parameters))
     growth = 2.0 * np.sum(y[:3] * rates[:3], axis=0) * y[5] + safe * safe * rates[5] - f * rates[2]
     return y.T, np.where(G > 0.0, G, np.nan), (G > 0.0) & (growth > 0.0)
@@ -168,14 +181,17 @@ def state_at(body: HeavyBody, h: float, f: float, l: float, x: float, sheet: int
     if sheet and not math.isfinite(G[0]):
         raise InvalidParameter(
             f"At l = {l:.6g}, L/G = {x:.6g} there is no {_ORDINALS[sheet]} root G ≥ |f| with the energy h = {h:.6g}: "
-            "choose the largest one, sheet 0, or another point.")
+            "choose the largest one, sheet 0, or another point."
+        )
     if not math.isfinite(G[0]):
         raise InvalidParameter(
             f"At l = {l:.6g}, L/G = {x:.6g} no real G ≥ |f| has the energy h = {h:.6g}: choose a larger h, or another "
-            "point.")
+            "point."
+        )
     if not growing[0]:
         raise InvalidParameter(
-            f"At l = {l:.6g}, L/G = {x:.6g} the angle g does not grow through π/2: choose another point.")
+            f"At l = {l:.6g}, L/G = {x:.6g} the angle g does not grow through π/2: choose another point."
+        )
     return tuple(map(float, states[0]))
 
 
@@ -207,8 +223,9 @@ _TRIED = (4, 200, 200)
 """Places tried for each seed of a sheet: where the second exists, g hardly ever grows on it."""
 
 
-def seeds(body: HeavyBody, h: float, f: float, window: Sequence[float], count: int, sheet: int = 0
-          ) -> list[tuple[float, ...]]:
+def seeds(
+    body: HeavyBody, h: float, f: float, window: Sequence[float], count: int, sheet: int = 0
+) -> list[tuple[float, ...]]:
     """At most `count` states of a sheet, spread evenly over the possible part of `window` (l0, l1, x0, x1)."""
     l0, l1, x0, x1 = window
     # A low-discrepancy sequence: each of its beginnings fills the window evenly (Roberts, 2018).
@@ -229,11 +246,20 @@ def time_for(body: HeavyBody, h: float, f: float, crossings: int) -> float:
     return crossings * _TURNS * math.sqrt(max(body.a) / min(body.a)) / speed
 
 
-def andoyer_points(body: HeavyBody, h: float, f: float, starts: Sequence[Sequence[float]], crossings: int,
-                   level: Accuracy, threads: int = THREADS, most_steps: int = MAX_STEPS) -> SectionPoints:
+def andoyer_points(
+    body: HeavyBody,
+    h: float,
+    f: float,
+    starts: Sequence[Sequence[float]],
+    crossings: int,
+    level: Accuracy,
+    threads: int = THREADS,
+    most_steps: int = MAX_STEPS,
+) -> SectionPoints:
     """The first crossings of g = π/2 by each orbit, as in `section_points`.  Raises `InvalidParameter`, `WorkLimit`."""
-    return section_points(body, starts, AndoyerPlane(f), time_for(body, h, f, crossings), level,
-                          crossings, threads, most_steps)
+    return section_points(
+        body, starts, AndoyerPlane(f), time_for(body, h, f, crossings), level, crossings, threads, most_steps
+    )
 
 
 @dataclass(frozen=True)
@@ -279,8 +305,9 @@ class AndoyerSection(PoincareSection):
         """With another value of a constant."""
         if name in ("h", "f"):
             return replace(self, h=value) if name == "h" else replace(self, f=value)
-        p = tuple(value if one == name else other for one, other in zip(SYSTEM.parameters, self.parameters,
-                                                                       strict=True))
+        p = tuple(
+            value if one == name else other for one, other in zip(SYSTEM.parameters, self.parameters, strict=True)
+        )
         return replace(self, body=HeavyBody((p[0], p[1], p[2]), (p[3], p[4], p[5]), p[6]))
 
     def states_at(self, l: Array, x: Array) -> tuple[Array, Mask]:

@@ -69,7 +69,8 @@ class HeavyBody:
         if not (a2 - a1) * (a3 - a2) >= 0.0 or a1 == a3:
             raise InvalidParameter(
                 f"I2 = {moments[1]:g} must lie between I1 = {moments[0]:g} and I3 = {moments[2]:g}, which differ: only "
-                "such a body has circular sections, to which the Hess condition refers.")
+                "such a body has circular sections, to which the Hess condition refers."
+            )
         angle = math.atan2(math.sqrt(abs(a3 - a2)), math.sqrt(abs(a2 - a1))) + away
         return cls((a1, a2, a3), (math.cos(angle), 0.0, math.sin(angle)), strength)
 
@@ -131,8 +132,11 @@ class HeavyBody:
         moments = sorted(1.0 / a for a in self.a)
         if moments[2] <= (moments[0] + moments[1]) * (1 + 1e-15):
             return BodyCheck(True, None, "A rigid body: its moments satisfy the triangle inequality.")
-        return BodyCheck(False, None, "Not a rigid body: one moment is larger than the sum of the two others. "
-                                      "The equations are still shown.")
+        return BodyCheck(
+            False,
+            None,
+            "Not a rigid body: one moment is larger than the sum of the two others. The equations are still shown.",
+        )
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:

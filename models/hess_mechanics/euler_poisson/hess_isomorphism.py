@@ -32,8 +32,8 @@ def _tilt(body: HeavyBody) -> tuple[float, float]:
     """(sin, cos) of the angle from Ox3 to r, in the (r1, r3)-plane.  Raises `InvalidParameter`, `NoField`."""
     if not body.is_hess:
         raise InvalidParameter(
-            "This body is not in the Hess case: choose I2 between I1 and I3, r2 = 0 and "
-            "r1² (a3 − a2) = r3² (a2 − a1).")
+            "This body is not in the Hess case: choose I2 between I1 and I3, r2 = 0 and r1² (a3 − a2) = r3² (a2 − a1)."
+        )
     length = math.hypot(*body.r)
     if length == 0.0:
         raise NoField("r = 0: the centre of mass is the fixed point, and gives no axis. Choose r other than 0.")

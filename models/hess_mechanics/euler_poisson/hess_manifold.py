@@ -165,8 +165,10 @@ def difference(bridge: Bridge, start: tuple[float, ...], end: float, count: int)
     orbit = solve(hess.suslov, hess.from_reduced(reduced), times, REFERENCE)
     there = hess.in_units_of_b(hess.to_reduced(orbit.states))
     heavy = tuple(bridge.from_reduced(reduced).tolist())
-    held, free = (bridge.distance(run(bridge.heavy, heavy, end, count, REFERENCE).states, there)
-                  for run in (on_manifold, run_free))
+    held, free = (
+        bridge.distance(run(bridge.heavy, heavy, end, count, REFERENCE).states, there)
+        for run in (on_manifold, run_free)
+    )
     return SuslovDistance(frozen(times), frozen(held), frozen(free), orbit.error_estimate)
 
 

@@ -81,19 +81,24 @@ def saddles(torus: HessTorus, level: Accuracy) -> Saddles:
         theta = circle_map(bridge.hess.a, h, f, REFERENCE)
     except OutsideRegion as reason:
         # Its numbers are those of other units.
-        raise OutsideRegion("The Hess manifold has no motion with these h and f, so no separatrices: choose a larger h "
-                            "or a smaller |f|.") from reason
+        raise OutsideRegion(
+            "The Hess manifold has no motion with these h and f, so no separatrices: choose a larger h "
+            "or a smaller |f|."
+        ) from reason
     if theta.kind != "hyperbolic":
-        raise OutsideRegion("The torus of the Hess manifold has no limit cycles here, so no separatrices: choose an h "
-                            "and f where |trace| of the circle map is larger than 2.")
+        raise OutsideRegion(
+            "The torus of the Hess manifold has no limit cycles here, so no separatrices: choose an h "
+            "and f where |trace| of the circle map is larger than 2."
+        )
     turning, map_ = turning_points(h, f), torus.map_at(0.0, level)
     found = []
     for point in sorted(theta.fixed_points, key=lambda one: one.stable):
         state = bridge.from_reduced(bridge.hess.from_units_of_b(turning.state_at_lower_turn(point.phi)[None]))[0]
         crossing = andoyer_points(body, torus.h, torus.f, [tuple(map(float, state))], 1, REFERENCE, threads=1)
         if not len(crossing.states[0]):
-            raise OutsideRegion("A limit cycle of the Hess manifold does not cross the section g = π/2 here: choose "
-                                "other h and f.")
+            raise OutsideRegion(
+                "A limit cycle of the Hess manifold does not cross the section g = π/2 here: choose other h and f."
+            )
         found.append(find_periodic(map_, map_.section.places_of(crossing.states[0])[0], near=True).places)
     repels, attracts = found
     half = 0.5 * math.remainder(float(attracts[0, 0] - repels[0, 0]), 2.0 * math.pi)
@@ -108,18 +113,24 @@ def split_at(torus: HessTorus, away: float, level: Accuracy) -> Split:
     try:
         value, error = split(unstable, stable, 0, known.l)
     except NotConverged as reason:
-        raise NotConverged("So far from the Hess case a separatrix ends before it is half-way to the other saddle: "
-                           "choose a smaller ε.") from reason
+        raise NotConverged(
+            "So far from the Hess case a separatrix ends before it is half-way to the other saddle: choose a smaller ε."
+        ) from reason
     return Split(away, known.l, value, error)
 
 
 def _towards(map_: ReturnMap, places: Array, l: float, stable: bool) -> Manifold:
     """The branch along the Hess manifold, from the saddle next to these places to l and beyond."""
     orbit = find_periodic(map_, places if len(places) > 1 else places[0], None if len(places) > 1 else 1, near=True)
-    if (not orbit.kind.startswith("saddle") or orbit.period != len(places)
-            or np.abs(apart(map_.turns, orbit.places, places)).max() > _ELSEWHERE):
-        raise NotConverged("The limit cycles of the Hess manifold are not found as saddles of the section: choose a "
-                           "smaller ε, or other h and f.")
+    if (
+        not orbit.kind.startswith("saddle")
+        or orbit.period != len(places)
+        or np.abs(apart(map_.turns, orbit.places, places)).max() > _ELSEWHERE
+    ):
+        raise NotConverged(
+            "The limit cycles of the Hess manifold are not found as saddles of the section: choose a "
+            "smaller ε, or other h and f."
+        )
     sheet = map_.section
     assert isinstance(sheet, AndoyerSection)
     from_ = float(orbit.places[0, 0])

@@ -62,8 +62,9 @@ class LoxodromicPendulum:
         if not self.h > -1.0:
             raise OutsideRegion(f"h = {self.h:.12g} is at or below the bottom: no motion. Choose h > −1.")
         if not 0.0 < self.l < math.pi:
-            raise InvalidParameter(f"l = {self.l:g}: there the middle axis stays at a pole, and has no track. Choose "
-                                   "0 < l < π.")
+            raise InvalidParameter(
+                f"l = {self.l:g}: there the middle axis stays at a pole, and has no track. Choose 0 < l < π."
+            )
 
     @cached_property
     def bridge(self) -> Bridge:
@@ -188,11 +189,22 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, span: float, level: Accuracy
     """
     require_finite(span=span)
     radius = 0.5 * PIXELS
-    lying = attitude(WITH_ATTITUDE.at((pendulum.a, 1.0)), pendulum.start, pendulum.length(span), level,
-                     (0.0, 0.0, *(radius,) * 6), SAGITTA, _MOST)
+    lying = attitude(
+        WITH_ATTITUDE.at((pendulum.a, 1.0)),
+        pendulum.start,
+        pendulum.length(span),
+        level,
+        (0.0, 0.0, *(radius,) * 6),
+        SAGITTA,
+        _MOST,
+    )
     axes = lying.axes @ pendulum.principal
     axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
     lying = replace(lying, axes=frozen(axes))
     return LoxodromicMotion(
-        pendulum=pendulum, times=frozen(lying.times / pendulum.frequency_unit), attitude=lying,
-        centre=frozen(lying.in_space(pendulum.body.r)), middle=frozen(lying.in_space((0.0, 1.0, 0.0))))
+        pendulum=pendulum,
+        times=frozen(lying.times / pendulum.frequency_unit),
+        attitude=lying,
+        centre=frozen(lying.in_space(pendulum.body.r)),
+        middle=frozen(lying.in_space((0.0, 1.0, 0.0))),
+    )

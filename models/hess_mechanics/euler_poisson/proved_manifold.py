@@ -35,8 +35,7 @@ def cofactor(sign: int) -> tuple[Any, Any]:
     Raises `MissingLibrary`.
     """
     library = flint()
-    ring = library.fmpq_mpoly_ctx.get(("s", "t", "a2", "mu", "M1", "M2", "M3", "g1", "g2", "g3"),
-                                      library.Ordering.lex)
+    ring = library.fmpq_mpoly_ctx.get(("s", "t", "a2", "mu", "M1", "M2", "M3", "g1", "g2", "g3"), library.Ordering.lex)
     s, t, a2, mu, M1, M2, M3, *gamma = ring.gens()
     rates = SYSTEM.field([M1, M2, M3, *gamma], [a2 - sign * s**2, a2, a2 + sign * t**2, s, 0 * s, t, mu])
     return s * rates[0] + t * rates[2], sign * s * t * M2 * (s * M1 + t * M3)
@@ -53,8 +52,7 @@ class Unsplit:
     multipliers: tuple[Enclosure, Enclosure]
 
 
-def unsplit_separatrices(a: ExactNumber, h: ExactNumber, f: ExactNumber,
-                         digits: int = 30) -> Unsplit | None:
+def unsplit_separatrices(a: ExactNumber, h: ExactNumber, f: ExactNumber, digits: int = 30) -> Unsplit | None:
     """Prove that the separatrices of two saddles coincide on the torus (h, f), for all bodies with a = s t/a2.
 
     Parameters
@@ -80,8 +78,10 @@ def unsplit_separatrices(a: ExactNumber, h: ExactNumber, f: ExactNumber,
         return None
     proof = prove(a, h, f, digits=digits + 4)
     if isinstance(proof, EdgeProof):
-        raise InvalidParameter(f"h = {proof.h}, f = {proof.f} lies on the edge of the possible (h, f): there is no "
-                               "torus, and no separatrix on it. Choose a smaller |f|, or a larger h.")
+        raise InvalidParameter(
+            f"h = {proof.h}, f = {proof.f} lies on the edge of the possible (h, f): there is no "
+            "torus, and no separatrix on it. Choose a smaller |f|, or a larger h."
+        )
     if proof.statement != TWO_CYCLES:
         return None
     less, more = sorted(proof.multipliers, key=lambda one: one.low)

@@ -45,8 +45,11 @@ class RotationProfile(Result):
         gap = np.full(1, np.nan)
         along, rho = ([piece for part in parts for piece in (part, gap)][:-1] for parts in (self.along, self.rho))
         empty = [np.empty(0)]
-        return Labels({"place": (("place",), np.concatenate(along or empty))},
-                      {"ρ": (("place",), np.concatenate(rho or empty))}, {"ρ": "turns"})
+        return Labels(
+            {"place": (("place",), np.concatenate(along or empty))},
+            {"ρ": (("place",), np.concatenate(rho or empty))},
+            {"ρ": "turns"},
+        )
 
     @property
     def places(self) -> Array:
@@ -83,20 +86,30 @@ def on_line(section: AndoyerSection, ends: LineEnds, count: int) -> tuple[tuple[
     shares = (np.arange(count) + 0.5) / count
     l, x = ((1.0 - shares) * a + shares * b for a, b in zip(*ends, strict=True))
     states, growing = section.states_at(l, x)
-    return tuple((float(share), tuple(map(float, state)))
-                 for share, state in zip(shares[growing], states[growing], strict=True))
+    return tuple(
+        (float(share), tuple(map(float, state))) for share, state in zip(shares[growing], states[growing], strict=True)
+    )
 
 
-def rotation_along(ends: LineEnds, shares: Sequence[float], orbits: Sequence[Array], about_first: bool, count: int,
-                   resolved: float = RESOLVED) -> RotationProfile:
+def rotation_along(
+    ends: LineEnds,
+    shares: Sequence[float],
+    orbits: Sequence[Array],
+    about_first: bool,
+    count: int,
+    resolved: float = RESOLVED,
+) -> RotationProfile:
     """Of orbits (n, 2) that start at these shares of the way, of `count` even ones.
 
     about_first : turns are counted about the first end, and the place is l; else by the angle l, and it is L/G.
     resolved : to what both halves of a closed curve agree.
     """
     centre, axis = (ends[0], 0) if about_first else (None, 1)
-    found = [(share, *rotation_number(points, centre)) for share, points in zip(shares, orbits, strict=True)
-             if len(points) >= _FEWEST]
+    found = [
+        (share, *rotation_number(points, centre))
+        for share, points in zip(shares, orbits, strict=True)
+        if len(points) >= _FEWEST
+    ]
     going = [(share, turns) for share, turns, spread in found if spread <= resolved < abs(turns)]
 
     def place(share: Array) -> Array:
@@ -110,9 +123,11 @@ def rotation_along(ends: LineEnds, shares: Sequence[float], orbits: Sequence[Arr
     coasts = np.flatnonzero(np.diff(at_sea) > 1.5 / count) + 1
     seas = [(part[0] - 0.5 / count, part[-1] + 0.5 / count) for part in np.split(at_sea, coasts) if part.size]
     return RotationProfile(
-        tuple(np.split(place(along), cuts)), tuple(np.split(rho, cuts)),
+        tuple(np.split(place(along), cuts)),
+        tuple(np.split(rho, cuts)),
         place(np.array([share for share, turns, spread in found if spread <= resolved and abs(turns) <= resolved])),
-        place(np.array(seas).reshape(-1, 2)))
+        place(np.array(seas).reshape(-1, 2)),
+    )
 
 
 def _side_by_side(rho: Array) -> Array:

@@ -102,9 +102,7 @@ def level(name: str) -> Level:
     try:
         return LEVELS[name]
     except (KeyError, TypeError):
-        raise InvalidParameter(
-            f"There is no accuracy level of that name; choose one of {', '.join(LEVELS)}."
-        ) from None
+        raise InvalidParameter(f"There is no accuracy level of that name; choose one of {', '.join(LEVELS)}.") from None
 
 
 def cheapest(error: float) -> Level:
@@ -148,7 +146,7 @@ _UNITS = {
     Computation.CURVE: "distance from the curve, in pixels, for |a| ≤ 1",
     Computation.BASINS: "share of the cells that twice as many along each side change, where the boundary is a curve",
     Computation.INDICATOR: "share of the cells that twice as many along each side change, where the boundary is a "
-                           "curve",
+    "curve",
     Computation.EXPONENT: "error of λ beside the fastest angular velocity ν, for a time of 2000/ν",
     Computation.CLOUD: "error of ln|s|, of γ, and of ω beside its largest size",
 }
@@ -193,39 +191,54 @@ def _plans(*rows: tuple[Level, float, float, float]) -> dict[str, Plan]:
     return {row[0].name: Plan(*row) for row in rows}
 
 
-_CELLS = _plans((_CROSSED, 1.0, 0.5, 0.05), (replace(_CROSSED, name="standard"), 1.0, 1.0, 0.03),
-                (replace(STANDARD, name="precise"), 1.0, 1.0, 0.03),
-                (replace(PRECISE, name="reference"), 1.0, 1.5, 0.02))
+_CELLS = _plans(
+    (_CROSSED, 1.0, 0.5, 0.05),
+    (replace(_CROSSED, name="standard"), 1.0, 1.0, 0.03),
+    (replace(STANDARD, name="precise"), 1.0, 1.0, 0.03),
+    (replace(PRECISE, name="reference"), 1.0, 1.5, 0.02),
+)
 
 PLANS: Mapping[Computation, Mapping[str, Plan]] = {
     Computation.ORBIT: _plans(*((each, 1.0, 1.0, each.promise) for each in LEVELS.values())),
     # A tolerance above 1e-6 loses crossings.
-    Computation.SECTION: _plans((_CROSSED, 0.25, 1.0, 5), (STANDARD, 1.0, 1.0, 9), (PRECISE, 1.0, 1.0, 13),
-                                (REFERENCE, 1.0, 1.0, 22)),
-    Computation.ROTATION: _plans((_CROSSED, 0.3, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-4), (PRECISE, 1.0, 1.0, 1e-4),
-                                 (REFERENCE, 1.0, 1.0, 1e-4)),
-    Computation.GRID: _plans((DRAFT, 1.0, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
-                             (REFERENCE, 1.0, 1.0, 1e-11)),
+    Computation.SECTION: _plans(
+        (_CROSSED, 0.25, 1.0, 5), (STANDARD, 1.0, 1.0, 9), (PRECISE, 1.0, 1.0, 13), (REFERENCE, 1.0, 1.0, 22)
+    ),
+    Computation.ROTATION: _plans(
+        (_CROSSED, 0.3, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-4), (PRECISE, 1.0, 1.0, 1e-4), (REFERENCE, 1.0, 1.0, 1e-4)
+    ),
+    Computation.GRID: _plans(
+        (DRAFT, 1.0, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9), (REFERENCE, 1.0, 1.0, 1e-11)
+    ),
     # Turns of a perturbed map take the time, whatever the accuracy of the map.
-    Computation.LINE: _plans((DRAFT, 0.15, 0.2, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
-                             (REFERENCE, 1.0, 1.0, 1e-11)),
-    Computation.COLOURS: _plans((DRAFT, 1.0, 0.5, 1e-3), (replace(DRAFT, name="standard"), 1.0, 1.0, 1e-3),
-                                (replace(STANDARD, name="precise"), 1.0, 1.0, 1e-6),
-                                (replace(PRECISE, name="reference"), 1.0, 1.5, 1e-9)),
-    Computation.MAP: _plans((DRAFT, 1.0, 0.4, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
-                            (REFERENCE, 1.0, 1.0, 1e-11)),
-    Computation.CURVE: _plans((DRAFT, 1.0, 0.5, 0.75), (STANDARD, 1.0, 1.0, 0.25), (PRECISE, 1.0, 1.0, 0.25),
-                              (REFERENCE, 1.0, 2.0, 0.1)),
+    Computation.LINE: _plans(
+        (DRAFT, 0.15, 0.2, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9), (REFERENCE, 1.0, 1.0, 1e-11)
+    ),
+    Computation.COLOURS: _plans(
+        (DRAFT, 1.0, 0.5, 1e-3),
+        (replace(DRAFT, name="standard"), 1.0, 1.0, 1e-3),
+        (replace(STANDARD, name="precise"), 1.0, 1.0, 1e-6),
+        (replace(PRECISE, name="reference"), 1.0, 1.5, 1e-9),
+    ),
+    Computation.MAP: _plans(
+        (DRAFT, 1.0, 0.4, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9), (REFERENCE, 1.0, 1.0, 1e-11)
+    ),
+    Computation.CURVE: _plans(
+        (DRAFT, 1.0, 0.5, 0.75), (STANDARD, 1.0, 1.0, 0.25), (PRECISE, 1.0, 1.0, 0.25), (REFERENCE, 1.0, 2.0, 0.1)
+    ),
     # To which attractor an orbit comes, and whether it is chaotic, needs no digits: more cells tell more.
     Computation.BASINS: _CELLS,
     Computation.INDICATOR: _CELLS,
     # The neighbour is 1e-7 away, and steps must be exact beside that; the time decides how well λ is known.
-    Computation.EXPONENT: _plans((replace(DRAFT, tolerance=1e-10, order=16), 0.2, 1.0, 0.05),
-                                 (replace(STANDARD, tolerance=1e-14, order=24), 1.0, 1.0, 0.02),
-                                 (replace(PRECISE, tolerance=1e-15, order=24), 1.0, 1.0, 0.02),
-                                 (REFERENCE, 1.0, 1.0, 0.02)),
-    Computation.CLOUD: _plans((DRAFT, 0.15, 1.0, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
-                              (REFERENCE, 1.0, 1.0, 1e-12)),
+    Computation.EXPONENT: _plans(
+        (replace(DRAFT, tolerance=1e-10, order=16), 0.2, 1.0, 0.05),
+        (replace(STANDARD, tolerance=1e-14, order=24), 1.0, 1.0, 0.02),
+        (replace(PRECISE, tolerance=1e-15, order=24), 1.0, 1.0, 0.02),
+        (REFERENCE, 1.0, 1.0, 0.02),
+    ),
+    Computation.CLOUD: _plans(
+        (DRAFT, 0.15, 1.0, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9), (REFERENCE, 1.0, 1.0, 1e-12)
+    ),
 }
 
 

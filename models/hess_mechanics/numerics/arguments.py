@@ -67,7 +67,8 @@ def as_pairs(name: str, places: Any) -> list[tuple[float, float]]:
         if isinstance(error, InvalidParameter):
             raise
         raise InvalidParameter(
-            f"{name} = {places!r} are no places; write them like [(0.0, 0.5), (1.0, 0.2)].") from None
+            f"{name} = {places!r} are no places; write them like [(0.0, 0.5), (1.0, 0.2)]."
+        ) from None
 
 
 def as_place(names: tuple[str, ...], place: Any) -> tuple[float, ...]:

@@ -84,9 +84,10 @@ def exact(name: str, value: ExactNumber | Decimal) -> Fraction:
             raise ValueError
     except (ValueError, InvalidOperation):
         shown = text if len(text) <= 60 else text[:60] + "…"
-        raise InvalidParameter(f"{name} = {shown!r} is no number that can be taken as exact; write it like 1.5, -2e-3 "
-                               f"or 3/4, with at most {_MOST_DIGITS} digits and exponents within ±{_MOST_EXPONENT}."
-                               ) from None
+        raise InvalidParameter(
+            f"{name} = {shown!r} is no number that can be taken as exact; write it like 1.5, -2e-3 "
+            f"or 3/4, with at most {_MOST_DIGITS} digits and exponents within ±{_MOST_EXPONENT}."
+        ) from None
     return parts[0] / parts[1] if len(parts) == 2 else parts[0]
 
 
@@ -95,8 +96,11 @@ def _decimal(text: str) -> Fraction:
     if len(text) > 3 * _MOST_DIGITS or not text.isascii() or "_" in text:
         raise ValueError
     found = Decimal(text)
-    if not found.is_finite() or len(found.as_tuple().digits) > _MOST_DIGITS or (
-            found and abs(found.adjusted()) > _MOST_EXPONENT):
+    if (
+        not found.is_finite()
+        or len(found.as_tuple().digits) > _MOST_DIGITS
+        or (found and abs(found.adjusted()) > _MOST_EXPONENT)
+    ):
         raise ValueError
     return Fraction(found)
 

@@ -39,7 +39,8 @@ def expansion_of_lanes(recursion: Recursion) -> Callable[..., Any]:
     products = [items(f"q[{j}, {lane}]" for j in range(m)) for lane in range(LANES)]
     results = [f"c[k + 1, {i}, {lane}] = y{lane}[{i}] * s" for i in range(n) for lane in range(LANES)]
     # Of all lanes first everything is read, then everything written: so the compiler may do it together.
-    return compiled(f"""
+    return compiled(
+        f"""
 def expand(c, q, parameters, order):
     p = ({items(f"parameters[{i}]" for i in range(recursion.parameters))})
     for k in range(order):
@@ -48,7 +49,10 @@ def expand(c, q, parameters, order):
         one = 1.0 if k == 0 else 0.0
         {_for_lanes(lambda lane: f"y{lane} = rates(({states[lane]}), ({products[lane]}), p, one)")}
         {"; ".join(results)}
-""", **parts(recursion), convolve=convolution_of_lanes(recursion))["expand"]
+""",
+        **parts(recursion),
+        convolve=convolution_of_lanes(recursion),
+    )["expand"]
 
 
 def _for_lanes(statement: Callable[[int], str]) -> str:
@@ -66,8 +70,10 @@ def convolution_of_lanes(recursion: Recursion) -> Callable[..., Any]:
     others = [(j, a, b) for j, (a, b) in enumerate(recursion.pairs) if a != b]
 
     def lines(template: str, products: list[tuple[int, int, int]]) -> str:
-        return "\n        ".join(
-            template.format(j=j, a=a, b=b, lane=lane) for j, a, b in products for lane in lanes) or "pass"
+        return (
+            "\n        ".join(template.format(j=j, a=a, b=b, lane=lane) for j, a, b in products for lane in lanes)
+            or "pass"
+        )
 
     def read(name: str, order: str) -> str:
         return "\n        ".join(f"{name}{row}_{lane} = c[{order}, {row}, {lane}]" for row in rows for lane in lanes)
@@ -223,6 +229,7 @@ def one_by_one(orbit: Callable[..., Any]) -> Callable[..., Any]:
 
     For fields with stages: lanes of these take three times as long to compile and are a third faster.
     """
+
     @part
     def integrate(states, parameters, times, order, tolerance, max_steps, out):
         total = 0

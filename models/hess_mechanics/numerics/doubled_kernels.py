@@ -108,11 +108,13 @@ def _expansion(recursion: Recursion) -> Callable[..., Any]:
     functions = compiled(compile(tree, "<doubled>", "exec"), **_NAMES)
     n, known, pairs = recursion.variables, recursion.known, recursion.pairs
     y, q = items(f"c[k, {i}]" for i in range(known[-1])), items(f"q[{j}]" for j in range(len(pairs)))
-    stages = "".join(f"""
+    stages = "".join(
+        f"""
         ends(c, inner, k, q)
         found = stage{i}(({y}), ({q}), p, one)
         {"; ".join(f"c[k, {known[i] + j}] = found[{j}]" for j in range(count))}"""
-                     for i, count in enumerate(recursion.stages))
+        for i, count in enumerate(recursion.stages)
+    )
     left, right = (np.array([pair[side] for pair in pairs], int) for side in (0, 1))
 
     @part
@@ -131,7 +133,8 @@ def _expansion(recursion: Recursion) -> Callable[..., Any]:
             if k > 0:
                 q[j] = add(q[j], multiply(c[k, left[j]], c[0, right[j]]))
 
-    return compiled(f"""
+    return compiled(
+        f"""
 def expand(c, p, steps, inner, q):
     {f"k = 0; p = p + constants(({y}), p)" if recursion.constants else "pass"}
     for k in range(steps.size):
@@ -141,7 +144,12 @@ def expand(c, p, steps, inner, q):
         ends(c, inner, k, q)
         found = rates(({y}), ({q}), p, one)
         {"; ".join(f"c[k + 1, {i}] = multiply(found[{i}], steps[k])" for i in range(n))}
-""", inside=inside, ends=ends, **_NAMES, **functions)["expand"]
+""",
+        inside=inside,
+        ends=ends,
+        **_NAMES,
+        **functions,
+    )["expand"]
 
 
 def doubled_integrator(recursion: Recursion) -> Callable[..., Any]:

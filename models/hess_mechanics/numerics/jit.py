@@ -28,7 +28,14 @@ from numba.core import event
 from hess_mechanics.numerics.kernel_files import keep
 
 __all__ = [
-    "CACHE_FOLDER", "as_written", "derived_kernel", "inner", "kernel", "part", "seconds_compiling", "source_hash",
+    "CACHE_FOLDER",
+    "as_written",
+    "derived_kernel",
+    "inner",
+    "kernel",
+    "part",
+    "seconds_compiling",
+    "source_hash",
 ]
 
 _OPTIONS: dict[str, Any] = {
@@ -132,8 +139,11 @@ def _sources() -> dict[str, tuple[str, list[str]]]:
 
     Reading takes a third of a second: the answers are kept, and a file is read again when its time or size differs.
     """
-    memory = None if CACHE_FOLDER is None else (
-        CACHE_FOLDER / f"sources-{hashlib.sha256(str(_PACKAGE).encode()).hexdigest()[:16]}.json")
+    memory = (
+        None
+        if CACHE_FOLDER is None
+        else (CACHE_FOLDER / f"sources-{hashlib.sha256(str(_PACKAGE).encode()).hexdigest()[:16]}.json")
+    )
     try:
         known = json.loads(memory.read_text(encoding="utf-8")) if memory is not None else {}
     except (OSError, ValueError):

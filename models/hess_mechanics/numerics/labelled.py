@@ -47,8 +47,10 @@ class Labelled(ABC):
         known = self.labels()
 
         def arrays(named: Named) -> dict[str, Any]:
-            return {name: (dims, values, {"units": known.units[name]} if name in known.units else {})
-                    for name, (dims, values) in named.items()}
+            return {
+                name: (dims, values, {"units": known.units[name]} if name in known.units else {})
+                for name, (dims, values) in named.items()
+            }
 
         return _needed("xarray").Dataset(arrays(known.variables), arrays(known.coords), dict(known.facts))
 
@@ -60,8 +62,9 @@ class Labelled(ABC):
         known = self.labels()
         both = {**known.coords, **known.variables}
         # Rows run as the numbers of the variables do.
-        dims = tuple(dict.fromkeys(
-            name for names, _ in [*known.variables.values(), *known.coords.values()] for name in names))
+        dims = tuple(
+            dict.fromkeys(name for names, _ in [*known.variables.values(), *known.coords.values()] for name in names)
+        )
         sides = {name: size for names, values in both.values() for name, size in zip(names, values.shape, strict=True)}
         grid = dict(zip(dims, np.indices([sides[name] for name in dims]), strict=True))
         columns = {name: values[tuple(grid[one].ravel() for one in names)] for name, (names, values) in both.items()}
@@ -74,12 +77,15 @@ class Labelled(ABC):
     def _repr_html_(self) -> str:
         """A table of the facts, and of the arrays with their units, for notebooks."""
         known = self.labels()
-        facts = "".join(f"<tr><th>{escape(str(name))}</th><td>{escape(_short(value))}</td></tr>"
-                        for name, value in known.facts.items())
+        facts = "".join(
+            f"<tr><th>{escape(str(name))}</th><td>{escape(_short(value))}</td></tr>"
+            for name, value in known.facts.items()
+        )
         arrays = "".join(
             f"<tr><th>{escape(name)}</th><td>({', '.join(dims)}) {escape(_range(values))} "
             f"{escape(known.units.get(name, ''))}</td></tr>"
-            for name, (dims, values) in {**known.coords, **known.variables}.items())
+            for name, (dims, values) in {**known.coords, **known.variables}.items()
+        )
         return f"<table><caption>{escape(type(self).__name__)}</caption>{facts}{arrays}</table>"
 
 

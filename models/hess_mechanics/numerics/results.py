@@ -42,9 +42,13 @@ def unit_of(variable: str) -> str:
 
 def facts_of(result: Any) -> dict[str, Any]:
     """What every result says of its runs: level, status, error estimate, drifts where it has them, steps."""
-    return {"level": result.level, "status": str(result.status), "error_estimate": result.error_estimate,
-            **{f"drift of {name}": value for name, value in getattr(result, "drift", {}).items()},
-            "steps": result.cost.steps}
+    return {
+        "level": result.level,
+        "status": str(result.status),
+        "error_estimate": result.error_estimate,
+        **{f"drift of {name}": value for name, value in getattr(result, "drift", {}).items()},
+        "steps": result.cost.steps,
+    }
 
 
 def _labels(result: Orbit | Ensemble | SectionCrossings, dims: tuple[str, ...]) -> Labels:

@@ -21,8 +21,18 @@ from hess_mechanics.numerics.tracing import Recursion
 from hess_mechanics.numerics.unrolled import compiled, evaluation, items
 
 __all__ = [
-    "FALL", "STEP_LIMIT_REACHED", "columns_of", "compensated", "convolution_source", "expansion", "expansion_source",
-    "orbit_integrator", "parts", "step_of", "step_size", "workspace",
+    "FALL",
+    "STEP_LIMIT_REACHED",
+    "columns_of",
+    "compensated",
+    "convolution_source",
+    "expansion",
+    "expansion_source",
+    "orbit_integrator",
+    "parts",
+    "step_of",
+    "step_size",
+    "workspace",
 ]
 
 STEP_LIMIT_REACHED = -1
@@ -56,9 +66,14 @@ def expansion_source(recursion: Recursion) -> str:
 
     def keep(order: str, y: str, since: int, count: int) -> str:
         """Of the `count` series known now, `since` of them before."""
-        return "; ".join(
-            f"left[{order}, {j}] = {y}[{a}]; right[{order}, {j}] = {y}[{b}]"
-            for j, (a, b) in enumerate(pairs) if since <= max(a, b) < count) or "pass"
+        return (
+            "; ".join(
+                f"left[{order}, {j}] = {y}[{a}]; right[{order}, {j}] = {y}[{b}]"
+                for j, (a, b) in enumerate(pairs)
+                if since <= max(a, b) < count
+            )
+            or "pass"
+        )
 
     def first_products(count: int) -> str:
         return items(f"y0[{a}] * y0[{b}]" if max(a, b) < count else "0.0" for a, b in pairs)
@@ -70,10 +85,13 @@ def expansion_source(recursion: Recursion) -> str:
         return items(f"s[{j}]{ends(a, b)}" for j, (a, b) in enumerate(pairs))
 
     def stages(order: str, y: str, one: str, products: Callable[[int], str]) -> str:
-        return "".join(f"""
+        return "".join(
+            f"""
         q = ({products(known[i])})
         {y} = {y} + stage{i}({y}, q, p, {one})
-        {keep(order, y, known[i], known[i + 1])}""" for i in range(len(recursion.stages)))
+        {keep(order, y, known[i], known[i + 1])}"""
+            for i in range(len(recursion.stages))
+        )
 
     def seen(order: str) -> str:
         return "; ".join(f"seen[{order}, {i}] = found[{recursion.variables + i}]" for i in observed) or "pass"

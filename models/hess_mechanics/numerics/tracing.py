@@ -108,14 +108,17 @@ def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> R
     except (TypeError, ValueError, AttributeError, ArithmeticError, LookupError) as error:
         raise NotTraceable(f"This field cannot be traced: {error}. {_ALLOWED}") from error
     if len(rates) != variables + observed:
-        raise NotTraceable(f"This field has {variables} variables and returns {len(rates) - observed} rates: return "
-                           "one for each.")
+        raise NotTraceable(
+            f"This field has {variables} variables and returns {len(rates) - observed} rates: return one for each."
+        )
     plain = _Series(tape, variables, multiplies_out=True).recursion(rates, parameters)
     return _Series(tape, variables, multiplies_out=False).recursion(rates, parameters) if plain.stages else plain
 
 
-_ALLOWED = ("Use +, −, *, / and whole powers of numbers, variables and parameters only, without conditions, and unpack "
-            "as many variables and parameters as the system has.")
+_ALLOWED = (
+    "Use +, −, *, / and whole powers of numbers, variables and parameters only, without conditions, and unpack "
+    "as many variables and parameters as the system has."
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,8 +171,11 @@ class _Tape:
         if operation == "/" and b is zero:
             raise NotTraceable("This field cannot be traced: it divides by 0.")
         if a.operation == b.operation == "number":
-            return self.number({"+": a.value + b.value, "-": a.value - b.value, "*": a.value * b.value,
-                                "/": a.value / (b.value or 1)}[operation])
+            return self.number(
+                {"+": a.value + b.value, "-": a.value - b.value, "*": a.value * b.value, "/": a.value / (b.value or 1)}[
+                    operation
+                ]
+            )
         if b is zero and operation in "+-":
             return a
         if a is zero and operation in "+-":
@@ -282,8 +288,10 @@ class Symbol:
         return Symbol(self.tape, self.tape.start(self.node))
 
     def _refuse(self, *_: Any) -> NoReturn:
-        raise NotTraceable("This field cannot be traced: it compares its variables or parameters, or passes them to a "
-                           f"function other than arithmetic. {_ALLOWED}")
+        raise NotTraceable(
+            "This field cannot be traced: it compares its variables or parameters, or passes them to a "
+            f"function other than arithmetic. {_ALLOWED}"
+        )
 
     __bool__ = __float__ = __int__ = __index__ = __complex__ = __abs__ = __round__ = _refuse
     __eq__ = __ne__ = __lt__ = __le__ = __gt__ = __ge__ = _refuse
@@ -403,8 +411,11 @@ class _Series:
         rules = [[self._rules[i] for i in stage] for stage in stages]
         everything = _below([*forms, *(rule for stage in rules for rule in stage)])
         products = [node for node in everything if node.operation == "product"]
-        kept = [node for node in dict.fromkeys(
-            node.arguments[0] for node in everything if node.operation == "scaled") if node.started]
+        kept = [
+            node
+            for node in dict.fromkeys(node.arguments[0] for node in everything if node.operation == "scaled")
+            if node.started
+        ]
 
         names: dict[_Node, str] = {}
         late = {self._one: 0}
@@ -427,8 +438,15 @@ class _Series:
         if kept:
             functions.append(_function("constants(y, p)", kept, {}, {}))
         pairs = tuple((places[a.value], places[b.value]) for a, b in (node.arguments for node in products))
-        return Recursion(self._variables, parameters, tuple(map(len, stages)), pairs, len(kept),
-                         "\n\n".join(functions), len(rates) - self._variables)
+        return Recursion(
+            self._variables,
+            parameters,
+            tuple(map(len, stages)),
+            pairs,
+            len(kept),
+            "\n\n".join(functions),
+            len(rates) - self._variables,
+        )
 
     def _used(self, forms: Sequence[_Node]) -> list[int]:
         found: dict[int, None] = {}

@@ -24,8 +24,9 @@ def compiled(source: str | CodeType, **names: Callable[..., Any]) -> dict[str, C
     """The functions of this source by name, compiled; they may call each other and what `names` holds."""
     namespace: dict[str, Any] = dict(names)
     exec(source, namespace)
-    found = {name: part(value) for name, value in namespace.items() if isinstance(value, FunctionType)
-             and name not in names}
+    found = {
+        name: part(value) for name, value in namespace.items() if isinstance(value, FunctionType) and name not in names
+    }
     namespace.update(found)
     return found
 
@@ -33,7 +34,7 @@ def compiled(source: str | CodeType, **names: Callable[..., Any]) -> dict[str, C
 def items(texts: Iterable[str]) -> str:
     """What stands between the parentheses of a tuple; a long one is a sum of tuples, for Numba stumbles over others."""
     each = [f"{text}, " for text in texts]
-    return ") + (".join("".join(each[i:i + _LONGEST]).rstrip() for i in range(0, len(each), _LONGEST))
+    return ") + (".join("".join(each[i : i + _LONGEST]).rstrip() for i in range(0, len(each), _LONGEST))
 
 
 @cache

@@ -89,8 +89,11 @@ def carrying_source(of: Variation, lanes: int) -> str:
     beginnings, used = [], {j for _, j in of.moving}
     for row in range(n):
         for lane in each:
-            terms = [f"seen[0, {e}] * v[k, {j}, {lane}]" for e, (i, j) in enumerate(entries)
-                     if i == row and e >= len(of.moving)]
+            terms = [
+                f"seen[0, {e}] * v[k, {j}, {lane}]"
+                for e, (i, j) in enumerate(entries)
+                if i == row and e >= len(of.moving)
+            ]
             beginnings.append(f"s{row}_{lane} = {' + '.join(terms) or '0.0'}")
             beginnings += [f"t{row}_{lane} = 0.0"] if len(sums(row)) > 1 else []
     products, counted = [], dict.fromkeys(range(n), 0)
@@ -99,8 +102,11 @@ def carrying_source(of: Variation, lanes: int) -> str:
         name = names[counted[i] % len(names)]
         counted[i] += 1
         products.append("; ".join(f"{name}{i}_{lane} += a{e} * x{j}_{lane}" for lane in each))
-    ends = [f"v[k + 1, {i}, {lane}] = ({' + '.join(f'{name}{i}_{lane}' for name in sums(i))}) * inverse"
-            for i in range(n) for lane in each]
+    ends = [
+        f"v[k + 1, {i}, {lane}] = ({' + '.join(f'{name}{i}_{lane}' for name in sums(i))}) * inverse"
+        for i in range(n)
+        for lane in each
+    ]
     newline = "\n        "
     return f"""
 def carry(seen, v, inverses):

@@ -33,8 +33,11 @@ def with_attitude(system: System) -> System:
 
     def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
         g, e = y[n - 3 : n], y[n:]
-        return {**system.integrals(y[:n], p), "e²": e[0] ** 2 + e[1] ** 2 + e[2] ** 2,
-                "(e,γ)": e[0] * g[0] + e[1] * g[1] + e[2] * g[2]}
+        return {
+            **system.integrals(y[:n], p),
+            "e²": e[0] ** 2 + e[1] ** 2 + e[2] ** 2,
+            "(e,γ)": e[0] * g[0] + e[1] * g[1] + e[2] * g[2],
+        }
 
     def frequency(y: Array, p: Array) -> Array | float:
         return system.frequency(y[:n], p)
@@ -45,9 +48,16 @@ def with_attitude(system: System) -> System:
 
     state, p = system.example
     return replace(
-        system, name=f"{system.name}-attitude", title=f"{system.title}, with the attitude",
-        variables=(*system.variables, "e1", "e2", "e3"), field=field, integrals=integrals, frequency=frequency,
-        rescale=rescale, example=((*state, *across(state[-3:])), p))
+        system,
+        name=f"{system.name}-attitude",
+        title=f"{system.title}, with the attitude",
+        variables=(*system.variables, "e1", "e2", "e3"),
+        field=field,
+        integrals=integrals,
+        frequency=frequency,
+        rescale=rescale,
+        example=((*state, *across(state[-3:])), p),
+    )
 
 
 def across(vertical: Sequence[float] | Array) -> Array:
@@ -153,8 +163,15 @@ def _turned(u: Array, v: Array, length: Array) -> Array:
     return np.asarray(u + np.sinc(length / np.pi) * first + 0.5 * np.sinc(0.5 * length / np.pi) ** 2 * _cross(first, v))
 
 
-def attitude(body: Body, start: Sequence[float] | Array, span: float, level: Accuracy, weights: Sequence[float],
-             sagitta: float, most: int) -> Attitude:
+def attitude(
+    body: Body,
+    start: Sequence[float] | Array,
+    span: float,
+    level: Accuracy,
+    weights: Sequence[float],
+    sagitta: float,
+    most: int,
+) -> Attitude:
     """Return the attitude along the orbit of a body with an extended system from `start`, |γ| = |e| = 1, (e, γ) = 0.
 
     weights, sagitta, most : as for `sample_times`.  Raises `InvalidParameter`, `WorkLimit`.

@@ -13,7 +13,12 @@ from numbers import Real
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
 
 __all__ = [
-    "MAX_RATIO", "BodyCheck", "body_check", "check_body", "require_comparable", "require_finite",
+    "MAX_RATIO",
+    "BodyCheck",
+    "body_check",
+    "check_body",
+    "require_comparable",
+    "require_finite",
     "require_positive_definite",
 ]
 
@@ -34,9 +39,7 @@ def require_positive_definite(I11: float, I22: float) -> None:
     """Raise `NotPositiveDefinite` unless I11, I22 > 0 (some I33 then completes the tensor)."""
     for name, value in (("I11", I11), ("I22", I22)):
         if not value > 0:
-            raise NotPositiveDefinite(
-                f"{name} = {value:g}, but a moment of inertia is positive: choose {name} > 0."
-            )
+            raise NotPositiveDefinite(f"{name} = {value:g}, but a moment of inertia is positive: choose {name} > 0.")
 
 
 def require_comparable(I11: float, I22: float) -> None:
@@ -62,7 +65,8 @@ def body_check(I33: tuple[float, float] | None) -> BodyCheck:
     """The result in words, from the admissible interval of I33 (None: there is none)."""
     if I33 is None:
         return BodyCheck(
-            False, None,
+            False,
+            None,
             "Not a rigid body: for no I33 do the principal moments satisfy the triangle inequality. "
             "The equations are still shown.",
         )

@@ -30,8 +30,18 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
 from hess_mechanics.suslov.equations import SuslovBody
 
-__all__ = ["MAX_K", "AdditionalIntegral", "Coefficients", "I11_at", "I11_of", "additional_integral", "coefficients",
-           "formula", "of_body", "order"]
+__all__ = [
+    "MAX_K",
+    "AdditionalIntegral",
+    "Coefficients",
+    "I11_at",
+    "I11_of",
+    "additional_integral",
+    "coefficients",
+    "formula",
+    "of_body",
+    "order",
+]
 
 MAX_K = 15
 
@@ -152,7 +162,8 @@ class AdditionalIntegral:
         require_finite(f=f)
         if not abs(f) <= abs(top):
             raise InvalidParameter(
-                f"F2 = f = {f:g} is beyond every motion with h = {h:g}: choose |f| ≤ {abs(top):.6g}.")
+                f"F2 = f = {f:g} is beyond every motion with h = {h:g}: choose |f| ≤ {abs(top):.6g}."
+            )
         return f / top, -f / top
 
 
@@ -190,7 +201,8 @@ def additional_integral(k: int, body: SuslovBody) -> AdditionalIntegral:
         a, b, c = (np.array([float(x) for x in row]) for row in (exact.a, exact.b, exact.c))
     except OverflowError:
         raise InvalidParameter(
-            "The coefficients of F2 leave double range: measure the moments of inertia in other units.") from None
+            "The coefficients of F2 leave double range: measure the moments of inertia in other units."
+        ) from None
     return AdditionalIntegral(k, permuted, a, b, c, I11_of(k, I22, I23))
 
 
@@ -203,14 +215,18 @@ def of_body(body: SuslovBody) -> AdditionalIntegral | None:
 _FORMULAS = {
     1: r"F_2 = I_{11}\gamma_1\omega_1 + (I_{22}\gamma_2 + I_{23}\gamma_3)\omega_2",
     3: r"F_2 = I_{11}^2\omega_1^2\big((I_{22}^2 + I_{23}^2)\gamma_1\omega_1 + I_{22}(I_{22}\gamma_2 + I_{23}\gamma_3)"
-       r"\omega_2\big) + I_{22}\omega_2^2\big(I_{22}(I_{22}^2 + 5I_{23}^2)\gamma_2\omega_2 + (I_{22}^2 - 3I_{23}^2)"
-       r"(I_{11}\gamma_1\omega_1 + I_{23}\gamma_3\omega_2)\big)",
+    r"\omega_2\big) + I_{22}\omega_2^2\big(I_{22}(I_{22}^2 + 5I_{23}^2)\gamma_2\omega_2 + (I_{22}^2 - 3I_{23}^2)"
+    r"(I_{11}\gamma_1\omega_1 + I_{23}\gamma_3\omega_2)\big)",
 }
 
 
 def formula(k: int) -> str:
     """F2 in LaTeX, case 1 of `eq834`: written out for k = 1 and 3, otherwise as a sum.  Raises `InvalidParameter`."""
     _check_order(k)
-    return _FORMULAS.get(k, (
-        rf"F_2 = \sum_{{j=0}}^{{{(k - 1) // 2}}} \omega_1^{{{k - 1}-2j}}\omega_2^{{2j}}"
-        r"\big(a_j\gamma_1\omega_1 + (b_j\gamma_2 + c_j\gamma_3)\omega_2\big)"))
+    return _FORMULAS.get(
+        k,
+        (
+            rf"F_2 = \sum_{{j=0}}^{{{(k - 1) // 2}}} \omega_1^{{{k - 1}-2j}}\omega_2^{{2j}}"
+            r"\big(a_j\gamma_1\omega_1 + (b_j\gamma_2 + c_j\gamma_3)\omega_2\big)"
+        ),
+    )

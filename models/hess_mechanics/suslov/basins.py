@@ -22,7 +22,13 @@ from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.section import SuslovSection, mean_divergence
 
 __all__ = [
-    "Contraction", "contraction", "contraction_at", "count_attractors", "groups", "groups_of_cells", "middle_cells",
+    "Contraction",
+    "contraction",
+    "contraction_at",
+    "count_attractors",
+    "groups",
+    "groups_of_cells",
+    "middle_cells",
     "middles",
 ]
 
@@ -101,8 +107,9 @@ def middle_cells(ends: Array, cells: Array) -> list[tuple[int, int]]:
     return [(row, column) for row, column in np.argwhere(there)[middles(ends[there], cells[there])].tolist()]
 
 
-def contraction_at(section: SuslovSection, window: Window, cells: tuple[int, int], row: int, column: int, span: float
-                   ) -> Contraction:
+def contraction_at(
+    section: SuslovSection, window: Window, cells: tuple[int, int], row: int, column: int, span: float
+) -> Contraction:
     """`contraction` of the motion from the middle of one of the cells (m, n) across and up a window."""
     states, _ = section.cells_of_row(window, cells, row)
     return contraction(section.body, states[column].tolist(), span)
@@ -113,8 +120,9 @@ def _width(part: Array) -> float:
     return float(high - low)
 
 
-def count_attractors(section: SuslovSection, cells: tuple[int, int], crossings: int, span: float, level: Accuracy
-                      ) -> int:
+def count_attractors(
+    section: SuslovSection, cells: tuple[int, int], crossings: int, span: float, level: Accuracy
+) -> int:
     """How many of the groups of a whole section attract, from the orbits of cells (m, n) across and up.
 
     crossings : of each orbit; span : the time over which the divergence of one motion of each group is averaged.
@@ -122,5 +130,7 @@ def count_attractors(section: SuslovSection, cells: tuple[int, int], crossings: 
     """
     window = ((-math.pi, 0.0), (math.pi, math.pi))
     ends = np.array([section.ends(window, cells, row, crossings, level=level) for row in range(cells[1])])
-    return sum(contraction_at(section, window, cells, *cell, span).attracts
-               for cell in middle_cells(ends, groups_of_cells(ends)))
+    return sum(
+        contraction_at(section, window, cells, *cell, span).attracts
+        for cell in middle_cells(ends, groups_of_cells(ends))
+    )

@@ -114,12 +114,14 @@ def shape(body: SuslovBody) -> PassageConstants:
     I11, I22, I13, I23, *b = body.parameters
     if any(b):
         raise InvalidParameter(
-            "There is a field: the free motion and its scattering are of b = 0. Set b1 = b2 = b3 = 0.")
+            "There is a field: the free motion and its scattering are of b = 0. Set b1 = b2 = b3 = 0."
+        )
     J = math.hypot(I13, I23)
     if not J > 0.0:
         raise InvalidParameter(
             "With I13 = I23 = 0 and no field ω does not change: there is no line of equilibria, no ξ and no "
-            "scattering. Choose I13 or I23 other than 0.")
+            "scattering. Choose I13 or I23 other than 0."
+        )
     n1, n2 = I13 / J, I23 / J
     w = I22 * n1 * n1 + I11 * n2 * n2
     mean = math.sqrt(I11) * math.sqrt(I22)
@@ -130,7 +132,8 @@ def shape(body: SuslovBody) -> PassageConstants:
         about = f"about {angle:.2g}" if math.isfinite(angle) else "more than 1e308"
         raise WorkLimit(
             f"γ turns too often while ω passes from the unstable to the stable point ({about} radians; at most "
-            f"{_MAX_SHAPE:g} are computed): choose larger I13, I23, or I11 and I22 less different.")
+            f"{_MAX_SHAPE:g} are computed): choose larger I13, I23, or I11 and I22 less different."
+        )
     return PassageConstants(frozen(np.array([n2, -n1, 0.0])), frozen(np.array([n1, n2, 0.0])), J, w, K, kappa, c)
 
 
@@ -153,8 +156,11 @@ class Equilibria:
         """γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3), η = e3 × ξ."""
         x1, x2, _ = self.xi
         across = math.sqrt(max(0.0, 1.0 - Gamma * Gamma))
-        return (float(Gamma * x1 - across * math.cos(phi) * x2), float(Gamma * x2 + across * math.cos(phi) * x1),
-                across * math.sin(phi))
+        return (
+            float(Gamma * x1 - across * math.cos(phi) * x2),
+            float(Gamma * x2 + across * math.cos(phi) * x1),
+            across * math.sin(phi),
+        )
 
 
 def _rate(body: SuslovBody, of: PassageConstants, r: float) -> float:
@@ -241,7 +247,8 @@ def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
     if s == 0:
         raise InvalidParameter(
             "ω(0) lies on the line of equilibria I13ω1 + I23ω2 = 0: ω stays there, and γ turns about ξ for ever. "
-            "Move ω off the line.")
+            "Move ω off the line."
+        )
     rate = _rate(body, of, r)
     speed = r / math.sqrt(of.w)
     if not (math.isfinite(rate) and rate > 0.0 and math.isfinite(speed)):
@@ -368,8 +375,16 @@ def rotation(body: SuslovBody, omega: Sequence[float], times: Sequence[float] | 
     require_finite_states(velocity)
     wall_ms = (time.perf_counter() - start) * 1e3
     absolute = error * max(1.0, motion.rate * of.size)
-    return FreeRotation(frozen(t), frozen(velocity), frozen(found), frozen(limits), motion, status_of(error, level),
-                        absolute, Cost(steps, wall_ms))
+    return FreeRotation(
+        frozen(t),
+        frozen(velocity),
+        frozen(found),
+        frozen(limits),
+        motion,
+        status_of(error, level),
+        absolute,
+        Cost(steps, wall_ms),
+    )
 
 
 def _tail(u: Array | float) -> Array:
@@ -425,15 +440,23 @@ class FreeMotion(Result):
 
     def labels(self) -> Labels:
         """ω, γ, Γ and the phase φ over t."""
-        named = {name: (("t",), values) for name, values in zip(
-            (*SYSTEM.variables, "Γ", "φ"), (*self.omega.T, *self.gamma.T, self.Gamma, self.phase), strict=True)}
-        return Labels({"t": (("t",), self.times)}, named,
-                      {"t": "T", **{name: unit_of(name) for name in named}, "φ": "rad"},
-                      {"Γ⁻": self.limits[0], "Γ⁺": self.limits[1], **facts_of(self)})
+        named = {
+            name: (("t",), values)
+            for name, values in zip(
+                (*SYSTEM.variables, "Γ", "φ"), (*self.omega.T, *self.gamma.T, self.Gamma, self.phase), strict=True
+            )
+        }
+        return Labels(
+            {"t": (("t",), self.times)},
+            named,
+            {"t": "T", **{name: unit_of(name) for name in named}, "φ": "rad"},
+            {"Γ⁻": self.limits[0], "Γ⁺": self.limits[1], **facts_of(self)},
+        )
 
 
-def free_motion(body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], times: Sequence[float] | Array,
-                level: Accuracy) -> FreeMotion:
+def free_motion(
+    body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], times: Sequence[float] | Array, level: Accuracy
+) -> FreeMotion:
     """The motion from ω(0) (2,) and γ(0) (3,) at times as in `orbit.solve`.
 
     γ(0) is normalised, with a note where that changed it.  Raises as `rotation`.
@@ -462,18 +485,30 @@ def free_motion(body: SuslovBody, omega: Sequence[float], gamma: Sequence[float]
         raise InvalidParameter("The energy leaves the range of double precision: choose a less extreme ω.")
     limits = np.clip(turned.limits @ np.array(unit), -1.0, 1.0)
     cost = Cost(turned.cost.steps, (time.perf_counter() - begun) * 1e3)
-    return FreeMotion(turned.times, turned.omega, frozen(vertical), frozen(vertical @ of.xi),
-                      frozen(np.arctan2(vertical[:, 2], vertical @ of.eta)), (float(limits[0]), float(limits[1])),
-                      turned.passage, level.name, turned.status, turned.error_estimate, drift, cost,
-                      (note,) if note else ())
+    return FreeMotion(
+        turned.times,
+        turned.omega,
+        frozen(vertical),
+        frozen(vertical @ of.xi),
+        frozen(np.arctan2(vertical[:, 2], vertical @ of.eta)),
+        (float(limits[0]), float(limits[1])),
+        turned.passage,
+        level.name,
+        turned.status,
+        turned.error_estimate,
+        drift,
+        cost,
+        (note,) if note else (),
+    )
 
 
 _PASSING = 20.0
 """Beyond |u| = 20 the rotation of γ is uniform to 1e-8."""
 
 
-def sample_times(body: SuslovBody, omega: Sequence[float], span: float, weights: tuple[float, float], sagitta: float,
-                 most: int) -> Array:
+def sample_times(
+    body: SuslovBody, omega: Sequence[float], span: float, weights: tuple[float, float], sagitta: float, most: int
+) -> Array:
     """At most `most` times from 0 to `span` (not 0) at which straight lines between samples look like the curves.
 
     weights : pixels per unit of ω and of γ; sagitta : largest distance between curve and chord, in pixels, as in
@@ -510,14 +545,22 @@ def sample_times(body: SuslovBody, omega: Sequence[float], span: float, weights:
     return times
 
 
-def sampled_motion(body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], span: float,
-                   weights: tuple[float, float], level: Accuracy, most: int = MOST_SAMPLES) -> FreeMotion:
+def sampled_motion(
+    body: SuslovBody,
+    omega: Sequence[float],
+    gamma: Sequence[float],
+    span: float,
+    weights: tuple[float, float],
+    level: Accuracy,
+    most: int = MOST_SAMPLES,
+) -> FreeMotion:
     """The motion over `span`, at times as `sample_times` says for pictures of these weights.  Raises as `rotation`."""
     return free_motion(body, omega, gamma, sample_times(body, omega, span, weights, SAGITTA, most), level)
 
 
-def turned_along_circle(body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], turn: float, level: Accuracy
-                        ) -> tuple[float, float, float]:
+def turned_along_circle(
+    body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], turn: float, level: Accuracy
+) -> tuple[float, float, float]:
     """γ(0) of the motion with the same ω(0) that comes from the same circle Γ^(−), turned along it by `turn` radians.
 
     Raises as `rotation`.

@@ -33,8 +33,21 @@ from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.kharlamova_kernels import arcs
 
 __all__ = [
-    "MOST_SAMPLES", "Arc", "PlaneBody", "arc", "equipotentials", "fixed_point_kinds", "forbidden", "mirrored",
-    "missed", "periods", "periods_all_round", "rescaled_time", "sampled_orbit", "state_at", "to_plane",
+    "MOST_SAMPLES",
+    "Arc",
+    "PlaneBody",
+    "arc",
+    "equipotentials",
+    "fixed_point_kinds",
+    "forbidden",
+    "mirrored",
+    "missed",
+    "periods",
+    "periods_all_round",
+    "rescaled_time",
+    "sampled_orbit",
+    "state_at",
+    "to_plane",
 ]
 
 MOST_SAMPLES = 6000
@@ -122,7 +135,8 @@ def state_at(body: PlaneBody, q: Sequence[float], p: Sequence[float]) -> tuple[f
     if left < -_ON_EQUATOR:
         raise InvalidParameter(
             f"q = ({q[0]:.6g}, {q[1]:.6g}) is outside the ellipse q₁²/I₁₁ + q₂²/I₂₂ = 1, where γ₃² would be negative: "
-            "choose a start inside it.")
+            "choose a start inside it."
+        )
     if left > _ON_EQUATOR:
         return (*omega, g1, g2, math.sqrt(left))
     length = math.hypot(g1, g2)
@@ -218,9 +232,15 @@ def _quartic(u0: Array, v0: Array, a: Array, height: float) -> tuple[Array, Arra
     if height == 0.0:
         # On the equator so small a slope is round-off: the point is fixed.
         slope[np.abs(slope) <= 1e-15] = 0.0
-    c = np.column_stack([
-        np.full(len(v), height * height), slope, -np.sum(v * v, axis=1) - bent @ u0,
-        -np.sum(v * bent, axis=1), -0.25 * np.sum(bent * bent, axis=1)])
+    c = np.column_stack(
+        [
+            np.full(len(v), height * height),
+            slope,
+            -np.sum(v * v, axis=1) - bent @ u0,
+            -np.sum(v * bent, axis=1),
+            -0.25 * np.sum(bent * bent, axis=1),
+        ]
+    )
     return c, rate
 
 

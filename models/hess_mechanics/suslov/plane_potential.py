@@ -33,8 +33,16 @@ from hess_mechanics.numerics.results import Array, Mask, Orbit, frozen
 from hess_mechanics.rigid_body.inertia import require_comparable, require_finite, require_positive_definite
 
 __all__ = [
-    "POTENTIALS", "PlaneMotion", "PotentialBody", "equator_energy", "forbidden", "level_curve", "motion_from",
-    "plane_section", "separable_integral", "state_at",
+    "POTENTIALS",
+    "PlaneMotion",
+    "PotentialBody",
+    "equator_energy",
+    "forbidden",
+    "level_curve",
+    "motion_from",
+    "plane_section",
+    "separable_integral",
+    "state_at",
 ]
 
 _TURNS = 200.0
@@ -99,8 +107,10 @@ def gradient(g1: Any, g2: Any, p: Sequence[Any]) -> tuple[Any, Any]:
     """∂U/∂γ1, ∂U/∂γ2."""
     _, _, c1, c2, cubic, quartic = p
     both = g1 * g2
-    return (c1 * g1 + 2 * cubic * both + 2 * quartic * (both * g2),
-            c2 * g2 + cubic * (g1**2 - g2**2) + 2 * quartic * (both * g1))
+    return (
+        c1 * g1 + 2 * cubic * both + 2 * quartic * (both * g2),
+        c2 * g2 + cubic * (g1**2 - g2**2) + 2 * quartic * (both * g1),
+    )
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
@@ -125,8 +135,9 @@ def frequency(y: Array, p: Array) -> Array | float:
     require_comparable(I11, I22)
     square = y[2] ** 2 + y[3] ** 2 + y[4] ** 2
     # |γ1²γ2 − γ2³/3| ≤ |γ|³/3, γ1²γ2² ≤ |γ|⁴/4.
-    largest = (0.5 * max(abs(p[2]), abs(p[3])) * square + abs(p[4]) / 3 * square * np.sqrt(square)
-               + abs(p[5]) / 4 * square**2)
+    largest = (
+        0.5 * max(abs(p[2]), abs(p[3])) * square + abs(p[4]) / 3 * square * np.sqrt(square) + abs(p[5]) / 4 * square**2
+    )
     nu: Array | float = np.sqrt((I11 * y[0] ** 2 + I22 * y[1] ** 2 + 4 * largest) / min(I11, I22))
     return nu
 
@@ -174,12 +185,14 @@ def state_at(body: PotentialBody, E: float, g2: float, w1: float) -> tuple[float
     left = 2.0 * (E - float(body.potential(np.array([0.0, g2])))) - body.I11 * w1 * w1
     if not left > 0.0:
         raise OutsideRegion(
-            f"At γ2 = {g2:.6g}, ω1 = {w1:.6g} no motion with the energy E = {E:.6g} crosses γ1 = 0: choose a larger E.")
+            f"At γ2 = {g2:.6g}, ω1 = {w1:.6g} no motion with the energy E = {E:.6g} crosses γ1 = 0: choose a larger E."
+        )
     return (w1, -math.sqrt(left / body.I22), 0.0, g2, math.sqrt(1.0 - g2 * g2))
 
 
-def plane_section(body: PotentialBody, starts: Sequence[Sequence[float]], crossings: int, level: Accuracy,
-                  most_steps: int = MAX_STEPS) -> SectionPoints:
+def plane_section(
+    body: PotentialBody, starts: Sequence[Sequence[float]], crossings: int, level: Accuracy, most_steps: int = MAX_STEPS
+) -> SectionPoints:
     """The first crossings of γ1 = 0, γ1 growing, of each orbit; (γ2, ω1) are coordinates of the section for γ3 > 0.
 
     Raises `InvalidParameter`, `WorkLimit`.
@@ -187,9 +200,15 @@ def plane_section(body: PotentialBody, starts: Sequence[Sequence[float]], crossi
     p = np.array(body.parameters)
     nu = float(np.max(SYSTEM.frequency(np.array(starts, float).T, p)))
     ratio = math.sqrt(max(body.I11, body.I22) / min(body.I11, body.I22))
-    return section_points(body, starts, Plane((0.0, 0.0, 1.0, 0.0, 0.0)),
-                          crossings * _TURNS * ratio / max(nu, 1e-300), level, crossings, most_steps=most_steps)
-
+    return section_points(
+        body,
+        starts,
+        Plane((0.0, 0.0, 1.0, 0.0, 0.0)),
+        crossings * _TURNS * ratio / max(nu, 1e-300),
+        level,
+        crossings,
+        most_steps=most_steps,
+    )
 
 
 # ---- for a picture ----------------------------------------------------------------------------------------------
@@ -242,8 +261,9 @@ def motion_from(body: PotentialBody, start: tuple[float, ...], span: float, leve
     first, second = (crossed(int(i)) for i in after[:2])
     period = 2.0 * (second - first)
     back = solve(body, start, [period], level).states[0]
-    return PlaneMotion(orbit, energy, int(after.size), period, float(np.abs(back - np.array(start)).max()), False,
-                       integral)
+    return PlaneMotion(
+        orbit, energy, int(after.size), period, float(np.abs(back - np.array(start)).max()), False, integral
+    )
 
 
 def _radius(body: PotentialBody, value: float) -> tuple[Array, Array]:
@@ -264,8 +284,11 @@ def level_curve(body: PotentialBody, value: float) -> list[Array]:
     inside: Mask = radius < 1.0 - 1e-9
     cuts = np.flatnonzero(inside[1:] != inside[:-1]) + 1
     curve = radius[:, None] * along
-    return [frozen(part) for part, kept in zip(np.split(curve, cuts), np.split(inside, cuts), strict=True)
-            if kept[0] and len(part) > 1]
+    return [
+        frozen(part)
+        for part, kept in zip(np.split(curve, cuts), np.split(inside, cuts), strict=True)
+        if kept[0] and len(part) > 1
+    ]
 
 
 def forbidden(body: PotentialBody, energy: float) -> list[Array]:

@@ -100,8 +100,9 @@ def conformal(body: SuslovBody, start: Sequence[float], span: float, level: Accu
         by_brackets = np.array([y[4] * sum(a * b for a, b in zip(row, gradient, strict=True)) for row in P])
     rates = np.array(SYSTEM.field(list(y), p))
     away = np.abs(by_brackets - rates)[:, y[4] != 0.0].max(initial=0.0) / max(float(np.abs(rates).max()), 1e-300)
-    return Conformal(orbit, frozen(tau), frozen(np.stack(values, axis=-1)), float(np.abs(tau[::2] - coarse).max()),
-                     float(away))
+    return Conformal(
+        orbit, frozen(tau), frozen(np.stack(values, axis=-1)), float(np.abs(tau[::2] - coarse).max()), float(away)
+    )
 
 
 def _integral(span: float, values: Array, rates: Array) -> Array:

@@ -14,15 +14,15 @@ from hess_mechanics.numerics.balls import ArbBall, Enclosure, ExactNumber, exact
 __all__ = ["proved_cos_chi", "proved_period", "proved_radial_period"]
 
 
-
 def _positive(**moments: Fraction) -> None:
     for name, value in moments.items():
         if value <= 0:
             raise NotPositiveDefinite(f"{name} = {float(value):g}: choose {name} > 0.")
 
 
-def proved_cos_chi(I11: ExactNumber, I22: ExactNumber, I13: ExactNumber, I23: ExactNumber,
-                   digits: int = 30) -> Enclosure:
+def proved_cos_chi(
+    I11: ExactNumber, I22: ExactNumber, I13: ExactNumber, I23: ExactNumber, digits: int = 30
+) -> Enclosure:
     """cos χ of the free problem for every tensor, see `scattering`: 2|A|² − 1,
 
     |A|² = (Re C/cosh(πK/2))² + (Im C/sinh(πK/2))², C = cos(π/2 √(κ² − (K + ic)²)).
@@ -48,9 +48,15 @@ def proved_cos_chi(I11: ExactNumber, I22: ExactNumber, I13: ExactNumber, I23: Ex
     return to_digits(digits, compute)
 
 
-def proved_period(I11: ExactNumber, I22: ExactNumber, b1: ExactNumber, b2: ExactNumber,
-                  omega: tuple[ExactNumber, ExactNumber], gamma: tuple[ExactNumber, ExactNumber], digits: int = 30
-                  ) -> Enclosure:
+def proved_period(
+    I11: ExactNumber,
+    I22: ExactNumber,
+    b1: ExactNumber,
+    b2: ExactNumber,
+    omega: tuple[ExactNumber, ExactNumber],
+    gamma: tuple[ExactNumber, ExactNumber],
+    digits: int = 30,
+) -> Enclosure:
     """The period T of an orbit of Kharlamova's case, b3 = 0, from (ω1, ω2) and (γ1, γ2) off the equator, |γ| = 1.
 
     T = 2πs/AGM(√((A − C + √(R₊R₋))/2), (R₊R₋)^¼), see `kharlamova`.  An orbit that is asymptotic has none.
@@ -88,8 +94,13 @@ def _dot(x: list[Fraction], y: list[Fraction]) -> Fraction:
     return x[0] * y[0] + x[1] * y[1]
 
 
-def proved_radial_period(inertia: ExactNumber, b3: ExactNumber, omega: tuple[ExactNumber, ExactNumber],
-                         gamma: tuple[ExactNumber, ExactNumber], digits: int = 30) -> Enclosure:
+def proved_radial_period(
+    inertia: ExactNumber,
+    b3: ExactNumber,
+    omega: tuple[ExactNumber, ExactNumber],
+    gamma: tuple[ExactNumber, ExactNumber],
+    digits: int = 30,
+) -> Enclosure:
     """The time T in which |ω| and γ3 come back for b1 = b2 = 0, I11 = I22 = I, from ω and (γ1, γ2), γ3 > 0, |γ| = 1.
 
     With h = E and ρ = |q|², q as in `quartic`, γ3 = e − kρ, e = h/b3, k = b3/(2I), and M = (ω1γ1 + ω2γ2) I/b3,

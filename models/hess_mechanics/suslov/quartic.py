@@ -29,8 +29,17 @@ from hess_mechanics.rigid_body.inertia import require_finite, require_positive_d
 from hess_mechanics.suslov.equations import SYSTEM
 
 __all__ = [
-    "QuarticBody", "QuarticSection", "angular_momentum", "level_error", "quartic_section", "seeds", "spread_section",
-    "start_on_section", "state_at", "state_on_section", "visited",
+    "QuarticBody",
+    "QuarticSection",
+    "angular_momentum",
+    "level_error",
+    "quartic_section",
+    "seeds",
+    "spread_section",
+    "start_on_section",
+    "state_at",
+    "state_on_section",
+    "visited",
 ]
 
 _TURNS = 120.0
@@ -65,14 +74,14 @@ class QuarticBody:
         if self.b3 == 0.0:
             raise NoField("b3 = 0: without a field γ₃ does not follow from the energy. Choose b3 other than 0.")
         if not self.h > -abs(self.b3):
-            raise OutsideRegion(
-                f"No motion has the energy h = {self.h:g}: choose h above −|b3| = {-abs(self.b3):.6g}.")
+            raise OutsideRegion(f"No motion has the energy h = {self.h:g}: choose h above −|b3| = {-abs(self.b3):.6g}.")
         smallest, largest = sorted(self.axes)
         if not 1.0 / _MOST_SIZE <= smallest <= largest <= _MOST_SIZE:
             sizes = " and ".join(f"{one:.2g}" if math.isfinite(one) else "beyond 1e308" for one in self.axes)
             raise InvalidParameter(
                 f"The region in the plane has half axes {sizes}, which no picture can show: choose h, b3 and the "
-                "moments of inertia less different in size.")
+                "moments of inertia less different in size."
+            )
 
     @property
     def system(self) -> System:
@@ -214,7 +223,8 @@ def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[f
     if abs(g3) > 1.0 + _EDGE:
         raise OutsideRegion(
             f"At q = ({q[0]:.6g}, {q[1]:.6g}) the potential is {0.5 * g3 * g3:.6g}, above the level ½: γ₃ would be "
-            f"{g3:.6g}. Choose a start that is not grey.")
+            f"{g3:.6g}. Choose a start that is not grey."
+        )
     g3 = min(1.0, max(-1.0, g3))
     size = math.sqrt((1.0 - g3) * (1.0 + g3))
     omega = (-body.b3 * q[1] / body.I11, body.b3 * q[0] / body.I22)
@@ -262,8 +272,9 @@ def seeds(body: QuarticBody, count: int) -> list[tuple[float, ...]]:
     return found
 
 
-def quartic_section(body: QuarticBody, starts: Sequence[Sequence[float]], crossings: int, level: Accuracy,
-                    most_steps: int) -> SectionPoints:
+def quartic_section(
+    body: QuarticBody, starts: Sequence[Sequence[float]], crossings: int, level: Accuracy, most_steps: int
+) -> SectionPoints:
     """The first crossings of `body.plane` by each orbit, states as in `section_points`.
 
     most_steps : per orbit.  Raises `InvalidParameter`, `WorkLimit`.
@@ -275,8 +286,10 @@ def quartic_section(body: QuarticBody, starts: Sequence[Sequence[float]], crossi
     try:
         return section_points(body, starts, body.plane, end, level, crossings, most_steps=most_steps)
     except WorkLimit:
-        raise WorkLimit(f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
-                        "a smaller h, or I11 and I22 less different.") from None
+        raise WorkLimit(
+            f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
+            "a smaller h, or I11 and I22 less different."
+        ) from None
 
 
 def spread_section(body: QuarticBody, orbits: int, crossings: int, level: Accuracy, most_steps: int) -> SectionPoints:

@@ -69,10 +69,12 @@ class Scattering(Result):
     def labels(self) -> Labels:
         """θ⁺ over θ⁻ and φ."""
         theta, phi = np.linspace(0.0, math.pi, 91), np.linspace(-math.pi, math.pi, 181)
-        return Labels({"θ⁻": (("θ⁻",), theta), "φ": (("φ",), phi)},
-                      {"θ⁺": (("θ⁻", "φ"), self.theta_plus(theta[:, None], phi[None, :]))},
-                      {"θ⁻": "rad", "φ": "rad", "θ⁺": "rad"},
-                      {"cos χ": self.cos_chi, "φ*": self.phi_star, **facts_of(self)})
+        return Labels(
+            {"θ⁻": (("θ⁻",), theta), "φ": (("φ",), phi)},
+            {"θ⁺": (("θ⁻", "φ"), self.theta_plus(theta[:, None], phi[None, :]))},
+            {"θ⁻": "rad", "φ": "rad", "θ⁺": "rad"},
+            {"cos χ": self.cos_chi, "φ*": self.phi_star, **facts_of(self)},
+        )
 
     def theta_plus(self, theta: Array | float, phi: Array | Sequence[float] | float) -> Array:
         """θ⁺ in [0, π]; the shape to which θ⁻ and φ broadcast."""
@@ -107,7 +109,8 @@ def _u_at(of: PassageConstants, distance: float) -> float:
     if not 0.0 < distance <= most:
         raise InvalidParameter(
             f"The distance {distance:g} of the start from the unstable point is not on the arc: choose one above 0 and "
-            f"up to {most:.6g}, in units of the angular velocity there.")
+            f"up to {most:.6g}, in units of the angular velocity there."
+        )
     ratio = of.K / of.kappa * distance
     if ratio < 1e-8:
         return math.log(0.5) + math.log(of.K / of.kappa) + math.log(distance)
@@ -146,8 +149,19 @@ def scattering(body: SuslovBody, level: Accuracy, arc: int = 1, distance: float 
     cosine, sine = abs(alpha) ** 2 - abs(beta) ** 2, 2.0 * abs(alpha) * abs(beta)
     phi_star = cmath.phase(-(alpha * beta).conjugate()) if sine > 0.0 else 0.0
     wall_ms = (time.perf_counter() - begun) * 1e3
-    return Scattering(arc, distance, level.name, alpha, beta, min(1.0, max(-1.0, cosine)), min(1.0, sine), phi_star,
-                      status_of(error, level), min(error, 2.0), Cost(steps, wall_ms))
+    return Scattering(
+        arc,
+        distance,
+        level.name,
+        alpha,
+        beta,
+        min(1.0, max(-1.0, cosine)),
+        min(1.0, sine),
+        phi_star,
+        status_of(error, level),
+        min(error, 2.0),
+        Cost(steps, wall_ms),
+    )
 
 
 def cos_chi(body: SuslovBody) -> float:
@@ -186,8 +200,9 @@ def theta_plus_grid(found: Scattering, m: int, n: int) -> Array:
     return frozen(found.theta_plus(theta[:, None], phi[None, :]))
 
 
-def start(body: SuslovBody, h: float, theta: float, phi: float, distance: float, arc: int = 1
-          ) -> tuple[tuple[float, float], tuple[float, float, float]]:
+def start(
+    body: SuslovBody, h: float, theta: float, phi: float, distance: float, arc: int = 1
+) -> tuple[tuple[float, float], tuple[float, float, float]]:
     """ω(0), γ(0) of the orbit with energy h that starts at θ⁻ and azimuth φ, at `distance` from the unstable point.
 
     φ is the phase of `scattering` with that distance.  For I13 I23 ≠ 0 rounding ω to doubles limits how well the time

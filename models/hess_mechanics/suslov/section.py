@@ -33,9 +33,20 @@ from hess_mechanics.suslov import principal_axis
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
 __all__ = [
-    "MeanDivergence", "SuslovSection", "coordinates", "divergence", "invariant_density", "lowest_energy",
+    "MeanDivergence",
+    "SuslovSection",
+    "coordinates",
+    "divergence",
+    "invariant_density",
+    "lowest_energy",
     "mean_divergence",
-    "plane_of", "possible", "require_reached", "seeds", "state_at", "states_at", "suslov_points",
+    "plane_of",
+    "possible",
+    "require_reached",
+    "seeds",
+    "state_at",
+    "states_at",
+    "suslov_points",
 ]
 
 _TURNS = 40.0
@@ -94,8 +105,10 @@ def state_at(body: SuslovBody, E: float, k: int, psi: float, delta: float) -> tu
     """The state (5,) on γ_k = 0 at (ψ, δ).  Raises `InvalidParameter` where the energy E is impossible."""
     states, ok = states_at(body, E, k, np.array([psi]), np.array([delta]))
     if not ok[0]:
-        raise InvalidParameter(f"At ψ = {psi:.6g}, δ = {delta:.6g} no motion has the energy E = {E:.6g}: choose a "
-                               "larger energy, or another point with 0 < δ < π.")
+        raise InvalidParameter(
+            f"At ψ = {psi:.6g}, δ = {delta:.6g} no motion has the energy E = {E:.6g}: choose a "
+            "larger energy, or another point with 0 < δ < π."
+        )
     return tuple(map(float, states[0]))
 
 
@@ -175,8 +188,16 @@ def seeds(body: SuslovBody, E: float, k: int, window: Sequence[float], count: in
     return tuple(tuple(map(float, state)) for state in states[ok])
 
 
-def suslov_points(body: SuslovBody, k: int, starts: Sequence[Sequence[float]], crossings: int, forward: bool,
-                  level: Accuracy, threads: int = THREADS, most_steps: int = MAX_STEPS) -> SectionPoints:
+def suslov_points(
+    body: SuslovBody,
+    k: int,
+    starts: Sequence[Sequence[float]],
+    crossings: int,
+    forward: bool,
+    level: Accuracy,
+    threads: int = THREADS,
+    most_steps: int = MAX_STEPS,
+) -> SectionPoints:
     """The first `crossings` crossings of γ_k = 0 by each orbit, forward or backward in time, as in `section_points`.
 
     Raises `InvalidParameter`, `WorkLimit`.
@@ -184,8 +205,7 @@ def suslov_points(body: SuslovBody, k: int, starts: Sequence[Sequence[float]], c
     nu = float(np.max(SYSTEM.frequency(np.array(starts, float).T, np.array(body.parameters))))
     ratio = math.sqrt(max(body.I11, body.I22) / min(body.I11, body.I22))
     end = crossings * _TURNS * ratio / max(nu, 1e-300)
-    return section_points(body, starts, plane_of(k), end if forward else -end, level, crossings,
-                          threads, most_steps)
+    return section_points(body, starts, plane_of(k), end if forward else -end, level, crossings, threads, most_steps)
 
 
 def divergence(body: SuslovBody, states: Array) -> Array:
@@ -286,8 +306,15 @@ class SuslovSection(PoincareSection):
         m, n = cells
         return self.states_at(centres(x0, x1, m), np.full(m, centres(y0, y1, n)[row]))
 
-    def ends(self, window: Window, cells: tuple[int, int], row: int, crossings: int, most_steps: int = MAX_STEPS,
-             level: Accuracy = DRAFT) -> Array:
+    def ends(
+        self,
+        window: Window,
+        cells: tuple[int, int],
+        row: int,
+        crossings: int,
+        most_steps: int = MAX_STEPS,
+        level: Accuracy = DRAFT,
+    ) -> Array:
         """The mean of ω1 over the last third of the crossings of the orbits from the cells of a row.
 
         cells : (m, n) across and up the window; of shape (m,), ∞ where there is no orbit.  Raises `WorkLimit`.
@@ -295,10 +322,12 @@ class SuslovSection(PoincareSection):
         states, ok = self.cells_of_row(window, cells, row)
         out = np.full(cells[0], np.inf)
         if ok.any():
-            found = suslov_points(self.body, self.k, states[ok].tolist(), crossings, True, level, threads=1,
-                                  most_steps=most_steps)
-            out[ok] = [float(orbit[2 * len(orbit) // 3 :, 0].mean()) if len(orbit) > 30 else math.inf
-                       for orbit in found.states]
+            found = suslov_points(
+                self.body, self.k, states[ok].tolist(), crossings, True, level, threads=1, most_steps=most_steps
+            )
+            out[ok] = [
+                float(orbit[2 * len(orbit) // 3 :, 0].mean()) if len(orbit) > 30 else math.inf for orbit in found.states
+            ]
         return frozen(out)
 
 

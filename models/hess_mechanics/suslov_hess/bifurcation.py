@@ -18,7 +18,14 @@ from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation_kernels import f_max_and_roots, largest_f, largest_f_into
 
 __all__ = [
-    "SPECIAL_POINTS", "TurningPoints", "curve", "curve_point", "f_max", "f_max_each", "h_min", "reach",
+    "SPECIAL_POINTS",
+    "TurningPoints",
+    "curve",
+    "curve_point",
+    "f_max",
+    "f_max_each",
+    "h_min",
+    "reach",
     "turning_points",
 ]
 

@@ -50,10 +50,16 @@ def claim(proof: Proof | EdgeProof) -> str:
     """
     place = f"h = {_short(proof.h)}, f = {_short(proof.f)}"
     if isinstance(proof, EdgeProof):
-        moves = ("has exactly two equilibria, one attracts and one repels the other motions on it; at both the body "
-                 "turns steadily about the vertical" if proof.statement == TWO_EQUILIBRIA else "is one periodic orbit")
-        return (f"Proved: {place} lies on the edge of the possible (h, f), so there is no torus and no limit cycle, "
-                f"and n3 = {_short(proof.n)} stays. For a = {_short(proof.a)} the circle of these states {moves}.")
+        moves = (
+            "has exactly two equilibria, one attracts and one repels the other motions on it; at both the body "
+            "turns steadily about the vertical"
+            if proof.statement == TWO_EQUILIBRIA
+            else "is one periodic orbit"
+        )
+        return (
+            f"Proved: {place} lies on the edge of the possible (h, f), so there is no torus and no limit cycle, "
+            f"and n3 = {_short(proof.n)} stays. For a = {_short(proof.a)} the circle of these states {moves}."
+        )
     of = f"the torus {place} for a = {_short(proof.a)}"
     if proof.statement == TWO_CYCLES:
         return f"Proved: {of} has exactly two limit cycles, one attracts and one repels."
@@ -82,23 +88,49 @@ def certificate(proof: Proof | EdgeProof) -> dict[str, Any]:
     'no cycle'
     """
     library = flint()
-    given = {"a": str(proof.a), "h": str(proof.h), "f": str(proof.f), "statement": proof.statement,
-             "fixed_points": _pairs(proof.fixed_points)}
-    versions = {"versions": {"hess-explorer": _version(), "python-flint": library.__version__,
-                             "flint": library.__FLINT_VERSION__, "python": platform.python_version()}}
+    given = {
+        "a": str(proof.a),
+        "h": str(proof.h),
+        "f": str(proof.f),
+        "statement": proof.statement,
+        "fixed_points": _pairs(proof.fixed_points),
+    }
+    versions = {
+        "versions": {
+            "hess-explorer": _version(),
+            "python-flint": library.__version__,
+            "flint": library.__FLINT_VERSION__,
+            "python": platform.python_version(),
+        }
+    }
     if isinstance(proof, EdgeProof):
-        return {"format": EDGE_FORMAT, **given, "n": str(proof.n), "rates": _pairs(proof.rates),
-                "period": None if proof.period is None else _pair(proof.period), **versions}
+        return {
+            "format": EDGE_FORMAT,
+            **given,
+            "n": str(proof.n),
+            "rates": _pairs(proof.rates),
+            "period": None if proof.period is None else _pair(proof.period),
+            **versions,
+        }
     return {
-        "format": FORMAT, **given,
+        "format": FORMAT,
+        **given,
         "trace": list(proof.trace_decimals),
         "trace_ball": _pair(proof.trace),
         "rotation_number": None if proof.rotation_number is None else _pair(proof.rotation_number),
         "multipliers": _pairs(proof.multipliers),
         "roots": _pairs(proof.roots),
         "half": _pairs(proof.half),
-        "steps": [{"start": str(step.start), "radius": str(step.radius), "bound": str(step.bound),
-                   "terms": step.terms, "matrix": _pairs(step.matrix)} for step in proof.steps],
+        "steps": [
+            {
+                "start": str(step.start),
+                "radius": str(step.radius),
+                "bound": str(step.bound),
+                "terms": step.terms,
+                "matrix": _pairs(step.matrix),
+            }
+            for step in proof.steps
+        ],
         "bits": proof.bits,
         "seconds": round(proof.seconds, 4),
         **versions,

@@ -37,7 +37,14 @@ from hess_mechanics.suslov_hess.bifurcation_kernels import largest_f
 from hess_mechanics.suslov_hess.circle_map_kernels import images, matrices_into, theta_of
 
 __all__ = [
-    "CircleMap", "FixedPoint", "Phases", "circle_map", "discriminants", "matrices", "neighbours", "rotation_numbers_of",
+    "CircleMap",
+    "FixedPoint",
+    "Phases",
+    "circle_map",
+    "discriminants",
+    "matrices",
+    "neighbours",
+    "rotation_numbers_of",
     "theta_at",
 ]
 
@@ -79,6 +86,7 @@ def rotation_numbers_of(rows: Array) -> Array:
     turning = k + np.arctan2(np.sqrt(np.maximum(-discriminant, 0.0)), sign * re) / np.pi
     rho: Array = np.where(discriminant < 0.0, turning, np.round(zeta / np.pi)) + 0.0  # no −0.0
     return rho
+
 
 _EVEN = np.linspace(-math.pi, math.pi, 193)
 
@@ -142,9 +150,21 @@ class CircleMap(Result):
     def labels(self) -> Labels:
         """Θ over φ, continued without jumps."""
         phi, theta = self.graph
-        return Labels({"φ": (("φ",), phi)}, {"Θ": (("φ",), theta)}, {"φ": "rad", "Θ": "rad"}, {
-            "a": self.a, "h": self.h, "f": self.f, "kind": self.kind, "trace": self.trace,
-            "rotation number": self.rotation_number, "period": self.period, **facts_of(self)})
+        return Labels(
+            {"φ": (("φ",), phi)},
+            {"Θ": (("φ",), theta)},
+            {"φ": "rad", "Θ": "rad"},
+            {
+                "a": self.a,
+                "h": self.h,
+                "f": self.f,
+                "kind": self.kind,
+                "trace": self.trace,
+                "rotation number": self.rotation_number,
+                "period": self.period,
+                **facts_of(self),
+            },
+        )
 
     @property
     def alpha_beta(self) -> tuple[complex, complex]:
@@ -296,5 +316,20 @@ def circle_map(a: float, h: float, f: float, level: Accuracy) -> CircleMap:
     if kind == "parabolic":
         rho = round(rho) + 0.0
     wall_ms = (time.perf_counter() - start) * 1e3
-    return CircleMap(a, h, f, level.name, (re, im, im_beta), log_scale, kind, trace, log_trace, rho, fixed,
-                     turning.period, status, error, Cost(int(total), wall_ms))
+    return CircleMap(
+        a,
+        h,
+        f,
+        level.name,
+        (re, im, im_beta),
+        log_scale,
+        kind,
+        trace,
+        log_trace,
+        rho,
+        fixed,
+        turning.period,
+        status,
+        error,
+        Cost(int(total), wall_ms),
+    )

@@ -37,7 +37,13 @@ from hess_mechanics.suslov_hess.circle_map import CircleMap, discriminants
 from hess_mechanics.suslov_hess.equations import SYSTEM
 
 __all__ = [
-    "CELLS", "InvariantMeasure", "TorusMeasure", "density_on_torus", "invariant_measure", "on_torus", "poisson_kernel",
+    "CELLS",
+    "InvariantMeasure",
+    "TorusMeasure",
+    "density_on_torus",
+    "invariant_measure",
+    "on_torus",
+    "poisson_kernel",
     "seen_from",
 ]
 
@@ -98,7 +104,8 @@ def invariant_measure(theta: CircleMap) -> InvariantMeasure:
     if theta.kind != "elliptic":
         raise InvalidParameter(
             f"At a = {theta.a:g}, h = {theta.h:g}, f = {theta.f:g} the circle map has limit cycles, and no invariant "
-            "measure with a density: choose a torus with |trace| < 2.")
+            "measure with a density: choose a torus with |trace| < 2."
+        )
     _, im, im_beta = theta.matrix
     # β̄z² + (ᾱ − α)z − β = 0 with an imaginary β; of its roots, ζ and 1/ζ, that inside.
     root = math.sqrt(max(0.0, -float(discriminants(np.array([*theta.matrix, theta.log_scale])))))
@@ -146,8 +153,9 @@ def on_torus(measure: InvariantMeasure, times: Sequence[float] | Array, level: A
         raise InvalidParameter("f = 0: there w vanishes at the lower turning point, and φ jumps. Choose another f.")
     turning = turning_points(measure.h, measure.f)
     starts = np.angle((_CUBE_ROOTS + measure.zeta) / (1.0 + measure.zeta * _CUBE_ROOTS))
-    found = [solve(SYSTEM.at((measure.a, 1.0)), turning.state_at_lower_turn(phi), times, level)
-             for phi in starts.tolist()]
+    found = [
+        solve(SYSTEM.at((measure.a, 1.0)), turning.state_at_lower_turn(phi), times, level) for phi in starts.tolist()
+    ]
     w1, w2 = np.stack([orbit.states[:, :2] for orbit in found]).transpose(2, 0, 1)
     z1, z2, z3 = (w2 + 1j * w1) / np.hypot(w1, w2)
     one, two, three = _CUBE_ROOTS
@@ -179,5 +187,6 @@ def density_on_torus(theta: CircleMap, level: Accuracy, cells: tuple[int, int] =
             phi = (2.0 * np.arange(n) + 1.0 - n) * math.pi / n
             relative = 2.0 * math.pi * measure.period * found.density(phi)
             return frozen(np.roll(relative, m // 2, axis=0).T.copy())
-    raise InvalidParameter("The density is too thin to be drawn, all but on one line: choose a smaller |a| or another "
-                           "torus.")
+    raise InvalidParameter(
+        "The density is too thin to be drawn, all but on one line: choose a smaller |a| or another torus."
+    )

@@ -56,8 +56,17 @@ from hess_mechanics.suslov_hess.proof import NO_CYCLE, TWO_CYCLES, UNDECIDED
 from hess_mechanics.suslov_hess.zone_directions import proved_by_directions
 
 __all__ = [
-    "MOST_A", "LockZone", "ZoneCell", "alpha_beta", "cell_area", "cell_outline", "half_over", "lock_zone", "places",
-    "refined", "region_area",
+    "MOST_A",
+    "LockZone",
+    "ZoneCell",
+    "alpha_beta",
+    "cell_area",
+    "cell_outline",
+    "half_over",
+    "lock_zone",
+    "places",
+    "refined",
+    "region_area",
 ]
 
 MOST_A, _MOST_H, _MOST_CELLS = 3.0, 1e3, 100_000
@@ -152,8 +161,9 @@ def refined(zone: LockZone, cells: int) -> LockZone:
         raise InvalidParameter(f"{cells} cells: choose at most {_MOST_CELLS}.")
     done = [cell for cell in zone.cells if cell.statement != UNDECIDED]
     # The counter decides between equal areas, so that cells are never compared.
-    open_ = [(-cell_area(cell, zone.h_end), i, cell) for i, cell in enumerate(zone.cells)
-             if cell.statement == UNDECIDED]
+    open_ = [
+        (-cell_area(cell, zone.h_end), i, cell) for i, cell in enumerate(zone.cells) if cell.statement == UNDECIDED
+    ]
     heapq.heapify(open_)
     count, tried = len(zone.cells), 0
     while open_ and tried < cells:
@@ -319,8 +329,10 @@ def _half_over(a: Fraction, cell: ZoneCell) -> tuple[tuple[ArbBall, ...], int] |
             first, second, each = _bounds(A, centre, ends, radii, s + part)
             rest = _with_rest(rest, step, part, width, first, second)
             change = [old + float(width * new) for old, new in zip(change, each, strict=True)]
-        columns = [([p(delta) + tail for p in xy], [[p(delta) + tail for p in pair] for pair in pairs])
-                   for xy, pairs, tail in step]
+        columns = [
+            ([p(delta) + tail for p in xy], [[p(delta) + tail for p in pair] for pair in pairs])
+            for xy, pairs, tail in step
+        ]
     found, linear, left = [], [], []
     for i, k in ((0, 0), (0, 1), (1, 0), (1, 1)):
         linear.append([columns[k][1][d][i].abs_upper() for d in (0, 1)])
@@ -333,20 +345,28 @@ def _half_over(a: Fraction, cell: ZoneCell) -> tuple[tuple[ArbBall, ...], int] |
     return tuple(found), int(doubt[1] > doubt[0])
 
 
-def _with_rest(rest: list[list[ArbBall]], step: list[Column], part: ArbBall, width: ArbBall, first: Pair, second: Pair
-               ) -> list[list[ArbBall]]:
+def _with_rest(
+    rest: list[list[ArbBall]], step: list[Column], part: ArbBall, width: ArbBall, first: Pair, second: Pair
+) -> list[list[ArbBall]]:
     """Bounds of R at the end of a part of a step, from those at its beginning."""
     X = [[step[k][0][i](part) + step[k][2] for k in (0, 1)] for i in (0, 1)]
     inverse = [[X[1][1], -X[0][1]], [-X[1][0], X[0][0]]]
     Y1 = [[0, 0], [0, 0]]
     for d in (0, 1):
         D = [[step[k][1][d][i](part) + step[k][2] for k in (0, 1)] for i in (0, 1)]
-        Y1 = [[(Y1[i][k] + abs(inverse[i][0] * D[0][k] + inverse[i][1] * D[1][k])).upper() for k in (0, 1)]
-              for i in (0, 1)]
+        Y1 = [
+            [(Y1[i][k] + abs(inverse[i][0] * D[0][k] + inverse[i][1] * D[1][k])).upper() for k in (0, 1)]
+            for i in (0, 1)
+        ]
     F, F2 = _turned(X, first), _turned(X, second)
-    return _grown(F, width, [[
-        (rest[i][k] + width * (F[i][0] * Y1[0][k] + F[i][1] * Y1[1][k] + F2[i][k])).upper() for k in (0, 1)]
-        for i in (0, 1)])
+    return _grown(
+        F,
+        width,
+        [
+            [(rest[i][k] + width * (F[i][0] * Y1[0][k] + F[i][1] * Y1[1][k] + F2[i][k])).upper() for k in (0, 1)]
+            for i in (0, 1)
+        ],
+    )
 
 
 def _plan(a: float, alpha: float, beta: float) -> list[tuple[float, float, int]]:
@@ -372,8 +392,16 @@ def _plan(a: float, alpha: float, beta: float) -> list[tuple[float, float, int]]
     return found
 
 
-def _step(A: ArbBall, centre: list[ArbBall], radii: list[ArbBall], s: ArbBall, r: ArbBall, delta: ArbBall, terms: int,
-          columns: list[tuple[list[ArbBall], list[list[ArbBall]]]]) -> list[Column] | None:
+def _step(
+    A: ArbBall,
+    centre: list[ArbBall],
+    radii: list[ArbBall],
+    s: ArbBall,
+    r: ArbBall,
+    delta: ArbBall,
+    terms: int,
+    columns: list[tuple[list[ArbBall], list[list[ArbBall]]]],
+) -> list[Column] | None:
     """The columns of P and of its derivatives ∂/∂ ln α · radius, ∂/∂ ln β · radius, along a step; None if too long."""
     from flint import arb, arb_poly, arb_series, ctx
 
@@ -402,8 +430,10 @@ def _step(A: ArbBall, centre: list[ArbBall], radii: list[ArbBall], s: ArbBall, r
         dv = radius * v * share * root * root / 2
         derivatives.append([series_coefficients(series, terms) for series in (du - dv, -du - dv)])
         largest = number * (abs(shape.coeffs()[0]) + change / 2) / low
-        most = _largest(most, radius * (u_most * (largest * (1 + high / (2 * (1 + low))) + 0.5)
-                          + v_most * largest / (2 * (1 + low))))
+        most = _largest(
+            most,
+            radius * (u_most * (largest * (1 + high / (2 * (1 + low))) + 0.5) + v_most * largest / (2 * (1 + low))),
+        )
     tau = delta / r
     remainder = ((u_most + v_most + most) * r).exp() * tau**terms / (1 - tau)
 
@@ -415,14 +445,21 @@ def _step(A: ArbBall, centre: list[ArbBall], radii: list[ArbBall], s: ArbBall, r
         for n in range(terms - 1):
             back_x, back_y = x[::-1], y[::-1]
             for (dx, dy), (du, dl) in zip(pairs, derivatives, strict=True):
-                following = (sum(map(mul, upper, dy[::-1]), zero) + sum(map(mul, du, back_y), zero),
-                             sum(map(mul, lower, dx[::-1]), zero) + sum(map(mul, dl, back_x), zero))
+                following = (
+                    sum(map(mul, upper, dy[::-1]), zero) + sum(map(mul, du, back_y), zero),
+                    sum(map(mul, lower, dx[::-1]), zero) + sum(map(mul, dl, back_x), zero),
+                )
                 dx.append(following[0] / (n + 1))
                 dy.append(following[1] / (n + 1))
             x.append(sum(map(mul, upper, back_y), zero) / (n + 1))
             y.append(sum(map(mul, lower, back_x), zero) / (n + 1))
-        found.append(([arb_poly(x), arb_poly(y)], [[arb_poly(dx), arb_poly(dy)] for dx, dy in pairs],
-                      arb(0, (remainder * size).abs_upper())))
+        found.append(
+            (
+                [arb_poly(x), arb_poly(y)],
+                [[arb_poly(dx), arb_poly(dy)] for dx, dy in pairs],
+                arb(0, (remainder * size).abs_upper()),
+            )
+        )
     return found
 
 
@@ -434,8 +471,9 @@ def _largest(*numbers: ArbBall) -> ArbBall:
     return found
 
 
-def _bounds(A: ArbBall, centre: list[ArbBall], ends: list[list[ArbBall]], radii: list[ArbBall], s: ArbBall
-            ) -> tuple[Pair, Pair, list[ArbBall]]:
+def _bounds(
+    A: ArbBall, centre: list[ArbBall], ends: list[list[ArbBall]], radii: list[ArbBall], s: ArbBall
+) -> tuple[Pair, Pair, list[ArbBall]]:
     """Over a cell and a part of a step: bounds of |u'|, |v'|; of ½|u''|, ½|v''|; of |u'| + |v'| along either side."""
     from flint import arb
 
@@ -461,8 +499,10 @@ def _bounds(A: ArbBall, centre: list[ArbBall], ends: list[list[ArbBall]], radii:
     bend = (share * (1 - share)).abs_upper() * (rx + ry) ** 2
     curve = (zeta * (1 - zeta)).abs_upper() / 2 * (shares[0] + shares[1]) ** 2
     first = (u_most * rise).upper(), (v_most * lift).upper()
-    second = ((u_most / 2 * (rise**2 + bend * factor + curve)).upper(),
-              (v_most / 2 * (lift**2 + bend * (one - zeta) / 2 + curve)).upper())
+    second = (
+        (u_most / 2 * (rise**2 + bend * factor + curve)).upper(),
+        (v_most / 2 * (lift**2 + bend * (one - zeta) / 2 + curve)).upper(),
+    )
     return first, second, [(u_most * du[i] + v_most * dv[i]).upper() for i in (0, 1)]
 
 
@@ -479,8 +519,10 @@ def _turned(X: list[list[ArbBall]], most: Pair) -> list[list[ArbBall]]:
     (A, B), (C, D) = X
     e, g = most
     # Row by column of P⁻¹ E P: coefficient of e, and of g.
-    entries = [[(D * C + B * A, B * A - D * C), (D * D + B * B, B * B - D * D)],
-               [(-C * C - A * A, C * C - A * A), (-C * D - A * B, C * D - A * B)]]
+    entries = [
+        [(D * C + B * A, B * A - D * C), (D * D + B * B, B * B - D * D)],
+        [(-C * C - A * A, C * C - A * A), (-C * D - A * B, C * D - A * B)],
+    ]
     return [[(abs(p) * e + abs(q) * g).upper() for p, q in row] for row in entries]
 
 
@@ -489,5 +531,6 @@ def _grown(F: list[list[ArbBall]], width: ArbBall, R: list[list[ArbBall]]) -> li
     T = [[width * x for x in row] for row in F]
     norm = _largest(T[0][0] + T[0][1], T[1][0] + T[1][1])
     more = norm * norm / 2 * norm.exp()
-    return [[(R[i][k] + (T[i][0] + more) * R[0][k] + (T[i][1] + more) * R[1][k]).upper() for k in (0, 1)]
-            for i in (0, 1)]
+    return [
+        [(R[i][k] + (T[i][0] + more) * R[0][k] + (T[i][1] + more) * R[1][k]).upper() for k in (0, 1)] for i in (0, 1)
+    ]

@@ -23,8 +23,16 @@ from hess_mechanics.suslov_hess.bifurcation_kernels import largest_f
 from hess_mechanics.suslov_hess.circle_map import check_a, matrices, rotation_numbers_of
 
 __all__ = [
-    "CELLS", "affordable_cells", "critical_a", "lock_boundary", "lock_boundary_end", "lock_boundary_f",
-    "lock_boundary_h", "rotation_number_grid", "rotation_number_window", "trace_on_curve",
+    "CELLS",
+    "affordable_cells",
+    "critical_a",
+    "lock_boundary",
+    "lock_boundary_end",
+    "lock_boundary_f",
+    "lock_boundary_h",
+    "rotation_number_grid",
+    "rotation_number_window",
+    "trace_on_curve",
 ]
 
 
@@ -221,8 +229,9 @@ def affordable_cells(a: float, cells: tuple[int, int]) -> tuple[int, int]:
     return m, n
 
 
-def rotation_number_window(a: float, h: tuple[float, float], f: tuple[float, float], level: Accuracy,
-                           cells: tuple[int, int] = CELLS) -> Array:
+def rotation_number_window(
+    a: float, h: tuple[float, float], f: tuple[float, float], level: Accuracy, cells: tuple[int, int] = CELLS
+) -> Array:
     """ρ at the centres of the cells (m, n) of a window, shape (n, m).
 
     Cells outside the region take the value at its edge (same h), so that a picture can be clipped along the

@@ -50,8 +50,19 @@ from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.circle_map import MAX_A
 from hess_mechanics.suslov_hess.edge import EdgeProof, prove_edge
 
-__all__ = ["FIRST_BITS", "MOST_BITS", "MOST_WORK", "NO_CYCLE", "TWO_CYCLES", "UNDECIDED", "Proof", "ProofStep",
-           "check_possible", "on_edge", "prove"]
+__all__ = [
+    "FIRST_BITS",
+    "MOST_BITS",
+    "MOST_WORK",
+    "NO_CYCLE",
+    "TWO_CYCLES",
+    "UNDECIDED",
+    "Proof",
+    "ProofStep",
+    "check_possible",
+    "on_edge",
+    "prove",
+]
 
 TWO_CYCLES, NO_CYCLE, UNDECIDED = "two cycles", "no cycle", "undecided"
 FIRST_BITS, MOST_BITS = 64, 512
@@ -110,14 +121,21 @@ class Proof:
         low, high = self.trace.outside_doubles()
         digits = 17
         while (self.statement == TWO_CYCLES and Fraction(low) <= 2) or (
-                self.statement == NO_CYCLE and Fraction(high) >= 2):
+            self.statement == NO_CYCLE and Fraction(high) >= 2
+        ):
             digits *= 2
             low, high = self.trace.decimals(digits)
         return low, high
 
 
-def prove(a: ExactNumber, h: ExactNumber, f: ExactNumber,
-          most_bits: int = MOST_BITS, most_work: float = MOST_WORK, digits: int = 6) -> Proof | EdgeProof:
+def prove(
+    a: ExactNumber,
+    h: ExactNumber,
+    f: ExactNumber,
+    most_bits: int = MOST_BITS,
+    most_work: float = MOST_WORK,
+    digits: int = 6,
+) -> Proof | EdgeProof:
     """Prove that the torus (a, h, f) has exactly two limit cycles, or none; on the edge, how its circle moves.
 
     The precision doubles until the statement is decided and |t| known to `digits` digits, or until `most_bits` or
@@ -170,8 +188,10 @@ def prove(a: ExactNumber, h: ExactNumber, f: ExactNumber,
                     break
             if work > most_work:
                 if found is None:
-                    raise WorkLimit(f"This proof needs more than {len(plan)} steps: choose smaller |a|, or (h, f) "
-                                    "farther from (1, 0).")
+                    raise WorkLimit(
+                        f"This proof needs more than {len(plan)} steps: choose smaller |a|, or (h, f) "
+                        "farther from (1, 0)."
+                    )
                 return found
             found = _proof(at, turns, plan, bits, begun)
         known = found.trace.precision < 10.0**-digits and found.rotation_number is not None
@@ -206,8 +226,10 @@ def check_possible(a: Fraction, h: Fraction, f: Fraction) -> None:
         raise Separatrix("h = 1, f = 0 is the separatrix: no return. Move h or f a little.")
     if _discriminant(h, f) < 0:
         largest = f_max(max(float(h), -1.0 + 1e-16))
-        raise OutsideRegion(f"No motion has exactly h = {float(h):.15g} and f = {float(f):.15g}: at this h choose "
-                            f"|f| ≤ {largest * (1 - 1e-11):.12g}, or a larger h.")
+        raise OutsideRegion(
+            f"No motion has exactly h = {float(h):.15g} and f = {float(f):.15g}: at this h choose "
+            f"|f| ≤ {largest * (1 - 1e-11):.12g}, or a larger h."
+        )
 
 
 def on_edge(h: Fraction, f: Fraction) -> bool:
@@ -246,8 +268,7 @@ def _turns(h: Fraction, f: Fraction, bits: int) -> _Turns:
             W = sorted((root.real for root, _ in cubic.numer().complex_roots()), key=lambda root: root.mid())
             w, gap = W[1], W[1] - W[0]
             # Comparisons of balls are true only where they are certain.
-            if w > 0 and gap > 0 and W[1] < W[2] and (
-                    min(w.rel_accuracy_bits(), gap.rel_accuracy_bits()) > bits + 16):
+            if w > 0 and gap > 0 and W[1] < W[2] and (min(w.rel_accuracy_bits(), gap.rel_accuracy_bits()) > bits + 16):
                 return _Turns(tuple(enclosure(root - arb(H)) for root in W), w, gap, (W[2] - W[1]) / 2)
         precision *= 2
 
@@ -274,8 +295,13 @@ def _plan(a: Fraction, f: Fraction, turns: _Turns, bits: int) -> Iterator[tuple[
         s += 0.25 * r
 
 
-def _proof(at: tuple[Fraction, Fraction, Fraction], turns: _Turns, plan: list[tuple[Fraction, Fraction, int]],
-           bits: int, begun: float) -> Proof:
+def _proof(
+    at: tuple[Fraction, Fraction, Fraction],
+    turns: _Turns,
+    plan: list[tuple[Fraction, Fraction, int]],
+    bits: int,
+    begun: float,
+) -> Proof:
     from flint import arb
 
     a, f = arb(rational(at[0])), arb(rational(at[2]))
@@ -298,12 +324,23 @@ def _proof(at: tuple[Fraction, Fraction, Fraction], turns: _Turns, plan: list[tu
         # The sign of the trace is known, but not yet the numbers that belong to it.
         statement, rotation, cycles = UNDECIDED, None, ((), ())
     trace = Enclosure(max(Fraction(0), t.low, -t.high), max(abs(t.low), abs(t.high)))
-    return Proof(*at, statement, trace, rotation, *cycles, turns.roots, tuple(map(enclosure, (A, B, C, D))),
-                 tuple(steps), bits, time.perf_counter() - begun)
+    return Proof(
+        *at,
+        statement,
+        trace,
+        rotation,
+        *cycles,
+        turns.roots,
+        tuple(map(enclosure, (A, B, C, D))),
+        tuple(steps),
+        bits,
+        time.perf_counter() - begun,
+    )
 
 
-def _step(a: ArbBall, f: ArbBall, turns: _Turns, s: ArbBall, r: ArbBall, delta: ArbBall, terms: int
-          ) -> tuple[Fraction, Matrix]:
+def _step(
+    a: ArbBall, f: ArbBall, turns: _Turns, s: ArbBall, r: ArbBall, delta: ArbBall, terms: int
+) -> tuple[Fraction, Matrix]:
     """K, and the matrix of the step δ from s, by its Taylor series about s and Cauchy's bound of the rest."""
     from flint import arb, arb_series, ctx
 
@@ -313,8 +350,14 @@ def _step(a: ArbBall, f: ArbBall, turns: _Turns, s: ArbBall, r: ArbBall, delta: 
     largest = (abs(f) / (2 * (w - change)) + abs(a) * (2 * (w + change)).sqrt()) / (8 * (gap - change)).sqrt()
     K = Fraction(math.nextafter(float(largest) * (1.0 + 1e-12), math.inf))
     # No direction turns by more than Kδ, and by less than π the angle between its ends tells how far.
-    if not (change < w and change < gap and largest < arb(rational(K)) and 0 < delta < r
-            and arb(rational(K)) * r <= _GROWTH and arb(rational(K)) * delta < arb.pi()):
+    if not (
+        change < w
+        and change < gap
+        and largest < arb(rational(K))
+        and 0 < delta < r
+        and arb(rational(K)) * r <= _GROWTH
+        and arb(rational(K)) * delta < arb.pi()
+    ):
         raise WorkLimit("A Taylor step of this proof is too long for its precision: choose (h, f) farther from (1, 0).")
     tau = delta / r
     rest = (arb(rational(K)) * r).exp() * tau**terms / (1 - tau)
@@ -334,8 +377,10 @@ def _step(a: ArbBall, f: ArbBall, turns: _Turns, s: ArbBall, r: ArbBall, delta: 
     for start in ((1, 0), (0, 1)):
         x, y = [arb(start[0])], [arb(start[1])]
         for k in range(terms - 1):
-            following = (sum(map(mul, upper, reversed(y)), arb(0)) / (k + 1),
-                         sum(map(mul, lower, reversed(x)), arb(0)) / (k + 1))
+            following = (
+                sum(map(mul, upper, reversed(y)), arb(0)) / (k + 1),
+                sum(map(mul, lower, reversed(x)), arb(0)) / (k + 1),
+            )
             x.append(following[0])
             y.append(following[1])
         columns.append([sum(map(mul, series, powers), arb(0)) + tail for series in (x, y)])
@@ -352,8 +397,9 @@ def _decided(A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall) -> tuple[str, Enclo
     return (NO_CYCLE if t.low > -2 and t.high < 2 else UNDECIDED), t
 
 
-def _cycles(t: Enclosure, A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall
-            ) -> tuple[tuple[Enclosure, ...], tuple[Enclosure, ...]] | None:
+def _cycles(
+    t: Enclosure, A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall
+) -> tuple[tuple[Enclosure, ...], tuple[Enclosure, ...]] | None:
     """Return φ and the multiplier of the stable and of the unstable cycle; None where these balls do not tell."""
     phi = 2 * (A * C / (B * D)).sqrt().atan()
     multiplier = (abs(A * D).sqrt() + abs(B * C).sqrt()) ** -4
@@ -366,8 +412,9 @@ def _cycles(t: Enclosure, A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall
     return (enclosure(phi), enclosure(-phi)), (enclosure(multiplier), enclosure(1 / multiplier))
 
 
-def _rotation(statement: str, t: Enclosure, A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall,
-              theta: ArbBall) -> Enclosure | None:
+def _rotation(
+    statement: str, t: Enclosure, A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall, theta: ArbBall
+) -> Enclosure | None:
     """Return ρ, or None where these balls do not tell."""
     from flint import arb
 

@@ -16,7 +16,6 @@ from hess_mechanics.suslov_hess.proof import check_possible, on_edge
 __all__ = ["proved_torus_period", "proved_trace_on_curve"]
 
 
-
 def proved_torus_period(h: ExactNumber, f: ExactNumber, digits: int = 30) -> Enclosure:
     """The period of n3 on the torus (h, f), units b = 1: T = √2 π/AGM(√(n2 − n0), √(n1 − n0)).
 
@@ -27,13 +26,16 @@ def proved_torus_period(h: ExactNumber, f: ExactNumber, digits: int = 30) -> Enc
     energy, area = exact("h", h), exact("f", f)
     check_possible(Fraction(0), energy, area)
     if on_edge(energy, area):
-        raise InvalidParameter(f"h = {energy}, f = {area} lies on the edge of the possible (h, f), where n3 is "
-                               "constant and has no period. Choose a smaller |f|, or a larger h.")
+        raise InvalidParameter(
+            f"h = {energy}, f = {area} lies on the edge of the possible (h, f), where n3 is "
+            "constant and has no period. Choose a smaller |f|, or a larger h."
+        )
 
     def compute(library: Any) -> ArbBall:
         arb = library.arb
-        cubic = library.fmpq_poly([rational(c) for c in (2 * energy - area * area, Fraction(2), -2 * energy,
-                                                         Fraction(-2))])
+        cubic = library.fmpq_poly(
+            [rational(c) for c in (2 * energy - area * area, Fraction(2), -2 * energy, Fraction(-2))]
+        )
         roots = sorted((root.real for root, _ in cubic.numer().complex_roots()), key=lambda root: float(root.mid()))
         if len(roots) < 3 or any(not low < high for low, high in pairwise(roots)):
             return arb("nan")

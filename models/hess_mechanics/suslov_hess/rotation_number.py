@@ -39,9 +39,26 @@ from hess_mechanics.suslov_hess.circle_map import (
 from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary
 
 __all__ = [
-    "PLANES", "TURNS", "ParameterLine", "PeriodicTorus", "Torus", "TorusValues", "along", "closed_after", "lock_curve",
-    "periodic_torus", "perturbed_along", "perturbed_rotation", "place_of", "plateaus", "possible_part",
-    "rotation_errors", "rows", "rows_error", "together", "values_at",
+    "PLANES",
+    "TURNS",
+    "ParameterLine",
+    "PeriodicTorus",
+    "Torus",
+    "TorusValues",
+    "along",
+    "closed_after",
+    "lock_curve",
+    "periodic_torus",
+    "perturbed_along",
+    "perturbed_rotation",
+    "place_of",
+    "plateaus",
+    "possible_part",
+    "rotation_errors",
+    "rows",
+    "rows_error",
+    "together",
+    "values_at",
 ]
 
 PLANES = ("h, f", "h, a", "f, a")
@@ -210,8 +227,9 @@ def _abscissas(plane: str, torus: Torus, x0: float, x1: float, points: int) -> A
     return np.asarray(roots * np.abs(roots))
 
 
-def perturbed_rotation(a: Array | float, h: Array | float, f: Array | float, epsilon: float, level: Accuracy,
-                       count: int = TURNS) -> Array:
+def perturbed_rotation(
+    a: Array | float, h: Array | float, f: Array | float, epsilon: float, level: Accuracy, count: int = TURNS
+) -> Array:
     """ρ (n,) of Θ_ε for possible tori (a, h, f), arrays (n,) or numbers, by a weighted average of `count` turns.
 
     Raises `InvalidParameter` (|ε| ≥ 1/3), `WorkLimit`.
@@ -219,8 +237,9 @@ def perturbed_rotation(a: Array | float, h: Array | float, f: Array | float, eps
     level = as_level(level)
     require_finite(epsilon=epsilon)
     if _TERM * abs(epsilon) >= 1.0:
-        raise InvalidParameter(f"ε = {epsilon:g} folds the circle map, which then has no rotation number: choose "
-                               "|ε| < 1/3.")
+        raise InvalidParameter(
+            f"ε = {epsilon:g} folds the circle map, which then has no rotation number: choose |ε| < 1/3."
+        )
     a, h, f = _together(a, h, f)
     sign = np.where(f < 0.0, -1.0, 1.0)
     re, im, im_beta, _, zeta, _ = _matrices(a, h, f, level).T
@@ -275,8 +294,9 @@ def closed_after(torus: Torus, q: int, level: Accuracy) -> float:
     return float(np.max(np.abs(np.angle(np.exp(1j * (image - phi))))))
 
 
-def rows(plane: str, torus: Torus, window: Window, cells: tuple[int, int], first: int, last: int, level: Accuracy
-         ) -> TorusValues:
+def rows(
+    plane: str, torus: Torus, window: Window, cells: tuple[int, int], first: int, last: int, level: Accuracy
+) -> TorusValues:
     """`values_at` the centres of cells (m, n) that fill the window of a plane, from the row `first` to before `last`.
 
     The rows (last − first) × m stand one after the other.
@@ -301,8 +321,12 @@ def rows_error(plane: str, torus: Torus, window: Window, level: Accuracy) -> flo
 
 def together(parts: Sequence[TorusValues]) -> TorusValues:
     """Parts of one map, one after the other."""
-    return TorusValues(*(frozen(np.concatenate([getattr(part, name) for part in parts]))
-                         for name in ("rho", "trace", "locked", "possible")))
+    return TorusValues(
+        *(
+            frozen(np.concatenate([getattr(part, name) for part in parts]))
+            for name in ("rho", "trace", "locked", "possible")
+        )
+    )
 
 
 def along(line: ParameterLine, count: int, level: Accuracy) -> TorusValues:

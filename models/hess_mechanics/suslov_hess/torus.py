@@ -22,7 +22,12 @@ from hess_mechanics.suslov_hess.circle_map import FixedPoint
 from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
 
 __all__ = [
-    "Track", "annulus", "cycles", "pixels_per_unit", "start_of_track", "track",
+    "Track",
+    "annulus",
+    "cycles",
+    "pixels_per_unit",
+    "start_of_track",
+    "track",
 ]
 
 MAX_RETURNS = 100
@@ -103,8 +108,9 @@ def _times(body: HessBody, start: Array, length: float, half_width: float) -> Ar
     return sample_times(SYSTEM.at(np.array([body.a, 1.0])), start, length, weights, SAGITTA, _MOST)
 
 
-def cycles(body: HessBody, h: float, f: float, stable: FixedPoint, level: Accuracy, half_width: float
-           ) -> tuple[Track, Track]:
+def cycles(
+    body: HessBody, h: float, f: float, stable: FixedPoint, level: Accuracy, half_width: float
+) -> tuple[Track, Track]:
     """The stable and the unstable limit cycle, over one period each.
 
     Sampled as `track`.  Only the stable one is integrated; the other is its image under the reversor
@@ -115,8 +121,16 @@ def cycles(body: HessBody, h: float, f: float, stable: FixedPoint, level: Accura
     times = _times(body, start, turning.period, half_width)
     orbit = solve(SYSTEM.at((body.a, 1.0)), start, times, level)
     mirrored = orbit.states[::-1] * np.array([-1.0, 1.0, -1.0, 1.0, 1.0])
-    image = Orbit(orbit.system, orbit.level, frozen(turning.period - orbit.times[::-1]), frozen(mirrored), orbit.status,
-                  orbit.error_estimate, orbit.drift, orbit.cost)
+    image = Orbit(
+        orbit.system,
+        orbit.level,
+        frozen(turning.period - orbit.times[::-1]),
+        frozen(mirrored),
+        orbit.status,
+        orbit.error_estimate,
+        orbit.drift,
+        orbit.cost,
+    )
     return _in_body_units(body, orbit), _in_body_units(body, image)
 
 
@@ -125,9 +139,7 @@ def annulus(body: HessBody, h: float, turning: TurningPoints | None) -> tuple[Ar
 
     |w|² = 2(h + n3) between the turning points; on the separatrix (`turning` None) between 0 and 4.
     """
-    inner, outer = (
-        (0.0, 2.0) if turning is None else (turning.initial_rho, turning.final_rho)
-    )
+    inner, outer = (0.0, 2.0) if turning is None else (turning.initial_rho, turning.final_rho)
     s = np.linspace(0.0, 2.0 * math.pi, 181)
     unit = body.frequency_unit * np.column_stack([np.sin(s), math.hypot(1.0, body.a) * np.cos(s)])
     return frozen(inner * unit), frozen(outer * unit)

@@ -50,8 +50,9 @@ def proved_by_directions(a: ArbBall, alpha: tuple[float, float], beta: tuple[flo
     return TWO_CYCLES if B * C > 0 or A * D < 0 else NO_CYCLE
 
 
-def _coefficients(a: ArbBall, alpha: tuple[float, float], beta: tuple[float, float], pieces: int
-                  ) -> list[tuple[ArbBall, ArbBall]]:
+def _coefficients(
+    a: ArbBall, alpha: tuple[float, float], beta: tuple[float, float], pieces: int
+) -> list[tuple[ArbBall, ArbBall]]:
     """½√(1 − ζ) and a√ζ q on each piece, over the cell."""
     from flint import arb
 
@@ -59,8 +60,10 @@ def _coefficients(a: ArbBall, alpha: tuple[float, float], beta: tuple[float, flo
     ratio = (a0 / b1).sqrt().union((a1 / b0).sqrt())
     found = []
     for i in range(pieces):
-        sine, cosine = (x.nonnegative_part() for x in (
-            y * y for y in (arb.pi() * arb(i).union(arb(i + 1)) / (2 * pieces)).sin_cos()))
+        sine, cosine = (
+            x.nonnegative_part()
+            for x in (y * y for y in (arb.pi() * arb(i).union(arb(i + 1)) / (2 * pieces)).sin_cos())
+        )
         # z grows with α and with β.
         low, high = (1 / (cosine / b0 + sine / a0)).lower(), (1 / (cosine / b1 + sine / a1)).upper()
         zeta = (low / (1 + low)).union(high / (1 + high))

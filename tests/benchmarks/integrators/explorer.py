@@ -99,19 +99,25 @@ def _crossings(work: MotionWorkload, order: int, tolerance: float, threads: int)
     def part(thread: int) -> None:
         for i in range(thread, len(found), threads):
             found[i], _ = cross(
-                work.initial[i], p, normal, 0.0, 1, end, order, tolerance, _MAX_STEPS, times[i], states[i])
+                work.initial[i], p, normal, 0.0, 1, end, order, tolerance, _MAX_STEPS, times[i], states[i]
+            )
 
     all_parts = shared(part, threads)
 
     def run() -> Array:
         all_parts()
-        return np.concatenate([own[:max(n, 0)] for own, n in zip(states, found, strict=True)])
+        return np.concatenate([own[: max(n, 0)] for own, n in zip(states, found, strict=True)])
 
     return run
 
 
 _WAYS: dict[str, Callable[..., Run]] = {
-    "A": _orbit, "A2": _orbit, "B": _free_ensemble, "B2": _ensemble, "C": _circle_map, "D": _crossings,
+    "A": _orbit,
+    "A2": _orbit,
+    "B": _free_ensemble,
+    "B2": _ensemble,
+    "C": _circle_map,
+    "D": _crossings,
 }
 
 

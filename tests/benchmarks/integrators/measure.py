@@ -57,8 +57,9 @@ class Timing:
 
 def cheapest(samples: Iterable[MethodSample], target: float) -> MethodSample | None:
     """The fastest sample whose error is at most the target, or None."""
-    return min((sample for sample in samples if sample.error <= target), key=lambda sample: sample.seconds,
-               default=None)
+    return min(
+        (sample for sample in samples if sample.error <= target), key=lambda sample: sample.seconds, default=None
+    )
 
 
 def climb(work: Workload, method: Method, effort: Effort) -> tuple[list[MethodSample], list[str]]:
@@ -82,8 +83,7 @@ def climb(work: Workload, method: Method, effort: Effort) -> tuple[list[MethodSa
             spent += sum(seconds)
             samples.append(MethodSample(setting, work.error(result), min(seconds), run))
             if min(seconds) > effort.slow and i + 1 < len(ladder):
-                notes.append(_left_out(method, work, ladder[i + 1:],
-                                       f"{named(setting)} takes {min(seconds):.1f} s"))
+                notes.append(_left_out(method, work, ladder[i + 1 :], f"{named(setting)} takes {min(seconds):.1f} s"))
                 break
     return samples, notes
 
@@ -137,8 +137,9 @@ class MeasuredWorkload:
     notes: Sequence[str]
 
 
-def measure(work: Workload, methods: Sequence[Method], targets: Sequence[float], effort: Effort,
-            progress: Callable[[str], None]) -> MeasuredWorkload:
+def measure(
+    work: Workload, methods: Sequence[Method], targets: Sequence[float], effort: Effort, progress: Callable[[str], None]
+) -> MeasuredWorkload:
     """All methods in one work."""
     samples: dict[str, list[MethodSample]] = {}
     notes: list[str] = []
@@ -149,12 +150,22 @@ def measure(work: Workload, methods: Sequence[Method], targets: Sequence[float],
         progress(f"work {work.name}: the settings of {method.name}")
         samples[method.name], said = climb(work, method, effort)
         notes += said
-    best = {(name, target): sample for name, found in samples.items() for target in targets
-            if (sample := cheapest(found, target)) is not None}
+    best = {
+        (name, target): sample
+        for name, found in samples.items()
+        for target in targets
+        if (sample := cheapest(found, target)) is not None
+    }
     # One setting may be the cheapest for several targets.
     runners = list({id(sample): sample for sample in best.values()}.values())
     progress(f"work {work.name}: {len(runners)} runs in turn")
     timings = dict(zip(map(id, runners), race([sample.run for sample in runners], effort), strict=True))
-    chosen = {name: {target: Chosen(best[name, target], timings[id(best[name, target])])
-                     for target in targets if (name, target) in best} for name in samples}
+    chosen = {
+        name: {
+            target: Chosen(best[name, target], timings[id(best[name, target])])
+            for target in targets
+            if (name, target) in best
+        }
+        for name in samples
+    }
     return MeasuredWorkload(work, samples, chosen, notes)

@@ -10,7 +10,15 @@ from typing import Protocol
 from .works import Array, Workload
 
 __all__ = [
-    "OURS", "Ladder", "Method", "Prepare", "Run", "Setting", "half_decades", "named", "short",
+    "OURS",
+    "Ladder",
+    "Method",
+    "Prepare",
+    "Run",
+    "Setting",
+    "half_decades",
+    "named",
+    "short",
     "version",
 ]
 

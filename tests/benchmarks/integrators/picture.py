@@ -34,12 +34,16 @@ def draw(report: BenchmarkReport, suffix: str) -> bytes:
         for name, samples in one.samples.items():
             kept = _frontier(samples)
             # An exact result has no place on a logarithmic axis.
-            panel.loglog([max(sample.error, 1e-17) for sample in kept], [1e3 * sample.seconds for sample in kept],
-                         ".-", color=colours[name])
+            panel.loglog(
+                [max(sample.error, 1e-17) for sample in kept],
+                [1e3 * sample.seconds for sample in kept],
+                ".-",
+                color=colours[name],
+            )
         panel.invert_xaxis()
         panel.set(title=f"{one.work.name}: {one.work.title}", xlabel="largest error", ylabel="ms")
         panel.grid(alpha=0.3)
-    for panel in panels[len(report.measured):]:
+    for panel in panels[len(report.measured) :]:
         panel.set_axis_off()
     handles = [panels[0].plot([], [], ".-", color=colour, label=name)[0] for name, colour in colours.items()]
     figure.legend(handles=handles, loc="outside lower center", ncols=len(colours) or 1)

@@ -68,9 +68,16 @@ def as_text(report: BenchmarkReport) -> str:
     versions = ", ".join(f"{name} {version}" for name, version in report.versions.items())
     methods = report.methods
     rows = [
-        [one.work.name, short(target),
-         *(_cell(name, one.chosen.get(name, {}).get(target), one.chosen.get(OURS, {}).get(target)) for name in methods)]
-        for one in report.measured for target in report.targets
+        [
+            one.work.name,
+            short(target),
+            *(
+                _cell(name, one.chosen.get(name, {}).get(target), one.chosen.get(OURS, {}).get(target))
+                for name in methods
+            ),
+        ]
+        for one in report.measured
+        for target in report.targets
     ]
     blocks = [
         f"{facts['date']}, {facts['processor']}, {facts['cores']} cores, Python {facts['python']}, {versions}.",
@@ -81,10 +88,23 @@ def as_text(report: BenchmarkReport) -> str:
         _table(["work", "error", *methods], rows),
     ]
     if report.scaling:
-        blocks += ["Two cores: milliseconds on one and on two threads.", _table(
-            ["work", "method", "setting", "1 thread", "2 threads", "faster by"],
-            [[one.title, one.method, named(one.setting), _ms(one.one.minimum), _ms(one.two.minimum),
-              f"{one.factor:.2f} ×"] for one in report.scaling])]
+        blocks += [
+            "Two cores: milliseconds on one and on two threads.",
+            _table(
+                ["work", "method", "setting", "1 thread", "2 threads", "faster by"],
+                [
+                    [
+                        one.title,
+                        one.method,
+                        named(one.setting),
+                        _ms(one.one.minimum),
+                        _ms(one.two.minimum),
+                        f"{one.factor:.2f} ×",
+                    ]
+                    for one in report.scaling
+                ],
+            ),
+        ]
     notes = [f"{name}: {why}." for name, why in report.missing.items()]
     notes += [note for one in report.measured for note in one.notes]
     if notes:
@@ -101,8 +121,14 @@ def as_json(report: BenchmarkReport) -> dict[str, Any]:
         "targets": list(report.targets),
         "works": [_work(one) for one in report.measured],
         "two_cores": [
-            {"work": one.title, "method": one.method, "setting": named(one.setting), "one_thread": one.one.minimum,
-             "two_threads": one.two.minimum, "factor": one.factor}
+            {
+                "work": one.title,
+                "method": one.method,
+                "setting": named(one.setting),
+                "one_thread": one.one.minimum,
+                "two_threads": one.two.minimum,
+                "factor": one.factor,
+            }
             for one in report.scaling
         ],
     }
@@ -115,14 +141,28 @@ def _work(one: MeasuredWorkload) -> dict[str, Any]:
         "title": one.work.title,
         "notes": list(one.notes),
         "samples": {
-            name: [{"setting": named(sample.setting), "seconds": sample.seconds,
-                    "error": sample.error if math.isfinite(sample.error) else None} for sample in samples]
+            name: [
+                {
+                    "setting": named(sample.setting),
+                    "seconds": sample.seconds,
+                    "error": sample.error if math.isfinite(sample.error) else None,
+                }
+                for sample in samples
+            ]
             for name, samples in one.samples.items()
         },
         "chosen": [
-            {"method": name, "target": target, "setting": named(chosen.sample.setting), "error": chosen.sample.error,
-             "minimum": chosen.timing.minimum, "median": chosen.timing.median, "runs": chosen.timing.runs,
-             "ratio": _ratio(chosen, ours[target]) if target in ours else None}
-            for name, by_target in one.chosen.items() for target, chosen in by_target.items()
+            {
+                "method": name,
+                "target": target,
+                "setting": named(chosen.sample.setting),
+                "error": chosen.sample.error,
+                "minimum": chosen.timing.minimum,
+                "median": chosen.timing.median,
+                "runs": chosen.timing.runs,
+                "ratio": _ratio(chosen, ours[target]) if target in ours else None,
+            }
+            for name, by_target in one.chosen.items()
+            for target, chosen in by_target.items()
         ],
     }

@@ -32,13 +32,15 @@ def participants() -> tuple[list[Method], dict[str, str]]:
     return methods, missing
 
 
-def run(names: Sequence[str], targets: Sequence[float], quick: bool,
-        progress: Callable[[str], None]) -> BenchmarkReport:
+def run(
+    names: Sequence[str], targets: Sequence[float], quick: bool, progress: Callable[[str], None]
+) -> BenchmarkReport:
     """Do the works of these names with every method, and those that can be shared between threads on two."""
     effort = QUICK if quick else FULL
     methods, missing = participants()
     measured = [measure(works()[name], methods, targets, effort, progress) for name in names]
     versions = {method.name: method.version for method in methods}
     versions |= {"numba": numba.__version__, "numpy": np.__version__}
-    return BenchmarkReport(describe(), versions, missing, targets, measured,
-                           scaling(measured, methods, effort, progress))
+    return BenchmarkReport(
+        describe(), versions, missing, targets, measured, scaling(measured, methods, effort, progress)
+    )

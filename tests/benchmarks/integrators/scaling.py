@@ -35,12 +35,17 @@ def _many(work: Workload) -> Workload:
     ensemble = works()["B2"]
     if work.name != "D" or not (isinstance(work, MotionWorkload) and isinstance(ensemble, MotionWorkload)):
         return work
-    return replace(work, title="crossings of γ3 = 0 by 64 random orbits up to t = 200",
-                   initial=ensemble.initial[:64], times=np.array([200.0]))
+    return replace(
+        work,
+        title="crossings of γ3 = 0 by 64 random orbits up to t = 200",
+        initial=ensemble.initial[:64],
+        times=np.array([200.0]),
+    )
 
 
-def scaling(measured: Sequence[MeasuredWorkload], methods: Sequence[Method], effort: Effort,
-            progress: Callable[[str], None]) -> list[Scaling]:
+def scaling(
+    measured: Sequence[MeasuredWorkload], methods: Sequence[Method], effort: Effort, progress: Callable[[str], None]
+) -> list[Scaling]:
     """Every method in the works that it can share between threads, at its setting for the smallest error it reached."""
     found = []
     for one in measured:

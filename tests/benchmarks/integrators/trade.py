@@ -18,12 +18,19 @@ from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, PLANS, REFERENCE, Co
 __all__ = ["Failed", "Row", "as_json", "as_text", "by_kind", "costliest", "heading", "line_of", "names", "trade"]
 
 _COUNTED: dict[Computation, tuple[str, str]] = {
-    Computation.ORBIT: ("", ""), Computation.SECTION: ("crossings", ""), Computation.ROTATION: ("crossings", "orbits"),
-    Computation.GRID: ("", "cells along a side"), Computation.LINE: ("turns", "places"),
+    Computation.ORBIT: ("", ""),
+    Computation.SECTION: ("crossings", ""),
+    Computation.ROTATION: ("crossings", "orbits"),
+    Computation.GRID: ("", "cells along a side"),
+    Computation.LINE: ("turns", "places"),
     Computation.COLOURS: ("", "cells along a side"),
-    Computation.MAP: ("", "phases"), Computation.CURVE: ("", "tori"), Computation.BASINS: ("", "cells along a side"),
-    Computation.INDICATOR: ("", "cells along a side"), Computation.EXPONENT: ("time", ""),
-    Computation.CLOUD: ("points", "")}
+    Computation.MAP: ("", "phases"),
+    Computation.CURVE: ("", "tori"),
+    Computation.BASINS: ("", "cells along a side"),
+    Computation.INDICATOR: ("", "cells along a side"),
+    Computation.EXPONENT: ("time", ""),
+    Computation.CLOUD: ("points", ""),
+}
 """What `Plan.share` and `Plan.cells` are a part of."""
 
 
@@ -73,15 +80,18 @@ def _example(scene: Scene[Any], trial: Trial[Any]) -> Any:
         state = bare(scene.of(values))
         if trial.shown(state):
             return state
-    raise InvalidParameter(f"No example of the scene {scene.name} and no single choice in one shows {trial.kind}: give "
-                           "it an example that does.")
+    raise InvalidParameter(
+        f"No example of the scene {scene.name} and no single choice in one shows {trial.kind}: give "
+        "it an example that does."
+    )
 
 
 def _row(name: str, scene: Scene[Any], trial: Trial[Any], repeats: int) -> Row | Failed:
     try:
         state = _example(scene, trial)
-        samples = measure(trial.kind, lambda plan: trial.run(state, plan), lambda *both: trial.error(state, *both),
-                          repeats)
+        samples = measure(
+            trial.kind, lambda plan: trial.run(state, plan), lambda *both: trial.error(state, *both), repeats
+        )
     except ModelError as error:
         return Failed(name, str(trial.kind), str(error))
     return Row(name, str(trial.kind), trial.unit, samples, enough(samples, trial.seen))
@@ -144,20 +154,42 @@ def by_kind(rows: Sequence[Row]) -> str:
             ratios = sorted(row.ratio for row in own)
             least, most = _round(ratios[0]), _round(ratios[-1])
             errors = (_round(max(row.samples[i].error for row in own)) for i in range(len(LEVELS)))
-            lines.append(_line([str(kind), _draft_computes(kind), f"{least} ×" if least == most else
-                                f"{least} to {most} ×", *errors, own[0].unit]))
+            lines.append(
+                _line(
+                    [
+                        str(kind),
+                        _draft_computes(kind),
+                        f"{least} ×" if least == most else f"{least} to {most} ×",
+                        *errors,
+                        own[0].unit,
+                    ]
+                )
+            )
     return "".join(lines)
 
 
 def _draft_computes(kind: Computation) -> str:
     draft, last = PLANS[kind][DRAFT.name], PLANS[kind][REFERENCE.name]
     parts = zip((draft.share, draft.cells), (last.share, last.cells), _COUNTED[kind], strict=True)
-    return " and ".join(f"{100.0 * one / other:.0f} % of the {what}" for one, other, what in parts if one < other) \
+    return (
+        " and ".join(f"{100.0 * one / other:.0f} % of the {what}" for one, other, what in parts if one < other)
         or "as much"
+    )
 
 
 def as_json(rows: Sequence[Row]) -> list[dict[str, Any]]:
     """An entry for each level of each row."""
-    return [{"scene": row.scene, "kind": row.kind, "level": one.level, "ms": one.ms, "error": one.error,
-             "unit": row.unit, "complete": one.complete, "enough": row.enough}
-            for row in rows for one in row.samples]
+    return [
+        {
+            "scene": row.scene,
+            "kind": row.kind,
+            "level": one.level,
+            "ms": one.ms,
+            "error": one.error,
+            "unit": row.unit,
+            "complete": one.complete,
+            "enough": row.enough,
+        }
+        for row in rows
+        for one in row.samples
+    ]

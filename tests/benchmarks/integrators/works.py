@@ -10,9 +10,19 @@ from pathlib import Path
 import numpy as np
 
 __all__ = [
-    "FIELD_BODY", "FREE_BODY", "MAP_TORUS", "REFERENCES", "Array", "MapWorkload", "MotionWorkload", "Workload",
+    "FIELD_BODY",
+    "FREE_BODY",
+    "MAP_TORUS",
+    "REFERENCES",
+    "Array",
+    "MapWorkload",
+    "MotionWorkload",
+    "Workload",
     "dense_times",
-    "end", "long_end", "phases", "works",
+    "end",
+    "long_end",
+    "phases",
+    "works",
 ]
 
 Array = np.ndarray
@@ -102,17 +112,53 @@ def works() -> dict[str, Workload]:
     crossings = stored["D"]
     start = stored["A_initial"]
     found = [
-        MotionWorkload("A", "one orbit, 4000 states up to t = 200", (4000, 5), stored["A_rows"], stored["A"], None,
-                       FIELD_BODY, start, dense_times()),
-        MotionWorkload("A2", "one orbit, its state at t = 2000", (1, 5), every, stored["A2"], None,
-                       FIELD_BODY, start, long_end()),
-        MotionWorkload("B", "512 free orbits of one ω, their states at t = 60", (512, 5), every, stored["B"], None,
-                       FREE_BODY, stored["B_initial"], end()),
-        MotionWorkload("B2", "512 random orbits, their states at t = 60", (512, 5), every, stored["B2"], None,
-                       FIELD_BODY, stored["B2_initial"], end()),
-        MapWorkload("C", "the circle map at 256 angles", (256,), every, stored["C"], 2 * math.pi,
-                    *MAP_TORUS, phases()),
-        MotionWorkload("D", f"all {len(crossings)} upward crossings of γ3 = 0 up to t = 2000", crossings.shape, every,
-                       crossings, None, FIELD_BODY, start, long_end()),
+        MotionWorkload(
+            "A",
+            "one orbit, 4000 states up to t = 200",
+            (4000, 5),
+            stored["A_rows"],
+            stored["A"],
+            None,
+            FIELD_BODY,
+            start,
+            dense_times(),
+        ),
+        MotionWorkload(
+            "A2", "one orbit, its state at t = 2000", (1, 5), every, stored["A2"], None, FIELD_BODY, start, long_end()
+        ),
+        MotionWorkload(
+            "B",
+            "512 free orbits of one ω, their states at t = 60",
+            (512, 5),
+            every,
+            stored["B"],
+            None,
+            FREE_BODY,
+            stored["B_initial"],
+            end(),
+        ),
+        MotionWorkload(
+            "B2",
+            "512 random orbits, their states at t = 60",
+            (512, 5),
+            every,
+            stored["B2"],
+            None,
+            FIELD_BODY,
+            stored["B2_initial"],
+            end(),
+        ),
+        MapWorkload("C", "the circle map at 256 angles", (256,), every, stored["C"], 2 * math.pi, *MAP_TORUS, phases()),
+        MotionWorkload(
+            "D",
+            f"all {len(crossings)} upward crossings of γ3 = 0 up to t = 2000",
+            crossings.shape,
+            every,
+            crossings,
+            None,
+            FIELD_BODY,
+            start,
+            long_end(),
+        ),
     ]
     return {work.name: work for work in found}

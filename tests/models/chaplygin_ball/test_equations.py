@@ -26,18 +26,42 @@ from hess_mechanics.numerics.accuracy import LEVELS, Status
 WITHOUT_FIELD = (
     BallBody(1.0, 1.5, 0.7, 1.2, 10.0),
     (-1.2, 0.8, 0.3030457633656632247432, 0.505076272276105374572, 0.8081220356417685993153),
-    {5.0: (-1.243715176564187061189, 0.7351097074993516569283, -0.1945086225665612163838, -0.2369516718965639582054,
-           0.9518509867267471267198),
-     20.0: (-1.248189314693094997708, 0.7281147526105503013319, -0.04654899968686768204963, 0.01809685472395656125676,
-            -0.9987520685722017584869)},
+    {
+        5.0: (
+            -1.243715176564187061189,
+            0.7351097074993516569283,
+            -0.1945086225665612163838,
+            -0.2369516718965639582054,
+            0.9518509867267471267198,
+        ),
+        20.0: (
+            -1.248189314693094997708,
+            0.7281147526105503013319,
+            -0.04654899968686768204963,
+            0.01809685472395656125676,
+            -0.9987520685722017584869,
+        ),
+    },
 )
 WITH_FIELD = (
     BallBody(1.0, 1.5, 0.7, 1.2, 2.0, 0.2, -0.3, 0.9),
     (0.5, 0.8, 0.3030457633656632247432, 0.505076272276105374572, 0.8081220356417685993153),
-    {10.0: (-1.400556057516799182938, 1.190203100743737251738, -0.5766733755891735650275, 0.7940662212994256610262,
-            -0.1921110462150459241773),
-     30.0: (-1.455501957602951184129, 1.241018900668056974982, -0.721210125647167584405, 0.6760503180083286292999,
-            -0.1510361618448855999605)},
+    {
+        10.0: (
+            -1.400556057516799182938,
+            1.190203100743737251738,
+            -0.5766733755891735650275,
+            0.7940662212994256610262,
+            -0.1921110462150459241773,
+        ),
+        30.0: (
+            -1.455501957602951184129,
+            1.241018900668056974982,
+            -0.721210125647167584405,
+            0.6760503180083286292999,
+            -0.1510361618448855999605,
+        ),
+    },
 )
 CASES = pytest.mark.parametrize("case", [WITHOUT_FIELD, WITH_FIELD], ids=["without field", "with field"])
 in_long_double = pytest.mark.skipif(np.finfo(np.longdouble).nmant < 63, reason="no long doubles here")
@@ -131,14 +155,17 @@ def standard(_, __):
     return sympy.Integer(1)
 
 
-@pytest.mark.parametrize(("density", "fixed", "holds"), [
-    pytest.param(singular, WITHOUT, True, id="singular without field"),
-    pytest.param(singular, WITHOUT | {"D": 0}, True, id="singular, suslov"),
-    pytest.param(standard, PRINCIPAL, True, id="standard for a principal axis, with field"),
-    pytest.param(singular, {}, False, id="singular with field"),
-    pytest.param(standard, WITHOUT, False, id="standard without field"),
-    pytest.param(standard, {}, False, id="standard in general"),
-])
+@pytest.mark.parametrize(
+    ("density", "fixed", "holds"),
+    [
+        pytest.param(singular, WITHOUT, True, id="singular without field"),
+        pytest.param(singular, WITHOUT | {"D": 0}, True, id="singular, suslov"),
+        pytest.param(standard, PRINCIPAL, True, id="standard for a principal axis, with field"),
+        pytest.param(singular, {}, False, id="singular with field"),
+        pytest.param(standard, WITHOUT, False, id="standard without field"),
+        pytest.param(standard, {}, False, id="standard in general"),
+    ],
+)
 def test_liouvilles_equation(density, fixed, holds):
     values = list(liouville(density, **fixed))
     assert all(isinstance(value, Fraction | int) for value in values), "not exact"
@@ -224,20 +251,31 @@ def test_an_energy_without_motion_is_refused_in_a_sentence():
 # ---- edges ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("values", "error", "match"), [
-    ({"D": -1e-9}, InvalidParameter, "𝒟 ≥ 0"), ({"D": np.nan}, InvalidParameter, "D is not a finite"),
-    ({"I11": 0.0}, NotPositiveDefinite, "I11 > 0"), ({"I22": -1.0}, NotPositiveDefinite, "I22 > 0"),
-    ({"b2": np.inf}, InvalidParameter, "b2 is not a finite"),
-])
+@pytest.mark.parametrize(
+    ("values", "error", "match"),
+    [
+        ({"D": -1e-9}, InvalidParameter, "𝒟 ≥ 0"),
+        ({"D": np.nan}, InvalidParameter, "D is not a finite"),
+        ({"I11": 0.0}, NotPositiveDefinite, "I11 > 0"),
+        ({"I22": -1.0}, NotPositiveDefinite, "I22 > 0"),
+        ({"b2": np.inf}, InvalidParameter, "b2 is not a finite"),
+    ],
+)
 def test_what_is_no_ball_is_refused_in_a_sentence(values, error, match):
     with pytest.raises(error, match=match):
         BallBody(**({"I11": 1.0, "I22": 1.0, "I13": 0.0, "I23": 0.0, "D": 1.0} | values))
 
 
-@pytest.mark.parametrize(("place", "value", "match"), [
-    (0, -1.0, "I11 > 0"), (4, -1.0, "𝒟 ≥ 0"), (4, 1e30, "𝒟 is too large"), (0, 1e30, "too different"),
-    (5, np.nan, "finite"),
-])
+@pytest.mark.parametrize(
+    ("place", "value", "match"),
+    [
+        (0, -1.0, "I11 > 0"),
+        (4, -1.0, "𝒟 ≥ 0"),
+        (4, 1e30, "𝒟 is too large"),
+        (0, 1e30, "too different"),
+        (5, np.nan, "finite"),
+    ],
+)
 def test_the_kernel_refuses_the_same(place, value, match):
     parameters = np.array(SYSTEM.example[1])
     parameters[place] = value
@@ -270,8 +308,12 @@ def extreme(request):
     state[2:] /= np.linalg.norm(state[2:])
     nu = SYSTEM.frequency(state, parameters)
     spans = [sign * np.array([0.3, 1.0]) * 20.0 / nu for sign in (1.0, -1.0)]
-    return state, parameters, nu, [
-        (times, oracle.orbit_in_decimals(SYSTEM, state, parameters, times, digits=34)) for times in spans]
+    return (
+        state,
+        parameters,
+        nu,
+        [(times, oracle.orbit_in_decimals(SYSTEM, state, parameters, times, digits=34)) for times in spans],
+    )
 
 
 @pytest.mark.parametrize("name", LEVELS)
@@ -292,8 +334,10 @@ def many():
     bodies = [random_body(random, field=random.random() < 0.7) for _ in range(count)]
     states = random_states(random, count)
     parameters = np.array([body.parameters for body in bodies])
-    spans = [random.choice([-1, 1]) * random.uniform(5.0, 60.0) / SYSTEM.frequency(y, p)
-             for y, p in zip(states, parameters, strict=True)]
+    spans = [
+        random.choice([-1, 1]) * random.uniform(5.0, 60.0) / SYSTEM.frequency(y, p)
+        for y, p in zip(states, parameters, strict=True)
+    ]
     times = np.array(spans)[:, None] * [0.2, 1.0]
     return states, parameters, times, oracle.orbits_in_long_double(SYSTEM, states, parameters, times)
 
@@ -334,8 +378,9 @@ def test_sections_lose_and_double_nothing(body, component):
     assert found.drift == drift_of(SYSTEM, start, found.states, np.array(body.parameters))
     # Order 20: a tolerance 1e-20 times smaller makes steps a tenth as long.
     times, states = np.empty(10_000), np.empty((10_000, 5))
-    count, steps = SYSTEM.cross(start, np.array(body.parameters), np.array(plane.normal), 0.0, 0, end, 20, 1e-31,
-                                10**6, times, states)
+    count, steps = SYSTEM.cross(
+        start, np.array(body.parameters), np.array(plane.normal), 0.0, 0, end, 20, 1e-31, 10**6, times, states
+    )
     assert count == len(found.times)
     assert steps > 5 * found.cost.steps / 2
     assert times[:count] == pytest.approx(found.times, abs=1e-6)
@@ -346,8 +391,26 @@ def test_sections_lose_and_double_nothing(body, component):
 
 def test_the_command_prints_the_orbit(capsys):
     body, start, states = WITH_FIELD
-    words = ["orbit", "ball", "--I", "1,1.5,0.7,1.2", "--D", "2", "--b", "0.2,-0.3,0.9", "--omega", "0.5,0.8",
-             "--gamma", "0.3,0.5,0.8", "--t", "10,30", "--accuracy", "precise", "--format", "json"]
+    words = [
+        "orbit",
+        "ball",
+        "--I",
+        "1,1.5,0.7,1.2",
+        "--D",
+        "2",
+        "--b",
+        "0.2,-0.3,0.9",
+        "--omega",
+        "0.5,0.8",
+        "--gamma",
+        "0.3,0.5,0.8",
+        "--t",
+        "10,30",
+        "--accuracy",
+        "precise",
+        "--format",
+        "json",
+    ]
     assert main(words) == 0
     answer = json.loads(capsys.readouterr().out)
     assert answer["variables"] == list(SYSTEM.variables)

@@ -39,8 +39,10 @@ def test_the_matrix_of_the_proofs_is_that_of_the_field():
     body = BallBody(1.3, 2.1, 0.0, 0.0, 0.9, 0.4, -0.6, 0.7)
     b1, b2, b3 = body.parameters[5:]
     torque = (b3 * g2 - b2 * g3, b1 * g3 - b3 * g1)
-    expected = [rate.subs({I11: 1.3, I22: 2.1, D: 0.9, **dict(zip(STATE, values, strict=True))})
-                for rate in rates(torque, (I11, I22))]
+    expected = [
+        rate.subs({I11: 1.3, I22: 2.1, D: 0.9, **dict(zip(STATE, values, strict=True))})
+        for rate in rates(torque, (I11, I22))
+    ]
     assert SYSTEM.field(values, body.parameters) == pytest.approx([float(rate) for rate in expected], abs=1e-14)
 
 
@@ -79,8 +81,10 @@ def random_potential(random):
 
     def gradient(g1, g2):
         wave = amplitude * math.cos(k[0] * g1 + k[1] * g2)
-        return (sum(i * c[i, j] * g1 ** (i - 1) * g2**j for i, j in powers if i) + wave * k[0],
-                sum(j * c[i, j] * g1**i * g2 ** (j - 1) for i, j in powers if j) + wave * k[1])
+        return (
+            sum(i * c[i, j] * g1 ** (i - 1) * g2**j for i, j in powers if i) + wave * k[0],
+            sum(j * c[i, j] * g1**i * g2 ** (j - 1) for i, j in powers if j) + wave * k[1],
+        )
 
     return value, gradient
 
@@ -119,11 +123,15 @@ def test_orbits_close_in_random_potentials_of_gamma1_and_gamma2_and_do_not_with_
 
 def test_which_bodies_these_are():
     assert is_reversible(PLANE)
-    assert not any(is_reversible(BallBody(*values)) for values in (
-        (1, 2, 0, 0, 1, 1, 0.5, 0.1), (1, 2, 0.1, 0, 1, 1, 0.5, 0), (1, 2, 0, 0.1, 1, 1, 0.5, 0)))
+    assert not any(
+        is_reversible(BallBody(*values))
+        for values in ((1, 2, 0, 0, 1, 1, 0.5, 0.1), (1, 2, 0.1, 0, 1, 1, 0.5, 0), (1, 2, 0, 0.1, 1, 1, 0.5, 0))
+    )
     assert has_area_integral(BallBody(2, 2, 0, 0, 1, 0, 0, 1))
-    assert not any(has_area_integral(BallBody(*values)) for values in (
-        (1, 2, 0, 0, 1, 0, 0, 1), (2, 2, 0.1, 0, 1, 0, 0, 1), (2, 2, 0, 0, 1, 0.1, 0, 1)))
+    assert not any(
+        has_area_integral(BallBody(*values))
+        for values in ((1, 2, 0, 0, 1, 0, 0, 1), (2, 2, 0.1, 0, 1, 0, 0, 1), (2, 2, 0, 0, 1, 0.1, 0, 1))
+    )
 
 
 @pytest.mark.parametrize("D", [0.0, 1.0, 30.0])
@@ -151,8 +159,11 @@ def test_without_an_inner_ball_it_is_kharlamovas_closed_form(name, start):
     assert abs(found.value - exact) <= 10.0 * found.error_estimate
 
 
-@pytest.mark.parametrize("body", [PLANE, BallBody(0.3, 2.0, 0.0, 0.0, 20.0, -0.4, 0.9, 0.0),
-                                  BallBody(2.0, 2.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0)], ids=str)
+@pytest.mark.parametrize(
+    "body",
+    [PLANE, BallBody(0.3, 2.0, 0.0, 0.0, 20.0, -0.4, 0.9, 0.0), BallBody(2.0, 2.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0)],
+    ids=str,
+)
 def test_after_a_period_a_motion_is_where_it_began_and_at_half_of_it_is_reflected(body):
     start = np.array([0.9, -0.7, 0.48, 0.6, 0.64])
     found = period(body, start, level("reference"))
@@ -167,13 +178,15 @@ def test_after_a_period_a_motion_is_where_it_began_and_at_half_of_it_is_reflecte
     assert before == pytest.approx(mirrored(later), abs=1e-10)
 
 
-@pytest.mark.parametrize(("body", "start", "words"), [
-    (BallBody(1.0, 2.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.1), (1.0, 0.2, 0.6, 0.0, 0.8), "b3 = 0"),
-    (BallBody(1.0, 2.0, 0.1, 0.0, 1.0, 1.0, 0.5, 0.0), (1.0, 0.2, 0.6, 0.0, 0.8), "I13 = I23 = 0"),
-    (PLANE, (0.6, 0.8, 0.6, 0.8, 0.0), "does not cross"),
-    (BallBody(1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.6, 0.0, 0.8), "does not cross"),
-])
+@pytest.mark.parametrize(
+    ("body", "start", "words"),
+    [
+        (BallBody(1.0, 2.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.1), (1.0, 0.2, 0.6, 0.0, 0.8), "b3 = 0"),
+        (BallBody(1.0, 2.0, 0.1, 0.0, 1.0, 1.0, 0.5, 0.0), (1.0, 0.2, 0.6, 0.0, 0.8), "I13 = I23 = 0"),
+        (PLANE, (0.6, 0.8, 0.6, 0.8, 0.0), "does not cross"),
+        (BallBody(1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.6, 0.0, 0.8), "does not cross"),
+    ],
+)
 def test_what_has_no_period_is_refused(body, start, words):
     with pytest.raises(InvalidParameter, match=words):
         period(body, start, level("standard"))
-

@@ -57,8 +57,10 @@ class Dual:
 
     def __mul__(self, other):
         other = self.of(other)
-        return Dual(self.value * other.value,
-                    [a * other.value + self.value * b for a, b in zip(self.slopes, other.slopes, strict=True)])
+        return Dual(
+            self.value * other.value,
+            [a * other.value + self.value * b for a, b in zip(self.slopes, other.slopes, strict=True)],
+        )
 
     def __truediv__(self, other):
         other = self.of(other)
@@ -94,8 +96,9 @@ def fractions(count):
     return st.tuples(*[st.fractions(-3, 3, max_denominator=60)] * count)
 
 
-tensors = st.tuples(*[st.fractions(Fraction(1, 5), 4, max_denominator=30)] * 2,
-                    *[st.fractions(-2, 2, max_denominator=30)] * 2)
+tensors = st.tuples(
+    *[st.fractions(Fraction(1, 5), 4, max_denominator=30)] * 2, *[st.fractions(-2, 2, max_denominator=30)] * 2
+)
 
 
 @PROPERTY
@@ -142,8 +145,7 @@ def jacobian(body, state, t, step=1e-4):
     """The determinant of the flow map from nearby orbits, to about step⁴."""
     columns = []
     for i in range(5):
-        ends = [solve(body, state + k * step * np.eye(5)[i], [t], level("reference")).states[0]
-                for k in (-2, -1, 1, 2)]
+        ends = [solve(body, state + k * step * np.eye(5)[i], [t], level("reference")).states[0] for k in (-2, -1, 1, 2)]
         columns.append((ends[0] - 8 * ends[1] + 8 * ends[2] - ends[3]) / (12 * step))
     return np.linalg.det(np.array(columns))
 
@@ -165,8 +167,9 @@ def test_on_a_principal_axis_volumes_stay(body):
 
 
 def test_in_the_general_case_volumes_follow_neither_density():
-    s = [state[0] * 0.7 + state[1] * 1.2 for state in
-         (START, solve(GENERAL, START, [1.5], level("reference")).states[0])]
+    s = [
+        state[0] * 0.7 + state[1] * 1.2 for state in (START, solve(GENERAL, START, [1.5], level("reference")).states[0])
+    ]
     found = jacobian(GENERAL, START, 1.5)
     assert abs(found - 1.0) > 0.01
     assert abs(found - s[1] / s[0]) > 0.01
@@ -264,8 +267,21 @@ def test_a_shell_is_evenly_filled(body):
 
     def moments(points):
         w1, w2, g1, g2, g3 = points.T
-        return np.array([w1, w2 * g3, w1**2, w2**2, g1**2, g2**2, g3**2, w1 * w2 * g1 * g2, w1**2 * g1**2,
-                         w2**2 * g3**2, energy(body, points)])
+        return np.array(
+            [
+                w1,
+                w2 * g3,
+                w1**2,
+                w2**2,
+                g1**2,
+                g2**2,
+                g3**2,
+                w1 * w2 * g1 * g2,
+                w1**2 * g1**2,
+                w2**2 * g3**2,
+                energy(body, points),
+            ]
+        )
 
     found, expected = moments(states), moments(kept)
     sigma = np.sqrt(found.var(axis=1) / count + expected.var(axis=1) / len(kept))
@@ -343,7 +359,8 @@ def test_points_that_do_cross_would_be_counted():
     wrong = found.gamma.copy()
     wrong[:250, -1] *= -1.0
     assert sides(dataclasses.replace(found, gamma=wrong))[2] == np.sum(
-        np.abs(F2_by_hand(found.omega, found.gamma)[:250, 0]) > 1e-5)
+        np.abs(F2_by_hand(found.omega, found.gamma)[:250, 0]) > 1e-5
+    )
 
 
 @pytest.mark.parametrize("body", [HEAVY, FREE, BallBody(1.64, 1.0, 0.0, 0.8, 1.0)], ids=str)
@@ -398,21 +415,24 @@ def test_frames_are_close_enough_and_not_too_many():
 ONE, DRAFT = np.array([1.0]), LEVELS["draft"]
 
 
-@pytest.mark.parametrize(("error", "action"), [
-    (InvalidParameter, lambda: carried(BallBody(2.0, 1.0, 0.0, 0.0, 1.0), START[None], ONE, DRAFT)),
-    (InvalidParameter, lambda: carried(GENERAL, START[None], ONE, DRAFT)),
-    (InvalidParameter, lambda: carried(FREE, np.array([[0.0, 0.0, 0.0, 0.0, 1.0]]), ONE, DRAFT)),
-    (InvalidParameter, lambda: carried(FREE, START[None], np.array([0.0, 1.0, -1.0]), DRAFT)),
-    (WorkLimit, lambda: carried(FREE, START[None], 3e3 * ONE, DRAFT)),
-    (WorkLimit, lambda: carried(HEAVY, np.repeat(START[None], 10_000, 0), 3e3 * ONE, DRAFT)),
-    (InvalidParameter, lambda: shell(FREE, 0.0, 0.1, 10)),
-    (InvalidParameter, lambda: shell(FREE, math.nan, 0.1, 10)),
-    (InvalidParameter, lambda: shell(FREE, 1.0, 1.0, 10)),
-    (InvalidParameter, lambda: patch(FREE, 1.0, math.inf, 0.1, 10)),
-    (InvalidParameter, lambda: patch(FREE, 1.0, 0.0, 0.0, 10)),
-    (InvalidParameter, lambda: patch(FREE, 1.0, 0.0, 0.1, 0)),
-    (NotPositiveDefinite, lambda: shell(BallBody(0.0, 1.0, 0.0, 0.1, 0.0), 1.0, 0.1, 10)),
-])
+@pytest.mark.parametrize(
+    ("error", "action"),
+    [
+        (InvalidParameter, lambda: carried(BallBody(2.0, 1.0, 0.0, 0.0, 1.0), START[None], ONE, DRAFT)),
+        (InvalidParameter, lambda: carried(GENERAL, START[None], ONE, DRAFT)),
+        (InvalidParameter, lambda: carried(FREE, np.array([[0.0, 0.0, 0.0, 0.0, 1.0]]), ONE, DRAFT)),
+        (InvalidParameter, lambda: carried(FREE, START[None], np.array([0.0, 1.0, -1.0]), DRAFT)),
+        (WorkLimit, lambda: carried(FREE, START[None], 3e3 * ONE, DRAFT)),
+        (WorkLimit, lambda: carried(HEAVY, np.repeat(START[None], 10_000, 0), 3e3 * ONE, DRAFT)),
+        (InvalidParameter, lambda: shell(FREE, 0.0, 0.1, 10)),
+        (InvalidParameter, lambda: shell(FREE, math.nan, 0.1, 10)),
+        (InvalidParameter, lambda: shell(FREE, 1.0, 1.0, 10)),
+        (InvalidParameter, lambda: patch(FREE, 1.0, math.inf, 0.1, 10)),
+        (InvalidParameter, lambda: patch(FREE, 1.0, 0.0, 0.0, 10)),
+        (InvalidParameter, lambda: patch(FREE, 1.0, 0.0, 0.1, 0)),
+        (NotPositiveDefinite, lambda: shell(BallBody(0.0, 1.0, 0.0, 0.1, 0.0), 1.0, 0.1, 10)),
+    ],
+)
 def test_what_cannot_be_is_refused_with_a_sentence(error, action):
     with pytest.raises(error, match=r"\w.*\.$"):
         action()
@@ -432,8 +452,11 @@ def test_the_captions_say_what_the_general_equations_give(preset):
     body = BallBody(*(values[name] for name in ("I11", "I22", "I13", "I23", "D")))
     beside = values["beside"] != "nothing"
     count = 5000 if beside else 10_000
-    make = (shell, (values["h"], values["spread"])) if values["start"] == "energy shell" else (
-        patch, (values["h"], values["angle"], values["spread"]))
+    make = (
+        (shell, (values["h"], values["spread"]))
+        if values["start"] == "energy shell"
+        else (patch, (values["h"], values["angle"], values["spread"]))
+    )
     states = make[0](body, *make[1], count)
     span = values["span"] * (-1.0 if values["direction"] == "backward" else 1.0)
     # The captions have three digits.
@@ -444,8 +467,7 @@ def test_the_captions_say_what_the_general_equations_give(preset):
     assert numbers_in(said["omega"]) == pytest.approx([count, *(np.median(one) for one in s)], rel=6e-3)
     spread = numbers_in(said["sphere"])
     # A mean that stays is said once.
-    assert spread * (3 - len(spread)) == pytest.approx(
-        [((y[:, 2:] @ xi) ** 2).mean() for y in (states, end)], rel=6e-3)
+    assert spread * (3 - len(spread)) == pytest.approx([((y[:, 2:] @ xi) ** 2).mean() for y in (states, end)], rel=6e-3)
     growth = s[1] / s[0]
     if values["start"] == "small patch" and values["along"] == "volume":
         assert numbers_in(said["divergence"])[0] == pytest.approx(growth.mean(), rel=6e-3)
@@ -465,8 +487,7 @@ def test_the_captions_say_what_the_general_equations_give(preset):
 
 
 def test_on_the_sphere_a_cloud_stays_even_without_the_ball_and_gathers_with_it():
-    even, gathered = (
-        numbers_in(captions({**SCENE.defaults(), **SCENE.presets[i].values})["sphere"]) for i in (0, -1))
+    even, gathered = (numbers_in(captions({**SCENE.defaults(), **SCENE.presets[i].values})["sphere"]) for i in (0, -1))
     # Every ω(0) turns its γ together: the mean of (γ, ξ)² stays 1/3, within what 10 000 points can say.
     assert even == pytest.approx([1 / 3, 1 / 3], abs=4 * math.sqrt(4 / 45 / 10_000))
     assert gathered[1] > gathered[0] + 0.05

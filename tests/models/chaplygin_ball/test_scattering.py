@@ -65,8 +65,9 @@ def plainly_scattered(body, theta, phi, h, distance):
     """θ⁺ by SciPy."""
     xi = np.array([body.I23, -body.I13]) / math.hypot(body.I13, body.I23)
     (state,), _ = starts(Strip(body, h), theta, np.array([phi]), distance)
-    run = solve_ivp(lambda _, y: SYSTEM.field(y, body.parameters), (0.0, 400.0), state, method="DOP853", rtol=1e-13,
-                    atol=1e-20)
+    run = solve_ivp(
+        lambda _, y: SYSTEM.field(y, body.parameters), (0.0, 400.0), state, method="DOP853", rtol=1e-13, atol=1e-20
+    )
     return math.acos(run.y[2:4, -1] @ xi)
 
 
@@ -81,8 +82,12 @@ def test_scattering_agrees_with_a_plain_integrator(body, name):
     assert found.errors[0] >= abs(found.theta_plus[0] - theta_plus)
 
 
-BODIES = [CAPTION, BallBody(1.64, 1.0, 0.0, 0.8, 2.0), BallBody(2.0, 1.0, -0.3, 0.5, 0.0),
-          BallBody(0.3, 1.5, 3.0, 4.0, 30.0)]
+BODIES = [
+    CAPTION,
+    BallBody(1.64, 1.0, 0.0, 0.8, 2.0),
+    BallBody(2.0, 1.0, -0.3, 0.5, 0.0),
+    BallBody(0.3, 1.5, 3.0, 4.0, 30.0),
+]
 
 
 THETAS, DISTANCES = (0.0, 0.4, 1.1, math.pi / 2, 2.9), (1e-2, -1e-3)
@@ -92,12 +97,21 @@ SOME_PHASES = np.array([-2.5, 0.0, 0.7, 2.0])
 @cache
 def long_before(body):
     """By θ⁻ and distance: `starts` and where their motions were long before, by SciPy."""
-    found = {(theta, distance): starts(Strip(body, 10.0), theta, SOME_PHASES, distance)
-             for theta in THETAS for distance in DISTANCES}
+    found = {
+        (theta, distance): starts(Strip(body, 10.0), theta, SOME_PHASES, distance)
+        for theta in THETAS
+        for distance in DISTANCES
+    }
     # All motions at once: SciPy takes as long for forty as for two.
     together = np.concatenate([states for states, _ in found.values()]).T
-    run = solve_ivp(lambda _, y: np.ravel(SYSTEM.field(y.reshape(5, -1), body.parameters)), (0.0, -50.0),
-                    together.ravel(), method="DOP853", rtol=1e-11, atol=1e-14)
+    run = solve_ivp(
+        lambda _, y: np.ravel(SYSTEM.field(y.reshape(5, -1), body.parameters)),
+        (0.0, -50.0),
+        together.ravel(),
+        method="DOP853",
+        rtol=1e-11,
+        atol=1e-14,
+    )
     ends = np.split(run.y[:, -1].reshape(5, -1).T, len(found))
     return {key: (*found[key], end) for key, end in zip(found, ends, strict=True)}
 
@@ -113,8 +127,11 @@ def test_the_start_is_where_motions_of_its_circle_pass_but_for_the_square_of_the
             assert SYSTEM.integrals(state, body.parameters) == pytest.approx({"E": 10.0, "F1": 1.0}, rel=1e-13)
             assert state[0] * -xi[1] + state[1] * xi[0] == pytest.approx(distance * (state[:2] @ xi), rel=1e-12)
             across = math.sin(theta) * math.cos(phi)
-            circle = [math.cos(theta) * xi[0] - across * xi[1], math.cos(theta) * xi[1] + across * xi[0],
-                      math.sin(theta) * math.sin(phi)]
+            circle = [
+                math.cos(theta) * xi[0] - across * xi[1],
+                math.cos(theta) * xi[1] + across * xi[0],
+                math.sin(theta) * math.sin(phi),
+            ]
             assert np.linalg.norm(state[2:] - circle) <= 1.5 * abs(distance)
             along, up = back[2:4] @ xi, math.hypot(back[3] * xi[0] - back[2] * xi[1], back[4])
             away.append(abs(math.atan2(up, along) - theta))
@@ -146,8 +163,10 @@ def test_where_the_line_is_left_within_a_fraction_of_a_turn_the_errors_say_what_
 
 
 def test_errors_fall_with_the_distance_until_it_is_rounded():
-    errors = [ball_scattering(CAPTION, 1.0, PHASES[:16], 10.0, distance, level("reference")).errors.max()
-              for distance in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)]
+    errors = [
+        ball_scattering(CAPTION, 1.0, PHASES[:16], 10.0, distance, level("reference")).errors.max()
+        for distance in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)
+    ]
     assert errors[0] > 10 * errors[1] > 100 * errors[2]
     assert errors[2] < errors[3] < errors[4]
     draft = ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-7, level("draft"))
@@ -172,12 +191,20 @@ def test_results_are_read_only_and_share_nothing_with_the_caller():
     assert found.cost.steps > 0
 
 
-@pytest.mark.parametrize(("change", "match"), [
-    ({"theta": -0.1}, "0 ≤ θ⁻ ≤ π"), ({"theta": math.nan}, "theta_minus"), ({"distance": 0.0}, "from 1e-10 to 0.1"),
-    ({"distance": 0.5}, "from 1e-10 to 0.1"), ({"h": 0.0}, "choose h > 0"), ({"phis": []}, "phases"),
-    ({"phis": [math.inf]}, "phases"), ({"body": BallBody(1.0, 1.0, 0.0, 0.0, 1.0)}, "I13 or I23"),
-    ({"body": BallBody(1.0, 1.0, 0.1, 0.0, 1.0, 0.0, 0.0, 1.0)}, "b1 = b2 = b3 = 0"),
-])
+@pytest.mark.parametrize(
+    ("change", "match"),
+    [
+        ({"theta": -0.1}, "0 ≤ θ⁻ ≤ π"),
+        ({"theta": math.nan}, "theta_minus"),
+        ({"distance": 0.0}, "from 1e-10 to 0.1"),
+        ({"distance": 0.5}, "from 1e-10 to 0.1"),
+        ({"h": 0.0}, "choose h > 0"),
+        ({"phis": []}, "phases"),
+        ({"phis": [math.inf]}, "phases"),
+        ({"body": BallBody(1.0, 1.0, 0.0, 0.0, 1.0)}, "I13 or I23"),
+        ({"body": BallBody(1.0, 1.0, 0.1, 0.0, 1.0, 0.0, 0.0, 1.0)}, "b1 = b2 = b3 = 0"),
+    ],
+)
 def test_what_cannot_be_is_refused_in_a_sentence(change, match):
     given = {"body": CAPTION, "theta": 1.0, "phis": [0.0], "h": 10.0, "distance": 1e-6} | change
     with pytest.raises(InvalidParameter, match=match):

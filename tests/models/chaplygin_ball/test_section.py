@@ -28,11 +28,16 @@ from support.ball import occupied
 
 GENERAL = BallBody(1.5, 3.0, -0.3, 0.2, 1.0, 1.0, -0.7, 0.7)
 PLAIN = BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.0, 0.8)
-bodies = pytest.mark.parametrize("body", [GENERAL, PLAIN, BallBody(1.0, 2.0, 0.1, 0.2, 0.0, 0.0, 0.0, 1.0)],
-                                 ids=["general", "volume kept", "no inner ball"])
+bodies = pytest.mark.parametrize(
+    "body",
+    [GENERAL, PLAIN, BallBody(1.0, 2.0, 0.1, 0.2, 0.0, 0.0, 0.0, 1.0)],
+    ids=["general", "volume kept", "no inner ball"],
+)
 SCENE = scenes()["ball-section"]
-EXAMPLES = {name: next(one for one in SCENE.presets if one.name.startswith(name))
-            for name in ("Mixed", "Regular", "Every orbit closes", "A sea", "Strange attractor", "A wider one")}
+EXAMPLES = {
+    name: next(one for one in SCENE.presets if one.name.startswith(name))
+    for name in ("Mixed", "Regular", "Every orbit closes", "A sea", "Strange attractor", "A wider one")
+}
 
 
 def example(name):
@@ -61,10 +66,16 @@ def test_a_state_of_the_section_has_its_energy_and_its_coordinates(body):
         assert coordinates(np.array([state]))[0] == pytest.approx((psi, delta), abs=1e-9)
 
 
-@pytest.mark.parametrize(("psi", "delta", "match"), [
-    (0.0, 0.0, "between 0 and π"), (0.0, math.pi, "between 0 and π"), (0.0, -1.0, "between 0 and π"),
-    (math.nan, 1.0, "psi"), (0.0, math.inf, "delta"),
-])
+@pytest.mark.parametrize(
+    ("psi", "delta", "match"),
+    [
+        (0.0, 0.0, "between 0 and π"),
+        (0.0, math.pi, "between 0 and π"),
+        (0.0, -1.0, "between 0 and π"),
+        (math.nan, 1.0, "psi"),
+        (0.0, math.inf, "delta"),
+    ],
+)
 def test_what_is_no_point_of_the_section_is_refused(psi, delta, match):
     with pytest.raises(InvalidParameter, match=match):
         state_at(PLAIN, 2.0, psi, delta)
@@ -129,12 +140,20 @@ def test_points_of_many_orbits_are_the_crossings_of_each(body):
 @bodies
 def test_the_first_crossings_are_those_of_another_integrator(body):
     for start in seeds(body, 1.5, 4):
+
         def height(_, y):
             return y[4]
 
         height.direction = 1.0
-        run = solve_ivp(lambda _, y: SYSTEM.field(y, body.parameters), (0.0, 60.0), start, method="DOP853", rtol=1e-12,
-                        atol=1e-13, events=height)
+        run = solve_ivp(
+            lambda _, y: SYSTEM.field(y, body.parameters),
+            (0.0, 60.0),
+            start,
+            method="DOP853",
+            rtol=1e-12,
+            atol=1e-13,
+            events=height,
+        )
         exact = run.y_events[0][run.t_events[0] > 1e-6][:4]
         points = ball_section(body, 1.5, [start], 4, level("precise")).states[0]
         assert np.max(np.abs(points - exact)) <= 1e-7
@@ -151,8 +170,10 @@ def test_cells_are_counted_as_those_of_a_histogram():
 
 
 def test_more_steps_than_allowed_are_refused_in_a_sentence():
-    for crossings, words in ((40, "40 crossings take an orbit more than 60 steps here: choose fewer of them"),
-                             (10**7, "choose fewer of them, or smaller I13 and I23")):
+    for crossings, words in (
+        (40, "40 crossings take an orbit more than 60 steps here: choose fewer of them"),
+        (10**7, "choose fewer of them, or smaller I13 and I23"),
+    ):
         with pytest.raises(WorkLimit, match=words):
             ball_section(PLAIN, 1.5, seeds(PLAIN, 1.5, 9), crossings, level("draft"), most_steps=60)
     assert [len(one) for one in ball_section(PLAIN, 1.5, seeds(PLAIN, 1.5, 9), 40, level("draft")).states] == [40] * 9
@@ -185,10 +206,16 @@ def late_cells(name, count=24, crossings=1200):
     return [occupied(coordinates(states[crossings // 2 :])) for states in points.states]
 
 
-@pytest.mark.parametrize("body", [
-    BallBody(1.0, 2.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0), BallBody(0.3, 2.0, 0.0, 0.0, 20.0, -0.4, 0.9, 0.0),
-    BallBody(2.0, 2.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0), example("Every orbit closes")[0],
-], ids=str)
+@pytest.mark.parametrize(
+    "body",
+    [
+        BallBody(1.0, 2.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0),
+        BallBody(0.3, 2.0, 0.0, 0.0, 20.0, -0.4, 0.9, 0.0),
+        BallBody(2.0, 2.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0),
+        example("Every orbit closes")[0],
+    ],
+    ids=str,
+)
 def test_with_b3_and_I13_and_I23_zero_every_orbit_closes_after_one_turn(body):
     for h in (-0.3, 0.4, 1.7):
         for start in seeds(body, h, 12):
@@ -226,8 +253,7 @@ def test_mixed_some_orbits_lie_on_curves_and_others_fill_a_sea():
     assert np.count_nonzero(counts <= 80) >= 8
     assert np.count_nonzero(counts >= 120) >= 8
     body, h = example("Mixed")
-    exponents = np.array(
-        [lyapunov_exponent(body, start, 1500.0).value for start in seeds(body, h, 24)])
+    exponents = np.array([lyapunov_exponent(body, start, 1500.0).value for start in seeds(body, h, 24)])
     assert np.mean(exponents[counts <= 80] < 0.007) >= 0.75
     assert np.mean(exponents[counts > 80] > 0.009) >= 0.75
 
@@ -255,8 +281,14 @@ def test_all_starts_end_in_one_set(name, most, least):
 def divergence(body, y):
     """Of the field at states y (5, n), by differences."""
     step = 1e-5 * np.eye(5)[:, :, None]
-    return sum((np.array(SYSTEM.field(y + step[i], body.parameters))[i]
-                - np.array(SYSTEM.field(y - step[i], body.parameters))[i]) / 2e-5 for i in range(5))
+    return sum(
+        (
+            np.array(SYSTEM.field(y + step[i], body.parameters))[i]
+            - np.array(SYSTEM.field(y - step[i], body.parameters))[i]
+        )
+        / 2e-5
+        for i in range(5)
+    )
 
 
 @pytest.mark.parametrize("name", ["Strange attractor", "A wider one"])
@@ -314,7 +346,13 @@ def test_many_orbits_spread_over_the_section_are_those_of_its_seeds():
 
 def test_the_fastest_moment_of_an_orbit_is_that_of_another_integrator():
     start = state_at(GENERAL, 1.0, 0.4, 1.1)
-    found = solve_ivp(lambda _, y: SYSTEM.field(y, GENERAL.parameters), (0.0, 12.0), start, rtol=1e-9, atol=1e-9,
-                      t_eval=np.linspace(0.0, 12.0, 5001)).y
+    found = solve_ivp(
+        lambda _, y: SYSTEM.field(y, GENERAL.parameters),
+        (0.0, 12.0),
+        start,
+        rtol=1e-9,
+        atol=1e-9,
+        t_eval=np.linspace(0.0, 12.0, 5001),
+    ).y
     # A few samples miss the peak itself by little.
     assert fastest(GENERAL, start, 12.0) == pytest.approx(np.hypot(found[0], found[1]).max(), rel=0.01)

@@ -64,11 +64,14 @@ def test_a_branch_comes_in_parts_and_goes_on_past_where_it_began():
         branch(arnold, 0.1, (0.3,), 1.0, edge=0.5)
 
 
-@pytest.mark.parametrize(("kind", "start", "end", "period", "place", "exact"), [
-    ("fold", 0.1, -1.0, 1, (0.6, 0.2), -0.25 * (1 - B) ** 2),
-    ("flip", 0.1, 0.6, 1, (0.6, 0.2), 0.75 * (1 - B) ** 2),
-    ("flip", 0.5, 1.4, 2, (1.0, 0.0), (1 - B) ** 2 + 0.25 * (1 + B) ** 2),
-])
+@pytest.mark.parametrize(
+    ("kind", "start", "end", "period", "place", "exact"),
+    [
+        ("fold", 0.1, -1.0, 1, (0.6, 0.2), -0.25 * (1 - B) ** 2),
+        ("flip", 0.1, 0.6, 1, (0.6, 0.2), 0.75 * (1 - B) ** 2),
+        ("flip", 0.5, 1.4, 2, (1.0, 0.0), (1 - B) ** 2 + 0.25 * (1 + B) ** 2),
+    ],
+)
 def test_bifurcations_of_the_map_of_henon(kind, start, end, period, place, exact):
     found = branch(henon, start, place, end, period, points=60)
     one = the(found, kind)

@@ -23,8 +23,10 @@ START = (0.8, -0.4, 0.6, 0.0, 0.8)
 def away(found, exact):
     """The largest difference of each component from decimals (n, d), in units in which states are O(1)."""
     with decimal.localcontext(prec=60):
-        both = [[abs(Decimal(z.real) + Decimal(z.imag) - x) for z, x in zip(*rows, strict=True)]
-                for rows in zip(found.pairs.tolist(), exact, strict=True)]
+        both = [
+            [abs(Decimal(z.real) + Decimal(z.imag) - x) for z, x in zip(*rows, strict=True)]
+            for rows in zip(found.pairs.tolist(), exact, strict=True)
+        ]
     return float(np.max(np.array(both, float) / found.scale))
 
 
@@ -37,11 +39,15 @@ def test_an_orbit_has_all_but_two_of_the_digits_of_a_pair(system, direction):
     assert away(doubled(system.at(parameters), state, times), exact) < 1e-29
 
 
-@pytest.mark.parametrize(("state", "parameters", "unit"), [
-    ((8e3, -4e3, *START[2:]), (*GENERIC[:4], 3e7, -5e7, 1e8), 1e4),
-    ((8e-5, -4e-5, *START[2:]), (*GENERIC[:4], 3e-9, -5e-9, 1e-8), 1e-4),
-    ((0.0, 0.0, 0.6, -0.8, 0.0), GENERIC, 1.0),
-], ids=["fast", "slow", "from rest"])
+@pytest.mark.parametrize(
+    ("state", "parameters", "unit"),
+    [
+        ((8e3, -4e3, *START[2:]), (*GENERIC[:4], 3e7, -5e7, 1e8), 1e4),
+        ((8e-5, -4e-5, *START[2:]), (*GENERIC[:4], 3e-9, -5e-9, 1e-8), 1e-4),
+        ((0.0, 0.0, 0.6, -0.8, 0.0), GENERIC, 1.0),
+    ],
+    ids=["fast", "slow", "from rest"],
+)
 def test_no_unit_of_time_costs_digits(state, parameters, unit):
     times = [t / unit for t in TIMES]
     exact = oracle.orbit_in_decimals(SYSTEMS["suslov"], state, parameters, times, digits=45)

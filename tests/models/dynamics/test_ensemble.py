@@ -75,8 +75,15 @@ def test_an_ensemble_agrees_with_an_integrator_of_another_family(system):
     states = starts(system, LANES + 3, seed=2)
     result = ensemble(system.at(system.example[1]), states, FORWARD, level("reference"))
     for state, found in zip(states, result.states, strict=True):
-        other = solve_ivp(lambda _, y: system.field(y, system.example[1]), (0.0, 10.0), state, t_eval=FORWARD,
-                          method="DOP853", rtol=1e-12, atol=1e-13)
+        other = solve_ivp(
+            lambda _, y: system.field(y, system.example[1]),
+            (0.0, 10.0),
+            state,
+            t_eval=FORWARD,
+            method="DOP853",
+            rtol=1e-12,
+            atol=1e-13,
+        )
         assert np.max(np.abs(found - other.y.T)) < 1e-9
 
 
@@ -247,8 +254,10 @@ def test_orbits_that_miss_the_promise_are_computed_again(system):
 @every_system
 def test_a_level_that_cannot_keep_its_promise_says_so(system):
     states = starts(system, 3)
-    for rung, status in ((Level("standard", 1e-300, 1e-8, 14), Status.PROMISE_NOT_MET),
-                         (Level("reference", 1e-300, 1e-17, 24), Status.FLOOR)):
+    for rung, status in (
+        (Level("standard", 1e-300, 1e-8, 14), Status.PROMISE_NOT_MET),
+        (Level("reference", 1e-300, 1e-17, 24), Status.FLOOR),
+    ):
         result = ensemble(system.at(system.example[1]), states, [1.0], rung)
         assert result.status is status
         assert np.all(np.isfinite(result.errors))
@@ -278,8 +287,9 @@ def test_states_may_be_lists_or_tables_of_any_layout(system):
     states = starts(system, 11)
     plain = ensemble(system.at(system.example[1]), states, FORWARD, level("draft"))
     for given in (states.tolist(), np.asfortranarray(states), np.repeat(states, 2, axis=0)[::2]):
-        assert np.array_equal(ensemble(system.at(list(system.example[1])), given, list(FORWARD), level("draft")).states,
-                              plain.states)
+        assert np.array_equal(
+            ensemble(system.at(list(system.example[1])), given, list(FORWARD), level("draft")).states, plain.states
+        )
     alone = ensemble(system.at(system.example[1]), states[0], FORWARD, level("draft"))
     assert alone.states.shape == (1, FORWARD.size, states.shape[1])
 

@@ -56,8 +56,9 @@ def found(name):
 @pytest.mark.parametrize("motion", MOTIONS, ids=lambda motion: motion["name"])
 def test_the_kind_of_a_known_motion_is_right_or_undecided(motion):
     kind, period = found(motion["name"])
-    assert verdict(motion, kind, period) != "wrong", f"{kind}, period {period}: it is {motion['kind']}, " \
-                                                     f"period {motion['period']} ({motion['how']})"
+    assert verdict(motion, kind, period) != "wrong", (
+        f"{kind}, period {period}: it is {motion['kind']}, period {motion['period']} ({motion['how']})"
+    )
 
 
 def test_at_most_a_tenth_of_the_known_motions_is_undecided():
@@ -69,8 +70,17 @@ def test_the_table_has_motions_of_every_kind_and_system():
     assert len(MOTIONS) >= 60
     assert len({one["name"] for one in MOTIONS}) == len(MOTIONS)
     categories = Counter(one["category"] for one in MOTIONS)
-    for category, least in (("near-separatrix", 6), ("long-period", 6), ("slow", 6), ("weakly chaotic", 8),
-                            ("chaotic", 8), ("strange attractor", 4), ("attractor", 8), ("mixed", 6), ("regular", 5)):
+    for category, least in (
+        ("near-separatrix", 6),
+        ("long-period", 6),
+        ("slow", 6),
+        ("weakly chaotic", 8),
+        ("chaotic", 8),
+        ("strange attractor", 4),
+        ("attractor", 8),
+        ("mixed", 6),
+        ("regular", 5),
+    ):
         assert categories[category] >= least, category
     for case in ("Euler,", "Lagrange,", "Kovalevskaya,", "Goryachev–Chaplygin,"):
         assert sum(one["name"].startswith(case) and "theorem" in one["how"] for one in MOTIONS) >= 4

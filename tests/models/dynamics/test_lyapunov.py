@@ -44,7 +44,7 @@ def test_every_earlier_rate_is_that_of_a_shorter_span():
     long = lyapunov_exponent(body, state, 8.0)
     for i in (3, len(long.times) // 2):
         assert long.rates[i] == pytest.approx(finite_exponent(body, state, float(long.times[i])), abs=2e-5)
-    later = long.rates[len(long.rates) // 2:]
+    later = long.rates[len(long.rates) // 2 :]
     assert long.spread == pytest.approx(np.ptp(later))
     assert not long.rates.flags.writeable
 
@@ -111,9 +111,18 @@ def circle(rho, count, bend=0.0, centre=(0.0, 0.0), first=0.3):
 
 
 # Next to 0 and ½ the points hardly leave their places on the curve: what is seen of it in 4000 is little.
-@pytest.mark.parametrize(("rho", "error"), [
-    (GOLDEN - 1.0, 1e-9), (1.0 - GOLDEN, 1e-9), (math.sqrt(2.0) - 1.3, 1e-9), (1.0 / math.pi, 1e-9), (-0.4999, 2e-4),
-    (0.499, 1e-6), (0.001, 1e-5)])
+@pytest.mark.parametrize(
+    ("rho", "error"),
+    [
+        (GOLDEN - 1.0, 1e-9),
+        (1.0 - GOLDEN, 1e-9),
+        (math.sqrt(2.0) - 1.3, 1e-9),
+        (1.0 / math.pi, 1e-9),
+        (-0.4999, 2e-4),
+        (0.499, 1e-6),
+        (0.001, 1e-5),
+    ],
+)
 @pytest.mark.parametrize("bend", [0.0, 0.4])
 def test_the_number_of_a_rotation_in_other_coordinates_is_found(rho, error, bend):
     points, phi = circle(rho, 4000, bend, (1.2, -0.4))
@@ -149,9 +158,14 @@ def test_points_without_order_are_no_closed_curve():
     assert all(rotation_number(random.uniform(-1.0, 1.0, (500, 2)), (0.0, 0.0))[1] > 1e-3 for _ in range(10))
 
 
-@pytest.mark.parametrize(("body", "h", "f", "place", "centre"), [
-    (GESS1, 50.0, 5.0, (-1.7, 0.03), (-1.85, 0.03)), (RIS, 0.0, 0.0, (2.8, 0.3), None),
-    (RIS, -0.4, 0.0, (2.8, 0.3), (math.pi, 0.0))])
+@pytest.mark.parametrize(
+    ("body", "h", "f", "place", "centre"),
+    [
+        (GESS1, 50.0, 5.0, (-1.7, 0.03), (-1.85, 0.03)),
+        (RIS, 0.0, 0.0, (2.8, 0.3), None),
+        (RIS, -0.4, 0.0, (2.8, 0.3), (math.pi, 0.0)),
+    ],
+)
 def test_with_500_points_it_is_that_of_10000(body, h, f, place, centre):
     states = andoyer_points(body, h, f, [state_at(body, h, f, *place)], 10_000, STANDARD).states[0]
     assert len(states) == 10_000

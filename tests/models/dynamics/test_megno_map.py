@@ -47,8 +47,9 @@ def test_integrable_bodies_are_regular_all_over_and_a_sea_is_chaotic():
         "quartic": return_map(QuarticBody(1.0, 1.0, 1.0, 0.6), accuracy="standard"),
         "ball": return_map(BallBody(1.0, 1.0, 0.0, 0.0, 3.0, 0.0, 0.0, 1.0), h=1.5, accuracy="standard"),
         # r along the axis of symmetry: Lagrange's top.
-        "euler-poisson": return_map(HeavyBody((1.0, 1.0, 0.5), (0.0, 0.0, 1.0), 1.0), h=1.0, f=0.5,
-                                    accuracy="standard"),
+        "euler-poisson": return_map(
+            HeavyBody((1.0, 1.0, 0.5), (0.0, 0.0, 1.0), 1.0), h=1.0, f=0.5, accuracy="standard"
+        ),
     }
     for P in integrable.values():
         found = megno_map(P, cells=(6, 4), t=time_of(P.section, 300.0))
@@ -70,13 +71,16 @@ def test_where_volume_shrinks_cells_are_attracted():
     assert (megno_map(kept, cells=(4, 3), t=100.0).kind < 2).all()
 
 
-@pytest.mark.parametrize(("asked", "said"), [
-    ({"window": ((0.0, 0.0), (0.0, 1.0))}, "x0 < x1"),
-    ({"window": ((0.0, 0.0), (1.0, 4.0))}, "δ from 0 to 3.14159"),
-    ({"window": ((0.0,), (1.0, 4.0))}, "is no place here: give 2 numbers, ψ, δ"),
-    ({"cells": (1000, 1000)}, "at most 100000"),
-    ({"t": math.nan}, "t is not a finite number"),
-])
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ({"window": ((0.0, 0.0), (0.0, 1.0))}, "x0 < x1"),
+        ({"window": ((0.0, 0.0), (1.0, 4.0))}, "δ from 0 to 3.14159"),
+        ({"window": ((0.0,), (1.0, 4.0))}, "is no place here: give 2 numbers, ψ, δ"),
+        ({"cells": (1000, 1000)}, "at most 100000"),
+        ({"t": math.nan}, "t is not a finite number"),
+    ],
+)
 def test_what_cannot_be_is_refused(asked, said):
     P = return_map(STRANGE, E=2.0)
     with pytest.raises(InvalidParameter, match=said):

@@ -19,8 +19,9 @@ B = 0.3
 
 def bistable(r):
     """x′ = x + (r + x − x³)/5, y′ = y/2: two stable points between the folds at r = ±2/(3√3)."""
-    return Formula(lambda x, y: (x + 0.2 * (r + x - x**3), 0.5 * y),
-                   lambda x, y: [[1.2 - 0.6 * x * x, 0.0], [0.0, 0.5]])
+    return Formula(
+        lambda x, y: (x + 0.2 * (r + x - x**3), 0.5 * y), lambda x, y: [[1.2 - 0.6 * x * x, 0.0], [0.0, 0.5]]
+    )
 
 
 def test_the_doublings_of_the_map_of_henon_are_its_own_and_their_ratios_tend_to_feigenbaums():
@@ -88,12 +89,15 @@ def test_the_way_back_is_another_one_between_the_folds():
     assert hysteresis(PLANE, *anew) == ()
 
 
-@pytest.mark.parametrize(("body", "constants", "place"), [
-    (SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), {"E": 1.842}, (0.3, 1.2)),
-    (SuslovBody(1.3, 0.8, 0.0, 0.0, 0.0, 0.0, 1.0), {"E": 0.4}, (0.3, 1.2)),
-    (BallBody(1.0, 3.0, 0.2, -0.1, 5.0, 0.5, 0.2, 0.8), {"h": 2.0}, (0.3, 1.2)),
-    (HeavyBody.hess((1.0, 1.6, 4.0), 1.0), {"h": 1.5, "f": -0.7}, (0.4, -0.2)),
-])
+@pytest.mark.parametrize(
+    ("body", "constants", "place"),
+    [
+        (SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), {"E": 1.842}, (0.3, 1.2)),
+        (SuslovBody(1.3, 0.8, 0.0, 0.0, 0.0, 0.0, 1.0), {"E": 0.4}, (0.3, 1.2)),
+        (BallBody(1.0, 3.0, 0.2, -0.1, 5.0, 0.5, 0.2, 0.8), {"h": 2.0}, (0.3, 1.2)),
+        (HeavyBody.hess((1.0, 1.6, 4.0), 1.0), {"h": 1.5, "f": -0.7}, (0.4, -0.2)),
+    ],
+)
 def test_an_orbit_is_the_images_one_after_the_other_forward_and_backward(body, constants, place):
     P = return_map(body, **constants)
     orbit = P.orbit(place, 12)
@@ -111,8 +115,9 @@ def test_the_section_of_a_torus_comes_to_the_limit_cycle_of_the_moebius_matrix_a
     forward = diagram_over(lambda h: P.moved("h", h), "h", values, (0.3,), 60, 16)
     backward = diagram_over(lambda h: P.moved("h", h).inverse(), "h", values, (0.3,), 60, 16)
     for h, attractor, repeller in zip(values, forward.places, backward.places, strict=True):
-        for places, point in zip((attractor, repeller), circle_map(a, h, 0.6, level("reference")).fixed_points,
-                                 strict=True):
+        for places, point in zip(
+            (attractor, repeller), circle_map(a, h, 0.6, level("reference")).fixed_points, strict=True
+        ):
             assert np.ptp(places) < 1e-8
             slope = P.moved("h", h).with_derivative(places[-1])[1]
             assert slope[0, 0] == pytest.approx(point.multiplier, rel=1e-7)

@@ -26,8 +26,9 @@ def test_a_function_lies_within_the_bound_of_its_polynomial(delta):
     x, y = [Fraction(1, 2), Fraction(1), Fraction(-2)], [Fraction(1), Fraction(1, 3), Fraction(1), Fraction(1, 4)]
     with working(128) as library:
         arb = library.arb
-        one, two = (Along(library.arb_poly([arb(rational(c)) for c in some]), arb(rational(delta)), TERMS)
-                    for some in (x, y))
+        one, two = (
+            Along(library.arb_poly([arb(rational(c)) for c in some]), arb(rational(delta)), TERMS) for some in (x, y)
+        )
         found = formula(one, two)
         assert found.rest > 0
         # No wider than the terms that are left out, and so for the longer step.

@@ -35,8 +35,9 @@ STRANGE_E = 0.681
 PLAIN = SuslovBody(1.5, 0.7, 0.0, 0.0, 1.4, -1.3, 0.8)
 
 
-@pytest.mark.parametrize(("a", "h", "f", "kind"), [
-    (0.5, 1.5, 0.6, MotionKind.FIXED_POINT), (0.1, 0.8, 0.6, MotionKind.QUASI_PERIODIC)])
+@pytest.mark.parametrize(
+    ("a", "h", "f", "kind"), [(0.5, 1.5, 0.6, MotionKind.FIXED_POINT), (0.1, 0.8, 0.6, MotionKind.QUASI_PERIODIC)]
+)
 def test_on_a_torus_the_trace_of_the_moebius_matrix_decides(a, h, f, kind):
     exact = circle_map(a, h, f, level("reference"))
     assert exact.kind == ("hyperbolic" if kind is MotionKind.FIXED_POINT else "elliptic")
@@ -53,7 +54,8 @@ def test_a_strange_attractor_is_chaotic_and_shrinks_as_its_exponents_say():
     exponents = lyapunov_spectrum(STRANGE, P.state_at(found.places[-1]), 16_000.0)
     assert exponents.signs[0] == "+"
     assert abs(found.divergence - exponents.values.sum()) <= 3.0 * (
-        found.divergence_error + math.hypot(*exponents.errors))
+        found.divergence_error + math.hypot(*exponents.errors)
+    )
     assert "shrinks" in found.sentence
     # Backwards in time volume grows.
     assert regime(P.inverse(), (1.0, 1.0), t=300.0).kind is MotionKind.CHAOTIC
@@ -85,18 +87,31 @@ def test_a_sea_whose_volume_shrinks_is_not_conservative_and_shows_the_number_tha
     assert f"|mean divergence| < {short.bound:.1g}" in short.sentence
 
 
-@pytest.mark.parametrize(("settled", "apart", "touching", "verdict"), [
-    (8, 8, 0, "dissipative"), (6, 6, 0, "dissipative"), (5, 5, 0, "not told apart"), (8, 7, 1, "not told apart"),
-    (8, 0, 8, "mixed"), (0, 0, 0, "not told apart")])
+@pytest.mark.parametrize(
+    ("settled", "apart", "touching", "verdict"),
+    [
+        (8, 8, 0, "dissipative"),
+        (6, 6, 0, "dissipative"),
+        (5, 5, 0, "not told apart"),
+        (8, 7, 1, "not told apart"),
+        (8, 0, 8, "mixed"),
+        (0, 0, 0, "not told apart"),
+    ],
+)
 def test_orbits_on_their_way_tell_nothing_and_the_others_must_agree(settled, apart, touching, verdict):
-    motion = replace(regime(return_map(STRANGE, E=1.0), (1.0, 1.0), transient=50), divergence=-0.1,
-                     divergence_error=0.01, volume_kept=False)
+    motion = replace(
+        regime(return_map(STRANGE, E=1.0), (1.0, 1.0), transient=50),
+        divergence=-0.1,
+        divergence_error=0.01,
+        volume_kept=False,
+    )
     kinds = [Apart(3.0, 0.01, 0.01, 0.0, True)] * apart + [Apart(0.5, 0.01, 0.01, 0.1, True)] * touching
     kinds += [Apart(1.0, 0.2, 0.9, 0.0, False)] * (8 - settled)
     found = Dynamics(motion, np.zeros((1, 2)), np.zeros((1, 2)), tuple(kinds))
     assert found.verdict == verdict
-    assert found.distance == pytest.approx({8: 3.0, 6: 3.0, 5: 3.0, 0: 1.0}[settled] if not touching else
-                                           (3.0 * apart + 0.5 * touching) / 8)
+    assert found.distance == pytest.approx(
+        {8: 3.0, 6: 3.0, 5: 3.0, 0: 1.0}[settled] if not touching else (3.0 * apart + 0.5 * touching) / 8
+    )
 
 
 def test_a_slow_motion_is_followed_until_it_returns():
@@ -131,17 +146,21 @@ def test_what_is_not_seen_to_return_is_said_with_the_time_waited():
     height.direction = 1.0
     # The start lies on the plane, so a crossing at t = 0 is the start itself.
     start = P.state_at(found.places[-1] if len(found.places) else np.array([1.0, 1.0]))
-    followed = solve_ivp(lambda t, y: field(REVERSAL, y), (0.0, found.t), start, method="DOP853", rtol=1e-10,
-                         atol=1e-11, events=height)
+    followed = solve_ivp(
+        lambda t, y: field(REVERSAL, y), (0.0, found.t), start, method="DOP853", rtol=1e-10, atol=1e-11, events=height
+    )
     assert not np.any(followed.t_events[0] > 1e-3)
 
 
-@pytest.mark.parametrize(("body", "h", "f", "place", "case"), [
-    (HeavyBody((1.0, 0.625, 0.25), (0.0, 0.0, 1.0), 0.0), 1.5, 0.7, (0.001, 0.001), "Euler"),
-    (HeavyBody((1.0, 1.0, 2.0), (0.0, 0.0, 1.0), 1.0), 1.5, 0.5, (0.5, 0.3), "Lagrange"),
-    (HeavyBody((1.0, 1.0, 2.0), (1.0, 0.0, 0.0), 1.0), 1.5, 0.5, (0.5, 0.3), "Kovalevskaya"),
-    (HeavyBody((1.0, 1.0, 4.0), (1.0, 0.0, 0.0), 1.0), 1.5, 0.0, (0.5, 0.3), "Goryachev"),
-])
+@pytest.mark.parametrize(
+    ("body", "h", "f", "place", "case"),
+    [
+        (HeavyBody((1.0, 0.625, 0.25), (0.0, 0.0, 1.0), 0.0), 1.5, 0.7, (0.001, 0.001), "Euler"),
+        (HeavyBody((1.0, 1.0, 2.0), (0.0, 0.0, 1.0), 1.0), 1.5, 0.5, (0.5, 0.3), "Lagrange"),
+        (HeavyBody((1.0, 1.0, 2.0), (1.0, 0.0, 0.0), 1.0), 1.5, 0.5, (0.5, 0.3), "Kovalevskaya"),
+        (HeavyBody((1.0, 1.0, 4.0), (1.0, 0.0, 0.0), 1.0), 1.5, 0.0, (0.5, 0.3), "Goryachev"),
+    ],
+)
 def test_integrable_cases_are_named_and_never_chaotic(body, h, f, place, case):
     found = regime(return_map(body, h=h, f=f), place)
     assert case in found.integrable

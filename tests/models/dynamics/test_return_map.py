@@ -102,7 +102,8 @@ def test_on_the_real_flow_of_euler_poisson_they_are_saddles_with_the_same_multip
         assert orbit.kind == "saddle"
         assert abs(orbit.places[0, 1] - hess_curve(HEAVY, orbit.places[:1, 0])[0]) < 1e-10
         assert orbit.multipliers.real / np.array([cycle.multiplier, 1.0 / cycle.multiplier]) == pytest.approx(
-            [1.0, 1.0], abs=1e-9)
+            [1.0, 1.0], abs=1e-9
+        )
 
 
 @pytest.mark.parametrize(("parameter", "a", "end"), [("a", 0.7, 0.3), ("f", 0.5, 1.5)])
@@ -114,8 +115,11 @@ def test_cycles_are_born_in_a_fold_on_the_boundary_of_the_locks(parameter, a, en
     exact = critical_a(h, f, REFERENCE) if parameter == "a" else lock_boundary_f(a, h, REFERENCE)
     P = return_map(tori(a), h=h, f=f)
     start = circle_map(a, h, f, REFERENCE).fixed_points[0].phi
-    orbit = next(one for one in (periodic_orbit(P, (start + turn,), 1) for turn in np.linspace(0.0, 6.0, 7))
-                 if one.kind == "stable node")
+    orbit = next(
+        one
+        for one in (periodic_orbit(P, (start + turn,), 1) for turn in np.linspace(0.0, 6.0, 7))
+        if one.kind == "stable node"
+    )
     branch = continued_orbit(P, orbit, parameter, end)
     (fold,) = branch.bifurcations
     assert fold.kind == "fold"
@@ -146,8 +150,9 @@ def test_the_separatrices_of_the_hess_manifold_split_in_proportion_to_what_is_of
     assert gaps[2][0] / gaps[1][0] == pytest.approx(2.0, abs=1e-2)
 
 
-@pytest.mark.parametrize(("body", "place"), [(QuarticBody(2.0, 1.0, -1.2, 0.8), (0.4, -0.3)),
-                                             (QuarticBody(0.7, 1.0, 1.0, 1.5), (1.9, 0.3))])
+@pytest.mark.parametrize(
+    ("body", "place"), [(QuarticBody(2.0, 1.0, -1.2, 0.8), (0.4, -0.3)), (QuarticBody(0.7, 1.0, 1.0, 1.5), (1.9, 0.3))]
+)
 def test_places_of_the_quartic_section_are_canonical_and_their_states_those_of_clicks(body, place):
     P = return_map(body)
     assert P.state_at(place) == pytest.approx(state_on_section(body, *place), abs=1e-13)

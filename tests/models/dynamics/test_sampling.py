@@ -58,18 +58,23 @@ def error_of_track(body, h, f, phi0, span):
 
 def bodies(largest_a):
     return st.builds(
-        lambda I22, a, b3: HessBody(I22, a * I22, b3), st.floats(0.3, 2.0), st.floats(-largest_a, largest_a),
-        st.one_of(st.floats(-3.0, -0.1), st.floats(0.1, 3.0)))
+        lambda I22, a, b3: HessBody(I22, a * I22, b3),
+        st.floats(0.3, 2.0),
+        st.floats(-largest_a, largest_a),
+        st.one_of(st.floats(-3.0, -0.1), st.floats(0.1, 3.0)),
+    )
 
 
 # From the slider, from far beyond it, near the bottom and near the separatrix.
 energies = st.one_of(
-    st.floats(-0.99, 4.0), st.floats(0.0, 4.0).map(lambda e: 10.0**e), st.floats(-6.0, 0.0).map(lambda e: -1 + 10.0**e),
-    st.builds(lambda sign, e: 1.0 + sign * 10.0**e, st.sampled_from([-1.0, 1.0]), st.floats(-6.0, -1.0)))
+    st.floats(-0.99, 4.0),
+    st.floats(0.0, 4.0).map(lambda e: 10.0**e),
+    st.floats(-6.0, 0.0).map(lambda e: -1 + 10.0**e),
+    st.builds(lambda sign, e: 1.0 + sign * 10.0**e, st.sampled_from([-1.0, 1.0]), st.floats(-6.0, -1.0)),
+)
 spans = st.floats(-1.0, 2.0).map(lambda e: 10.0**e)
 phases = st.floats(-math.pi, math.pi)
-shares = st.one_of(
-    st.floats(-1.0, 1.0), st.sampled_from([-1.0, 0.0, 1.0]), st.floats(-8.0, 0.0).map(lambda e: 10.0**e))
+shares = st.one_of(st.floats(-1.0, 1.0), st.sampled_from([-1.0, 0.0, 1.0]), st.floats(-8.0, 0.0).map(lambda e: 10.0**e))
 
 
 @settings(PROPERTY, max_examples=300)
@@ -106,8 +111,11 @@ def test_close_to_the_separatrix_the_samples_lie_where_the_orbit_bends_too(h, f,
 
 @pytest.mark.parametrize("a", [10.0, 30.0, 100.0])
 def test_with_a_large_a_the_samples_are_close_enough_too(a):
-    errors = [error_of_track(HessBody(1.0, a, -1.0), h, f, phi0, 40.0)
-              for h, f in ((1.5, 0.6), (0.2, 0.5), (3.0, -1.0)) for phi0 in (-2.0, 0.5)]
+    errors = [
+        error_of_track(HessBody(1.0, a, -1.0), h, f, phi0, 40.0)
+        for h, f in ((1.5, 0.6), (0.2, 0.5), (3.0, -1.0))
+        for phi0 in (-2.0, 0.5)
+    ]
     assert max(samples for _, samples in errors) < MOST
     assert max(error for error, _ in errors) < SAGITTA * ALMOST
 

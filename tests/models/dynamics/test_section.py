@@ -95,18 +95,31 @@ def random_motions(system, count, seed, end=10.0):
 
 
 def crossings_by_scipy(system, state, parameters, normal, offset, end):
-    run = solve_ivp(lambda _, y: system.field(y.tolist(), parameters), (0.0, end), state, method="DOP853", rtol=1e-12,
-                    atol=1e-13, dense_output=True, max_step=0.1)
+    run = solve_ivp(
+        lambda _, y: system.field(y.tolist(), parameters),
+        (0.0, end),
+        state,
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-13,
+        dense_output=True,
+        max_step=0.1,
+    )
     # Looked for every 0.002, and found between.
     times = np.linspace(0.0, end, 5001)
     above = np.sign(normal @ run.sol(times) - offset)
-    found = np.array([brentq(lambda t: normal @ run.sol(t) - offset, times[i], times[i + 1], xtol=1e-14)
-                      for i in np.flatnonzero(above[1:] != above[:-1])])
+    found = np.array(
+        [
+            brentq(lambda t: normal @ run.sol(t) - offset, times[i], times[i + 1], xtol=1e-14)
+            for i in np.flatnonzero(above[1:] != above[:-1])
+        ]
+    )
     return found, run.sol(found).T if found.size else np.empty((0, len(state)))
 
 
 def turning_heights(system, state, parameters, normal, heights, end):
     """The heights at which the orbit turns, to round-off."""
+
     def at(t):
         return solve(system.at(parameters), state, [t], level("reference")).states[0]
 
@@ -151,8 +164,9 @@ def test_crossings_of_a_uniform_rotation_are_those_of_the_closed_form(system, he
     turns = 2 * np.pi * np.arange(-2, 100)
     for sense, angles in ((-1, phase + math.acos(height) + turns), (1, phase - math.acos(height) + turns)):
         expected = angles[(angles > 0.0) & (angles <= speed * end)] / speed
-        result = section(system.at(FREE[system.name]), (*omega[:2], *gamma), Plane(normal, offset, sense), end,
-                         level("reference"))
+        result = section(
+            system.at(FREE[system.name]), (*omega[:2], *gamma), Plane(normal, offset, sense), end, level("reference")
+        )
         assert len(result.times) == len(expected) >= 39
         # Heights are good to some 1e-15 and the phase after 200 to 1e-14; the slope makes a time of the former.
         assert result.times == pytest.approx(expected, rel=0, abs=1e-13 + 1e-14 / math.sqrt(1 - height**2))
@@ -220,8 +234,7 @@ def test_the_error_estimate_of_a_section_is_on_the_safe_side(system, name):
 def test_a_section_keeps_the_promise_of_its_level(system, name):
     state, parameters = (np.array(values) for values in system.example)
     plane, result = example_section(system, name=name)
-    times, states, _ = crossings_by_kernel(
-        system, state, parameters, np.array(plane.normal), plane.offset, 20.0, 1e-20)
+    times, states, _ = crossings_by_kernel(system, state, parameters, np.array(plane.normal), plane.offset, 20.0, 1e-20)
     assert len(result.times) == len(times) >= 4
     # In units in which the fastest motion has ω = 1.
     nu = system.frequency(state, parameters)
@@ -326,7 +339,8 @@ def test_a_motion_from_rest_does_not_cross_the_plane_it_is_released_from(system,
         # Where it comes back to rest it may touch the plane again: there round-off decides.
         times, others = (
             one.times[[abs(rate(system, parameters, plane.normal, y)) > 1e-6 for y in one.states]]
-            for one in (found, expected))
+            for one in (found, expected)
+        )
         assert times == pytest.approx(others + soon, rel=0, abs=1e-11)
 
 
@@ -425,8 +439,11 @@ def turnings(system):
     """(component, height) wherever a component of the example turns until t = 20."""
     state, parameters = (np.array(values) for values in system.example)
     along = solve(system.at(parameters), state, np.linspace(0.0, 20.0, 401), level("standard")).states
-    return [(i, turning) for i in range(state.size)
-            for turning in turning_heights(system, state, parameters, np.array(axis(system, i)), along[:, i], 20.0)]
+    return [
+        (i, turning)
+        for i in range(state.size)
+        for turning in turning_heights(system, state, parameters, np.array(axis(system, i)), along[:, i], 20.0)
+    ]
 
 
 @every_system
@@ -443,9 +460,20 @@ def test_a_run_that_finds_other_crossings_than_the_more_exact_one_is_replaced_by
         height = nu if component < system.angular_velocities else 1.0
         for depth in (1e-3, -1e-3, 1e-4, -1e-4, 1e-5, -1e-5):
             runs = [
-                system.cross(*system.rescale(state, parameters, nu), normal, (turning + depth) / height, sense,
-                             20.0 * nu, rung.order, rung.tolerance, 10_000, times, states)
-                for rung in (careless, careless.tightened())]
+                system.cross(
+                    *system.rescale(state, parameters, nu),
+                    normal,
+                    (turning + depth) / height,
+                    sense,
+                    20.0 * nu,
+                    rung.order,
+                    rung.tolerance,
+                    10_000,
+                    times,
+                    states,
+                )
+                for rung in (careless, careless.tightened())
+            ]
             (count, steps), (other_count, other_steps) = runs
             plane = Plane(tuple(normal), turning + depth, sense)
             result = section(system.at(parameters), state, plane, 20.0, careless)
@@ -468,8 +496,10 @@ def test_a_run_that_misses_its_promise_is_replaced_by_a_tighter_one(system):
 @every_system
 def test_a_level_that_cannot_keep_its_promise_says_so(system):
     plane, _ = example_section(system)
-    for rung, status in ((Level("standard", 1e-300, 1e-8, 14), Status.PROMISE_NOT_MET),
-                         (Level("reference", 1e-300, 1e-17, 24), Status.FLOOR)):
+    for rung, status in (
+        (Level("standard", 1e-300, 1e-8, 14), Status.PROMISE_NOT_MET),
+        (Level("reference", 1e-300, 1e-17, 24), Status.FLOOR),
+    ):
         assert section(*system.example_motion, plane, 20.0, rung).status is status
 
 
@@ -506,8 +536,14 @@ def test_sections_of_many_orbits_are_those_of_each(system):
 def test_an_orbit_of_many_that_is_wrong_raises_its_sentence(system, threads):
     state, parameters = system.example
     with pytest.raises(InvalidParameter, match="finite number"):
-        sections(system.at(parameters), [state, (np.nan, *state[1:])], Plane(axis(system, 0)), 1.0, level("draft"),
-                 threads=threads)
+        sections(
+            system.at(parameters),
+            [state, (np.nan, *state[1:])],
+            Plane(axis(system, 0)),
+            1.0,
+            level("draft"),
+            threads=threads,
+        )
 
 
 @every_system

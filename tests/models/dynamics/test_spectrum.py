@@ -29,10 +29,19 @@ CHAOTIC_START = state_at(CHAOTIC, 4.0, 1.0, 0.3, 0.2)
 def a_system(field, name, size, example, integrals: Mapping[str, float] | None = None):
     """A system of its own, in units of time as given."""
     return System(
-        name=name, title=name, source="", labels=(), variables=tuple(f"x{i}" for i in range(size)),
-        parameters=tuple(f"p{i}" for i in range(len(example[1]))), angular_velocities=0,
-        field=field, integrals=lambda y, p: integrals or {},
-        frequency=lambda y, p: np.ones_like(y[0]), rescale=lambda y, p, nu: (y, p), example=example)
+        name=name,
+        title=name,
+        source="",
+        labels=(),
+        variables=tuple(f"x{i}" for i in range(size)),
+        parameters=tuple(f"p{i}" for i in range(len(example[1]))),
+        angular_velocities=0,
+        field=field,
+        integrals=lambda y, p: integrals or {},
+        frequency=lambda y, p: np.ones_like(y[0]),
+        rescale=lambda y, p, nu: (y, p),
+        example=example,
+    )
 
 
 def lorenz(y, p):
@@ -87,8 +96,12 @@ def test_beside_an_equilibrium_they_are_the_eigenvalues():
 
 def test_of_a_motion_that_comes_to_rest_they_are_the_eigenvalues_there():
     # Near rest at (1, 3, 2) the rate is lost in round-off, and long before the end it is 0.
-    comes = a_system(lambda y, p: (p[0] * (1.0 - y[0]), p[1] * (2.0 + y[0] - y[1]), p[2] * (y[1] - 1.0 - y[2])),
-                     "rest of a test", 3, ((4.0, -2.0, 1.0), (0.2, 0.5, 0.9)))
+    comes = a_system(
+        lambda y, p: (p[0] * (1.0 - y[0]), p[1] * (2.0 + y[0] - y[1]), p[2] * (y[1] - 1.0 - y[2])),
+        "rest of a test",
+        3,
+        ((4.0, -2.0, 1.0), (0.2, 0.5, 0.9)),
+    )
     found = lyapunov_spectrum(*comes.example_motion, 500.0, REFERENCE)
     assert found.values == pytest.approx([-0.2, -0.5, -0.9], abs=1e-9)
     assert found.values.sum() == pytest.approx(found.divergence, abs=1e-10)
@@ -193,15 +206,23 @@ def test_beside_no_time_at_all_there_is_no_rate(find, span):
         find(*SUSLOV.example_motion, span)
 
 
-EXTREME = [("ball", (1.0, 4.0, 1.37e179, 0.0, 2.0, 0.3, 0.0, 1.0), (0.5, 0.9, 0.6, 0.0, 0.8)),
-           ("suslov", (1.0, 2.5, 0.6, 8.23e230, -1.0, -0.5, 0.7), (0.5, 1.2, 0.6, 0.0, 0.8))]
+EXTREME = [
+    ("ball", (1.0, 4.0, 1.37e179, 0.0, 2.0, 0.3, 0.0, 1.0), (0.5, 0.9, 0.6, 0.0, 0.8)),
+    ("suslov", (1.0, 2.5, 0.6, 8.23e230, -1.0, -0.5, 0.7), (0.5, 1.2, 0.6, 0.0, 0.8)),
+]
 """I13² or I23² is beyond double range: of the motion no digit is left."""
 
 
 @pytest.mark.parametrize(("name", "parameters", "state"), EXTREME, ids=[name for name, _, _ in EXTREME])
-@pytest.mark.parametrize("find", [
-    lyapunov_exponent, lambda *given: lyapunov_spectrum(*given, DRAFT),
-    lambda body, y, t: megno(body, [y], t, DRAFT, 1), lambda *given: transition_matrix(*given, DRAFT)])
+@pytest.mark.parametrize(
+    "find",
+    [
+        lyapunov_exponent,
+        lambda *given: lyapunov_spectrum(*given, DRAFT),
+        lambda body, y, t: megno(body, [y], t, DRAFT, 1),
+        lambda *given: transition_matrix(*given, DRAFT),
+    ],
+)
 def test_of_a_motion_beyond_double_range_there_is_a_sentence_and_no_number(find, name, parameters, state):
     with pytest.raises(InvalidParameter, match="left the range of double precision: choose less extreme parameters"):
         find(systems()[name].at(parameters), state, 50.0)

@@ -61,7 +61,8 @@ def scaled(system, nu):
 def test_the_registry_finds_every_module_that_defines_a_system():
     defining = {
         ".".join(path.relative_to(ROOT / "models").with_suffix("").parts)
-        for path in (ROOT / "models").rglob("*.py") if re.search(r"^SYSTEM = System\(", path.read_text(), re.M)
+        for path in (ROOT / "models").rglob("*.py")
+        if re.search(r"^SYSTEM = System\(", path.read_text(), re.M)
     }
     assert {"hess_mechanics.suslov.equations", "hess_mechanics.chaplygin_ball.equations"} <= defining
     assert {module_of(system).__name__ for system in SYSTEMS.values()} == defining
@@ -120,8 +121,15 @@ def test_the_kernels_taylor_series_is_that_of_the_plain_field(system, data):
 def test_solve_agrees_with_an_integrator_of_another_family(system):
     state, parameters = system.example
     times = np.linspace(0.0, 10.0, 21)
-    other = solve_ivp(lambda _, y: system.field(y, parameters), (0.0, 10.0), state, t_eval=times,
-                      method="DOP853", rtol=1e-12, atol=1e-13)
+    other = solve_ivp(
+        lambda _, y: system.field(y, parameters),
+        (0.0, 10.0),
+        state,
+        t_eval=times,
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-13,
+    )
     orbit = solve(system.at(parameters), state, times, level("reference"))
     assert np.max(np.abs(orbit.states - other.y.T)) < 1e-9
 
@@ -159,8 +167,15 @@ json.dump(results, sys.stdout)
 
 def test_kernels_without_the_jit_equal_the_compiled_ones_to_round_off():
     environment = {**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(ROOT)}
-    run = subprocess.run([sys.executable, "-W", "error", "-c", WITHOUT_JIT], cwd=ROOT, env=environment,
-                         capture_output=True, text=True, timeout=120, check=False)
+    run = subprocess.run(
+        [sys.executable, "-W", "error", "-c", WITHOUT_JIT],
+        cwd=ROOT,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
     assert run.returncode == 0, run.stderr
     plain = {key: [float.fromhex(x) for x in values] for key, values in json.loads(run.stdout).items()}
     # The same statements in this process, compiled: only the check that the JIT is off must go.
@@ -219,14 +234,24 @@ def test_orbits_scale_with_the_unit_of_time(system, nu):
 
 
 def of_ones_own(variables, angular_velocities, field, rescale, frequency):
-    return System(name="own", title="A system of a test", source="", labels=(), variables=variables, parameters=("k",),
-                  angular_velocities=angular_velocities, field=field, integrals=lambda y, p: {}, frequency=frequency,
-                  rescale=rescale, example=((1.0, 0.5)[: len(variables)], (4.0,)))
+    return System(
+        name="own",
+        title="A system of a test",
+        source="",
+        labels=(),
+        variables=variables,
+        parameters=("k",),
+        angular_velocities=angular_velocities,
+        field=field,
+        integrals=lambda y, p: {},
+        frequency=frequency,
+        rescale=rescale,
+        example=((1.0, 0.5)[: len(variables)], (4.0,)),
+    )
 
 
 def test_a_variable_whose_name_begins_with_w_is_no_velocity_for_that():
-    grows = of_ones_own(("w",), 0, lambda y, p: (p[0] * y[0],), lambda y, p, nu: (y.copy(), p / nu),
-                        lambda y, p: p[0])
+    grows = of_ones_own(("w",), 0, lambda y, p: (p[0] * y[0],), lambda y, p, nu: (y.copy(), p / nu), lambda y, p: p[0])
     assert solve(grows.at((4.0,)), (1.0,), [0.5], level("precise")).states == pytest.approx(np.e**2, rel=1e-9)
 
 
@@ -236,10 +261,16 @@ def test_an_oscillator_names_its_velocity_by_putting_it_first():
 
     for count in (0, 1, 2):
         with pytest.raises(WrongScaling, match="`angular_velocities`, which counts the leading variables that scale"):
-            of_ones_own(("x", "w"), count, lambda y, p: (y[1], -p[0] * y[0]),
-                        lambda y, p, nu: ((y.T / [1.0, nu]).T, p / nu**2), rate)
-    swings = of_ones_own(("w", "x"), 1, lambda y, p: (-p[0] * y[1], y[0]),
-                         in_units_of_time(first=0, velocities=1), rate)
+            of_ones_own(
+                ("x", "w"),
+                count,
+                lambda y, p: (y[1], -p[0] * y[0]),
+                lambda y, p, nu: ((y.T / [1.0, nu]).T, p / nu**2),
+                rate,
+            )
+    swings = of_ones_own(
+        ("w", "x"), 1, lambda y, p: (-p[0] * y[1], y[0]), in_units_of_time(first=0, velocities=1), rate
+    )
     found = solve(swings.at((4.0,)), (0.0, 1.0), [0.3], level("precise")).states[0]
     assert found == pytest.approx([-2.0 * np.sin(0.6), np.cos(0.6)], abs=1e-9)
     with pytest.raises(WrongScaling, match=r"take states \(d,\) and \(d, n\)"):
@@ -253,9 +284,13 @@ def unscaled(y, p, nu):
 @every_system
 def test_a_wrong_scaling_is_refused_when_a_system_is_made(system):
     n = system.angular_velocities
-    for wrong in ({"angular_velocities": n - 1}, {"angular_velocities": n + 1}, {"rescale": unscaled},
-                  {"rescale": lambda y, p, nu: (system.rescale(y, p, nu)[0], p)},
-                  {"unit": lambda p: 2.0 * system.unit(p)}):
+    for wrong in (
+        {"angular_velocities": n - 1},
+        {"angular_velocities": n + 1},
+        {"rescale": unscaled},
+        {"rescale": lambda y, p, nu: (system.rescale(y, p, nu)[0], p)},
+        {"unit": lambda p: 2.0 * system.unit(p)},
+    ):
         with pytest.raises(WrongScaling, match=f"^{re.escape(system.title)}: in units of time 1/ν") as refused:
             replace(system, **wrong)
         assert isinstance(refused.value, ModelError)

@@ -45,8 +45,9 @@ def test_what_leaves_something_out_is_not_complete():
 
 def test_enough_is_the_cheapest_that_shows_all_without_an_error_that_is_seen():
     def of(*errors, complete=True):
-        return [LevelCost(name, 1.0, error, complete or name != "draft")
-                for name, error in zip(LEVELS, errors, strict=True)]
+        return [
+            LevelCost(name, 1.0, error, complete or name != "draft") for name, error in zip(LEVELS, errors, strict=True)
+        ]
 
     assert enough(of(0.4, 0.1, 0.0, 0.0), 0.5) == "draft"
     assert enough(of(0.4, 0.1, 0.0, 0.0, complete=False), 0.5) == "standard"

@@ -131,8 +131,20 @@ def test_work_is_counted_and_more_of_it_goes_farther():
 
 def divides(field):
     """An own system of x and y whose field divides by x."""
-    return System("divides", "Divides", "", (), ("x", "y"), (), 0, field, lambda y, p: {},
-                  lambda y, p: np.zeros(y[0].shape), lambda y, p, nu: (y, p), ((1.0, 0.0), ()))
+    return System(
+        "divides",
+        "Divides",
+        "",
+        (),
+        ("x", "y"),
+        (),
+        0,
+        field,
+        lambda y, p: {},
+        lambda y, p: np.zeros(y[0].shape),
+        lambda y, p, nu: (y, p),
+        ((1.0, 0.0), ()),
+    )
 
 
 def test_a_divisor_that_vanishes_ahead_ends_a_tube_and_raises_nothing():
@@ -192,7 +204,7 @@ def test_many_digits_are_found_within_the_first_step_too(digits):
     system = systems()["hess"]
     found = tube(*system.example_motion, [0.01], digits)
     assert found.complete
-    assert found.width < 10.0 ** -digits
+    assert found.width < 10.0**-digits
     with mpmath.workdps(digits + 10):
         start, p = ([mpmath.mpf(x) for x in some] for some in system.example)
         known = mpmath.odefun(lambda _, y: system.field(y, p), 0, start)(mpmath.mpf(0.01))

@@ -37,8 +37,14 @@ def by_differences(system, state, p, span):
     """The matrix by differences of the fourth order of orbits in long double, found without any kernel."""
     size, step = len(state), np.longdouble(1e-4)
     shifts = np.array([-2, -1, 1, 2]) * step
-    starts = np.array([[np.longdouble(one) + shift * (i == j) for i, one in enumerate(state)]
-                       for j in range(size) for shift in shifts], np.longdouble)
+    starts = np.array(
+        [
+            [np.longdouble(one) + shift * (i == j) for i, one in enumerate(state)]
+            for j in range(size)
+            for shift in shifts
+        ],
+        np.longdouble,
+    )
     parameters = np.repeat(np.array(p, np.longdouble)[:, None], len(starts), axis=1)
     times = np.full((1, len(starts)), span, np.longdouble)
     ends = taylor(system.field, starts.T, parameters, times, 28, 1e-22)[0]
@@ -61,15 +67,21 @@ def test_the_matrix_is_that_of_variational_equations_written_by_hand():
     def rates(_, z):
         w1, w2, g1, g2, g3 = z[:5]
         s = I13 * w1 + I23 * w2
-        J = np.array([
-            [-I13 * w2 / I11, -(s + I23 * w2) / I11, 0.0, b3 / I11, -b2 / I11],
-            [(s + I13 * w1) / I22, I23 * w1 / I22, -b3 / I22, 0.0, b1 / I22],
-            [0.0, -g3, 0.0, 0.0, -w2], [g3, 0.0, 0.0, 0.0, w1], [-g2, g1, w2, -w1, 0.0]])
+        J = np.array(
+            [
+                [-I13 * w2 / I11, -(s + I23 * w2) / I11, 0.0, b3 / I11, -b2 / I11],
+                [(s + I13 * w1) / I22, I23 * w1 / I22, -b3 / I22, 0.0, b1 / I22],
+                [0.0, -g3, 0.0, 0.0, -w2],
+                [g3, 0.0, 0.0, 0.0, w1],
+                [-g2, g1, w2, -w1, 0.0],
+            ]
+        )
         return [*SUSLOV.field(z[:5], p), *(J @ z[5:].reshape(5, 5)).ravel()]
 
     times = np.array([3.0, 11.0, 20.0])
-    run = solve_ivp(rates, (0.0, 20.0), [*state, *np.eye(5).ravel()], t_eval=times, method="DOP853", rtol=1e-12,
-                    atol=1e-13)
+    run = solve_ivp(
+        rates, (0.0, 20.0), [*state, *np.eye(5).ravel()], t_eval=times, method="DOP853", rtol=1e-12, atol=1e-13
+    )
     found = transition_matrix(SUSLOV.at(p), state, times, PRECISE)
     for i, matrix in enumerate(found.matrices):
         assert matrix == pytest.approx(run.y[5:, i].reshape(5, 5), abs=1e-8 * np.abs(matrix).max())
@@ -91,10 +103,20 @@ def test_for_every_system_flows_compose_turn_back_and_keep_the_integrals(system)
     rates = [np.array(system.field(y, p)) for y in (state, whole.states[1].tolist())]
     assert both @ rates[0] == pytest.approx(rates[1], abs=1e-8 * size)
     for name in system.integrals(state, p):
-        before, after = (np.array([mpmath.diff(
-            lambda *y, name=name: system.integrals(y, p)[name], tuple(map(float, at)),
-            tuple(int(i == j) for i in range(len(state)))) for j in range(len(state))], float)
-            for at in (state, whole.states[1]))
+        before, after = (
+            np.array(
+                [
+                    mpmath.diff(
+                        lambda *y, name=name: system.integrals(y, p)[name],
+                        tuple(map(float, at)),
+                        tuple(int(i == j) for i in range(len(state))),
+                    )
+                    for j in range(len(state))
+                ],
+                float,
+            )
+            for at in (state, whole.states[1])
+        )
         assert after @ both == pytest.approx(before, abs=1e-7 * size)
 
 
@@ -134,7 +156,8 @@ def test_the_derivative_of_a_return_is_that_of_differences(surface):
     for j in range(5):
         shift = step * np.eye(5)[j]
         assert found.matrix[:, j] == pytest.approx(
-            (end(state + shift) - end(state - shift)) / (2 * step), abs=1e-7 * np.abs(found.matrix).max())
+            (end(state + shift) - end(state - shift)) / (2 * step), abs=1e-7 * np.abs(found.matrix).max()
+        )
     assert found.matrix @ SUSLOV.field(state, p) == pytest.approx(np.zeros(5), abs=1e-10)
 
 
@@ -170,13 +193,26 @@ def test_the_neighbour_ahead_goes_where_the_motion_goes_and_at_rest_nothing_is_l
     state, times = (0.8, 1.3, 0.6, 0.0, 0.8), np.array([0.5, 3.0])
     problem = Problem.of(system.at(p), [state])
     frames = np.empty((2, 5, 5))
-    system.vary(problem.states[0], np.eye(5), problem.parameters, problem.times(times), 24, 1e-17, 10_000, math.inf,
-                np.empty((2, 5)), frames, np.empty((2, 5)), np.empty(2))
+    system.vary(
+        problem.states[0],
+        np.eye(5),
+        problem.parameters,
+        problem.times(times),
+        24,
+        1e-17,
+        10_000,
+        math.inf,
+        np.empty((2, 5)),
+        frames,
+        np.empty((2, 5)),
+        np.empty(2),
+    )
     found = transition_matrix(system.at(p), state, times, REFERENCE).matrices
     assert np.abs(found - problem.scale[:, None] * frames / problem.scale).max() < 1e-12
     # A permanent rotation, where f = 0: V = e^{Jt}, with J by differences.
     start = next(permanent_rotations(SuslovBody(*p), 1.743))
-    columns = [(np.array(system.field(start + h, p)) - np.array(system.field(start - h, p))) / 2e-6
-               for h in 1e-6 * np.eye(5)]
+    columns = [
+        (np.array(system.field(start + h, p)) - np.array(system.field(start - h, p))) / 2e-6 for h in 1e-6 * np.eye(5)
+    ]
     found = transition_matrix(system.at(p), start, 2.0, PRECISE).matrices[0]
     assert np.abs(found - expm(2.0 * np.column_stack(columns))).max() < 1e-8

@@ -46,8 +46,15 @@ def asked(motion):
 
 def independent(motion, times):
     """The same motion by another method."""
-    run = solve_ivp(lambda _, y: motion.system.field(y, motion.parameters), (0.0, times[-1]), motion.state,
-                    method="DOP853", rtol=1e-13, atol=1e-15, t_eval=times)
+    run = solve_ivp(
+        lambda _, y: motion.system.field(y, motion.parameters),
+        (0.0, times[-1]),
+        motion.state,
+        method="DOP853",
+        rtol=1e-13,
+        atol=1e-15,
+        t_eval=times,
+    )
     return run.y.T
 
 
@@ -137,8 +144,9 @@ def test_the_drifts_are_those_that_the_orbit_itself_reports(values, name):
     assert {key: float(drift.max()) for key, drift in found.drifts[name].items()} == dict(reported)
 
 
-@pytest.mark.parametrize("change", [{}, {"h": 0.2, "f": 0.5}, {"I22": 0.5, "I23": 1.5, "b3": 0.7}, {"h": 30.0}],
-                         ids=str)
+@pytest.mark.parametrize(
+    "change", [{}, {"h": 0.2, "f": 0.5}, {"I22": 0.5, "I23": 1.5, "b3": 0.7}, {"h": 30.0}], ids=str
+)
 def test_pixels_are_distances_in_the_pictures_of_the_scene(change):
     values = {**HESS.defaults(), **change}
     motion = HESS.of(values).motion()
@@ -152,8 +160,9 @@ def test_pixels_are_distances_in_the_pictures_of_the_scene(change):
         states = solve(motion, motion.state, found.times, LEVELS[name]).states
         apart = result.body.from_reduced(result.body.from_units_of_b(states)) - truth
         # The sphere has a radius of half the picture.
-        pixels = np.maximum(np.linalg.norm(apart[:, :2], axis=1) * PIXELS / width,
-                            np.linalg.norm(apart[:, 2:], axis=1) * PIXELS / 2.0)
+        pixels = np.maximum(
+            np.linalg.norm(apart[:, :2], axis=1) * PIXELS / width, np.linalg.norm(apart[:, 2:], axis=1) * PIXELS / 2.0
+        )
         assert found.pixels[name] == pytest.approx(pixels, abs=0.01 * pixels.max())
 
 
@@ -209,12 +218,20 @@ def test_the_methods_of_scipy_are_six_points_with_their_errors():
     points = measure_others(*asked(motion), SAMPLES)
     elapsed = 1e3 * (time.perf_counter() - before)
     assert [(point.method, point.setting) for point in points] == [
-        (method, tolerance) for method in ("DOP853", "LSODA") for tolerance in ("1e-04", "1e-07", "1e-10")]
+        (method, tolerance) for method in ("DOP853", "LSODA") for tolerance in ("1e-04", "1e-07", "1e-10")
+    ]
     times = np.linspace(0.0, motion.span, SAMPLES)
     truth = independent(motion, times)
     for point in points:
-        run = solve_ivp(lambda _, y: motion.system.field(y, motion.parameters), (0.0, motion.span), motion.state,
-                        method=point.method, rtol=float(point.setting), atol=float(point.setting), t_eval=times)
+        run = solve_ivp(
+            lambda _, y: motion.system.field(y, motion.parameters),
+            (0.0, motion.span),
+            motion.state,
+            method=point.method,
+            rtol=float(point.setting),
+            atol=float(point.setting),
+            t_eval=times,
+        )
         error = np.max(np.abs(run.y.T - truth) / scale_of(motion))
         assert point.error == pytest.approx(error, rel=0.05)
         assert point.ms > 0.0
@@ -236,8 +253,10 @@ def test_the_methods_of_scipy_are_left_out_where_the_motion_needs_many_steps():
     """A body so slender that the shortest period does not tell how hard its motion is."""
     motion = HESS.of({**HESS.defaults(), "I22": 1.1, "I23": 107.0, "h": 5e5, "f": -2.2}).motion()
     longest = 149.0 / unit_of(motion)
-    steps = {span: solve(motion, motion.state, [0.0, span], LEVELS["reference"]).cost.steps
-             for span in np.linspace(0.1, 1.0, 10) * longest}
+    steps = {
+        span: solve(motion, motion.state, [0.0, span], LEVELS["reference"]).cost.steps
+        for span in np.linspace(0.1, 1.0, 10) * longest
+    }
     assert min(steps.values()) < 1500 < max(steps.values())
     for span, count in steps.items():
         assert others_take_long(*asked(motion)[:3], span) == (count > 1500)
@@ -257,9 +276,17 @@ def test_a_method_of_scipy_asks_in_mid_run_whether_to_go_on():
     with limited_by(lambda: asks.append(time.monotonic()), lambda seconds: None):
         measure_others(*asked(motion), SAMPLES)
     evaluations = sum(
-        solve_ivp(lambda _, y: motion.system.field(y, motion.parameters), (0.0, motion.span), motion.state,
-                  method=method, rtol=tolerance, atol=tolerance).nfev
-        for method in ("DOP853", "LSODA") for tolerance in (1e-4, 1e-7, 1e-10))
+        solve_ivp(
+            lambda _, y: motion.system.field(y, motion.parameters),
+            (0.0, motion.span),
+            motion.state,
+            method=method,
+            rtol=tolerance,
+            atol=tolerance,
+        ).nfev
+        for method in ("DOP853", "LSODA")
+        for tolerance in (1e-4, 1e-7, 1e-10)
+    )
     # Each of the six runs asks when it begins.
     assert len(asks) >= 6 + evaluations // 1000 > 10
 
@@ -278,11 +305,16 @@ def test_a_method_of_scipy_asks_in_mid_run_whether_to_go_on():
 MOTION = dataclasses.replace(HESS.of(HESS.defaults()).motion(), unit=2.0)
 TIMES = np.linspace(0.0, 10.0, 11)
 WORK = (
-    WorkPoint("Taylor", "draft", 1.0, 2e-4), WorkPoint("Taylor", "standard", 2.0, 3e-7),
-    WorkPoint("Taylor", "precise", 4.0, 4e-10), WorkPoint("Taylor", "reference", 8.0, 0.0),
-    WorkPoint("DOP853", "1e-04", 30.0, 1e-3), WorkPoint("DOP853", "1e-07", 50.0, 2e-6),
-    WorkPoint("DOP853", "1e-10", 90.0, 1e-9), WorkPoint("LSODA", "1e-04", 20.0, 1e-2),
-    WorkPoint("LSODA", "1e-07", 44.0, 1e-7), WorkPoint("LSODA", "1e-10", 60.0, 1e-8),
+    WorkPoint("Taylor", "draft", 1.0, 2e-4),
+    WorkPoint("Taylor", "standard", 2.0, 3e-7),
+    WorkPoint("Taylor", "precise", 4.0, 4e-10),
+    WorkPoint("Taylor", "reference", 8.0, 0.0),
+    WorkPoint("DOP853", "1e-04", 30.0, 1e-3),
+    WorkPoint("DOP853", "1e-07", 50.0, 2e-6),
+    WorkPoint("DOP853", "1e-10", 90.0, 1e-9),
+    WorkPoint("LSODA", "1e-04", 20.0, 1e-2),
+    WorkPoint("LSODA", "1e-07", 44.0, 1e-7),
+    WorkPoint("LSODA", "1e-10", 60.0, 1e-8),
 )
 
 
@@ -292,8 +324,11 @@ def made_up(pixels, error=1e-5, drifts=(1e-6, 2e-7, 3e-8)):
     pixels = pixels if np.ndim(pixels) else pixels * along
     names = ("E", "F1", "F2", "K")
     return ErrorGrowth(
-        TIMES, dict.fromkeys(LEVELS, error * along), dict.fromkeys(LEVELS, np.asarray(pixels)),
-        {name: {key: drift * along for key, drift in zip(names, drifts, strict=False)} for name in LEVELS})
+        TIMES,
+        dict.fromkeys(LEVELS, error * along),
+        dict.fromkeys(LEVELS, np.asarray(pixels)),
+        {name: {key: drift * along for key, drift in zip(names, drifts, strict=False)} for name in LEVELS},
+    )
 
 
 def study(accuracy="standard", motion=MOTION, points=WORK, errors=None):
@@ -315,7 +350,8 @@ def test_a_picture_that_stays_right_is_said_to_be_so_to_the_end():
     _, captions, _ = shown(errors=made_up(0.25))
     # The page's time is twice the computation's here.
     assert captions["pixels"].splitlines()[1] == (
-        "standard: wrong by less than a pixel to the end, t = 20 (at most 0.25).")
+        "standard: wrong by less than a pixel to the end, t = 20 (at most 0.25)."
+    )
     _, captions, _ = shown("draft", errors=made_up(1.0))
     assert captions["pixels"].splitlines()[1] == "draft: wrong by less than a pixel to the end, t = 20 (at most 1)."
 
@@ -342,13 +378,16 @@ def test_the_other_captions_give_the_numbers_of_the_chosen_level():
     assert "DOP853" not in report.status
 
 
-@pytest.mark.parametrize(("accuracy", "said"), [
-    # The fastest of those of SciPy that are as exact, or nearly.
-    ("draft", "draft: 1 ms, error 0.0002; DOP853: 30 × as long, 0.001."),
-    ("standard", "standard: 2 ms, error 3e−07; LSODA: 22 × as long, 1e−07."),
-    ("precise", "precise: 4 ms, error 4e−10; DOP853: 22 × as long, 1e−09."),
-    ("reference", "reference: 8 ms, error 0."),
-])
+@pytest.mark.parametrize(
+    ("accuracy", "said"),
+    [
+        # The fastest of those of SciPy that are as exact, or nearly.
+        ("draft", "draft: 1 ms, error 0.0002; DOP853: 30 × as long, 0.001."),
+        ("standard", "standard: 2 ms, error 3e−07; LSODA: 22 × as long, 1e−07."),
+        ("precise", "precise: 4 ms, error 4e−10; DOP853: 22 × as long, 1e−09."),
+        ("reference", "reference: 8 ms, error 0."),
+    ],
+)
 def test_the_caption_of_the_cost_compares_with_what_is_as_exact(accuracy, said):
     assert shown(accuracy)[1]["precision"] == f"Cost against error\n{said}"
 
@@ -405,8 +444,10 @@ def test_each_chart_shows_its_curves_over_the_time_of_the_page():
 
 
 def test_what_vanishes_is_drawn_on_the_edge_of_a_logarithmic_axis():
-    board, captions, _ = shown(errors=made_up(0.0, error=0.0, drifts=(0.0, 0.0, 0.0)),
-                               points=tuple(dataclasses.replace(point, error=0.0) for point in WORK))
+    board, captions, _ = shown(
+        errors=made_up(0.0, error=0.0, drifts=(0.0, 0.0, 0.0)),
+        points=tuple(dataclasses.replace(point, error=0.0) for point in WORK),
+    )
     drawn = 0
     for name, columns in board.sources.items():
         if "y" in columns and not name.endswith("message"):
@@ -467,8 +508,15 @@ def test_a_span_that_would_take_seconds_is_cut_with_a_note():
 @every_preset
 def test_the_derived_quantities_say_the_system_and_where_it_starts(values):
     report = Board(ACCURACY).show(ACCURACY.compute(values, {"growth"}, False))
-    orbit = track(HessBody(values["I22"], values["I23"], values["b3"]), values["h"], values["f"], values["phi0"],
-                  values["span"], REFERENCE, 4.0).orbit
+    orbit = track(
+        HessBody(values["I22"], values["I23"], values["b3"]),
+        values["h"],
+        values["f"],
+        values["phi0"],
+        values["span"],
+        REFERENCE,
+        4.0,
+    ).orbit
     said = dict(re.match(r"([\w()]+) = (\S+)$", row).groups() for row in report.derived if " = " in row)
     numbers = {name: float(text.replace("−", "-")) for name, text in said.items()}
     assert numbers["a"] == pytest.approx(values["I23"] / values["I22"], rel=1e-5)
@@ -483,8 +531,14 @@ def test_the_derived_quantities_say_the_system_and_where_it_starts(values):
 def test_a_click_chooses_the_level_that_is_next_to_it_and_none_in_another_chart():
     exact = dataclasses.replace(WORK[3], error=4e-14)
     stage = shown(points=(*WORK[:3], exact, *WORK[4:]))[0].stage
-    for error, name in ((1e-1, "draft"), (1e-3, "draft"), (1e-6, "standard"), (1e-9, "precise"), (1e-13, "reference"),
-                        (1e-20, "reference")):
+    for error, name in (
+        (1e-1, "draft"),
+        (1e-3, "draft"),
+        (1e-6, "standard"),
+        (1e-9, "precise"),
+        (1e-13, "reference"),
+        (1e-20, "reference"),
+    ):
         assert stage.pick("precision", error, 1.0) == {"accuracy": name}
     for x in (0.0, -1.0):
         assert stage.pick("precision", x, 1.0) == {}
@@ -508,8 +562,12 @@ def test_the_chart_of_costs_listens_to_clicks():
 
 
 def test_the_quickest_other_method_is_one_that_is_accurate_enough():
-    points = (WorkPoint("Taylor", "draft", 0.1, 1e-9), WorkPoint("DOP853", "1e-04", 2.0, 1e-3),
-              WorkPoint("DOP853", "1e-07", 5.0, 1e-6), WorkPoint("LSODA", "1e-07", 4.0, 2e-6))
+    points = (
+        WorkPoint("Taylor", "draft", 0.1, 1e-9),
+        WorkPoint("DOP853", "1e-04", 2.0, 1e-3),
+        WorkPoint("DOP853", "1e-07", 5.0, 1e-6),
+        WorkPoint("LSODA", "1e-07", 4.0, 2e-6),
+    )
     assert quickest_other(points, 1e-5) is points[3]
     assert quickest_other(points, 1e-6) is points[2]
     assert quickest_other(points, 1.0) is points[1]

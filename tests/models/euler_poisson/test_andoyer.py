@@ -38,8 +38,16 @@ from support.andoyer import GESS1, RIS, angles, crossings_by_scipy, dense, energ
 SLANTING = HeavyBody((1.0, 1.6, 2.1), (0.3, -0.5, 0.7), 2.0)
 """No Hess case, and r2 ≠ 0."""
 WHOLE = (-math.pi, math.pi, -1.0, 1.0)
-CASES = [(GESS1, 50.0, 5.0), (GESS1, 50.0, -5.0), (GESS1, 12.0, 0.0), (RIS, 0.0, 0.0), (RIS, 0.5, 1.0),
-         (RIS, 2.0, 1.0), (SLANTING, 3.0, 1.2), (SLANTING, -0.5, -0.3)]
+CASES = [
+    (GESS1, 50.0, 5.0),
+    (GESS1, 50.0, -5.0),
+    (GESS1, 12.0, 0.0),
+    (RIS, 0.0, 0.0),
+    (RIS, 0.5, 1.0),
+    (RIS, 2.0, 1.0),
+    (SLANTING, 3.0, 1.2),
+    (SLANTING, -0.5, -0.3),
+]
 every_case = pytest.mark.parametrize(("body", "h", "f"), CASES)
 
 
@@ -102,8 +110,9 @@ def test_the_state_is_the_one_with_the_largest_momentum(body, h, f):
 def test_what_is_possible_agrees_with_a_dense_search(body, h, f):
     l, x = scattered(400, seed=3)
     top = math.sqrt(2.0 * (h + body.strength) / min(body.a))
-    least = np.array([np.min(dense(body, f, float(one), float(other), top)[1]) for one, other in
-                      zip(l, x, strict=True)])
+    least = np.array(
+        [np.min(dense(body, f, float(one), float(other), top)[1]) for one, other in zip(l, x, strict=True)]
+    )
     found = possible(body, h, f, l, x)
     size = abs(h) + body.strength
     assert not np.any(found & (least > h + 1e-5 * size))
@@ -170,8 +179,10 @@ def all_roots(body, h, f, l, x, count=20_000):
         return energies_at(body, f, l, x, abs(f) / np.cos(np.atleast_1d(angle))) - h
 
     found = excess(alpha)
-    return [abs(f) / math.cos(brentq(lambda one: excess(one)[0], alpha[i], alpha[i + 1], xtol=1e-15))
-            for i in np.flatnonzero(np.sign(found[1:]) != np.sign(found[:-1]))]
+    return [
+        abs(f) / math.cos(brentq(lambda one: excess(one)[0], alpha[i], alpha[i + 1], xtol=1e-15))
+        for i in np.flatnonzero(np.sign(found[1:]) != np.sign(found[:-1]))
+    ]
 
 
 SHEETED = [(RIS, 0.0, 1.0), (RIS, 0.5, 1.0), (RIS, 0.5, 0.3), (RIS, 0.5, -0.3), (SLANTING, -0.5, -0.3)]
@@ -185,8 +196,7 @@ def test_a_state_is_a_start_where_g_grows_and_nowhere_else(body, h, f):
         states, G, ok = states_at(body, h, f, l, x, sheet)
         for i in np.flatnonzero(np.isfinite(G)):
             step = 1e-6 / float(SYSTEM.frequency(states[i], np.array(body.parameters)))
-            before, after = (angles(solve(body, states[i], [t], PRECISE).states)[1][0]
-                             for t in (-step, step))
+            before, after = (angles(solve(body, states[i], [t], PRECISE).states)[1][0] for t in (-step, step))
             grows = math.remainder(after - before, 2.0 * math.pi)
             if abs(grows) > 1e-9:
                 assert ok[i] == (grows > 0.0)
@@ -214,7 +224,8 @@ def test_a_third_momentum_exists_where_both_slopes_are_negative():
     assert third.size > 5
     for i in third[:5]:
         assert roots(RIS, 0.5, 0.3, l[i : i + 1], x[i : i + 1])[0] == pytest.approx(
-            all_roots(RIS, 0.5, 0.3, l[i], x[i]), rel=1e-9)
+            all_roots(RIS, 0.5, 0.3, l[i], x[i]), rel=1e-9
+        )
     states, G, _ = states_at(RIS, 0.5, 0.3, l[third], x[third], 2)
     assert np.all(np.isfinite(G))
     assert np.array_equal(sheet_of(RIS, 0.5, 0.3, states), np.full(third.size, 2))
@@ -247,8 +258,15 @@ def test_in_gess_ris2_some_points_of_orbits_from_the_first_sheet_are_on_the_seco
         # By the momenta themselves: those that are larger are counted.
         G = np.linalg.norm(points[:, :3], axis=1)
         larger = roots(RIS, h, 1.0, *coordinates(points).T) > G[:, None] * (1.0 + 1e-7)
-        clear = np.min(np.abs(roots(RIS, h, 1.0, *coordinates(points).T) / G[:, None] - 1.0), axis=1, where=~np.isnan(
-            roots(RIS, h, 1.0, *coordinates(points).T)), initial=np.inf) < 1e-7
+        clear = (
+            np.min(
+                np.abs(roots(RIS, h, 1.0, *coordinates(points).T) / G[:, None] - 1.0),
+                axis=1,
+                where=~np.isnan(roots(RIS, h, 1.0, *coordinates(points).T)),
+                initial=np.inf,
+            )
+            < 1e-7
+        )
         assert np.mean(clear) > 0.99
         assert np.array_equal(sheets[clear], larger[clear].sum(axis=1))
     assert all(0.0005 < share < 0.01 for share in shares[:4])
@@ -337,8 +355,9 @@ def test_points_are_on_the_plane_and_on_their_levels_at_precise(body, h, f):
 SHORT_STEPS = Level("short steps", 1e-6, 1e-24, 16)
 
 
-@pytest.mark.parametrize(("body", "h", "f", "count"),
-                         [(GESS1, 50.0, 5.0, 12), (RIS, 0.3, 0.0, 40), (RIS, 1.0, 1.0, 12)])
+@pytest.mark.parametrize(
+    ("body", "h", "f", "count"), [(GESS1, 50.0, 5.0, 12), (RIS, 0.3, 0.0, 40), (RIS, 1.0, 1.0, 12)]
+)
 def test_no_crossing_is_lost_or_doubled_against_steps_a_tenth_as_long(body, h, f, count):
     starts = seeds(body, h, f, WHOLE, 50)
     coarse = andoyer_points(body, h, f, starts, count, STANDARD)
@@ -416,8 +435,7 @@ def test_backward_and_forward_again_the_crossings_are_the_same():
     assert len(back.times) >= 2
     assert np.all(np.diff(back.times) < 0.0)
     # From the last of them the others come in reverse order, and the start itself.
-    forth = section(GESS1, back.states[-1], AndoyerPlane(5.0), -float(back.times[-1]) + 1e-3,
-                    level("precise"))
+    forth = section(GESS1, back.states[-1], AndoyerPlane(5.0), -float(back.times[-1]) + 1e-3, level("precise"))
     expected = np.vstack([back.states[-2::-1], start])
     assert forth.states == pytest.approx(expected, abs=1e-6)
 
@@ -425,18 +443,26 @@ def test_backward_and_forward_again_the_crossings_are_the_same():
 # ---- Refusals ---------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("request_", "words"), [
-    (lambda: state_at(GESS1, -9.9, 5.0, 0.0, 0.2), "no real G ≥ .f. has the energy h = -9.9: choose a larger h"),
-    (lambda: state_at(GESS1, 50.0, 12.0, 0.0, 0.2), "choose a larger h, or another point"),
-    (lambda: state_at(GESS1, 50.0, 5.0, 0.0, 0.2, sheet=1), "there is no second root G ≥ .f.*choose the largest one"),
-    (lambda: state_at(GESS1, 50.0, 5.0, 0.0, 0.2, sheet=3), "at most 3 sheets: choose one from 0 to 2"),
-    (lambda: state_at(GESS1, 50.0, 5.0, 0.0, 1.5), "lies between −1 and 1"),
-    (lambda: state_at(GESS1, 50.0, 5.0, math.nan, 0.5), "l is an angle"),
-    (lambda: state_at(GESS1, math.inf, 5.0, 0.0, 0.5), "h is not a finite number"),
-    (lambda: state_at(GESS1, 50.0, math.nan, 0.0, 0.5), "f is not a finite number"),
-    (lambda: section(*systems()["suslov"].example_motion, AndoyerPlane(1.0), 1.0, STANDARD),
-     "those of the Euler–Poisson equations"),
-])
+@pytest.mark.parametrize(
+    ("request_", "words"),
+    [
+        (lambda: state_at(GESS1, -9.9, 5.0, 0.0, 0.2), "no real G ≥ .f. has the energy h = -9.9: choose a larger h"),
+        (lambda: state_at(GESS1, 50.0, 12.0, 0.0, 0.2), "choose a larger h, or another point"),
+        (
+            lambda: state_at(GESS1, 50.0, 5.0, 0.0, 0.2, sheet=1),
+            "there is no second root G ≥ .f.*choose the largest one",
+        ),
+        (lambda: state_at(GESS1, 50.0, 5.0, 0.0, 0.2, sheet=3), "at most 3 sheets: choose one from 0 to 2"),
+        (lambda: state_at(GESS1, 50.0, 5.0, 0.0, 1.5), "lies between −1 and 1"),
+        (lambda: state_at(GESS1, 50.0, 5.0, math.nan, 0.5), "l is an angle"),
+        (lambda: state_at(GESS1, math.inf, 5.0, 0.0, 0.5), "h is not a finite number"),
+        (lambda: state_at(GESS1, 50.0, math.nan, 0.0, 0.5), "f is not a finite number"),
+        (
+            lambda: section(*systems()["suslov"].example_motion, AndoyerPlane(1.0), 1.0, STANDARD),
+            "those of the Euler–Poisson equations",
+        ),
+    ],
+)
 def test_a_request_that_means_nothing_is_refused_in_a_sentence(request_, words):
     with pytest.raises(InvalidParameter, match=words):
         request_()

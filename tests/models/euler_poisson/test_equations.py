@@ -17,10 +17,22 @@ from support.andoyer import GESS1, RIS, rates
 FIGURE = HeavyBody((1.0, 1.6, 8.0 / 3.0), (3.0, 0.0, 4.0), 1.995)
 START = (1.3, -2.0, 0.7, 0.3000066002178079863075, 0.40000880029041064841, 0.8660190526287390538076)
 STATES = {
-    5.0: (1.303171576431794886461, 1.939239401930229263521, 0.7288273636200425098267, 0.2690968985733379125361,
-          -0.4076103299371850479799, 0.8726056830589116870152),
-    20.0: (1.09336915106861076365, 1.355414217337625118592, 1.014041313101284483508, 0.239288243300533307289,
-           -0.6121309258568160022675, 0.7536822050624666347255),
+    5.0: (
+        1.303171576431794886461,
+        1.939239401930229263521,
+        0.7288273636200425098267,
+        0.2690968985733379125361,
+        -0.4076103299371850479799,
+        0.8726056830589116870152,
+    ),
+    20.0: (
+        1.09336915106861076365,
+        1.355414217337625118592,
+        1.014041313101284483508,
+        0.239288243300533307289,
+        -0.6121309258568160022675,
+        0.7536822050624666347255,
+    ),
 }
 
 
@@ -77,7 +89,8 @@ def test_the_relation_is_invariant_in_the_hess_case_and_in_no_other(moments):
     assert mirrored.is_hess
     assert not HeavyBody(body.a, (r1, 1e-3, r3), 1.7).is_hess
     assert HeavyBody.hess(moments, 1.7, 0.3).r == pytest.approx(
-        (r1 * math.cos(0.3) - r3 * math.sin(0.3), 0.0, r1 * math.sin(0.3) + r3 * math.cos(0.3)), rel=1e-13)
+        (r1 * math.cos(0.3) - r3 * math.sin(0.3), 0.0, r1 * math.sin(0.3) + r3 * math.cos(0.3)), rel=1e-13
+    )
 
 
 def test_the_energy_bounds_every_angular_velocity():
@@ -156,35 +169,38 @@ def test_hess_orbits_stay_on_their_manifold_for_a_while():
     """The rate at which an error grows across it is log(multiplier) = 3.09 for each period of n3."""
     gamma = np.array([0.3, 0.4, 0.866])
     M = np.array([0.8 * 2.0, -3.0, -0.6 * 2.0])
-    states = solve(GESS1, [*M, *gamma / np.linalg.norm(gamma)], np.linspace(0.0, 3.0, 50),
-                   level("reference")).states
+    states = solve(GESS1, [*M, *gamma / np.linalg.norm(gamma)], np.linspace(0.0, 3.0, 50), level("reference")).states
     assert np.max(np.abs(0.6 * states[:, 0] + 0.8 * states[:, 2])) < 1e-10
 
 
 # ---- Refusals ---------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("request_", "error", "words"), [
-    (lambda: HeavyBody((0.0, 1.0, 2.0), (1.0, 0.0, 0.0), 1.0), NotPositiveDefinite, "a1 = 0.*choose a1 > 0"),
-    (lambda: HeavyBody((1.0, 1.0, -2.0), (1.0, 0.0, 0.0), 1.0), NotPositiveDefinite, "choose a3 > 0"),
-    (lambda: HeavyBody((1.0, 1e-25, 2.0), (1.0, 0.0, 0.0), 1.0), InvalidParameter, "choose ratios below"),
-    (lambda: HeavyBody((1.0, 1.0, 2.0), (math.nan, 0.0, 0.0), 1.0), InvalidParameter, "r1 is not a finite number"),
-    (lambda: HeavyBody((1.0, 1.0, 2.0), (0.0, 0.0, 0.0), math.inf), InvalidParameter, "μ is not a finite number"),
-    (lambda: HeavyBody.hess((1.0, 2.0, 1.5), 1.0), InvalidParameter, "I2 = 2 must lie between I1 = 1 and I3 = 1.5"),
-    (lambda: HeavyBody.hess((1.0, 1.0, 1.0), 1.0), InvalidParameter, "which differ"),
-    (lambda: HeavyBody.hess((1.0, -1.0, 2.0), 1.0), NotPositiveDefinite, "choose I2 > 0"),
-    (lambda: HeavyBody.hess((1.0, math.inf, 2.0), 1.0), InvalidParameter, "I2 is not a finite number"),
-    (lambda: HeavyBody.hess((1.0, 1.5, 2.0), 1.0, math.nan), InvalidParameter, "away is not a finite number"),
-    (lambda: solve(GESS1, [1e200, 0.0, 0.0, 0.0, 0.0, 1.0], [1.0], level("draft")), ModelError,
-     "less extreme"),
-])
+@pytest.mark.parametrize(
+    ("request_", "error", "words"),
+    [
+        (lambda: HeavyBody((0.0, 1.0, 2.0), (1.0, 0.0, 0.0), 1.0), NotPositiveDefinite, "a1 = 0.*choose a1 > 0"),
+        (lambda: HeavyBody((1.0, 1.0, -2.0), (1.0, 0.0, 0.0), 1.0), NotPositiveDefinite, "choose a3 > 0"),
+        (lambda: HeavyBody((1.0, 1e-25, 2.0), (1.0, 0.0, 0.0), 1.0), InvalidParameter, "choose ratios below"),
+        (lambda: HeavyBody((1.0, 1.0, 2.0), (math.nan, 0.0, 0.0), 1.0), InvalidParameter, "r1 is not a finite number"),
+        (lambda: HeavyBody((1.0, 1.0, 2.0), (0.0, 0.0, 0.0), math.inf), InvalidParameter, "μ is not a finite number"),
+        (lambda: HeavyBody.hess((1.0, 2.0, 1.5), 1.0), InvalidParameter, "I2 = 2 must lie between I1 = 1 and I3 = 1.5"),
+        (lambda: HeavyBody.hess((1.0, 1.0, 1.0), 1.0), InvalidParameter, "which differ"),
+        (lambda: HeavyBody.hess((1.0, -1.0, 2.0), 1.0), NotPositiveDefinite, "choose I2 > 0"),
+        (lambda: HeavyBody.hess((1.0, math.inf, 2.0), 1.0), InvalidParameter, "I2 is not a finite number"),
+        (lambda: HeavyBody.hess((1.0, 1.5, 2.0), 1.0, math.nan), InvalidParameter, "away is not a finite number"),
+        (lambda: solve(GESS1, [1e200, 0.0, 0.0, 0.0, 0.0, 1.0], [1.0], level("draft")), ModelError, "less extreme"),
+    ],
+)
 def test_what_is_no_body_is_refused_in_a_sentence(request_, error, words):
     with pytest.raises(error, match=words):
         request_()
 
 
-@pytest.mark.parametrize(("moments", "is_body"), [
-    ((1.0, 0.625, 0.375), True), ((1.0, 1.5, 2.0), True), ((1.0, 0.5, 0.4), False), ((0.1, 1.0, 3.0), False)])
+@pytest.mark.parametrize(
+    ("moments", "is_body"),
+    [((1.0, 0.625, 0.375), True), ((1.0, 1.5, 2.0), True), ((1.0, 0.5, 0.4), False), ((0.1, 1.0, 3.0), False)],
+)
 def test_the_triangle_inequality_is_said(moments, is_body):
     check = HeavyBody.hess(moments, 1.0).check
     assert check.is_body is is_body

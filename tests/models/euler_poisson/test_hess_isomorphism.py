@@ -27,7 +27,11 @@ BODIES = [
     for s1, s3, mu, length in ((1, 1, 1.995, 5.0), (-1, 1, 0.7, 1.0), (1, -1, -1.3, 2.0), (-1, -1, -0.4, 1.0))
 ]
 SUSLOV_BODIES = [
-    HessBody(0.96, 0.28, -1.0), HessBody(1.0, -0.5, 2.0), HessBody(0.5, 1.5, -1.0), HessBody(2.0, 0.0, -0.3)]
+    HessBody(0.96, 0.28, -1.0),
+    HessBody(1.0, -0.5, 2.0),
+    HessBody(0.5, 1.5, -1.0),
+    HessBody(2.0, 0.0, -0.3),
+]
 every_body = pytest.mark.parametrize("body", BODIES, ids=range(len(BODIES)))
 every_suslov = pytest.mark.parametrize("hess", SUSLOV_BODIES, ids=range(len(SUSLOV_BODIES)))
 
@@ -205,11 +209,14 @@ def test_more_than_the_whole_share_is_no_body_any_more():
         heavy_body(HessBody(0.96, 0.28, -1.0), 1.5)
 
 
-@pytest.mark.parametrize(("body", "error", "words"), [
-    (HeavyBody((1.0, 1.6, 2.5), (3.0, 0.0, 4.0), 1.0), InvalidParameter, "not in the Hess case"),
-    (HeavyBody.hess((1.0, 0.625, 0.375), 1.0, 0.01), InvalidParameter, "not in the Hess case"),
-    (HeavyBody((1.0, 1.6, 2.5), (0.0, 0.0, 0.0), 1.0), NoField, "Choose r other than 0"),
-])
+@pytest.mark.parametrize(
+    ("body", "error", "words"),
+    [
+        (HeavyBody((1.0, 1.6, 2.5), (3.0, 0.0, 4.0), 1.0), InvalidParameter, "not in the Hess case"),
+        (HeavyBody.hess((1.0, 0.625, 0.375), 1.0, 0.01), InvalidParameter, "not in the Hess case"),
+        (HeavyBody((1.0, 1.6, 2.5), (0.0, 0.0, 0.0), 1.0), NoField, "Choose r other than 0"),
+    ],
+)
 def test_bodies_that_have_no_counterpart_are_refused(body, error, words):
     with pytest.raises(error, match=words):
         Bridge.of_heavy(body)
@@ -218,13 +225,18 @@ def test_bodies_that_have_no_counterpart_are_refused(body, error, words):
 # ---- along an orbit ----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("bridge", "H", "F1"), [
-    (GESS1, 50.0, 5.0), (GESS1, 5.0, 0.8), (GESS1, 20.0, 0.0),
-    (Bridge.of_suslov(HessBody(0.96, 0.28, -1.0)), 1.5 * 1.0, 0.5),
-    (Bridge.of_suslov(HessBody(1.0, -0.5, 2.0)), 3.0, -0.7),
-    (Bridge.of_suslov(HessBody(0.5, 1.5, -1.0)), 1.0, 0.2),
-    (Bridge.of_suslov(HessBody(2.0, 0.0, -0.3)), 1.0, 0.2),
-])
+@pytest.mark.parametrize(
+    ("bridge", "H", "F1"),
+    [
+        (GESS1, 50.0, 5.0),
+        (GESS1, 5.0, 0.8),
+        (GESS1, 20.0, 0.0),
+        (Bridge.of_suslov(HessBody(0.96, 0.28, -1.0)), 1.5 * 1.0, 0.5),
+        (Bridge.of_suslov(HessBody(1.0, -0.5, 2.0)), 3.0, -0.7),
+        (Bridge.of_suslov(HessBody(0.5, 1.5, -1.0)), 1.0, 0.2),
+        (Bridge.of_suslov(HessBody(2.0, 0.0, -0.3)), 1.0, 0.2),
+    ],
+)
 def test_held_on_the_manifold_euler_poisson_follows_suslov_to_round_off_over_t_50(bridge, H, F1):
     start, _ = on_torus(bridge, H, F1)
     run = on_manifold(bridge.heavy, start, 50.0, 4001, FLOOR)
@@ -240,8 +252,15 @@ def test_held_on_the_manifold_euler_poisson_follows_suslov_to_round_off_over_t_5
 def test_the_held_orbit_is_the_one_of_another_method():
     start, period = on_torus(GESS1, 50.0, 5.0)
     run = on_manifold(GESS1.heavy, start, 3.0 * period, 97, FLOOR)
-    other = solve_ivp(lambda t, y: HEAVY.field(y, GESS1.heavy.parameters), (0.0, run.times[-1]), start, "DOP853",
-                      run.times, rtol=1e-13, atol=1e-13)
+    other = solve_ivp(
+        lambda t, y: HEAVY.field(y, GESS1.heavy.parameters),
+        (0.0, run.times[-1]),
+        start,
+        "DOP853",
+        run.times,
+        rtol=1e-13,
+        atol=1e-13,
+    )
     assert np.max(np.abs(run.states - other.y.T)) < 1e-9
 
 
@@ -308,8 +327,12 @@ def test_growth_sees_through_a_wiggle_and_refuses_what_is_not_straight():
     growth = growth_of(run_of(math.log(1e-15) + 1.7 * t + wiggle), 8)
     assert growth.per_period == pytest.approx(1.7, rel=1e-12)
     # From the first period that is all above 3e-14 to the last that is all below 1e-3.
-    inside = [k for k in range(20) if math.log(3e-14) <= np.min((math.log(1e-15) + 1.7 * t + wiggle)[8 * k : 8 * k + 8])
-              and np.max((math.log(1e-15) + 1.7 * t + wiggle)[8 * k : 8 * k + 8]) <= math.log(1e-3)]
+    inside = [
+        k
+        for k in range(20)
+        if math.log(3e-14) <= np.min((math.log(1e-15) + 1.7 * t + wiggle)[8 * k : 8 * k + 8])
+        and np.max((math.log(1e-15) + 1.7 * t + wiggle)[8 * k : 8 * k + 8]) <= math.log(1e-3)
+    ]
     assert (growth.first, growth.periods) == (inside[0], len(inside))
     assert growth_of(run_of(math.log(1e-16) + 0.0 * t), 8) is None
     assert growth_of(run_of(math.log(1e-15) + 20.0 * t), 8) is None

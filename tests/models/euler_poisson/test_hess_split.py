@@ -32,14 +32,20 @@ def melnikov(torus, l):
     def field(t, y, sense):
         M, g = y[:3] - (y[:3] @ r) * r, y[3:6]
         growth = r @ np.cross(M, A * r)
-        return [*(sense * (np.cross(M, A * M) + mu * np.cross(r, g))), *(sense * np.cross(g, A * M)), -sense * growth,
-                -mu * g[1] * math.exp(y[6])]
+        return [
+            *(sense * (np.cross(M, A * M) + mu * np.cross(r, g))),
+            *(sense * np.cross(g, A * M)),
+            -sense * growth,
+            -mu * g[1] * math.exp(y[6]),
+        ]
 
     bridge = Bridge.of_heavy(body)
     theta = circle_map(bridge.hess.a, *bridge.in_units_of_b(torus.h, torus.f), level("reference"))
     end = 25.0 / theta.fixed_points[1].log_multiplier * theta.period / bridge.hess.frequency_unit
-    both = [solve_ivp(field, (0.0, end), [*start, 0.0, 0.0], "DOP853", rtol=1e-11, atol=1e-13, args=(sense,)).y[7, -1]
-            for sense in (1.0, -1.0)]
+    both = [
+        solve_ivp(field, (0.0, end), [*start, 0.0, 0.0], "DOP853", rtol=1e-11, atol=1e-13, args=(sense,)).y[7, -1]
+        for sense in (1.0, -1.0)
+    ]
     G = np.linalg.norm(start[:3])
     return sum(both) / (G * (r[2] - r[0] * math.sin(l) * x / math.sqrt(1.0 - x * x)))
 

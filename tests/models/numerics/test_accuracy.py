@@ -37,9 +37,11 @@ def test_standard_computes_all_that_is_asked_for(kind):
 
 
 def test_no_tolerance_of_a_section_loses_crossings():
-    assert all(PLANS[kind][name].level.tolerance <= 1e-6 for kind in (Computation.SECTION, Computation.ROTATION,
-                                                                      Computation.BASINS)
-               for name in LEVELS)
+    assert all(
+        PLANS[kind][name].level.tolerance <= 1e-6
+        for kind in (Computation.SECTION, Computation.ROTATION, Computation.BASINS)
+        for name in LEVELS
+    )
 
 
 def test_a_part_is_rounded_and_has_a_least_size():
@@ -62,9 +64,19 @@ def test_a_level_that_is_none_is_refused():
 
 
 # The promises of the levels as the README states them.
-@pytest.mark.parametrize(("error", "name"), [
-    (1.0, "draft"), (1e-3, "draft"), (0.9e-3, "standard"), (1e-6, "standard"), (0.9e-6, "precise"), (1e-9, "precise"),
-    (0.9e-9, "reference"), (1e-15, "reference")])
+@pytest.mark.parametrize(
+    ("error", "name"),
+    [
+        (1.0, "draft"),
+        (1e-3, "draft"),
+        (0.9e-3, "standard"),
+        (1e-6, "standard"),
+        (0.9e-6, "precise"),
+        (1e-9, "precise"),
+        (0.9e-9, "reference"),
+        (1e-15, "reference"),
+    ],
+)
 def test_the_cheapest_level_is_the_first_that_promises_an_error(error, name):
     assert cheapest(error).name == name
 

@@ -40,8 +40,10 @@ def test_the_local_error_of_one_step_has_the_order_of_the_series(truth, order):
     expand = oracle.uncompiled(system.recursion)["expand"]
     # In multiple precision, so that round-off does not end the slope: the same source, uncompiled.
     with mpmath.workdps(75):
-        c, left, right = (np.full((order + 1, columns), mpmath.mpf(0))
-                          for columns in (len(state), *[columns_of(system.recursion)] * 2))
+        c, left, right = (
+            np.full((order + 1, columns), mpmath.mpf(0))
+            for columns in (len(state), *[columns_of(system.recursion)] * 2)
+        )
         inverses = np.array([1 / mpmath.mpf(k + 1) for k in range(order)])
         c[0] = state
         expand(c, left, right, inverses, parameters)

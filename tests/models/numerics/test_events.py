@@ -15,6 +15,8 @@ from hess_mechanics.numerics.events_kernels import largest_bend, root_between, v
 from support.mechanics import PROPERTY
 
 EPS = np.finfo(float).eps
+
+
 class Pieces(np.ndarray):
     """Scratch for the pieces, which ends a search that does not end by itself."""
 
@@ -57,8 +59,7 @@ def reach(e, s, h):
 
 
 def agree(found, e, roots, h):
-    return len(found) == len(roots) and all(
-        abs(a - b) <= reach(e, b, h) for a, b in zip(found, roots, strict=True))
+    return len(found) == len(roots) and all(abs(a - b) <= reach(e, b, h) for a, b in zip(found, roots, strict=True))
 
 
 def product(roots, others=(1.0,)):
@@ -70,9 +71,12 @@ def product(roots, others=(1.0,)):
     return np.array([float(value) for value in e])
 
 
-WITHOUT_ROOTS = [pytest.param((1.0,), id="alone"), pytest.param((-2.5,), id="times a number"),
-                 pytest.param((2.0, 0.0, 1.0), id="with a complex pair"),
-                 pytest.param((3.0, 1.0, 0.5, -0.25, 0.125), id="with four more far away")]
+WITHOUT_ROOTS = [
+    pytest.param((1.0,), id="alone"),
+    pytest.param((-2.5,), id="times a number"),
+    pytest.param((2.0, 0.0, 1.0), id="with a complex pair"),
+    pytest.param((3.0, 1.0, 0.5, -0.25, 0.125), id="with four more far away"),
+]
 with_others = pytest.mark.parametrize("others", WITHOUT_ROOTS)
 
 
@@ -108,8 +112,19 @@ def test_a_line_and_a_constant_do_not_bend(h):
 
 
 @with_others
-@pytest.mark.parametrize("roots", [(0.5,), (0.42577973,), (0.1, 0.9), (0.27548506, 0.53737703), (0.2, 0.3, 0.4),
-                                   (1e-9, 0.7), (0.3, 1.0 - 1e-9), (0.05, 0.25, 0.45, 0.65, 0.85)])
+@pytest.mark.parametrize(
+    "roots",
+    [
+        (0.5,),
+        (0.42577973,),
+        (0.1, 0.9),
+        (0.27548506, 0.53737703),
+        (0.2, 0.3, 0.4),
+        (1e-9, 0.7),
+        (0.3, 1.0 - 1e-9),
+        (0.05, 0.25, 0.45, 0.65, 0.85),
+    ],
+)
 @pytest.mark.parametrize("h", [1.0, 0.01, 30.0])
 def test_simple_roots_are_found_to_round_off(roots, others, h):
     e = product(np.multiply(roots, h), others)
@@ -122,7 +137,7 @@ def test_what_is_flat_at_first_is_not_halved_away(height):
     e = np.zeros(21)
     e[0], e[20] = height, -1.0
     found = found_roots(e, 1.0, enough=200)
-    assert found == pytest.approx([height ** 0.05], rel=1e-14)
+    assert found == pytest.approx([height**0.05], rel=1e-14)
     e[20] = 1.0
     assert len(found_roots(e, 1.0, enough=200)) == 0
 
@@ -276,9 +291,11 @@ def changes_of_side(e, h):
     heights = np.polyval(e[::-1], places)
     if np.any(np.abs(heights) < 1e-7 * np.polyval(np.abs(e[::-1]), h)):
         return None
-    return [brentq(lambda s: np.polyval(e[::-1], s), low, high, xtol=4 * EPS, rtol=4 * EPS)
-            for low, high, left, right in zip(places, places[1:], heights, heights[1:], strict=False)
-            if left * right < 0.0]
+    return [
+        brentq(lambda s: np.polyval(e[::-1], s), low, high, xtol=4 * EPS, rtol=4 * EPS)
+        for low, high, left, right in zip(places, places[1:], heights, heights[1:], strict=False)
+        if left * right < 0.0
+    ]
 
 
 @PROPERTY
@@ -292,8 +309,10 @@ def test_random_polynomials_have_the_roots_that_numpy_finds(coefficients, h):
 
 
 @PROPERTY
-@given(st.lists(st.integers(-3, 13), min_size=1, max_size=7, unique=True),
-       st.lists(st.tuples(st.integers(-300, 1300), st.integers(500, 1000)), max_size=4))
+@given(
+    st.lists(st.integers(-3, 13), min_size=1, max_size=7, unique=True),
+    st.lists(st.tuples(st.integers(-300, 1300), st.integers(500, 1000)), max_size=4),
+)
 def test_polynomials_with_many_roots_have_the_roots_that_numpy_finds(real, pairs):
     others = Polynomial([1.0])
     for middle, away in pairs:

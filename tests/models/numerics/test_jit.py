@@ -18,8 +18,14 @@ PARTS = ("numerics", "dynamics", "rigid_body", "suslov", "suslov_hess", "chaplyg
 
 def run(code, folder, path, *arguments):
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder), "PYTHONPATH": str(path)}
-    found = subprocess.run([sys.executable, "-W", "error", "-c", code, *arguments], env=environment,
-                           capture_output=True, text=True, timeout=300, check=False)
+    found = subprocess.run(
+        [sys.executable, "-W", "error", "-c", code, *arguments],
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
     assert found.returncode == 0, found.stderr
     return json.loads(found.stdout)
 
@@ -54,16 +60,27 @@ def hashes(copied, monkeypatch):
     forget()
 
 
-@pytest.mark.parametrize(("file", "change", "stale"), [
-    ("suslov/equations.py", lambda text: f"# a comment\n\n{text}", set()),
-    ("numerics/taylor_kernels.py", lambda text: text.replace('"""', '"""Another docstring. ', 1), set()),
-    ("euler_poisson/andoyer.py", lambda text: f"{text}\n_NEW = 1\n", {"euler_poisson"}),
-    ("chaplygin_ball/equations.py", lambda text: text.replace("s = I13 * w1", "s = 2 * I13 * w1"), {"chaplygin_ball"}),
-    ("suslov/equations.py", lambda text: f"{text}\n_NEW = 1\n",
-     {"suslov", "suslov_hess", "chaplygin_ball", "euler_poisson"}),
-    ("numerics/taylor_kernels.py", lambda text: f"{text}\n_NEW = 1\n", set(PARTS)),
-    ("dynamics/system.py", lambda text: f"{text}\n_NEW = 1\n", set(PARTS)),
-], ids=["comment", "docstring", "another subject", "the field", "what others import", "numerics", "dynamics"])
+@pytest.mark.parametrize(
+    ("file", "change", "stale"),
+    [
+        ("suslov/equations.py", lambda text: f"# a comment\n\n{text}", set()),
+        ("numerics/taylor_kernels.py", lambda text: text.replace('"""', '"""Another docstring. ', 1), set()),
+        ("euler_poisson/andoyer.py", lambda text: f"{text}\n_NEW = 1\n", {"euler_poisson"}),
+        (
+            "chaplygin_ball/equations.py",
+            lambda text: text.replace("s = I13 * w1", "s = 2 * I13 * w1"),
+            {"chaplygin_ball"},
+        ),
+        (
+            "suslov/equations.py",
+            lambda text: f"{text}\n_NEW = 1\n",
+            {"suslov", "suslov_hess", "chaplygin_ball", "euler_poisson"},
+        ),
+        ("numerics/taylor_kernels.py", lambda text: f"{text}\n_NEW = 1\n", set(PARTS)),
+        ("dynamics/system.py", lambda text: f"{text}\n_NEW = 1\n", set(PARTS)),
+    ],
+    ids=["comment", "docstring", "another subject", "the field", "what others import", "numerics", "dynamics"],
+)
 def test_a_change_makes_stale_what_it_is_part_of_and_nothing_else(copied, hashes, file, change, stale):
     before = hashes()
     assert hashes() == before

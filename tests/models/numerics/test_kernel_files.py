@@ -62,10 +62,16 @@ def test_a_file_cut_short_is_replaced(kernels, which, left):
     assert (after(1.5), read(after)) == (4.0, 1)
 
 
-@pytest.mark.parametrize("foreign", [
-    b"no pickle at all", pickle.dumps("0.0.1") + b"of another Numba", pickle.dumps(["another", "thing"]),
-    pickle.dumps(jit.numba.__version__) + pickle.dumps(("another stamp", {})),
-    pickle.dumps(jit.numba.__version__) + pickle.dumps(17)])
+@pytest.mark.parametrize(
+    "foreign",
+    [
+        b"no pickle at all",
+        pickle.dumps("0.0.1") + b"of another Numba",
+        pickle.dumps(["another", "thing"]),
+        pickle.dumps(jit.numba.__version__) + pickle.dumps(("another stamp", {})),
+        pickle.dumps(jit.numba.__version__) + pickle.dumps(17),
+    ],
+)
 @pytest.mark.parametrize("which", ["index", "data"])
 def test_a_foreign_file_is_replaced(kernels, which, foreign):
     index, (data,) = filled(kernels)
@@ -140,8 +146,13 @@ for n in range(int(sys.argv[2])):
 def process(folder, *arguments):
     models = Path(hess_mechanics.__file__).parents[1]
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder), "PYTHONPATH": str(models)}
-    return subprocess.Popen([sys.executable, "-W", "error", "-c", MANY, *map(str, arguments)], env=environment,
-                            text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    return subprocess.Popen(
+        [sys.executable, "-W", "error", "-c", MANY, *map(str, arguments)],
+        env=environment,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
 
 
 def ended(running):

@@ -29,6 +29,7 @@ FIELDS = {
 
 def random_field(seed, quotients):
     """A field of four variables and three parameters, and its parts: sums, products, powers, quotients, constants."""
+
     def field(y, p):
         draw = np.random.default_rng(seed)
 
@@ -166,16 +167,29 @@ def pole(y, p):
 
 def system_of(field, variables, example):
     return System(
-        name=field.__name__, title=field.__name__, source="a test", labels=(), variables=variables,
-        parameters=tuple(f"p{i}" for i in range(len(example[1]))), angular_velocities=0,
-        field=field, integrals=lambda y, p: {},
-        frequency=lambda y, p: 1.0, rescale=lambda y, p, nu: (y.copy(), p.copy()), example=example)
+        name=field.__name__,
+        title=field.__name__,
+        source="a test",
+        labels=(),
+        variables=variables,
+        parameters=tuple(f"p{i}" for i in range(len(example[1]))),
+        angular_velocities=0,
+        field=field,
+        integrals=lambda y, p: {},
+        frequency=lambda y, p: 1.0,
+        rescale=lambda y, p, nu: (y.copy(), p.copy()),
+        example=example,
+    )
 
 
-@pytest.mark.parametrize("system", [
-    system_of(roessler, ("x", "y", "z"), ((0.3, -0.2, 0.1), (0.2, 0.2, 5.7))),
-    system_of(pole, ("x", "y"), ((0.5, 2.0), (0.75,))),
-], ids=lambda system: system.name)
+@pytest.mark.parametrize(
+    "system",
+    [
+        system_of(roessler, ("x", "y", "z"), ((0.3, -0.2, 0.1), (0.2, 0.2, 5.7))),
+        system_of(pole, ("x", "y"), ((0.5, 2.0), (0.75,))),
+    ],
+    ids=lambda system: system.name,
+)
 def test_a_system_of_ones_own_needs_its_field_only(system):
     state, p = system.example
     times = [0.5, 3.0]
@@ -190,27 +204,49 @@ def test_a_system_of_ones_own_needs_its_field_only(system):
         assert many[5] == pytest.approx(expected, abs=1e-13)
 
 
-@pytest.mark.parametrize("field", [
-    lambda y, p: (math.sin(y[0]), y[1]),
-    lambda y, p: (np.sin(y[0]), y[1]),
-    lambda y, p: (abs(y[0]), y[1]),
-    lambda y, p: (y[0] if y[1] > 0 else -y[0], y[1]),
-    lambda y, p: (y[0] if y[1] == p[0] else -y[0], y[1]),
-    lambda y, p: (max(y[0], y[1]), y[1]),
-    lambda y, p: (y[0] ** 0.5, y[1]),
-    lambda y, p: (y[0] ** y[1], y[1]),
-    lambda y, p: (2 ** y[0], y[1]),
-    lambda y, p: (y[0] % 2, y[1]),
-    lambda y, p: (y[0] * 1j, y[1]),
-    lambda y, p: (y[0] * math.nan, y[1]),
-    lambda y, p: (y[0] / 0, y[1]),
-    lambda y, p: (y[0] / (p[0] - p[0] * 1 + y[0] * 0), "y"),
-    lambda y, p: (np.array([1.0, 2.0]) * y[0], y[1]),
-    lambda y, p: (y[0] * math.inf, y[1]),
-    lambda y, p: y[0],
-    lambda y, p: (p[1], y[1]) if len(p) > 1 else (y[0], *p[1:2], y[5]),
-], ids=["math", "numpy", "abs", "condition", "equal", "max", "root", "power", "exponential", "modulo", "complex", "nan",
-        "division by 0", "text", "array", "inf", "no sequence", "missing variable"])
+@pytest.mark.parametrize(
+    "field",
+    [
+        lambda y, p: (math.sin(y[0]), y[1]),
+        lambda y, p: (np.sin(y[0]), y[1]),
+        lambda y, p: (abs(y[0]), y[1]),
+        lambda y, p: (y[0] if y[1] > 0 else -y[0], y[1]),
+        lambda y, p: (y[0] if y[1] == p[0] else -y[0], y[1]),
+        lambda y, p: (max(y[0], y[1]), y[1]),
+        lambda y, p: (y[0] ** 0.5, y[1]),
+        lambda y, p: (y[0] ** y[1], y[1]),
+        lambda y, p: (2 ** y[0], y[1]),
+        lambda y, p: (y[0] % 2, y[1]),
+        lambda y, p: (y[0] * 1j, y[1]),
+        lambda y, p: (y[0] * math.nan, y[1]),
+        lambda y, p: (y[0] / 0, y[1]),
+        lambda y, p: (y[0] / (p[0] - p[0] * 1 + y[0] * 0), "y"),
+        lambda y, p: (np.array([1.0, 2.0]) * y[0], y[1]),
+        lambda y, p: (y[0] * math.inf, y[1]),
+        lambda y, p: y[0],
+        lambda y, p: (p[1], y[1]) if len(p) > 1 else (y[0], *p[1:2], y[5]),
+    ],
+    ids=[
+        "math",
+        "numpy",
+        "abs",
+        "condition",
+        "equal",
+        "max",
+        "root",
+        "power",
+        "exponential",
+        "modulo",
+        "complex",
+        "nan",
+        "division by 0",
+        "text",
+        "array",
+        "inf",
+        "no sequence",
+        "missing variable",
+    ],
+)
 def test_what_is_no_arithmetic_is_refused(field):
     with pytest.raises(NotTraceable, match=r"^This field cannot be traced: .*") as caught:
         trace(field, 2, 1)
@@ -309,7 +345,7 @@ def test_a_derivative_of_what_is_no_symbol_is_none():
     def field(y, p):
         assert derivative(3.0, y[0]) == 0
         assert derivative(p[0] * y[1], y[0]) == 0
-        return y[1] / (1 + y[0] ** 2), -y[0] ** 3, derivative(y[0] ** 3, y[0])
+        return y[1] / (1 + y[0] ** 2), -(y[0] ** 3), derivative(y[0] ** 3, y[0])
 
     found = trace(field, 2, 1, observed=1)
     assert found.observed == 1

@@ -84,8 +84,15 @@ def test_how_far_it_was_from_orthonormal_is_said():
 def test_a_steady_rotation_turns_by_its_angle():
     # a = b = 0: ω = (w1, w2, 0) stays.
     w = np.array([0.6, -0.8, 0.0]) * 1.7
-    found = attitude(WITH_ATTITUDE.at((0.0, 0.0)), [w[0], w[1], 0.0, 0.0, 1.0, 1.0, 0.0, 0.0], 20.0, level("reference"),
-                     WEIGHTS, 0.25, 200)
+    found = attitude(
+        WITH_ATTITUDE.at((0.0, 0.0)),
+        [w[0], w[1], 0.0, 0.0, 1.0, 1.0, 0.0, 0.0],
+        20.0,
+        level("reference"),
+        WEIGHTS,
+        0.25,
+        200,
+    )
     turn = Rotation.from_rotvec(found.times[:, None] * w).as_matrix()
     assert np.max(np.abs(found.axes - found.axes[0] @ turn)) < 1e-14
     # What is fixed in the body is seen in space where the rotation has brought it.
@@ -97,8 +104,11 @@ FIELDS = {
     "hess": (hess.SYSTEM, (0.7, 1.3), lambda y: (y[0], y[1], -0.7 * y[1])),
     "suslov": (suslov.SYSTEM, (1.4, 0.8, 0.1, 0.3, 0.2, -0.5, 0.7), lambda y: (y[0], y[1], 0.0)),
     "ball": (chaplygin_ball.SYSTEM, (1.4, 0.8, 0.1, 0.3, 2.0, 0.2, -0.5, 0.7), lambda y: (y[0], y[1], 0.0)),
-    "euler-poisson": (euler_poisson.SYSTEM, (1.0, 1.6, 8 / 3, 0.6, 0.0, 0.8, 0.5),
-                      lambda y: (y[0], 1.6 * y[1], 8 / 3 * y[2])),
+    "euler-poisson": (
+        euler_poisson.SYSTEM,
+        (1.0, 1.6, 8 / 3, 0.6, 0.0, 0.8, 0.5),
+        lambda y: (y[0], 1.6 * y[1], 8 / 3 * y[2]),
+    ),
 }
 
 
@@ -132,8 +142,9 @@ def test_the_ball_can_be_followed():
     ball, p = with_attitude(chaplygin_ball.SYSTEM), chaplygin_ball.SYSTEM.example[1]
     start = np.array(ball.example[0])
     found = attitude(ball.at(p), start, 12.0, level("precise"), WEIGHTS, 0.25, 400)
-    y, turn = turned(lambda x: np.array([x[0], x[1], 0.0]), lambda x: chaplygin_ball.field(x, p), start[:5],
-                     found.times)
+    y, turn = turned(
+        lambda x: np.array([x[0], x[1], 0.0]), lambda x: chaplygin_ball.field(x, p), start[:5], found.times
+    )
     assert np.max(np.abs(found.orbit.states[:, :5] - y)) < 1e-9
     assert np.max(np.abs(found.axes - found.axes[0] @ turn)) < 1e-9
 
@@ -152,8 +163,14 @@ def test_attitudes_of_many_are_those_of_each():
     # Nothing else needs this kernel: it is not compiled, which would take ten seconds.
     environment = {**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(Path(hess_mechanics.__file__).parents[1])}
     asked = json.dumps([np.array(starts).tolist(), P, [1.0, 5.0]])
-    run = subprocess.run([sys.executable, "-W", "error", "-c", MANY, asked], env=environment, capture_output=True,
-                         text=True, timeout=120, check=False)
+    run = subprocess.run(
+        [sys.executable, "-W", "error", "-c", MANY, asked],
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
     assert run.returncode == 0, run.stderr
     for start, states in zip(starts, json.loads(run.stdout), strict=True):
         exact = solve(WITH_ATTITUDE.at(P), start, [1.0, 5.0], level("precise")).states
@@ -237,8 +254,9 @@ def test_what_is_drawn_solves_the_equations_of_euler_and_poisson():
     assert gamma == pytest.approx(r, abs=1e-15)
     assert M @ r == pytest.approx(0.0, abs=1e-14)  # the Hess relation
     assert M[1] == pytest.approx(K * math.cos(one.l), abs=1e-14)
-    states, turn = turned(lambda y: a * y[:3], lambda y: euler_poisson.field(y, one.body.parameters),
-                          [*M, *gamma], found.times)
+    states, turn = turned(
+        lambda y: a * y[:3], lambda y: euler_poisson.field(y, one.body.parameters), [*M, *gamma], found.times
+    )
     assert found.attitude.axes == pytest.approx(found.attitude.axes[0] @ turn, abs=3e-11)
     assert found.attitude.axes[:, 0] == pytest.approx(states[:, 3:], abs=3e-11)
     # M keeps its direction in space, and l is its angle with the middle axis.
@@ -268,19 +286,23 @@ def test_an_oscillation_draws_a_segment_again_and_again_and_a_rotation_everythin
     assert loxodromic_motion(pendulum(h=1.0), 1e4, level("draft")).swing[-1] == pytest.approx(math.pi, abs=1e-2)
 
 
-@pytest.mark.parametrize(("make", "error", "words"), [
-    (lambda: pendulum(h=-1.0), OutsideRegion, "Choose h > −1"),
-    (lambda: pendulum(h=math.nan), InvalidParameter, "finite"),
-    (lambda: pendulum(l=0.0), InvalidParameter, "Choose 0 < l < π"),
-    (lambda: pendulum(l=math.pi), InvalidParameter, "no track"),
-    (lambda: pendulum((1.0, 2.5, 2.0)), InvalidParameter, "must lie between"),
-    (lambda: pendulum((1.0, -1.0, 2.0)), NotPositiveDefinite, "I2"),
-    (lambda: pendulum(mu=0.0), InvalidParameter, "choose μ > 0"),
-    (lambda: pendulum(mu=-1.0), InvalidParameter, "choose μ > 0"),
-    (lambda: LoxodromicPendulum(HeavyBody.hess((1.0, 1.5, 2.0), 1.0, 0.1), 1.5, 0.4), InvalidParameter, "Hess"),
-    (lambda: loxodromic_motion(pendulum(), math.inf, level("draft")), InvalidParameter, "span"),
-    (lambda: loxodromic_motion(pendulum(), 1e9, level("draft")), ModelError, "shorter"),
-], ids=range(11))
+@pytest.mark.parametrize(
+    ("make", "error", "words"),
+    [
+        (lambda: pendulum(h=-1.0), OutsideRegion, "Choose h > −1"),
+        (lambda: pendulum(h=math.nan), InvalidParameter, "finite"),
+        (lambda: pendulum(l=0.0), InvalidParameter, "Choose 0 < l < π"),
+        (lambda: pendulum(l=math.pi), InvalidParameter, "no track"),
+        (lambda: pendulum((1.0, 2.5, 2.0)), InvalidParameter, "must lie between"),
+        (lambda: pendulum((1.0, -1.0, 2.0)), NotPositiveDefinite, "I2"),
+        (lambda: pendulum(mu=0.0), InvalidParameter, "choose μ > 0"),
+        (lambda: pendulum(mu=-1.0), InvalidParameter, "choose μ > 0"),
+        (lambda: LoxodromicPendulum(HeavyBody.hess((1.0, 1.5, 2.0), 1.0, 0.1), 1.5, 0.4), InvalidParameter, "Hess"),
+        (lambda: loxodromic_motion(pendulum(), math.inf, level("draft")), InvalidParameter, "span"),
+        (lambda: loxodromic_motion(pendulum(), 1e9, level("draft")), ModelError, "shorter"),
+    ],
+    ids=range(11),
+)
 def test_what_is_no_loxodromic_pendulum_is_refused_in_a_sentence(make, error, words):
     with pytest.raises(error, match=words) as refused:
         make()

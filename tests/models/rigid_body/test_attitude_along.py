@@ -58,8 +58,12 @@ def test_it_is_right_to_a_quarter_of_a_pixel_for_as_long_as_an_orbit_is_shown(mo
 def test_a_steady_spin_about_the_vertical_is_followed_though_nothing_else_moves():
     omega = np.tile([0.0, 0.0, 3.0], (5, 1))
     found = attitude_along(np.linspace(0.0, 8.0, 5), omega, np.tile([0.0, 0.0, 1.0], (5, 1)))
-    turn = np.array([[np.cos(3.0 * found.times), -np.sin(3.0 * found.times)],
-                     [np.sin(3.0 * found.times), np.cos(3.0 * found.times)]])
+    turn = np.array(
+        [
+            [np.cos(3.0 * found.times), -np.sin(3.0 * found.times)],
+            [np.sin(3.0 * found.times), np.cos(3.0 * found.times)],
+        ]
+    )
     # Seen from the body, what is fixed in space turns backward.
     assert found.axes[:, 1, :2] == pytest.approx(np.einsum("jin,j->ni", turn, found.axes[0, 1, :2]), abs=1e-12)
     assert abs(len(found.times) - 241) <= 1
@@ -76,6 +80,7 @@ def test_samples_too_far_apart_are_told_by_their_defect():
     system, parameters, start, omega = MOTIONS["heavy"]
     fine = sampled_orbit(system.at(parameters), start, 40.0, (100.0,) * 3 + (300.0,) * 3, level("standard"))
     coarse = slice(None, None, 40)
-    found = attitude_along(fine.times[coarse], np.array([omega(y) for y in fine.states])[coarse],
-                           fine.states[coarse, -3:])
+    found = attitude_along(
+        fine.times[coarse], np.array([omega(y) for y in fine.states])[coarse], fine.states[coarse, -3:]
+    )
     assert found.defect > 0.05

@@ -19,8 +19,15 @@ START = (0.5, 1.2, 0.6, 0.0, 0.8)
 @pytest.mark.parametrize("span", [120.0, -100.0])
 def test_the_moments_are_those_of_another_integrator_and_none_is_lost(span):
     found = reversals(BODY, START, span, level("precise"))
-    other = solve_ivp(lambda t, y: field(BODY, y), (0.0, span), START, method="DOP853", rtol=1e-12, atol=1e-13,
-                      events=lambda t, y: y[0] * y[2] + y[1] * y[3])
+    other = solve_ivp(
+        lambda t, y: field(BODY, y),
+        (0.0, span),
+        START,
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-13,
+        events=lambda t, y: y[0] * y[2] + y[1] * y[3],
+    )
     assert len(found.times) == len(other.t_events[0]) > 5
     assert np.abs(found.times - other.t_events[0]).max() < 1e-7
     assert np.abs(rate(found.states)).max() < 1e-9
@@ -37,8 +44,15 @@ def test_a_permanent_rotation_never_reverses():
 def test_the_moments_of_the_ball_are_those_of_another_integrator():
     body = BallBody(1.9, 2.9, 0.7, -0.5, 5.0, 1.7, -0.4, 0.1)
     found = reversals(body, START, 40.0, level("precise"))
-    turns = solve_ivp(rates(vars(body)), (0.0, 40.0), START, method="DOP853", rtol=1e-11, atol=1e-13,
-                      events=lambda t, y: y[0] * y[2] + y[1] * y[3]).t_events[0]
+    turns = solve_ivp(
+        rates(vars(body)),
+        (0.0, 40.0),
+        START,
+        method="DOP853",
+        rtol=1e-11,
+        atol=1e-13,
+        events=lambda t, y: y[0] * y[2] + y[1] * y[3],
+    ).t_events[0]
     assert len(found.times) == len(turns) > 2
     assert np.abs(found.times - turns).max() < 1e-7
 

@@ -86,15 +86,15 @@ def test_the_coefficients_span_the_null_space_of_the_linear_system(k):
     w1, w2 = sympy.symbols("w1 w2")
     unknown = sympy.symbols(f"u0:{3 * (k + 1)}")
     V = sympy.Matrix([sum(unknown[i * (k + 1) + j] * w1 ** (k - j) * w2**j for j in range(k + 1)) for i in range(3)])
-    rate = V.diff(w1) * (-w2 * I23 * w2 / I11) + V.diff(w2) * (w1 * I23 * w2 / I22) - V.cross(
-        sympy.Matrix([w1, w2, 0]))
+    rate = V.diff(w1) * (-w2 * I23 * w2 / I11) + V.diff(w2) * (w1 * I23 * w2 / I22) - V.cross(sympy.Matrix([w1, w2, 0]))
     equations = [c for row in rate for c in sympy.Poly(sympy.expand(row), w1, w2).coeffs()]
     matrix = sympy.Matrix([[sympy.diff(equation, x) for x in unknown] for equation in equations])
     (null,) = matrix.nullspace()
     found = coefficients(k, Fraction(3, 2), Fraction(-2, 5))
     V = vector(found, w1, w2)
-    ours = [sympy.Poly(sympy.nsimplify(v), w1, w2).coeff_monomial(w1 ** (k - j) * w2**j)
-            for v in V for j in range(k + 1)]
+    ours = [
+        sympy.Poly(sympy.nsimplify(v), w1, w2).coeff_monomial(w1 ** (k - j) * w2**j) for v in V for j in range(k + 1)
+    ]
     assert sympy.Matrix([ours, list(null)]).rank() == 1
 
 
@@ -105,9 +105,11 @@ def test_the_first_two_are_those_of_the_paper():
     I11 = I22 + 9 * I23**2 / I22
     for w1, w2 in ((2, 3), (Fraction(-1, 3), 5)):
         for g1, g2, g3 in ((1, 0, 0), (0, 1, 0), (0, 0, 1)):
-            printed = (I11**2 * w1**2 * ((I22**2 + I23**2) * g1 * w1 + I22 * (I22 * g2 + I23 * g3) * w2)
-                       + I22 * w2**2 * (I22 * (I22**2 + 5 * I23**2) * g2 * w2
-                                        + (I22**2 - 3 * I23**2) * (I11 * g1 * w1 + I23 * g3 * w2)))
+            printed = I11**2 * w1**2 * (
+                (I22**2 + I23**2) * g1 * w1 + I22 * (I22 * g2 + I23 * g3) * w2
+            ) + I22 * w2**2 * (
+                I22 * (I22**2 + 5 * I23**2) * g2 * w2 + (I22**2 - 3 * I23**2) * (I11 * g1 * w1 + I23 * g3 * w2)
+            )
             v1, v2, v3 = vector(three, w1, w2)
             assert v1 * g1 + v2 * g2 + v3 * g3 == printed
 
@@ -172,18 +174,21 @@ def test_the_order_is_told_from_doubles(case, k):
     assert order(near) is None
 
 
-@pytest.mark.parametrize("body", [
-    SuslovBody(1.64, 1.0, 0.8, 0.8),
-    SuslovBody(1.64, 1.0, 0.0, 0.0),
-    SuslovBody(1.64, 1.0, 0.0, 0.8, b3=1.0),
-    SuslovBody(3.56, 1.0, 0.0, 0.8),  # k = 2
-    SuslovBody(0.8, 1.0, 0.0, 0.5),  # k² < 0
-    SuslovBody(1.0, 1.0, 0.0, 0.5),  # k = 0
-    SuslovBody(I11_of(15, 1.0, 0.4) + 64 * 0.16, 1.0, 0.0, 0.4),  # k = 17
-    SuslovBody(1.0, 1.0, 0.0, 1e-9),  # k cannot be told
-    SuslovBody(1.0, 1.16, 0.0, 0.4),  # case 1 with 1 and 2 exchanged
-    SuslovBody(1.16, 1.0, 0.4, 0.0),
-])
+@pytest.mark.parametrize(
+    "body",
+    [
+        SuslovBody(1.64, 1.0, 0.8, 0.8),
+        SuslovBody(1.64, 1.0, 0.0, 0.0),
+        SuslovBody(1.64, 1.0, 0.0, 0.8, b3=1.0),
+        SuslovBody(3.56, 1.0, 0.0, 0.8),  # k = 2
+        SuslovBody(0.8, 1.0, 0.0, 0.5),  # k² < 0
+        SuslovBody(1.0, 1.0, 0.0, 0.5),  # k = 0
+        SuslovBody(I11_of(15, 1.0, 0.4) + 64 * 0.16, 1.0, 0.0, 0.4),  # k = 17
+        SuslovBody(1.0, 1.0, 0.0, 1e-9),  # k cannot be told
+        SuslovBody(1.0, 1.16, 0.0, 0.4),  # case 1 with 1 and 2 exchanged
+        SuslovBody(1.16, 1.0, 0.4, 0.0),
+    ],
+)
 def test_no_order(body):
     assert order(body) is None
     assert of_body(body) is None

@@ -33,8 +33,9 @@ def test_averages_far_apart_are_told_apart(centres):
         assert abs(averages[i] - centre) < 0.01
 
 
-@pytest.mark.parametrize("averages", [
-    np.empty(0), np.array([0.4]), np.full(30, 0.7), 0.5 + 1e-4 * np.arange(8), np.linspace(-1.0, 1.0, 50)])
+@pytest.mark.parametrize(
+    "averages", [np.empty(0), np.array([0.4]), np.full(30, 0.7), 0.5 + 1e-4 * np.arange(8), np.linspace(-1.0, 1.0, 50)]
+)
 def test_averages_of_one_group_are_one(averages):
     assert np.array_equal(groups(averages), np.zeros(averages.size))
 
@@ -72,8 +73,11 @@ def test_the_mean_divergence_is_that_of_scipy():
         assert found.mean == pytest.approx((run.y[5, 1] - run.y[5, 0]) / 400.0, abs=4.0 * found.error + 1e-4)
 
 
-@pytest.mark.parametrize(("body", "E", "attracts"), [(*STRANGE, True), (*TWO, True), (*SEA, False), (*KEPT, False)],
-                         ids=["strange", "two", "sea", "volume kept"])
+@pytest.mark.parametrize(
+    ("body", "E", "attracts"),
+    [(*STRANGE, True), (*TWO, True), (*SEA, False), (*KEPT, False)],
+    ids=["strange", "two", "sea", "volume kept"],
+)
 def test_an_attractor_is_claimed_where_volume_shrinks_and_only_there(body, E, attracts):
     for start in starts(body, E):
         assert contraction(body, start.tolist(), 1000.0).attracts is attracts

@@ -47,10 +47,20 @@ def test_the_reference_orbit():
     # 40-digit Taylor series.
     start = [2.0, 0.0001, 0.4983828792074760180043, 0.2591590971878875293622, 0.8273155794844101898871]
     exact = [
-        [1.999977433051604020859, 0.01484123221747056430564, 0.5040034555702126762951, -0.6645385252886796042941,
-         -0.5516965335947214331075],
-        [-1.999999934682292504863, 0.0008046743532277580314004, -0.6116735883633695659575, 0.6298871934428701572881,
-         0.47864135303517538197],
+        [
+            1.999977433051604020859,
+            0.01484123221747056430564,
+            0.5040034555702126762951,
+            -0.6645385252886796042941,
+            -0.5516965335947214331075,
+        ],
+        [
+            -1.999999934682292504863,
+            0.0008046743532277580314004,
+            -0.6116735883633695659575,
+            0.6298871934428701572881,
+            0.47864135303517538197,
+        ],
     ]
     states, found = motion_of(FIGURE, start, [5.0, 20.0])
     assert np.max(np.abs(states - exact)) < 1e-13
@@ -75,7 +85,8 @@ def test_the_reference_orbit():
         ("I11/I22 = 1e-6", SuslovBody(1e-6, 1.0, 0.3, 0.5), (0.1, 10.0), [0.001, 0.004]),
         ("I22 = 1e6", SuslovBody(1.0, 1e6, 200.0, 500.0), (1.0, 1e-3), [1.0, 10.0]),
         ("no body: I13, I23 of 100", SuslovBody(1.0, 2.0, 100.0, -60.0), (0.3, 0.4), [0.01, 0.1, 1.0]),
-    ], ids=lambda x: x if isinstance(x, str) else "",
+    ],
+    ids=lambda x: x if isinstance(x, str) else "",
 )
 def test_hard_starts_are_right_within_the_promise(name_of_start, body, omega, times, name):
     exact = exact_of(body, omega, tuple(times))
@@ -176,8 +187,9 @@ def test_the_rotation_carries_every_vertical():
     carried = turned.carry(gammas)
     assert carried.shape == (4, 2, 3)
     for gamma, path in zip(gammas, carried, strict=True):
-        assert path == pytest.approx(free_motion(GENERIC, (0.8, -0.2), gamma, [1.0, 4.0], level("reference")).gamma,
-                                     abs=1e-13)
+        assert path == pytest.approx(
+            free_motion(GENERIC, (0.8, -0.2), gamma, [1.0, 4.0], level("reference")).gamma, abs=1e-13
+        )
     identity = np.broadcast_to(np.eye(3), (2, 3, 3))
     assert np.einsum("mij,mkj->mik", turned.matrices, turned.matrices) == pytest.approx(identity, abs=1e-13)
     assert np.linalg.det(turned.matrices) == pytest.approx([1.0, 1.0], abs=1e-13)
@@ -364,8 +376,15 @@ json.dump(results, sys.stdout)
 
 def test_the_kernel_without_the_jit_equals_the_compiled_one_to_round_off():
     environment = {**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(ROOT)}
-    run = subprocess.run([sys.executable, "-W", "error", "-c", WITHOUT_JIT], cwd=ROOT, env=environment,
-                         capture_output=True, text=True, timeout=120, check=False)
+    run = subprocess.run(
+        [sys.executable, "-W", "error", "-c", WITHOUT_JIT],
+        cwd=ROOT,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
     assert run.returncode == 0, run.stderr
     compiled = []
     for name in ("draft", "reference"):

@@ -96,7 +96,8 @@ def test_the_period_is_that_between_crossings_of_the_equator_and_that_of_a_quadr
         times = section(body, y, equator, 3.5 * found.period, FLOOR, 3).times
         assert np.diff(times) == pytest.approx(found.period, rel=1e-11)
         assert 2.0 * quad(rate_of, 1e-6, math.pi - 1e-6, (found,), epsabs=1e-9, limit=200)[0] == pytest.approx(
-            found.period, rel=1e-4)
+            found.period, rel=1e-4
+        )
 
 
 def rate_of(angle, found):
@@ -222,9 +223,13 @@ def test_fixed_points_stand_on_the_equator_and_their_stability_is_that_of_the_li
         y = np.array([*omega, *u, 0.0])
         assert SUSLOV.field(y, body.parameters) == pytest.approx(np.zeros(5), abs=1e-15)
         step = 1e-6
-        matrix = np.column_stack([
-            (np.array(SUSLOV.field(y + step * e, body.parameters)) - SUSLOV.field(y - step * e, body.parameters))
-            / (2.0 * step) for e in np.eye(5)])
+        matrix = np.column_stack(
+            [
+                (np.array(SUSLOV.field(y + step * e, body.parameters)) - SUSLOV.field(y - step * e, body.parameters))
+                / (2.0 * step)
+                for e in np.eye(5)
+            ]
+        )
         growth = float(np.linalg.eigvals(matrix).real.max())
         assert (growth > 1e-3) is bool(expected < 0.0), growth
         found = arc(body, state_at(body, point, to_plane(body, y[None])[1][0]))

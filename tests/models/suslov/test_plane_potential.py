@@ -56,8 +56,9 @@ def test_the_field_is_that_of_the_suslov_problem_with_the_gradient_for_b(name):
         assert SYSTEM.field(y, body.parameters) == pytest.approx(expected, abs=1e-12)
 
 
-@pytest.mark.parametrize(("name", "E", "end"), [("quadratic", 0.2, 20.0), ("Hénon–Heiles", 0.1, 20.0),
-                                                ("quartic", 0.05, 10.0)])
+@pytest.mark.parametrize(
+    ("name", "E", "end"), [("quadratic", 0.2, 20.0), ("Hénon–Heiles", 0.1, 20.0), ("quartic", 0.05, 10.0)]
+)
 def test_in_the_time_tau_it_is_the_natural_system_in_the_plane(name, E, end):
     body = body_of(name, 1.3, 0.7)
     start = state_at(body, E, 0.2, 0.1)
@@ -70,8 +71,15 @@ def test_in_the_time_tau_it_is_the_natural_system_in_the_plane(name, E, end):
         return [z[2], z[3], -U2 / r1, U1 / r2, 1.0 / math.sqrt(1.0 - g1 * g1 - g2 * g2)]
 
     w1, w2, g1, g2, _ = start
-    run = solve_ivp(rate, (0.0, end), [r1 * g2, -r2 * g1, r1 * w1, r2 * w2, 0.0], method="DOP853", rtol=1e-12,
-                    atol=1e-13, t_eval=np.linspace(0.1, end, 7))
+    run = solve_ivp(
+        rate,
+        (0.0, end),
+        [r1 * g2, -r2 * g1, r1 * w1, r2 * w2, 0.0],
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-13,
+        t_eval=np.linspace(0.1, end, 7),
+    )
     states = solve(body, start, run.y[4], level("reference")).states
     plane = np.column_stack([r1 * states[:, 3], -r2 * states[:, 2], r1 * states[:, 0], r2 * states[:, 1]])
     assert plane == pytest.approx(run.y[:4].T, abs=1e-7)
@@ -79,17 +87,19 @@ def test_in_the_time_tau_it_is_the_natural_system_in_the_plane(name, E, end):
 
 
 def by_hand_gradient(body, g1, g2):
-    return (body.c1 * g1 + 2 * body.cubic * g1 * g2 + 2 * body.quartic * g1 * g2**2,
-            body.c2 * g2 + body.cubic * (g1**2 - g2**2) + 2 * body.quartic * g1**2 * g2)
+    return (
+        body.c1 * g1 + 2 * body.cubic * g1 * g2 + 2 * body.quartic * g1 * g2**2,
+        body.c2 * g2 + body.cubic * (g1**2 - g2**2) + 2 * body.quartic * g1**2 * g2,
+    )
 
 
-@pytest.mark.parametrize(("I11", "I22", "c1", "c2"),
-                         [(1.0, 1.0, 1.0, 0.6), (2.0, 0.5, 0.4, -0.3), (0.3, 1.1, -1.0, 2.0)])
+@pytest.mark.parametrize(
+    ("I11", "I22", "c1", "c2"), [(1.0, 1.0, 1.0, 0.6), (2.0, 0.5, 0.4, -0.3), (0.3, 1.1, -1.0, 2.0)]
+)
 def test_the_quadratic_potential_has_another_integral_on_both_sides_of_the_equator(I11, I22, c1, c2):
     body = PotentialBody(I11, I22, c1, c2)
     assert body.separates
-    states = solve(body, (0.8, -0.5, 0.6, 0.0, 0.8), np.linspace(0.0, 60.0, 300),
-                   level("precise")).states
+    states = solve(body, (0.8, -0.5, 0.6, 0.0, 0.8), np.linspace(0.0, 60.0, 300), level("precise")).states
     assert np.ptp(separable_integral(body, states)) <= 1e-8
     assert np.ptp(states[:, 0]) > 0.05
     assert states[:, 4].min() < 0.0 < states[:, 4].max()
@@ -106,8 +116,7 @@ def test_the_quadratic_potential_has_another_integral_on_both_sides_of_the_equat
 def test_the_others_have_not(name):
     body = body_of(name)
     assert not body.separates
-    states = solve(body, (0.1, -0.2, 0.2, 0.3, math.sqrt(0.87)), np.linspace(0.0, 60.0, 300),
-                   level("precise")).states
+    states = solve(body, (0.1, -0.2, 0.2, 0.3, math.sqrt(0.87)), np.linspace(0.0, 60.0, 300), level("precise")).states
     assert np.ptp(separable_integral(body, states)) > 1e-3
 
 
@@ -124,13 +133,13 @@ def test_below_the_least_potential_on_the_equator_motions_stay_on_one_side(name)
         assert states[:, 4].min() > 0.0
 
 
-@pytest.mark.parametrize(("name", "E", "chaotic"), [("quadratic", 0.29, False), ("Hénon–Heiles", 0.163, True),
-                                                    ("quartic", 0.098, True)])
+@pytest.mark.parametrize(
+    ("name", "E", "chaotic"), [("quadratic", 0.29, False), ("Hénon–Heiles", 0.163, True), ("quartic", 0.098, True)]
+)
 def test_the_integrable_one_is_regular_and_the_others_have_chaos(name, E, chaotic):
     body = body_of(name)
     assert equator_energy(body) > E
-    exponents = [lyapunov_exponent(body, state_at(body, E, g2, 0.1), 1500.0).value
-                 for g2 in (-0.2, 0.1, 0.25)]
+    exponents = [lyapunov_exponent(body, state_at(body, E, g2, 0.1), 1500.0).value for g2 in (-0.2, 0.1, 0.25)]
     # Of a regular motion it falls as ln(t)/t, 0.005 by now.
     assert (max(exponents) > 0.05) is chaotic
     assert chaotic or max(exponents) < 0.008
@@ -146,8 +155,7 @@ def test_an_orbit_that_crosses_the_equator_twice_closes_whatever_the_potential(n
     back = solve(body, start, [period], level("reference")).states[0]
     assert back == pytest.approx(np.array(start), abs=1e-9)
     # Before and after the crossing it is its mirror image.
-    before, after = (solve(body, both.states[0], [sign * 0.4], level("reference")).states[0]
-                     for sign in (-1.0, 1.0))
+    before, after = (solve(body, both.states[0], [sign * 0.4], level("reference")).states[0] for sign in (-1.0, 1.0))
     assert before == pytest.approx(mirrored(after), abs=1e-10)
 
 
@@ -201,27 +209,38 @@ def test_points_of_the_section_are_those_of_scipy(name):
     body = body_of(name, 1.3, 0.8)
     start = state_at(body, 0.8 * equator_energy(body), 0.15, 0.05)
     assert SYSTEM.integrals(start, body.parameters) == pytest.approx(
-        {"E": 0.8 * equator_energy(body), "F1": 1.0}, abs=1e-14)
+        {"E": 0.8 * equator_energy(body), "F1": 1.0}, abs=1e-14
+    )
     assert SYSTEM.field(start, body.parameters)[2] > 0.0
 
     def event(_, y):
         return y[2]
 
     event.direction = 1.0
-    run = solve_ivp(lambda _, y: SYSTEM.field(y, body.parameters), (0.0, 120.0), start, method="DOP853", rtol=1e-12,
-                    atol=1e-13, events=event)
+    run = solve_ivp(
+        lambda _, y: SYSTEM.field(y, body.parameters),
+        (0.0, 120.0),
+        start,
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-13,
+        events=event,
+    )
     exact = run.y_events[0][run.t_events[0] > 1e-6][:5]
     assert len(exact) == 5
     assert plane_section(body, [start], 5, level("precise")).states[0] == pytest.approx(exact, abs=1e-6)
 
 
-@pytest.mark.parametrize(("call", "error", "words"), [
-    (lambda: state_at(body_of("quadratic"), 0.1, 0.9, 0.0), OutsideRegion, "choose a larger E"),
-    (lambda: state_at(body_of("quadratic"), 0.1, 1.2, 0.0), InvalidParameter, "choose .γ2. < 1"),
-    (lambda: state_at(body_of("quadratic"), math.nan, 0.2, 0.0), InvalidParameter, "E is not a finite"),
-    (lambda: PotentialBody(1.0, 0.0, 1.0, 1.0), NotPositiveDefinite, "choose I22 > 0"),
-    (lambda: PotentialBody(1.0, 1.0, 1.0, math.inf), InvalidParameter, "c2"),
-])
+@pytest.mark.parametrize(
+    ("call", "error", "words"),
+    [
+        (lambda: state_at(body_of("quadratic"), 0.1, 0.9, 0.0), OutsideRegion, "choose a larger E"),
+        (lambda: state_at(body_of("quadratic"), 0.1, 1.2, 0.0), InvalidParameter, "choose .γ2. < 1"),
+        (lambda: state_at(body_of("quadratic"), math.nan, 0.2, 0.0), InvalidParameter, "E is not a finite"),
+        (lambda: PotentialBody(1.0, 0.0, 1.0, 1.0), NotPositiveDefinite, "choose I22 > 0"),
+        (lambda: PotentialBody(1.0, 1.0, 1.0, math.inf), InvalidParameter, "c2"),
+    ],
+)
 def test_what_is_wrong_is_said(call, error, words):
     with pytest.raises(error, match=words):
         call()

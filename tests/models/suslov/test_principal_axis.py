@@ -95,15 +95,24 @@ START = (0.7, -0.2, 0.48, 0.6, 0.64)
 @pytest.mark.parametrize("span", [30.0, -7.0])
 def test_tau_is_the_integral_of_gamma3(span):
     found = conformal(GENERAL, START, span, level("reference"))
-    run = solve_ivp(lambda _, y: [*SUSLOV.field(y[:5], GENERAL.parameters), y[4]], (0.0, span), [*START, 0.0],
-                    method="DOP853", rtol=1e-12, atol=1e-13, t_eval=found.orbit.times[[0, 10, 50, -1]])
+    run = solve_ivp(
+        lambda _, y: [*SUSLOV.field(y[:5], GENERAL.parameters), y[4]],
+        (0.0, span),
+        [*START, 0.0],
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-13,
+        t_eval=found.orbit.times[[0, 10, 50, -1]],
+    )
     assert found.tau[[0, 10, 50, -1]] == pytest.approx(run.y[5], abs=1e-9)
     assert found.tau_error < 1e-7
     assert np.max(np.abs(found.tau[[10, 50, -1]] - run.y[5][1:])) <= found.tau_error + 1e-10
     # It goes back where γ3 < 0.
     assert found.orbit.states[:, 4].min() < 0.0 < found.orbit.states[:, 4].max()
-    assert np.array_equal(np.sign(np.diff(found.tau))[np.abs(found.orbit.states[1:, 4]) > 0.1] * np.sign(span),
-                          np.sign(found.orbit.states[1:, 4])[np.abs(found.orbit.states[1:, 4]) > 0.1])
+    assert np.array_equal(
+        np.sign(np.diff(found.tau))[np.abs(found.orbit.states[1:, 4]) > 0.1] * np.sign(span),
+        np.sign(found.orbit.states[1:, 4])[np.abs(found.orbit.states[1:, 4]) > 0.1],
+    )
 
 
 def test_for_b3_0_it_is_the_time_on_the_parabola():
@@ -148,11 +157,14 @@ def test_the_return_map_keeps_its_density(k):
         return (image(psi + x, delta + y) - image(psi - x, delta - y)) / (2.0 * (x + y))
 
     for psi, delta in ((0.3, 1.2), (-1.7, 0.8), (2.4, 2.0)):
-        columns = [(4.0 * slope(psi, delta, x, y) - slope(psi, delta, 2.0 * x, 2.0 * y)) / 3.0
-                   for x, y in ((step, 0.0), (0.0, step))]
+        columns = [
+            (4.0 * slope(psi, delta, x, y) - slope(psi, delta, 2.0 * x, 2.0 * y)) / 3.0
+            for x, y in ((step, 0.0), (0.0, step))
+        ]
         there = image(psi, delta)
-        before, after = (float(invariant_density(GENERAL, E, k, np.array([x]), np.array([y]))[0])
-                         for x, y in ((psi, delta), there))
+        before, after = (
+            float(invariant_density(GENERAL, E, k, np.array([x]), np.array([y]))[0]) for x, y in ((psi, delta), there)
+        )
         assert after * abs(np.linalg.det(np.array(columns))) == pytest.approx(before, rel=1e-5)
         # The area dψ dδ alone is not kept.
         assert abs(abs(np.linalg.det(np.array(columns))) - 1.0) > 1e-3
@@ -171,14 +183,20 @@ def test_the_density_is_the_closed_form_and_0_where_nothing_is_possible():
     assert invariant_density(GENERAL, 0.3, 1, np.array([1.5]), np.array([1.0]))[0] == 0.0
 
 
-@pytest.mark.parametrize(("call", "error", "words"), [
-    (lambda: conformal(SuslovBody(1.5, 1.0, 0.1, 0.0), START, 1.0, FLOOR), InvalidParameter, "I13 = I23 = 0"),
-    (lambda: conformal(GENERAL, START, 0.0, FLOOR), InvalidParameter, "other than 0"),
-    (lambda: conformal(GENERAL, START, math.nan, FLOOR), InvalidParameter, "finite"),
-    (lambda: conformal(GENERAL, START, 1e6, FLOOR), WorkLimit, "choose a shorter time span"),
-    (lambda: invariant_density(SuslovBody(1.5, 1.0, 0.1, 0.0), 1.0, 3, np.zeros(1), np.ones(1)), InvalidParameter,
-     "I13 = I23 = 0"),
-])
+@pytest.mark.parametrize(
+    ("call", "error", "words"),
+    [
+        (lambda: conformal(SuslovBody(1.5, 1.0, 0.1, 0.0), START, 1.0, FLOOR), InvalidParameter, "I13 = I23 = 0"),
+        (lambda: conformal(GENERAL, START, 0.0, FLOOR), InvalidParameter, "other than 0"),
+        (lambda: conformal(GENERAL, START, math.nan, FLOOR), InvalidParameter, "finite"),
+        (lambda: conformal(GENERAL, START, 1e6, FLOOR), WorkLimit, "choose a shorter time span"),
+        (
+            lambda: invariant_density(SuslovBody(1.5, 1.0, 0.1, 0.0), 1.0, 3, np.zeros(1), np.ones(1)),
+            InvalidParameter,
+            "I13 = I23 = 0",
+        ),
+    ],
+)
 def test_other_bodies_and_spans_are_refused(call, error, words):
     with pytest.raises(error, match=words):
         call()

@@ -13,8 +13,11 @@ from hess_mechanics.suslov.proved_forms import proved_cos_chi, proved_period, pr
 from hess_mechanics.suslov.scattering import cos_chi
 
 # (I11, I22, I13, I23), cos χ: held values, from 40-digit Taylor series of the motion.
-HELD = [(("1", "1.5", "0.7", "1.2"), "-0.47889450360074"), (("2", "1", "0.3", "0.5"), "-0.95659283876095"),
-        (("3", "2", "-0.4", "0.9"), "-0.98973299253727")]
+HELD = [
+    (("1", "1.5", "0.7", "1.2"), "-0.47889450360074"),
+    (("2", "1", "0.3", "0.5"), "-0.95659283876095"),
+    (("3", "2", "-0.4", "0.9"), "-0.98973299253727"),
+]
 
 
 def rational(number):
@@ -34,8 +37,10 @@ def test_cos_chi_of_any_tensor_is_that_of_the_motion(tensor, held):
     assert float(found.low) == pytest.approx(cos_chi(body), abs=2e-15)
 
 
-@pytest.mark.parametrize(("I11", "I22", "I23"), [("3.56", "1", "0.8"), ("2.44", "1", "0.5"), ("1.64", "1", "0.8"),
-                                                 ("0.5", "2", "0.3"), ("1", "1", "0.01")])
+@pytest.mark.parametrize(
+    ("I11", "I22", "I23"),
+    [("3.56", "1", "0.8"), ("2.44", "1", "0.5"), ("1.64", "1", "0.8"), ("0.5", "2", "0.3"), ("1", "1", "0.01")],
+)
 def test_cos_chi_encloses_forty_digits_of_the_formula_for_I13_zero(I11, I22, I23):
     """2cos²(πk/2)/cosh²(πI22/(2I23)) − 1, k² = I22(I11 − I22)/I23²."""
     with mpmath.workdps(60):
@@ -50,11 +55,14 @@ def test_cos_chi_encloses_forty_digits_of_the_formula_for_I13_zero(I11, I22, I23
     assert found.width < Fraction(1, 10**30)
 
 
-@pytest.mark.parametrize(("body", "omega", "gamma"), [
-    (("1.3", "0.8", "0.5", "-0.2"), ("1", "-0.5"), ("0", "0.6")),
-    (("2", "1", "0", "0"), ("0.7", "0.4"), ("0.3", "-0.2")),
-    (("1", "1.5", "-1", "2"), ("0", "0"), ("0.1", "0.5")),
-])
+@pytest.mark.parametrize(
+    ("body", "omega", "gamma"),
+    [
+        (("1.3", "0.8", "0.5", "-0.2"), ("1", "-0.5"), ("0", "0.6")),
+        (("2", "1", "0", "0"), ("0.7", "0.4"), ("0.3", "-0.2")),
+        (("1", "1.5", "-1", "2"), ("0", "0"), ("0.1", "0.5")),
+    ],
+)
 def test_the_period_encloses_forty_digits_of_the_integral(body, omega, gamma):
     """2 ∫ dτ/√P between the zeros of P = 1 − |u + vτ + aτ²/2|² on both sides of the start."""
     with mpmath.workdps(50):
@@ -72,8 +80,15 @@ def test_the_period_encloses_forty_digits_of_the_integral(body, omega, gamma):
         low, high = ends
         # τ = m + s sin x takes the roots out of the ends.
         m, s = (low + high) / 2, (high - low) / 2
-        known = rational(2 * mpmath.re(mpmath.quad(
-            lambda x: s * mpmath.cos(x) / mpmath.sqrt(P(m + s * mpmath.sin(x))), [-mpmath.pi / 2, 0, mpmath.pi / 2])))
+        known = rational(
+            2
+            * mpmath.re(
+                mpmath.quad(
+                    lambda x: s * mpmath.cos(x) / mpmath.sqrt(P(m + s * mpmath.sin(x))),
+                    [-mpmath.pi / 2, 0, mpmath.pi / 2],
+                )
+            )
+        )
     found = proved_period(*body, omega, gamma)
     assert found.width < Fraction(1, 10**29)
     # The quadrature divides 0 by 0 at its ends, which leaves it some 25 digits.
@@ -91,10 +106,14 @@ def test_what_has_no_closed_form_is_refused():
         proved_period("1", "2", "0", "0", ("0", "0"), ("0.5", "0"))
 
 
-@pytest.mark.parametrize(("inertia", "b3", "omega", "gamma"), [
-    ("1", "1", ("0.4", "-0.3"), ("0.6", "0.1")), ("1.5", "-0.8", ("0.9", "0.5"), ("-0.2", "0.3")),
-    ("0.7", "2", ("1.5", "1"), ("0", "0.5")),
-])
+@pytest.mark.parametrize(
+    ("inertia", "b3", "omega", "gamma"),
+    [
+        ("1", "1", ("0.4", "-0.3"), ("0.6", "0.1")),
+        ("1.5", "-0.8", ("0.9", "0.5"), ("-0.2", "0.3")),
+        ("0.7", "2", ("1.5", "1"), ("0", "0.5")),
+    ],
+)
 def test_after_the_radial_period_the_motion_is_as_high_and_as_fast(inertia, b3, omega, gamma):
     """By Taylor series of mpmath of the general system: |ω|, γ3 and its rate, and not after half of it."""
     found = proved_radial_period(inertia, b3, omega, gamma)
@@ -115,8 +134,10 @@ def test_after_the_radial_period_the_motion_is_as_high_and_as_fast(inertia, b3, 
 
 
 def test_what_has_no_radial_period_is_refused():
-    for words, error in ((("1", "0", ("1", "0"), ("0", "0")), InvalidParameter),
-                         (("-1", "1", ("1", "0"), ("0", "0")), NotPositiveDefinite),
-                         (("1", "1", ("1", "0"), ("1", "0")), InvalidParameter)):
+    for words, error in (
+        (("1", "0", ("1", "0"), ("0", "0")), InvalidParameter),
+        (("-1", "1", ("1", "0"), ("0", "0")), NotPositiveDefinite),
+        (("1", "1", ("1", "0"), ("1", "0")), InvalidParameter),
+    ):
         with pytest.raises(error):
             proved_radial_period(*words)

@@ -183,8 +183,7 @@ def lyapunov(body, y, span=150.0, pieces=150):
     y, d, total = np.array(y), 1e-7, 0.0
     other = y + d * np.array([0.5, -0.3, 0.2, 0.6, 0.1])
     for _ in range(pieces):
-        y, other = (solve(body, start, [span / pieces], level("precise")).states[0]
-                    for start in (y, other))
+        y, other = (solve(body, start, [span / pieces], level("precise")).states[0] for start in (y, other))
         distance = float(np.linalg.norm(other - y))
         total += math.log(distance / d)
         other = y + (other - y) * (d / distance)

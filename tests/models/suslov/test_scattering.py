@@ -54,12 +54,24 @@ def closed_form(I11, I22, I23):
     with mpmath.workdps(30):
         I11, I22, I23 = (mpmath.mpf(x) for x in (I11, I22, I23))
         k = mpmath.sqrt(mpmath.mpc(I22 * (I11 - I22))) / I23
-        return float(mpmath.re(2 * mpmath.cos(mpmath.pi * k / 2) ** 2 / mpmath.cosh(mpmath.pi * I22 / (2 * I23)) ** 2)
-                     - 1)
+        return float(
+            mpmath.re(2 * mpmath.cos(mpmath.pi * k / 2) ** 2 / mpmath.cosh(mpmath.pi * I22 / (2 * I23)) ** 2) - 1
+        )
 
 
-EXTREMES = [(1e6, 1.0, 1.0), (1.0, 1e6, 1e6), (1e-6, 1.0, 1.0), (1.0, 1e-6, 1e-3), (1.0, 1.0, 1e6), (1.0, 1.0, 1e-2),
-            (1e6, 1e6, 1e6), (1e-6, 1e-6, 1e-6), (1e3, 1e-3, -1.0), (5.0, 0.2, 2.0), (0.2, 5.0, 2.0)]
+EXTREMES = [
+    (1e6, 1.0, 1.0),
+    (1.0, 1e6, 1e6),
+    (1e-6, 1.0, 1.0),
+    (1.0, 1e-6, 1e-3),
+    (1.0, 1.0, 1e6),
+    (1.0, 1.0, 1e-2),
+    (1e6, 1e6, 1e6),
+    (1e-6, 1e-6, 1e-6),
+    (1e3, 1e-3, -1.0),
+    (5.0, 0.2, 2.0),
+    (0.2, 5.0, 2.0),
+]
 
 
 @every_level
@@ -77,8 +89,16 @@ def test_extreme_moments_agree_with_the_closed_form_of_both_principal_cases(I11,
 
 def test_general_extreme_moments_are_right_or_refused():
     refused = 0
-    for tensor in ((1e6, 1.0, 0.3, 0.5), (1.0, 1e6, 0.3, 0.5), (1e6, 1.0, 300.0, 0.5), (1e6, 1.0, 0.3, 500.0),
-                   (1e6, 1e-6, 1.0, 1.0), (1.0, 1.0, 1e6, -1e6), (1.0, 1.0, 1e-6, 1e-6), (1e-6, 1e6, 1e-3, 1e-3)):
+    for tensor in (
+        (1e6, 1.0, 0.3, 0.5),
+        (1.0, 1e6, 0.3, 0.5),
+        (1e6, 1.0, 300.0, 0.5),
+        (1e6, 1.0, 0.3, 500.0),
+        (1e6, 1e-6, 1.0, 1.0),
+        (1.0, 1.0, 1e6, -1e6),
+        (1.0, 1.0, 1e-6, 1e-6),
+        (1e-6, 1e6, 1e-3, 1e-3),
+    ):
         body = SuslovBody(*tensor)
         for name in LEVELS:
             try:
@@ -139,8 +159,9 @@ def test_estimates_of_Gamma_plus_are_on_the_safe_side():
 
 
 @every_arc
-@pytest.mark.parametrize("body", [FIGURE, GENERIC, SuslovBody(1.0, 1.5, 0.7, 0.0)],
-                         ids=["I13 = 0", "general", "I23 = 0"])
+@pytest.mark.parametrize(
+    "body", [FIGURE, GENERIC, SuslovBody(1.0, 1.5, 0.7, 0.0)], ids=["I13 = 0", "general", "I23 = 0"]
+)
 @pytest.mark.parametrize("distance", [1e-5, 0.2])
 def test_the_start_leads_to_the_predicted_circle(body, distance, arc):
     # By the general solver, which knows nothing of the passage.
@@ -174,7 +195,8 @@ def test_the_figure_of_the_paper():
     # On the equator θ⁺ runs through π/2 ± (π − χ), for cos χ = −0.848….
     assert theta.max() == pytest.approx(math.pi / 2 + math.asin(math.sqrt(1 - 0.8484094045578246**2)), abs=1e-3)
     assert math.cos(theta[0]) == pytest.approx(
-        free_motion(FIGURE, omega, (0.0, 1.0, 0.0), [1.0], level("reference")).limits[1], abs=1e-10)
+        free_motion(FIGURE, omega, (0.0, 1.0, 0.0), [1.0], level("reference")).limits[1], abs=1e-10
+    )
 
 
 @every_arc
@@ -187,14 +209,18 @@ def test_a_small_distance_only_shifts_the_phase(arc):
         assert abs(omega[1]) > 0
         shift = near.phi_star - asymptotic.phi_star
         assert near.cos_chi == pytest.approx(asymptotic.cos_chi, abs=10 * distance + 1e-13)
-        assert near.theta_plus(1.1, phi + shift) == pytest.approx(asymptotic.theta_plus(1.1, phi),
-                                                                  abs=10 * distance + 1e-12)
+        assert near.theta_plus(1.1, phi + shift) == pytest.approx(
+            asymptotic.theta_plus(1.1, phi), abs=10 * distance + 1e-12
+        )
         # The shift is Φ(u0) = −K ln cosh u0 + σc gd u0: for the moments 2, 1, 0.3, 0.5 by hand.
         J, w = math.sqrt(0.34), (0.09 + 2 * 0.25) / 0.34
         K, kappa = 2 / (J * w), math.sqrt(2) / J
         c = kappa * 0.15 / 0.34 * (1 - 2) / w
-        u0 = -math.log(2 * kappa / (K * distance)) if distance > 1e-100 else -(
-            math.log(2 * kappa / K) - math.log(distance))
+        u0 = (
+            -math.log(2 * kappa / (K * distance))
+            if distance > 1e-100
+            else -(math.log(2 * kappa / K) - math.log(distance))
+        )
         turned = -K * (abs(u0) - math.log(2)) - arc * c * math.pi / 2
         assert angle_between(shift, -turned) < 20 * distance + 1e-11
 
@@ -270,8 +296,10 @@ def test_the_command(capsys):
     assert found["cos_chi"] == pytest.approx(-0.8484094045578246, abs=1e-14)
     assert found["cos_chi_closed_form"] == pytest.approx(found["cos_chi"], abs=1e-14)
     assert found["phi"] == [0.0, 1.0, 2.0]
-    expected = [found["cos_chi"] * math.cos(1.0) + found["sin_chi"] * math.sin(1.0) * math.cos(x - found["phi_star"])
-                for x in found["phi"]]
+    expected = [
+        found["cos_chi"] * math.cos(1.0) + found["sin_chi"] * math.sin(1.0) * math.cos(x - found["phi_star"])
+        for x in found["phi"]
+    ]
     assert np.cos(found["theta_plus"]) == pytest.approx(expected, abs=1e-14)
     assert (found["status"], found["level"], found["arc"], found["distance"]) == ("ok", "reference", 1, None)
     assert 0 < found["error_estimate"] < 1e-12

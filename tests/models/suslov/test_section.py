@@ -43,6 +43,7 @@ WHOLE = (-math.pi, math.pi, 0.0, math.pi)
 
 def crossings_by_scipy(body, start, k, count, direction=1):
     """The first crossings (n, 5) of γ_k = 0, growing in t, followed forward or backward by SciPy."""
+
     def height(t, y):
         return y[k + 1]
 
@@ -51,8 +52,9 @@ def crossings_by_scipy(body, start, k, count, direction=1):
     found = []
     y, span = np.array(start), 20.0
     while len(found) < count:
-        run = solve_ivp(lambda t, y: field(body, y), (0.0, direction * span), y, "DOP853", events=height, rtol=1e-12,
-                        atol=1e-13)
+        run = solve_ivp(
+            lambda t, y: field(body, y), (0.0, direction * span), y, "DOP853", events=height, rtol=1e-12, atol=1e-13
+        )
         # The start itself is on the plane.
         found += [state for t, state in zip(run.t_events[0], run.y_events[0], strict=True) if abs(t) > 1e-6]
         y = run.y[:, -1]
@@ -94,7 +96,7 @@ def test_every_state_of_the_section_has_coordinates(k):
         state = np.array([*rng.normal(size=2), *gamma])
         # Each crosses the plane one way or, turned round, the other.
         state = state if field(BODY, state)[k + 1] > 0.0 else MIRROR * state
-        (psi, delta), = coordinates(state[None, :], k)
+        ((psi, delta),) = coordinates(state[None, :], k)
         assert -math.pi <= psi <= math.pi
         assert 0.0 < delta < math.pi
         assert state_at(BODY, energy(BODY, state), k, psi, delta) == pytest.approx(tuple(state), abs=1e-12)
@@ -131,11 +133,18 @@ def test_a_delta_outside_is_no_point(delta):
         state_at(BODY, 10.0, 3, 0.5, delta)
 
 
-@pytest.mark.parametrize("request_", [
-    lambda: plane_of(0), lambda: plane_of(4), lambda: lowest_energy(BODY, 5), lambda: states_at(BODY, 1.0, 0, 0.0, 1.0),
-    lambda: coordinates(np.zeros((1, 5)), 7), lambda: possible(BODY, 1.0, 9, np.zeros(2)),
-    lambda: seeds(BODY, 1.0, 0, WHOLE, 3),
-])
+@pytest.mark.parametrize(
+    "request_",
+    [
+        lambda: plane_of(0),
+        lambda: plane_of(4),
+        lambda: lowest_energy(BODY, 5),
+        lambda: states_at(BODY, 1.0, 0, 0.0, 1.0),
+        lambda: coordinates(np.zeros((1, 5)), 7),
+        lambda: possible(BODY, 1.0, 9, np.zeros(2)),
+        lambda: seeds(BODY, 1.0, 0, WHOLE, 3),
+    ],
+)
 def test_only_three_planes_are_known(request_):
     with pytest.raises(InvalidParameter, match="choose 1, 2 or 3"):
         request_()
@@ -241,7 +250,8 @@ def test_what_attracts_forward_are_permanent_rotations_and_their_mirror_images_a
             state = at_rest[np.argmin(distances)]
             small = 1e-6
             jacobian = np.column_stack(
-                [(field(body, state + small * e) - field(body, state - small * e)) / (2.0 * small) for e in np.eye(5)])
+                [(field(body, state + small * e) - field(body, state - small * e)) / (2.0 * small) for e in np.eye(5)]
+            )
             rates = np.sort(np.linalg.eigvals(jacobian).real * (1.0 if forward else -1.0))
             assert rates[2] < -1e-3
             assert rates[3:] == pytest.approx([0.0, 0.0], abs=1e-4)
@@ -315,8 +325,7 @@ def test_the_mean_divergence_of_a_sea_goes_to_zero():
 def exponents(problem, span, count=6):
     """The mean of the largest exponent over an ensemble of orbits, and its standard error."""
     body, E = problem
-    found = [lyapunov_exponent(body, state_at(body, E, 3, 1.0 + 1e-3 * k, 1.0), span).value
-             for k in range(count)]
+    found = [lyapunov_exponent(body, state_at(body, E, 3, 1.0 + 1e-3 * k, 1.0), span).value for k in range(count)]
     return np.mean(found), np.std(found, ddof=1) / math.sqrt(count)
 
 
@@ -327,10 +336,14 @@ def test_the_exponents_of_chaotic_examples_are_positive_and_do_not_depend_on_the
         assert abs(longer - shorter) < 5.0 * math.hypot(off, less)
 
 
-@pytest.mark.parametrize(("problem", "forward", "backward", "count"), [
-    (SEA, -0.00046, 0.00045, 16),
-    ((SuslovBody(1.5, 1.7, 0.1, -0.3, -1.7, 1.0, 2.0), 1.9 - math.sqrt(1.7**2 + 1.0 + 4.0)), -0.0069, 0.0064, 8),
-], ids=["suslov", "orbit-diagram"])
+@pytest.mark.parametrize(
+    ("problem", "forward", "backward", "count"),
+    [
+        (SEA, -0.00046, 0.00045, 16),
+        ((SuslovBody(1.5, 1.7, 0.1, -0.3, -1.7, 1.0, 2.0), 1.9 - math.sqrt(1.7**2 + 1.0 + 4.0)), -0.0069, 0.0064, 8),
+    ],
+    ids=["suslov", "orbit-diagram"],
+)
 def test_the_chaotic_seas_of_the_scenes_keep_no_volume(problem, forward, backward, count):
     # Of an ensemble, not of one orbit: the mean over pieces of 2000, and its error from how much they differ.
     body, E = problem
@@ -366,8 +379,15 @@ def test_the_basins_of_the_example_are_those_that_scipy_finds():
     assert set(which) == {0, 1}
     exact = []
     for start in starts:
-        run = solve_ivp(lambda t, y: field(body, y), (0.0, 400.0), start, "DOP853", rtol=1e-8, atol=1e-9,
-                        t_eval=np.linspace(300.0, 400.0, 2001))
+        run = solve_ivp(
+            lambda t, y: field(body, y),
+            (0.0, 400.0),
+            start,
+            "DOP853",
+            rtol=1e-8,
+            atol=1e-9,
+            t_eval=np.linspace(300.0, 400.0, 2001),
+        )
         up = np.flatnonzero((run.y[4][1:] > 0.0) & (run.y[4][:-1] <= 0.0))
         exact.append(run.y[0][up].mean())
     assert np.array_equal(np.array(exact) > np.mean([min(exact), max(exact)]), which == 1.0)

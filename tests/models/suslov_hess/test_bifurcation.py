@@ -22,21 +22,47 @@ ULP = 2.0**-52
 # h in the whole region, crowded where the formulas could lose digits: at the bottom −1 and at the separatrix 1.
 tiny = st.floats(-15.0, -1.0).map(lambda exponent: 10.0**exponent)
 energies = st.one_of(
-    st.floats(-0.999999, 50.0), tiny.map(lambda e: -1 + e), tiny.map(lambda e: 1 - e), tiny.map(lambda e: 1 + e),
+    st.floats(-0.999999, 50.0),
+    tiny.map(lambda e: -1 + e),
+    tiny.map(lambda e: 1 - e),
+    tiny.map(lambda e: 1 + e),
     st.floats(0.0, 8.0).map(lambda exponent: 10.0**exponent),
 )
 # f/f_max: anything, next to 0, next to the edge, the edge itself.
 shares = st.one_of(
-    st.floats(-1.0, 1.0), st.floats(-140.0, -1.0).map(lambda e: 10.0**e), tiny.map(lambda e: 1 - e), st.just(1.0),
+    st.floats(-1.0, 1.0),
+    st.floats(-140.0, -1.0).map(lambda e: 10.0**e),
+    tiny.map(lambda e: 1 - e),
+    st.just(1.0),
 )
 # f² must not underflow; f = 0 at h = 1 is the separatrix.
 tori = st.tuples(energies, shares).filter(lambda t: abs(t[1]) > 1e-140 or (t[1] == 0 and t[0] != 1.0))
 
 CASES = [
-    (0.5, 0.5), (1.5, 0.6), (-0.5, -0.2), (3.0, 1e-12), (0.3, 1e-12), (0.3, 1e-300), (2.0, 1e-300), (2.0, 0.0),
-    (-0.4, 0.0), (1.0, 1e-12), (1.0, 1e-100), (1.0, 1.5), (1 + 1e-12, 1e-12), (1 - 1e-12, 1e-12), (1 + 1e-12, 0.0),
-    (1 - 1e-12, 0.0), (1 - 2**-53, 1e-20), (-1 + 1e-12, 1e-13), (-1 + 1e-12, 0.0), (-1 + 2**-53, 0.0), (1e8, 0.0),
-    (1e8, 1e-5), (1e8, 14000.0), (1e4, 141.0),
+    (0.5, 0.5),
+    (1.5, 0.6),
+    (-0.5, -0.2),
+    (3.0, 1e-12),
+    (0.3, 1e-12),
+    (0.3, 1e-300),
+    (2.0, 1e-300),
+    (2.0, 0.0),
+    (-0.4, 0.0),
+    (1.0, 1e-12),
+    (1.0, 1e-100),
+    (1.0, 1.5),
+    (1 + 1e-12, 1e-12),
+    (1 - 1e-12, 1e-12),
+    (1 + 1e-12, 0.0),
+    (1 - 1e-12, 0.0),
+    (1 - 2**-53, 1e-20),
+    (-1 + 1e-12, 1e-13),
+    (-1 + 1e-12, 0.0),
+    (-1 + 2**-53, 0.0),
+    (1e8, 0.0),
+    (1e8, 1e-5),
+    (1e8, 14000.0),
+    (1e4, 141.0),
 ]
 
 
@@ -52,8 +78,16 @@ def exact(h, f):
     with mpmath.workdps(digits(h, f)):
         h, f = mpmath.mpf(h), mpmath.mpf(f)
         n0, n1, n2 = turning_roots(h, f)
-        return {"n0": n0, "n1": n1, "n2": n2, "g10": n1 - n0, "g20": n2 - n0, "g21": n2 - n1,
-                "w_squared": 2 * (h + n1), "sine_squared": (1 - n1) * (1 + n1)}
+        return {
+            "n0": n0,
+            "n1": n1,
+            "n2": n2,
+            "g10": n1 - n0,
+            "g20": n2 - n0,
+            "g21": n2 - n1,
+            "w_squared": 2 * (h + n1),
+            "sine_squared": (1 - n1) * (1 + n1),
+        }
 
 
 def double_root(h):
@@ -84,8 +118,16 @@ def on_the_edge(h):
         h = mpmath.mpf(h)
         n = double_root(h)
         n0 = -h - 2 * n
-        return {"n0": n0, "n1": n, "n2": n, "g10": n - n0, "g20": n - n0, "g21": mpmath.mpf(0),
-                "w_squared": 2 * (h + n), "sine_squared": (1 - n) * (1 + n)}
+        return {
+            "n0": n0,
+            "n1": n,
+            "n2": n,
+            "g10": n - n0,
+            "g20": n - n0,
+            "g21": mpmath.mpf(0),
+            "w_squared": 2 * (h + n),
+            "sine_squared": (1 - n) * (1 + n),
+        }
 
 
 def check_against_multiple_precision(h, f):
@@ -109,8 +151,9 @@ def test_the_largest_f_is_that_of_multiple_precision(h):
 
 @pytest.mark.parametrize("h", [-0.9, -0.3, 0.0, 1.0, 2.5, 40.0])
 def test_the_largest_f_is_the_maximum_of_the_gyroscopic_function(h):
-    found = minimize_scalar(lambda n: -2 * (h + n) * (1 - n * n), bounds=(max(-1.0, -h), 1.0), method="bounded",
-                            options={"xatol": 1e-10})
+    found = minimize_scalar(
+        lambda n: -2 * (h + n) * (1 - n * n), bounds=(max(-1.0, -h), 1.0), method="bounded", options={"xatol": 1e-10}
+    )
     assert f_max(h) == pytest.approx(math.sqrt(-found.fun), rel=1e-14)
 
 
@@ -152,8 +195,10 @@ def test_the_period_is_the_time_between_two_returns(h, f):
     values = exact(h, f)
     middle, half = (values["n1"] + values["n2"]) / 2, values["g21"] / 2
     # n3 = middle + half sin θ takes the roots n1, n2 out of dn/√p(n).
-    time = 2 * mpmath.quad(lambda s: 1 / mpmath.sqrt(2 * (middle + half * mpmath.sin(s) - values["n0"])),
-                           [-mpmath.pi / 2, 0, mpmath.pi / 2])
+    time = 2 * mpmath.quad(
+        lambda s: 1 / mpmath.sqrt(2 * (middle + half * mpmath.sin(s) - values["n0"])),
+        [-mpmath.pi / 2, 0, mpmath.pi / 2],
+    )
     assert turning_points(h, f).period == pytest.approx(float(time), rel=1e-13)
 
 
@@ -185,10 +230,12 @@ def test_the_state_at_the_lower_turn_is_on_the_torus_and_turns_there(torus, phi)
 def test_the_turning_points_do_not_know_the_sign_of_f_and_of_zero():
     plus, minus = turning_points(0.5, 0.3), turning_points(0.5, -0.3)
     assert (plus.roots, plus.period, plus.w_squared) == (minus.roots, minus.period, minus.w_squared)
-    assert np.array_equal(turning_points(0.5, -0.0).state_at_lower_turn(1.0),
-                          turning_points(0.5, 0.0).state_at_lower_turn(1.0))
-    assert np.array_equal(turning_points(1, 1).state_at_lower_turn(1.0),
-                          turning_points(1.0, 1.0).state_at_lower_turn(1.0))
+    assert np.array_equal(
+        turning_points(0.5, -0.0).state_at_lower_turn(1.0), turning_points(0.5, 0.0).state_at_lower_turn(1.0)
+    )
+    assert np.array_equal(
+        turning_points(1, 1).state_at_lower_turn(1.0), turning_points(1.0, 1.0).state_at_lower_turn(1.0)
+    )
 
 
 @PROPERTY

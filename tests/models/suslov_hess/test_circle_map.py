@@ -37,8 +37,18 @@ PHASES = np.linspace(-3.0, 3.0, 13)
 
 # (a, h, f): both sides of h = 1, both signs of f, elliptic and hyperbolic, near the bottom, near the edge.
 TORI = [
-    (0.5, 1.5, 0.6), (0.5, 0.5, 0.5), (1.0, 0.0, -0.5), (0.2, 2.5, -1.8), (0.8, -0.9, 0.05), (0.7, 1.02, 0.03),
-    (0.3, -0.2, 0.7), (2.0, 0.4, 0.2), (0.0, 0.7, 0.4), (-0.6, 1.3, 0.5), (0.4, 20.0, 3.0), (0.6, 0.97, 0.02),
+    (0.5, 1.5, 0.6),
+    (0.5, 0.5, 0.5),
+    (1.0, 0.0, -0.5),
+    (0.2, 2.5, -1.8),
+    (0.8, -0.9, 0.05),
+    (0.7, 1.02, 0.03),
+    (0.3, -0.2, 0.7),
+    (2.0, 0.4, 0.2),
+    (0.0, 0.7, 0.4),
+    (-0.6, 1.3, 0.5),
+    (0.4, 20.0, 3.0),
+    (0.6, 0.97, 0.02),
 ]
 every_torus = pytest.mark.parametrize(("a", "h", "f"), TORI)
 
@@ -87,8 +97,14 @@ def test_theta_is_where_the_orbit_of_eq01_comes_back(a, h, f):
 def test_theta_is_where_the_orbit_comes_back_by_scipy_alone(a, h, f):
     found, turning = circle_map(a, h, f, REFERENCE), turning_points(h, f)
     for phi in (-2.0, 0.3, 1.7):
-        end = solve_ivp(lambda _, y: HESS.field(y, (a, 1.0)), (0.0, turning.period), turning.state_at_lower_turn(phi),
-                        method="DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
+        end = solve_ivp(
+            lambda _, y: HESS.field(y, (a, 1.0)),
+            (0.0, turning.period),
+            turning.state_at_lower_turn(phi),
+            method="DOP853",
+            rtol=1e-12,
+            atol=1e-13,
+        ).y[:, -1]
         assert angle_between(math.atan2(end[0], end[1]), found.theta(phi)) < 1e-8
 
 

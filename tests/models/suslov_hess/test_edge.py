@@ -110,8 +110,9 @@ def test_no_rational_numbers_of_small_size_lie_between_the_two_statements():
             assert mpmath.libmp.isqrt(square) ** 2 != square
 
 
-@pytest.mark.parametrize(("a", "words"), [("0.5", "exactly two equilibria, one attracts and one repels"),
-                                          ("0.1", "is one periodic orbit")])
+@pytest.mark.parametrize(
+    ("a", "words"), [("0.5", "exactly two equilibria, one attracts and one repels"), ("0.1", "is one periodic orbit")]
+)
 def test_the_words_say_that_there_is_no_torus_and_the_certificate_holds(a, words):
     proof = prove(a, "13/8", "-15/8")
     said = claim(proof)

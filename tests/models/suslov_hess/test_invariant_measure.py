@@ -21,8 +21,16 @@ from hess_mechanics.suslov_hess.invariant_measure import (
 
 HESS = systems()["hess"]
 REFERENCE = level("reference")
-ELLIPTIC = [(0.5, 0.5, 0.5), (1.0, -0.5, -0.3), (0.8, -0.9, 0.05), (0.3, -0.2, 0.7), (0.0, 0.7, 0.4), (-0.6, 0.2, 0.5),
-            (0.2, 1.2, -1.2), (1.4, -0.5, 0.3)]
+ELLIPTIC = [
+    (0.5, 0.5, 0.5),
+    (1.0, -0.5, -0.3),
+    (0.8, -0.9, 0.05),
+    (0.3, -0.2, 0.7),
+    (0.0, 0.7, 0.4),
+    (-0.6, 0.2, 0.5),
+    (0.2, 1.2, -1.2),
+    (1.4, -0.5, 0.3),
+]
 every_torus = pytest.mark.parametrize(("a", "h", "f"), ELLIPTIC)
 PHASES = np.linspace(-3.1, 3.1, 41)
 
@@ -65,8 +73,7 @@ def test_a_long_orbit_of_the_map_is_spread_as_the_density_says(a, h, f):
     measure = invariant_measure(theta)
     orbit = np.sort(theta.iterate(0.3, 20_000))
     edges = np.linspace(-math.pi, math.pi, 13)
-    expected = [quad(lambda phi: float(measure.density([phi])[0]), low, high)[0]
-                for low, high in pairwise(edges)]
+    expected = [quad(lambda phi: float(measure.density([phi])[0]), low, high)[0] for low, high in pairwise(edges)]
     shares = np.diff(np.searchsorted(orbit, edges)) / orbit.size
     # A quasi-periodic orbit is spread better than a random one.
     assert shares == pytest.approx(expected, abs=2e-3)
@@ -126,8 +133,15 @@ def test_inside_the_disk_the_fixed_point_follows_the_riccati_equation(a, h, f):
         turned = -1j * f * zeta / square - 0.5j * a * math.sqrt(square) * (zeta * zeta + 1.0)
         return [turned.real, turned.imag, slope, 1.0 - 2.0 * h * n - 3.0 * n * n]
 
-    run = solve_ivp(rate, (0.0, turning.period), [measure.zeta, 0.0, turning.roots[1], 0.0], method="DOP853",
-                    rtol=1e-12, atol=1e-13, t_eval=times)
+    run = solve_ivp(
+        rate,
+        (0.0, turning.period),
+        [measure.zeta, 0.0, turning.roots[1], 0.0],
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-13,
+        t_eval=times,
+    )
     assert found.zeta == pytest.approx(run.y[0] + 1j * run.y[1], abs=1e-8)
     assert found.zeta[-1] == pytest.approx(measure.zeta, abs=1e-10)
     assert np.max(np.abs(found.zeta)) < 1.0
@@ -184,8 +198,10 @@ def test_the_unrolled_density_is_normalised_and_carried_along_by_the_flow(a, h, 
         sigma = -math.pi + (column + 0.5) / 64 * 2.0 * math.pi
         s = sigma % (2.0 * math.pi) / (2.0 * math.pi) * turning.period
         for phi in (-2.0, 0.4, 1.7):
-            ends = [solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(phi + sign * step), [s], REFERENCE).states[0]
-                    for sign in (-1, 1)]
+            ends = [
+                solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(phi + sign * step), [s], REFERENCE).states[0]
+                for sign in (-1, 1)
+            ]
             low, high = (math.atan2(state[0], state[1]) for state in ends)
             slope = math.remainder(high - low, 2.0 * math.pi) / (2.0 * step)
             row = ((low + math.pi) / (2.0 * math.pi) * 128 - 0.5) % 128
@@ -196,8 +212,10 @@ def test_the_unrolled_density_is_normalised_and_carried_along_by_the_flow(a, h, 
             assert value * slope == pytest.approx(before, rel=2e-4)
 
 
-@pytest.mark.parametrize(("a", "h", "f", "words"), [
-    (0.5, 1.5, 0.6, "choose a torus"), (0.5, 0.3, 0.0, "Choose another f"), (4.0, 0.9, 0.0, "choose a smaller .a.")])
+@pytest.mark.parametrize(
+    ("a", "h", "f", "words"),
+    [(0.5, 1.5, 0.6, "choose a torus"), (0.5, 0.3, 0.0, "Choose another f"), (4.0, 0.9, 0.0, "choose a smaller .a.")],
+)
 def test_where_nothing_can_be_drawn_it_is_said_why(a, h, f, words):
     with pytest.raises(InvalidParameter, match=words):
         density_on_torus(circle_map(a, h, f, REFERENCE), REFERENCE)

@@ -73,10 +73,17 @@ def test_alpha_and_beta_name_a_torus_and_lead_back():
     assert alpha == pytest.approx(beta, rel=1e-6)
 
 
-@pytest.mark.parametrize(("a", "h", "f", "radius"), [
-    ("0.5", 1.5, 0.6, 0.2), ("0.5", 0.2, 0.5, 0.2), ("-1.3", 1.0, 1.2, 0.1), ("0.3", -0.5, 0.05, 0.25),
-    ("2", 0.6, 1.0, 0.05), ("0.5", 1.0, 1.5, 1e-6),
-])
+@pytest.mark.parametrize(
+    ("a", "h", "f", "radius"),
+    [
+        ("0.5", 1.5, 0.6, 0.2),
+        ("0.5", 0.2, 0.5, 0.2),
+        ("-1.3", 1.0, 1.2, 0.1),
+        ("0.3", -0.5, 0.05, 0.25),
+        ("2", 0.6, 1.0, 0.05),
+        ("0.5", 1.0, 1.5, 1e-6),
+    ],
+)
 def test_the_half_map_of_any_torus_of_a_cell_is_enclosed(a, h, f, radius):
     """Against proofs of single tori, by other variables and other bounds; all four signs of two directions."""
     cell = around(h, f, radius)
@@ -86,8 +93,10 @@ def test_the_half_map_of_any_torus_of_a_cell_is_enclosed(a, h, f, radius):
     reached = 0.0
     for i in range(8):
         shares = (i & 1, i >> 1 & 1) if i < 4 else (rng.random(), rng.random())
-        alpha, beta = (low * (high / low) ** (0.001 + 0.998 * share)
-                       for (low, high), share in zip((cell.alpha, cell.beta), shares, strict=True))
+        alpha, beta = (
+            low * (high / low) ** (0.001 + 0.998 * share)
+            for (low, high), share in zip((cell.alpha, cell.beta), shares, strict=True)
+        )
         if alpha < beta:
             continue
         here, there = places(np.array([alpha]), np.array([beta]))[0]
@@ -114,12 +123,13 @@ def test_on_the_edge_the_half_map_is_that_of_its_closed_form():
     assert found[1].width < Fraction(1, 10**4)
 
 
-@pytest.mark.parametrize(("a", "statement", "circle"), [("3", "two cycles", "two equilibria"),
-                                                       ("0.1", "no cycle", "periodic orbit")])
+@pytest.mark.parametrize(
+    ("a", "statement", "circle"), [("3", "two cycles", "two equilibria"), ("0.1", "no cycle", "periodic orbit")]
+)
 def test_a_cell_across_the_edge_speaks_of_tori_and_the_circle_there_has_its_own_statement(a, statement, circle):
     """h = 13/8, f = 15/8 has the double root n3 = 1/4, so α = β = 15/4."""
     zone = lock_zone(a, 4.0, 60)
-    cell, = (cell for cell in zone.cells if (3.75, 3.75) in cell)
+    (cell,) = (cell for cell in zone.cells if (3.75, 3.75) in cell)
     assert cell.statement == statement
     on_it = prove(a, "13/8", "15/8")
     assert isinstance(on_it, EdgeProof)
@@ -211,11 +221,17 @@ def test_outlines_lie_in_the_region():
     assert cell_outline(ZoneCell((1.0, 2.0), (3.0, 4.0)), 4.0).shape == (0, 2)
 
 
-@pytest.mark.parametrize(("words", "error", "said"), [
-    (("6",), InvalidParameter, "≤ 3"), (("x",), InvalidParameter, "exact"), (("0.5", -1.0), OutsideRegion, "h > −1"),
-    (("0.5", math.nan), OutsideRegion, "h > −1"), (("0.5", 1e9), InvalidParameter, "at most"),
-    (("0.5", 4.0, -1), InvalidParameter, "choose at most"),
-])
+@pytest.mark.parametrize(
+    ("words", "error", "said"),
+    [
+        (("6",), InvalidParameter, "≤ 3"),
+        (("x",), InvalidParameter, "exact"),
+        (("0.5", -1.0), OutsideRegion, "h > −1"),
+        (("0.5", math.nan), OutsideRegion, "h > −1"),
+        (("0.5", 1e9), InvalidParameter, "at most"),
+        (("0.5", 4.0, -1), InvalidParameter, "choose at most"),
+    ],
+)
 def test_what_no_zone_is_proved_of_is_refused(words, error, said):
     with pytest.raises(error, match=said):
         lock_zone(*words)

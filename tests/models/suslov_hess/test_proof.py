@@ -63,8 +63,11 @@ def test_the_trace_and_the_roots_of_the_reference_are_enclosed(row):
         assert root.width < Fraction(1, 10**19)
 
 
-@pytest.mark.parametrize(("moved", "row"), [(name, row) for name, rows in (("f", "lock_boundary"), ("a", "a_critical"))
-                                            for row in REFERENCE[rows]], ids=str)
+@pytest.mark.parametrize(
+    ("moved", "row"),
+    [(name, row) for name, rows in (("f", "lock_boundary"), ("a", "a_critical")) for row in REFERENCE[rows]],
+    ids=str,
+)
 def test_on_both_sides_of_the_held_boundary_the_statements_differ(moved, row):
     """A boundary of 20 digits, moved by 1e-15 of itself either way."""
     found = []
@@ -141,7 +144,7 @@ def test_numbers_are_taken_as_exact_decimals():
 def test_decimals_enclose_the_ends(decimals):
     rng = random.Random(4)
     for _ in range(200):
-        low = Fraction(rng.randint(-10**9, 10**9), rng.randint(1, 10**9)) * Fraction(10) ** rng.randint(-30, 30)
+        low = Fraction(rng.randint(-(10**9), 10**9), rng.randint(1, 10**9)) * Fraction(10) ** rng.randint(-30, 30)
         found = Enclosure(low, low + abs(low) * Fraction(rng.randint(1, 9), 10 ** rng.randint(1, 25)))
         for pair in (found.decimals(decimals), found.outside_doubles()):
             assert Fraction(pair[0]) <= found.low <= found.high <= Fraction(pair[1])
@@ -149,15 +152,18 @@ def test_decimals_enclose_the_ends(decimals):
         assert Fraction(low) <= found.low <= found.high <= Fraction(high)
 
 
-@pytest.mark.parametrize(("torus", "error", "words"), [
-    (("0.5", "1", "0"), Separatrix, "separatrix"),
-    (("0.5", "-1", "0"), OutsideRegion, "at or below the bottom"),
-    (("0.5", "0", "2"), OutsideRegion, "choose"),
-    (("2e6", "0", "0.1"), InvalidParameter, "choose"),
-    (("0.5", "2e12", "0.1"), InvalidParameter, "choose"),
-    (("0.5", "0", "1e-150"), InvalidParameter, "choose f = 0 or"),
-    (("1e5", "0.5", "0.3"), WorkLimit, "smaller"),
-])
+@pytest.mark.parametrize(
+    ("torus", "error", "words"),
+    [
+        (("0.5", "1", "0"), Separatrix, "separatrix"),
+        (("0.5", "-1", "0"), OutsideRegion, "at or below the bottom"),
+        (("0.5", "0", "2"), OutsideRegion, "choose"),
+        (("2e6", "0", "0.1"), InvalidParameter, "choose"),
+        (("0.5", "2e12", "0.1"), InvalidParameter, "choose"),
+        (("0.5", "0", "1e-150"), InvalidParameter, "choose f = 0 or"),
+        (("1e5", "0.5", "0.3"), WorkLimit, "smaller"),
+    ],
+)
 def test_what_cannot_be_proved_is_refused_with_a_sentence(torus, error, words):
     with pytest.raises(error, match=words):
         prove(*torus)
@@ -228,12 +234,18 @@ def pair(ends):
 TAMPERED = [
     ("statement", ["statement"], lambda _: "no cycle"),
     ("another statement", ["statement"], lambda _: "chaos"),
-    ("a", ["a"], shifted), ("h", ["h"], shifted), ("f", ["f"], shifted),
-    ("trace", ["trace"], pair), ("trace ball", ["trace_ball"], pair),
+    ("a", ["a"], shifted),
+    ("h", ["h"], shifted),
+    ("f", ["f"], shifted),
+    ("trace", ["trace"], pair),
+    ("trace ball", ["trace_ball"], pair),
     ("rotation number", ["rotation_number"], lambda _: ["1", "1"]),
-    ("fixed point", ["fixed_points", 0], pair), ("cycles exchanged", ["fixed_points"], lambda both: both[::-1]),
-    ("multiplier", ["multipliers", 1], pair), ("multipliers exchanged", ["multipliers"], lambda both: both[::-1]),
-    ("root", ["roots", 1], pair), ("roots exchanged", ["roots"], lambda three: [three[0], three[2], three[1]]),
+    ("fixed point", ["fixed_points", 0], pair),
+    ("cycles exchanged", ["fixed_points"], lambda both: both[::-1]),
+    ("multiplier", ["multipliers", 1], pair),
+    ("multipliers exchanged", ["multipliers"], lambda both: both[::-1]),
+    ("root", ["roots", 1], pair),
+    ("roots exchanged", ["roots"], lambda three: [three[0], three[2], three[1]]),
     ("half", ["half", 2], pair),
     ("step left out", ["steps"], lambda steps: steps[:2] + steps[3:]),
     ("last step left out", ["steps"], lambda steps: steps[:-1]),
@@ -263,11 +275,18 @@ FORGED = [
     ("no steps", LOCKED, {"steps": []}, "there are no steps"),
     ("steps is no list", LOCKED, {"steps": {"0": 1}}, "steps is not of its kind"),
     ("a step is no step", LOCKED, {"steps": [7]}, "start is missing"),
-    ("undecided over two cycles", LOCKED, {"statement": "undecided", "fixed_points": [], "multipliers": [],
-                                           "rotation_number": None}, "undecided is not what the steps prove"),
-    ("undecided over no cycle", TURNING, {"statement": "undecided", "rotation_number": None,
-                                          "trace": ["0", "3"], "trace_ball": ["0", "3"]},
-     "undecided is not what the steps prove: no cycle"),
+    (
+        "undecided over two cycles",
+        LOCKED,
+        {"statement": "undecided", "fixed_points": [], "multipliers": [], "rotation_number": None},
+        "undecided is not what the steps prove",
+    ),
+    (
+        "undecided over no cycle",
+        TURNING,
+        {"statement": "undecided", "rotation_number": None, "trace": ["0", "3"], "trace_ball": ["0", "3"]},
+        "undecided is not what the steps prove: no cycle",
+    ),
     ("no rotation number", TURNING, {"rotation_number": None}, "rotation_number is not of its kind"),
     ("one fixed point", LOCKED, {"fixed_points": [["0", "1"]]}, "1 entries instead of 2"),
     ("fixed points of a rotation", TURNING, {"fixed_points": [["0", "1"]]}, "1 entries instead of 0"),
@@ -282,18 +301,34 @@ FORGED = [
     ("a limit with another trace", ("0.3", "0.2", "0"), {"trace_ball": ["0", "1"]}, "trace_ball is 0"),
     ("a limit with steps", ("0.3", "0.2", "0"), {"steps": [1]}, "there are no steps"),
     ("a torus on the edge", LOCKED, {"a": "1/2", "h": "13/8", "f": "15/8"}, "a root is not isolated"),
-    ("the edge is no torus", ("0.5", "13/8", "15/8"), {"format": "Suslov–Hess torus, 1", "statement": "two cycles"},
-     "roots is missing"),
-    ("the other statement of the edge", ("0.5", "13/8", "15/8"), {"statement": "periodic orbit"},
-     "not what the circle does"),
+    (
+        "the edge is no torus",
+        ("0.5", "13/8", "15/8"),
+        {"format": "Suslov–Hess torus, 1", "statement": "two cycles"},
+        "roots is missing",
+    ),
+    (
+        "the other statement of the edge",
+        ("0.5", "13/8", "15/8"),
+        {"statement": "periodic orbit"},
+        "not what the circle does",
+    ),
     ("another n", ("0.5", "13/8", "15/8"), {"n": "1/3"}, "not on the edge"),
     ("a period that is none", ("0.5", "13/8", "15/8"), {"period": ["1", "2"]}, "no period"),
     ("another period", ("0.1", "13/8", "15/8"), {"period": ["1", "2"]}, "the period is not enclosed"),
-    ("equilibria exchanged", ("0.5", "13/8", "15/8"), lambda found: {"fixed_points": found["fixed_points"][::-1]},
-     "wrong side"),
+    (
+        "equilibria exchanged",
+        ("0.5", "13/8", "15/8"),
+        lambda found: {"fixed_points": found["fixed_points"][::-1]},
+        "wrong side",
+    ),
     ("rates exchanged", ("0.5", "13/8", "15/8"), lambda found: {"rates": found["rates"][::-1]}, "a rate is not"),
-    ("an equilibrium moved", ("0.5", "13/8", "-15/8"), lambda found: {
-        "fixed_points": [pair(found["fixed_points"][0]), found["fixed_points"][1]]}, "an equilibrium is not"),
+    (
+        "an equilibrium moved",
+        ("0.5", "13/8", "-15/8"),
+        lambda found: {"fixed_points": [pair(found["fixed_points"][0]), found["fixed_points"][1]]},
+        "an equilibrium is not",
+    ),
 ]
 
 

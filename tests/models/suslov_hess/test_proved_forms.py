@@ -27,15 +27,18 @@ def test_the_period_is_that_of_a_quadrature():
     found = proved_torus_period("0.3", "0.7")
     with mpmath.workdps(40):
         h, f = mpmath.mpf("0.3"), mpmath.mpf("0.7")
-        n0, n1, n2 = sorted(map(mpmath.re, mpmath.polyroots([-2, -2 * h, 2, 2 * h - f * f], maxsteps=200,
-                                                            extraprec=200)))
+        n0, n1, n2 = sorted(
+            map(mpmath.re, mpmath.polyroots([-2, -2 * h, 2, 2 * h - f * f], maxsteps=200, extraprec=200))
+        )
         m, d = (n1 + n2) / 2, (n2 - n1) / 2
         known = 2 * mpmath.quad(lambda x: 1 / mpmath.sqrt(2 * (m - d * mpmath.cos(x) - n0)), [0, mpmath.pi])
         assert abs(mpmath.mpf(found.low.numerator) / found.low.denominator - known) < mpmath.mpf(10) ** -25
 
 
-@pytest.mark.parametrize(("n", "root"), [(Fraction(1, 4), Fraction(1, 2)), (Fraction(1, 9), Fraction(1, 3)),
-                                         (Fraction(81, 100), Fraction(9, 10))])
+@pytest.mark.parametrize(
+    ("n", "root"),
+    [(Fraction(1, 4), Fraction(1, 2)), (Fraction(1, 9), Fraction(1, 3)), (Fraction(81, 100), Fraction(9, 10))],
+)
 @pytest.mark.parametrize("a", ["0.5", "-1.5"])
 def test_the_trace_on_the_edge_is_the_limit_of_the_traces_of_tori(a, n, root):
     """Both are proved, by different means; next to the edge |t| is off by as much as (h, f) is."""

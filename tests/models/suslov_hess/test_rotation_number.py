@@ -108,7 +108,8 @@ def test_values_agree_whatever_their_shape_and_order():
         assert together.possible[i] == (abs(f[i]) <= f_max(float(h[i])))
         alone = values_at(float(a[i]), float(h[i]), float(f[i]), STANDARD)
         assert (alone.rho[0], alone.trace[0]) == pytest.approx(
-            (together.rho[i], together.trace[i]), rel=1e-9, nan_ok=True)
+            (together.rho[i], together.trace[i]), rel=1e-9, nan_ok=True
+        )
         if together.possible[i]:
             exact = circle_map(float(a[i]), float(h[i]), float(f[i]), REFERENCE)
             assert together.trace[i] == pytest.approx(exact.trace, rel=1e-6)
@@ -173,11 +174,18 @@ def test_without_a_there_is_no_lock_curve():
 # ---- rational numbers --------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("p", "q", "name", "torus", "low", "high"), [
-    (-1, 4, "f", Torus(0.5, 0.5, 0.8), 0.0, 1.2), (-1, 3, "f", Torus(0.5, 0.25, 0.4), 0.0, 1.0),
-    (-1, 3, "h", Torus(0.5, 0.0, 0.5), -0.9, 0.9), (-2, 5, "h", Torus(0.8, 0.0, 0.3), -0.9, 0.9),
-    (-1, 4, "a", Torus(0.0, 0.5, 0.6), 0.0, 2.0), (1, 4, "f", Torus(0.5, 0.5, -0.8), -1.2, 0.0),
-    (-3, 7, "f", Torus(0.5, -0.3, 0.1), 0.0, 0.5)])
+@pytest.mark.parametrize(
+    ("p", "q", "name", "torus", "low", "high"),
+    [
+        (-1, 4, "f", Torus(0.5, 0.5, 0.8), 0.0, 1.2),
+        (-1, 3, "f", Torus(0.5, 0.25, 0.4), 0.0, 1.0),
+        (-1, 3, "h", Torus(0.5, 0.0, 0.5), -0.9, 0.9),
+        (-2, 5, "h", Torus(0.8, 0.0, 0.3), -0.9, 0.9),
+        (-1, 4, "a", Torus(0.0, 0.5, 0.6), 0.0, 2.0),
+        (1, 4, "f", Torus(0.5, 0.5, -0.8), -1.2, 0.0),
+        (-3, 7, "f", Torus(0.5, -0.3, 0.1), 0.0, 0.5),
+    ],
+)
 def test_at_a_rational_number_every_orbit_is_periodic_and_not_elsewhere(p, q, name, torus, low, high):
     place = place_of(p / q, name, torus, low, high, REFERENCE)
     assert low < place < high
@@ -200,9 +208,14 @@ def test_below_the_saddle_two_returns_close_where_f_vanishes():
     assert abs(rho_of(0.5, 0.3, 1e-9)) == pytest.approx(0.5, abs=1e-8)
 
 
-@pytest.mark.parametrize(("rho", "name", "torus", "low", "high"), [
-    (0.25, "f", Torus(0.5, 0.5, 0.5), 0.01, 1.2), (-0.25, "h", Torus(0.5, 5.0, 2.0), 4.0, 6.0),
-    (-0.25, "f", Torus(0.5, 0.5, 0.0), 5.0, 9.0)])
+@pytest.mark.parametrize(
+    ("rho", "name", "torus", "low", "high"),
+    [
+        (0.25, "f", Torus(0.5, 0.5, 0.5), 0.01, 1.2),
+        (-0.25, "h", Torus(0.5, 5.0, 2.0), 4.0, 6.0),
+        (-0.25, "f", Torus(0.5, 0.5, 0.0), 5.0, 9.0),
+    ],
+)
 def test_where_no_torus_has_the_number_none_is_found(rho, name, torus, low, high):
     assert place_of(rho, name, torus, low, high, STANDARD) is None
 
@@ -258,20 +271,23 @@ def test_a_family_may_change_a_too():
 # ---- what is refused ---------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("request_", "error", "words"), [
-    (lambda: values_at(0.5, np.zeros(MAX_POINTS + 1), 0.1, DRAFT), WorkLimit, "choose fewer points"),
-    (lambda: values_at(0.5, np.zeros((2, 2)), 0.1, DRAFT), WorkLimit, "choose fewer points"),
-    (lambda: values_at(0.5, math.nan, 0.1, DRAFT), InvalidParameter, "needs finite h and f"),
-    (lambda: values_at(0.5, 0.5, math.inf, DRAFT), InvalidParameter, "needs finite h and f"),
-    (lambda: values_at(0.5, 1e13, 0.1, DRAFT), InvalidParameter, "1e12"),
-    (lambda: values_at(2e6, 0.5, 0.1, DRAFT), InvalidParameter, "a = "),
-    (lambda: values_at(math.nan, 0.5, 0.1, DRAFT), InvalidParameter, "a "),
-    (lambda: perturbed_rotation(0.5, 0.5, 0.1, 1.0 / 3.0, DRAFT), InvalidParameter, "choose |ε| < 1/3"),
-    (lambda: perturbed_rotation(0.5, 0.5, 0.1, -2.0, DRAFT), InvalidParameter, "choose |ε| < 1/3"),
-    (lambda: perturbed_rotation(0.5, 0.5, 0.1, math.nan, DRAFT), InvalidParameter, "epsilon"),
-    (lambda: closed_after(Torus(0.5, 0.5, 0.1), 0, DRAFT), InvalidParameter, "between 1 and 1000"),
-    (lambda: closed_after(Torus(0.5, 0.5, 0.1), 1001, DRAFT), InvalidParameter, "between 1 and 1000"),
-])
+@pytest.mark.parametrize(
+    ("request_", "error", "words"),
+    [
+        (lambda: values_at(0.5, np.zeros(MAX_POINTS + 1), 0.1, DRAFT), WorkLimit, "choose fewer points"),
+        (lambda: values_at(0.5, np.zeros((2, 2)), 0.1, DRAFT), WorkLimit, "choose fewer points"),
+        (lambda: values_at(0.5, math.nan, 0.1, DRAFT), InvalidParameter, "needs finite h and f"),
+        (lambda: values_at(0.5, 0.5, math.inf, DRAFT), InvalidParameter, "needs finite h and f"),
+        (lambda: values_at(0.5, 1e13, 0.1, DRAFT), InvalidParameter, "1e12"),
+        (lambda: values_at(2e6, 0.5, 0.1, DRAFT), InvalidParameter, "a = "),
+        (lambda: values_at(math.nan, 0.5, 0.1, DRAFT), InvalidParameter, "a "),
+        (lambda: perturbed_rotation(0.5, 0.5, 0.1, 1.0 / 3.0, DRAFT), InvalidParameter, "choose |ε| < 1/3"),
+        (lambda: perturbed_rotation(0.5, 0.5, 0.1, -2.0, DRAFT), InvalidParameter, "choose |ε| < 1/3"),
+        (lambda: perturbed_rotation(0.5, 0.5, 0.1, math.nan, DRAFT), InvalidParameter, "epsilon"),
+        (lambda: closed_after(Torus(0.5, 0.5, 0.1), 0, DRAFT), InvalidParameter, "between 1 and 1000"),
+        (lambda: closed_after(Torus(0.5, 0.5, 0.1), 1001, DRAFT), InvalidParameter, "between 1 and 1000"),
+    ],
+)
 def test_what_cannot_be_is_refused_in_a_sentence(request_, error, words):
     with pytest.raises(error) as refused:
         request_()

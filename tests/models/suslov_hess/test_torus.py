@@ -27,8 +27,15 @@ def test_a_track_solves_the_suslov_problem_of_its_body(body, h, f):
     orbit = track(body, h, f, 0.7, 12.0, REFERENCE, 4.0)
     suslov = systems()["suslov"]
     parameters = body.suslov.parameters
-    solved = solve_ivp(lambda _, y: suslov.field(y, parameters), (0.0, orbit.times[-1]), states_of(orbit)[0],
-                       method="DOP853", rtol=1e-12, atol=1e-13, t_eval=orbit.times)
+    solved = solve_ivp(
+        lambda _, y: suslov.field(y, parameters),
+        (0.0, orbit.times[-1]),
+        states_of(orbit)[0],
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-13,
+        t_eval=orbit.times,
+    )
     assert np.abs(solved.y.T - states_of(orbit)).max() < 1e-8
 
 
@@ -58,8 +65,15 @@ def test_cycles_close_and_the_unstable_one_is_a_solution_too(body):
     for cycle in cycles(body, 1.5, 0.6, theta.fixed_points[0], REFERENCE, 4.0):
         states = states_of(cycle)
         assert np.abs(states[-1] - states[0]).max() < 1e-10 * max(1.0, np.abs(states).max())
-        solved = solve_ivp(lambda _, y: suslov.field(y, body.suslov.parameters), (0.0, cycle.times[-1]), states[0],
-                           method="DOP853", rtol=1e-12, atol=1e-13, t_eval=cycle.times)
+        solved = solve_ivp(
+            lambda _, y: suslov.field(y, body.suslov.parameters),
+            (0.0, cycle.times[-1]),
+            states[0],
+            method="DOP853",
+            rtol=1e-12,
+            atol=1e-13,
+            t_eval=cycle.times,
+        )
         assert np.abs(solved.y.T - states).max() < 1e-7
 
 

@@ -52,8 +52,9 @@ def off_the_line(I23, small, times):
         begun, w2 = turns * turn, mpmath.mpf(small) * mpmath.exp(turns * growth)
         early = [[1.0, 0.0, GAMMA[0], float(r * mpmath.sin(t)), float(r * mpmath.cos(t))] for t in times if t < begun]
         late = [float(t - begun) for t in times if t >= begun]
-    passage = oracle.orbit_in_decimals(SYSTEM, (1.0, float(w2), *GAMMA), (2.0, 1.0, 0.0, I23, 1.0, 0.0, 0.0, 0.0), late,
-                                       digits=50)
+    passage = oracle.orbit_in_decimals(
+        SYSTEM, (1.0, float(w2), *GAMMA), (2.0, 1.0, 0.0, I23, 1.0, 0.0, 0.0, 0.0), late, digits=50
+    )
     return np.vstack([np.reshape(early, (-1, 5)), passage.astype(float)])
 
 
@@ -68,12 +69,17 @@ def harmonics_error(body, theta, h, distance, cosine, name):
 
 
 def a_scattering(Row, name, body, theta, h, distance, cosine, **options):
-    return Row(f"ball, θ⁺: {name}", "closed form of the free Suslov problem",
-               lambda name: harmonics_error(body, theta, h, distance, cosine, name), **options)
+    return Row(
+        f"ball, θ⁺: {name}",
+        "closed form of the free Suslov problem",
+        lambda name: harmonics_error(body, theta, h, distance, cosine, name),
+        **options,
+    )
 
 
 def in_the_strip(Row, name, body, h, span, **options):
     """How far |ω|² is outside the strip, and E from h, relative to h."""
+
     def error(name):
         states = Strip(body, h).spread(6)
         worst = 0.0
@@ -90,12 +96,19 @@ def in_the_strip(Row, name, body, h, span, **options):
 
 def rows(Row, an_orbit, symmetric, there_and_back, drift):
     """The rows."""
+
     def ball(name, state, parameters, times, **options):
         return an_orbit(name, SYSTEM, state, parameters, times, **options)
 
     def near(name, I23, small, times):
-        return ball(name, (1.0, small, *GAMMA), (2.0, 1.0, 0.0, I23, 1.0, 0.0, 0.0, 0.0), times,
-                    truth=lambda: off_the_line(I23, small, times), against="closed form, then Taylor series, 50 digits")
+        return ball(
+            name,
+            (1.0, small, *GAMMA),
+            (2.0, 1.0, 0.0, I23, 1.0, 0.0, 0.0, 0.0),
+            times,
+            truth=lambda: off_the_line(I23, small, times),
+            against="closed form, then Taylor series, 50 digits",
+        )
 
     # cos χ of the free Suslov problem, by an independent computation with 40 digits.
     slanting, steep = (1.0, 1.5, 0.7, 1.2), (1.64, 1.0, 0.0, 0.8)
@@ -139,18 +152,56 @@ def rows(Row, an_orbit, symmetric, there_and_back, drift):
         in_the_strip(Row, "𝒟 = 1e-6", BallBody(2.0, 1.0, 0.3, 0.5, 1e-6), 1.0, 20.0),
         in_the_strip(Row, "h = 1e6", BallBody(2.0, 1.0, 0.3, 0.5, 2.0), 1e6, 0.02),
         in_the_strip(Row, "h = 1e-6", BallBody(2.0, 1.0, 0.3, 0.5, 2.0), 1e-6, 2e4),
-        a_scattering(Row, "𝒟 = 0", BallBody(*slanting, 0.0), 1.0, 10.0, 1e-7, -0.47889450360074, floor=1e-9,
-                     because=ROUNDED),
-        a_scattering(Row, "𝒟 = 0, θ⁻ = 0", BallBody(*slanting, 0.0), 0.0, 10.0, 1e-7, -0.47889450360074, floor=1e-9,
-                     because=ROUNDED),
-        a_scattering(Row, "𝒟 = 0, θ⁻ = π, δ = −1e-7", BallBody(*slanting, 0.0), math.pi, 10.0, -1e-7, -0.47889450360074,
-                     floor=1e-9, because=ROUNDED),
-        a_scattering(Row, "𝒟 = 0, complete reversal", BallBody(*steep, 0.0), 1.0, 10.0, 1e-7, -1.0, floor=1e-9,
-                     because=ROUNDED),
-        a_scattering(Row, "𝒟 = 0, h = 1e6", BallBody(*slanting, 0.0), 1.0, 1e6, 1e-7, -0.47889450360074, floor=1e-9,
-                     because=ROUNDED),
-        a_scattering(Row, "𝒟 = 0, h = 1e-6", BallBody(*slanting, 0.0), 1.0, 1e-6, 1e-7, -0.47889450360074, floor=1e-9,
-                     because=ROUNDED),
+        a_scattering(
+            Row, "𝒟 = 0", BallBody(*slanting, 0.0), 1.0, 10.0, 1e-7, -0.47889450360074, floor=1e-9, because=ROUNDED
+        ),
+        a_scattering(
+            Row,
+            "𝒟 = 0, θ⁻ = 0",
+            BallBody(*slanting, 0.0),
+            0.0,
+            10.0,
+            1e-7,
+            -0.47889450360074,
+            floor=1e-9,
+            because=ROUNDED,
+        ),
+        a_scattering(
+            Row,
+            "𝒟 = 0, θ⁻ = π, δ = −1e-7",
+            BallBody(*slanting, 0.0),
+            math.pi,
+            10.0,
+            -1e-7,
+            -0.47889450360074,
+            floor=1e-9,
+            because=ROUNDED,
+        ),
+        a_scattering(
+            Row, "𝒟 = 0, complete reversal", BallBody(*steep, 0.0), 1.0, 10.0, 1e-7, -1.0, floor=1e-9, because=ROUNDED
+        ),
+        a_scattering(
+            Row,
+            "𝒟 = 0, h = 1e6",
+            BallBody(*slanting, 0.0),
+            1.0,
+            1e6,
+            1e-7,
+            -0.47889450360074,
+            floor=1e-9,
+            because=ROUNDED,
+        ),
+        a_scattering(
+            Row,
+            "𝒟 = 0, h = 1e-6",
+            BallBody(*slanting, 0.0),
+            1.0,
+            1e-6,
+            1e-7,
+            -0.47889450360074,
+            floor=1e-9,
+            because=ROUNDED,
+        ),
     ]
 
 
@@ -163,8 +214,9 @@ def refusals(Refusal):
         return Refusal(f"ball, {name}", lambda grade: solve(SYSTEM.at(parameters), START, times, grade), error, words)
 
     def theta_plus(name, body, distance, error, words):
-        return Refusal(f"ball, θ⁺ {name}", lambda grade: ball_scattering(body, 1.0, PHASES, 1.0, distance, grade),
-                       error, words)
+        return Refusal(
+            f"ball, θ⁺ {name}", lambda grade: ball_scattering(body, 1.0, PHASES, 1.0, distance, grade), error, words
+        )
 
     def plainly(name, request, error, words):
         return Refusal(f"ball, {name}", lambda _: request(), error, words)
@@ -173,23 +225,36 @@ def refusals(Refusal):
         orbit("𝒟 = −1e-12", with_field(-1e-12), InvalidParameter, "𝒟 = -1e-12.*choose 𝒟 ≥ 0"),
         orbit("𝒟 = 1e300", with_field(1e300), InvalidParameter, "𝒟 is too large: choose it below"),
         orbit("I11 = 0", with_field(1.0, tensor=(0.0, 1.0, 0.3, 0.5)), NotPositiveDefinite, "choose I11 > 0"),
-        orbit("I11/I22 = 1e300", with_field(1.0, tensor=(1e300, 1.0, 0.3, 0.5)), InvalidParameter,
-              "choose a ratio below"),
+        orbit(
+            "I11/I22 = 1e300", with_field(1.0, tensor=(1e300, 1.0, 0.3, 0.5)), InvalidParameter, "choose a ratio below"
+        ),
         orbit("t = 1e7", with_field(2.0), WorkLimit, "choose a shorter one", [1e7]),
         plainly("a body with 𝒟 = −1", lambda: BallBody(1.0, 1.0, 0.1, 0.1, -1.0), InvalidParameter, "choose 𝒟 ≥ 0"),
-        plainly("ξ for I13 = I23 = 0", lambda: line_of_rest(plain), InvalidParameter,
-                "no line of equilibria. Choose I13 or I23 other than 0"),
+        plainly(
+            "ξ for I13 = I23 = 0",
+            lambda: line_of_rest(plain),
+            InvalidParameter,
+            "no line of equilibria. Choose I13 or I23 other than 0",
+        ),
         plainly("strip with h = 0", lambda: Strip(slanting, 0.0), InvalidParameter, "choose h > 0"),
         plainly("strip with a field", lambda: Strip(heavy, 1.0), InvalidParameter, "set b1 = b2 = b3 = 0"),
-        plainly("E below (b, γ)", lambda: omega_of_energy(heavy, (1.0, 0.0), (0.0, 0.0, 1.0), 0.9), OutsideRegion,
-                "has the energy 1: choose h above it"),
+        plainly(
+            "E below (b, γ)",
+            lambda: omega_of_energy(heavy, (1.0, 0.0), (0.0, 0.0, 1.0), 0.9),
+            OutsideRegion,
+            "has the energy 1: choose h above it",
+        ),
         theta_plus("for I13 = I23 = 0", plain, 1e-4, InvalidParameter, "Choose I13 or I23 other than 0"),
         theta_plus("from the line itself", slanting, 0.0, InvalidParameter, "choose it from 1e-10 to 0.1"),
         theta_plus("for I13 = 1e-9", slow, 1e-7, WorkLimit, "choose larger I13 or I23, or a smaller 𝒟"),
-        plainly("section with E below the plane", lambda: seeds(heavy, -0.6, 3), InvalidParameter,
-                "choose h above -0.58"),
+        plainly(
+            "section with E below the plane", lambda: seeds(heavy, -0.6, 3), InvalidParameter, "choose h above -0.58"
+        ),
         plainly("section with δ = 0", lambda: state_at(heavy, 1.0, 0.0, 0.0), InvalidParameter, "between 0 and π"),
-        Refusal("ball, section of 1e7 crossings",
-                lambda grade: ball_section(heavy, 1.0, seeds(heavy, 1.0, 1), 10**7, grade), WorkLimit,
-                "choose fewer of them"),
+        Refusal(
+            "ball, section of 1e7 crossings",
+            lambda grade: ball_section(heavy, 1.0, seeds(heavy, 1.0, 1), 10**7, grade),
+            WorkLimit,
+            "choose fewer of them",
+        ),
     ]

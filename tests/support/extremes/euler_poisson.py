@@ -63,6 +63,7 @@ def crossings(Row, name, body, h, f, place, count, **options):
 
 def a_state(Row, name, body, h, f, place, **options):
     """Energy, area integral and plane of the state at a place, with 40 digits, relative to the size of their terms."""
+
     def error(_):
         state = state_at(body, h, f, *place)
         with mpmath.workdps(40):
@@ -72,14 +73,21 @@ def a_state(Row, name, body, h, f, place, **options):
             G = mpmath.sqrt(sum(m * m for m in M))
             area = sum(m * g for m, g in zip(M, gamma, strict=True))
             across = (G**2 * gamma[2] - mpmath.mpf(f) * M[2]) / G**2
-            return float(max(abs(energy - h) / (abs(h) + body.strength), abs(area - f) / G, abs(across),
-                             abs(sum(g * g for g in gamma) - 1)))
+            return float(
+                max(
+                    abs(energy - h) / (abs(h) + body.strength),
+                    abs(area - f) / G,
+                    abs(across),
+                    abs(sum(g * g for g in gamma) - 1),
+                )
+            )
 
     return Row(f"state on g = π/2: {name}", "its integrals, 40 digits", error, **options)
 
 
 def rows(Row, symmetric, there_and_back, drift):
     """The rows."""
+
     def orbit(name, body, state, times, **options):
         return an_orbit(Row, name, body, state, times, **options)
 
@@ -96,10 +104,22 @@ def rows(Row, symmetric, there_and_back, drift):
         orbit("1e-9 above the Hess manifold", GESS1, near[0], [0.5, 2.0], floor=1e-11, because=grows),
         orbit("1e-12 below it", GESS1, near[1], [0.5, 2.0], floor=1e-11, because=grows),
         orbit("h at the bottom + 1e-10", UPRIGHT, (1e-5, -5e-6, 0.0, 0.0, 0.0, 1.0), [1.0, 30.0]),
-        orbit("at rest below", UPRIGHT, (0.0, 0.0, 0.0, 0.0, 0.0, 1.0), [1e6],
-              truth=lambda: np.array([[0.0, 0.0, 0.0, 0.0, 0.0, 1.0]]), against="equilibrium"),
-        orbit("at rest above", UPRIGHT, (0.0, 0.0, 0.0, 0.0, 0.0, -1.0), [1e4],
-              truth=lambda: np.array([[0.0, 0.0, 0.0, 0.0, 0.0, -1.0]]), against="equilibrium"),
+        orbit(
+            "at rest below",
+            UPRIGHT,
+            (0.0, 0.0, 0.0, 0.0, 0.0, 1.0),
+            [1e6],
+            truth=lambda: np.array([[0.0, 0.0, 0.0, 0.0, 0.0, 1.0]]),
+            against="equilibrium",
+        ),
+        orbit(
+            "at rest above",
+            UPRIGHT,
+            (0.0, 0.0, 0.0, 0.0, 0.0, -1.0),
+            [1e4],
+            truth=lambda: np.array([[0.0, 0.0, 0.0, 0.0, 0.0, -1.0]]),
+            against="equilibrium",
+        ),
         orbit("moments 1, 1 − 1e-9, 1 − 2e-9", hess(1.0, 1.0 - 1e-9, 1.0 - 2e-9), START, [1.0, 5.0]),
         orbit("moments equal", HeavyBody((1.0, 1.0, 1.0), (0.6, 0.0, 0.8), 9.975), START, [1.0, 5.0]),
         orbit("moments 1e6, 1, 1e-6", hess(1e6, 1.0, 1e-6), (1e3, 1.0, 1e-4, *GAMMA), [1e-5, 3e-4]),
@@ -127,31 +147,61 @@ def rows(Row, symmetric, there_and_back, drift):
         symmetric("time reversal", SYSTEM, START, GESS1.parameters, [0.5, 2.0], mirror, -1),
         there_and_back("gess1", SYSTEM, START, GESS1.parameters, 2.0),
         drift("gess1, t = 1e4", SYSTEM, near[0], GESS1.parameters, 1e4, floor=1e-9),
-        drift("moments 1, 1e-3, 1e-6", SYSTEM, (1.0, 1e-3, 1e-6, *GAMMA), hess(1.0, 1e-3, 1e-6).parameters, 1.0,
-              floor=1e-9),
+        drift(
+            "moments 1, 1e-3, 1e-6",
+            SYSTEM,
+            (1.0, 1e-3, 1e-6, *GAMMA),
+            hess(1.0, 1e-3, 1e-6).parameters,
+            1.0,
+            floor=1e-9,
+        ),
     ]
 
 
 def refusals(Refusal):
     """What is refused."""
+
     def plainly(name, request, error, words):
         return Refusal(f"euler-poisson, {name}", lambda _: request(), error, words)
 
     return [
-        plainly("G < |f|", lambda: state_at(GESS1, 50.0, 13.0, 0.7, -0.3), InvalidParameter,
-                "no real G ≥ .f. has the energy h = 50: choose a larger h, or another point"),
-        plainly("h below the potential", lambda: state_at(GESS1, -9.976, 0.0, 0.0, 0.0), InvalidParameter,
-                "choose a larger h"),
-        plainly("L/G = 1 + 1e-9", lambda: state_at(GESS1, 50.0, 5.0, 0.0, 1.0 + 1e-9), InvalidParameter,
-                "between −1 and 1"),
-        plainly("a2 = 0", lambda: HeavyBody((1.0, 0.0, 2.0), (1.0, 0.0, 0.0), 1.0), NotPositiveDefinite,
-                "choose a2 > 0"),
-        plainly("moments in the ratio 1e21", lambda: HeavyBody((1.0, 1.0, 1e21), (1.0, 0.0, 0.0), 1.0),
-                InvalidParameter, "choose ratios below 1e"),
-        plainly("I2 not between the others", lambda: HeavyBody.hess((1.0, 1.5, 0.4), 1.0), InvalidParameter,
-                "I2 = 1.5 must lie between I1 = 1 and I3 = 0.4"),
-        plainly("exponent up to t = 1e9", lambda: lyapunov_exponent(GESS1, START, 1e9), WorkLimit,
-                "choose a shorter time span"),
-        Refusal("euler-poisson, t = 1e9", lambda grade: solve(GESS1, START, [1e9], grade),
-                WorkLimit, "choose a shorter one"),
+        plainly(
+            "G < |f|",
+            lambda: state_at(GESS1, 50.0, 13.0, 0.7, -0.3),
+            InvalidParameter,
+            "no real G ≥ .f. has the energy h = 50: choose a larger h, or another point",
+        ),
+        plainly(
+            "h below the potential",
+            lambda: state_at(GESS1, -9.976, 0.0, 0.0, 0.0),
+            InvalidParameter,
+            "choose a larger h",
+        ),
+        plainly(
+            "L/G = 1 + 1e-9", lambda: state_at(GESS1, 50.0, 5.0, 0.0, 1.0 + 1e-9), InvalidParameter, "between −1 and 1"
+        ),
+        plainly(
+            "a2 = 0", lambda: HeavyBody((1.0, 0.0, 2.0), (1.0, 0.0, 0.0), 1.0), NotPositiveDefinite, "choose a2 > 0"
+        ),
+        plainly(
+            "moments in the ratio 1e21",
+            lambda: HeavyBody((1.0, 1.0, 1e21), (1.0, 0.0, 0.0), 1.0),
+            InvalidParameter,
+            "choose ratios below 1e",
+        ),
+        plainly(
+            "I2 not between the others",
+            lambda: HeavyBody.hess((1.0, 1.5, 0.4), 1.0),
+            InvalidParameter,
+            "I2 = 1.5 must lie between I1 = 1 and I3 = 0.4",
+        ),
+        plainly(
+            "exponent up to t = 1e9",
+            lambda: lyapunov_exponent(GESS1, START, 1e9),
+            WorkLimit,
+            "choose a shorter time span",
+        ),
+        Refusal(
+            "euler-poisson, t = 1e9", lambda grade: solve(GESS1, START, [1e9], grade), WorkLimit, "choose a shorter one"
+        ),
     ]

@@ -34,15 +34,19 @@ def bridge_row(Row, name, bridge, h, share=0.3, periods=20, samples=801):
 
     @cache
     def truth():
-        other = solve(bridge.hess.suslov, bridge.to_suslov(np.array(start)),
-                      np.linspace(0.0, end, samples), level("reference"))
+        other = solve(
+            bridge.hess.suslov, bridge.to_suslov(np.array(start)), np.linspace(0.0, end, samples), level("reference")
+        )
         return bridge.hess.in_units_of_b(bridge.hess.to_reduced(other.states))
 
     def error(grade):
         run = on_manifold(bridge.heavy, start, end, samples, level(grade))
         # Off the manifold the two have no state in common.
-        return math.inf if np.max(np.abs(run.off)) >= 1e-12 else float(
-            np.max(bridge.distance(run.states, truth())) / math.sqrt(2.0 * (h + 1.0)))
+        return (
+            math.inf
+            if np.max(np.abs(run.off)) >= 1e-12
+            else float(np.max(bridge.distance(run.states, truth())) / math.sqrt(2.0 * (h + 1.0)))
+        )
 
     return Row(f"bridge: {name}", f"Suslov's motion, {periods} periods", error, floor=2e-11)
 
@@ -58,8 +62,13 @@ def leak_row(Row, name, h, f, against, exact, periods=20, samples=96):
         found = growth_of(run_free(GESS1.heavy, start, end, periods * samples + 1, level(grade)), samples)
         return abs(found.per_period / exact(*units) - 1.0)
 
-    return Row(f"leak, growth in a period: {name}", against, error, floor=1e-5,
-               because="between round-off and the size of the motion only some periods are straight")
+    return Row(
+        f"leak, growth in a period: {name}",
+        against,
+        error,
+        floor=1e-5,
+        because="between round-off and the size of the motion only some periods are straight",
+    )
 
 
 def pendulum_row(Row, name, span, moments=(1.0, 1.5, 2.0), h=1.5, l=0.4, mu=0.7, because=""):
@@ -94,8 +103,9 @@ def arc_row(Row, name, body, q, p, floor=1e-12, because=""):
         there = solve(body, start, [arc.period], level(grade)).states[0]
         return float(np.max(np.abs(there - start) / unit))
 
-    return Row(f"principal axis, b3 = 0: {name}", "closed after the period in closed form", error, floor=floor,
-               because=because)
+    return Row(
+        f"principal axis, b3 = 0: {name}", "closed after the period in closed form", error, floor=floor, because=because
+    )
 
 
 def quartic_row(Row, name, body, q):
@@ -136,8 +146,16 @@ def rows(Row):
         bridge_row(Row, "μ|r| = −1e-6", heavy((1.0, 0.625, 0.375), -1e-6), 1.5),
         bridge_row(Row, "a = 50", Bridge.of_suslov(HessBody(1.0, 50.0, -1.0)), 1.5),
         bridge_row(Row, "I2 = I3, a = 0", heavy((1.0, 0.5, 0.5), 1.0), 1.5),
-        leak_row(Row, "gess1", 50.0, 5.0, "logarithm of the multiplier", lambda h, f: math.log(max(
-            point.multiplier for point in circle_map(GESS1.hess.a, h, f, level("reference")).fixed_points))),
+        leak_row(
+            Row,
+            "gess1",
+            50.0,
+            5.0,
+            "logarithm of the multiplier",
+            lambda h, f: math.log(
+                max(point.multiplier for point in circle_map(GESS1.hess.a, h, f, level("reference")).fixed_points)
+            ),
+        ),
         leak_row(Row, "f = 0", 20.0, 0.0, "2π|a|", lambda h, f: 2.0 * math.pi * abs(GESS1.hess.a)),
         pendulum_row(Row, "h = −1 + 1e-4", 50.0, h=-1.0 + 1e-4),
         pendulum_row(Row, "h = 0.3", 50.0, h=0.3),
@@ -158,8 +176,9 @@ def rows(Row):
         arc_row(Row, "|p| = 1e3", plane, (0.3, -0.2), (1e3, 10.0)),
         arc_row(Row, "b = 100", PlaneBody(1.5, 1.0, 100.0, 70.0), (0.3, -0.2), (1.0, 0.5)),
         arc_row(Row, "1e-12 inside the edge", plane, (0.0, -math.sqrt(1.0 - 1e-11)), (1.0, 0.5)),
-        arc_row(Row, "1e-6 from the asymptotic orbit", round_body, *beside_asymptotic(1e-6), floor=1e-9,
-                because=SADDLE),
+        arc_row(
+            Row, "1e-6 from the asymptotic orbit", round_body, *beside_asymptotic(1e-6), floor=1e-9, because=SADDLE
+        ),
         quartic_row(Row, "I11/I22 = 1e4", QuarticBody(1e2, 1e-2, 1.0, 0.8), (0.05, 3.0)),
         quartic_row(Row, "b3 = 1e-6", QuarticBody(2.0, 1.0, 1e-6, 8e-7), (600.0, 300.0)),
         quartic_row(Row, "h = 1e6 |b3|", QuarticBody(2.0, 1.0, 1.0, 1e6), (math.sqrt(2e6), 0.0)),

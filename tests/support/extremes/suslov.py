@@ -81,6 +81,7 @@ def by_cycle(a, h, f):
 
 def shifted(Row, name, torus, epsilon, **options):
     """ρ of the other family against 10⁴ plain iterations of the map, of which less than one turn is not counted."""
+
     @cache
     def exact():
         truth = oracle.map_by_three_orbits(*torus, 30)
@@ -95,9 +96,15 @@ def shifted(Row, name, torus, epsilon, **options):
             phi = first + float(np.interp((first + math.pi) % (2.0 * math.pi) - math.pi, grid, turn))
         return (phi - 0.3) / (2.0e4 * math.pi)
 
-    return Row(f"Θ(φ + ε sin 3φ): {name}", "10⁴ iterations",
-               lambda grade: abs(float(perturbed_rotation(*torus, epsilon, level(grade))[0]) - exact()), floor=2e-4,
-               levels=("precise", "reference"), because="10⁴ iterations say no more", **options)
+    return Row(
+        f"Θ(φ + ε sin 3φ): {name}",
+        "10⁴ iterations",
+        lambda grade: abs(float(perturbed_rotation(*torus, epsilon, level(grade))[0]) - exact()),
+        floor=2e-4,
+        levels=("precise", "reference"),
+        because="10⁴ iterations say no more",
+        **options,
+    )
 
 
 def rows(Row):
@@ -121,15 +128,37 @@ def rows(Row):
         crossings(Row, "γ3 = 0, backward", plain, 3, 0.3, sense=-1),
         rotation(Row, "a = 0", 0.0, 0.5, 0.5, lambda: without_a(0.5, 0.5), "closed form, Π(n, m)"),
         rotation(Row, "a = 0, h = 1e6", 0.0, 1e6, 1.0, lambda: without_a(1e6, 1.0), "closed form, Π(n, m)"),
-        rotation(Row, "a = 100, h = 1.5", 100.0, 1.5, 0.6, lambda: by_cycle(100.0, 1.5, 0.6),
-                 "the cycle, Fourier collocation"),
-        rotation(Row, "a = 100, f at its edge", 100.0, h_n, f_n, lambda: on_the_curve(100.0, n),
-                 "closed form, on the curve"),
+        rotation(
+            Row,
+            "a = 100, h = 1.5",
+            100.0,
+            1.5,
+            0.6,
+            lambda: by_cycle(100.0, 1.5, 0.6),
+            "the cycle, Fourier collocation",
+        ),
+        rotation(
+            Row, "a = 100, f at its edge", 100.0, h_n, f_n, lambda: on_the_curve(100.0, n), "closed form, on the curve"
+        ),
         rotation(Row, "f at its edge", 0.5, h_n, f_n, lambda: on_the_curve(0.5, n), "closed form, on the curve"),
-        rotation(Row, "h = −1 + 1e-9", 0.5, -1.0 + 1e-9, 0.5 * f_max(-1.0 + 1e-9),
-                 lambda: by_orbits(0.5, -1.0 + 1e-9, 0.5 * f_max(-1.0 + 1e-9)), "three orbits, 40 digits"),
-        rotation(Row, "h = 1 + 1e-6, f = 1e-6", 0.5, 1.0 + 1e-6, 1e-6, lambda: by_orbits(0.5, 1.0 + 1e-6, 1e-6),
-                 "three orbits, 40 digits"),
+        rotation(
+            Row,
+            "h = −1 + 1e-9",
+            0.5,
+            -1.0 + 1e-9,
+            0.5 * f_max(-1.0 + 1e-9),
+            lambda: by_orbits(0.5, -1.0 + 1e-9, 0.5 * f_max(-1.0 + 1e-9)),
+            "three orbits, 40 digits",
+        ),
+        rotation(
+            Row,
+            "h = 1 + 1e-6, f = 1e-6",
+            0.5,
+            1.0 + 1e-6,
+            1e-6,
+            lambda: by_orbits(0.5, 1.0 + 1e-6, 1e-6),
+            "three orbits, 40 digits",
+        ),
         shifted(Row, "ε = 0.33", (0.5, 0.5, 0.5), 0.33),
         shifted(Row, "ε = −0.33, f < 0", (0.5, 0.5, -0.5), -0.33),
     ]
@@ -148,19 +177,33 @@ def refusals(Refusal):
     start = state_at(body, 0.3, 3, -0.3, 1.0)
     return [
         plainly("Suslov section, γ4 = 0", lambda: plane_of(4), "choose 1, 2 or 3"),
-        plainly("Suslov section, E below the plane", lambda: state_at(body, lowest_energy(body, 3), 3, 0.7, 1.0),
-                "choose a larger energy"),
+        plainly(
+            "Suslov section, E below the plane",
+            lambda: state_at(body, lowest_energy(body, 3), 3, 0.7, 1.0),
+            "choose a larger energy",
+        ),
         plainly("Suslov section, δ = π", lambda: state_at(body, 1.0, 3, 0.7, math.pi), "0 < δ < π"),
         plainly("Suslov section, E = ∞", lambda: states_at(body, math.inf, 3, 0.7, 1.0), "E is not"),
         plainly("Suslov section, a body with I22 = 0", lambda: body_of(I22=0.0), "choose", NotPositiveDefinite),
-        Refusal("Suslov section of 1e6 crossings",
-                lambda grade: suslov_points(body, 3, [start], 10**6, True, grade), WorkLimit, "number of crossings"),
-        plainly("Lyapunov exponent, t = 1e7", lambda: lyapunov_exponent(body, start, 1e7),
-                "choose a shorter time span", WorkLimit),
-        plainly("Lyapunov exponent, t = 0", lambda: lyapunov_exponent(body, start, 0.0),
-                "finite number other than 0"),
-        tori("1e6 + 1 tori", lambda grade: values_at(0.5, np.full(MAX_POINTS + 1, 0.5), 0.1, grade),
-             "choose fewer points", WorkLimit),
+        Refusal(
+            "Suslov section of 1e6 crossings",
+            lambda grade: suslov_points(body, 3, [start], 10**6, True, grade),
+            WorkLimit,
+            "number of crossings",
+        ),
+        plainly(
+            "Lyapunov exponent, t = 1e7",
+            lambda: lyapunov_exponent(body, start, 1e7),
+            "choose a shorter time span",
+            WorkLimit,
+        ),
+        plainly("Lyapunov exponent, t = 0", lambda: lyapunov_exponent(body, start, 0.0), "finite number other than 0"),
+        tori(
+            "1e6 + 1 tori",
+            lambda grade: values_at(0.5, np.full(MAX_POINTS + 1, 0.5), 0.1, grade),
+            "choose fewer points",
+            WorkLimit,
+        ),
         tori("h = 1e13", lambda grade: values_at(0.5, 1e13, 0.1, grade), "1e12"),
         tori("a = 1.1e6", lambda grade: values_at(1.1e6, 0.5, 0.1, grade), "a = "),
         tori("ε = 1/3", lambda grade: perturbed_rotation(0.5, 0.5, 0.1, 1.0 / 3.0, grade), "choose .ε. < 1/3"),

@@ -26,6 +26,7 @@ def beside(state, velocities, random):
 
 def upright(velocities, first):
     """At rest with the centre of mass above: γ along the parameters from `first` on, or against r, unit or not."""
+
     def start(parameters, random):
         vector = random.normal(size=3)
         parameters[first : first + 3] = vector
@@ -60,15 +61,25 @@ def at_rest_in_the_potential(parameters, random):
     return np.array([0.0, 0.0, *found.x, math.sqrt(1.0 - size**2)])
 
 
-_STARTS = {"suslov": upright(2, 4), "ball": upright(2, 5), "euler-poisson": upright(3, 3), "hess": on_a_pole,
-           "plane-potential": at_rest_in_the_potential}
+_STARTS = {
+    "suslov": upright(2, 4),
+    "ball": upright(2, 5),
+    "euler-poisson": upright(3, 3),
+    "hess": on_a_pole,
+    "plane-potential": at_rest_in_the_potential,
+}
 
 
 def growth_rate(system, state, parameters):
     """The largest real part of an eigenvalue of the field's derivative, by differences."""
     steps = 1e-6 * np.eye(len(state))
-    jacobian = np.column_stack([(np.array(system.field(list(state + e), parameters))
-                                 - np.array(system.field(list(state - e), parameters))) / 2e-6 for e in steps])
+    jacobian = np.column_stack(
+        [
+            (np.array(system.field(list(state + e), parameters)) - np.array(system.field(list(state - e), parameters)))
+            / 2e-6
+            for e in steps
+        ]
+    )
     return float(np.linalg.eigvals(jacobian).real.max())
 
 

@@ -20,12 +20,23 @@ def _field(y, p):
 
 
 SYSTEM = System(
-    name="spherical-pendulum", title="Spherical pendulum", source="", labels=(), parameters=("g",),
-    variables=("M1", "M2", "M3", "x1", "x2", "x3"), angular_velocities=3, field=_field,
-    integrals=lambda y, p: {"E": (y[0] ** 2 + y[1] ** 2 + y[2] ** 2) / 2 + p[0] * y[5], "L": y[2],
-                            "(M, x)": y[0] * y[3] + y[1] * y[4] + y[2] * y[5]},
+    name="spherical-pendulum",
+    title="Spherical pendulum",
+    source="",
+    labels=(),
+    parameters=("g",),
+    variables=("M1", "M2", "M3", "x1", "x2", "x3"),
+    angular_velocities=3,
+    field=_field,
+    integrals=lambda y, p: {
+        "E": (y[0] ** 2 + y[1] ** 2 + y[2] ** 2) / 2 + p[0] * y[5],
+        "L": y[2],
+        "(M, x)": y[0] * y[3] + y[1] * y[4] + y[2] * y[5],
+    },
     frequency=lambda y, p: (y[0] ** 2 + y[1] ** 2 + y[2] ** 2 + 4.0 * abs(p[0])) ** 0.5,
-    rescale=in_units_of_time(first=0, velocities=3), example=((0.8, 0.0, 0.6, 0.6, 0.0, -0.8), (1.0,)))
+    rescale=in_units_of_time(first=0, velocities=3),
+    example=((0.8, 0.0, 0.6, 0.6, 0.0, -0.8), (1.0,)),
+)
 """M = x × ẋ, so that |x| = 1 is kept by the form of the equations."""
 
 

@@ -55,6 +55,13 @@ class Pendulum(State):
 
 
 SCENE = Scene(
-    Pendulum, __file__, title="Spherical pendulum", summary="Closed curves: it is integrable.", group="Others",
-    presets=(Preset("A precessing ellipse"),), essential=("E",), tracks={"orbit": lambda s: s.orbit.columns},
-    views=(section_picture(lambda s: s.section, "place"), orbit_picture(lambda s: s.orbit, "x1", "x2")))
+    Pendulum,
+    __file__,
+    title="Spherical pendulum",
+    summary="Closed curves: it is integrable.",
+    group="Others",
+    presets=(Preset("A precessing ellipse"),),
+    essential=("E",),
+    tracks={"orbit": lambda s: s.orbit.columns},
+    views=(section_picture(lambda s: s.section, "place"), orbit_picture(lambda s: s.orbit, "x1", "x2")),
+)

@@ -14,16 +14,40 @@ _NEAR_0 = (-1.0, 1.0)
 
 I11 = replace(parameters.I11, default=1.0, bounds=_MOMENT)
 I22 = replace(parameters.I22, default=3.0, bounds=_MOMENT)
-I13 = replace(parameters.I13, default=0.0, softbounds=_NEAR_0, bounds=_PRODUCT,
-              doc="Product of inertia; with I₁₃ = I₂₃ = 0 the flow keeps volume.")
+I13 = replace(
+    parameters.I13,
+    default=0.0,
+    softbounds=_NEAR_0,
+    bounds=_PRODUCT,
+    doc="Product of inertia; with I₁₃ = I₂₃ = 0 the flow keeps volume.",
+)
 I23 = replace(parameters.I23, default=0.0, softbounds=_NEAR_0, bounds=_PRODUCT)
-D = replace(parameters.D, default=5.0, softbounds=(0.0, 10.0), bounds=(0.0, 1e2),
-            doc="𝒟 = (R/Rₛ)² Iₛ of the ball that rolls inside.")
+D = replace(
+    parameters.D,
+    default=5.0,
+    softbounds=(0.0, 10.0),
+    bounds=(0.0, 1e2),
+    doc="𝒟 = (R/Rₛ)² Iₛ of the ball that rolls inside.",
+)
 B1 = replace(parameters.B1, default=0.5, softbounds=_NEAR_0, bounds=_FIELD, doc="b = −mg r, r the centre of mass.")
 B2 = replace(parameters.B2, default=0.0, softbounds=_NEAR_0, bounds=_FIELD, doc="b = −mg r.")
-B3 = replace(parameters.B3, default=0.8, softbounds=_NEAR_0, bounds=_FIELD,
-             doc="b = −mg r; with I₁₃ = I₂₃ = 0 and b₃ = 0 every orbit closes.")
+B3 = replace(
+    parameters.B3,
+    default=0.8,
+    softbounds=_NEAR_0,
+    bounds=_FIELD,
+    doc="b = −mg r; with I₁₃ = I₂₃ = 0 and b₃ = 0 every orbit closes.",
+)
 
-PARAMETERS = {"h": "h", "I₁₁": "I11", "I₂₂": "I22", "I₁₃": "I13", "I₂₃": "I23", "𝒟": "D", "b₁": "b1", "b₂": "b2",
-              "b₃": "b3"}
+PARAMETERS = {
+    "h": "h",
+    "I₁₁": "I11",
+    "I₂₂": "I22",
+    "I₁₃": "I13",
+    "I₂₃": "I23",
+    "𝒟": "D",
+    "b₁": "b1",
+    "b₂": "b2",
+    "b₃": "b3",
+}
 """What its section depends on: symbols → names."""

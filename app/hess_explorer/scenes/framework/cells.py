@@ -22,8 +22,13 @@ COARSE = 3
 Arguments = tuple[Any, ...]
 
 
-def found_by_rows(work: Work, row_of: Callable[..., Array], coarse: Sequence[Arguments], fine: Sequence[Arguments],
-                  sooner: Callable[[], object]) -> tuple[Array, int] | None:
+def found_by_rows(
+    work: Work,
+    row_of: Callable[..., Array],
+    coarse: Sequence[Arguments],
+    fine: Sequence[Arguments],
+    sooner: Callable[[], object],
+) -> tuple[Array, int] | None:
     """The cells (n, …, m), and how many of their rows are still coarse.
 
     row_of : a row of cells (…, m) from its arguments, of a coarse or of a fine one; sooner : asks for what is to come

@@ -75,7 +75,8 @@ def of_torus(torus: Callable[[Any], Torus], **pictures: tuple[str, ...]) -> tupl
 
     return tuple(
         Charted(name, without_a if name == "critical-a" else arguments, pictures.get(name.replace("-", "_"), ()))
-        for name in ("rotation-number", "trace", "locked", "limit-cycles", "critical-a"))
+        for name in ("rotation-number", "trace", "locked", "limit-cycles", "critical-a")
+    )
 
 
 def tensor_of(body: _Tensor) -> Mapping[str, float]:
@@ -89,8 +90,12 @@ def motion_of(body: Body, start: tuple[float, ...]) -> Mapping[str, float]:
     return dict(zip((*system.parameters, *system.arguments), (*body.parameters, *start), strict=True))
 
 
-def exponents(name: str, start: Callable[[B], tuple[float, ...]], pictures: tuple[str, ...] = (),
-              time: Callable[[B], float] | None = None) -> tuple[Charted[B], ...]:
+def exponents(
+    name: str,
+    start: Callable[[B], tuple[float, ...]],
+    pictures: tuple[str, ...] = (),
+    time: Callable[[B], float] | None = None,
+) -> tuple[Charted[B], ...]:
     """Return Lyapunov exponents, MEGNO and crossings of the chosen motion of a system of that name.
 
     start(state) : where it starts, raises `ModelError` where no motion is possible; time(state) : to average over;
@@ -103,5 +108,9 @@ def exponents(name: str, start: Callable[[B], tuple[float, ...]], pictures: tupl
     def averaged(s: B) -> Mapping[str, float]:
         return motion(s) if time is None else {**motion(s), "t": time(s)}
 
-    return (Charted(f"lyapunov-{name}", averaged), Charted(f"megno-{name}", motion, pictures),
-            Charted(f"spectrum-{name}", averaged), Charted(f"crossings-{name}", motion))
+    return (
+        Charted(f"lyapunov-{name}", averaged),
+        Charted(f"megno-{name}", motion, pictures),
+        Charted(f"spectrum-{name}", averaged),
+        Charted(f"crossings-{name}", motion),
+    )

@@ -16,21 +16,41 @@ from hess_mechanics.parameters import CIRCLE_PHASE, Parameter
 
 __all__ = ["CIRCLES", "DIGITS", "PHI", "sphere"]
 
-CIRCLES = (Sign("circle joined", "line", f"border-top: 3px solid {theme.STABLE}"),
-           Sign("circle left", "line", f"border-top: 3px dashed {theme.UNSTABLE}"),
-           Sign("fixed points Γ = ±1", "dot", f"background: {theme.MUTED}"))
+CIRCLES = (
+    Sign("circle joined", "line", f"border-top: 3px solid {theme.STABLE}"),
+    Sign("circle left", "line", f"border-top: 3px dashed {theme.UNSTABLE}"),
+    Sign("fixed points Γ = ±1", "dot", f"background: {theme.MUTED}"),
+)
 """Of the legend."""
 
 PHI = replace(CIRCLE_PHASE, label="Phase φ of the chosen orbit", bounds=ONE_TURN)
-DIGITS = Parameter("digits", "−lg δ", "Distance δ of the start, digits", 4.0, (2.0, 8.0), 0.05, (2.0, 10.0),
-                   "The chosen orbit starts δ = 10^−digits of |ω| away from Nᵘ.")
+DIGITS = Parameter(
+    "digits",
+    "−lg δ",
+    "Distance δ of the start, digits",
+    4.0,
+    (2.0, 8.0),
+    0.05,
+    (2.0, 10.0),
+    "The chosen orbit starts δ = 10^−digits of |ω| away from Nᵘ.",
+)
 
 S = TypeVar("S")
 
 
-def sphere(caption: Callable[[S], str], xi: Callable[[S], Array], left: Callable[[S], float],
-           joined: Callable[[S], float], signs: tuple[Sign, ...] = ()) -> Sphere[S]:
+def sphere(
+    caption: Callable[[S], str],
+    xi: Callable[[S], Array],
+    left: Callable[[S], float],
+    joined: Callable[[S], float],
+    signs: tuple[Sign, ...] = (),
+) -> Sphere[S]:
     """The sphere with the orbit on show, the axis ξ, and two circles about it: left(state) = θ⁻, joined(state) = Γ."""
-    return Sphere(caption=caption, looks={"orbit": "orbit"}, axis=lambda s: Direction(xi(s), "ξ"), signs=signs,
-                  circles=lambda s: [Circle(xi(s), math.cos(left(s)), "unstable"),
-                                     Circle(xi(s), joined(s), "stable")], marks=lambda s: ends(xi(s)))
+    return Sphere(
+        caption=caption,
+        looks={"orbit": "orbit"},
+        axis=lambda s: Direction(xi(s), "ξ"),
+        signs=signs,
+        circles=lambda s: [Circle(xi(s), math.cos(left(s)), "unstable"), Circle(xi(s), joined(s), "stable")],
+        marks=lambda s: ends(xi(s)),
+    )

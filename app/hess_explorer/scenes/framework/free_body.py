@@ -16,8 +16,12 @@ from hess_mechanics.suslov.equations import SuslovBody
 __all__ = ["I13", "I22", "I23", "about_I11", "free_body", "limits_of_k"]
 
 I22 = replace(parameters.I22, default=1.0, softbounds=(0.2, 3.0))
-I13 = replace(parameters.I13, default=0.0, softbounds=(-1.0, 1.0),
-              doc="Product of inertia; with I₂₃ it sets the line of equilibria I₁₃ω₁ + I₂₃ω₂ = 0.")
+I13 = replace(
+    parameters.I13,
+    default=0.0,
+    softbounds=(-1.0, 1.0),
+    doc="Product of inertia; with I₂₃ it sets the line of equilibria I₁₃ω₁ + I₂₃ω₂ = 0.",
+)
 I23 = replace(parameters.I23, default=0.5, softbounds=(-1.0, 1.0), doc="Product of inertia; not 0 together with I₁₃.")
 
 
@@ -25,11 +29,13 @@ def free_body(k: float, I22: float, I13: float, I23: float) -> SuslovBody:
     """Return the body.  Raises `NotPositiveDefinite`, `InvalidParameter`, in the words of the controls."""
     if I13 == I23 == 0.0:
         raise InvalidParameter(
-            "I₁₃ = I₂₃ = 0: without a field ω does not change, and there is no ξ. Choose one of them other than 0.")
+            "I₁₃ = I₂₃ = 0: without a field ω does not change, and there is no ξ. Choose one of them other than 0."
+        )
     I11 = I11_at(k, I22, I13, I23)
     if I11 <= 0.0:
-        raise InvalidParameter(f"k = {digits(k)} would make I₁₁ = {digits(I11)}; a moment of inertia is positive. "
-                               "Choose a larger k.")
+        raise InvalidParameter(
+            f"k = {digits(k)} would make I₁₁ = {digits(I11)}; a moment of inertia is positive. Choose a larger k."
+        )
     return SuslovBody(I11, I22, I13, I23)
 
 

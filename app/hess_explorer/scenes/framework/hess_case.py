@@ -58,13 +58,25 @@ _INSIDE = 1.0 - 1e-12
 UNSURE = 1e-9
 BY_THE_UNSTABLE_CYCLE = "This motion starts next to the unstable cycle: on the torus too any round-off grows there."
 
-I22 = replace(known.I22, default=0.96, softbounds=(0.2, 3.0),
-              doc="Moment of inertia about the second body axis. I₁₁ follows from it and I₂₃.")
-I23 = replace(known.I23, default=0.28,
-              doc="Product of inertia. a = I₂₃/I₂₂ tilts the circular section; a = 0 decouples the motion.")
+I22 = replace(
+    known.I22,
+    default=0.96,
+    softbounds=(0.2, 3.0),
+    doc="Moment of inertia about the second body axis. I₁₁ follows from it and I₂₃.",
+)
+I23 = replace(
+    known.I23,
+    default=0.28,
+    doc="Product of inertia. a = I₂₃/I₂₂ tilts the circular section; a = 0 decouples the motion.",
+)
 # Without a field in this direction there is no Hess case.
-B3 = replace(known.B3, default=-1.0, softbounds=(-3.0, -0.05), bounds=(-1e3, -1e-3),
-             doc="Third component of b = −mg r. It sets the unit of time; b₂ follows from it.")
+B3 = replace(
+    known.B3,
+    default=-1.0,
+    softbounds=(-3.0, -0.05),
+    bounds=(-1e3, -1e-3),
+    doc="Third component of b = −mg r. It sets the unit of time; b₂ follows from it.",
+)
 PHI0 = replace(known.PHI0, bounds=ONE_TURN)
 
 RIS = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": math.sqrt(0.5)}
@@ -105,8 +117,9 @@ def map_or_none(work: Work, a: float, h: float, f: float, level: Level) -> Circl
         return None
 
 
-def limit_cycles(work: Work, hess: HessBody, theta: CircleMap | None, level: Level, half_width: float
-                 ) -> tuple[Track, Track] | None:
+def limit_cycles(
+    work: Work, hess: HessBody, theta: CircleMap | None, level: Level, half_width: float
+) -> tuple[Track, Track] | None:
     """The stable and the unstable limit cycle on the torus of a circle map, where there are two; see `torus.cycles`."""
     if theta is None or theta.kind != "hyperbolic":
         return None
@@ -133,13 +146,17 @@ def proved(I22: float, I23: float, h: float, f: float) -> Proved:
     if found.statement == NO_CYCLE:
         # To as many digits as show that it is less than 2.
         least = next(count for count in itertools.count(4) if Fraction(found.trace.decimals(count)[1]) < 2)
-        return Proved(f"Proved: no cycle, |trace| in {_within(found.trace, least)}.",
-                      f"Proved: no cycle, |trace| in {_within(found.trace, least + 7)}{_costs(found)}")
+        return Proved(
+            f"Proved: no cycle, |trace| in {_within(found.trace, least)}.",
+            f"Proved: no cycle, |trace| in {_within(found.trace, least + 7)}{_costs(found)}",
+        )
     if found.statement != TWO_CYCLES:
         return Proved(f"Undecided at {found.bits} bits.", f"Undecided at {found.bits} bits: |trace| is too close to 2")
     less, more = found.multipliers
-    return Proved(f"Proved: exactly two cycles, multipliers in {_within(less, 4)}, {_within(more, 4)}.",
-                  f"Proved: exactly two cycles, multipliers in {_within(less, 11)}, {_within(more, 11)}{_costs(found)}")
+    return Proved(
+        f"Proved: exactly two cycles, multipliers in {_within(less, 4)}, {_within(more, 4)}.",
+        f"Proved: exactly two cycles, multipliers in {_within(less, 11)}, {_within(more, 11)}{_costs(found)}",
+    )
 
 
 def _within(found: Enclosure, count: int) -> str:
@@ -177,8 +194,10 @@ class HeavyHess:
         largest = self._largest_f(h)
         if abs(f) > largest:
             f = math.copysign(largest, f)
-            notes.append(f"At h = {digits(h)} only |f| ≤ {digits(largest)} is possible on the Hess manifold: f is at "
-                         "that edge now.")
+            notes.append(
+                f"At h = {digits(h)} only |f| ≤ {digits(largest)} is possible on the Hess manifold: f is at "
+                "that edge now."
+            )
         return {"h": h, "f": f}
 
     def limits(self) -> Mapping[str, Slider]:
@@ -194,8 +213,10 @@ class HeavyHess:
     def bridge(self) -> Bridge:
         """The heavy body, and the Suslov body of its motions.  Raises `InvalidParameter`, `NoField`."""
         if abs(self.m) < self._least_weight:
-            raise NoField(f"μ|r| = {digits(self.m)}: without weight there is no Hess case. Choose μ|r| of at least "
-                          f"{digits(self._least_weight)}.")
+            raise NoField(
+                f"μ|r| = {digits(self.m)}: without weight there is no Hess case. Choose μ|r| of at least "
+                f"{digits(self._least_weight)}."
+            )
         return Bridge.of_heavy(HeavyBody.hess(self.moments, self.m))
 
     @cached_property
@@ -204,5 +225,6 @@ class HeavyHess:
         try:
             return turning_points(*self.bridge.in_units_of_b(self.h, self.f))
         except Separatrix:
-            raise Separatrix("h = μ|r|, f = 0 is the separatrix: n₃ has no period. Choose another h, or f other than "
-                             "0.") from None
+            raise Separatrix(
+                "h = μ|r|, f = 0 is the separatrix: n₃ has no period. Choose another h, or f other than 0."
+            ) from None

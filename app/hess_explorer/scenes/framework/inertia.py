@@ -18,5 +18,8 @@ def limits_of_moments(I1: float, I2: float, I3: float) -> Mapping[str, Slider]:
     if not (low <= I2 <= high and high - low > 2.0 * _STEP):
         return {}
     smallest, largest = ("I1", "I3") if I1 < I3 else ("I3", "I1")
-    return {smallest: (min(_ENDS[0], low), I2, _STEP), "I2": (low, high, _STEP),
-            largest: (I2, max(_ENDS[1], high), _STEP)}
+    return {
+        smallest: (min(_ENDS[0], low), I2, _STEP),
+        "I2": (low, high, _STEP),
+        largest: (I2, max(_ENDS[1], high), _STEP),
+    }

@@ -12,8 +12,19 @@ from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.parameters import Group, Parameter
 
 __all__ = [
-    "ONE_TURN", "TURN", "Slider", "accuracy_level", "choice", "exponent_time", "like", "number", "parameter", "places",
-    "slider_within", "specs_of", "time_span",
+    "ONE_TURN",
+    "TURN",
+    "Slider",
+    "accuracy_level",
+    "choice",
+    "exponent_time",
+    "like",
+    "number",
+    "parameter",
+    "places",
+    "slider_within",
+    "specs_of",
+    "time_span",
 ]
 
 Slider = tuple[float, float, float]
@@ -43,8 +54,18 @@ def parameter(known: Parameter, default: float | None = None, **changes: Any) ->
     return _field(Number(**known.changed(default=known.default if default is None else default, **changes)))
 
 
-def number(symbol: str, default: float, softbounds: tuple[float, float], step: float, *, bounds: tuple[float, float],
-           label: str, doc: str, group: Group = "State", means: str = "") -> Any:
+def number(
+    symbol: str,
+    default: float,
+    softbounds: tuple[float, float],
+    step: float,
+    *,
+    bounds: tuple[float, float],
+    label: str,
+    doc: str,
+    group: Group = "State",
+    means: str = "",
+) -> Any:
     """A number: its slider covers `softbounds` in steps; what is typed, or comes by a link, lies within `bounds`."""
     return _field(Number("", symbol, label, default, softbounds, step, bounds, doc, group, means=means))
 
@@ -61,25 +82,45 @@ def places(label: str, most: int, low: tuple[float, float], high: tuple[float, f
 
 def accuracy_level() -> Any:
     """The accuracy level, by its name: in the same words in every scene."""
-    return choice("Accuracy", (*LEVELS, AUTO), "standard",
-                  doc="Promised error of an orbit: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of "
-                      "double precision. One orbit costs about the same at every level: reference takes 0.74 to 2.2 × "
-                      "as long as draft, whose error is up to 0.2 pixels. Draft is cheaper where it computes less: "
-                      "of sections 25 % of the crossings (6.3 to 9.2 ×, error up to 6.9 pixels), of basins 33 % of "
-                      "the cells along a side (14 ×, 3.8 % of the cells change). Auto: the cheapest that shows all "
-                      "of it right to half a pixel.")
+    return choice(
+        "Accuracy",
+        (*LEVELS, AUTO),
+        "standard",
+        doc="Promised error of an orbit: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of "
+        "double precision. One orbit costs about the same at every level: reference takes 0.74 to 2.2 × "
+        "as long as draft, whose error is up to 0.2 pixels. Draft is cheaper where it computes less: "
+        "of sections 25 % of the crossings (6.3 to 9.2 ×, error up to 6.9 pixels), of basins 33 % of "
+        "the cells along a side (14 ×, 3.8 % of the cells change). Auto: the cheapest that shows all "
+        "of it right to half a pixel.",
+    )
 
 
 def exponent_time(default: float, longest: float, most: float, what: str) -> Any:
     """How long something is averaged along the orbit on show."""
-    return number("T", default, (10.0, longest), 10.0, bounds=(1.0, most), label="Time of the exponent",
-                  group="Computation", doc=f"How long {what} averaged.")
+    return number(
+        "T",
+        default,
+        (10.0, longest),
+        10.0,
+        bounds=(1.0, most),
+        label="Time of the exponent",
+        group="Computation",
+        doc=f"How long {what} averaged.",
+    )
 
 
 def time_span(default: float, longest: float, *, step: float = 1.0, most: float = 1e4, what: str = "the orbit") -> Any:
     """How long something is followed; the slider goes to `longest`, and what is typed to `most`."""
-    return number("t", default, (1.0, longest), step, bounds=(0.01, most), label="Time span",
-                  doc=f"How long {what} is followed.", group="Computation")
+    return number(
+        "t",
+        default,
+        (1.0, longest),
+        step,
+        bounds=(0.01, most),
+        label="Time span",
+        doc=f"How long {what} is followed.",
+        group="Computation",
+    )
 
 
 def like(state: type[Any], name: str, default: Value | None = None, **changes: Any) -> Any:

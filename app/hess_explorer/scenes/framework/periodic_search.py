@@ -14,8 +14,21 @@ from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.patience import go_on
 
 __all__ = [
-    "ANY", "AT_ITS_LENGTH", "MOST_CROSSINGS", "MOST_POINTS", "NONE", "PERIODS", "BranchChoice", "Closed", "Missed",
-    "Place", "Search", "branch_of", "crossings_between", "none_closed", "sought",
+    "ANY",
+    "AT_ITS_LENGTH",
+    "MOST_CROSSINGS",
+    "MOST_POINTS",
+    "NONE",
+    "PERIODS",
+    "BranchChoice",
+    "Closed",
+    "Missed",
+    "Place",
+    "Search",
+    "branch_of",
+    "crossings_between",
+    "none_closed",
+    "sought",
 ]
 
 Place = tuple[float, ...]
@@ -65,8 +78,11 @@ def sought(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> Close
     try:
         orbit = find_periodic(map_, aim, period, _MOST, near)
         first = orbit.places[0]
-        return Closed(replace(orbit, symmetric=tuple(map_.symmetries_of(orbit.places))),
-                      tuple(map(float, map_.state_at(first))), map_.time_of(first, orbit.period))
+        return Closed(
+            replace(orbit, symmetric=tuple(map_.symmetries_of(orbit.places))),
+            tuple(map(float, map_.state_at(first))),
+            map_.time_of(first, orbit.period),
+        )
     except ModelError as error:
         # Where time is up nothing is known of the orbit.
         go_on()
@@ -79,8 +95,18 @@ def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float)
     place, stable, side = branch
     for part in _PARTS:
         try:
-            curve = grown(search[0], found.orbit, part * length, stable, side, place, _SAGITTA * pixel, _CHORD * pixel,
-                          MOST_POINTS, _RETURNS)
+            curve = grown(
+                search[0],
+                found.orbit,
+                part * length,
+                stable,
+                side,
+                place,
+                _SAGITTA * pixel,
+                _CHORD * pixel,
+                MOST_POINTS,
+                _RETURNS,
+            )
         except ModelError as error:
             go_on()
             return Missed(str(error))
@@ -89,8 +115,9 @@ def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float)
     return Missed(_UNKNOWN)
 
 
-def crossings_between(search: Search, unstable: BranchChoice, stable: BranchChoice, length: float, pixel: float
-                      ) -> tuple[Intersection, ...]:
+def crossings_between(
+    search: Search, unstable: BranchChoice, stable: BranchChoice, length: float, pixel: float
+) -> tuple[Intersection, ...]:
     """Where two branches cross, as far as they are drawn."""
     one, other = (CACHE.get(branch_of, search, branch, length, pixel)[0] for branch in (unstable, stable))
     if isinstance(one, Missed) or isinstance(other, Missed):

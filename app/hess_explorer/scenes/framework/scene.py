@@ -143,8 +143,11 @@ class State:
 
         Raises `ModelError` where that cannot be told.
         """
-        return {name: value for part, other in zip(self.parts(), before.parts(), strict=True)
-                for name, value in part.carried(other).items()}
+        return {
+            name: value
+            for part, other in zip(self.parts(), before.parts(), strict=True)
+            for name, value in part.carried(other).items()
+        }
 
     def motion(self) -> Motion | None:
         """Return the motion on show, for "Speed and accuracy"; None where there is none.  Raises `ModelError`."""
@@ -215,7 +218,7 @@ class Scene(Generic[S]):
         text = Path(self.module).with_suffix(".md").read_text(encoding="utf-8")
         found = re.match(r"---\nmoves: (.+)\n---\n", text)
         assert found is not None, self.module
-        return found[1], "\n" * found[0].count("\n") + text[found.end():]
+        return found[1], "\n" * found[0].count("\n") + text[found.end() :]
 
     @property
     def words(self) -> str:
@@ -257,9 +260,11 @@ class Scene(Generic[S]):
     @cached_property
     def legend(self) -> str:
         """HTML: a list of the signs of all pictures; one sign has one entry."""
-        items = (f'<li><span class="{kind}" style="{in_css(style)}"></span>'
-                 f'{escape(", ".join(sign.label for sign in signs))}</li>'
-                 for (kind, style), signs in self.signs.items())
+        items = (
+            f'<li><span class="{kind}" style="{in_css(style)}"></span>'
+            f"{escape(', '.join(sign.label for sign in signs))}</li>"
+            for (kind, style), signs in self.signs.items()
+        )
         return f'<ul class="legend" aria-label="Legend">{"".join(items)}</ul>'
 
     @cached_property
@@ -311,7 +316,8 @@ class Scene(Generic[S]):
         work = Work(str(values.get("accuracy", "standard")), dragging)
         typed: dict[str, Any] = {
             spec.name: float(values[spec.name]) if isinstance(spec, Number) else str(values[spec.name])
-            for spec in self.specs}
+            for spec in self.specs
+        }
         return self.state(**typed, work=work, seen=frozenset(seen))
 
     def admit(self, values: Values) -> tuple[dict[str, Value], list[str]]:
@@ -319,8 +325,9 @@ class Scene(Generic[S]):
         within: dict[str, Value] = {}
         notes: list[str] = []
         for spec in self.specs:
-            value, note = (spec.admit(float(values[spec.name])) if isinstance(spec, Number)
-                           else spec.read(str(values[spec.name])))
+            value, note = (
+                spec.admit(float(values[spec.name])) if isinstance(spec, Number) else spec.read(str(values[spec.name]))
+            )
             within[spec.name] = value
             notes += [note] if note else []
         try:
@@ -344,8 +351,11 @@ class Scene(Generic[S]):
 
     def _meanings(self, values: Values) -> Mapping[str, str]:
         """What each number and choice of a state means, by its name; without those that nothing depends on."""
-        labels = {spec.name: (isinstance(spec, Number) and spec.means) or spec.label for spec in self.specs
-                  if isinstance(spec, Number | Choice)}
+        labels = {
+            spec.name: (isinstance(spec, Number) and spec.means) or spec.label
+            for spec in self.specs
+            if isinstance(spec, Number | Choice)
+        }
         idle = self.idle(values)
         return {name: said for name, said in {**labels, **self.of(values).means()}.items() if name not in idle}
 
@@ -355,9 +365,14 @@ class Scene(Generic[S]):
         left : its values, of which those are taken that are possible here.
         """
         defaults, mine, its = before.defaults(), self._meanings(there), before._meanings(left)
-        taken = {spec.name: left[spec.name] for spec in self.specs
-                 if spec.name in mine and mine[spec.name] == its.get(spec.name)
-                 and left[spec.name] != defaults[spec.name] and spec.read(str(left[spec.name]))[1] is None}
+        taken = {
+            spec.name: left[spec.name]
+            for spec in self.specs
+            if spec.name in mine
+            and mine[spec.name] == its.get(spec.name)
+            and left[spec.name] != defaults[spec.name]
+            and spec.read(str(left[spec.name]))[1] is None
+        }
         return {**there, **taken}
 
     def compute(self, values: Values, seen: Collection[str], dragging: bool) -> S:
@@ -379,8 +394,11 @@ class Scene(Generic[S]):
     def in_sight(self, state: S) -> Iterator[tuple[Trial[Any], State]]:
         """What is computed for the pictures in sight, and of which state."""
         plain = bare(state)
-        return ((trial, plain) for trial in self.trials
-                if trial.shown(state) and (not trial.pictures or state.seen.intersection(trial.pictures)))
+        return (
+            (trial, plain)
+            for trial in self.trials
+            if trial.shown(state) and (not trial.pictures or state.seen.intersection(trial.pictures))
+        )
 
     def _settle(self, state: S) -> None:
         """Find the level that "auto" stands for: the cheapest whose error is not seen in any picture in sight."""

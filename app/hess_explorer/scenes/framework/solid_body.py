@@ -88,8 +88,14 @@ class Constrained(Solid):
     def along(cls, work: Work, parameters: tuple[float, ...], times: Array, states: Array) -> Constrained:
         """Return it along states (n, 5) = (ω1, ω2, γ); parameters : I11, I22, I13, I23, …, b1, b2, b3."""
         I11, I22, I13, I23, *_, b1, b2, b3 = parameters
-        return cls(times, states[:, :2], states[:, 2:], (I11, I22, I13, I23), (b1, b2, b3),
-                   work.get(check_body, I11, I22, I13, I23))
+        return cls(
+            times,
+            states[:, :2],
+            states[:, 2:],
+            (I11, I22, I13, I23),
+            (b1, b2, b3),
+            work.get(check_body, I11, I22, I13, I23),
+        )
 
     @classmethod
     def of_free(cls, work: Work, body: SuslovBody, motion: FreeMotion) -> Constrained:
@@ -105,8 +111,11 @@ class Constrained(Solid):
     def I33(self) -> float:
         """It is free: the middle one of those of rigid bodies, or one with which the tensor is positive definite."""
         I11, I22, I13, I23 = self.tensor
-        return (max(0.5 * (I11 + I22), 2.0 * (I13**2 / I11 + I23**2 / I22)) if self.check.I33 is None
-                else 0.5 * sum(self.check.I33))
+        return (
+            max(0.5 * (I11 + I22), 2.0 * (I13**2 / I11 + I23**2 / I22))
+            if self.check.I33 is None
+            else 0.5 * sum(self.check.I33)
+        )
 
     def shape(self) -> Shape:
         """The ellipsoid of inertia."""
@@ -194,8 +203,14 @@ def _own(state: Any) -> Any:
     return state.solid
 
 
-def constrained_body(of: Callable[[S], Solid] = _own, *, ball: bool = False, field: bool = True, section: bool = False,
-                     title: str = "The body in space") -> BodyInSpace[S]:
+def constrained_body(
+    of: Callable[[S], Solid] = _own,
+    *,
+    ball: bool = False,
+    field: bool = True,
+    section: bool = False,
+    title: str = "The body in space",
+) -> BodyInSpace[S]:
     """The picture of a body with wheels; ball : it rolls on another one; field : whether there may be one.
 
     section : whether its circular section is drawn, and the trail is that of the centre of mass, not that of a wheel.
@@ -210,21 +225,44 @@ def constrained_body(of: Callable[[S], Solid] = _own, *, ball: bool = False, fie
         return Trail(_WHEEL if mass is None else mass.along, "orbit")
 
     return BodyInSpace(
-        name="body", title="The ball in space" if ball else title, bare=True, hollow=ball,
-        caption=(lambda s: "It rolls on a ball inside, whose centre stays; wheels for (ω, e) = 0."
-                 if of(s).in_space() else of(s).about()) if ball else (lambda s: of(s).about()),
+        name="body",
+        title="The ball in space" if ball else title,
+        bare=True,
+        hollow=ball,
+        caption=(
+            lambda s: (
+                "It rolls on a ball inside, whose centre stays; wheels for (ω, e) = 0."
+                if of(s).in_space()
+                else of(s).about()
+            )
+        )
+        if ball
+        else (lambda s: of(s).about()),
         shape=(lambda s: Shape(np.eye(3), np.ones(3), None, ("", "", ""))) if ball else (lambda s: of(s).shape()),
-        motion=lambda s: of(s).in_space(s.dragging), rods=rods, heavy=lambda s: of(s).mass is not None,
-        wheels=lambda s: Wheels(_WHEEL, (0.0, 0.0, 1.0)), trail=trail,
-        signs=(*((_TRAIL, _SECTION) if section else (replace(_TRAIL, label="trail of a wheel"),)),
-               *((_MASS,) if field else ())))
+        motion=lambda s: of(s).in_space(s.dragging),
+        rods=rods,
+        heavy=lambda s: of(s).mass is not None,
+        wheels=lambda s: Wheels(_WHEEL, (0.0, 0.0, 1.0)),
+        trail=trail,
+        signs=(
+            *((_TRAIL, _SECTION) if section else (replace(_TRAIL, label="trail of a wheel"),)),
+            *((_MASS,) if field else ()),
+        ),
+    )
 
 
-def heavy_solid(of: Callable[[S], Heavy] = _own, *, name: str = "body", title: str = "The body in space"
-                ) -> BodyInSpace[S]:
+def heavy_solid(
+    of: Callable[[S], Heavy] = _own, *, name: str = "body", title: str = "The body in space"
+) -> BodyInSpace[S]:
     """The picture of a heavy body."""
     return BodyInSpace(
-        name=name, title=title, bare=True, caption=lambda s: of(s).about(), shape=lambda s: of(s).shape(),
-        motion=lambda s: of(s).in_space(s.dragging), rods=lambda s: [Rod(of(s).mass.along, "mass", "r")],
+        name=name,
+        title=title,
+        bare=True,
+        caption=lambda s: of(s).about(),
+        shape=lambda s: of(s).shape(),
+        motion=lambda s: of(s).in_space(s.dragging),
+        rods=lambda s: [Rod(of(s).mass.along, "mass", "r")],
         trail=lambda s: Trail(of(s).mass.along, "orbit"),
-        signs=(_TRAIL, _SECTION, _MASS))
+        signs=(_TRAIL, _SECTION, _MASS),
+    )

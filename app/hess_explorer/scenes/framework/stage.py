@@ -107,8 +107,12 @@ def _same(left: Any, right: Any) -> bool:
     if left is right:
         return True
     if isinstance(left, np.ndarray) or isinstance(right, np.ndarray):
-        return (isinstance(left, np.ndarray) and isinstance(right, np.ndarray) and left.shape == right.shape
-                and bool(np.array_equal(left, right)))
+        return (
+            isinstance(left, np.ndarray)
+            and isinstance(right, np.ndarray)
+            and left.shape == right.shape
+            and bool(np.array_equal(left, right))
+        )
     if isinstance(left, Mapping) and isinstance(right, Mapping):
         return left.keys() == right.keys() and all(_same(value, right[name]) for name, value in left.items())
     if isinstance(left, list) and isinstance(right, list):

@@ -18,8 +18,14 @@ S = TypeVar("S", bound=State)
 
 def boundary(picture: str, run: Callable[[S, Plan], Array], frame: Callable[[S], Frame]) -> Trial[S]:
     """Return the trial of the curve |t| = 2 (n, 2) in that picture, run(state, plan)."""
+
     def look(s: S, found: Array) -> Curves:
         return Curves(frame(s), (found,) if len(found) else ())
 
-    return Trial(Computation.CURVE, (picture,), run,
-                 lambda s, found, truth: compared(look(s, found), look(s, truth)).largest, look)
+    return Trial(
+        Computation.CURVE,
+        (picture,),
+        run,
+        lambda s, found, truth: compared(look(s, found), look(s, truth)).largest,
+        look,
+    )

@@ -27,8 +27,19 @@ if TYPE_CHECKING:
     from hess_explorer.scenes.framework.scene import Motion, State
 
 __all__ = [
-    "COLOUR", "COLOUR_UNIT", "Refused", "Trial", "bare", "colour_error", "curve_error", "differing", "measured",
-    "needed", "next_level", "orbit_trial", "section_error",
+    "COLOUR",
+    "COLOUR_UNIT",
+    "Refused",
+    "Trial",
+    "bare",
+    "colour_error",
+    "curve_error",
+    "differing",
+    "measured",
+    "needed",
+    "next_level",
+    "orbit_trial",
+    "section_error",
 ]
 
 S = TypeVar("S", bound="State")
@@ -99,6 +110,7 @@ def _unless_refused(found: Callable[[], T]) -> T | Refused:
 
 def measured(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refused:
     """Time and error of each level, for a `bare` state.  Raises `OverBudget`."""
+
     def found() -> tuple[LevelCost, ...]:
         less = trial.small(state)
         return measure(trial.kind, lambda plan: trial.run(less, plan), lambda *both: trial.error(less, *both))
@@ -110,8 +122,9 @@ def needed(trial: Trial[S], state: S) -> str:
     """The cheapest level whose error cannot be seen; `standard` for what cannot be computed.  Raises `OverBudget`."""
     try:
         less = trial.small(state)
-        return measure_until(trial.kind, lambda plan: trial.run(less, plan),
-                             lambda *both: trial.error(less, *both), trial.seen)
+        return measure_until(
+            trial.kind, lambda plan: trial.run(less, plan), lambda *both: trial.error(less, *both), trial.seen
+        )
     except OverBudget:
         raise
     except ModelError:
@@ -126,6 +139,7 @@ def next_level(name: str) -> str | None:
 
 def differing(trial: Trial[S], state: S, name: str, finer: str) -> Difference | Refused:
     """What a more exact level changes in the picture of a level, for a `bare` state.  Raises `OverBudget`."""
+
     def found() -> Difference:
         less, plan, other = trial.small(state), PLANS[trial.kind][name], PLANS[trial.kind][finer]
         if trial.alike:
@@ -189,8 +203,9 @@ def colour_error(values: Array, exact: Array) -> float:
     return float(np.percentile(np.abs(values - exact), 99.0)) / COLOUR if values.size else 0.0
 
 
-def section_error(orbits: Sequence[Array], truth: Sequence[Array], pixels: Sequence[float],
-                  periods: Sequence[float] = (math.inf,) * 2) -> float:
+def section_error(
+    orbits: Sequence[Array], truth: Sequence[Array], pixels: Sequence[float], periods: Sequence[float] = (math.inf,) * 2
+) -> float:
     """The largest error of orbits (n, 2) in pixels, chaotic ones aside: no level keeps those to their end."""
     worst = 0.0
     for one, other in zip(orbits, truth, strict=True):

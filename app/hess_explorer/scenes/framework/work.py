@@ -57,8 +57,9 @@ class Work:
         steady : for what hardly any slider changes: during a drag it stays as it is, but is no finer than `standard`.
         """
         if steady:
-            return plan(kind, STANDARD.name if self.dragging and level(self.chosen).order > STANDARD.order
-                        else self.chosen)
+            return plan(
+                kind, STANDARD.name if self.dragging and level(self.chosen).order > STANDARD.order else self.chosen
+            )
         found = plan(kind, self.level.name)
         return replace(found, share=1.0, cells=1.0) if self.dragging else found
 
@@ -137,8 +138,9 @@ def orbit_status(orbit: Orbit | FreeMotion) -> list[str]:
 def kept_status(kept: tuple[int, int | None] | None, crossings: int) -> Iterator[str]:
     """For the status line: up to which of so many crossings the orbits of a section are right to half a pixel."""
     if kept is not None:
-        own, others = ("to the end" if count is not None and count >= crossings else f"up to crossing {count}"
-                       for count in kept)
+        own, others = (
+            "to the end" if count is not None and count >= crossings else f"up to crossing {count}" for count in kept
+        )
         median = "" if kept[1] is None else f", others {others} (median)"
         yield f"right to ½ pixel: the chosen orbit {own}{median}"
 

@@ -67,8 +67,9 @@ class Basins(Part[_Host]):
         if not self.wanted or self.work.dragging:
             return None
         plan = self.work.plan(Computation.BASINS)
-        return found_by_rows(self.work, SuslovSection.ends, self.rows(plan, COARSE), self.rows(plan),
-                             lambda: self.section.batches)
+        return found_by_rows(
+            self.work, SuslovSection.ends, self.rows(plan, COARSE), self.rows(plan), lambda: self.section.batches
+        )
 
     @property
     def ends(self) -> Array | None:
@@ -88,8 +89,10 @@ class Basins(Part[_Host]):
             return None
         grid = self.work.plan(Computation.BASINS).grid(CELLS)
         long = self.work.plan(Computation.EXPONENT).share * self.host.long
-        found = [self.work.later(contraction_at, self.host.poincare, self.section.frame, grid, row, column, long)
-                 for row, column in middle_cells(ends, self.basin)]
+        found = [
+            self.work.later(contraction_at, self.host.poincare, self.section.frame, grid, row, column, long)
+            for row, column in middle_cells(ends, self.basin)
+        ]
         known = [one for one in found if one is not None]
         return known if len(known) == len(found) else None
 
@@ -120,13 +123,14 @@ class Basins(Part[_Host]):
             n, m = self.basin.shape
             yield f"basins {m} × {n}, twice as many cells would change {digits(100.0 * unsure(self.basin), 2)} % of it"
 
-
     def rows(self, plan: Plan, coarse: int = 1) -> list[Arguments]:
         """Return the arguments of `SuslovSection.ends` for each row of cells as wide as `coarse` of the finest."""
         m, n = plan.grid(CELLS)
         cells = m // coarse, n // coarse
-        return [(self.host.poincare, self.section.frame, cells, row, _CROSSINGS, _MOST_STEPS, plan.level)
-                for row in range(cells[1])]
+        return [
+            (self.host.poincare, self.section.frame, cells, row, _CROSSINGS, _MOST_STEPS, plan.level)
+            for row in range(cells[1])
+        ]
 
 
 S = TypeVar("S", bound=State)
@@ -134,8 +138,13 @@ S = TypeVar("S", bound=State)
 
 def basins_trial(of: Callable[[S], Basins]) -> Trial[S]:
     """Return how the basins of a state are computed at each level."""
-    return Trial(Computation.BASINS, ("section",),
-                 lambda s, plan: groups_of_cells(np.stack([SuslovSection.ends(*row) for row in of(s).rows(plan)])),
-                 lambda s, cells, truth: changed(cells, truth),
-                 lambda s, cells: look(of(s).section.frame, of(s).host.poincare.names, cells),
-                 unit="% of the cells that change", seen=3.0, shown=lambda s: of(s).wanted)
+    return Trial(
+        Computation.BASINS,
+        ("section",),
+        lambda s, plan: groups_of_cells(np.stack([SuslovSection.ends(*row) for row in of(s).rows(plan)])),
+        lambda s, cells, truth: changed(cells, truth),
+        lambda s, cells: look(of(s).section.frame, of(s).host.poincare.names, cells),
+        unit="% of the cells that change",
+        seen=3.0,
+        shown=lambda s: of(s).wanted,
+    )

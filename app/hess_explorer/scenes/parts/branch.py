@@ -36,7 +36,12 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array
 
 __all__ = [
-    "Branch", "Continuation", "branch_picture", "coordinate_of_branch", "end_of_branch", "parameter_of_branch",
+    "Branch",
+    "Continuation",
+    "branch_picture",
+    "coordinate_of_branch",
+    "end_of_branch",
+    "parameter_of_branch",
 ]
 
 _TOGETHER = 60
@@ -61,22 +66,33 @@ _FARTHEST = (-1e5, 1e5)
 
 def parameter_of_branch(symbols: tuple[str, ...]) -> Any:
     """Over what the branch is continued; the first one at first."""
-    return choice("Branch over", symbols, symbols[0],
-                  doc="In “Branch of the periodic orbit”: what changes from left to right. All others are as they "
-                      "stand.")
+    return choice(
+        "Branch over",
+        symbols,
+        symbols[0],
+        doc="In “Branch of the periodic orbit”: what changes from left to right. All others are as they stand.",
+    )
 
 
 def end_of_branch(word: str) -> Any:
     """One end of the range; the other end."""
-    return number(word, 0.0, (-1.0, 6.0), 0.01, bounds=_FARTHEST, label=f"Branch {word}", group="Computation",
-                  doc="In “Branch of the periodic orbit”. With both ends alike: about the value that the parameter "
-                      "has.")
+    return number(
+        word,
+        0.0,
+        (-1.0, 6.0),
+        0.01,
+        bounds=_FARTHEST,
+        label=f"Branch {word}",
+        group="Computation",
+        doc="In “Branch of the periodic orbit”. With both ends alike: about the value that the parameter has.",
+    )
 
 
 def coordinate_of_branch(names: tuple[str, str]) -> Any:
     """What of the section is drawn upwards."""
-    return choice("Branch upwards", names, names[0],
-                  doc="In “Branch of the periodic orbit”: which coordinate of the section.")
+    return choice(
+        "Branch upwards", names, names[0], doc="In “Branch of the periodic orbit”: which coordinate of the section."
+    )
 
 
 @dataclass(frozen=True)
@@ -216,8 +232,14 @@ class Continuation(Part[_Host]):
             go_on()
             value, place = float(near.branch.values[near.i]), a[near.j]
         # Angles as the section has them.
-        return value, tuple(float(one) if math.isinf(turn) else math.remainder(float(one), turn)
-                            for one, turn in zip(place, self.turns, strict=True)), m
+        return (
+            value,
+            tuple(
+                float(one) if math.isinf(turn) else math.remainder(float(one), turn)
+                for one, turn in zip(place, self.turns, strict=True)
+            ),
+            m,
+        )
 
     def about(self, x: float, y: float) -> str:
         """Return a line on the bifurcation, or the orbit of the branch, under the mouse."""
@@ -233,8 +255,10 @@ class Continuation(Part[_Host]):
             return ""
         i = near.i + round(near.share)
         multipliers = ", ".join(conjugates(complex(one)) for one in near.branch.multipliers[i])
-        return (f"{self._symbol} = {digits(float(near.branch.values[i]), 6)}: period {near.branch.period}, "
-                f"{near.branch.kinds[i]}, μ = {multipliers}")
+        return (
+            f"{self._symbol} = {digits(float(near.branch.values[i]), 6)}: period {near.branch.period}, "
+            f"{near.branch.kinds[i]}, μ = {multipliers}"
+        )
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -264,8 +288,10 @@ class Continuation(Part[_Host]):
     def status(self) -> Iterator[str]:
         """Yield how exact it is."""
         if self.asked("_known") and self.branches:
-            yield (f"branch {sum(len(one.values) for one in self.branches)} points, places to "
-                   f"{power(max(one.error_estimate for one in self.branches))}")
+            yield (
+                f"branch {sum(len(one.values) for one in self.branches)} points, places to "
+                f"{power(max(one.error_estimate for one in self.branches))}"
+            )
 
     def notes(self) -> Iterator[str]:
         """Why there is no branch, or why it ends within the range."""
@@ -277,8 +303,11 @@ class Continuation(Part[_Host]):
             return
         found, failed, whole = self._known
         yield from failed
-        if whole and not failed and sum(one.heading is None for one in found) < 2 - (
-                self._begin.value in self._begin.ends):
+        if (
+            whole
+            and not failed
+            and sum(one.heading is None for one in found) < 2 - (self._begin.value in self._begin.ends)
+        ):
             yield "The branch goes on: no more of it is computed."
         ended = [one.ended for one in found if one.heading is None and "the end of the range" not in one.ended]
         yield from (f"The branch ends. {why}" for why in ended)
@@ -377,8 +406,9 @@ class Branch(Part[_Section]):
             return None
         low, high = self.ends
         family = Family.of(self.host, self.name, self.host.over, (*self.along.values(), *self.besides))
-        return Begin(family, self.at, self.orbit.aim, PERIODS[self.orbit.period],
-                     (min(low, self.at), max(high, self.at)))
+        return Begin(
+            family, self.at, self.orbit.aim, PERIODS[self.orbit.period], (min(low, self.at), max(high, self.at))
+        )
 
     @cached_property
     def continuation(self) -> Continuation:
@@ -420,8 +450,13 @@ class Branch(Part[_Section]):
         value, place, period = found
         there = self.host.changed({self.name: value})
         low, high = self.ends
-        return {self.name: value, **there.start_at(place[0], place[1]), "periodic": f"period {period}", "low": low,
-                "high": high}
+        return {
+            self.name: value,
+            **there.start_at(place[0], place[1]),
+            "periodic": f"period {period}",
+            "low": low,
+            "high": high,
+        }
 
     def boxed(self, corners: Corners) -> Values:
         """Return the range of a box."""
@@ -451,8 +486,9 @@ class Branch(Part[_Section]):
     def means(self) -> Mapping[str, str]:
         """Return what the range means: in each scene its own."""
         own = type(self.host).__name__
-        return {name: f"{name} of the branch of {own} over {self.host.over}"
-                for name in ("over", "low", "high", "upwards")}
+        return {
+            name: f"{name} of the branch of {own} over {self.host.over}" for name in ("over", "low", "high", "upwards")
+        }
 
     def idle(self) -> Mapping[str, float]:
         """Return the ends of the range where there is no branch."""
@@ -480,6 +516,7 @@ S = TypeVar("S", bound=State)
 
 def branch_picture(of: Callable[[S], Branch]) -> Plot[S]:
     """Return the picture of the branch over its parameter."""
+
     def at_the_value(s: S, axes: Axes) -> list[Array]:
         return [np.array([[of(s).at, axes.y[0]], [of(s).at, axes.y[1]]])]
 
@@ -488,16 +525,33 @@ def branch_picture(of: Callable[[S], Branch]) -> Plot[S]:
         return None if here is None else seen(here[::-1].T, of(s).continuation.turn, Axes(axes.y, axes.x))[:, ::-1].T
 
     return Plot(
-        name="branch", title="Branch of the periodic orbit", caption=lambda s: of(s).caption,
-        folded="Show the branch of the periodic orbit", axes=lambda s: (of(s).host.over, of(s).host.upwards),
-        message=lambda s: of(s).message, on_click=lambda s, x, y: of(s).choose(x, y),
-        on_box=lambda s, corners: of(s).boxed(corners), on_hover=lambda s, x, y: of(s).continuation.about(x, y),
-        x=lambda s: of(s).ends, y=lambda s: of(s).upwards_range,
-        layers=(curves("value", within=at_the_value, color=theme.INK, width=1.5, label="the state on show"),
-                *view.layers(lambda s: of(s).continuation.branches, lambda s: of(s).side,
-                             lambda s: of(s).continuation.turn),
-                points("shown", within=shown, size=15, color=theme.INK, hollow=True, edge_width=2.0,
-                       label="the periodic orbit on show")))
+        name="branch",
+        title="Branch of the periodic orbit",
+        caption=lambda s: of(s).caption,
+        folded="Show the branch of the periodic orbit",
+        axes=lambda s: (of(s).host.over, of(s).host.upwards),
+        message=lambda s: of(s).message,
+        on_click=lambda s, x, y: of(s).choose(x, y),
+        on_box=lambda s, corners: of(s).boxed(corners),
+        on_hover=lambda s, x, y: of(s).continuation.about(x, y),
+        x=lambda s: of(s).ends,
+        y=lambda s: of(s).upwards_range,
+        layers=(
+            curves("value", within=at_the_value, color=theme.INK, width=1.5, label="the state on show"),
+            *view.layers(
+                lambda s: of(s).continuation.branches, lambda s: of(s).side, lambda s: of(s).continuation.turn
+            ),
+            points(
+                "shown",
+                within=shown,
+                size=15,
+                color=theme.INK,
+                hollow=True,
+                edge_width=2.0,
+                label="the periodic orbit on show",
+            ),
+        ),
+    )
 
 
 def _symmetries(map_: Map, places: Array) -> tuple[str, ...]:
@@ -514,8 +568,9 @@ def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | Missed:
     points = max(6, _TOGETHER // found.orbit.period)
     try:
         if k == 0:
-            return continued(family.map_at, found.orbit, family.symbol, begin.value, end, points, _symmetries, edge,
-                             _STEP)
+            return continued(
+                family.map_at, found.orbit, family.symbol, begin.value, end, points, _symmetries, edge, _STEP
+            )
         before, _ = CACHE.get(_part, begin, upwards, k - 1)
         return gone_on(family.map_at, before, end, edge, points, _symmetries, _STEP)
     except ModelError as error:

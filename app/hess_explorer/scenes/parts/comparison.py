@@ -86,13 +86,18 @@ class Comparison:
         if found is None:
             return
         small = self.trial.small(self.shown)
-        less = [f"{spec.label.lower()} {getattr(small, spec.name):g}" for spec in specs_of(type(small))
-                if getattr(small, spec.name) != getattr(self.shown, spec.name)]
+        less = [
+            f"{spec.label.lower()} {getattr(small, spec.name):g}"
+            for spec in specs_of(type(small))
+            if getattr(small, spec.name) != getattr(self.shown, spec.name)
+        ]
         if less:
             yield f"Compared with no more than: {', '.join(less)}"
         if found.lost:
-            yield (f"Lost to chaos between {self.work.chosen} and {self.finer}: {len(found.lost)} of {found.orbits} "
-                   f"orbits, from crossing {min(found.lost)} to {max(found.lost)} on, median {typical(found.lost)}")
+            yield (
+                f"Lost to chaos between {self.work.chosen} and {self.finer}: {len(found.lost)} of {found.orbits} "
+                f"orbits, from crossing {min(found.lost)} to {max(found.lost)} on, median {typical(found.lost)}"
+            )
 
     # ---- the picture --------------------------------------------------------------------------------------------
 
@@ -100,8 +105,7 @@ class Comparison:
         """The axes of the picture that is compared; as they were while that is being found."""
         if self.message():
             return _NO_AXIS, _NO_AXIS
-        return (None, None) if self.difference is None else (
-            self.difference.frame.axes.x, self.difference.frame.axes.y)
+        return (None, None) if self.difference is None else (self.difference.frame.axes.x, self.difference.frame.axes.y)
 
     def axis_names(self) -> str:
         """What the axes are."""
@@ -124,21 +128,35 @@ class Comparison:
 
         def added(name: str) -> Layer[Comparison]:
             points = of(lambda found: found.added)
-            return dots(f"added-{name}", lambda s: points(s) if s.finer == name else None, color=theme.LEVELS[name],
-                        size=4)
+            return dots(
+                f"added-{name}", lambda s: points(s) if s.finer == name else None, color=theme.LEVELS[name], size=4
+            )
 
         return Plot(
-            name="difference", title=Comparison.title, caption=Comparison.about, axes=(" ", " "),
-            first=Axes(_NO_AXIS, _NO_AXIS), message=Comparison.message,
-            x=lambda s: s.axes()[0], y=lambda s: s.axes()[1],
+            name="difference",
+            title=Comparison.title,
+            caption=Comparison.about,
+            axes=(" ", " "),
+            first=Axes(_NO_AXIS, _NO_AXIS),
+            message=Comparison.message,
+            x=lambda s: s.axes()[0],
+            y=lambda s: s.axes()[1],
             folded="Show what more accuracy changes" if folded else "",
             layers=(
-                image("cells", Comparison.cells, palette=(theme.FORBIDDEN, clear, theme.CHANGED), low=-1.5, high=1.5,
-                      legend=(Sign("changes, point or cell", "box", f"background: {theme.CHANGED}"),)),
+                image(
+                    "cells",
+                    Comparison.cells,
+                    palette=(theme.FORBIDDEN, clear, theme.CHANGED),
+                    low=-1.5,
+                    high=1.5,
+                    legend=(Sign("changes, point or cell", "box", f"background: {theme.CHANGED}"),),
+                ),
                 dots("same", of(lambda found: found.same), color=theme.MUTED, size=4, label="stays to ½ pixel"),
                 *(added(name) for name in LEVELS if name != DRAFT.name),
                 dots("changed", of(lambda found: found.changed), color=theme.CHANGED, size=7),
-                text("names", Comparison.axis_names)))
+                text("names", Comparison.axis_names),
+            ),
+        )
 
 
 def _said(found: Difference) -> str:
@@ -150,6 +168,8 @@ def _said(found: Difference) -> str:
     if not len(found.changed):
         return f"Nothing moves by more than {largest} pixels."
     if found.lost:
-        return (f"{share} % move over ½ pixel; chaos takes {len(found.lost)} of {found.orbits} orbits, from crossing "
-                f"{min(found.lost)}.")
+        return (
+            f"{share} % move over ½ pixel; chaos takes {len(found.lost)} of {found.orbits} orbits, from crossing "
+            f"{min(found.lost)}."
+        )
     return f"{share} % of the points move over ½ pixel, by at most {largest} pixels."

@@ -42,8 +42,9 @@ class Costs:
     @cached_property
     def found(self) -> dict[Trial[Any], tuple[LevelCost, ...] | Refused | None]:
         """A sample for each level, or the reason why there is none; None until it is known."""
-        return {trial: None if self.work.dragging else self.work.later(measured, trial, self.shown)
-                for trial in self.trials}
+        return {
+            trial: None if self.work.dragging else self.work.later(measured, trial, self.shown) for trial in self.trials
+        }
 
     @cached_property
     def samples(self) -> dict[Trial[Any], tuple[LevelCost, ...]]:
@@ -58,13 +59,23 @@ class Costs:
     def curve(self, trial: Trial[Any]) -> tuple[Array, Array] | None:
         """Errors, as multiples of what can just not be seen, and milliseconds of the levels."""
         samples = self.samples.get(trial)
-        return None if samples is None else (np.clip([one.error / trial.seen for one in samples], *_ERRORS),
-                                             np.array([max(one.ms, _MS[0]) for one in samples]))
+        return (
+            None
+            if samples is None
+            else (
+                np.clip([one.error / trial.seen for one in samples], *_ERRORS),
+                np.array([max(one.ms, _MS[0]) for one in samples]),
+            )
+        )
 
     def _at(self, levels: dict[Trial[Any], str]) -> list[tuple[float, float]]:
         """One point of the curve of each kind."""
-        return [(float(xy[0][i]), float(xy[1][i])) for trial, name in levels.items()
-                if (xy := self.curve(trial)) is not None for i in ([*LEVELS].index(name),)]
+        return [
+            (float(xy[0][i]), float(xy[1][i]))
+            for trial, name in levels.items()
+            if (xy := self.curve(trial)) is not None
+            for i in ([*LEVELS].index(name),)
+        ]
 
     def level(self, name: str) -> Sequence[Sequence[float]] | None:
         """Errors and milliseconds of one level, for each kind."""
@@ -81,8 +92,11 @@ class Costs:
         known = [found for found in self.found.values() if found is not None]
         if len(known) < len(self.found):
             return f"Measured so far: {len(known)} of {len(self.found)}."
-        said = [f"{trial.kind} cannot be measured: {found.reason}" for trial, found in self.found.items()
-                if isinstance(found, Refused)]
+        said = [
+            f"{trial.kind} cannot be measured: {found.reason}"
+            for trial, found in self.found.items()
+            if isinstance(found, Refused)
+        ]
         if self.enough:
             least = ", ".join(f"{trial.kind} {name}" for trial, name in self.enough.items())
             said.insert(0, f"Enough to the eye: {least}.")
@@ -92,25 +106,40 @@ class Costs:
     def rows(self) -> Iterator[str]:
         """Milliseconds and errors of the levels, a line for each kind."""
         for trial, samples in self.samples.items():
-            times, errors = (", ".join(digits(value, 2) for value in values) for values in (
-                [one.ms for one in samples], [one.error for one in samples]))
+            times, errors = (
+                ", ".join(digits(value, 2) for value in values)
+                for values in ([one.ms for one in samples], [one.error for one in samples])
+            )
             yield f"{trial.kind}: {times} ms; error {errors} {trial.unit}"
 
     @staticmethod
     def picture(trials: Sequence[Trial[Any]], folded: bool) -> Plot[Costs]:
         """All that is computed, measured when the picture is asked for."""
+
         def kind(trial: Trial[Any], dash: str, width: float) -> Layer[Costs]:
             name = str(trial.kind)
-            return line(name.replace(" ", "-"), lambda s: s.curve(trial), color=theme.MUTED, dash=dash, width=width,
-                        label=name)
+            return line(
+                name.replace(" ", "-"), lambda s: s.curve(trial), color=theme.MUTED, dash=dash, width=width, label=name
+            )
 
         def at(name: str) -> Layer[Costs]:
             return points(f"at-{name}", lambda s: s.level(name), color=theme.LEVELS[name], size=10, label=name)
 
         return Plot(
-            name="trade", title="Cost of all that is computed", caption=Costs.about, log="xy",
-            axes=("error / what is not seen", "milliseconds"), x=_ERRORS, y=_MS, x_ticks=_TICKS,
-            y_tick_count=5, folded="Measure all that is computed" if folded else "",
-            layers=(line("visible", lambda s: ((1.0, 1.0), _MS), color=theme.MUTED, dash="dotted", width=1.0),
-                    *(kind(trial, *look) for trial, look in zip(trials, _LINES, strict=False)), *map(at, LEVELS),
-                    ring("enough", Costs.rings, size=20, label="more accuracy is not seen")))
+            name="trade",
+            title="Cost of all that is computed",
+            caption=Costs.about,
+            log="xy",
+            axes=("error / what is not seen", "milliseconds"),
+            x=_ERRORS,
+            y=_MS,
+            x_ticks=_TICKS,
+            y_tick_count=5,
+            folded="Measure all that is computed" if folded else "",
+            layers=(
+                line("visible", lambda s: ((1.0, 1.0), _MS), color=theme.MUTED, dash="dotted", width=1.0),
+                *(kind(trial, *look) for trial, look in zip(trials, _LINES, strict=False)),
+                *map(at, LEVELS),
+                ring("enough", Costs.rings, size=20, label="more accuracy is not seen"),
+            ),
+        )

@@ -33,8 +33,16 @@ _LONG = 2000.0
 
 def exponent_time(default: float, longest: float, most: float, what: str) -> Any:
     """Declare how long something is averaged along the orbit on show."""
-    return number("T", default, (10.0, longest), 10.0, bounds=(1.0, most), label="Time of the exponent",
-                  group="Computation", doc=f"How long {what} averaged.")
+    return number(
+        "T",
+        default,
+        (10.0, longest),
+        10.0,
+        bounds=(1.0, most),
+        label="Time of the exponent",
+        group="Computation",
+        doc=f"How long {what} averaged.",
+    )
 
 
 class _Periodic(Protocol):
@@ -85,8 +93,9 @@ class Exponent(Part[_Host]):
         if self.later:
             return None
         plan = self.work.plan(Computation.EXPONENT)
-        return self.work.later(lyapunov.lyapunov_exponent, self.host.body, self.host.start,
-                               plan.share * self.host.long, plan.level)
+        return self.work.later(
+            lyapunov.lyapunov_exponent, self.host.body, self.host.start, plan.share * self.host.long, plan.level
+        )
 
     def at(self, plan: Plan) -> lyapunov.Exponent:
         """Return it, computed here and now."""
@@ -128,19 +137,33 @@ S = TypeVar("S", bound=State)
 def exponent_picture(of: Callable[[S], Exponent], folded: str = "") -> Plot[S]:
     """Return the picture of the mean growth rate over time."""
     return Plot(
-        name="exponent", title="Largest Lyapunov exponent", caption=lambda s: of(s).caption, axes=("t", "λ"),
-        folded=folded, first=Axes((0.0, 200.0), (0.0, 1.0)), x=lambda s: (0.0, of(s).host.long),
-        y=lambda s: of(s).axis, layers=(over_time("lambda", lambda s: of(s).rates, color=theme.ORBIT),))
+        name="exponent",
+        title="Largest Lyapunov exponent",
+        caption=lambda s: of(s).caption,
+        axes=("t", "λ"),
+        folded=folded,
+        first=Axes((0.0, 200.0), (0.0, 1.0)),
+        x=lambda s: (0.0, of(s).host.long),
+        y=lambda s: of(s).axis,
+        layers=(over_time("lambda", lambda s: of(s).rates, color=theme.ORBIT),),
+    )
 
 
 def exponent_trial(of: Callable[[S], Exponent]) -> Trial[S]:
     """Return how the exponent of a state is computed at each level."""
+
     def look(s: S, found: lyapunov.Exponent) -> Curves:
         # With room for all but the first tenth of the time.
         axes = Axes((0.0, of(s).host.long), settled_range([found.rates]))
         return Curves(Frame(axes, ("t", "λ")), (np.column_stack(thinned(found.times, found.rates)),))
 
-    return Trial(Computation.EXPONENT, ("exponent",), lambda s, plan: of(s).at(plan),
-                 lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12), look,
-                 unit="of what it changes by in the second half of its time", seen=10.0,
-                 small=lambda s: s.changed({"long": min(of(s).host.long, _LONG)}))
+    return Trial(
+        Computation.EXPONENT,
+        ("exponent",),
+        lambda s, plan: of(s).at(plan),
+        lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12),
+        look,
+        unit="of what it changes by in the second half of its time",
+        seen=10.0,
+        small=lambda s: s.changed({"long": min(of(s).host.long, _LONG)}),
+    )

@@ -49,14 +49,30 @@ Place = tuple[float, float]
 
 def orbits_spread(default: float, longest: float, most: float) -> Any:
     """Declare how many orbits fill a window."""
-    return number("n", default, (0.0, longest), 1.0, bounds=(0.0, most), label="Orbits",
-                  group="Computation", doc="How many orbits are spread over the window.")
+    return number(
+        "n",
+        default,
+        (0.0, longest),
+        1.0,
+        bounds=(0.0, most),
+        label="Orbits",
+        group="Computation",
+        doc="How many orbits are spread over the window.",
+    )
 
 
 def points_of_each(default: float) -> Any:
     """Declare how many points each orbit leaves in a window, which come batch by batch."""
-    return number("N", default, (20.0, 1000.0), 10.0, bounds=(2.0, 4000.0), label="Crossings",
-                  group="Computation", doc="How many points each orbit leaves.")
+    return number(
+        "N",
+        default,
+        (20.0, 1000.0),
+        10.0,
+        bounds=(2.0, 4000.0),
+        label="Crossings",
+        group="Computation",
+        doc="How many points each orbit leaves.",
+    )
 
 
 class _Filled(PoincareSection, Protocol):
@@ -233,8 +249,10 @@ class FilledSection(Part[_Host]):
         """Pieces of the chosen orbits, which come first, and of those all over the window; None where not known yet."""
         seeds = self._spread(self.wanted[0])
         own = self.picked.states if self.host.periodic_orbit.closed is None else self.picked.states[:-1]
-        return ([self._follow((state,), True) for state in own],
-                [self._follow(starts, forward) for starts in in_batches(seeds) for forward in self.ways])
+        return (
+            [self._follow((state,), True) for state in own],
+            [self._follow(starts, forward) for starts in in_batches(seeds) for forward in self.ways],
+        )
 
     @cached_property
     def _known(self) -> tuple[list[OrbitBatch], list[OrbitBatch]]:
@@ -249,8 +267,12 @@ class FilledSection(Part[_Host]):
 
     def kind(self, first: bool) -> list[Array]:
         """The orbits of one kind, all their points."""
-        return [orbit for batch in self.batches for orbit, is_first in zip(batch.orbits, batch.firsts, strict=True)
-                if is_first is first]
+        return [
+            orbit
+            for batch in self.batches
+            for orbit, is_first in zip(batch.orbits, batch.firsts, strict=True)
+            if is_first is first
+        ]
 
     @cached_property
     def first(self) -> Array:
@@ -285,8 +307,9 @@ class FilledSection(Part[_Host]):
         crossings = plan.part(self.host.count, _FEWEST)
         seeds = self._spread(int(self.host.orbits))
         tasks = [self.host.batch((start,), crossings, True, plan.level) for start in self.picked.states]
-        tasks += [self.host.batch(some, crossings, forward, plan.level)
-                  for some in in_batches(seeds) for forward in self.ways]
+        tasks += [
+            self.host.batch(some, crossings, forward, plan.level) for some in in_batches(seeds) for forward in self.ways
+        ]
         return [orbit for task in tasks for orbit in task.now().orbits]
 
     @cached_property
@@ -303,8 +326,11 @@ class FilledSection(Part[_Host]):
         tasks = [self.host.batch(starts, self.wanted[1], True, level) for starts in ((self.picked.states[-1],), *some)]
         fine: list[OrbitBatch | None] = [self.work.later(task.function, *task.arguments) for task in tasks]
         coarse = [own[-1], *around[:: len(self.ways)]]
-        counts = [right_crossings(one.orbits, other.orbits, self.pixels, _PERIODS)
-                  for one, other in zip(coarse, fine, strict=False) if one is not None and other is not None]
+        counts = [
+            right_crossings(one.orbits, other.orbits, self.pixels, _PERIODS)
+            for one, other in zip(coarse, fine, strict=False)
+            if one is not None and other is not None
+        ]
         if len(counts) < len(fine):
             return None
         others = [count for each in counts[1:] for count in each]
@@ -319,9 +345,14 @@ class FilledSection(Part[_Host]):
     def nothing_seen(self) -> str:
         """What is said in the frame where no point lies in it and no more are to come."""
         (x0, y0), (x1, y1) = self.frame
-        if self.work.dragging or self.work.todo or any(
+        if (
+            self.work.dragging
+            or self.work.todo
+            or any(
                 np.any((x >= x0) & (x <= x1) & (y >= y0) & (y <= y1))
-                for x, y in (points.T for points in (self.first, self.second, self.own))):
+                for x, y in (points.T for points in (self.first, self.second, self.own))
+            )
+        ):
             return ""
         return "None of the points lies in this window: choose more crossings, or press Undo"
 
@@ -349,8 +380,10 @@ class FilledSection(Part[_Host]):
     def notes(self) -> Iterator[str]:
         """A start that is not possible."""
         if self.picked.refused is not None:
-            yield (f"At {self.at(self.picked.refused)} {self.excuse}: the chosen orbit starts at "
-                   f"{self.at(self.picked.places[0])}.")
+            yield (
+                f"At {self.at(self.picked.refused)} {self.excuse}: the chosen orbit starts at "
+                f"{self.at(self.picked.places[0])}."
+            )
 
     def status(self) -> Iterator[str]:
         """Size and drift of the section, the orbit on show."""
@@ -369,20 +402,32 @@ def _place(found: Array) -> Place:
 
 def filled_trial(of: Callable[[S], FilledSection]) -> Trial[S]:
     """Return how the section of a state is computed at each level."""
+
     def small(s: S) -> S:
         return s.changed({name: min(float(getattr(s, name)), most) for name, most in _LARGE.items()})
 
-    return Trial(Computation.SECTION, ("section",), lambda s, plan: of(s).orbits_at(plan),
-                 lambda s, orbits, truth: section_error(orbits, truth, of(s).pixels, _PERIODS),
-                 lambda s, orbits: Marks(frame_of(of(s).frame, of(s).poincare.names), tuple(orbits), _PERIODS,
-                                         crossings=True), small=small)
+    return Trial(
+        Computation.SECTION,
+        ("section",),
+        lambda s, plan: of(s).orbits_at(plan),
+        lambda s, orbits, truth: section_error(orbits, truth, of(s).pixels, _PERIODS),
+        lambda s, orbits: Marks(frame_of(of(s).frame, of(s).poincare.names), tuple(orbits), _PERIODS, crossings=True),
+        small=small,
+    )
 
 
 def filled_picture(
-        of: Callable[[S], FilledSection], full: Window, title: str | Callable[[S], str], caption: Callable[[S], str],
-        axes: tuple[str, str], labels: tuple[str, str], dot: tuple[str, str] | None = None,
-        under: tuple[Layer[S], ...] = (), between: tuple[Layer[S], ...] = (), over: tuple[Layer[S], ...] = ()
-        ) -> Plot[S]:
+    of: Callable[[S], FilledSection],
+    full: Window,
+    title: str | Callable[[S], str],
+    caption: Callable[[S], str],
+    axes: tuple[str, str],
+    labels: tuple[str, str],
+    dot: tuple[str, str] | None = None,
+    under: tuple[Layer[S], ...] = (),
+    between: tuple[Layer[S], ...] = (),
+    over: tuple[Layer[S], ...] = (),
+) -> Plot[S]:
     """Return the picture of such a section.
 
     full : the whole section; labels : of the two kinds of orbits; under, over : layers below all points, and above;
@@ -390,14 +435,32 @@ def filled_picture(
     """
     (x0, y0), (x1, y1) = full
     return Plot(
-        name="section", title=title, caption=caption, axes=axes, dot=dot, message=lambda s: of(s).nothing_seen(),
-        x=lambda s: (of(s).frame[0][0], of(s).frame[1][0]), y=lambda s: (of(s).frame[0][1], of(s).frame[1][1]),
+        name="section",
+        title=title,
+        caption=caption,
+        axes=axes,
+        dot=dot,
+        message=lambda s: of(s).nothing_seen(),
+        x=lambda s: (of(s).frame[0][0], of(s).frame[1][0]),
+        y=lambda s: (of(s).frame[0][1], of(s).frame[1][1]),
         first=Axes((x0, x1), (y0, y1)),
-        on_click=lambda s, x, y: of(s).start_here(x, y), on_box=lambda s, corners: of(s).look_closer(corners),
-        layers=(*under, *layered_section.layers(
-            lambda s: of(s).first, lambda s: of(s).second, lambda s: of(s).own, chosen=lambda s: of(s).rings(),
-            impossible=lambda s: of(s).impossible, window=lambda s: of(s).frame, labels=labels, between=between),
-            *over))
+        on_click=lambda s, x, y: of(s).start_here(x, y),
+        on_box=lambda s, corners: of(s).look_closer(corners),
+        layers=(
+            *under,
+            *layered_section.layers(
+                lambda s: of(s).first,
+                lambda s: of(s).second,
+                lambda s: of(s).own,
+                chosen=lambda s: of(s).rings(),
+                impossible=lambda s: of(s).impossible,
+                window=lambda s: of(s).frame,
+                labels=labels,
+                between=between,
+            ),
+            *over,
+        ),
+    )
 
 
 def _seeds(section: _Filled, window: Window, count: int) -> tuple[Start, ...]:

@@ -130,6 +130,7 @@ S = TypeVar("S", bound=State)
 
 def split_picture(of: Callable[[S], HessSplit]) -> Plot[S]:
     """Return the picture of the split over ε."""
+
     def values(s: S) -> Array:
         return np.array([(one.away, one.value) for one in of(s).splits()]).reshape(-1, 2).T
 
@@ -142,14 +143,26 @@ def split_picture(of: Callable[[S], HessSplit]) -> Plot[S]:
         return [] if split is None else [(split.away, split.value)]
 
     return Plot(
-        name="split", title="Split of the separatrices", caption=lambda s: of(s).caption(),
-        folded="Show the split of the separatrices", axes=("ε", "split in L/G"),
-        first=Axes((-_WIDE, _WIDE), (-1.0, 1.0)), message=lambda s: of(s).message(),
-        on_click=lambda s, x, y: {"away": x}, x=lambda s: (-1.1 * of(s).reach, 1.1 * of(s).reach),
+        name="split",
+        title="Split of the separatrices",
+        caption=lambda s: of(s).caption(),
+        folded="Show the split of the separatrices",
+        axes=("ε", "split in L/G"),
+        first=Axes((-_WIDE, _WIDE), (-1.0, 1.0)),
+        message=lambda s: of(s).message(),
+        on_click=lambda s, x, y: {"away": x},
+        x=lambda s: (-1.1 * of(s).reach, 1.1 * of(s).reach),
         y=lambda s: about_0(values(s)[1], 1e-12) if of(s).splits() else None,
-        layers=(levels("levels", lambda s: [0.0] if of(s).splits() else []),
-                curves("slope", within=slope, color=theme.MUTED, dash="dashed",
-                       label="in proportion to ε, as next to 0"),
-                points("splits", lambda s: values(s) if of(s).splits() else None, color=theme.UNSTABLE, size=10,
-                       label="how far apart the separatrices are"),
-                ring("here", here, color=theme.INK)))
+        layers=(
+            levels("levels", lambda s: [0.0] if of(s).splits() else []),
+            curves("slope", within=slope, color=theme.MUTED, dash="dashed", label="in proportion to ε, as next to 0"),
+            points(
+                "splits",
+                lambda s: values(s) if of(s).splits() else None,
+                color=theme.UNSTABLE,
+                size=10,
+                label="how far apart the separatrices are",
+            ),
+            ring("here", here, color=theme.INK),
+        ),
+    )

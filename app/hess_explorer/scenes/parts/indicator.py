@@ -33,9 +33,13 @@ _TURNS = 300.0
 
 def colouring() -> Any:
     """What lies under the points of a section."""
-    return choice("Under the points", (NOTHING, MEGNO), NOTHING,
-                  doc="MEGNO tells after a short time whether the motion from each cell is regular or chaotic, and "
-                      "whether volume about it shrinks.")
+    return choice(
+        "Under the points",
+        (NOTHING, MEGNO),
+        NOTHING,
+        doc="MEGNO tells after a short time whether the motion from each cell is regular or chaotic, and "
+        "whether volume about it shrinks.",
+    )
 
 
 class _Host(Sectioned, Protocol):
@@ -75,8 +79,7 @@ class Indicator(Part[_Host]):
         if not self.wanted or self.work.dragging:
             return None
         plan = self.work.plan(Computation.INDICATOR)
-        return found_by_rows(self.work, row_of_cells, self.rows(plan, COARSE), self.rows(plan),
-                             self.sooner)
+        return found_by_rows(self.work, row_of_cells, self.rows(plan, COARSE), self.rows(plan), self.sooner)
 
     @property
     def kinds(self) -> Array | None:
@@ -96,8 +99,10 @@ class Indicator(Part[_Host]):
         if not there.size:
             return "Nothing moves in this window."
         chaotic, shrinks = (100.0 * float(np.mean(one)) for one in (there % 2.0 == 1.0, there >= 2.0))
-        return (f"{said}: {100.0 - chaotic:.0f} % of the cells regular, {chaotic:.0f} % chaotic; volume shrinks about "
-                f"{shrinks:.0f} %.")
+        return (
+            f"{said}: {100.0 - chaotic:.0f} % of the cells regular, {chaotic:.0f} % chaotic; volume shrinks about "
+            f"{shrinks:.0f} %."
+        )
 
     def status(self) -> Iterator[str]:
         """How many cells lie between what is regular and what is chaotic, when all are known."""
@@ -106,6 +111,7 @@ class Indicator(Part[_Host]):
             n, m = values.shape
             between = float(np.mean((values > REGULAR) & (values <= CHAOTIC)))
             yield f"MEGNO {m} × {n} cells, {digits(100.0 * between, 2)} % between {REGULAR:g} and {CHAOTIC:g}"
+
 
 S = TypeVar("S", bound=State)
 
@@ -117,11 +123,18 @@ def indicator_layer(of: Callable[[S], Indicator]) -> Layer[S]:
 
 def indicator_trial(of: Callable[[S], Indicator]) -> Trial[S]:
     """Return how the cells of a state are computed at each level."""
+
     def look_of(s: S, cells: Array) -> Cells:
         host = of(s).host
         return look(host.frame, host.poincare.names, cells)
 
-    return Trial(Computation.INDICATOR, ("section",),
-                 lambda s, plan: np.stack([row_of_cells(*row)[1] for row in of(s).rows(plan)]),
-                 lambda s, cells, truth: changed(cells, truth), look_of, unit="% of the cells that change", seen=3.0,
-                 shown=lambda s: of(s).wanted)
+    return Trial(
+        Computation.INDICATOR,
+        ("section",),
+        lambda s, plan: np.stack([row_of_cells(*row)[1] for row in of(s).rows(plan)]),
+        lambda s, cells, truth: changed(cells, truth),
+        look_of,
+        unit="% of the cells that change",
+        seen=3.0,
+        shown=lambda s: of(s).wanted,
+    )

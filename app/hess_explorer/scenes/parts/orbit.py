@@ -87,10 +87,17 @@ S = TypeVar("S", bound=State)
 
 def orbit_picture(of: Callable[[S], Orbit], x: str, y: str, title: str = "The orbit") -> Plot[S]:
     """Return the picture of the orbit in the plane of two variables; the scene has `columns` as its track "orbit"."""
+
     def room_for(name: str) -> Callable[[S], Range]:
         return lambda s: with_room(of(s).columns[name], 0.06, 1e-3)
 
     return Plot(
-        name="orbit", title=title, caption=lambda s: f"From t = 0 to t = {digits(of(s).host.lasts)}.", axes=(x, y),
-        x=room_for(x), y=room_for(y), dot=(x, y),
-        layers=(line("orbit", track="orbit", columns=(x, y), color=theme.ORBIT, width=2.5, label="orbit"),))
+        name="orbit",
+        title=title,
+        caption=lambda s: f"From t = 0 to t = {digits(of(s).host.lasts)}.",
+        axes=(x, y),
+        x=room_for(x),
+        y=room_for(y),
+        dot=(x, y),
+        layers=(line("orbit", track="orbit", columns=(x, y), color=theme.ORBIT, width=2.5, label="orbit"),),
+    )

@@ -32,8 +32,11 @@ from hess_mechanics.numerics.results import Array
 __all__ = ["ANEW", "BOUNDS", "FARTHEST", "FOLLOWED", "WAYS", "OrbitDiagram", "diagram_picture", "edges"]
 
 _RISING, _FALLING, _BACKWARD = "rising", "falling", "backward"
-WAYS = {"there and back, and backward in time": (_RISING, _FALLING, _BACKWARD),
-         "there and back": (_RISING, _FALLING), "there, and backward in time": (_RISING, _BACKWARD)}
+WAYS = {
+    "there and back, and backward in time": (_RISING, _FALLING, _BACKWARD),
+    "there and back": (_RISING, _FALLING),
+    "there, and backward in time": (_RISING, _BACKWARD),
+}
 FOLLOWED, ANEW = "where it was at the value before", "at the chosen place"
 FARTHEST = (-1e3, 1e3)
 BOUNDS = ((FARTHEST[0], -TURN), (FARTHEST[1], TURN))
@@ -115,8 +118,12 @@ class OrbitDiagram(Part[_Host]):
         default = next(spec.default for spec in specs_of(type(self.host)) if spec.name == "chosen")
         window = tidy_window(self.host.window)
         (x0, _), (x1, _) = window_of(window, ((first, 0.0), (last, 0.0)))
-        return {"first": first, "last": last, "chosen": self.host.chosen or default,
-                "window": window if x0 < last and x1 > first else ""}
+        return {
+            "first": first,
+            "last": last,
+            "chosen": self.host.chosen or default,
+            "window": window if x0 < last and x1 > first else "",
+        }
 
     @property
     def poincare(self) -> PoincareSection:
@@ -149,8 +156,9 @@ class OrbitDiagram(Part[_Host]):
         if self.host.branch == NONE:
             return None
         (low, _), (high, _) = self.frame
-        return Begin(self.family, self.at, self.place, PERIODS[self.host.branch],
-                     (min(low, self.at), max(high, self.at)))
+        return Begin(
+            self.family, self.at, self.place, PERIODS[self.host.branch], (min(low, self.at), max(high, self.at))
+        )
 
     @property
     def seen(self) -> Window:
@@ -216,8 +224,18 @@ class OrbitDiagram(Part[_Host]):
         found: list[Diagram] = []
         for i in range(0, len(values), _TOGETHER):
             one = self.work.soon(
-                diagram, self.family, self.name, tuple(values[i : i + _TOGETHER].tolist()), _end(found) or place,
-                self.place, left, shown, followed, backward, level)
+                diagram,
+                self.family,
+                self.name,
+                tuple(values[i : i + _TOGETHER].tolist()),
+                _end(found) or place,
+                self.place,
+                left,
+                shown,
+                followed,
+                backward,
+                level,
+            )
             if one is None:
                 break
             found.append(one)
@@ -225,9 +243,12 @@ class OrbitDiagram(Part[_Host]):
 
     def points(self, way: str) -> Array | None:
         """What is drawn of a way (2, n)."""
-        parts = [np.column_stack([np.full(len(some), value), some[:, self.side]])
-                 for one in self.branches.get(way, ()) for value, some in zip(one.values, one.places, strict=True)
-                 if len(some)]
+        parts = [
+            np.column_stack([np.full(len(some), value), some[:, self.side]])
+            for one in self.branches.get(way, ())
+            for value, some in zip(one.values, one.places, strict=True)
+            if len(some)
+        ]
         return joined(parts).T
 
     @cached_property
@@ -241,8 +262,9 @@ class OrbitDiagram(Part[_Host]):
         if seen is None:
             return None
         value, places, end = seen
-        return self.work.later(doublings, self.family, self.name, value, tuple(map(tuple, places.tolist())), end,
-                               _DOUBLINGS)
+        return self.work.later(
+            doublings, self.family, self.name, value, tuple(map(tuple, places.tolist())), end, _DOUBLINGS
+        )
 
     @property
     def flips(self) -> Array:
@@ -267,11 +289,15 @@ class OrbitDiagram(Part[_Host]):
             return "Volume is kept: each value shows one orbit, and nothing attracts."
         if isinstance(self.cascade, Cascade) and self.flips.size:
             ratios = self.cascade.ratios
-            said = "" if not ratios.size else (
-                f"; ratio {digits(ratios[-1], 4)} ± {digits(self.cascade.ratio_errors[-1], 1)}")
+            said = (
+                ""
+                if not ratios.size
+                else (f"; ratio {digits(ratios[-1], 4)} ± {digits(self.cascade.ratio_errors[-1], 1)}")
+            )
             many = f"{self.flips.size} doublings located, the first" if self.flips.size > 1 else "One doubling located,"
-            return (f"{many} of period {self.cascade.periods[0]} at {self.host.along} = "
-                    f"{digits(self.flips[0], 6)}{said}.")
+            return (
+                f"{many} of period {self.cascade.periods[0]} at {self.host.along} = {digits(self.flips[0], 6)}{said}."
+            )
         periods = sorted({int(m) for one in self.branches[_RISING] for m in one.periods if m})
         return f"Periods seen: {', '.join(map(str, periods[:8])) or 'none'}."
 
@@ -295,26 +321,47 @@ def _end(parts: list[Diagram]) -> tuple[float, ...] | None:
 S = TypeVar("S", bound=State)
 
 
-def diagram_picture(of: Callable[[S], OrbitDiagram], first: Range, caption: Callable[[S], str],
-                    on_click: Callable[[S, float, float], Values], on_hover: Callable[[S, float, float], str],
-                    over: tuple[Layer[S], ...] = ()) -> Plot[S]:
+def diagram_picture(
+    of: Callable[[S], OrbitDiagram],
+    first: Range,
+    caption: Callable[[S], str],
+    on_click: Callable[[S, float, float], Values],
+    on_hover: Callable[[S, float, float], str],
+    over: tuple[Layer[S], ...] = (),
+) -> Plot[S]:
     """Return the diagram; first : its edges before the first state; over : layers on top."""
+
     def upright(values: Callable[[S], Sequence[float]]) -> Callable[[S, Axes], list[Array]]:
         return lambda s, axes: [np.array([[x, axes.y[0]], [x, axes.y[1]]]) for x in values(s)]
 
     return Plot(
-        name="diagram", title="Orbit diagram", caption=caption, on_hover=on_hover, on_click=on_click,
-        axes=lambda s: (of(s).host.along, of(s).host.shown), first=Axes(first, (-math.pi, math.pi)),
-        x=lambda s: (of(s).frame[0][0], of(s).frame[1][0]), y=lambda s: (of(s).frame[0][1], of(s).frame[1][1]),
+        name="diagram",
+        title="Orbit diagram",
+        caption=caption,
+        on_hover=on_hover,
+        on_click=on_click,
+        axes=lambda s: (of(s).host.along, of(s).host.shown),
+        first=Axes(first, (-math.pi, math.pi)),
+        x=lambda s: (of(s).frame[0][0], of(s).frame[1][0]),
+        y=lambda s: (of(s).frame[0][1], of(s).frame[1][1]),
         on_box=lambda s, corners: boxed(corners, BOUNDS),
         layers=(
-            curves("flips", within=upright(lambda s: of(s).flips.tolist()), color=theme.STABLE, width=1.5,
-                   dash="dashed", label="the period doubles"),
-            dots("backward", lambda s: of(s).points(_BACKWARD), color=theme.UNSTABLE, size=3,
-                 label="backward in time"),
-            dots("falling", lambda s: of(s).points(_FALLING), color=theme.MAP, size=5,
-                 label="forward, parameter falling"),
-            dots("rising", lambda s: of(s).points(_RISING), color=theme.ORBIT, size=3,
-                 label="forward, parameter rising"),
-            curves("here", within=upright(lambda s: [of(s).at]), color=theme.INK, width=1.5,
-                   label="the state on show"), *over))
+            curves(
+                "flips",
+                within=upright(lambda s: of(s).flips.tolist()),
+                color=theme.STABLE,
+                width=1.5,
+                dash="dashed",
+                label="the period doubles",
+            ),
+            dots("backward", lambda s: of(s).points(_BACKWARD), color=theme.UNSTABLE, size=3, label="backward in time"),
+            dots(
+                "falling", lambda s: of(s).points(_FALLING), color=theme.MAP, size=5, label="forward, parameter falling"
+            ),
+            dots(
+                "rising", lambda s: of(s).points(_RISING), color=theme.ORBIT, size=3, label="forward, parameter rising"
+            ),
+            curves("here", within=upright(lambda s: [of(s).at]), color=theme.INK, width=1.5, label="the state on show"),
+            *over,
+        ),
+    )

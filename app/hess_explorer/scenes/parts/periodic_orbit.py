@@ -45,15 +45,28 @@ _WHOLE = 3
 
 def which() -> Any:
     """Whether the periodic orbit next to the chosen place takes its place, and of which period."""
-    return choice("Periodic orbit", (NONE, *PERIODS), NONE, group="State",
-                  doc="In place of the chosen orbit: the periodic one that Newton's method finds from there, with so "
-                      "many points in the section, and the manifolds of a saddle.")
+    return choice(
+        "Periodic orbit",
+        (NONE, *PERIODS),
+        NONE,
+        group="State",
+        doc="In place of the chosen orbit: the periodic one that Newton's method finds from there, with so "
+        "many points in the section, and the manifolds of a saddle.",
+    )
 
 
 def length_of_manifolds() -> Any:
     """How long the manifolds of a saddle are drawn."""
-    return number("s", 5.0, (0.0, 20.0), 0.5, bounds=(0.0, 100.0), label="Length of manifolds", group="Computation",
-                  doc=f"Of each branch, in units of the axes of the section; at most {MOST_POINTS} points.")
+    return number(
+        "s",
+        5.0,
+        (0.0, 20.0),
+        0.5,
+        bounds=(0.0, 100.0),
+        label="Length of manifolds",
+        group="Computation",
+        doc=f"Of each branch, in units of the axes of the section; at most {MOST_POINTS} points.",
+    )
 
 
 def plain(preset: Preset) -> Preset:
@@ -144,8 +157,11 @@ class PeriodicOrbit(Part[_Host]):
         if orbit is None or self._search is None:
             return None
         places = range(orbit.period if orbit.period <= _WHOLE else 1)
-        return (self._search, [(place, stable, side) for place in places for stable in (True, False)
-                               for side in (1, -1)], 1.0 / max(self.host.pixels))
+        return (
+            self._search,
+            [(place, stable, side) for place in places for stable in (True, False) for side in (1, -1)],
+            1.0 / max(self.host.pixels),
+        )
 
     @cached_property
     def _branches(self) -> tuple[Manifold | Missed, ...] | None:
@@ -170,8 +186,13 @@ class PeriodicOrbit(Part[_Host]):
         if self._drawn is None or not self._branches:
             return None
         search, branches, pixel = self._drawn
-        found = [self.work.later(crossings_between, search, one, other, self.reach, pixel)
-                 for one in branches if not one[1] for other in branches if other[1]]
+        found = [
+            self.work.later(crossings_between, search, one, other, self.reach, pixel)
+            for one in branches
+            if not one[1]
+            for other in branches
+            if other[1]
+        ]
         known = [one for one in found if one is not None]
         return known if len(known) == len(found) else None
 
@@ -216,8 +237,11 @@ class PeriodicOrbit(Part[_Host]):
         orbit = self.closed.orbit
         # An imaginary part within the error is none: at a double multiplier 1 its sign is left to roundings.
         first = complex(orbit.multipliers[0])
-        multipliers = conjugates(first) if abs(first.imag) > orbit.multiplier_error else ", ".join(
-            digits(float(one.real)) for one in orbit.multipliers)
+        multipliers = (
+            conjugates(first)
+            if abs(first.imag) > orbit.multiplier_error
+            else ", ".join(digits(float(one.real)) for one in orbit.multipliers)
+        )
         return f"Period {orbit.period}, {orbit.kind}: μ = {multipliers} to {power(orbit.multiplier_error)}."
 
     def derived(self) -> Iterator[str]:
@@ -240,8 +264,10 @@ class PeriodicOrbit(Part[_Host]):
             orbit = self.closed.orbit
             yield (f"Newton's method: {orbit.iterations} steps, condition {orbit.condition:.2g} ({orbit.status})")
         if self.manifolds:
-            yield (f"manifolds {sum(len(one.points) for one in self.manifolds)} points, error across ≤ "
-                   f"{max(one.error_estimate for one in self.manifolds):.1e}")
+            yield (
+                f"manifolds {sum(len(one.points) for one in self.manifolds)} points, error across ≤ "
+                f"{max(one.error_estimate for one in self.manifolds):.1e}"
+            )
 
     def notes(self) -> Iterator[str]:
         """Why there is no periodic orbit, or why its manifolds end."""
@@ -250,12 +276,16 @@ class PeriodicOrbit(Part[_Host]):
         reasons = {_ended(one) for one in self._branches or ()} - {AT_ITS_LENGTH}
         yield from (f"A branch of a manifold ends early. {reason}" for reason in sorted(reasons))
         if any(one.status is not Status.OK for one in self.manifolds):
-            yield ("The manifolds are less exact than their picture: choose a shorter length of manifolds, or a higher "
-                   "accuracy.")
+            yield (
+                "The manifolds are less exact than their picture: choose a shorter length of manifolds, or a higher "
+                "accuracy."
+            )
         apart = sum(not one.certain for some in self._met or () for one in some)
         if apart:
-            yield (f"At {apart} more place{'s' * (apart > 1)} the manifolds meet within their error: whether they "
-                   "cross there is not known.")
+            yield (
+                f"At {apart} more place{'s' * (apart > 1)} the manifolds meet within their error: whether they "
+                "cross there is not known."
+            )
         orbit = self._saddle
         if orbit is not None and orbit.period > _WHOLE:
             yield f"Of its {orbit.period} places, one has its manifolds drawn: those of the others are their images."
@@ -268,8 +298,10 @@ class PeriodicOrbit(Part[_Host]):
         if not found:
             return "No homoclinic point is seen on what is drawn of them"
         least = "at least " if any(len(some) == MOST_CROSSINGS for some in self._met) else ""
-        return (f"{least}{len(found)} homoclinic point{'s' * (len(found) > 1)} on what is drawn of them, to "
-                f"{power(max(one.error for one in found))}; longer ones cross more often")
+        return (
+            f"{least}{len(found)} homoclinic point{'s' * (len(found) > 1)} on what is drawn of them, to "
+            f"{power(max(one.error for one in found))}; longer ones cross more often"
+        )
 
 
 def _ended(branch: Manifold | Missed) -> str:
@@ -281,6 +313,7 @@ S = TypeVar("S", bound=State)
 
 def layers(of: Callable[[S], PeriodicOrbit]) -> tuple[Layer[S], ...]:
     """Return what is drawn of it in a section."""
+
     def orbit(s: S) -> mechanics.PeriodicOrbit | None:
         closed = of(s).closed
         return None if closed is None else closed.orbit

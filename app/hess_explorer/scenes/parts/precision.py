@@ -43,8 +43,11 @@ class Precision:
     @cached_property
     def measured(self) -> tuple[mechanics.WorkPoint, ...]:
         """Error and cost of every level, and of SciPy's methods where they do not take long."""
-        others = () if self.work.dragging or mechanics.others_take_long(*self.followed.named) else self.work.get(
-            mechanics.measure_others, *self.followed.named, SAMPLES)
+        others = (
+            ()
+            if self.work.dragging or mechanics.others_take_long(*self.followed.named)
+            else self.work.get(mechanics.measure_others, *self.followed.named, SAMPLES)
+        )
         return self.work.get(mechanics.measure_levels, *self.followed.named, SAMPLES) + others
 
     @cached_property
@@ -95,16 +98,18 @@ class Precision:
 
     def track(self) -> Columns:
         """What the moving points follow."""
-        return {"t": column(self.times), "growth": column(clipped(self.growing.errors[self.work.chosen], _FLOOR)),
-                "drift": column(clipped(np.max([*self._drifts.values()], axis=0), _FLOOR)),
-                "pixels": column(clipped(self.growing.pixels[self.work.chosen], _PIXEL_FLOOR))}
+        return {
+            "t": column(self.times),
+            "growth": column(clipped(self.growing.errors[self.work.chosen], _FLOOR)),
+            "drift": column(clipped(np.max([*self._drifts.values()], axis=0), _FLOOR)),
+            "pixels": column(clipped(self.growing.pixels[self.work.chosen], _PIXEL_FLOOR)),
+        }
 
     def choose(self, x: float, y: float) -> Mapping[str, str]:
         """The level whose point lies nearest to the error x."""
         if not x > 0.0:
             return {}
-        return {"accuracy": min(
-            self._taylor, key=lambda point: abs(math.log10(max(point.error, _FLOOR) / x))).setting}
+        return {"accuracy": min(self._taylor, key=lambda point: abs(math.log10(max(point.error, _FLOOR) / x))).setting}
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -118,12 +123,15 @@ class Precision:
 
     def _about_growth(self) -> str:
         own = self.growing.errors[self.work.chosen]
-        return (f"{self.work.chosen}: {digits(float(own[-1]), 2)} at the end; promised "
-                f"{digits(level(self.work.chosen).promise)} (dotted).")
+        return (
+            f"{self.work.chosen}: {digits(float(own[-1]), 2)} at the end; promised "
+            f"{digits(level(self.work.chosen).promise)} (dotted)."
+        )
 
     def _about_drift(self) -> str:
-        largest = ", ".join(f"({i + 1}) {name} {digits(float(drift.max()), 2)}"
-                            for i, (name, drift) in enumerate(self._drifts.items()))
+        largest = ", ".join(
+            f"({i + 1}) {name} {digits(float(drift.max()), 2)}" for i, (name, drift) in enumerate(self._drifts.items())
+        )
         return f"{self.work.chosen}: at most {largest}."
 
     def _about_pixels(self) -> str:
@@ -131,8 +139,10 @@ class Precision:
         wrong = np.flatnonzero(pixels > 1.0)
         if wrong.size:
             return f"{self.work.chosen}: wrong by less than a pixel until t = {digits(float(t[wrong[0]]))}."
-        return (f"{self.work.chosen}: wrong by less than a pixel to the end, t = {digits(float(t[-1]))} (at most "
-                f"{digits(pixels.max(), 2)}).")
+        return (
+            f"{self.work.chosen}: wrong by less than a pixel to the end, t = {digits(float(t[-1]))} (at most "
+            f"{digits(pixels.max(), 2)})."
+        )
 
     def derived(self) -> Iterator[str]:
         """The system, its parameters and the initial state."""
@@ -160,21 +170,62 @@ class Precision:
     def pictures() -> tuple[Plot[Precision], ...]:
         """Cost against error, error over time, drift, and what it means for the pictures."""
         return (
-            Plot(name="precision", title="Cost against error", caption=Precision._about_cost, log="xy",
-                 axes=("largest error", "milliseconds"), x=_ERRORS, y=(1e-2, 1e4), x_ticks=POWERS, y_tick_count=5,
-                 on_click=Precision.choose,
-                 layers=(*methods(Precision._of_method, Precision._at_level),
-                         ring("chosen", Precision._chosen, size=20, label="chosen level"))),
-            Plot(name="growth", title="Error over time", caption=Precision._about_growth, log="y", axes=("t", "error"),
-                 x=Precision._span, y=_ERRORS, y_tick_count=5, dot=("t", "growth"),
-                 layers=(limit(lambda s: level(s.work.chosen).promise),
-                         *curves_of_levels(lambda s, name: s._over_time(s.growing.errors[name])))),
-            Plot(name="drift", title="Drift of the integrals", caption=Precision._about_drift, log="y",
-                 x=Precision._span, y=_ERRORS, axes=("t", "relative drift"), y_tick_count=5, dot=("t", "drift"),
-                 layers=integrals(Precision._drift)),
-            Plot(name="pixels", title="What it means for the pictures", caption=Precision._about_pixels, log="y",
-                 x=Precision._span, axes=("t", "error in pixels"), y=(_PIXEL_FLOOR, 1e4), y_tick_count=5,
-                 dot=("t", "pixels"),
-                 layers=(limit(lambda s: 1.0),
-                         *curves_of_levels(lambda s, name: s._over_time(s.growing.pixels[name], _PIXEL_FLOOR)))),
+            Plot(
+                name="precision",
+                title="Cost against error",
+                caption=Precision._about_cost,
+                log="xy",
+                axes=("largest error", "milliseconds"),
+                x=_ERRORS,
+                y=(1e-2, 1e4),
+                x_ticks=POWERS,
+                y_tick_count=5,
+                on_click=Precision.choose,
+                layers=(
+                    *methods(Precision._of_method, Precision._at_level),
+                    ring("chosen", Precision._chosen, size=20, label="chosen level"),
+                ),
+            ),
+            Plot(
+                name="growth",
+                title="Error over time",
+                caption=Precision._about_growth,
+                log="y",
+                axes=("t", "error"),
+                x=Precision._span,
+                y=_ERRORS,
+                y_tick_count=5,
+                dot=("t", "growth"),
+                layers=(
+                    limit(lambda s: level(s.work.chosen).promise),
+                    *curves_of_levels(lambda s, name: s._over_time(s.growing.errors[name])),
+                ),
+            ),
+            Plot(
+                name="drift",
+                title="Drift of the integrals",
+                caption=Precision._about_drift,
+                log="y",
+                x=Precision._span,
+                y=_ERRORS,
+                axes=("t", "relative drift"),
+                y_tick_count=5,
+                dot=("t", "drift"),
+                layers=integrals(Precision._drift),
+            ),
+            Plot(
+                name="pixels",
+                title="What it means for the pictures",
+                caption=Precision._about_pixels,
+                log="y",
+                x=Precision._span,
+                axes=("t", "error in pixels"),
+                y=(_PIXEL_FLOOR, 1e4),
+                y_tick_count=5,
+                dot=("t", "pixels"),
+                layers=(
+                    limit(lambda s: 1.0),
+                    *curves_of_levels(lambda s, name: s._over_time(s.growing.pixels[name], _PIXEL_FLOOR)),
+                ),
+            ),
         )

@@ -33,9 +33,13 @@ _BOXES, _CIRCLES = 300, 16
 
 def proved_error_shown() -> Any:
     """Whether the orbit on show is judged by its tube."""
-    return choice("Proved error", (HIDDEN, SHOWN), HIDDEN,
-                  doc="How far the orbit on show is off at most, as a theorem, in the status line. Where that is wider "
-                      "than a pixel, a band and circles hold the true orbit at the moments of the samples.")
+    return choice(
+        "Proved error",
+        (HIDDEN, SHOWN),
+        HIDDEN,
+        doc="How far the orbit on show is off at most, as a theorem, in the status line. Where that is wider "
+        "than a pixel, a band and circles hold the true orbit at the moments of the samples.",
+    )
 
 
 @dataclass(frozen=True)
@@ -98,8 +102,11 @@ class Proof(Part[_Host]):
 def judged(finding: Task, motion: Motion, units: tuple[float, float]) -> ProvedError:
     """What the tube of a motion proves of the orbit found."""
     found: Orbit | Track = CACHE.get(finding.function, *finding.arguments)[0]
-    orbit, omega, gamma = (found.orbit, found.omega, found.gamma) if isinstance(found, Track) else (
-        found, found.states[:, :2], found.states[:, -3:])
+    orbit, omega, gamma = (
+        (found.orbit, found.omega, found.gamma)
+        if isinstance(found, Track)
+        else (found, found.states[:, :2], found.states[:, -3:])
+    )
     try:
         true = tube(motion, motion.state, orbit.times, _DIGITS, _MOST_WORK)
     except ModelError as error:
@@ -112,9 +119,14 @@ def judged(finding: Task, motion: Motion, units: tuple[float, float]) -> ProvedE
     wrong = np.flatnonzero(np.maximum(*sizes) > _HALF)
     last = (wrong[0] if wrong.size else len(errors)) - 1
     whole = len(errors) == orbit.times.size
-    until = "to its end" if whole and not wrong.size else (
-        f"until t = {digits(float(orbit.times[last]) * motion.unit)}"
-        + ("" if wrong.size else ", where the proof breaks off"))
+    until = (
+        "to its end"
+        if whole and not wrong.size
+        else (
+            f"until t = {digits(float(orbit.times[last]) * motion.unit)}"
+            + ("" if wrong.size else ", where the proof breaks off")
+        )
+    )
     said = f"proved error ≤ {errors[: last + 1].max():.1e}, certainly right to ½ pixel {until}"
     least = proved_error(orbit, true)[0]
     if least > orbit.error_estimate:

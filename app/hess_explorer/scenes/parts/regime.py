@@ -40,8 +40,9 @@ class Regime(Part[_Host]):
     def sets(self) -> Sets | None:
         """Attractor and repeller, when they are known."""
         few = (60, 120) if self.work.dragging else (500, 1500)
-        return self.work.soon(sets_of, self.host.poincare, self.host.place, *few,
-                              self.work.plan(Computation.SECTION).level)
+        return self.work.soon(
+            sets_of, self.host.poincare, self.host.place, *few, self.work.plan(Computation.SECTION).level
+        )
 
     @property
     def attractor(self) -> Array:
@@ -59,8 +60,9 @@ class Regime(Part[_Host]):
         if self.work.dragging:
             return None
         t = self.work.plan(Computation.EXPONENT).share * self.long
-        return self.work.later(at_state, self.host.poincare, self.host.place, 500, 1500, t,
-                               self.work.plan(Computation.SECTION).level)
+        return self.work.later(
+            at_state, self.host.poincare, self.host.place, 500, 1500, t, self.work.plan(Computation.SECTION).level
+        )
 
     @property
     def caption(self) -> str:
@@ -73,13 +75,14 @@ class Regime(Part[_Host]):
         if found.dynamics is None:
             return f"Motion: {kind}. Attractor and repeller: not compared, as the orbit leaves."
         if found.dynamics.verdict == "not told apart":
-            return (f"Motion: {kind}. Attractor and repeller: not told apart.\n"
-                    f"|mean div| < {digits(motion.bound, 1)}")
+            return f"Motion: {kind}. Attractor and repeller: not told apart.\n|mean div| < {digits(motion.bound, 1)}"
         if motion.volume_kept:
             return f"Motion: {kind}. Conservative: volume is kept."
-        return (f"Motion: {kind}. Looks {found.dynamics.verdict}.\n"
-                f"div = {digits(motion.divergence, 2)} ± {digits(motion.divergence_error, 1)}, sets "
-                f"{digits(found.dynamics.distance, 2)} ± {digits(found.dynamics.distance_error, 1)} apart")
+        return (
+            f"Motion: {kind}. Looks {found.dynamics.verdict}.\n"
+            f"div = {digits(motion.divergence, 2)} ± {digits(motion.divergence_error, 1)}, sets "
+            f"{digits(found.dynamics.distance, 2)} ± {digits(found.dynamics.distance_error, 1)} apart"
+        )
 
 
 def few(found: Array) -> Array | None:

@@ -113,23 +113,39 @@ class RotationAcross(Part[_Host]):
         return _HELD[2] if self.work.dragging else RESOLVED
 
     def _rotation_of(self, found: list[tuple[float, Array]], count: int) -> RotationProfile:
-        return rotation_along(self.ends, [share for share, _ in found], [orbit for _, orbit in found],
-                              self.about_middle, count, self._resolved)
+        return rotation_along(
+            self.ends,
+            [share for share, _ in found],
+            [orbit for _, orbit in found],
+            self.about_middle,
+            count,
+            self._resolved,
+        )
 
     def at(self, plan: Plan) -> RotationProfile:
         """Rotation numbers along the line, computed here and now."""
         count = plan.side(_ACROSS)
         starts = on_line(self.host.poincare, self.ends, count)
-        orbits = [orbit for some in in_batches(starts) for orbit in self.host.batch(
-            tuple(state for _, state in some), self._crossings_on_line(plan), True, plan.level).now().orbits]
+        orbits = [
+            orbit
+            for some in in_batches(starts)
+            for orbit in self.host.batch(
+                tuple(state for _, state in some), self._crossings_on_line(plan), True, plan.level
+            )
+            .now()
+            .orbits
+        ]
         return self._rotation_of([(share, orbit) for (share, _), orbit in zip(starts, orbits, strict=True)], count)
 
     def message(self) -> str:
         """Why there is nothing to see, when all is known."""
         if self.found.numbers.size or not self._orbits_on_line[1]:
             return ""
-        return ("No closed curve of the line goes round" if self.found.standing.size else
-                "No orbit of the line is a closed curve")
+        return (
+            "No closed curve of the line goes round"
+            if self.found.standing.size
+            else "No orbit of the line is a closed curve"
+        )
 
     @property
     def along(self) -> Range:
@@ -159,8 +175,10 @@ class RotationAcross(Part[_Host]):
         if low == high:
             return f"All closed curves have ρ = {low}{standing}"
         return f"Closed curves: ρ = {low} … {high}" + (
-            standing if turning is None else
-            f", turns round at {digits(turning[0])} (ρ = {self._turns(turning[1])}): no twist.")
+            standing
+            if turning is None
+            else f", turns round at {digits(turning[0])} (ρ = {self._turns(turning[1])}): no twist."
+        )
 
     def _turns(self, rho: float) -> str:
         """A rotation number, to what is known of it."""
@@ -177,11 +195,19 @@ S = TypeVar("S", bound=State)
 
 def rotation_trial(of: Callable[[S], RotationAcross]) -> Trial[S]:
     """Return how the rotation numbers of a state are computed at each level."""
+
     def look(s: S, found: RotationProfile) -> Curves:
         return Curves(Frame(Axes(of(s).along, _axis_of(found)), of(s).names), tuple(_branches(found)))
 
-    return Trial(Computation.ROTATION, ("rotation",), lambda s, plan: of(s).at(plan),
-                 lambda s, found, truth: found.distance(truth), look, unit="turns, the median", seen=RESOLVED)
+    return Trial(
+        Computation.ROTATION,
+        ("rotation",),
+        lambda s, plan: of(s).at(plan),
+        lambda s, found, truth: found.distance(truth),
+        look,
+        unit="turns, the median",
+        seen=RESOLVED,
+    )
 
 
 def _branches(found: RotationProfile) -> list[Array]:
@@ -191,14 +217,33 @@ def _branches(found: RotationProfile) -> list[Array]:
 def rotation_picture(of: Callable[[S], RotationAcross]) -> Plot[S]:
     """Return ρ along the line, in branches, the orbits that it is known from, and where on the line there is none."""
     return Plot(
-        name="rotation", title="Rotation number across the section", caption=lambda s: of(s).caption(),
-        axes=lambda s: of(s).names, first=Axes((-1.0, 1.0), (-0.5, 0.5)), message=lambda s: of(s).message(),
-        x=lambda s: of(s).along, y=lambda s: _axis_of(of(s).found),
+        name="rotation",
+        title="Rotation number across the section",
+        caption=lambda s: of(s).caption(),
+        axes=lambda s: of(s).names,
+        first=Axes((-1.0, 1.0), (-0.5, 0.5)),
+        message=lambda s: of(s).message(),
+        x=lambda s: of(s).along,
+        y=lambda s: _axis_of(of(s).found),
         layers=(
-            region("sea", within=lambda s, axes: of(s).parts_at_sea(axes), color=theme.MUTED + "38", moving=True,
-                   label="ρ does not settle"),
-            points("standing", lambda s: (of(s).found.standing, np.zeros(of(s).found.standing.size)), size=7,
-                   hollow=True, color=theme.MUTED, edge_width=1.5, label="does not go round: 0 turns"),
+            region(
+                "sea",
+                within=lambda s, axes: of(s).parts_at_sea(axes),
+                color=theme.MUTED + "38",
+                moving=True,
+                label="ρ does not settle",
+            ),
+            points(
+                "standing",
+                lambda s: (of(s).found.standing, np.zeros(of(s).found.standing.size)),
+                size=7,
+                hollow=True,
+                color=theme.MUTED,
+                edge_width=1.5,
+                label="does not go round: 0 turns",
+            ),
             curves("rho", lambda s: _branches(of(s).found), color=theme.ORBIT),
             # An orbit between two gaps is a curve of one point.
-            points("orbits", lambda s: (of(s).found.places, of(s).found.numbers), size=4, color=theme.ORBIT)))
+            points("orbits", lambda s: (of(s).found.places, of(s).found.numbers), size=4, color=theme.ORBIT),
+        ),
+    )

@@ -50,8 +50,16 @@ _MOST_COMPARED = 400.0
 
 def crossings_of_each() -> Any:
     """Declare how many crossings of a section each orbit leaves, at once."""
-    return number("n", 200.0, (50.0, 600.0), 10.0, bounds=(1.0, 1e3), label="Crossings of each orbit",
-                  doc="Points for each orbit.", group="Computation")
+    return number(
+        "n",
+        200.0,
+        (50.0, 600.0),
+        10.0,
+        bounds=(1.0, 1e3),
+        label="Crossings of each orbit",
+        doc="Points for each orbit.",
+        group="Computation",
+    )
 
 
 def start_on(section: PoincareSection, text: str) -> Start:
@@ -128,8 +136,10 @@ class Section(Part[_Host]):
     def _tasks(self, crossings: int, level: Level) -> tuple[Task, Task]:
         if self.crossing is not None:
             return self.crossing(crossings, level)
-        return (Task(_crossings, (self.poincare, (self.given,), crossings, level)),
-                Task(_spread, (self.poincare, crossings, level)))
+        return (
+            Task(_crossings, (self.poincare, (self.given,), crossings, level)),
+            Task(_spread, (self.poincare, crossings, level)),
+        )
 
     @cached_property
     def crossed(self) -> _Crossed:
@@ -196,15 +206,19 @@ class Section(Part[_Host]):
         crossed = self.crossed
         if self.work.dragging or self.closed() is not None or crossed.own is None or crossed.others is None:
             return None
-        tight: list[SectionPoints | None] = [self.work.later(task.function, *task.arguments) for task in self._tasks(
-            self.wanted, self.work.plan(Computation.SECTION).level.tightened())]
+        tight: list[SectionPoints | None] = [
+            self.work.later(task.function, *task.arguments)
+            for task in self._tasks(self.wanted, self.work.plan(Computation.SECTION).level.tightened())
+        ]
         if self.work.todo:
             # Of the others a few crossings are shown so far.
             return None
         at = self.poincare.places_of
         own, others = (
             right_crossings([*map(at, coarse.states)], [*map(at, fine.states)], self.pixels, self.periods)
-            for coarse, fine in zip((crossed.own, crossed.others), tight, strict=True) if fine is not None)
+            for coarse, fine in zip((crossed.own, crossed.others), tight, strict=True)
+            if fine is not None
+        )
         return own[0], typical(others)
 
     @property
@@ -229,8 +243,9 @@ class Section(Part[_Host]):
             yield self.reason
 
 
-def _crossings(poincare: PoincareSection, starts: tuple[tuple[float, ...], ...], crossings: int, level: Level
-               ) -> SectionPoints:
+def _crossings(
+    poincare: PoincareSection, starts: tuple[tuple[float, ...], ...], crossings: int, level: Level
+) -> SectionPoints:
     fastest = float(np.max(poincare.system.frequency(np.array(starts).T, np.array(poincare.parameters)), initial=0.0))
     end = _TURNS * crossings * poincare.slowness / (fastest or 1.0)
     return section_points(poincare, starts, poincare.surface, end, level, crossings, most_steps=_MOST_STEPS)
@@ -252,6 +267,7 @@ def section_picture(of: Callable[[S], Section], start: str, title: str = "Poinca
 
     start : the name of the parameter with its place, see `places`.
     """
+
     def range_of(axis: int) -> Callable[[S], Range]:
         return lambda s: (of(s).frame[0][axis], of(s).frame[1][axis])
 
@@ -260,17 +276,30 @@ def section_picture(of: Callable[[S], Section], start: str, title: str = "Poinca
         return first, second
 
     return Plot(
-        name="section", title=title, caption=lambda s: of(s).caption, axes=names, x=range_of(0), y=range_of(1),
-        message=lambda s: of(s).reason, on_click=lambda s, x, y: {start: written([(x, y)])},
-        layers=section_plane.layers(lambda s: of(s).points, others=lambda s: of(s).others))
+        name="section",
+        title=title,
+        caption=lambda s: of(s).caption,
+        axes=names,
+        x=range_of(0),
+        y=range_of(1),
+        message=lambda s: of(s).reason,
+        on_click=lambda s, x, y: {start: written([(x, y)])},
+        layers=section_plane.layers(lambda s: of(s).points, others=lambda s: of(s).others),
+    )
 
 
 def section_trial(of: Callable[[S], Section]) -> Trial[S]:
     """Return how the section of a state is computed at each level."""
+
     def look(s: S, orbits: list[Array]) -> Marks:
         section = of(s)
         return Marks(frame_of(section.frame, section.poincare.names), tuple(orbits), section.periods, crossings=True)
 
-    return Trial(Computation.SECTION, ("section",), lambda s, plan: of(s).orbits_at(plan),
-                 lambda s, orbits, truth: section_error(orbits, truth, of(s).pixels, of(s).periods), look,
-                 small=lambda s: s.changed({"count": min(of(s).host.count, _MOST_COMPARED)}))
+    return Trial(
+        Computation.SECTION,
+        ("section",),
+        lambda s, plan: of(s).orbits_at(plan),
+        lambda s, orbits, truth: section_error(orbits, truth, of(s).pixels, of(s).periods),
+        look,
+        small=lambda s: s.changed({"count": min(of(s).host.count, _MOST_COMPARED)}),
+    )

@@ -48,8 +48,9 @@ def _solve(address, method, initial, times, tolerance, out):
         solution.free()
 
 
-def _run(work: MapWorkload | MotionWorkload, initial: Array, times: Array, setting: Setting,
-         finish: Callable[[Array], Array]) -> Run:
+def _run(
+    work: MapWorkload | MotionWorkload, initial: Array, times: Array, setting: Setting, finish: Callable[[Array], Array]
+) -> Run:
     method, tolerance = setting
     address, out = _right_hand_side(work).address, np.empty((len(initial), len(times), initial.shape[1]))
 
@@ -82,5 +83,4 @@ def _prepare(work: Workload, setting: Setting, threads: int = 1) -> Run:
     return run
 
 
-METHOD = Method("CyRK", version("CyRK"), _ladders, _prepare,
-                without={"D": "its functions for Numba have no events"})
+METHOD = Method("CyRK", version("CyRK"), _ladders, _prepare, without={"D": "its functions for Numba have no events"})

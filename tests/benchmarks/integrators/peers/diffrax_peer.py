@@ -42,8 +42,17 @@ def _solver(work: MapWorkload | MotionWorkload, name: str) -> Any:
 
     def one(initial: Any, times: Any, tolerance: Any) -> Any:
         solution = diffrax.diffeqsolve(
-            term, solver, 0.0, times[-1], None, initial, saveat=diffrax.SaveAt(ts=times), max_steps=_MAX_STEPS,
-            stepsize_controller=diffrax.PIDController(rtol=tolerance, atol=tolerance), throw=False)
+            term,
+            solver,
+            0.0,
+            times[-1],
+            None,
+            initial,
+            saveat=diffrax.SaveAt(ts=times),
+            max_steps=_MAX_STEPS,
+            stepsize_controller=diffrax.PIDController(rtol=tolerance, atol=tolerance),
+            throw=False,
+        )
         return solution.ys
 
     if isinstance(work, MotionWorkload) and len(work.initial) > 1:
@@ -51,8 +60,9 @@ def _solver(work: MapWorkload | MotionWorkload, name: str) -> Any:
     return jax.jit(lambda initial, times, tolerance: one(initial[0], times, tolerance)[None])
 
 
-def _run(work: MapWorkload | MotionWorkload, initial: Array, times: Array, setting: Setting,
-         finish: Callable[[Array], Array]) -> Run:
+def _run(
+    work: MapWorkload | MotionWorkload, initial: Array, times: Array, setting: Setting, finish: Callable[[Array], Array]
+) -> Run:
     name, tolerance = setting
     solve = _solver(work, name)
     arguments = initial, times, np.float64(tolerance)
@@ -84,5 +94,10 @@ def _prepare(work: Workload, setting: Setting, threads: int = 1) -> Run:
     return _WAYS[work.name](work, setting)
 
 
-METHOD = Method("diffrax", version("diffrax"), _ladders, _prepare,
-                without={"D": "it can stop at one event, but not list all of them"})
+METHOD = Method(
+    "diffrax",
+    version("diffrax"),
+    _ladders,
+    _prepare,
+    without={"D": "it can stop at one event, but not list all of them"},
+)

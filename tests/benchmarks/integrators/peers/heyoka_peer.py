@@ -71,7 +71,7 @@ def _end(work: MotionWorkload, setting: Setting, threads: int) -> Run:
 def _ensemble(work: MotionWorkload, setting: Setting, threads: int) -> Run:
     """Batch after batch, each lane with its own step."""
     width = int(str(setting[-1]).split()[0])
-    blocks = [work.initial[i:i + width].T.copy() for i in range(0, len(work.initial), width)]
+    blocks = [work.initial[i : i + width].T.copy() for i in range(0, len(work.initial), width)]
     out = np.empty_like(work.initial)
     first = heyoka.taylor_adaptive_batch(_motion_equations(work), blocks[0], **_options(setting))
     integrators = [first, *(deepcopy(first) for _ in range(threads - 1))]
@@ -82,7 +82,7 @@ def _ensemble(work: MotionWorkload, setting: Setting, threads: int) -> Run:
             integrator.set_time(0.0)
             integrator.state[:] = blocks[i]
             integrator.propagate_until(work.times[0])
-            out[width * i:width * (i + 1)] = integrator.state.T
+            out[width * i : width * (i + 1)] = integrator.state.T
 
     all_parts = shared(part, threads)
 
@@ -138,7 +138,12 @@ def _crossings(work: MotionWorkload, setting: Setting, threads: int) -> Run:
 
 
 _WAYS: dict[str, Callable[..., Run]] = {
-    "A": _dense, "A2": _end, "B": _ensemble, "B2": _ensemble, "C": _circle_map, "D": _crossings,
+    "A": _dense,
+    "A2": _end,
+    "B": _ensemble,
+    "B2": _ensemble,
+    "C": _circle_map,
+    "D": _crossings,
 }
 
 

@@ -99,5 +99,6 @@ def _prepare(work: Workload, setting: Setting, threads: int = 1) -> Run:
     return run
 
 
-METHOD = Method("numbalsoda", version("numbalsoda"), _ladders, _prepare,
-                without={"D": "these two solvers have no events"})
+METHOD = Method(
+    "numbalsoda", version("numbalsoda"), _ladders, _prepare, without={"D": "these two solvers have no events"}
+)

@@ -33,14 +33,15 @@ def _right_hand_side(work: MapWorkload | MotionWorkload) -> Any:
     def right_hand_side(t, y):
         dy = np.empty_like(y)
         for i in range(0, y.size, n):
-            field(y[i:i + n], dy[i:i + n])
+            field(y[i : i + n], dy[i : i + n])
         return dy
 
     return right_hand_side
 
 
-def _solve(work: MotionWorkload | MapWorkload, state: Array, times: Array, setting: Setting,
-           **options: Any) -> Callable[[], Any]:
+def _solve(
+    work: MotionWorkload | MapWorkload, state: Array, times: Array, setting: Setting, **options: Any
+) -> Callable[[], Any]:
     """The solution up to the last of the times, with its values at them as `y`, (d, n)."""
     name, tolerance = setting
     function = _right_hand_side(work)
@@ -74,7 +75,12 @@ def _crossings(work: MotionWorkload, setting: Setting) -> Run:
 
 
 _WAYS: dict[str, Callable[..., Run]] = {
-    "A": _motion, "A2": _motion, "B": _motion, "B2": _motion, "C": _circle_map, "D": _crossings,
+    "A": _motion,
+    "A2": _motion,
+    "B": _motion,
+    "B2": _motion,
+    "C": _circle_map,
+    "D": _crossings,
 }
 
 
