@@ -14,7 +14,7 @@ from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework import ball_parameters as ball
 from hess_explorer.scenes.framework.charted import exponents
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, parameter, time_span
-from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.periodic_search import Closed
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
@@ -236,21 +236,17 @@ class BallSection(State):
 
     # ---- the parts ----------------------------------------------------------------------------------------------
 
-    def parts(self) -> tuple[Part[Host], ...]:
-        """Return what is computed, in the order of its words."""
-        return self.section, self.megno, self.periodic_orbit, self.branch, self.orbit, self.proof
-
-    @cached_property
+    @part
     def section(self) -> Section:
         """The orbit on show among others."""
-        return Section(self, self._crossing, closed=lambda: self.closed, later=self.drop != "all")
+        return Section(self, lambda: self.given, self._crossing, closed=lambda: self.closed, later=self.drop != "all")
 
-    @cached_property
+    @part
     def megno(self) -> Indicator:
         """The cells of the section by MEGNO."""
         return Indicator(self.section, self.indicator == MEGNO)
 
-    @cached_property
+    @part
     def periodic_orbit(self) -> PeriodicOrbit:
         """The periodic orbit in place of the chosen one."""
         return PeriodicOrbit(self.section, self.periodic, self.reach, self.span)
@@ -260,17 +256,17 @@ class BallSection(State):
         """The same where it is known."""
         return self.periodic_orbit.closed
 
-    @cached_property
+    @part
     def branch(self) -> Branch:
         """Its branch over a parameter."""
         return Branch(self, self.periodic_orbit, ball.PARAMETERS)
 
-    @cached_property
+    @part
     def orbit(self) -> Orbit:
         """The orbit on show."""
         return Orbit(self)
 
-    @cached_property
+    @part
     def proof(self) -> Proof:
         """Its proved error."""
         return Proof(self.orbit, self.certain)

@@ -21,7 +21,7 @@ from hess_explorer.scenes.framework.parameters import (
     places,
     time_span,
 )
-from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS
 from hess_explorer.scenes.framework.scene import Motion, State
 from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
@@ -201,31 +201,27 @@ class DiagramState(State, ABC):
 
     # ---- the parts ----------------------------------------------------------------------------------------------
 
-    def parts(self) -> tuple[Part[Host], ...]:
-        """Return what is computed, in the order of its words."""
-        return self.diagram, self.continuation, self.orbit, self.proof, self.regime
-
-    @cached_property
+    @part
     def diagram(self) -> OrbitDiagram:
         """Where orbits settle."""
         return OrbitDiagram(self, self.symbols)
 
-    @cached_property
+    @part
     def continuation(self) -> Continuation:
         """The branch of a periodic orbit over it."""
         return Continuation(self.diagram)
 
-    @cached_property
+    @part
     def orbit(self) -> Orbit:
         """The orbit on show."""
         return Orbit(self)
 
-    @cached_property
+    @part
     def proof(self) -> Proof:
         """Its proved error."""
         return Proof(self.orbit, self.certain)
 
-    @cached_property
+    @part
     def regime(self) -> Regime:
         """What kind of motion it is."""
         return Regime(self.diagram, self.long)

@@ -25,7 +25,7 @@ from hess_explorer.scenes.framework.parameters import (
     places,
     time_span,
 )
-from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Heavy, heavy_solid
 from hess_explorer.scenes.framework.windows import inside
@@ -261,64 +261,50 @@ class EulerPoisson(State):
 
     # ---- the parts ----------------------------------------------------------------------------------------------
 
-    def parts(self) -> tuple[Part[Host], ...]:
-        """Return what is computed, in the order of its words."""
-        return (
-            self.split,
-            self.section,
-            self.megno,
-            self.periodic_orbit,
-            self.branch,
-            self.orbit,
-            self.proof,
-            self.exponent,
-            self.rotation,
-        )
+    @part
+    def split(self) -> HessSplit:
+        """The split of the separatrices."""
+        return HessSplit(self)
 
-    @cached_property
+    @part
     def section(self) -> FilledSection:
         """The orbits of the section."""
         return FilledSection(self, "no motion with this h and f crosses the section", _BOUNDS, (16, 40))
 
-    @cached_property
+    @part
     def megno(self) -> Indicator:
         """The cells of the section by MEGNO."""
         return Indicator(self.section, self.indicator == MEGNO, lambda: self.section.batches)
 
-    @cached_property
+    @part
     def periodic_orbit(self) -> PeriodicOrbit:
         """The periodic orbit in place of the last chosen one."""
         return PeriodicOrbit(self.section, self.periodic, self.reach, self.span)
 
-    @cached_property
+    @part
     def branch(self) -> Branch:
         """Its branch over a parameter."""
         return Branch(self, self.periodic_orbit, _OVER, ("sheet",))
 
-    @cached_property
+    @part
     def orbit(self) -> Orbit:
         """The orbit on show."""
         return Orbit(self)
 
-    @cached_property
+    @part
     def proof(self) -> Proof:
         """Its proved error."""
         return Proof(self.orbit, self.certain)
 
-    @cached_property
+    @part
     def exponent(self) -> Exponent:
         """Its largest Lyapunov exponent."""
         return Exponent(self)
 
-    @cached_property
+    @part
     def rotation(self) -> RotationAcross:
         """Rotation numbers along a line across the section."""
         return RotationAcross(self, self.section, self.turns == _ABOUT)
-
-    @cached_property
-    def split(self) -> HessSplit:
-        """The split of the separatrices."""
-        return HessSplit(self)
 
     def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
         """Return the computation of so many crossings of the orbits from there."""

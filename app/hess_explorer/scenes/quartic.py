@@ -20,7 +20,7 @@ from hess_explorer.scenes.framework.parameters import (
     slider_within,
     time_span,
 )
-from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import Closed
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
@@ -181,21 +181,17 @@ class Quartic(State):
 
     # ---- the parts ----------------------------------------------------------------------------------------------
 
-    def parts(self) -> tuple[Part[Host], ...]:
-        """Return what is computed, in the order of its words."""
-        return self.section, self.megno, self.periodic_orbit, self.branch, self.orbit, self.proof
-
-    @cached_property
+    @part
     def section(self) -> Section:
         """The orbit on show among others."""
-        return Section(self, self._crossing, self.section_axes, lambda: self.closed)
+        return Section(self, lambda: self.given, self._crossing, self.section_axes, lambda: self.closed)
 
-    @cached_property
+    @part
     def megno(self) -> Indicator:
         """The cells of the section by MEGNO."""
         return Indicator(self.section, self.indicator == MEGNO)
 
-    @cached_property
+    @part
     def periodic_orbit(self) -> PeriodicOrbit:
         """The periodic orbit in place of the chosen one."""
         return PeriodicOrbit(self.section, self.periodic, self.reach, self.span)
@@ -205,17 +201,17 @@ class Quartic(State):
         """The same where it is known."""
         return self.periodic_orbit.closed
 
-    @cached_property
+    @part
     def branch(self) -> Branch:
         """Its branch over a parameter."""
         return Branch(self, self.periodic_orbit, _ALONG, ("I22",))
 
-    @cached_property
+    @part
     def orbit(self) -> Orbit:
         """The orbit on show."""
         return Orbit(self)
 
-    @cached_property
+    @part
     def proof(self) -> Proof:
         """Its proved error."""
         return Proof(self.orbit, self.certain)

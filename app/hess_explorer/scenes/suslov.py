@@ -14,7 +14,7 @@ from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.charted import Charted, Placed, exponents, motion_of
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch
 from hess_explorer.scenes.framework.parameters import TURN, accuracy_level, choice, parameter, places, time_span
-from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
 from hess_explorer.scenes.parts.basins import Basins, basins_trial
@@ -213,45 +213,41 @@ class Suslov(State):
 
     # ---- the parts ----------------------------------------------------------------------------------------------
 
-    def parts(self) -> tuple[Part[Host], ...]:
-        """Return what is computed, in the order of its words."""
-        return (self.section, self.megno, self.periodic_orbit, self.orbit, self.proof, self.exponent, self.basins)
-
-    @cached_property
+    @part
     def section(self) -> FilledSection:
         """The orbits of the section."""
         ways = (True, False) if self.colours == _BOTH else (True,)
         return FilledSection(self, "no motion has this energy", _BOUNDS, (12, 40), ways, self.drop != "all")
 
-    @cached_property
+    @part
     def megno(self) -> Indicator:
         """The cells of the section by MEGNO, unless basins are shown."""
         return Indicator(self.section, self.indicator == MEGNO and not self.basins.wanted, lambda: self.section.batches)
 
-    @cached_property
-    def basins(self) -> Basins:
-        """The cells of the section by where they lead."""
-        return Basins(self, self.section, self.colours == "basins")
-
-    @cached_property
+    @part
     def periodic_orbit(self) -> PeriodicOrbit:
         """The periodic orbit in place of the last chosen one."""
         return PeriodicOrbit(self.section, self.periodic, self.reach, self.span)
 
-    @cached_property
+    @part
     def orbit(self) -> Orbit:
         """The orbit on show."""
         return Orbit(self, self.orbit_level)
 
-    @cached_property
+    @part
     def proof(self) -> Proof:
         """Its proved error."""
         return Proof(self.orbit, self.certain)
 
-    @cached_property
+    @part
     def exponent(self) -> Exponent:
         """Its largest Lyapunov exponent."""
         return Exponent(self)
+
+    @part
+    def basins(self) -> Basins:
+        """The cells of the section by where they lead."""
+        return Basins(self, self.section, self.colours == "basins")
 
     def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
         """Return the computation of so many crossings of the orbits from there."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from hess_explorer.scenes.framework.parameters import accuracy_level, number, places, time_span
-from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
 from hess_explorer.scenes.parts.orbit import Orbit, orbit_picture
 from hess_explorer.scenes.parts.section import Section, crossings_of_each, section_picture, start_on
@@ -38,18 +38,11 @@ class Pendulum(State):
     def start(self) -> Start:
         return start_on(self.poincare, self.place)
 
-    @property
-    def given(self) -> Start:
-        return self.start
-
-    def parts(self) -> tuple[Part[Host], ...]:
-        return self.section, self.orbit
-
-    @cached_property
+    @part
     def section(self) -> Section:
-        return Section(self)
+        return Section(self, lambda: self.start)
 
-    @cached_property
+    @part
     def orbit(self) -> Orbit:
         return Orbit(self)
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Generic, Protocol, Self, TypeVar
 
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.dynamics.return_map import PoincareSection
 
-__all__ = ["Host", "Part", "Sectioned", "Start"]
+__all__ = ["Host", "Part", "Sectioned", "Start", "part"]
 
 Start = tuple[float, ...]
 """A state in which a motion starts."""
@@ -37,7 +38,7 @@ H_co = TypeVar("H_co", bound=Host, covariant=True)
 
 @dataclass(frozen=True, eq=False)
 class Part(Generic[H_co]):
-    """One thing that a scene computes, with the words on it; a scene lists its parts in `State.parts`.
+    """One thing that a scene computes, with the words on it; its state declares each with `@part`.
 
     host : the state or the part that it is made from.  Each class of parts names what it needs of it in a `Protocol`.
     Results are cached properties, computed when a picture in sight asks for them.
@@ -81,3 +82,10 @@ class Part(Generic[H_co]):
     def notes(self) -> Iterable[str]:
         """Return what the user should know of this state."""
         return ()
+
+
+P = TypeVar("P", bound=Part[Host])
+
+
+class part(cached_property[P]):  # noqa: N801 — used as a decorator, like cached_property
+    """Declares a part of a state; the order of the declarations is the order of their words."""

@@ -14,7 +14,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Choice, Number, Spec, Value, Values
 from hess_explorer.scenes.framework.charted import Charted, Placed
 from hess_explorer.scenes.framework.parameters import Slider, specs_of
-from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.part import Host, Part, part
 from hess_explorer.scenes.framework.trial import Trial, bare, needed, orbit_trial
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Columns, Sign
@@ -111,8 +111,11 @@ class State:
         return self.work.awaited(what)
 
     def parts(self) -> tuple[Part[Host], ...]:
-        """Return the parts that the scene is composed of, in the order of their words."""
-        return ()
+        """Return the parts that the scene is composed of, in the order in which it declares them with `@part`."""
+        declared = (
+            name for base in reversed(type(self).__mro__) for name, one in vars(base).items() if isinstance(one, part)
+        )
+        return tuple(getattr(self, name) for name in declared)
 
     def changed(self, values: Values) -> Self:
         """Return the state with other values of some parameters."""
@@ -121,7 +124,7 @@ class State:
 
     def admitted(self, notes: list[str]) -> Self:
         """Clamp the parameters to a valid state; append a note for each change."""
-        return self.changed({name: value for part in self.parts() for name, value in part.admitted(notes).items()})
+        return self.changed({name: value for one in self.parts() for name, value in one.admitted(notes).items()})
 
     def limits(self) -> Mapping[str, Slider]:
         """Return the ranges of sliders that depend on the state."""
@@ -132,11 +135,11 @@ class State:
 
         Raises `ModelError` where that cannot be told.
         """
-        return {name: value for part in self.parts() for name, value in part.idle().items()}
+        return {name: value for one in self.parts() for name, value in one.idle().items()}
 
     def means(self) -> Mapping[str, str]:
         """Return the meanings, as `Number.means`, of the numbers whose meaning depends on a choice."""
-        return {name: said for part in self.parts() for name, said in part.means().items()}
+        return {name: said for one in self.parts() for name, said in one.means().items()}
 
     def carried(self, before: Self) -> Mapping[str, float]:
         """Return the parameter changes that keep the motion continuous after a different choice in the state before.
@@ -145,8 +148,8 @@ class State:
         """
         return {
             name: value
-            for part, other in zip(self.parts(), before.parts(), strict=True)
-            for name, value in part.carried(other).items()
+            for one, other in zip(self.parts(), before.parts(), strict=True)
+            for name, value in one.carried(other).items()
         }
 
     def motion(self) -> Motion | None:
@@ -155,15 +158,15 @@ class State:
 
     def derived(self) -> Iterable[str]:
         """Return quantities that follow from the parameters, a line each."""
-        return (line for part in self.parts() for line in part.derived())
+        return (line for one in self.parts() for line in one.derived())
 
     def status(self) -> Iterable[str]:
         """Return entries of the status line: size, cost, errors of what was computed."""
-        return (entry for part in self.parts() for entry in part.status())
+        return (entry for one in self.parts() for entry in one.status())
 
     def notes(self) -> Iterable[str]:
         """Return what the user should know of this state."""
-        return (note for part in self.parts() for note in part.notes())
+        return (note for one in self.parts() for note in one.notes())
 
 
 @dataclass(frozen=True, repr=False)

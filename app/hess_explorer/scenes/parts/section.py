@@ -73,10 +73,6 @@ def start_on(section: PoincareSection, text: str) -> Start:
 
 class _Host(Sectioned, Protocol):
     @property
-    def given(self) -> Start:
-        """The state from which the chosen orbit starts.  Raises `ModelError`."""
-
-    @property
     def count(self) -> float:
         """The number of crossings of each orbit."""
 
@@ -94,6 +90,7 @@ class _Crossed:
 class Section(Part[_Host]):
     """A section with the orbit on show, and others; of the others a few crossings come first.
 
+    start() : the state from which the chosen orbit starts, raises `ModelError`.
     crossing(crossings, level) : finds so many crossings of the orbit on show, and of the others; without it those are
         spread over the window of the section.
     axes() : of its picture, where that shows more than that window; closed() : the periodic orbit that is shown in
@@ -101,6 +98,7 @@ class Section(Part[_Host]):
     periods : of the coordinates when two runs are compared.
     """
 
+    start: Callable[[], Start]
     crossing: Callable[[int, Level], tuple[Task, Task]] | None = None
     axes: Callable[[], Axes] | None = None
     closed: Callable[[], Closed | None] = none_closed
@@ -115,7 +113,7 @@ class Section(Part[_Host]):
     @property
     def given(self) -> Start:
         """The state from which the chosen orbit starts.  Raises `ModelError`."""
-        return self.host.given
+        return self.start()
 
     @property
     def frame(self) -> Window:
