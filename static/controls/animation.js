@@ -1,9 +1,8 @@
 // Moves a slider to and fro at a chosen pace, one slider at a time.  A touch of that slider, Escape, and the choice of
 // another state stop it.
 
-import { button, icon, relabel } from "../page/buttons.js"
+import { button, element, icon, relabel } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
-import { element } from "../page/mount.js"
 
 // From one end to the other at the pace 1, in milliseconds.
 const SWEEP = 8000
@@ -30,8 +29,8 @@ window.addEventListener("keydown", (event) => {
  */
 export function animation(frame, { symbol, value, limits, stepOf, move }) {
   const sway = button("sway", () => (stop === end ? end : begin)(), { innerHTML: icon("", "1.2em") })
-  const menu = element("select", {
-    className: "pace", ariaLabel: `Pace of ${symbol}`, title: "Pace", onchange: () => { pace = Number(menu.value) },
+  const menu = element("select.pace", {
+    ariaLabel: `Pace of ${symbol}`, title: "Pace", onchange: () => { pace = Number(menu.value) },
   }, ...PACES.map((value) => new Option(`${value}×`, String(value))))
 
   function show(on) {

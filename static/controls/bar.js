@@ -1,9 +1,8 @@
 // The bar: the menu of scenes with the name of the one on show, and what can be done with the page.
 
-import { button, icon } from "../page/buttons.js"
+import { button, element, icon } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
-import { element } from "../page/mount.js"
-import { isPresenting, wear } from "../page/presenting.js"
+import { isPresenting } from "../page/presenting.js"
 import { chartPanel } from "./chart.js"
 import { exportDialog } from "./export.js"
 import { moreMenu } from "./more.js"
@@ -49,25 +48,25 @@ const TOOLS = [
 ]
 
 function tool({ name, label, title, icon: path }) {
-  return button(`tool param-${name}`, () => tell(name), { title, ariaLabel: label, innerHTML: icon(path) },
-    element("span", { className: "label", textContent: label }))
+  return button(`tool.param-${name}`, () => tell(name), { title, ariaLabel: label, innerHTML: icon(path) },
+    element("span.label", label))
 }
 
-export function render({ scenes, files, palettes, el, signal }) {
+export function render({ scenes, files, palettes, el }) {
   const menu = sceneMenu(scenes)
-  const share = shareDialog(signal)
+  const share = shareDialog()
   const taking = exportDialog(files)
-  const chart = chartPanel(palettes, signal)
-  const heading = element("h1", { className: "heading" })
-  const open = button("tool param-scenes", menu.open, { title: "Choose a scene", ariaHasPopup: "dialog", innerHTML: icon(MENU) },
-    element("span", { textContent: "Scenes" }))
+  const chart = chartPanel(palettes)
+  const heading = element("h1.heading")
+  const open = button("tool.param-scenes", menu.open, { title: "Choose a scene", ariaHasPopup: "dialog", innerHTML: icon(MENU) },
+    element("span", "Scenes"))
   // Name → [button, its description].
   const tools = new Map(TOOLS.flat().map((one) => [one.name, [tool(one), one]]))
   const those = (property) => [...tools.values()].filter(([, one]) => one[property])
-  const groups = TOOLS.map((group) => element("div", { className: "group" }, ...group.map(({ name }) => tools.get(name)[0])))
-  const more = moreMenu(those("isFar").map(([item]) => item), icon(MORE), signal)
+  const groups = TOOLS.map((group) => element("div.group", ...group.map(({ name }) => tools.get(name)[0])))
+  const more = moreMenu(those("isFar").map(([item]) => item), icon(MORE))
   el.append(
-    element("div", { className: "tools" }, open, heading, element("span", { className: "room" }), ...groups, ...more),
+    element("div.tools", open, heading, element("span.room"), ...groups, ...more),
     menu.dialog, share.dialog, taking.dialog, chart.panel)
 
   // How far a chart is whose panel may be closed.
@@ -76,12 +75,12 @@ export function render({ scenes, files, palettes, el, signal }) {
     const said = share === null ? "" : ` ${Math.floor(100 * share)} %`
     item.querySelector(".label").textContent = label + said
     item.title = share === null ? title : `The chart on its way:${said}`
-  }, signal)
+  })
 
   const press = (name, on) => { tools.get(name)[0].ariaPressed = on }
-  listen("presenting", (on) => press("present", on), signal)
+  listen("presenting", (on) => press("present", on))
   press("present", isPresenting())
-  listen("compared", (compared) => press("pin", compared !== null), signal)
+  listen("compared", (compared) => press("pin", compared !== null))
 
   const show = (scene) => {
     heading.textContent = scene.title
@@ -96,10 +95,9 @@ export function render({ scenes, files, palettes, el, signal }) {
     }
   }
   enable({ undo: 0, redo: 0 })
-  listen("steps", enable, signal)
-  wear(el, signal)
-  listen("enter", show, signal)
-  listen("share", share.open, signal)
-  listen("export", taking.open, signal)
-  listen("chart", chart.open, signal)
+  listen("steps", enable)
+  listen("enter", show)
+  listen("share", share.open)
+  listen("export", taking.open)
+  listen("chart", chart.open)
 }

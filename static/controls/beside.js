@@ -5,7 +5,7 @@
 
 import { linkTo } from "../page/embedding.js"
 import { HALF } from "../page/side_by_side.js"
-import { element } from "../page/mount.js"
+import { element } from "../page/elements.js"
 import { PHONE } from "../page/windows.js"
 import { gallery } from "../pictures/gallery.js"
 import { nameOf } from "../pictures/picture.js"
@@ -29,15 +29,15 @@ function addressOf(query) {
 }
 
 /** Return {dialog, open([query of A, query of B])}. */
-export function besideDialog(signal) {
-  const halves = ["A, pinned", "B"].map((title) => element("iframe", { title, name: HALF, className: "half" }))
+export function besideDialog() {
+  const halves = ["A, pinned", "B"].map((title) => element("iframe.half", { title, name: HALF }))
   const dialog = dialogOf("Side by side", "beside", [],
-    element("div", { className: "halves" }, ...halves.map((half) => section(half.title, half.title, half))))
+    element("div.halves", ...halves.map((half) => section(half.title, half.title, half))))
   dialog.addEventListener("close", () => { for (const half of halves) half.src = "about:blank" })
   window.addEventListener("message", ({ source, origin, data }) => {
     if (origin !== window.location.origin || !halves.some(({ contentWindow }) => contentWindow === source)) return
     for (const { contentWindow } of halves) if (contentWindow !== source) contentWindow.postMessage(data, origin)
-  }, { signal })
+  })
   return {
     dialog,
     open(queries) {

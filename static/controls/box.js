@@ -2,7 +2,7 @@
 // ten steps.
 
 import { tell } from "../page/bus.js"
-import { element } from "../page/mount.js"
+import { element } from "../page/elements.js"
 
 const TYPE = "Type an exact value or an expression such as pi/3, and press Enter."
 const STEPS = { ArrowUp: 1, ArrowDown: -1 }
@@ -21,9 +21,9 @@ function numberOf(text) {
  * @param {import("./number.js").Controlled} number
  */
 export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
-  const box = element("input", {
+  const box = element("input.exact", {
     type: "text", inputMode: "decimal", spellcheck: false, title: `${help} ${TYPE}`, ariaLabel: `${symbol}, exact value`,
-    className: "exact", onchange: take, oninput: () => box.setCustomValidity(""), onkeydown,
+    onchange: take, oninput: () => box.setCustomValidity(""), onkeydown,
   })
   // Whether the server is reading what was typed.
   let isAsked = false

@@ -1,10 +1,9 @@
 // The chart of a quantity over two parameters of a scene, beside the pictures: what is computed, how far it is, and what a
 // cell means.  The server computes it while the user goes on, in any scene.
 
-import { button } from "../page/buttons.js"
+import { button, element } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
 import { linkTo } from "../page/embedding.js"
-import { element } from "../page/mount.js"
 import { chartCanvas } from "../pictures/chart_canvas.js"
 import { gallery } from "../pictures/gallery.js"
 import { around, isWithoutNumber, numberIn, placeOf, reading, stateOf } from "./chart_cells.js"
@@ -25,7 +24,7 @@ function lasting(seconds) {
 }
 
 /** Return {panel, open(), show(description of the scene on show)}. */
-export function chartPanel(palettes, signal) {
+export function chartPanel(palettes) {
   let scene = null
   // Control → what it shows.
   let values = {}
@@ -37,7 +36,7 @@ export function chartPanel(palettes, signal) {
 
   const titles = new Map()
   const press = (name, textContent, onclick, title) => {
-    const item = button(`button param-chart-${name}`, onclick, { textContent, title })
+    const item = button(`button.param-chart-${name}`, onclick, { textContent, title })
     titles.set(item, title)
     return item
   }
@@ -50,8 +49,8 @@ export function chartPanel(palettes, signal) {
   const controlOf = (name) => numbers().find((one) => one.name === name)
   const endsOf = (name) => values[name]?.slice(1, 3) ?? controlOf(name).range
 
-  const quantity = element("select", { className: "param-quantity", ariaLabel: "Quantity", onchange: () => offer(null) })
-  const part = element("select", { className: "param-part", ariaLabel: "Which of its numbers" })
+  const quantity = element("select.param-quantity", { ariaLabel: "Quantity", onchange: () => offer(null) })
+  const part = element("select.param-part", { ariaLabel: "Which of its numbers" })
   const x = sideForm("x", endsOf, () => keepApart(y, x))
   const y = sideForm("y", endsOf, () => keepApart(x, y))
   const start = press("start", "Start", () => begin(wanted()), "Compute the chart")
@@ -62,20 +61,20 @@ export function chartPanel(palettes, signal) {
   const load = press("load", "Load", () => file.click(), "A chart that was saved")
   const close = press("close", "Close", hide, "The chart goes on meanwhile")
   const bar = element("progress", { ariaLabel: "Computed", max: 1 })
-  const said = element("p", { className: "why", role: "status" })
-  const about = element("output", { className: "reading", ariaLive: "polite" })
-  const heading = element("h2", { textContent: "Chart" })
-  const form = element("div", { className: "form" }, element("div", { className: "side" }, quantity, part), x.frame, y.frame)
-  const map = chartCanvas(palettes, { pointed: read, chosen: open, boxed: closer }, signal)
-  const picture = element("div", { className: "drawn", hidden: true }, map.canvas, about)
-  const panel = element("div", { className: "chart", popover: "manual", role: "dialog", ariaLabel: "Chart", onkeydown },
-    element("div", { className: "head" }, heading, close), form,
-    element("div", { className: "row" }, start, stop, out, save, load, file, bar), said, picture)
+  const said = element("p.why", { role: "status" })
+  const about = element("output.reading", { ariaLive: "polite" })
+  const heading = element("h2", "Chart")
+  const form = element("div.form", element("div.side", quantity, part), x.frame, y.frame)
+  const map = chartCanvas(palettes, { pointed: read, chosen: open, boxed: closer })
+  const picture = element("div.drawn", { hidden: true }, map.canvas, about)
+  const panel = element("div.chart", { popover: "manual", role: "dialog", ariaLabel: "Chart", onkeydown },
+    element("div.head", heading, close), form,
+    element("div.row", start, stop, out, save, load, file, bar), said, picture)
 
   const job = chartJob((changed) => { if (changed === chart) follow() }, (sentence, place) => {
     const cell = map.cursor
     if (cell !== null && String(placeOf(chart, cell)) === String(place)) about.textContent = reading(chart, cell, sentence)
-  }, signal)
+  })
 
   const described = () => scene.charts.find((one) => one.quantity === quantity.value)
 
@@ -252,7 +251,7 @@ export function chartPanel(palettes, signal) {
   listen("controls", (changed) => {
     Object.assign(values, changed)
     mark()
-  }, signal)
+  })
   follow()
 
   return {

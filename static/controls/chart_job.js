@@ -14,9 +14,8 @@ const ask = (what) => tell("ask-chart", what)
  * Return {running: the chart that is computed or null, start(chart), stop(), why(chart, [x, y])}.
  * @param {(chart: any) => void} changed is called when cells have come, and at the end
  * @param {(sentence: string, place: [number, number]) => void} explained is told how a cell ends
- * @param {AbortSignal} signal
  */
-export function chartJob(changed, explained, signal) {
+export function chartJob(changed, explained) {
   let chart = null
   let timer = null
   let number = 0
@@ -58,7 +57,7 @@ export function chartJob(changed, explained, signal) {
     tell("charting", chart.share)
     changed(chart)
     timer = setTimeout(() => ask({ more: chart.known, id: chart.id }), head.running ? PAUSE : 0)
-  }, signal)
+  })
 
   return {
     get running() { return chart },

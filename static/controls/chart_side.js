@@ -1,6 +1,6 @@
 // One side of a chart in its form: the parameter, from where to where, and how many cells.
 
-import { element } from "../page/mount.js"
+import { element } from "../page/elements.js"
 import { optionsOf } from "./dialog.js"
 
 const CELLS = 192
@@ -14,15 +14,15 @@ const DIGITS = 6
  * @param {() => void} chosen is called when the user has chosen another parameter
  */
 export function sideForm(label, ends, chosen) {
-  const name = element("select", {
-    className: `param-${label}`, ariaLabel: `Parameter ${label}`,
+  const name = element(`select.param-${label}`, {
+    ariaLabel: `Parameter ${label}`,
     onchange: () => {
       put(...ends(name.value))
       chosen()
     },
   })
-  const box = (what, properties) => element("input", {
-    type: "number", className: `param-${label}-${what}`, ariaLabel: `${label} ${what}`, ...properties,
+  const box = (what, properties) => element(`input.param-${label}-${what}`, {
+    type: "number", ariaLabel: `${label} ${what}`, ...properties,
   })
   const [low, high] = ["from", "to"].map((what) => box(what, { step: "any" }))
   const count = box("cells", { min: 2, max: MOST_SIDE, step: 1, value: CELLS })
@@ -30,8 +30,8 @@ export function sideForm(label, ends, chosen) {
     ;[low.value, high.value] = [from, to].map((end) => String(Number(end.toPrecision(DIGITS))))
   }
   return {
-    frame: element("div", { className: "side" }, name, element("label", {}, "from ", low), element("label", {}, "to ", high),
-      element("label", {}, "cells ", count)),
+    frame: element("div.side", name, element("label", "from ", low), element("label", "to ", high),
+      element("label", "cells ", count)),
     offer(controls) { name.replaceChildren(...optionsOf(controls.map((one) => [one.name, one.symbol]))) },
     get name() { return name.value },
     choose(wanted, from, to) {

@@ -1,28 +1,24 @@
 // What the pinned state and the one on show differ in, in a table under the controls.
 
-import { button } from "../page/buttons.js"
+import { button, element } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
-import { element } from "../page/mount.js"
 import { besideDialog } from "./beside.js"
 
-const cell = (tag, textContent, scope = "") => element(tag, { textContent, ...(scope && { scope }) })
-
 /** Return the section, hidden while no state is pinned. */
-export function comparison(signal) {
+export function comparison() {
   let queries = []
   let shown = ""
-  const beside = besideDialog(signal)
-  const said = element("p", { className: "text", role: "status" })
-  const flip = button("button param-flip", () => tell("flip"), { textContent: "A | B", title: "The pinned state, and back (C)" })
-  const apart = button("button param-beside", () => beside.open(queries), {
-    textContent: "Side by side", title: "Both, linked in time and rotation",
-  })
-  const unpin = button("button param-unpin", () => tell("pin"), { textContent: "Unpin" })
+  const beside = besideDialog()
+  const said = element("p.text", { role: "status" })
+  const flip = button("button.param-flip", () => tell("flip"), { title: "The pinned state, and back (C)" }, "A | B")
+  const apart = button("button.param-beside", () => beside.open(queries), { title: "Both, linked in time and rotation" },
+    "Side by side")
+  const unpin = button("button.param-unpin", () => tell("pin"), "Unpin")
   const body = element("tbody")
-  const table = element("table", {},
-    element("thead", {}, element("tr", {}, cell("td", ""), cell("th", "A"), cell("th", "B"))), body)
-  const box = element("section", { className: "comparison", hidden: true, ariaLabel: "Comparison" },
-    said, element("div", { className: "comparing" }, flip, apart, unpin), table, beside.dialog)
+  const table = element("table",
+    element("thead", element("tr", element("td"), element("th", "A"), element("th", "B"))), body)
+  const box = element("section.comparison", { hidden: true, ariaLabel: "Comparison" },
+    said, element("div.comparing", flip, apart, unpin), table, beside.dialog)
   listen("compared", (compared) => {
     // It comes with every state.
     const text = JSON.stringify(compared)
@@ -36,7 +32,7 @@ export function comparison(signal) {
     flip.ariaPressed = isPinnedShown
     table.hidden = rows.length === 0
     body.replaceChildren(...rows.map(([name, one, two]) => (
-      element("tr", {}, cell("th", name, "row"), cell("td", one), cell("td", two)))))
-  }, signal)
+      element("tr", element("th", { scope: "row" }, name), element("td", one), element("td", two)))))
+  })
   return box
 }

@@ -3,11 +3,9 @@
 // What the server says of all values comes by "controls": {name: [value, low, high, step,
 // whether it is disabled] or option}.
 
-import { button } from "../page/buttons.js"
+import { button, element } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
 import { sayDragMe } from "../page/handle.js"
-import { element } from "../page/mount.js"
-import { wear } from "../page/presenting.js"
 import { PHONE } from "../page/windows.js"
 import { comparison } from "./comparison.js"
 import { menu } from "./menu.js"
@@ -18,15 +16,15 @@ const twice = (names) => names.map((name) => [name, name])
 // [element, show(option)].
 function choice({ name, label, options, help }) {
   const [frame, show] = menu(name, label, twice(options), help, (option) => tell("change", { [name]: option }))
-  return [element("div", {}, frame, element("p", { className: "text help", textContent: help })), show]
+  return [element("div", frame, element("p.text.help", help)), show]
 }
 
 const EXAMPLES = "preset"
 
-export function render({ el, signal }) {
-  const column = element("div", { className: "board" })
-  const chooser = element("div", { className: "chooser", role: "group", ariaLabel: "Control at hand" })
-  el.append(chooser, column, comparison(signal))
+export function render({ el }) {
+  const column = element("div.board")
+  const chooser = element("div.chooser", { role: "group", ariaLabel: "Control at hand" })
+  el.append(chooser, column, comparison())
   let shows = {}
   let refusals = {}
   // Groups that the user has unfolded, in every scene; the control at hand on a phone.
@@ -41,8 +39,8 @@ export function render({ el, signal }) {
   }
 
   function groupOf(name, members) {
-    const group = element("details", { className: `group group-${name.toLowerCase()}` },
-      element("summary", { textContent: name }), element("div", { className: "column" }, ...members))
+    const group = element(`details.group.group-${name.toLowerCase()}`,
+      element("summary", name), element("div.column", ...members))
     group.open = PHONE.matches || unfolded.has(name)
     group.addEventListener("toggle", () => {
       if (PHONE.matches) return
@@ -71,12 +69,12 @@ export function render({ el, signal }) {
     const groups = scene.groups.map((group) => [group, further.filter((control) => control.group === group)])
       .filter(([, members]) => members.length > 0)
     column.replaceChildren(
-      element("div", { className: "column" }, examples, ...scene.essential.map((name) => items.get(name))),
+      element("div.column", examples, ...scene.essential.map((name) => items.get(name))),
       ...groups.map(([group, members]) => groupOf(group, members.map(({ name }) => items.get(name)))))
     const order = [...scene.essential, EXAMPLES, ...further.map(({ name }) => name)]
-    chooser.replaceChildren(...order.map((name) => button(`chip${isEssential(name) ? "" : " further"}`, () => take(name), {
-      textContent: signs.get(name), "data-name": name,
-    })))
+    chooser.replaceChildren(...order.map((name) => button(isEssential(name) ? "chip" : "chip.further", () => take(name), {
+      dataset: { name },
+    }, signs.get(name))))
     take(isEssential(atHand) ? atHand : order[0])
   }
   const show = (values) => {
@@ -86,8 +84,7 @@ export function render({ el, signal }) {
     for (const group of column.querySelectorAll(".group")) {
       group.open = PHONE.matches || unfolded.has(group.firstChild.textContent)
     }
-  }, { signal })
-  wear(el, signal)
+  })
   // Beside the thumb of the slider, where there is room.
   sayDragMe(({ control }) => {
     const item = items.get(control)
@@ -96,9 +93,9 @@ export function render({ el, signal }) {
     const share = 100 * (value - min) / (max - min)
     const place = share < 60 ? { left: `calc(${share}% + 1.4em)` } : { right: `calc(${100 - share}% + 1.4em)` }
     return { host: item, place: () => place }
-  }, signal)
-  listen("enter", build, signal)
+  })
+  listen("enter", build)
   // What is wrong with an expression is said by "error-" and the name of the number.
-  listen("texts", (texts) => { for (const [key, text] of Object.entries(texts)) refusals[key]?.(text) }, signal)
-  listen("controls", show, signal)
+  listen("texts", (texts) => { for (const [key, text] of Object.entries(texts)) refusals[key]?.(text) })
+  listen("controls", show)
 }

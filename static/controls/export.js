@@ -1,10 +1,9 @@
 // The dialog Export: the data, a figure or a film of one picture, or all of a state in one file, made by the server; the
 // command that makes it, and the lines of Python that compute the same.
 
-import { button } from "../page/buttons.js"
+import { button, element } from "../page/elements.js"
 import { tell } from "../page/bus.js"
 import { linkTo } from "../page/embedding.js"
-import { element } from "../page/mount.js"
 import { gallery } from "../pictures/gallery.js"
 import { nameOf, titleOf } from "../pictures/picture.js"
 import { dialogOf, optionsOf, saveFile, section, snippet } from "./dialog.js"
@@ -21,30 +20,30 @@ export function exportDialog(files) {
   const isDrawn = (kind) => isFilm(kind) || holds[kind] === "figure"
   let scene = null
   let running = null
-  const picture = element("select", { className: "param-picture", onchange: writePython })
-  const format = element("select", { className: "param-format" }, ...optionsOf(files.formats))
+  const picture = element("select.param-picture", { onchange: writePython })
+  const format = element("select.param-format", ...optionsOf(files.formats))
   const number = (name, step, [min, max, value]) => (
-    element("input", { type: "number", className: `param-${name}`, min, max, step, value }))
+    element(`input.param-${name}`, { type: "number", min, max, step, value }))
   const width = number("width", 5, files.width)
   const seconds = number("seconds", 1, files.seconds)
   const frames = element("progress", { ariaLabel: "Frames of the film", hidden: true })
-  const black = element("input", { type: "checkbox", className: "param-black" })
+  const black = element("input.param-black", { type: "checkbox" })
   const command = snippet("Command", 4)
-  const python = element("textarea", { className: "snippet", readOnly: true, rows: 6, ariaLabel: "Python" })
-  const copy = button("button param-copy-python", copyPython, { textContent: "Copy Python" })
-  const book = button("button param-notebook", () => make({ picture: picture.value, format: "ipynb" }), { textContent: "Open as notebook" })
-  const save = button("button param-save", () => make(wanted()), { textContent: "Save file" })
-  const stop = button("button param-cancel", () => running.abort(), { textContent: "Stop", hidden: true })
-  const said = element("p", { className: "why", role: "status" })
-  const figure = element("div", { className: "figure" },
-    element("label", {}, "Width, mm ", width), element("label", {}, black, " Black on white"))
-  const one = element("label", {}, "Picture ", picture)
-  const film = element("div", { className: "figure" }, element("label", {}, "Seconds for all of the motion ", seconds))
-  const dialog = dialogOf("Export", "menu-of-scenes share export", [], element("div", { className: "parts" },
-    section("File", "What a picture shows, as a file", one, element("label", {}, "Format ", format), figure, film,
-      element("span", {}, save, stop), frames, said),
+  const python = element("textarea.snippet", { readOnly: true, rows: 6, ariaLabel: "Python" })
+  const copy = button("button.param-copy-python", copyPython, "Copy Python")
+  const book = button("button.param-notebook", () => make({ picture: picture.value, format: "ipynb" }), "Open as notebook")
+  const save = button("button.param-save", () => make(wanted()), "Save file")
+  const stop = button("button.param-cancel", () => running.abort(), { hidden: true }, "Stop")
+  const said = element("p.why", { role: "status" })
+  const figure = element("div.figure",
+    element("label", "Width, mm ", width), element("label", black, " Black on white"))
+  const one = element("label", "Picture ", picture)
+  const film = element("div.figure", element("label", "Seconds for all of the motion ", seconds))
+  const dialog = dialogOf("Export", "menu-of-scenes.share.export", [], element("div.parts",
+    section("File", "What a picture shows, as a file", one, element("label", "Format ", format), figure, film,
+      element("span", save, stop), frames, said),
     section("Command", "The same at the command line", command),
-    section("Python", "The same numbers in Python", python, element("span", {}, copy, book))))
+    section("Python", "The same numbers in Python", python, element("span", copy, book))))
   dialog.addEventListener("close", () => running?.abort())
   dialog.addEventListener("input", write)
 

@@ -1,6 +1,6 @@
 // A select element with its label.
 
-import { element } from "../page/mount.js"
+import { element } from "../page/elements.js"
 import { optionsOf } from "./dialog.js"
 
 /**
@@ -13,7 +13,7 @@ import { optionsOf } from "./dialog.js"
  */
 export function menu(name, label, options, help, choose) {
   const select = element("select", { title: help, ariaLabel: label, onchange: () => choose(select.value) }, ...optionsOf(options))
-  const frame = element("label", { className: `menu param-${name}` }, element("span", { textContent: label }), select)
+  const frame = element(`label.menu.param-${name}`, element("span", label), select)
   // The name of what is chosen may be longer than its place.
   const show = (option) => {
     select.value = option

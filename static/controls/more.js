@@ -1,17 +1,16 @@
 // The overflow menu at the end of the bar: the tools for which a phone has no room.
 
-import { button } from "../page/buttons.js"
-import { element } from "../page/mount.js"
+import { button, element } from "../page/elements.js"
 import { PHONE } from "../page/windows.js"
 
 /** Return [button, menu], to be put at the end of the bar; `tools` are buttons that stand in the bar, each in its group. */
-export function moreMenu(tools, icon, signal) {
+export function moreMenu(tools, icon) {
   const places = tools.map((tool) => ({ tool, mark: document.createComment("") }))
-  const menu = element("div", {
-    className: "more", popover: "auto", role: "group", ariaLabel: "More tools", onclick: () => menu.hidePopover(),
+  const menu = element("div.more", {
+    popover: "auto", role: "group", ariaLabel: "More tools", onclick: () => menu.hidePopover(),
     ontoggle: ({ newState }) => { more.ariaExpanded = newState === "open" },
   })
-  const more = button("tool param-more", null, {
+  const more = button("tool.param-more", null, {
     title: "More", ariaLabel: "More", innerHTML: icon, popoverTargetElement: menu, ariaExpanded: false,
   })
   const place = () => {
@@ -23,7 +22,7 @@ export function moreMenu(tools, icon, signal) {
     }
     more.hidden = !PHONE.matches
   }
-  PHONE.addEventListener("change", place, { signal })
+  PHONE.addEventListener("change", place)
   // When they stand in the bar.
   queueMicrotask(place)
   return [more, menu]

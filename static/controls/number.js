@@ -3,7 +3,7 @@
 
 import { tell } from "../page/bus.js"
 import { arrowOf } from "../page/keys.js"
-import { element } from "../page/mount.js"
+import { element } from "../page/elements.js"
 import { animation } from "./animation.js"
 import { exactBox } from "./box.js"
 import { scrub } from "./scrub.js"
@@ -63,9 +63,9 @@ export function number({ name, label, symbol, help, range }) {
     nudge: (value) => take(tidy(value)), move: (value) => take(within(tidy(value))), isIdle: () => slider.disabled,
   }
 
-  const title = element("span", { className: "label scrub", textContent: label, title: help })
-  const slider = element("input", {
-    type: "range", className: "hand", title: help, ariaLabel: label, ariaDescription: help,
+  const title = element("span.label.scrub", { title: help }, label)
+  const slider = element("input.hand", {
+    type: "range", title: help, ariaLabel: label, ariaDescription: help,
     oninput() {
       const value = within(Number(slider.value))
       if (value !== Number(slider.value)) slider.value = value
@@ -81,7 +81,7 @@ export function number({ name, label, symbol, help, range }) {
   })
   const exact = exactBox(controlled)
   scrub(title, controlled)
-  const frame = element("div", { className: `number param-${name}` })
+  const frame = element(`div.number.param-${name}`)
   const [sway, pace] = animation(frame, controlled)
   const moves = sway.title
   frame.append(title, pace, sway, exact.box, slider)

@@ -12,25 +12,24 @@ const TOUCHES = ["pointerdown", "keydown", "wheel"]
  * Return {enter(name): the scene is on show; rest(): the first one begins at rest}.
  * @param {{begin: () => void, end: () => void, isOwn: (event: any) => boolean}} player begin() sets it going, end() stops
  *   it; isOwn(event): it answers this touch itself
- * @param {AbortSignal} signal
  */
-export function opening({ begin, end, isOwn }, signal) {
+export function opening({ begin, end, isOwn }) {
   // Scenes that have begun once.
   const begun = new Set()
   let isResting = false
   let isWaiting = false
   let isReading = false
 
-  listen("reading", (on) => { isReading = on }, signal)
+  listen("reading", (on) => { isReading = on })
   listen("painted", () => {
     if (isWaiting && !isReading) begin()
     isWaiting = false
-  }, signal)
+  })
   for (const name of TOUCHES) {
     document.addEventListener(name, (event) => {
       isWaiting = false
       if (!isOwn(event)) end()
-    }, { capture: true, passive: true, signal })
+    }, { capture: true, passive: true })
   }
   return {
     enter(name) {

@@ -2,11 +2,9 @@
 // that the page already has, so nothing is requested while it plays.
 // Tells "time" {t, state} to whatever draws the point, and fills the sources of single points.
 
-import { button, icon, relabel } from "../page/buttons.js"
+import { button, element, icon, relabel } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
 import { arrowOf, isTaken } from "../page/keys.js"
-import { element } from "../page/mount.js"
-import { wear } from "../page/presenting.js"
 import { gallery } from "../pictures/gallery.js"
 import { between } from "../pictures/moment.js"
 import { isFolded } from "../pictures/picture.js"
@@ -23,7 +21,7 @@ const BACK = "M6 6h2v12H6zm3.5 6 8.5 6V6z"
 const FORWARD = "M16 6h2v12h-2zM6 18l8.5-6L6 6z"
 
 const transport = (name, path, title, onclick) => (
-  button(`transport param-${name}`, onclick, { innerHTML: icon(path, "1.6em"), title, ariaLabel: title }))
+  button(`transport.param-${name}`, onclick, { innerHTML: icon(path, "1.6em"), title, ariaLabel: title }))
 
 // The columns of `data` at a time; `angles`: those that may jump by a turn.
 function stateAt(data, angles, time) {
@@ -39,33 +37,32 @@ function stateAt(data, angles, time) {
 }
 
 // A button that shows a picture which is not seen at first, or folds it again.
-const unfolding = ({ name, folded: label }) => button(`button unfold unfold-${name}`, () => tell("fold", name), {
-  title: label, ariaLabel: label, textContent: `+ ${label.replace(/^Show (the )?/, "")}`, ariaExpanded: !isFolded(gallery.cell(name)),
-})
+const unfolding = ({ name, folded: label }) => button(`button.unfold.unfold-${name}`, () => tell("fold", name), {
+  title: label, ariaLabel: label, ariaExpanded: !isFolded(gallery.cell(name)),
+}, `+ ${label.replace(/^Show (the )?/, "")}`)
 
-export function render({ el, signal }) {
-  const slider = element("input", {
-    type: "range", className: "param-t", min: 0, step: "any", ariaLabel: "Time t", onchange: writeTime,
+export function render({ el }) {
+  const slider = element("input.param-t", {
+    type: "range", min: 0, step: "any", ariaLabel: "Time t", onchange: writeTime,
     oninput: () => {
       play(false)
       move(Number(slider.value))
     },
   })
   const output = element("output")
-  const speed = element("select", {
-    className: "param-speed", ariaLabel: "Speed", title: "Speed: units of t per second", onchange: () => announce({ speed: speed.value }),
+  const speed = element("select.param-speed", {
+    ariaLabel: "Speed", title: "Speed: units of t per second", onchange: () => announce({ speed: speed.value }),
   }, ...SPEEDS.map((value) => new Option(`${value}×`, String(value))))
   const back = transport("back", BACK, "Step back (←)", () => step(-1))
   const toggle = transport("play", PLAY, "Play (Space)", () => play(!playing))
   const forward = transport("forward", FORWARD, "Step forward (→)", () => step(1))
-  const folds = element("span", { className: "folds" })
+  const folds = element("span.folds")
   const items = [back, toggle, forward, slider, output, speed]
-  const bar = element("div", { className: "player", role: "group", ariaLabel: "Motion in time" }, ...items, folds)
+  const bar = element("div.player", { role: "group", ariaLabel: "Motion in time" }, ...items, folds)
   el.append(bar)
 
   let scene = { dots: {}, angles: [], pictures: [] }
   let source = null
-  let watching = null
   let t = 0
   let playing = false
   let last = null
@@ -139,24 +136,24 @@ export function render({ el, signal }) {
     } else if (across === 0 || (target instanceof HTMLElement && target.closest(OWN_ARROWS))) return
     else step(across)
     event.preventDefault()
-  }, { signal })
+  })
   // A button would be pressed when the key is let go.
   document.addEventListener("keyup", (event) => {
     if (event.key === " " && !isTaken(event) && !toggle.hidden) event.preventDefault()
-  }, { signal })
+  })
   listen("run", (wanted) => {
     play(false)
     if (wanted === null) return
     run = wanted
     move(run.from)
     play(true)
-  }, signal)
+  })
   listen("follow", (time) => {
     if (playing) play(false)
     move(Number(time))
-  }, signal)
+  })
   // The player of the next scene goes on from here.
-  listen("scene", () => { if (playing) play(false) }, signal)
+  listen("scene", () => { if (playing) play(false) })
 
   const start = opening({
     begin() {
@@ -166,7 +163,7 @@ export function render({ el, signal }) {
     },
     end() { if (gentle !== null) play(false) },
     isOwn: (event) => event.composedPath().includes(toggle) || (event.key === " " && !isTaken(event)),
-  }, signal)
+  })
 
   const onData = () => {
     slider.max = String(end())
@@ -175,23 +172,16 @@ export function render({ el, signal }) {
     show()
   }
   const enter = (entered) => {
-    watching?.abort()
-    watching = new AbortController()
     start.enter(entered.name)
     scene = entered
     source = gallery.source("data-orbit") ?? null
     // A scene without a motion needs no time.
     for (const item of items) item.hidden = source === null
     folds.replaceChildren(...entered.pictures.filter(({ folded }) => folded !== null).map(unfolding))
-    source?.watch(onData, watching.signal)
+    source?.watch(onData)
     onData()
   }
-  listen("folded", ({ name, folded }) => { folds.querySelector(`.unfold-${name}`).ariaExpanded = !folded }, signal)
-  wear(el, signal)
-  listen("client", begin, signal)
-  listen("enter", enter, signal)
-  signal.addEventListener("abort", () => {
-    playing = false
-    watching?.abort()
-  })
+  listen("folded", ({ name, folded }) => { folds.querySelector(`.unfold-${name}`).ariaExpanded = !folded })
+  listen("client", begin)
+  listen("enter", enter)
 }

@@ -1,23 +1,20 @@
 // The menu of scenes: a dialog over the page, by their pictures, in groups, with a search.  Tells "scene" of a choice,
 // and "near" of what the mouse or the keyboard rests on: its pictures are built before they are asked for.
 
-import { button } from "../page/buttons.js"
+import { button, element } from "../page/elements.js"
 import { tell } from "../page/bus.js"
-import { element } from "../page/mount.js"
 import { dialogOf, section } from "./dialog.js"
 
 const REST = 60
 
-const span = (className, textContent) => element("span", { className, textContent })
-
 function tileOf({ name, title, summary, picture }, isHere, isFirst, choose) {
-  const words = element("span", { className: "about" }, ...isFirst ? [span("start", "start here")] : [],
-    span("name", title), span("summary", summary))
+  const words = element("span.about", ...isFirst ? [element("span.start", "start here")] : [],
+    element("span.name", title), element("span.summary", summary))
   let resting = null
   const rest = () => { resting = setTimeout(tell, REST, "near", name) }
   const leave = () => clearTimeout(resting)
-  return button(`scene param-scene-${name}`, () => choose(name), {
-    ariaPressed: isHere, "data-scene": name, innerHTML: `<svg viewBox="0 0 48 32" aria-hidden="true">${picture}</svg>`,
+  return button(`scene.param-scene-${name}`, () => choose(name), {
+    ariaPressed: isHere, dataset: { scene: name }, innerHTML: `<svg viewBox="0 0 48 32" aria-hidden="true">${picture}</svg>`,
     onpointerenter: rest, onfocus: rest, onpointerleave: leave, onblur: leave,
   }, words)
 }
@@ -41,9 +38,9 @@ function neighbour(tiles, tile, key) {
  * @param {{name: string, title: string, summary: string, picture: string, origin: string | null, group: string}[]} scenes
  */
 export function sceneMenu(scenes) {
-  const search = element("input", { type: "search", className: "search", ariaLabel: "Search scenes", placeholder: "Search", oninput: filter })
-  const list = element("div", { className: "scenes" })
-  const none = element("p", { className: "none", textContent: "No scene has these words.", hidden: true, role: "status" })
+  const search = element("input.search", { type: "search", ariaLabel: "Search scenes", placeholder: "Search", oninput: filter })
+  const list = element("div.scenes")
+  const none = element("p.none", { hidden: true, role: "status" }, "No scene has these words.")
   const dialog = dialogOf("Scenes", "menu-of-scenes", [search], list, none)
 
   const tiles = () => [...list.querySelectorAll(".scene")].filter((tile) => tile.checkVisibility())
@@ -92,7 +89,7 @@ export function sceneMenu(scenes) {
       // Of what looks into another scene only that of the scene on show is offered.
       const offered = scenes.filter((scene) => scene.origin === null || scene.origin === base)
       list.replaceChildren(...[...new Set(offered.map(({ group }) => group))].map((group) => section(group, group,
-        element("div", { className: "tiles" }, ...offered.filter((scene) => scene.group === group)
+        element("div.tiles", ...offered.filter((scene) => scene.group === group)
           .map((scene) => tileOf(scene, scene.name === name, scene === scenes[0], choose))))))
     },
   }

@@ -1,9 +1,8 @@
 // The dialog Share: the link of all that is on the screen, its QR code, and what embeds parts of the page in another one.
 
-import { button } from "../page/buttons.js"
+import { button, element } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
 import { linkTo } from "../page/embedding.js"
-import { element } from "../page/mount.js"
 import { qrCode } from "../page/qr.js"
 import { gallery } from "../pictures/gallery.js"
 import { isFolded, nameOf, titleOf } from "../pictures/picture.js"
@@ -16,8 +15,8 @@ const escaped = (text) => text.replaceAll("&", "&amp;").replaceAll('"', "&quot;"
 
 // [A button that says when what it copies is copied, as do screen readers; say(text)].
 function copyButton(name, label, copy) {
-  const said = element("span", { className: "unseen", role: "status" })
-  const item = button(`button param-${name}`, copy, { textContent: label })
+  const said = element("span.unseen", { role: "status" })
+  const item = button(`button.param-${name}`, copy, label)
   let timer = null
   const say = (text) => {
     clearTimeout(timer)
@@ -27,16 +26,16 @@ function copyButton(name, label, copy) {
       said.textContent = ""
     }, SAID_FOR)
   }
-  return [element("span", {}, item, said), say]
+  return [element("span", item, said), say]
 }
 
 // A group of check boxes: {frame, put([name, words, whether it is chosen] …), chosen()}.
 function choices(name, label, onchange) {
-  const list = element("div", { className: "choices", onchange })
+  const list = element("div.choices", { onchange })
   return {
-    frame: element("fieldset", { className: `embed-${name}` }, element("legend", { textContent: label }), list),
+    frame: element(`fieldset.embed-${name}`, element("legend", label), list),
     put(items) {
-      list.replaceChildren(...items.map(([value, words, checked]) => element("label", {},
+      list.replaceChildren(...items.map(([value, words, checked]) => element("label",
         element("input", { type: "checkbox", value, checked }), words)))
     },
     chosen: () => [...list.querySelectorAll("input:checked")].map((box) => box.value),
@@ -44,13 +43,13 @@ function choices(name, label, onchange) {
 }
 
 /** Return {dialog, open(), show(description of the scene on show)}. */
-export function shareDialog(signal) {
+export function shareDialog() {
   let scene = null
-  const link = element("input", {
-    type: "text", className: "address", readOnly: true, ariaLabel: "Link", onfocus: () => link.select(),
+  const link = element("input.address", {
+    type: "text", readOnly: true, ariaLabel: "Link", onfocus: () => link.select(),
   })
-  const code = element("div", { className: "code", role: "img", ariaLabel: "QR code of the link" })
-  const why = element("p", { className: "why", role: "status" })
+  const code = element("div.code", { role: "img", ariaLabel: "QR code of the link" })
+  const why = element("p.why", { role: "status" })
   const html = snippet("HTML to embed", 4)
   const write = () => {
     const src = escaped(linkTo({ pictures: pictures.chosen(), controls: controls.chosen() }))
@@ -61,8 +60,8 @@ export function shareDialog(signal) {
   const controls = choices("controls", "Controls", write)
   const [copyLink, sayLink] = copyButton("link", "Copy link", () => tell("link"))
   const [copyHtml, sayHtml] = copyButton("snippet", "Copy HTML", () => tell("copy", html.value))
-  listen("copied", ({ text, said }) => (text === null ? sayLink : sayHtml)(said), signal)
-  const dialog = dialogOf("Share", "menu-of-scenes share", [], element("div", { className: "parts" },
+  listen("copied", ({ text, said }) => (text === null ? sayLink : sayHtml)(said))
+  const dialog = dialogOf("Share", "menu-of-scenes.share", [], element("div.parts",
     section("Link", "All that is on the screen", link, copyLink, code, why),
     section("Embed", "Parts of it in a page of yours", pictures.frame, controls.frame, html, copyHtml)))
 

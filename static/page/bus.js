@@ -23,7 +23,7 @@ const bus = new EventTarget()
 
 export const tell = (name, detail) => { bus.dispatchEvent(new CustomEvent(name, { detail })) }
 
-// hear(detail) is called for every event of that name, until the signal aborts.
-export const listen = (name, hear, signal) => {
-  bus.addEventListener(name, ({ detail }) => hear(detail), { signal })
+// hear(detail) is called for every event of that name.
+export const listen = (name, hear) => {
+  bus.addEventListener(name, ({ detail }) => hear(detail))
 }

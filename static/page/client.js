@@ -27,7 +27,7 @@ const LOST = "The connection to the server is lost. As soon as it answers, this 
 
 // model.client: what the browser itself keeps of the address: t, speed, az, el, large, present; embed, pictures, controls;
 // lesson, step.
-export function startClient(model, view, signal) {
+export function startClient(model, view) {
   const root = document.documentElement
   const own = model.client
   // Scene → its description.
@@ -44,36 +44,36 @@ export function startClient(model, view, signal) {
   if (isPart) embed()
 
   let send = null
-  listen("ask-chart", (chart) => send({ chart }), signal)
+  listen("ask-chart", (chart) => send({ chart }))
 
   const page = createPage(view)
   const address = createAddress({ query: () => state.query, isDark: page.isDark, own })
-  const visibility = createVisibility(() => requests.request(), signal)
+  const visibility = createVisibility(() => requests.request())
   const requests = createRequests({
     send: (message) => send(message),
     changed: () => { root.dataset.ready = "false" },
     hidden: () => [...visibility.hidden(), ...(latest.scene.absent ?? [])],
     known: (name) => descriptions.has(name),
-  }, signal)
+  })
 
   const history = createHistory({
     query: () => state.query, isSettled: () => state !== null && !requests.isBehind(state.answers), address,
-  }, signal)
+  })
 
   const compare = createCompare(() => ({
     query: state.query, scene: latest.scene, derived: latest.texts.derived ?? "",
-  }), signal)
+  }))
 
-  handleCommands({ address, page }, signal)
-  createHandout(() => latest, signal)
-  joinOther(signal)
+  handleCommands({ address, page })
+  createHandout(() => latest)
+  joinOther()
 
   listen("url", (keys) => {
     Object.assign(own, keys)
     // The first state brings the others.
     if (state !== null) address.write()
-  }, signal)
-  listen("ask-client", (hear) => hear(own), signal)
+  })
+  listen("ask-client", (hear) => hear(own))
 
   // The plots that a state gives other axes or other data; all of them at first.
   const touchedPlots = ({ ranges, sources }) => {
@@ -173,7 +173,7 @@ export function startClient(model, view, signal) {
     tell("client", own)
     // The first state is read when the page stands, even if the user was faster and it is no longer the first.
     if (model.lesson !== "") tell("lesson-read", { lesson: JSON.parse(model.lesson), step: Number(own.step) - 1 })
-    send = openWebsocket(onAnswer, onLost, signal)
+    send = openWebsocket(onAnswer, onLost)
     requests.begin()
   }
   start()

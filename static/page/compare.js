@@ -21,7 +21,7 @@ function differences(first, second, names) {
 }
 
 // now() → {query, scene, derived}: of the state on show.
-export function createCompare(now, signal) {
+export function createCompare(now) {
   let isHeld = false
   let before = null
   // {query, scene, derived, ghost}: A, and B while A is on show.
@@ -74,21 +74,21 @@ export function createCompare(now, signal) {
     before = null
     refresh()
   }
-  listen("change", begin, signal)
-  listen("pick", ({ drag }) => { if (drag) begin() }, signal)
+  listen("change", begin)
+  listen("pick", ({ drag }) => { if (drag) begin() })
   listen("animated", (on) => {
     if (on) isHeld = true
     else end()
-  }, signal)
-  document.addEventListener("pointerdown", () => { isHeld = true }, { capture: true, signal })
-  for (const name of ["pointerup", "pointercancel"]) document.addEventListener(name, end, { capture: true, signal })
+  })
+  document.addEventListener("pointerdown", () => { isHeld = true }, { capture: true })
+  for (const name of ["pointerup", "pointercancel"]) document.addEventListener(name, end, { capture: true })
   listen("pin", () => {
     pinned = pinned === null ? keep() : null
     other = null
     refresh()
-  }, signal)
-  listen("flip", flip, signal)
-  onKeys({ c: flip }, signal)
+  })
+  listen("flip", flip)
+  onKeys({ c: flip })
   // A state is painted.
   return { painted: () => { if (pinned !== null) refresh() } }
 }

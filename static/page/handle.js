@@ -2,7 +2,7 @@
 
 import { listen } from "./bus.js"
 import { isEmbedded } from "./embedding.js"
-import { element } from "./mount.js"
+import { element } from "./elements.js"
 
 const KEY = "hess-explorer-handles"
 const CHANGES = ["change", "expression", "preset", "reset", "clear", "pick", "restore", "step", "enter"]
@@ -26,11 +26,11 @@ function remember(name) {
 
 // of(handle of a scene), asked when that is painted → null where it is not of this part of the page, else {host, place(),
 // moved}: the words are put over the host, where place() says in CSS, and again at each signal `moved` of Bokeh's.
-export function sayDragMe(of, signal) {
+export function sayDragMe(of) {
   let end = () => {}
   let entered = null
-  for (const name of CHANGES) listen(name, () => end(), signal)
-  listen("enter", (description) => { entered = description }, signal)
+  for (const name of CHANGES) listen(name, () => end())
+  listen("enter", (description) => { entered = description })
   listen("painted", () => {
     if (entered === null) return
     const { name, handle } = entered
@@ -38,7 +38,7 @@ export function sayDragMe(of, signal) {
     const found = handle === null || isEmbedded() || said.has(name) ? null : of(handle)
     if (found === null) return
     const { host, place, moved } = found
-    const sign = element("span", { className: "drag-me", textContent: "drag me", "aria-hidden": "true" })
+    const sign = element("span.drag-me", { ariaHidden: true }, "drag me")
     const put = () => { Object.assign(sign.style, place()) }
     put()
     moved?.connect(put)
@@ -48,5 +48,5 @@ export function sayDragMe(of, signal) {
       sign.remove()
     }
     remember(name)
-  }, signal)
+  })
 }

@@ -5,7 +5,7 @@ import { gallery } from "../pictures/gallery.js"
 import { shadesOf } from "../pictures/looks.js"
 import { listen, tell } from "./bus.js"
 import { linkTo } from "./embedding.js"
-import { element } from "./mount.js"
+import { element } from "./elements.js"
 import { showSigns } from "./prose.js"
 import { qrCode } from "./qr.js"
 
@@ -23,7 +23,7 @@ function numbersOf({ controls }, values, t) {
 }
 
 function figureOf([title, said, canvas]) {
-  return element("figure", {}, canvas, element("figcaption", {}, element("strong", { textContent: title }), ` ${said}`))
+  return element("figure", canvas, element("figcaption", element("strong", title), ` ${said}`))
 }
 
 function legendOf({ legend }, signs) {
@@ -33,50 +33,49 @@ function legendOf({ legend }, signs) {
 }
 
 // now() → {scene, texts, controls}: what has been said of the state on show.
-export function createHandout(now, signal) {
+export function createHandout(now) {
   let sheet = null
   let moment = 0
 
   const link = element("link", { rel: "stylesheet", media: "print", href: styles })
   document.head.append(link)
-  signal.addEventListener("abort", () => link.remove())
 
   function put(code) {
     const { scene, texts, controls } = now()
     const url = linkTo()
     const t = gallery.source("data-orbit") === undefined ? null : moment
-    const rows = numbersOf(scene, controls, t).map(([name, value]) => element("tr", {},
-      element("th", { scope: "row", textContent: name }), element("td", { textContent: value })))
+    const rows = numbersOf(scene, controls, t).map(([name, value]) => element("tr",
+      element("th", { scope: "row" }, name), element("td", value)))
     sheet?.remove()
-    sheet = element("article", { className: "handout", hidden: true },
-      element("header", {},
-        element("div", {}, element("h1", { textContent: scene.title }), element("a", { href: url, textContent: url })),
-        element("div", { className: "code", innerHTML: code })),
-      element("div", { className: "pictures" }, ...gallery.shoot(SIDE).map(figureOf)),
+    sheet = element("article.handout", { hidden: true },
+      element("header",
+        element("div", element("h1", scene.title), element("a", { href: url }, url)),
+        element("div.code", { innerHTML: code })),
+      element("div.pictures", ...gallery.shoot(SIDE).map(figureOf)),
       legendOf(scene, texts.signs ?? ""),
-      element("div", { className: "numbers" }, element("table", {}, element("tbody", {}, ...rows)),
-        element("p", { textContent: [texts.derived, texts.notes].filter(Boolean).join("\n\n") })),
-      element("div", { className: "words", innerHTML: scene.words }))
+      element("div.numbers", element("table", element("tbody", ...rows)),
+        element("p", [texts.derived, texts.notes].filter(Boolean).join("\n\n"))),
+      element("div.words", { innerHTML: scene.words }))
     // Legends and drawings ask for colours by name.
     for (const [name, shade] of shadesOf(false)) sheet.style.setProperty(`--${name}`, shade)
     document.body.append(sheet)
   }
 
-  listen("time", ({ t }) => { moment = t }, signal)
+  listen("time", ({ t }) => { moment = t })
   listen("print", async () => {
     tell("address")
     put((await qrCode(linkTo())).svg)
     window.print()
-  }, signal)
+  })
   document.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || !(event.ctrlKey || event.metaKey) || event.shiftKey || event.altKey || event.key !== "p") return
     event.preventDefault()
     tell("print")
-  }, { signal })
+  })
   // From the browser's own menu, which waits for nobody: the link, without its code.
-  window.addEventListener("beforeprint", () => { if (sheet === null && now().scene !== null) put("") }, { signal })
+  window.addEventListener("beforeprint", () => { if (sheet === null && now().scene !== null) put("") })
   window.addEventListener("afterprint", () => {
     sheet?.remove()
     sheet = null
-  }, { signal })
+  })
 }

@@ -13,7 +13,7 @@ const CHANGES = ["change", "expression", "preset", "reset", "clear", "pick", "sc
 const sceneOf = (query) => new URLSearchParams(query).get("scene")
 
 // query() is that of the state on show, isSettled() whether it answers the last request; address: see "address.js".
-export function createHistory({ query, isSettled, address }, signal) {
+export function createHistory({ query, isSettled, address }) {
   let past = []
   let future = []
   // The step on show; the one on its way; that of the browser's entry.
@@ -77,20 +77,20 @@ export function createHistory({ query, isSettled, address }, signal) {
       isChanged = true
       isExample = name === "preset"
       isPopped = false
-    }, signal)
+    })
   }
-  listen("animated", (on) => { isAnimated = on }, signal)
-  listen("undo", undo, signal)
-  listen("redo", redo, signal)
+  listen("animated", (on) => { isAnimated = on })
+  listen("undo", undo)
+  listen("redo", redo)
   for (const name of ["pointerdown", "keydown"]) {
-    document.addEventListener(name, () => { isHeld = true }, { capture: true, signal })
+    document.addEventListener(name, () => { isHeld = true }, { capture: true })
   }
   const release = () => {
     isHeld = false
     settle()
   }
-  for (const name of ["pointerup", "pointercancel", "keyup"]) document.addEventListener(name, release, { capture: true, signal })
-  window.addEventListener("blur", release, { signal })
+  for (const name of ["pointerup", "pointercancel", "keyup"]) document.addEventListener(name, release, { capture: true })
+  window.addEventListener("blur", release)
   document.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || event.altKey || !(event.ctrlKey || event.metaKey) || isTyped(event)) return
     const key = event.key.toLowerCase()
@@ -99,10 +99,10 @@ export function createHistory({ query, isSettled, address }, signal) {
     event.preventDefault()
     if (isRedo) redo()
     else undo()
-  }, { signal })
+  })
   window.addEventListener("popstate", () => {
     isPopped = true
     tell("restore", window.location.search.slice(1))
-  }, { signal })
+  })
   return { settle }
 }

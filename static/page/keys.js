@@ -8,11 +8,11 @@ export function isTyped(event) {
 }
 
 // act() for a key of the page, {key in lower case: act}; false where it means nothing now.
-export function onKeys(actions, signal) {
-  document.addEventListener("keydown", (event) => {
+export function onKeys(actions, target = document) {
+  target.addEventListener("keydown", (event) => {
     const act = actions[event.key.toLowerCase()]
     if (act !== undefined && !isTaken(event) && act() !== false) event.preventDefault()
-  }, { signal })
+  })
 }
 
 // Whether the key is one that is typed, belongs to the browser, or to a dialog that covers the page.

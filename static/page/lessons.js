@@ -8,50 +8,37 @@ import { createGuess } from "../pictures/guess.js"
 import { createAnimation } from "./animation.js"
 import { listen, tell } from "./bus.js"
 import { onKeys } from "./keys.js"
-import { element } from "./mount.js"
+import { button, element } from "./elements.js"
 import { CALM } from "./windows.js"
 
 const SECOND = 1000
 
-const html = (tag, className, innerHTML) => element(tag, { className, innerHTML })
+const html = (name, innerHTML) => element(name, { innerHTML })
 const clock = (ms) => `${Math.floor(ms / 60000)}:${String(Math.floor(ms / SECOND) % 60).padStart(2, "0")}`
 
-function button(name, label, onClick, properties = {}) {
-  const item = element("button", { type: "button", className: `button param-${name}`, textContent: label, ...properties })
-  item.addEventListener("click", onClick)
-  return item
-}
+// The question of a step, and its answer.
+const questionOf = ({ question, answer }) => (question === "" ? [] : [
+  html("div.question", question), element("details.answer", element("summary", "Answer"), html("div", answer)),
+])
 
-// What a step asks: {element, open()}; open() is false where there is nothing more to open.
-function questionOf({ question, answer }) {
-  if (question === "") return { parts: [], open: () => false }
-  const details = element("details", { className: "answer" }, element("summary", { textContent: "Answer" }), html("div", "", answer))
-  return {
-    parts: [html("div", "question", question), details],
-    open() {
-      if (details.open) return false
-      details.open = true
-      return true
-    },
-  }
-}
-
-export function render({ index, el, signal }) {
-  const menu = element("details", { className: "lesson-menu" })
-  const panel = element("section", { className: "lesson", hidden: true, "aria-label": "Lesson" })
-  const tries = element("section", { className: "tries", hidden: true, "aria-label": "Try this" })
+export function render({ index, el }) {
+  const menu = element("details.lesson-menu")
+  const panel = element("section.lesson", { hidden: true, ariaLabel: "Lesson" })
+  const tries = element("section.tries", { hidden: true, ariaLabel: "Try this" })
   el.append(menu, panel, tries)
 
   let lesson = null
   let wanted = null
   let at = 0
   let begun = 0
-  // What the step on show can open next, and what ends with it.
-  let question = questionOf({ question: "" })
+  // What ends with the step on show.
   let guess = null
   let animation = null
   let arriving = null
   let ticking = null
+
+  const time = element("span.timer", { role: "timer", ariaLabel: "Time since the lesson began" })
+  const tick = () => { time.textContent = `${clock(performance.now() - begun)} of ${lesson.minutes} min` }
 
   const go = (name, number, revealed, then) => {
     arriving = then
@@ -68,40 +55,34 @@ export function render({ index, el, signal }) {
   function showStep() {
     leaveStep()
     const step = lesson.steps[at]
-    question = questionOf(step)
     const { prediction } = step
     const isLast = at === lesson.steps.length - 1
-    const [said, buttons] = [element("output", { className: "said" }), element("div", { className: "row" })]
+    const [said, buttons] = [element("output.said"), element("div.row")]
     if (prediction) {
       guess = createGuess(prediction, (text) => { said.textContent = text })
-      buttons.append(button("reveal", "Reveal", reveal))
+      buttons.append(button("button.param-reveal", reveal, "Reveal"))
     }
     if (step.animation) {
       animation = createAnimation(step.animation)
-      buttons.append(button("animate", animation.label, animation.start))
+      buttons.append(button("button.param-animate", animation.start, animation.label))
     }
-    const title = html("h2", "title", step.title)
-    title.tabIndex = -1
-    const progress = element("progress", { max: lesson.steps.length, value: at + 1, "aria-label": "Steps" })
-    const time = element("span", { className: "timer", role: "timer", "aria-label": "Time since the lesson began" })
-    const tick = () => { time.textContent = `${clock(performance.now() - begun)} of ${lesson.minutes} min` }
-    tick()
-    clearInterval(ticking)
-    ticking = setInterval(tick, SECOND)
+    const title = element("h2.title", { innerHTML: step.title, tabIndex: -1 })
+    const progress = element("progress", { max: lesson.steps.length, value: at + 1, ariaLabel: "Steps" })
     panel.replaceChildren(
-      element("p", { className: "of", textContent: lesson.title }),
-      element("div", { className: "row where" }, progress,
-        element("span", { className: "count", textContent: `${at + 1} / ${lesson.steps.length}` }), time),
-      title, html("div", "text", step.text), buttons, said, ...question.parts,
-      element("div", { className: "row steps" },
-        button("back-a-step", "Back", () => turnTo(at - 1), {
+      element("p.of", lesson.title),
+      element("div.row.where", progress,
+        element("span.count", `${at + 1} / ${lesson.steps.length}`), time),
+      title, html("div.text", step.text), buttons, said, ...questionOf(step),
+      element("div.row.steps",
+        button("button.param-back-a-step", () => turnTo(at - 1), {
           disabled: at === 0, title: at === 0 ? "Disabled: this is the first step" : "Back (Page Up)",
-        }),
-        button("next-step", "Next", next, {
+        }, "Back"),
+        button("button.param-next-step", next, {
           disabled: isLast, title: isLast ? "Disabled: this is the last step" : "What comes next (Page Down)",
-        }),
-        button("leave-lesson", "Leave the lesson", leave)))
-    for (const item of [buttons, said]) item.hidden = !prediction && !(item === buttons && step.animation)
+        }, "Next"),
+        button("button.param-leave-lesson", leave, "Leave the lesson")))
+    said.hidden = guess === null
+    buttons.hidden = guess === null && animation === null
     tell("url", { lesson: lesson.name, step: String(at + 1) })
   }
 
@@ -131,7 +112,10 @@ export function render({ index, el, signal }) {
   }
 
   function next() {
-    if (!reveal() && !question.open()) turnTo(at + 1)
+    if (reveal()) return
+    const answer = panel.querySelector(".answer:not([open])")
+    if (answer === null) turnTo(at + 1)
+    else answer.open = true
   }
 
   // `number`: of its first step on show; a link has brought the state along.
@@ -139,6 +123,9 @@ export function render({ index, el, signal }) {
     lesson = given
     at = Math.max(0, Math.min(number, lesson.steps.length - 1))
     begun = performance.now()
+    tick()
+    clearInterval(ticking)
+    ticking = setInterval(tick, SECOND)
     panel.hidden = false
     menu.hidden = tries.hidden = true
     tell("reading", true)
@@ -161,11 +148,11 @@ export function render({ index, el, signal }) {
     tell("url", { lesson: "", step: "" })
   }
 
-  menu.append(element("summary", { textContent: "Lessons" }), element("ul", {}, ...index.map(({ name, title, minutes }) => (
-    element("li", {}, button(`lesson-${name}`, `${title} (${minutes} min)`, () => {
+  menu.append(element("summary", "Lessons"), element("ul", ...index.map(({ name, title, minutes }) => (
+    element("li", button(`button.param-lesson-${name}`, () => {
       wanted = name
       tell("lesson", name)
-    }))))))
+    }, `${title} (${minutes} min)`))))))
 
   // What can be tried in this scene, one at a time.
   function showTries(scene) {
@@ -174,14 +161,13 @@ export function render({ index, el, signal }) {
     tries.hidden = steps.length === 0 || lesson !== null
     if (steps.length === 0) return
     let one = 0
-    const title = element("h3", {})
-    const text = element("div", { className: "text" })
+    const title = element("h3")
+    const text = element("div.text")
     const turn = (by) => {
       one = (one + by + steps.length) % steps.length
       title.innerHTML = `Try this: ${steps[one].title}`
       text.innerHTML = steps[one].text
-      const { parts } = questionOf(steps[one])
-      text.append(...parts)
+      text.append(...questionOf(steps[one]))
       count.textContent = `${one + 1} / ${steps.length}`
     }
     const perform = () => {
@@ -193,28 +179,24 @@ export function render({ index, el, signal }) {
         if (!CALM.matches) animation?.start()
       })
     }
-    const count = element("span", { className: "count" })
-    tries.append(title, text, element("div", { className: "row" },
-      button("try", "Do it for me", perform),
-      button("try-before", "‹", () => turn(-1), { "aria-label": "The one before" }), count,
-      button("try-next", "›", () => turn(1), { "aria-label": "The next one" })))
+    const count = element("span.count")
+    tries.append(title, text, element("div.row",
+      button("button.param-try", perform, "Do it for me"),
+      button("button.param-try-before", () => turn(-1), { ariaLabel: "The one before" }, "‹"), count,
+      button("button.param-try-next", () => turn(1), { ariaLabel: "The next one" }, "›")))
     turn(0)
   }
 
-  listen("enter", showTries, signal)
+  listen("enter", showTries)
   listen("painted", () => {
     const then = arriving
     arriving = null
     then?.()
-  }, signal)
+  })
   listen("lesson-read", ({ lesson: given, step }) => {
     if (step !== null) begin(given, step, true)
     else if (given.name === wanted) begin(given, 0, false)
     wanted = null
-  }, signal)
-  onKeys({ pagedown: () => lesson !== null && next(), pageup: () => lesson !== null && turnTo(at - 1) }, signal)
-  signal.addEventListener("abort", () => {
-    clearInterval(ticking)
-    leaveStep()
   })
+  onKeys({ pagedown: () => lesson !== null && next(), pageup: () => lesson !== null && turnTo(at - 1) })
 }

@@ -1,15 +1,7 @@
-// How the parts of the page are mounted, and the elements that they are made of.
+// How the parts of the page are mounted.
 
-// An element with these properties, attributes ("aria-…", "role") among them, and children.
-export function element(tag, properties = {}, ...children) {
-  const item = document.createElement(tag)
-  for (const [name, value] of Object.entries(properties)) {
-    if (name.includes("-") || name === "role") item.setAttribute(name, value)
-    else item[name] = value
-  }
-  item.append(...children)
-  return item
-}
+import { element } from "./elements.js"
+import { wear } from "./presenting.js"
 
 // Which style sheets each part has besides "page/base.css".
 const SHEETS = {
@@ -21,17 +13,14 @@ const SHEETS = {
 }
 
 /**
- * Mounts parts of the page, each in a shadow of its own, where its styles are its alone.
- *
- * @param {Record<string, string>} sheets - path → style sheet
- * @param {AbortSignal} [signal] - aborts when they are removed: their listeners go with them
+ * Return what mounts parts of the page, each in a shadow of its own, where its styles are its alone.
+ * @param {Record<string, string>} sheets path → style sheet
  */
-export function createMount(sheets, signal = new AbortController().signal) {
-  return (name, render, properties = {}, host = element("div")) => {
-    const el = element("div", { className: name })
-    host.attachShadow({ mode: "open" }).append(
-      ...["page/base.css", ...(SHEETS[name] ?? ["page/page.css"])].map((path) => element("style", { textContent: sheets[path] })), el)
-    render({ ...properties, el, signal })
-    return host
-  }
+export const createMount = (sheets) => (name, render, properties = {}, host = element("div")) => {
+  const el = element(`div.${name}`)
+  wear(el)
+  host.attachShadow({ mode: "open" }).append(
+    ...["page/base.css", ...(SHEETS[name] ?? ["page/page.css"])].map((path) => element("style", sheets[path])), el)
+  render({ ...properties, el })
+  return host
 }

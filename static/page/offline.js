@@ -4,36 +4,35 @@
 import { render as renderPlayer } from "../controls/player.js"
 import { gallery, render as renderPictures } from "../pictures/gallery.js"
 import { listen, tell } from "./bus.js"
-import { createMount, element } from "./mount.js"
+import { element } from "./elements.js"
+import { createMount } from "./mount.js"
 import { fill, paint } from "./painting.js"
 import { render as renderProse } from "./prose.js"
 import { render as renderStatus } from "./status.js"
 import { render as renderText } from "./text.js"
 
-const text = (id) => document.getElementById(id).textContent
+const place = (id) => document.getElementById(id)
 
 // What a control of the page shows, not to be changed here.
 function controlOf({ name, label, kind }, shown) {
-  if (kind !== "number") return element("label", {}, `${label} `, element("select", {}, new Option(shown)))
+  if (kind !== "number") return element("label", `${label} `, element("select", new Option(shown)))
   const [value, min, max, step] = shown
-  const slider = element("input", { type: "range", min, max, step: step || "any", value })
-  slider.className = `param-${name}`
+  const slider = element(`input.param-${name}`, { type: "range", min, max, step: step || "any", value })
   const number = String(Number(value.toPrecision(6))).replace("-", "−")
-  return element("label", {}, `${label} `, slider, element("output", { textContent: number }))
+  return element("label", `${label} `, slider, element("output", number))
 }
 
 async function start() {
-  const { description, tree, client, sheets } = JSON.parse(text("state"))
-  const block = Uint8Array.from(atob(text("block")), (letter) => letter.charCodeAt(0)).buffer
+  const { description, tree, client, sheets } = JSON.parse(place("state").textContent)
+  const block = Uint8Array.from(atob(place("block").textContent), (letter) => letter.charCodeAt(0)).buffer
   listen("ask-client", (hear) => hear(client))
   const mount = createMount(sheets)
-  const place = (id) => document.getElementById(id)
   mount("pictures", renderPictures, {}, place("pictures"))
   mount("player", renderPlayer, {}, place("player"))
   for (const part of ["legend", "words"]) mount("prose", renderProse, { part }, place(part))
-  for (const key of ["derived", "notes"]) mount("text", renderText, { key, look: key, tag: "div", live: false }, place(key))
+  for (const key of ["derived", "notes"]) mount("text", renderText, { key, tag: "div" }, place(key))
   mount("status", renderStatus, {}, place("status"))
-  document.getElementById("controls").append(...description.controls.filter(({ name }) => name in tree.controls)
+  place("controls").append(...description.controls.filter(({ name }) => name in tree.controls)
     .map((control) => controlOf(control, tree.controls[control.name])))
   tell("client", client)
   const scene = await gallery.build(description)

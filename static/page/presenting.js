@@ -3,63 +3,57 @@
 
 import { listen, tell } from "./bus.js"
 import { isEmbedded } from "./embedding.js"
-import { isTaken } from "./keys.js"
-import { element } from "./mount.js"
+import { element } from "./elements.js"
+import { onKeys } from "./keys.js"
 
 const LARGER = 2
 // Type of this size, in pixels, is read at a desk.
 const DESK = 14
 const REST = 3000
 
-const root = document.documentElement
-let leaving = null
+let isOn = false
 let type = DESK
 
-export const isPresenting = () => leaving !== null
+export const isPresenting = () => isOn
 
 // The size of the type beside the pictures, in pixels, for `zoom`: whoever places them has looked it up.
 export const setType = (size) => { type = size }
 
 // How much wider than beside a desk lines, dots and what is written on canvases are: with the type of a large screen.
 export function zoom() {
-  return Math.max(isPresenting() ? LARGER : 1, type / DESK)
+  return Math.max(isOn ? LARGER : 1, type / DESK)
 }
 
 // The component wears the classes `presenting` and `embedded` where that is so.
-export function wear(el, signal) {
+export function wear(el) {
   const follow = () => {
-    el.classList.toggle("presenting", isPresenting())
+    el.classList.toggle("presenting", isOn)
     el.classList.toggle("embedded", isEmbedded())
   }
-  for (const mode of ["presenting", "embedding"]) listen(mode, follow, signal)
+  for (const mode of ["presenting", "embedding"]) listen(mode, follow)
   follow()
 }
 
 // Enter it, or leave it.
 export function present(on) {
-  if (on === isPresenting()) return
-  leaving?.abort()
-  leaving = on ? new AbortController() : null
-  root.toggleAttribute("data-present", on)
+  if (on === isOn) return
+  isOn = on
+  document.documentElement.toggleAttribute("data-present", on)
   tell("presenting", on)
-  // After whoever else Escape is for: their listeners are older.
-  if (on) window.addEventListener("keydown", (event) => {
-    if (event.key !== "Escape" || isTaken(event)) return
-    event.preventDefault()
-    tell("present")
-  }, { signal: leaving.signal })
 }
 
-// What goes with the pointer, and is not seen while that rests.
-export function spot(signal) {
-  const item = element("div", { className: "spot", "aria-hidden": "true" })
+// What goes with the pointer, and is not seen while that rests; Escape leaves present mode.
+export function spot() {
+  const item = element("div.spot", { ariaHidden: true })
   let resting = null
   document.addEventListener("pointermove", ({ clientX, clientY }) => {
-    if (!isPresenting()) return
+    if (!isOn) return
     clearTimeout(resting)
     item.style.translate = `${clientX}px ${clientY}px`
     item.classList.add("moving")
     resting = setTimeout(() => item.classList.remove("moving"), REST)
-  }, { signal })
+  })
+  // After whatever else Escape is for: their listeners are older.
+  onKeys({ escape: () => isOn && tell("present") }, window)
   return item
 }

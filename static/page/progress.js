@@ -1,34 +1,24 @@
 // How much of the state on show is computed while the rest is on its way.  Stop, or Escape, leaves it at that.
 
 import { listen, tell } from "./bus.js"
-import { element } from "./mount.js"
+import { button, element } from "./elements.js"
 
 const SHOWN_AFTER = 300
 
-export function render({ el, signal }) {
-  const bar = element("progress", { "aria-label": "Computed" })
-  const stop = element("button", {
-    type: "button", className: "button param-stop", textContent: "Stop", title: "Leave it at what is drawn (Escape)",
-  })
-  const box = element("div", { className: "computing", role: "status", hidden: true }, bar, stop)
-  el.append(box)
+export function render({ el }) {
   let since = null
-  const end = () => { if (since !== null) tell("stop") }
-  stop.addEventListener("click", end)
-  document.addEventListener("keydown", (event) => { if (event.key === "Escape" && since !== null) {
-    end()
+  const bar = element("progress", { ariaLabel: "Computed" })
+  const stop = button("button.param-stop", () => tell("stop"), { title: "Leave it at what is drawn (Escape)" }, "Stop")
+  const box = element("div.computing", { role: "status", hidden: true }, bar, stop)
+  el.append(box)
+  document.addEventListener("keydown", (event) => {
+    if (event.key !== "Escape" || since === null) return
+    tell("stop")
     event.preventDefault()
-  } }, { signal })
+  })
   listen("progress", (progress) => {
-    if (progress === null) {
-      since = null
-      box.hidden = true
-      return
-    }
-    since ??= performance.now()
-    const [done, of] = progress
-    bar.max = of
-    bar.value = done
-    box.hidden = performance.now() - since < SHOWN_AFTER
-  }, signal)
+    since = progress && (since ?? performance.now())
+    box.hidden = progress === null || performance.now() - since < SHOWN_AFTER
+    if (progress !== null) [bar.value, bar.max] = progress
+  })
 }

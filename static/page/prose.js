@@ -1,7 +1,7 @@
 // HTML of the scene on show, from the project's own files: its legend or its words.
 
 import { listen } from "./bus.js"
-import { element } from "./mount.js"
+import { element } from "./elements.js"
 
 // Of the entries of a legend, show those whose numbers are there.
 export function showSigns(box, signs) {
@@ -9,20 +9,18 @@ export function showSigns(box, signs) {
   for (const [i, entry] of box.querySelectorAll(".legend li").entries()) entry.hidden = !there.has(String(i))
 }
 
-export function render({ part, el, signal }) {
-  const item = element("div", { className: part })
+export function render({ part, el }) {
+  const item = element(`div.${part}`)
   const show = (scene) => { item.innerHTML = scene[part] }
   // A formula or a table that scrolls by itself is reached by the keyboard.
-  const resize = new ResizeObserver(() => {
+  new ResizeObserver(() => {
     for (const wide of item.querySelectorAll('math[display="block"], table')) {
       wide.tabIndex = wide.scrollWidth > wide.clientWidth ? 0 : -1
     }
-  })
-  resize.observe(item)
-  signal.addEventListener("abort", () => resize.disconnect())
-  listen("enter", show, signal)
-  if (part === "legend") listen("texts", ({ signs }) => { if (signs !== undefined) showSigns(item, signs) }, signal)
+  }).observe(item)
+  listen("enter", show)
+  if (part === "legend") listen("texts", ({ signs }) => { if (signs !== undefined) showSigns(item, signs) })
   // A lesson has the place of the words.
-  if (part === "words") listen("reading", (on) => { item.hidden = on }, signal)
+  if (part === "words") listen("reading", (on) => { item.hidden = on })
   el.append(item)
 }

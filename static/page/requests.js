@@ -13,7 +13,7 @@ const COMPILING = "Computing… What is used for the first time is compiled."
 
 // send(message) takes the message to the server.  changed() is called whenever the user asks for another state.
 // hidden() gives the names of the pictures out of sight.  known(scene) says whether its description is here.
-export function createRequests({ send, changed, hidden, known }, signal) {
+export function createRequests({ send, changed, hidden, known }) {
   let requested = 0
   let asked = null
   let asking = false
@@ -84,58 +84,58 @@ export function createRequests({ send, changed, hidden, known }, signal) {
   document.addEventListener("pointerdown", (event) => {
     touched = event.pointerType === "touch"
     grasped = event.composedPath().some((item) => item instanceof Element && item.matches(".hand, .scrub"))
-  }, { capture: true, signal })
+  }, { capture: true })
   for (const name of ["pointerup", "pointercancel"]) {
     document.addEventListener(name, () => {
       if (!grasped) return
       grasped = false
       request()
-    }, { capture: true, signal })
+    }, { capture: true })
   }
   listen("animated", (on) => {
     animated = on
     request()
-  }, signal)
+  })
   listen("change", (changes) => {
     for (const name of Object.keys(changes)) {
       moved.set(name, requested + 1)
       delete pending.expressions?.[name]
     }
     want({ values: { ...pending.values, ...changes } })
-  }, signal)
+  })
   listen("expression", (texts) => {
     for (const name of Object.keys(texts)) moved.set(name, requested + 1)
     want({ expressions: { ...pending.expressions, ...texts } })
-  }, signal)
-  listen("preset", (preset) => restart({ preset }), signal)
-  for (const what of ["reset", "clear"]) listen(what, () => restart({ [what]: true }), signal)
+  })
+  listen("preset", (preset) => restart({ preset }))
+  for (const what of ["reset", "clear"]) listen(what, () => restart({ [what]: true }))
   // The query of a state, perhaps of another scene.
   listen("restore", (restore) => {
     chosen = target = new URLSearchParams(restore).get("scene") ?? shown
     restart({ restore })
-  }, signal)
+  })
   listen("step", (step) => {
     chosen = target = null
     restart({ step })
-  }, signal)
-  listen("lesson", (lesson) => add({ lesson }), signal)
-  listen("stop", () => want({ stop: true }), signal)
+  })
+  listen("lesson", (lesson) => add({ lesson }))
+  listen("stop", () => want({ stop: true }))
   listen("pick", ({ pick, drag }) => {
     // A finger that moves scrolls the page.
     if ((drag && touched) || !Array.isArray(pick) || !pick.slice(1).every(Number.isFinite)) return
     want({ picked: pick })
-  }, signal)
+  })
   listen("hover", (place) => {
     if (place.slice(1).every(Number.isFinite)) add({ hover: place })
-  }, signal)
-  listen("near", (near) => { if (!known(near)) add({ near }) }, signal)
+  })
+  listen("near", (near) => { if (!known(near)) add({ near }) })
   listen("scene", (scene) => {
     // The scene chosen last, though its pictures may still be on their way.
     if (scene === (target ?? shown)) return
     chosen = target = scene
     delete pending.restore
     request()
-  }, signal)
+  })
 
   return {
     ask,

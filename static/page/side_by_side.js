@@ -7,18 +7,18 @@ export const HALF = "hess-explorer-half"
 // What is told to the other page → what it does.
 const HEARD = { time: "follow", turned: "turn" }
 
-export function joinOther(signal) {
+export function joinOther() {
   if (window.name !== HALF || window.parent === window) return
   // What is done because the other page has asked for it is not told back.
   let isFollowing = false
   const { origin } = window.location
   const say = (name, detail) => { if (!isFollowing) window.parent.postMessage([name, detail], origin) }
-  listen("time", ({ t }) => say("time", t), signal)
-  listen("turned", (turned) => say("turned", turned), signal)
+  listen("time", ({ t }) => say("time", t))
+  listen("turned", (turned) => say("turned", turned))
   window.addEventListener("message", ({ source, origin: from, data }) => {
     if (source !== window.parent || from !== origin || !Array.isArray(data) || !Object.hasOwn(HEARD, data[0])) return
     isFollowing = true
     tell(HEARD[data[0]], data[1])
     isFollowing = false
-  }, { signal })
+  })
 }

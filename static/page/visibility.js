@@ -1,7 +1,7 @@
 // Which pictures are out of sight or folded: those are not computed, and what comes into sight is asked for.
 
 // appeared() is called when a picture comes into sight.
-export function createVisibility(appeared, signal) {
+export function createVisibility(appeared) {
   const hidden = new Set()
   const observer = new IntersectionObserver((entries) => {
     let found = false
@@ -12,7 +12,6 @@ export function createVisibility(appeared, signal) {
     }
     if (found) appeared()
   })
-  signal.addEventListener("abort", () => observer.disconnect())
   return {
     hidden: () => [...hidden],
     // The pictures of another scene, of which the server has drawn those that are not folded at first.

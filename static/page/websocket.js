@@ -9,10 +9,9 @@ const decoder = new TextDecoder()
 /**
  * @param {(head: object, block: ArrayBuffer, cells: ArrayBuffer) => void} receive - hears each answer
  * @param {(why: string) => void} lost - hears that the connection is gone, and why where that is no accident
- * @param {AbortSignal} signal
  * @returns {(message: object) => void} sends a message
  */
-export function openWebsocket(receive, lost, signal) {
+export function openWebsocket(receive, lost) {
   // The query says what is shown first; which process answers is no matter.
   const url = new URL(`states${window.location.search}`, document.baseURI)
   url.protocol = url.protocol.replace("http", "ws")
@@ -23,8 +22,7 @@ export function openWebsocket(receive, lost, signal) {
     const block = LENGTHS + lengths.getUint32(0, true)
     const cells = block + lengths.getUint32(4, true)
     receive(JSON.parse(decoder.decode(new Uint8Array(data, LENGTHS, block - LENGTHS))), data.slice(block, cells), data.slice(cells))
-  }, { signal })
-  socket.addEventListener("close", ({ code, reason }) => lost(code === FULL ? reason : ""), { signal })
-  signal.addEventListener("abort", () => socket.close())
+  })
+  socket.addEventListener("close", ({ code, reason }) => lost(code === FULL ? reason : ""))
   return (message) => socket.send(JSON.stringify(message))
 }

@@ -2,7 +2,7 @@
 // of the page change.
 
 import { listen } from "../page/bus.js"
-import { element } from "../page/mount.js"
+import { element } from "../page/elements.js"
 import { zoom } from "../page/presenting.js"
 import { INK, isDark, setDark, watchTheme } from "./looks.js"
 
@@ -21,13 +21,13 @@ export function fit(canvas, width, height) {
 
 /**
  * Return a canvas that paints itself.
+ * @param {string} className
  * @param {object} properties see `element`
  * @param {(ctx: CanvasRenderingContext2D, look: {width: number, height: number, text: string, dark: boolean}) => void} paint
  *   gets the size in CSS pixels, the colour of text, and whether the page is dark
- * @param {AbortSignal} signal
  */
-export function liveCanvas(properties, paint, signal) {
-  const canvas = element("canvas", properties)
+export function liveCanvas(className, properties, paint) {
+  const canvas = element(`canvas.${className}`, properties)
   // To ask for the size in each frame would lay out the page.
   const own = { canvas, width: 0, height: 0, request }
   let requested = false
@@ -50,15 +50,13 @@ export function liveCanvas(properties, paint, signal) {
   }
 
   // With all the others of a state, rather than in the next frame.
-  listen("paint", draw, signal)
-  listen("presenting", request, signal)
-  watchTheme(request, signal)
-  const resize = new ResizeObserver(() => {
+  listen("paint", draw)
+  listen("presenting", request)
+  watchTheme(request)
+  new ResizeObserver(() => {
     Object.assign(own, { width: canvas.clientWidth, height: canvas.clientHeight })
     request()
-  })
-  resize.observe(canvas)
-  signal.addEventListener("abort", () => resize.disconnect())
+  }).observe(canvas)
   return own
 }
 
@@ -68,11 +66,11 @@ export function liveCanvas(properties, paint, signal) {
  * paint(ctx, {edge, ratio, text, dark}): the unit of lengths is a CSS pixel, larger in present mode; `edge` is the side in
  * units, `ratio` the number of device pixels in a unit.  shoot(side) returns the picture for print, `side` pixels wide.
  */
-export function squareCanvas(el, properties, paint, signal) {
-  const own = liveCanvas(properties, (ctx, { width, text, dark }) => {
+export function squareCanvas(el, className, properties, paint) {
+  const own = liveCanvas(className, properties, (ctx, { width, text, dark }) => {
     ctx.scale(zoom(), zoom())
     paint(ctx, { edge: width / zoom(), ratio: pixelRatio() * zoom(), text, dark })
-  }, signal)
+  })
   el.append(own.canvas)
   const shoot = (side) => {
     const sheet = element("canvas", { width: side, height: side })

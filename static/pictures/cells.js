@@ -1,6 +1,6 @@
 // Draws numbers on a grid as coloured cells, or, for a continuous function, interpolated in each pixel.
 
-import { element } from "../page/mount.js"
+import { element } from "../page/elements.js"
 import { bytesOf, onDark, shade } from "./looks.js"
 
 const UNKNOWN = "#808080"

@@ -48,9 +48,8 @@ function drawBox(ctx, [x0, y0, x1, y1]) {
  * @param {{plain: string[], round: string[]}} palettes `round` for numbers that differ by turns
  * @param {{pointed: (cell: number[] | null) => void, chosen: (cell: number[]) => void, boxed: (box: {x: number[], y: number[]}) => void}} handlers
  *   hear of [column, row], and of a box as [low, high] on both sides
- * @param {AbortSignal} signal
  */
-export function chartCanvas(palettes, handlers, signal) {
+export function chartCanvas(palettes, handlers) {
   let chart = null
   let mark = null
   let cursor = null
@@ -66,8 +65,8 @@ export function chartCanvas(palettes, handlers, signal) {
   /** @type {any} */
   let place = null
 
-  const { canvas, request } = liveCanvas({
-    className: "map", tabIndex: 0, role: "application",
+  const { canvas, request } = liveCanvas("map", {
+    tabIndex: 0, role: "application",
     ariaLabel: "Chart: arrow keys move, Enter opens the state, plus zooms, minus goes back",
     onpointermove: (event) => moveTo(cellAt(event)), onpointerleave: () => { if (box === null) moveTo(null) },
     onkeydown(event) {
@@ -79,7 +78,7 @@ export function chartCanvas(palettes, handlers, signal) {
       const far = event.shiftKey ? 10 : 1
       moveTo(sides.map(({ count }, k) => within(from[k] + far * arrow[k], 0, count - 1)))
     },
-  }, paint, signal)
+  }, paint)
 
   function renew() {
     if (chart?.values == null) return

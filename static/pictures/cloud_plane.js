@@ -65,20 +65,20 @@ function densityOf(cloud, bins) {
 }
 
 /** Draw the plane in an element; the parameters are those of `sphere`. */
-export function cloudPlane(el, options, source, signal, isShown) {
+export function cloudPlane(el, options, source, isShown) {
   const own = source(options.name)
   const clouds = cloudsOf(own)
   const layer = pointLayer()
   let t = 0
   // The axes stay while there are no clouds.
   let range = 1
-  const { canvas, request, shoot } = squareCanvas(el, {
-    className: "sphere cloud", role: "img", ariaLabel: "Cloud of phase points on the plane of ω₁ and ω₂",
+  const { canvas, request, shoot } = squareCanvas(el, "sphere.cloud", {
+    role: "img", ariaLabel: "Cloud of phase points on the plane of ω₁ and ω₂",
     onclick({ offsetX, offsetY }) {
       const picked = place(canvas.clientWidth / zoom()).invert(offsetX / zoom(), offsetY / zoom())
       tell("pick", { pick: [options.name, ...picked], drag: false })
     },
-  }, paint, signal)
+  }, paint)
   const place = (edge) => {
     range = own.data.half ?? range
     return placing(edge, range)
@@ -113,7 +113,7 @@ export function cloudPlane(el, options, source, signal, isShown) {
     if (!isShown()) return
     t = now.t
     refresh()
-  }, signal)
-  own.watch(refresh, signal)
+  })
+  own.watch(refresh)
   return { shoot }
 }

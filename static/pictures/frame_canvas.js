@@ -1,6 +1,6 @@
 // A canvas of our own over the frame of a Bokeh plot, for what would take Bokeh too long to draw.
 
-import { element } from "../page/mount.js"
+import { element } from "../page/elements.js"
 import { zoom } from "../page/presenting.js"
 import { fit } from "./canvas.js"
 import { onDark } from "./looks.js"

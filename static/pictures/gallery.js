@@ -2,8 +2,7 @@
 
 import { listen } from "../page/bus.js"
 import { sayDragMe } from "../page/handle.js"
-import { element } from "../page/mount.js"
-import { wear } from "../page/presenting.js"
+import { element } from "../page/elements.js"
 import { cloudPlane } from "./cloud_plane.js"
 import { planeGhost } from "./ghost.js"
 import { onDark, setDark, setShades, watchTheme } from "./looks.js"
@@ -20,8 +19,8 @@ const LATE = 2000
 // Each draws a picture: {shoot(side), and where it has a ghost take(), show(…); the view of a plot}.
 const KINDS = {
   sphere, cloud: cloudPlane,
-  async plot(host, picture, source, signal) {
-    const plot = await buildPlot(host, picture, source, signal)
+  async plot(host, picture, source) {
+    const plot = await buildPlot(host, picture, source)
     return { plot, shoot: (side) => shootPlot(plot, side), ...planeGhost(plot) }
   },
 }
@@ -29,7 +28,6 @@ const KINDS = {
 const built = new Map()
 let shelf = null
 let shown = null
-let signal = null
 let stand = null
 let stage = null
 
@@ -82,7 +80,7 @@ function followThemeForAWhile() {
 // The pictures of a scene that the server has described, not seen yet: {name, grid, cells, plots, sources, …}.
 async function build(description) {
   setShades(description.shades)
-  const grid = element("div", { className: "gallery" })
+  const grid = element("div.gallery")
   const scene = { name: description.name, grid, sources: new Map(), cells: [], plots: [], ghosts: [], shots: new Map(), painted: false }
   const places = description.pictures.map((picture) => {
     const { name } = picture
@@ -102,7 +100,7 @@ async function build(description) {
   shelf.append(grid)
   stage.place(scene)
   const drawn = await Promise.all(places.map(([host, picture]) => (
-    KINDS[picture.kind](host, picture, source, signal, () => shown === scene))))
+    KINDS[picture.kind](host, picture, source, () => shown === scene))))
   drawn.forEach((one, i) => {
     scene.shots.set(description.pictures[i].name, one.shoot)
     if (one.take) scene.ghosts.push(one)
@@ -160,16 +158,14 @@ function besideLayer({ picture, source, columns }) {
   }
 }
 
-export function render({ el, signal: removed }) {
-  signal = removed
-  shelf = element("div", { className: "shelf" })
+export function render({ el }) {
+  shelf = element("div.shelf")
   el.append(shelf)
-  wear(el, signal)
-  stage = createStage(shelf, gallery, signal)
-  sayDragMe(besideLayer, signal)
-  listen("texts", (texts) => { for (const cell of shown?.cells ?? []) fillTexts(cell, texts) }, signal)
-  watchTheme(followThemeForAWhile, signal)
+  stage = createStage(shelf, gallery)
+  sayDragMe(besideLayer)
+  listen("texts", (texts) => { for (const cell of shown?.cells ?? []) fillTexts(cell, texts) })
+  watchTheme(followThemeForAWhile)
   // In the frame after a state: the browser looks up styles then in any case.
-  listen("painted", () => requestAnimationFrame(followTheme), signal)
+  listen("painted", () => requestAnimationFrame(followTheme))
   stand()
 }

@@ -1,6 +1,6 @@
 // Ghosts: faint copies of an earlier state, drawn once, and again only where axes or sizes change.
 
-import { element } from "../page/mount.js"
+import { element } from "../page/elements.js"
 import { frameCanvas } from "./frame_canvas.js"
 
 export const FAINT = 0.4

@@ -1,7 +1,7 @@
 // A guess in a picture: the audience clicks where it expects something, then the truth is drawn with the distance to it.
 
 import { arrowOf } from "../page/keys.js"
-import { element } from "../page/mount.js"
+import { element } from "../page/elements.js"
 import { fit } from "./canvas.js"
 import { gallery } from "./gallery.js"
 import { circlePath } from "./looks.js"
@@ -120,8 +120,8 @@ export function createGuess(prediction, say) {
     begin() {
       plot = gallery.plot(prediction.picture)
       hide(true)
-      sheet = element("canvas", {
-        className: "guess", tabIndex: 0, role: "application", ariaLabel: "Your guess: click, or move it with the arrow keys",
+      sheet = element("canvas.guess", {
+        tabIndex: 0, role: "application", ariaLabel: "Your guess: click, or move it with the arrow keys",
         title: isCurve ? "Click along the curve as you expect it" : "Click where you expect it", onkeydown,
         onclick: ({ offsetX, offsetY }) => { if (!this.isRevealed) add(offsetX, offsetY) },
       })

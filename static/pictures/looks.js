@@ -46,12 +46,11 @@ export function shade(colour) {
 export const onDark = () => dark === true
 
 /** Call `act` whenever the theme of the page may have changed. */
-export function watchTheme(act, signal) {
+export function watchTheme(act) {
   const observer = new MutationObserver(act)
   for (const item of [document.documentElement, document.body]) {
     observer.observe(item, { attributes: true, attributeFilter: ["data-theme", "class", "style"] })
   }
-  signal.addEventListener("abort", () => observer.disconnect())
 }
 
 const look = (name, weight, dash = []) => ({ get colour() { return shade(shades[name][0]) }, dash, weight })

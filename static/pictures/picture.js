@@ -1,6 +1,6 @@
 // The cell of one picture: caption, corner button, the place of the picture, and a line about what is under the mouse.
 
-import { element } from "../page/mount.js"
+import { element } from "../page/elements.js"
 
 // What the mouse does in a picture.
 const HINTS = {
@@ -11,12 +11,12 @@ const HINTS = {
 
 /** Return [cell, host]; the picture is drawn into the host. */
 export function createCell({ name, folded, hands }, corner, pointed) {
-  const host = element("div", { className: `host hands-${hands}`, title: HINTS[hands] ?? "" })
-  const under = element("output", { className: "text hover", hidden: true })
-  const cell = element("section", {
-    className: `picture picture-${name}`, "data-name": name, onpointerenter: pointed, onmouseleave: () => { under.hidden = true },
-  }, element("h2", { className: "text caption" },
-    element("span", { className: "title" }), "\n", element("span", { className: "said" })), corner, host, under)
+  const host = element(`div.host.hands-${hands}`, { title: HINTS[hands] ?? "" })
+  const under = element("output.text.hover", { hidden: true })
+  const cell = element(`section.picture.picture-${name}`, {
+    dataset: { name }, onpointerenter: pointed, onmouseleave: () => { under.hidden = true },
+  }, element("h2.text.caption",
+    element("span.title"), "\n", element("span.said")), corner, host, under)
   cell.classList.toggle("folded", folded !== null)
   // Until it is unfolded the server does not draw it.
   if (folded !== null) cell.dataset.late = ""

@@ -1,7 +1,7 @@
 // A picture that Bokeh draws: axes, lines and markers, from the description that "bokeh_figure.py" makes of it.
 
 import { listen } from "../page/bus.js"
-import { element } from "../page/mount.js"
+import { element } from "../page/elements.js"
 import { isPresenting } from "../page/presenting.js"
 import { checkBokeh, waitLongForPress } from "./bokeh_private.js"
 import { cellsPainter } from "./cells.js"
@@ -27,30 +27,30 @@ function clipOverlays(plot) {
 
 // Bokeh has a cursor of its own over the frame: here the picture says which one.
 function inheritCursor(plot) {
-  plot.canvas_view.overlays.el.parentNode.append(element("style", { textContent: "div { cursor: inherit !important }" }))
+  plot.canvas_view.overlays.el.parentNode.append(element("style", "div { cursor: inherit !important }"))
 }
 
 // Canvases for what Bokeh would draw slowly: cells under everything else, dots under the moving layers.
-function addCanvases(plot, { cells, dots }, source, signal) {
+function addCanvases(plot, { cells, dots }, source) {
   const { primary, overlays } = plot.canvas_view
   const add = (layers, before, painter) => {
     if (layers.length === 0) return
     const canvas = frameCanvas(plot, before, painter(layers, source))
-    for (const layer of layers) source(layer.source).watch(canvas.request, signal)
-    listen("paint", canvas.draw, signal)
+    for (const layer of layers) source(layer.source).watch(canvas.request)
+    listen("paint", canvas.draw)
   }
   add(cells, primary.el, cellsPainter)
   add(dots, overlays.el, dotsPainter)
 }
 
 // The names of the axes, where they depend on the state.
-function nameAxes({ below: [x], left: [y] }, names, signal) {
+function nameAxes({ below: [x], left: [y] }, names) {
   names.watch(() => {
     for (const [i, axis] of [x, y].entries()) {
       const name = names.data.text?.[i]
       if (name !== undefined && axis.axis_label !== name) axis.axis_label = name
     }
-  }, signal)
+  })
 }
 
 /**
@@ -58,9 +58,8 @@ function nameAxes({ below: [x], left: [y] }, names, signal) {
  * @param {HTMLElement} host
  * @param {any} picture from the description of the scene
  * @param {(name: string) => import("./sources.js").Source} source makes a new one where there is none of that name
- * @param {AbortSignal} signal
  */
-export async function buildPlot(host, picture, source, signal) {
+export async function buildPlot(host, picture, source) {
   waitLongForPress()
   const views = await Bokeh.embed.embed_item(picture.item, host)
   const [plot] = views.roots
@@ -69,7 +68,7 @@ export async function buildPlot(host, picture, source, signal) {
   for (const one of model.document.all_models) {
     if (one.data !== undefined && one.name !== null) source(one.name).add(one, plot)
   }
-  addCanvases(plot, picture, source, signal)
+  addCanvases(plot, picture, source)
   inheritCursor(plot)
   plot.repainted.connect(() => clipOverlays(plot))
   picture.letters.forEach((letters, i) => {
@@ -80,7 +79,7 @@ export async function buildPlot(host, picture, source, signal) {
       return (letters * ((plot.frame.bbox.width || USUAL) / USUAL) * (TICKS_HERE / size)) / (isPresenting() ? APART : 1)
     })
   })
-  if (picture.renamed) nameAxes(model, source(`${picture.name}-axes`), signal)
+  if (picture.renamed) nameAxes(model, source(`${picture.name}-axes`))
   connectPicks(model, picture.picks, source(`${picture.name}-box`))
   return plot
 }

@@ -1,6 +1,6 @@
 // Thousands of points, written into the pixels of a sheet: drawing each one would take many times as long.
 
-import { element } from "../page/mount.js"
+import { element } from "../page/elements.js"
 import { cloudColour } from "./looks.js"
 
 /**

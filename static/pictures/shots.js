@@ -1,6 +1,6 @@
 // Plots of Bokeh as they are printed: dark on white in both themes, sharper than on a screen.
 
-import { element } from "../page/mount.js"
+import { element } from "../page/elements.js"
 import { atRatio, takeColours } from "./bokeh_private.js"
 import { layersOf } from "./ghost.js"
 import { INK } from "./looks.js"

@@ -3,7 +3,7 @@
 //
 // Vectors are those of the view: to the right, upwards, towards the eye; lengths are radii of the sphere around it.
 
-import { element } from "../page/mount.js"
+import { element } from "../page/elements.js"
 import { dot, unit } from "./vectors.js"
 
 // Pixels of the shading on a side, at most, and pixels of the picture for each of them: shades change slowly.

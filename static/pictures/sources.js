@@ -21,8 +21,5 @@ export class Source {
     for (const watcher of this.#watchers) watcher()
   }
 
-  watch(watcher, signal) {
-    this.#watchers.add(watcher)
-    signal?.addEventListener("abort", () => this.#watchers.delete(watcher))
-  }
+  watch(watcher) { this.#watchers.add(watcher) }
 }

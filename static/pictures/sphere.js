@@ -45,13 +45,12 @@ function drawPoint({ ctx, isNear, at, use }, point) {
  * @param {HTMLElement} el
  * @param {any} options from the description of the picture
  * @param {(name: string) => import("./sources.js").Source} source
- * @param {AbortSignal} signal
  * @param {() => boolean} isShown whether its scene is on show
  */
-export function sphere(el, options, source, signal, isShown) {
+export function sphere(el, options, source, isShown) {
   const inSpace = options.attitude !== undefined
-  const { canvas, request, shoot } = squareCanvas(el, {
-    className: inSpace ? "solid" : "sphere", tabIndex: 0, role: "application", ariaRoleDescription: "rotatable sphere",
+  const { canvas, request, shoot } = squareCanvas(el, inSpace ? "solid" : "sphere", {
+    tabIndex: 0, role: "application", ariaRoleDescription: "rotatable sphere",
     ariaLabel: `${options.title ?? "Poisson sphere"}: arrow keys turn it, Home turns it back`,
     title: "Drag: it turns. So it does by arrow keys; Home turns it back",
     onkeydown(event) {
@@ -62,14 +61,14 @@ export function sphere(el, options, source, signal, isShown) {
       event.preventDefault()
       event.stopPropagation()
     },
-  }, paint, signal)
+  }, paint)
   const lines = options.bare ? [circle([0, 0, 1], 0)] : graticule()
   let turn = HOME
   const beginTurn = (keys) => { turn = [Number(keys.az), Number(keys.el)] }
   const askForTurn = () => tell("ask-client", beginTurn)
   askForTurn()
   // The sphere of another scene may have been turned since.
-  listen("enter", () => { if (isShown()) askForTurn() }, signal)
+  listen("enter", () => { if (isShown()) askForTurn() })
   let point = null
 
   const own = source(options.name)
@@ -163,21 +162,21 @@ export function sphere(el, options, source, signal, isShown) {
 
   listen("turn", ([name, ...turned]) => {
     if (isShown() && name === options.name && turned.every(Number.isFinite)) rotate(...turned)
-  }, signal)
+  })
   listen("time", ({ t, state }) => {
     if (!isShown()) return
     point = inSpace || state?.g1 === undefined ? null : [state.g1, state.g2, state.g3]
     if (guest !== null) guest.t = t
     request()
-  }, signal)
+  })
   const watched = [options.name, ...Object.keys(options.tracks), options.clouds, options.attitude]
-  for (const name of watched) if (name !== undefined) source(name).watch(request, signal)
+  for (const name of watched) if (name !== undefined) source(name).watch(request)
   return {
     shoot, take: tracks,
     show(what) {
       if (what === kept) return
       kept = what
-      faint ??= squareCanvas(el, { className: "ghost", ariaHidden: true }, paintGhost, signal)
+      faint ??= squareCanvas(el, "ghost", { ariaHidden: true }, paintGhost)
       faint.request()
     },
   }

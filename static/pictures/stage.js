@@ -3,10 +3,9 @@
 // A picture is enlarged by the button in its corner or the key of its number; Shift adds a second one; Escape brings all
 // back.  On a phone one picture is seen at a time, chosen by its number below it.
 
-import { button, icon, relabel } from "../page/buttons.js"
+import { button, element, icon, relabel } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
-import { isTaken } from "../page/keys.js"
-import { element } from "../page/mount.js"
+import { isTaken, onKeys } from "../page/keys.js"
 import { isPresenting, setType, zoom } from "../page/presenting.js"
 import { PHONE } from "../page/windows.js"
 import { arrange } from "./arrange.js"
@@ -48,12 +47,11 @@ function captions(type) {
  * Return {place(scene), size(scene), cornerFor(name), enter(scene)}.
  * @param {HTMLElement} shelf holds the pictures
  * @param {any} gallery see "gallery.js"
- * @param {AbortSignal} signal
  */
-export function createStage(shelf, gallery, signal) {
+export function createStage(shelf, gallery) {
   let large = []
   let wanted = ""
-  const chips = element("div", { className: "chips", role: "group", ariaLabel: "Picture" })
+  const chips = element("div.chips", { role: "group", ariaLabel: "Picture" })
   shelf.after(chips)
 
   const placeShown = () => { if (gallery.shown !== null) place(gallery.shown) }
@@ -118,7 +116,7 @@ export function createStage(shelf, gallery, signal) {
     chips.replaceChildren(...cells.map((cell, i) => button("chip", () => {
       if (isFolded(cell)) tell("fold", nameOf(cell))
       else enlarge([nameOf(cell)])
-    }, { textContent: i + 1, ariaPressed: cell === seen, ariaLabel: `Picture ${i + 1}` })))
+    }, { ariaPressed: cell === seen, ariaLabel: `Picture ${i + 1}` }, i + 1)))
   }
 
   function enlarge(names) {
@@ -140,33 +138,27 @@ export function createStage(shelf, gallery, signal) {
     if (cell === undefined) return
     event.preventDefault()
     toggle(nameOf(cell), event.shiftKey)
-  }, { signal })
-  // After whoever else Escape is for.
-  window.addEventListener("keydown", (event) => {
-    if (event.key !== "Escape" || isTaken(event) || large.length === 0) return
-    event.preventDefault()
-    enlarge([])
-  }, { signal })
+  })
+  // After whatever else Escape is for.
+  onKeys({ escape: () => large.length > 0 && enlarge([]) }, window)
 
-  listen("client", (own) => { wanted = own.large ?? "" }, signal)
+  listen("client", (own) => { wanted = own.large ?? "" })
   // What a lesson looks at.
   listen("look", (name) => {
     if (isFolded(gallery.cell(name))) tell("fold", name)
     enlarge([name])
-  }, signal)
+  })
   listen("fold", (name) => {
     const folded = gallery.cell(name).classList.toggle("folded")
     if (folded) large = large.filter((one) => one !== name)
     else if (PHONE.matches) large = [name]
     placeShown()
     tell("folded", { name, folded })
-  }, signal)
+  })
 
-  const resize = new ResizeObserver(placeShown)
-  resize.observe(shelf)
+  new ResizeObserver(placeShown).observe(shelf)
   // When all of the page has its new sizes.
-  listen("presenting", () => requestAnimationFrame(placeShown), signal)
-  signal.addEventListener("abort", () => resize.disconnect())
+  listen("presenting", () => requestAnimationFrame(placeShown))
 
   return {
     place, size,

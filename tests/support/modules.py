@@ -1,7 +1,7 @@
 """What tests look at inside the page: its own modules, imported once more, as `window.hess`.
 
-hess.plots, hess.source(name), hess.has(scene) are the gallery's; hess.tell(name, detail) and hess.listen(name, hear,
-signal) the bus's; hess.plotted() names the sources of the planar pictures on show; hess.clouds(source, t), hess.ticks,
+hess.plots, hess.source(name), hess.has(scene) are the gallery's; hess.tell(name, detail) and hess.listen(name, hear)
+the bus's; hess.plotted() names the sources of the planar pictures on show; hess.clouds(source, t), hess.ticks,
 hess.solid, hess.arrange.
 """
 
