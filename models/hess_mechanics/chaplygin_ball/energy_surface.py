@@ -21,7 +21,7 @@ from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.inertia import require_finite
 
-__all__ = ["Strip", "line_of_rest", "lowest_energy", "omega_of_energy", "spread_states"]
+__all__ = ["Strip", "line_of_rest", "lowest_energy", "omega_of_energy"]
 
 _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
 
@@ -130,39 +130,3 @@ def omega_of_energy(
     w1, w2 = direction[0] / length, direction[1] / length
     speed = math.sqrt((h - potential) / kinetic_energy((w1, w2, *gamma), body.parameters))
     return speed * w1, speed * w2
-
-
-def spread_states(body: BallBody, h: float, count: int) -> Array:
-    """States (count, 5) with E = h, spread evenly over the directions of ω and over the γ that allow this energy.
-
-    Raises `OutsideRegion` unless h > −|b|, `InvalidParameter` (h not finite, count < 1).
-    """
-    require_finite(h=h)
-    lowest = lowest_energy(body)
-    if not h > lowest:
-        raise OutsideRegion(f"No motion has the energy h = {h:g}: choose h above −|b| = {lowest:.6g}.")
-    if count < 1:
-        raise InvalidParameter("The number of motions must be 1 or more.")
-    axes = _axes(body)
-    top = min(1.0, h / -lowest) if lowest else 1.0
-    states = np.empty((count, 5))
-    for i in range(count):
-        # A golden-section spiral on the sphere, from γ along −b to the highest possible potential.
-        share = (i + 0.5) / count
-        z = -1.0 + (top + 1.0) * share
-        turn, radius = 2.0 * math.pi * _GOLDEN * i, math.sqrt(1.0 - z * z)
-        gamma = np.array([radius * math.cos(turn), radius * math.sin(turn), z]) @ axes
-        gamma /= np.linalg.norm(gamma)
-        angle = 2.0 * math.pi * math.sqrt(2.0) * i
-        states[i, :2] = omega_of_energy(body, (math.cos(angle), math.sin(angle)), gamma.tolist(), h)
-        states[i, 2:] = gamma
-    return states
-
-
-def _axes(body: BallBody) -> Array:
-    """Three unit vectors as rows, the last along b (e3 without a field)."""
-    b = np.array(body.parameters[5:])
-    third = b / np.linalg.norm(b) if np.any(b) else np.array([0.0, 0.0, 1.0])
-    first = np.cross(np.eye(3)[np.argmin(np.abs(third))], third)
-    first /= np.linalg.norm(first)
-    return np.stack([first, np.cross(third, first), third])

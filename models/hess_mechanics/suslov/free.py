@@ -334,11 +334,6 @@ class FreeRotation:
     error_estimate: float
     cost: Cost
 
-    def carry(self, gamma: Array) -> Array:
-        """γ(t) for every γ(0) in the rows of gamma (n, 3); shape (n, m, 3)."""
-        carried: Array = np.einsum("mij,nj->nmi", self.matrices, np.asarray(gamma, float))
-        return carried
-
 
 def rotation(body: SuslovBody, omega: Sequence[float], times: Sequence[float] | Array, level: Accuracy) -> FreeRotation:
     """The rotation along the motion that starts with ω(0), at times as in `orbit.solve`.

@@ -25,7 +25,6 @@ import numpy as np
 
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS, sampled_orbit
-from hess_mechanics.dynamics.section import MAX_STEPS, Plane, SectionPoints, section_points
 from hess_mechanics.dynamics.system import System, in_units_of_time
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.numerics.accuracy import Accuracy
@@ -40,13 +39,10 @@ __all__ = [
     "forbidden",
     "level_curve",
     "motion_from",
-    "plane_section",
     "separable_integral",
     "state_at",
 ]
 
-_TURNS = 200.0
-"""Time allowed per crossing of γ1 = 0, in units of 1/ν."""
 _ROUND = 721
 
 
@@ -188,27 +184,6 @@ def state_at(body: PotentialBody, E: float, g2: float, w1: float) -> tuple[float
             f"At γ2 = {g2:.6g}, ω1 = {w1:.6g} no motion with the energy E = {E:.6g} crosses γ1 = 0: choose a larger E."
         )
     return (w1, -math.sqrt(left / body.I22), 0.0, g2, math.sqrt(1.0 - g2 * g2))
-
-
-def plane_section(
-    body: PotentialBody, starts: Sequence[Sequence[float]], crossings: int, level: Accuracy, most_steps: int = MAX_STEPS
-) -> SectionPoints:
-    """The first crossings of γ1 = 0, γ1 growing, of each orbit; (γ2, ω1) are coordinates of the section for γ3 > 0.
-
-    Raises `InvalidParameter`, `WorkLimit`.
-    """
-    p = np.array(body.parameters)
-    nu = float(np.max(SYSTEM.frequency(np.array(starts, float).T, p)))
-    ratio = math.sqrt(max(body.I11, body.I22) / min(body.I11, body.I22))
-    return section_points(
-        body,
-        starts,
-        Plane((0.0, 0.0, 1.0, 0.0, 0.0)),
-        crossings * _TURNS * ratio / max(nu, 1e-300),
-        level,
-        crossings,
-        most_steps=most_steps,
-    )
 
 
 # ---- for a picture ----------------------------------------------------------------------------------------------

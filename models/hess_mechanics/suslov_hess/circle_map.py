@@ -34,18 +34,16 @@ from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import turning_points
 from hess_mechanics.suslov_hess.bifurcation_kernels import largest_f
-from hess_mechanics.suslov_hess.circle_map_kernels import images, matrices_into, theta_of
+from hess_mechanics.suslov_hess.circle_map_kernels import matrices_into, theta_of
 
 __all__ = [
     "CircleMap",
     "FixedPoint",
-    "Phases",
     "circle_map",
     "discriminants",
     "matrices",
     "neighbours",
     "rotation_numbers_of",
-    "theta_at",
 ]
 
 MAX_A = 1e6
@@ -186,33 +184,6 @@ def _theta(matrix: tuple[float, float, float], phi: Array) -> Array:
     out = np.empty(phi.size)
     theta_of(*matrix, phi.ravel(), out)
     return out.reshape(phi.shape)
-
-
-@dataclass(frozen=True)
-class Phases:
-    """Angles φ (n,) at which many maps are evaluated, with their sines and cosines."""
-
-    phi: Array
-    cos: Array
-    sin: Array
-
-    @classmethod
-    def of(cls, phi: Array | Sequence[float]) -> Phases:
-        """From the angles (n,)."""
-        angles = np.array(phi, float)
-        return cls(angles, np.cos(angles), np.sin(angles))
-
-
-def theta_at(phases: Phases, a: float, h: float, f: float, level: Accuracy) -> Array:
-    """Θ (n,) at the phases, up to whole turns, at the level's tolerance; no error estimate.  Raises `WorkLimit`."""
-    level = as_level(level)
-    x, y = np.empty_like(phases.cos), np.empty_like(phases.cos)
-    if images(h, f, a, level.order, level.tolerance, _MAX_STEPS, phases.cos, phases.sin, x, y) < 0:
-        raise WorkLimit("This torus needs too many steps: choose smaller a, or (h, f) farther from (1, 0).")
-    theta: Array = np.arctan2(y, x, out=y)
-    theta *= 2.0
-    theta -= phases.phi
-    return theta
 
 
 def check_a(a: float) -> None:

@@ -1,5 +1,5 @@
 # mypy: allow-untyped-defs
-"""Kernels of `circle_map`: the matrix of SU(1,1) of one torus or many, and images of angles under it."""
+"""Kernels of `circle_map`: the matrix of SU(1,1) of one torus or many, and Θ."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from hess_mechanics.numerics.unrolled import evaluation
 from hess_mechanics.suslov_hess import equations
 from hess_mechanics.suslov_hess.bifurcation_kernels import period_from_gaps, roots
 
-__all__ = ["field", "images", "matrices_into", "monodromy", "theta_of"]
+__all__ = ["field", "matrices_into", "monodromy", "theta_of"]
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
@@ -111,13 +111,3 @@ def theta_of(re, im, im_beta, phi, out):
         angle = 2.0 * math.atan2(re * s + im * c + im_beta, re * c - im * s) - phi[i]
         angle -= 2.0 * math.pi * np.rint(angle / (2.0 * math.pi))
         out[i] = math.pi if angle <= -math.pi else min(angle, math.pi)
-
-
-@kernel
-def images(h, f, a, order, tolerance, max_steps, cos, sin, x, y):
-    """x + iy = αz + β, whose argument is (Θ + φ)/2; returns the steps."""
-    re, im, im_beta, _, _, steps = monodromy(h, f, a, order, tolerance, max_steps)
-    for i in range(cos.size):
-        x[i] = re * cos[i] - im * sin[i]
-        y[i] = re * sin[i] + im * cos[i] + im_beta
-    return steps

@@ -42,9 +42,7 @@ import numpy as np
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.numerics.balls import (
     ArbBall,
-    Enclosure,
     ExactNumber,
-    enclosure,
     exact,
     rational,
     series_coefficients,
@@ -62,7 +60,6 @@ __all__ = [
     "alpha_beta",
     "cell_area",
     "cell_outline",
-    "half_over",
     "lock_zone",
     "places",
     "refined",
@@ -264,16 +261,6 @@ def region_area(h_end: float) -> float:
 
 
 # ---- the proof of one cell ------------------------------------------------------------------------------------------
-
-
-def half_over(a: ExactNumber, cell: ZoneCell) -> tuple[Enclosure, ...] | None:
-    """What encloses (A, B, C, D) of `proof` for all tori of a cell; None where it is too large, or too close to f = 0.
-
-    Raises `MissingLibrary`, `InvalidParameter`.
-    """
-    with working(_BITS):
-        found = _half_over(exact("a", a), cell)
-        return None if found is None else tuple(enclosure(x) for x in found[0])
 
 
 def _proved(a: Fraction, cell: ZoneCell) -> ZoneCell:

@@ -18,7 +18,7 @@ from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
-from hess_mechanics.suslov_hess.bifurcation import f_max, f_max_each, turning_points
+from hess_mechanics.suslov_hess.bifurcation import f_max_each, turning_points
 from hess_mechanics.suslov_hess.bifurcation_kernels import largest_f
 from hess_mechanics.suslov_hess.circle_map import check_a, matrices, rotation_numbers_of
 
@@ -29,7 +29,6 @@ __all__ = [
     "lock_boundary",
     "lock_boundary_end",
     "lock_boundary_f",
-    "lock_boundary_h",
     "rotation_number_grid",
     "rotation_number_window",
     "trace_on_curve",
@@ -190,16 +189,6 @@ def lock_boundary_f(a: float, h: float, level: Accuracy) -> float:
     check_a(a)
     top = turning_points(h, 0.0 if h != 1.0 else 0.5).f_max
     return _root(lambda f: _locked_at(h, f, a, level), 1e-9 * top, top * (1 - 1e-9), "f")
-
-
-def lock_boundary_h(a: float, f: float, level: Accuracy, low: float, high: float) -> float:
-    """The h between low and high with |t| = 2 at given a and f.  Raises `InvalidParameter`, `OutsideRegion`."""
-    level = as_level(level)
-    check_a(a)
-    require_finite(f=f)
-    for h in (low, high):
-        f_max(h)
-    return _root(lambda h: _locked_at(h, f, a, level), low, high, "h")
 
 
 def critical_a(h: float, f: float, level: Accuracy, high: float = 10.0) -> float:

@@ -8,7 +8,7 @@ import numpy as np
 
 from hess_mechanics import systems
 from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.suslov_hess.circle_map import Phases, theta_at
+from hess_mechanics.suslov_hess.circle_map import matrices
 
 from .method import OURS, Ladder, Method, Run, Setting, half_decades, version
 from .threads import shared
@@ -79,11 +79,12 @@ def _ensemble(work: MotionWorkload, order: int, tolerance: float, threads: int) 
 
 def _circle_map(work: MapWorkload, order: int, tolerance: float, threads: int) -> Run:
     """C."""
-    phases = Phases.of(work.phi)
-    level = Level("benchmark", 0.0, tolerance, order)
+    torus = np.array([work.h]), np.array([work.f])
+    cos, sin, level = np.cos(work.phi), np.sin(work.phi), Level("benchmark", 0.0, tolerance, order)
 
     def run() -> Array:
-        return theta_at(phases, work.a, work.h, work.f, level)
+        re, im, im_beta = matrices(*torus, work.a, level)[0, :3]
+        return 2.0 * np.arctan2(re * sin + im * cos + im_beta, re * cos - im * sin) - work.phi
 
     return run
 

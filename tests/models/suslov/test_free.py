@@ -184,7 +184,7 @@ def test_there_and_back_again():
 def test_the_rotation_carries_every_vertical():
     turned = rotation(GENERIC, (0.8, -0.2), [1.0, 4.0], level("reference"))
     gammas = np.vstack([np.eye(3), [UP]])
-    carried = turned.carry(gammas)
+    carried = np.einsum("mij,nj->nmi", turned.matrices, gammas)
     assert carried.shape == (4, 2, 3)
     for gamma, path in zip(gammas, carried, strict=True):
         assert path == pytest.approx(

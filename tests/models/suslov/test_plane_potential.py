@@ -9,7 +9,7 @@ import pytest
 import sympy
 from scipy.integrate import solve_ivp
 
-from hess_mechanics import level, section, solve, systems
+from hess_mechanics import Plane, level, section, section_points, solve, systems
 from hess_mechanics.chaplygin_ball.section import EQUATOR
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, OutsideRegion
@@ -22,7 +22,6 @@ from hess_mechanics.suslov.plane_potential import (
     forbidden,
     level_curve,
     motion_from,
-    plane_section,
     separable_integral,
     state_at,
 )
@@ -228,7 +227,9 @@ def test_points_of_the_section_are_those_of_scipy(name):
     )
     exact = run.y_events[0][run.t_events[0] > 1e-6][:5]
     assert len(exact) == 5
-    assert plane_section(body, [start], 5, level("precise")).states[0] == pytest.approx(exact, abs=1e-6)
+    plane = Plane((0.0, 0.0, 1.0, 0.0, 0.0))
+    found = section_points(body, [start], plane, float(run.t_events[0][-1]), level("precise"), 5)
+    assert found.states[0] == pytest.approx(exact, abs=1e-6)
 
 
 @pytest.mark.parametrize(

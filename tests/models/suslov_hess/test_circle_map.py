@@ -28,7 +28,7 @@ from hess_mechanics import (
 )
 from hess_mechanics.errors import InvalidParameter, ModelError, OutsideRegion, Separatrix, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
-from hess_mechanics.suslov_hess.mode_locking import lock_boundary_end, lock_boundary_h, rotation_number_window
+from hess_mechanics.suslov_hess.mode_locking import lock_boundary_end, rotation_number_window
 from support.mechanics import PROPERTY, angle_between, lifted_return
 
 HESS = systems()["hess"]
@@ -507,12 +507,6 @@ def test_the_lock_boundary_at_given_h_has_trace_two(a, h):
     assert circle_map(a, h, f, REFERENCE).trace == pytest.approx(2.0, abs=1e-12)
 
 
-def test_the_lock_boundary_at_given_f_has_trace_two():
-    h = lock_boundary_h(0.5, 0.5, REFERENCE, 0.3, 0.99)
-    assert circle_map(0.5, h, 0.5, REFERENCE).trace == pytest.approx(2.0, abs=1e-12)
-    assert lock_boundary_f(0.5, h, REFERENCE) == pytest.approx(0.5, abs=1e-12)
-
-
 @pytest.mark.parametrize(("h", "f"), [(1.5, 0.6), (1.0, 1.0), (0.3, 0.5), (-0.5, 0.2), (3.0, -2.0)])
 def test_limit_cycles_appear_at_the_critical_a(h, f):
     a = critical_a(h, f, REFERENCE)
@@ -584,12 +578,11 @@ def test_a_grid_never_hides_a_point_that_took_too_many_steps():
     [
         lambda a: lock_boundary(a, DRAFT),
         lambda a: lock_boundary_f(a, 0.5, DRAFT),
-        lambda a: lock_boundary_h(a, 0.5, DRAFT, 0.3, 0.9),
         lambda a: critical_a(1.5, 0.6, DRAFT, high=a),
         lambda a: rotation_number_grid(a, [0.5], [0.1], DRAFT),
         lambda a: trace_on_curve(a, 0.5),
     ],
-    ids=["boundary", "f", "h", "critical a", "grid", "on curve"],
+    ids=["boundary", "f", "critical a", "grid", "on curve"],
 )
 def test_a_without_meaning_raises_a_sentence_everywhere(use, bad):
     with pytest.raises(InvalidParameter, match=r"^a (is not a finite number|= 1e\+07 is too large)"):
@@ -604,10 +597,6 @@ def test_a_without_meaning_raises_a_sentence_everywhere(use, bad):
         (lambda: lock_boundary_f(0.5, -2.0, DRAFT), OutsideRegion, "Choose h > −1"),
         (lambda: lock_boundary_f(0.5, math.nan, DRAFT), InvalidParameter, "h is not"),
         (lambda: lock_boundary_f(1e6, 1e8, DRAFT), WorkLimit, "choose smaller a"),
-        (lambda: lock_boundary_h(0.5, 0.5, DRAFT, 2.0, 3.0), InvalidParameter, "no h between 2 and 3"),
-        (lambda: lock_boundary_h(0.5, math.nan, DRAFT, 0.3, 0.9), InvalidParameter, "f is not"),
-        (lambda: lock_boundary_h(0.5, 0.5, DRAFT, -2.0, 0.9), OutsideRegion, "Choose h > −1"),
-        (lambda: lock_boundary_h(0.5, 0.5, DRAFT, 0.3, math.nan), InvalidParameter, "h is not"),
         (lambda: critical_a(0.0, 1e-9, DRAFT), InvalidParameter, "no a between"),
         (lambda: critical_a(0.0, 5.0, DRAFT), OutsideRegion, "choose .f. ≤"),
         (lambda: critical_a(1.0, 0.0, DRAFT), Separatrix, "no return"),

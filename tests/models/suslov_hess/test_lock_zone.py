@@ -14,13 +14,13 @@ from scipy.integrate import quad
 import oracle
 from hess_mechanics import EdgeProof, circle_map, curve_point, f_max, level, lock_boundary, prove, turning_points
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
-from hess_mechanics.numerics.balls import working
+from hess_mechanics.numerics.balls import enclosure, exact, working
 from hess_mechanics.suslov_hess.lock_zone import (
     ZoneCell,
+    _half_over,
     alpha_beta,
     cell_area,
     cell_outline,
-    half_over,
     lock_zone,
     places,
     refined,
@@ -41,6 +41,13 @@ def around(h, f, radius):
     """The cell with a torus in its middle."""
     grow = math.exp(radius)
     return ZoneCell(*((x / grow, x * grow) for x in alpha_beta(turning_points(h, f).roots)))
+
+
+def half_over(a, cell):
+    """Enclosures of (A, B, C, D) for all tori of a cell."""
+    with working(64):
+        found, _ = _half_over(exact("a", a), cell)
+        return [enclosure(x) for x in found]
 
 
 def tori(rng, h_end, count):
