@@ -88,7 +88,7 @@ def test_the_errors_of_speed_and_accuracy_are_the_true_ones():
 
 def test_what_cannot_be_followed_is_refused():
     system = SYSTEMS["suslov"]
-    with pytest.raises(WorkLimit, match="choose a shorter one"):
+    with pytest.raises(WorkLimit, match="choose a shorter time span"):
         doubled(*system.example_motion, [1e6])
     with pytest.raises(InvalidParameter):
         doubled(system.at(GENERIC), (np.nan,) * 5, [1.0])

@@ -406,8 +406,8 @@ BAD_TIMES = [
     pytest.param([2.0, 1.0], InvalidParameter, "all forward or all backward", id="backwards"),
     pytest.param([-1.0, 1.0], InvalidParameter, "all forward or all backward", id="both sides of 0"),
     pytest.param([1e308, -1e308], InvalidParameter, "all forward or all backward", id="beyond double range apart"),
-    pytest.param([1e9], WorkLimit, "choose a shorter one", id="a long span"),
-    pytest.param([-1e308], WorkLimit, "choose a shorter one", id="an absurd span"),
+    pytest.param([1e9], WorkLimit, "choose a shorter time span", id="a long span"),
+    pytest.param([-1e308], WorkLimit, "choose a shorter time span", id="an absurd span"),
     pytest.param(np.zeros(MAX_SAMPLES + 1), WorkLimit, "at most 200000", id="too many samples"),
 ]
 
@@ -425,7 +425,7 @@ def test_all_runs_of_one_request_share_one_budget_of_steps(system, monkeypatch):
     freely = solve(*system.example_motion, [100.0], level("standard"))
     # Enough for the first run alone and for the second alone, but not for both.
     monkeypatch.setattr("hess_mechanics.dynamics.orbit.MAX_STEPS", int(0.75 * freely.cost.steps))
-    with pytest.raises(WorkLimit, match="choose a shorter one"):
+    with pytest.raises(WorkLimit, match="choose a shorter time span"):
         solve(*system.example_motion, [100.0], level("standard"))
     monkeypatch.setattr("hess_mechanics.dynamics.orbit.MAX_STEPS", freely.cost.steps + 2)
     assert np.array_equal(solve(*system.example_motion, [100.0], level("standard")).states, freely.states)

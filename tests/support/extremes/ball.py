@@ -228,7 +228,7 @@ def refusals(Refusal):
         orbit(
             "I11/I22 = 1e300", with_field(1.0, tensor=(1e300, 1.0, 0.3, 0.5)), InvalidParameter, "choose a ratio below"
         ),
-        orbit("t = 1e7", with_field(2.0), WorkLimit, "choose a shorter one", [1e7]),
+        orbit("t = 1e7", with_field(2.0), WorkLimit, "choose a shorter time span", [1e7]),
         plainly("a body with 𝒟 = −1", lambda: BallBody(1.0, 1.0, 0.1, 0.1, -1.0), InvalidParameter, "choose 𝒟 ≥ 0"),
         plainly(
             "ξ for I13 = I23 = 0",

@@ -202,6 +202,9 @@ def refusals(Refusal):
             "choose a shorter time span",
         ),
         Refusal(
-            "euler-poisson, t = 1e9", lambda grade: solve(GESS1, START, [1e9], grade), WorkLimit, "choose a shorter one"
+            "euler-poisson, t = 1e9",
+            lambda grade: solve(GESS1, START, [1e9], grade),
+            WorkLimit,
+            "choose a shorter time span",
         ),
     ]
