@@ -157,13 +157,25 @@ class _Point:
 
 @dataclass(frozen=True)
 class _Track:
-    """What it takes to stay on a branch: z holds the places over √m, and λ over the width of its range."""
+    """What stays the same along a branch: z holds the places (m, d) over √m, and λ over the width of its range."""
 
     family: MapFamily
-    width: float
-    m: int
-    d: int
+    parameter: str
+    names: tuple[str, ...]
+    level: str
+    ends: tuple[float, float]
+    shape: tuple[int, ...]
+    symmetries: Symmetric | None
     maps: dict[float, Map] = field(default_factory=dict)
+
+    @property
+    def width(self) -> float:
+        return abs(self.ends[1] - self.ends[0])
+
+    @property
+    def root(self) -> float:
+        """√m."""
+        return math.sqrt(self.shape[0])
 
     def at(self, value: float) -> Map:
         if len(self.maps) > 8:
@@ -173,10 +185,10 @@ class _Track:
         return self.maps[value]
 
     def split(self, z: Array) -> tuple[Array, float]:
-        return z[:-1].reshape(self.m, self.d) * math.sqrt(self.m), float(z[-1] * self.width)
+        return z[:-1].reshape(self.shape) * self.root, float(z[-1] * self.width)
 
     def joined(self, places: Array, value: float) -> Array:
-        return np.append(places.ravel() / math.sqrt(self.m), value / self.width)
+        return np.append(places.ravel() / self.root, value / self.width)
 
     def point(self, z: Array, iterations: int = 0, better: bool = False) -> _Point:
         """F and its derivatives at z.  Raises as the family."""
@@ -187,13 +199,12 @@ class _Track:
         h = 1e-5 * self.width
         sides = [np.array([self.at(value + sign * h).image(place) for place in places]) for sign in (1.0, -1.0)]
         by_value = apart(map_.turns, *sides) / (2.0 * h)
-        root = math.sqrt(self.m)
         # The equations are divided by √m as the places are.
-        return _Point(z, Shot(places, shot.left, shot.derivatives), by_value.ravel() * self.width / root, iterations)
+        return _Point(z, shot, by_value.ravel() * self.width / self.root, iterations)
 
     def _step(self, point: _Point, across: Array, left: float) -> Array:
         matrix = np.vstack([point.bordered, across])
-        return np.linalg.solve(matrix, -np.append(point.shot.left.ravel() / math.sqrt(self.m), left))
+        return np.linalg.solve(matrix, -np.append(point.shot.left.ravel() / self.root, left))
 
     def corrected(self, guess: Array, across: Array) -> _Point:
         """The point of the branch in the plane through `guess` across a direction.  Raises `NotConverged`."""
@@ -214,10 +225,18 @@ class _Track:
             z, before = z + step, length
         raise NotConverged("Newton's method does not come back to the branch.")
 
+    def beside(self, guess: Array, across: Array, t: Array) -> tuple[_Point, Array]:
+        """`corrected`, and the tangent there, which is close to t.  Raises `NotConverged`."""
+        point = self.corrected(guess, across)
+        turned = point.tangent(t)
+        if math.acos(min(1.0, float(turned @ t))) > _TURN:
+            raise NotConverged("The branch turns too much.")
+        return point, turned
+
     def error(self, point: _Point, across: Array) -> float:
         """Of the places and λ over its width, as a more accurate map has it."""
         better = self.point(point.z, better=True)
-        return SAFETY * math.sqrt(self.m) * float(np.abs(self._step(better, across, 0.0)).max()) + 1e-15
+        return SAFETY * self.root * float(np.abs(self._step(better, across, 0.0)).max()) + 1e-15
 
 
 def _signs(point: _Point, t: Array) -> dict[str, float]:
@@ -261,7 +280,7 @@ def continued(
     if not (all(map(math.isfinite, (start, end, edge))) and min(edge, end) <= start <= max(edge, end) and start != end):
         raise InvalidParameter(f"{parameter} runs from {start:g} to {end:g}: give two different finite numbers.")
     _check(points)
-    track = _Track(family, abs(end - edge), *orbit.places.shape)
+    track = _Track(family, parameter, orbit.names, orbit.level, (edge, end), orbit.places.shape, symmetries)
     along = np.zeros(orbit.places.size + 1)
     along[-1] = math.copysign(1.0, end - start)
     z = track.joined(orbit.places, start)
@@ -272,18 +291,7 @@ def continued(
             f"The branch cannot be begun at {parameter} = {start:g}: the orbit is at a bifurcation, or "
             "one of a family at this parameter. Begin a little aside."
         ) from error
-    return _followed(
-        track,
-        parameter,
-        orbit.names,
-        orbit.level,
-        point,
-        point.tangent(along),
-        (edge, end),
-        points,
-        symmetries,
-        (min(_FIRST, longest), longest),
-    )
+    return _followed(track, point, point.tangent(along), points, min(_FIRST, longest), longest)
 
 
 def gone_on(
@@ -303,21 +311,11 @@ def gone_on(
     _check(points)
     if branch.heading is None:
         raise InvalidParameter(f"This branch does not go on: {branch.ended}")
-    track = _Track(family, abs(end - edge), *branch.places.shape[1:])
+    shape = branch.places.shape[1:]
+    track = _Track(family, branch.parameter, branch.names, branch.level, (edge, end), shape, symmetries)
     along, step = branch.heading
     point = track.corrected(track.joined(branch.places[-1], float(branch.values[-1])), along)
-    return _followed(
-        track,
-        branch.parameter,
-        branch.names,
-        branch.level,
-        point,
-        point.tangent(along),
-        (edge, end),
-        points,
-        symmetries,
-        (step, longest),
-    )
+    return _followed(track, point, point.tangent(along), points, step, longest)
 
 
 def _check(points: int) -> None:
@@ -325,66 +323,53 @@ def _check(points: int) -> None:
         raise WorkLimit(f"A branch has from 2 to {MAX_POINTS} points: choose a number between them.")
 
 
-def _followed(
-    track: _Track,
-    parameter: str,
-    names: tuple[str, ...],
-    level: str,
-    point: _Point,
-    t: Array,
-    ends: tuple[float, float],
-    points: int,
-    symmetries: Symmetric | None,
-    steps: tuple[float, float],
-) -> Branch:
+def _followed(track: _Track, point: _Point, t: Array, points: int, step: float, longest: float) -> Branch:
     """The branch from a point of it along t, with a first and a longest step."""
     found = [point]
     errors = [track.error(point, t)]
     bifurcations: list[Bifurcation] = []
-    low, high = sorted(one / track.width for one in ends)
-    step, longest = steps
+    low, high = sorted(one / track.width for one in track.ends)
     along = np.zeros(t.size)
     along[-1] = 1.0
-    ended, is_over = f"After {points} points.", False
-    while len(found) < points:
+    ended = ""
+    while not ended and len(found) < points:
         last = found[-1]
         room = _to_edge(last.z[-1], t[-1], low, high)
         ahead = min(step, room)
         try:
             # The last point lies at the end of the range itself.
-            following = track.corrected(last.z + ahead * t, along if room <= step else t)
-            turned = following.tangent(t)
-            if math.acos(min(1.0, float(turned @ t))) > _TURN:
-                raise NotConverged("The branch turns too much.")
+            following, turned = track.beside(last.z + ahead * t, along if room <= step else t, t)
         except NotConverged as error:
             step = 0.5 * min(step, ahead)
             if step < _SHORTEST:
-                ended = f"At {parameter} = {track.split(last.z)[1]:.9g} it cannot be followed further: {error}"
-                is_over = True
-                break
+                at = track.split(last.z)[1]
+                ended = f"At {track.parameter} = {at:.9g} it cannot be followed further: {error}"
             continue
         before, after = _signs(last, t), _signs(following, turned)
         for kind in before:
             if _happens(kind, last, following, (before[kind], after[kind])):
-                bifurcations.append(_located(track, kind, last, t, ahead, len(found) - 1, symmetries))
+                bifurcations.append(_located(track, kind, last, t, ahead, len(found) - 1))
         found.append(following)
         errors.append(track.error(following, turned))
         t = turned
         step = min(longest, step * (1.6 if following.iterations <= 4 else 1.0 if following.iterations <= 6 else 0.6))
         if _to_edge(following.z[-1], t[-1], low, high) <= 1e-12:
-            ended = f"At {parameter} = {track.split(following.z)[1]:.9g}, the end of the range."
-            is_over = True
-            break
-    return _branch(
-        track,
-        parameter,
-        names,
-        level,
-        found,
-        errors,
-        bifurcations,
-        ended,
-        None if is_over else (frozen(t.copy()), step),
+            ended = f"At {track.parameter} = {track.split(following.z)[1]:.9g}, the end of the range."
+    places, values = zip(*(track.split(one.z) for one in found), strict=True)
+    multipliers = np.array([multipliers_of(one.shot.derivatives)[0] for one in found])
+    kinds = tuple(kind_of(one, max(1e-9, 10.0 * error)) for one, error in zip(multipliers, errors, strict=True))
+    return Branch(
+        track.parameter,
+        track.names,
+        frozen(np.array(values)),
+        frozen(np.array(places)),
+        frozen(multipliers),
+        kinds,
+        frozen(np.array(errors)),
+        tuple(_told_apart(bifurcations)),
+        ended or f"After {points} points.",
+        track.level,
+        None if ended else (frozen(t.copy()), step),
     )
 
 
@@ -405,16 +390,12 @@ def _told_apart(found: Sequence[Bifurcation]) -> list[Bifurcation]:
     ]
 
 
-def _located(
-    track: _Track, kind: str, last: _Point, t: Array, ahead: float, after: int, symmetries: Symmetric | None
-) -> Bifurcation:
+def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, after: int) -> Bifurcation:
     """Where on the branch a sign changes: regula falsi (Illinois) in the distance along the tangent."""
 
     def at(s: float) -> tuple[_Point, float]:
-        point = track.corrected(last.z + s * t, t)
-        turned = point.tangent(t)
-        if math.acos(min(1.0, float(turned @ t))) > _TURN:
-            raise NotConverged("This is a point of another branch, which crosses here.")
+        # A point whose tangent is another one belongs to a branch that crosses here.
+        point, turned = track.beside(last.z + s * t, t, t)
         return point, _signs(point, turned)[kind]
 
     low, high = 0.0, ahead
@@ -450,11 +431,10 @@ def _located(
         # Where branches cross, the equations are singular: what is known is how close to it on both sides they are not.
         off, point = _closed_in(track, at, (low, high), point, t)
     places, value = track.split(point.z)
-    name = kind
-    if kind == "branch point" and symmetries is not None:
-        name = _pitchfork(track.at(value), places, point, symmetries)
+    if kind == "branch point" and track.symmetries is not None:
+        kind = _pitchfork(track.at(value), places, point, track.symmetries)
     return Bifurcation(
-        name,
+        kind,
         value,
         off * track.width + 4e-16 * max(1.0, abs(value)),
         frozen(places.copy()),
@@ -509,32 +489,3 @@ def _pitchfork(map_: Map, places: Array, point: _Point, symmetries: Symmetric) -
     away = np.linalg.svd(point.shot.jacobian)[2][-1].reshape(places.shape)
     aside = set(symmetries(map_, places + 1e-3 * away / np.abs(away).max()))
     return "pitchfork" if own - aside else "branch point"
-
-
-def _branch(
-    track: _Track,
-    parameter: str,
-    names: tuple[str, ...],
-    level: str,
-    found: list[_Point],
-    errors: list[float],
-    bifurcations: list[Bifurcation],
-    ended: str,
-    heading: tuple[Array, float] | None,
-) -> Branch:
-    places, values = zip(*(track.split(one.z) for one in found), strict=True)
-    multipliers = np.array([multipliers_of(one.shot.derivatives)[0] for one in found])
-    kinds = tuple(kind_of(one, max(1e-9, 10.0 * error)) for one, error in zip(multipliers, errors, strict=True))
-    return Branch(
-        parameter,
-        names,
-        frozen(np.array(values)),
-        frozen(np.array(places)),
-        frozen(multipliers),
-        kinds,
-        frozen(np.array(errors)),
-        tuple(_told_apart(bifurcations)),
-        ended,
-        level,
-        heading,
-    )

@@ -231,19 +231,23 @@ def _followed(
     # Right ends of pieces that are not yet done, the nearest last.
     waiting: list[tuple[float, Array]] = []
     ahead, before, spent = 0.0, 0.0, 0
+    ended = "At its length."
     while total < length:
         go_on()
         if spent > returns:
-            return np.array(points), np.array(parameters), f"After {returns} returns of the map."
+            ended = f"After {returns} returns of the map."
+            break
         if len(points) >= most:
-            return np.array(points), np.array(parameters), f"After {most} points."
+            ended = f"After {most} points."
+            break
         tau, here = parameters[-1], points[-1]
         try:
             if not waiting:
                 if tau >= 1.0 and tau % 1.0 == 0.0:
                     if total - before < _STANDS * sagitta and total > 10.0 * sagitta:
                         where = ", ".join(f"{x:.9g}" for x in here)
-                        return np.array(points), np.array(parameters), f"It comes to a point, ({where})."
+                        ended = f"It comes to a point, ({where})."
+                        break
                     before = total
                 ahead += 1.0 / _FIRST
                 waiting.append((ahead, here + apart(turns, curve.at(ahead), here)))
@@ -251,7 +255,8 @@ def _followed(
             middle = curve.at(0.5 * (tau + right))
             spent += max(1, math.floor(right)) * curve.returns
         except ModelError as error:
-            return np.array(points), np.array(parameters), f"At the length {total:.6g}, for what follows: {error}"
+            ended = f"At the length {total:.6g}, for what follows: {error}"
+            break
         middle = here + apart(turns, middle, here)
         there = middle + apart(turns, there, middle)
         chord = there - here
@@ -268,11 +273,8 @@ def _followed(
             while len(points) > 2 and float(np.linalg.norm(points[-2] - here)) < sagitta:
                 points.pop()
                 parameters.pop()
-            return (
-                np.array(points),
-                np.array(parameters),
-                (f"At the length {total:.6g} the map jumps: an orbit touches the plane of the section."),
-            )
+            ended = f"At the length {total:.6g} the map jumps: an orbit touches the plane of the section."
+            break
         waiting.pop()
         # The middle is known anyway, and halves the sagitta twice.
         for parameter, point in ((0.5 * (tau + right), middle), (right, there)):
@@ -281,7 +283,7 @@ def _followed(
             parameters.append(parameter)
             if total >= length:
                 break
-    return np.array(points), np.array(parameters), "At its length."
+    return np.array(points), np.array(parameters), ended
 
 
 def _error(curve: _Curve, points: Array, parameters: Array) -> float:
@@ -422,26 +424,20 @@ def heights_at(curve: Manifold, axis: int, value: float) -> Array:
         raise NotConverged(
             f"This manifold does not come to {curve.names[axis]} = {value:g}: grow it to a greater length."
         )
-    return np.array([_height_on(curve, axis, value, int(i), along) for i in change])
+    return np.array([_height_on(curve, axis, value, int(i)) for i in change])
 
 
-def _height_on(curve: Manifold, axis: int, value: float, i: int, along: Array) -> float:
-    """The other coordinate on the segment i: regula falsi (Illinois) in τ."""
+def _height_on(curve: Manifold, axis: int, value: float, i: int) -> float:
+    """The other coordinate on the segment i."""
+    from scipy.optimize import brentq  # imported here because it takes 0.3 s
+
     reference = curve.points[i]
-    low, high = map(float, curve.parameters[i : i + 2])
-    f_low, f_high = map(float, along[i : i + 2])
-    point, side = reference, 0
-    for _ in range(60):
-        tau = high - f_high * (high - low) / (f_high - f_low)
-        point = reference + apart(curve.turns, curve.at(tau), reference)
-        f = float(point[axis]) - value
-        if abs(f) < 1e-15 or high - low < 1e-14:
-            break
-        if (f > 0.0) == (f_high > 0.0):
-            high, f_high, f_low, side = tau, f, (0.5 * f_low if side > 0 else f_low), 1
-        else:
-            low, f_low, f_high, side = tau, f, (0.5 * f_high if side < 0 else f_high), -1
-    return float(point[1 - axis])
+
+    def away(tau: float) -> Array:
+        return apart(curve.turns, curve.at(tau), reference)
+
+    tau = brentq(lambda tau: reference[axis] + away(tau)[axis] - value, *curve.parameters[i : i + 2], xtol=1e-14)
+    return float((reference + away(tau))[1 - axis])
 
 
 def split(unstable: Manifold, stable: Manifold, axis: int, value: float) -> tuple[float, float]:

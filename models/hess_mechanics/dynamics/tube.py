@@ -370,35 +370,24 @@ def _series(
 # ---- an orbit judged by its tube ------------------------------------------------------------------------------------
 
 
-def _check(orbit: Orbit, found: Tube) -> None:
+def _errors(orbit: Orbit, found: Tube) -> list[list[tuple[Fraction, Fraction]]]:
+    """Of each component of each sample, between which bounds its error lies."""
     if orbit.system != found.system or not np.array_equal(orbit.times[: found.times.size], found.times):
         raise InvalidParameter("A tube judges the orbit of the same system at the same times.")
 
+    def error(value: Fraction, one: Enclosure) -> tuple[Fraction, Fraction]:
+        above, below = one.high - value, value - one.low
+        return max(Fraction(0), -above, -below), max(above, below)
 
-def _errors(orbit: Orbit, found: Tube) -> list[tuple[Fraction, Fraction]]:
-    """Of each sample, between which bounds its largest error lies."""
-    _check(orbit, found)
-    bounds = []
-    for state, intervals in zip(orbit.states, found.states, strict=False):
-        least = most = Fraction(0)
-        for x, one in zip(state, intervals, strict=True):
-            value = Fraction(float(x))
-            least = max(least, one.low - value, value - one.high)
-            most = max(most, one.high - value, value - one.low)
-        bounds.append((least, most))
-    return bounds
+    return [
+        [error(Fraction(x), one) for x, one in zip(state, intervals, strict=True)]
+        for state, intervals in zip(orbit.states.tolist(), found.states, strict=False)
+    ]
 
 
 def error_bounds(orbit: Orbit, found: Tube) -> Array:
     """Bounds (m, d) of the true error of each component at the times of the tube.  Raises `InvalidParameter`."""
-    _check(orbit, found)
-    bounds = [
-        [
-            math.nextafter(float(max(one.high - Fraction(float(x)), Fraction(float(x)) - one.low)), math.inf)
-            for x, one in zip(state, intervals, strict=True)
-        ]
-        for state, intervals in zip(orbit.states, found.states, strict=False)
-    ]
+    bounds = [[math.nextafter(float(most), math.inf) for _, most in sample] for sample in _errors(orbit, found)]
     return frozen(np.array(bounds, float).reshape(len(bounds), orbit.states.shape[1]))
 
 
@@ -413,7 +402,7 @@ def proved_error(orbit: Orbit, found: Tube) -> tuple[float, float]:
     >>> 0.0 <= low <= high < 1e-3
     True
     """
-    bounds = _errors(orbit, found)
+    bounds = [one for sample in _errors(orbit, found) for one in sample]
     if not bounds:
         raise InvalidParameter("The tube ends before the first of its times: allow more work, or begin earlier.")
     return (
@@ -433,8 +422,8 @@ def right_until(orbit: Orbit, found: Tube, error: float) -> float:
     0.5
     """
     last = 0.0
-    for t, (_, most) in zip(found.times, _errors(orbit, found), strict=True):
-        if most > Fraction(error):
+    for t, sample in zip(found.times, _errors(orbit, found), strict=True):
+        if max(most for _, most in sample) > Fraction(error):
             break
         last = float(t)
     return last
