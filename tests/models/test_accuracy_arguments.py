@@ -106,7 +106,7 @@ def test_a_name_that_no_level_has_is_refused(name):
         CALLS[name]("exact")
 
 
-INTERNAL = {"measured", "status_of", "evaluate", "cost_of_a_cell", "create", "require", "opened"}
+INTERNAL = {"measured", "evaluate", "cost_of_a_cell", "create", "require", "opened"}
 """What takes the level that was read before, or the name that a store has kept."""
 
 

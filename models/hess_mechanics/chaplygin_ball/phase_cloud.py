@@ -28,7 +28,7 @@ import numpy as np
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud_kernels import integrate
 from hess_mechanics.dynamics.ensemble import integrated
-from hess_mechanics.dynamics.orbit import checked_times, status_of
+from hess_mechanics.dynamics.orbit import checked_times
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level
@@ -286,7 +286,7 @@ def carried(body: BallBody, states: Array, times: Array, level: Accuracy) -> Clo
         frozen(np.sign(first[:, 1])),
         frozen(out[..., 2:]),
         level.name,
-        status_of(error, level),
+        level.status(error),
         error,
         Cost(total, (time.perf_counter() - start) * 1e3),
     )

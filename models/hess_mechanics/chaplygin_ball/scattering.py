@@ -25,7 +25,6 @@ import numpy as np
 from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody, determinant, kinetic_energy
 from hess_mechanics.dynamics.ensemble import ensemble
-from hess_mechanics.dynamics.orbit import status_of
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD, Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level
@@ -235,7 +234,7 @@ def ball_scattering(
         frozen(theta_plus),
         frozen(errors),
         level.name,
-        status_of(float(errors.max()), level),
+        level.status(float(errors.max())),
         Cost(found.cost.steps, wall_ms),
     )
 

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS, checked_times, drift_of, require_finite_states, status_of
+from hess_mechanics.dynamics.orbit import MAX_STEPS, checked_times, drift_of, require_finite_states
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
@@ -125,9 +125,10 @@ def ensemble(
         level.name,
         frozen(t),
         frozen(out),
-        status_of(float(scaled_errors.max()), level),
-        frozen(errors),
+        level.status(float(scaled_errors.max())),
+        float(errors.max()),
         drift,
         Cost(total, wall_ms),
         body.system.variables,
+        frozen(errors),
     )

@@ -157,11 +157,7 @@ def megno(
         found[:, i] = y.mean(), mean[0], error[0]
         require_finite_rates(found[:, i])
 
-    def part(i: int) -> None:
-        for j in range(i * _SHARE, min((i + 1) * _SHARE, count)):
-            one(j)
-
-    share(part, -(-count // _SHARE), threads)
+    share(one, count, threads, _SHARE)
     return Megno(
         abs(span),
         frozen(found[0].copy()),

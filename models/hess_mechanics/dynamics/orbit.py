@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Sequence
 from numbers import Real
 
@@ -11,10 +10,10 @@ import numpy as np
 
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
+from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_level, as_number, as_whole
 from hess_mechanics.numerics.measured import measured
-from hess_mechanics.numerics.results import Array, Cost, Orbit, frozen
+from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
 __all__ = [
@@ -27,7 +26,6 @@ __all__ = [
     "require_finite_rates",
     "require_finite_states",
     "solve",
-    "status_of",
 ]
 
 MAX_STEPS = 1_000_000
@@ -86,13 +84,6 @@ def require_finite_rates(*rates: Array | float) -> None:
         )
 
 
-def status_of(error: float, level: Level) -> Status:
-    """The status of a result with this error estimate, in units in which the state is O(1)."""
-    if error <= level.promise:
-        return Status.OK
-    return Status.FLOOR if level.is_floor else Status.PROMISE_NOT_MET
-
-
 def drift_of(system: System, start: Array, states: Array, parameters: Array) -> dict[str, float]:
     """For each integral max |F(y) − F(start)|, relative to |F(start)| where that exceeds 1.
 
@@ -146,33 +137,28 @@ def solve(
     (3, 5)
     """
     level = as_level(accuracy)
-    start = time.perf_counter()
     times = checked_times(
         t if np.ndim(t) else np.linspace(0.0, as_number("t", t), as_whole("samples", samples, 2, MAX_SAMPLES))
     )
     problem = Problem.of(body, [state])
     scaled_times = problem.times(times)
     starts = (problem.states[0], problem.nearby().states[0])
-    total = 0
 
-    def run(at: Level) -> Array:
-        nonlocal total
+    def run(at: Level, spent: int) -> tuple[Array, int]:
         out = np.empty((times.size, problem.scale.size))
         steps = body.system.orbit(
-            starts[at.aside], problem.parameters, scaled_times, at.order, at.tolerance, MAX_STEPS - total, out
+            starts[at.aside], problem.parameters, scaled_times, at.order, at.tolerance, MAX_STEPS - spent, out
         )
         if steps == STEP_LIMIT_REACHED:
             raise WorkLimit(
                 f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper accuracy."
             )
         require_finite_states(out)
-        total += steps
-        return out
+        return out, steps
 
     found = measured(level, run, lambda one, other: float(np.abs(one - other).max()))
     states = found.result * problem.scale
     drift = drift_of(body.system, np.asarray(state, float), states, np.asarray(body.parameters, float))
-    wall_ms = (time.perf_counter() - start) * 1e3
     absolute = found.safety * float((np.abs(found.result - found.other) * problem.scale).max()) + 2e-16 * max(
         1.0, problem.nu
     )
@@ -181,9 +167,9 @@ def solve(
         level.name,
         frozen(times),
         frozen(states),
-        status_of(found.error, level),
+        found.status,
         absolute,
         drift,
-        Cost(total, wall_ms),
+        found.cost,
         variables=body.system.variables,
     )

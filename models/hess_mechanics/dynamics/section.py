@@ -10,7 +10,7 @@ from typing import Protocol
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import drift_of, require_finite_states, status_of
+from hess_mechanics.dynamics.orbit import drift_of, require_finite_states
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
@@ -90,9 +90,10 @@ class Surface(Protocol):
 
 @dataclass(frozen=True)
 class _Search:
-    """A search for crossings, in units in which the states are O(1)."""
+    """A search for crossings by the orbits from `starts` (n, d); all else in units in which the states are O(1)."""
 
-    system: System
+    body: Body
+    starts: Array
     problem: Problem
     cross: Callable[..., tuple[int, int]]
     normal: Array
@@ -119,10 +120,11 @@ class _Search:
             raise WorkLimit(f"The number of crossings lies between 1 and {MAX_CROSSINGS}.")
         problem = Problem.of(body, states)
         cross, normal, offset = plane.scaled(body.system, problem)
-        return cls(body.system, problem, cross, normal, offset, plane.sense, end * problem.nu, level, crossings)
+        starts = np.array(states, float, ndmin=2)
+        return cls(body, starts, problem, cross, normal, offset, plane.sense, end * problem.nu, level, crossings)
 
-    def run(self, i: int, level: Level, max_steps: int, start: Array | None = None) -> tuple[Array, Array, int]:
-        """Times, states and steps of the crossings of orbit i, or of the orbit from `start`, at one tolerance."""
+    def run(self, i: int, level: Level, max_steps: int, start: Array | None = None) -> tuple[tuple[Array, Array], int]:
+        """Times and states, and steps, of the crossings of orbit i, or of the orbit from `start`, at one tolerance."""
         if start is None:
             start = (self.problem.nearby() if level.aside else self.problem).states[i]
         room, total = min(self.crossings, _ROOM), 0
@@ -148,25 +150,28 @@ class _Search:
                 break
             room = min(self.crossings, 10 * room)
         require_finite_states(states[:found])
-        return times[:found].copy(), states[:found].copy(), total
+        return (times[:found].copy(), states[:found].copy()), total
 
-    def measured(self, i: int) -> _Found:
+    def measured(self, i: int) -> SectionCrossings:
         """The crossings of orbit i, with errors measured against a run that is more accurate and starts nearby."""
-        begun = time.perf_counter()
-        total = 0
-
-        def run(level: Level) -> tuple[Array, Array]:
-            nonlocal total
-            times, states, steps = self.run(i, level, MAX_STEPS - total)
-            total += steps
-            return times, states
-
-        found = measured(self.level, run, self._apart)
-        times, states = found.result
-        both = min(len(states), len(found.other[1]))
-        difference = found.safety * np.abs(states[:both] - found.other[1][:both])
-        wall_ms = (time.perf_counter() - begun) * 1e3
-        return _Found(times, states, difference, found.error, Cost(total, wall_ms))
+        found = measured(self.level, lambda level, spent: self.run(i, level, MAX_STEPS - spent), self._apart)
+        (times, scaled), (_, others) = found.result, found.other
+        both = min(len(scaled), len(others))
+        nu, scale = self.problem.nu, self.problem.scale
+        states = scaled * scale
+        difference = found.safety * np.abs(scaled[:both] - others[:both])
+        system, p = self.body.system, np.asarray(self.body.parameters, float)
+        return SectionCrossings(
+            system.name,
+            self.level.name,
+            frozen(times / nu),
+            frozen(states),
+            found.status,
+            float((difference * scale).max(initial=0.0)) + 2e-16 * max(1.0, nu),
+            drift_of(system, self.starts[i], states, p),
+            found.cost,
+            system.variables,
+        )
 
     def _apart(self, one: tuple[Array, Array], other: tuple[Array, Array]) -> float:
         """The difference of two runs' crossings, ∞ where these are not the same ones."""
@@ -176,35 +181,6 @@ class _Search:
         extra = np.concatenate((times[both:], other_times[both:]))
         same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - self.end) <= 10 * self.level.promise)
         return float(np.abs(states[:both] - others[:both]).max(initial=0.0)) if same else math.inf
-
-    def result(self, i: int, start: Array, parameters: Array, found: _Found) -> SectionCrossings:
-        """The crossings of orbit i, which starts at `start` (d,), in the user's units."""
-        nu, scale = self.problem.nu, self.problem.scale
-        states = found.states * scale
-        absolute = float((found.difference * scale).max(initial=0.0)) + 2e-16 * max(1.0, nu)
-        drift = drift_of(self.system, start, states, parameters)
-        return SectionCrossings(
-            self.system.name,
-            self.level.name,
-            frozen(found.times / nu),
-            frozen(states),
-            status_of(found.error, self.level),
-            absolute,
-            drift,
-            found.cost,
-            self.system.variables,
-        )
-
-
-@dataclass(frozen=True)
-class _Found:
-    """Times (n,), states (n, d), their errors (m, d), the largest error (∞: other crossings), and the cost."""
-
-    times: Array
-    states: Array
-    difference: Array
-    error: float
-    cost: Cost
 
 
 def section(
@@ -249,15 +225,13 @@ def sections(
     """
     level = as_level(level)
     search = _Search.of(body, states, plane, end, level, crossings)
-    found: dict[int, _Found] = {}
+    found: dict[int, SectionCrossings] = {}
 
-    def part(i: int) -> None:
-        for orbit in range(i * _SHARE, min((i + 1) * _SHARE, len(search.problem.states))):
-            found[orbit] = search.measured(orbit)
+    def one(orbit: int) -> None:
+        found[orbit] = search.measured(orbit)
 
-    share(part, -(-len(search.problem.states) // _SHARE), threads)
-    starts, p = np.array(states, float, ndmin=2), np.asarray(body.parameters, float)
-    return [search.result(i, starts[i], p, found[i]) for i in range(len(starts))]
+    share(one, len(search.starts), threads, _SHARE)
+    return [found[i] for i in range(len(search.starts))]
 
 
 @dataclass(frozen=True)
@@ -311,7 +285,7 @@ def section_points(
     level = as_level(level)
     begun = time.perf_counter()
     search = _Search.of(body, states, plane, end, level, crossings)
-    count = len(search.problem.states)
+    count = len(search.starts)
     parts = max(1, min(_PARTS, crossings // 10))
     one_part = replace(search, end=search.end / parts, crossings=-(-crossings // parts))
     found: dict[int, tuple[Array, int]] = {}
@@ -321,7 +295,7 @@ def section_points(
         start, steps = None, 0
         for _ in range(parts):
             go_on()
-            _, points, taken = one_part.run(orbit, level, most_steps - steps, start)
+            (_, points), taken = one_part.run(orbit, level, most_steps - steps, start)
             pieces.append(points)
             steps += taken
             if len(points) < one_part.crossings:
@@ -331,20 +305,19 @@ def section_points(
 
     refused: list[WorkLimit] = []
 
-    def part(i: int) -> None:
-        for orbit in range(i * _SHARE, min((i + 1) * _SHARE, count)):
-            # One orbit beyond the limit refuses the whole section.
-            if not refused:
-                try:
-                    found[orbit] = follow(orbit)
-                except WorkLimit as error:
-                    refused.append(error)
+    def one(orbit: int) -> None:
+        # One orbit beyond the limit refuses the whole section.
+        if not refused:
+            try:
+                found[orbit] = follow(orbit)
+            except WorkLimit as error:
+                refused.append(error)
 
-    share(part, -(-count // _SHARE), threads)
+    share(one, count, threads, _SHARE)
     if refused:
         raise refused[0]
-    starts, p = np.array(states, float, ndmin=2), np.asarray(body.parameters, float)
-    drifts = [drift_of(body.system, starts[i], found[i][0], p) for i in range(count) if len(found[i][0])]
+    p = np.asarray(body.parameters, float)
+    drifts = [drift_of(body.system, search.starts[i], found[i][0], p) for i in range(count) if len(found[i][0])]
     drift = {name: max(one[name] for one in drifts) for name in (drifts[0] if drifts else ())}
     wall_ms = (time.perf_counter() - begun) * 1e3
     return SectionPoints(

@@ -10,7 +10,6 @@ start, d − 1 columns across f are followed: of five variables four, which fill
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -21,7 +20,6 @@ from hess_mechanics.dynamics.orbit import (
     checked_times,
     require_finite_neighbours,
     require_finite_states,
-    status_of,
 )
 from hess_mechanics.dynamics.section import Surface, section
 from hess_mechanics.dynamics.system import Body, Problem, System
@@ -102,17 +100,14 @@ def transition_matrix(
     True
     """
     level = as_level(level)
-    begun = time.perf_counter()
     t = checked_times(np.atleast_1d(np.asarray(times, float)))
     problem, system = Problem.of(body, [state]), body.system
     scaled_times = problem.times(t)
     problems = (problem, problem.nearby())
-    total = 0
 
-    def run(level: Level) -> tuple[Array, Array, Array]:
-        nonlocal total
+    def run(level: Level, spent: int) -> tuple[tuple[Array, Array, Array], int]:
         steps, states, frames, volume = followed(
-            system, problems[level.aside], scaled_times, level.order, level.tolerance, MAX_STEPS - total
+            system, problems[level.aside], scaled_times, level.order, level.tolerance, MAX_STEPS - spent
         )
         if steps == STEP_LIMIT_REACHED:
             raise WorkLimit(
@@ -120,8 +115,7 @@ def transition_matrix(
             )
         require_finite_states(states)
         require_finite_neighbours(frames, volume)
-        total += steps
-        return states, frames, volume
+        return (states, frames, volume), steps
 
     def apart(one: tuple[Array, Array, Array], other: tuple[Array, Array, Array]) -> float:
         largest = np.abs(other[1]).max(axis=(1, 2), keepdims=True)
@@ -139,9 +133,9 @@ def transition_matrix(
         frozen(states * problem.scale),
         frozen(matrices),
         frozen(volume),
-        status_of(found.error, level),
+        found.status,
         found.error,
-        Cost(total, (time.perf_counter() - begun) * 1e3),
+        found.cost,
         system.variables,
     )
 

@@ -64,6 +64,12 @@ class Level:
         """True for the last level, whose error is round-off and not truncation."""
         return self.tolerance <= FLOOR_TOLERANCE
 
+    def status(self, error: float) -> Status:
+        """Return the status of a result with this error estimate, in the units of the promise."""
+        if error <= self.promise:
+            return Status.OK
+        return Status.FLOOR if self.is_floor else Status.PROMISE_NOT_MET
+
     def tightened(self) -> Level:
         """The same level with a hundredth of the tolerance, against which its error is measured.
 
@@ -162,16 +168,16 @@ class Plan:
     Parameters
     ----------
     level : order and tolerance of the Taylor steps, under the name of the level.
+    promise : in the `unit` of the kind.
     share : of the crossings, of the turns, of the time, of the points asked for, the part that is computed.
     cells : cells along each side of a grid, as a multiple of those at `standard`; phases of a map, orbits on a line,
         tori on one.
-    promise : in the `unit` of the kind.
     """
 
     level: Level
-    share: float
-    cells: float
     promise: float
+    share: float = 1.0
+    cells: float = 1.0
 
     def part(self, count: float, least: int = 1) -> int:
         """How many of `count` crossings or points are computed: at least `least`, if so many are asked for."""
@@ -186,58 +192,53 @@ class Plan:
         return self.side(sides[0]), self.side(sides[1])
 
 
-def _plans(*rows: tuple[Level, float, float, float]) -> dict[str, Plan]:
-    """One `Plan` for each level, by its name, from (level, share, cells, promise)."""
-    return {row[0].name: Plan(*row) for row in rows}
+def _plans(*rows: Plan) -> dict[str, Plan]:
+    """The plans by the names of their levels."""
+    return {row.level.name: row for row in rows}
 
 
 _CELLS = _plans(
-    (_CROSSED, 1.0, 0.5, 0.05),
-    (replace(_CROSSED, name="standard"), 1.0, 1.0, 0.03),
-    (replace(STANDARD, name="precise"), 1.0, 1.0, 0.03),
-    (replace(PRECISE, name="reference"), 1.0, 1.5, 0.02),
+    Plan(_CROSSED, 0.05, cells=0.5),
+    Plan(replace(_CROSSED, name="standard"), 0.03),
+    Plan(replace(STANDARD, name="precise"), 0.03),
+    Plan(replace(PRECISE, name="reference"), 0.02, cells=1.5),
 )
+_OF_A_MAP = Plan(STANDARD, 1e-6), Plan(PRECISE, 1e-9), Plan(REFERENCE, 1e-11)
 
 PLANS: Mapping[Computation, Mapping[str, Plan]] = {
-    Computation.ORBIT: _plans(*((each, 1.0, 1.0, each.promise) for each in LEVELS.values())),
+    Computation.ORBIT: _plans(*(Plan(each, each.promise) for each in LEVELS.values())),
     # A tolerance above 1e-6 loses crossings.
     Computation.SECTION: _plans(
-        (_CROSSED, 0.25, 1.0, 5), (STANDARD, 1.0, 1.0, 9), (PRECISE, 1.0, 1.0, 13), (REFERENCE, 1.0, 1.0, 22)
+        Plan(_CROSSED, 5, share=0.25), Plan(STANDARD, 9), Plan(PRECISE, 13), Plan(REFERENCE, 22)
     ),
     Computation.ROTATION: _plans(
-        (_CROSSED, 0.3, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-4), (PRECISE, 1.0, 1.0, 1e-4), (REFERENCE, 1.0, 1.0, 1e-4)
+        Plan(_CROSSED, 1e-3, 0.3, 0.5), *(Plan(each, 1e-4) for each in (STANDARD, PRECISE, REFERENCE))
     ),
-    Computation.GRID: _plans(
-        (DRAFT, 1.0, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9), (REFERENCE, 1.0, 1.0, 1e-11)
-    ),
+    Computation.GRID: _plans(Plan(DRAFT, 1e-3, cells=0.5), *_OF_A_MAP),
     # Turns of a perturbed map take the time, whatever the accuracy of the map.
-    Computation.LINE: _plans(
-        (DRAFT, 0.15, 0.2, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9), (REFERENCE, 1.0, 1.0, 1e-11)
-    ),
+    Computation.LINE: _plans(Plan(DRAFT, 1e-3, 0.15, 0.2), *_OF_A_MAP),
     Computation.COLOURS: _plans(
-        (DRAFT, 1.0, 0.5, 1e-3),
-        (replace(DRAFT, name="standard"), 1.0, 1.0, 1e-3),
-        (replace(STANDARD, name="precise"), 1.0, 1.0, 1e-6),
-        (replace(PRECISE, name="reference"), 1.0, 1.5, 1e-9),
+        Plan(DRAFT, 1e-3, cells=0.5),
+        Plan(replace(DRAFT, name="standard"), 1e-3),
+        Plan(replace(STANDARD, name="precise"), 1e-6),
+        Plan(replace(PRECISE, name="reference"), 1e-9, cells=1.5),
     ),
-    Computation.MAP: _plans(
-        (DRAFT, 1.0, 0.4, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9), (REFERENCE, 1.0, 1.0, 1e-11)
-    ),
+    Computation.MAP: _plans(Plan(DRAFT, 1e-3, cells=0.4), *_OF_A_MAP),
     Computation.CURVE: _plans(
-        (DRAFT, 1.0, 0.5, 0.75), (STANDARD, 1.0, 1.0, 0.25), (PRECISE, 1.0, 1.0, 0.25), (REFERENCE, 1.0, 2.0, 0.1)
+        Plan(DRAFT, 0.75, cells=0.5), Plan(STANDARD, 0.25), Plan(PRECISE, 0.25), Plan(REFERENCE, 0.1, cells=2.0)
     ),
     # To which attractor an orbit comes, and whether it is chaotic, needs no digits: more cells tell more.
     Computation.BASINS: _CELLS,
     Computation.INDICATOR: _CELLS,
     # The neighbour is 1e-7 away, and steps must be exact beside that; the time decides how well λ is known.
     Computation.EXPONENT: _plans(
-        (replace(DRAFT, tolerance=1e-10, order=16), 0.2, 1.0, 0.05),
-        (replace(STANDARD, tolerance=1e-14, order=24), 1.0, 1.0, 0.02),
-        (replace(PRECISE, tolerance=1e-15, order=24), 1.0, 1.0, 0.02),
-        (REFERENCE, 1.0, 1.0, 0.02),
+        Plan(replace(DRAFT, tolerance=1e-10, order=16), 0.05, share=0.2),
+        Plan(replace(STANDARD, tolerance=1e-14, order=24), 0.02),
+        Plan(replace(PRECISE, tolerance=1e-15, order=24), 0.02),
+        Plan(REFERENCE, 0.02),
     ),
     Computation.CLOUD: _plans(
-        (DRAFT, 0.15, 1.0, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9), (REFERENCE, 1.0, 1.0, 1e-12)
+        Plan(DRAFT, 1e-3, share=0.15), Plan(STANDARD, 1e-6), Plan(PRECISE, 1e-9), Plan(REFERENCE, 1e-12)
     ),
 }
 
@@ -248,5 +249,5 @@ def plan(kind: Computation, accuracy: Accuracy) -> Plan:
     Raises `InvalidParameter`.
     """
     if isinstance(accuracy, Level) and LEVELS.get(accuracy.name) != accuracy:
-        return Plan(accuracy, 1.0, 1.0, accuracy.promise)
+        return Plan(accuracy, accuracy.promise)
     return PLANS[kind][accuracy.name if isinstance(accuracy, Level) else level(accuracy).name]

@@ -10,6 +10,7 @@ other one as fast as anything can, and shows what roundings become.
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
@@ -17,9 +18,9 @@ from typing import Generic, TypeVar
 
 import numpy as np
 
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Level, Status
 from hess_mechanics.numerics.patience import go_on
-from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.results import Array, Cost
 
 __all__ = ["SAFETY", "Measured", "measured", "nearby", "safety_of"]
 
@@ -63,13 +64,16 @@ def _factors(count: int) -> Array:
 class Measured(Generic[R]):
     """A result from the start that was asked for, and how exact it is.
 
-    other : the run it was compared with; error : the estimate; safety : by how much that exceeds their difference.
+    other : the run it was compared with; error : the estimate; safety : by how much that exceeds their difference;
+    status : of the error at the level that was asked for; cost : of all runs.
     """
 
     result: R
     other: R
     error: float
     safety: float
+    status: Status
+    cost: Cost
 
 
 def safety_of(off: Array, before: Array) -> Array:
@@ -81,7 +85,7 @@ def safety_of(off: Array, before: Array) -> Array:
     return np.maximum(SAFETY, before / (100.0 * np.maximum(off, 1e-300)))
 
 
-def measured(level: Level, run: Callable[[Level], R], apart: Callable[[R, R], float]) -> Measured[R]:
+def measured(level: Level, run: Callable[[Level, int], tuple[R, int]], apart: Callable[[R, R], float]) -> Measured[R]:
     """Return a computation with its error estimate, within the promise of the level where double precision allows that.
 
     The first run is compared with one that is more exact and starts nearby.  Where they are too far apart, the next one
@@ -91,7 +95,8 @@ def measured(level: Level, run: Callable[[Level], R], apart: Callable[[R, R], fl
     Parameters
     ----------
     level : order and tolerance of the first run, and the error that is promised.
-    run : computes the result at a level, from a start `nearby` where that is `aside`.
+    run(level, steps) : computes the result at a level, from a start `nearby` where that is `aside`, and counts its
+        steps; steps : those of all runs before.
     apart : the difference of two results, in the units of the promise.
 
     Returns
@@ -99,15 +104,18 @@ def measured(level: Level, run: Callable[[Level], R], apart: Callable[[R, R], fl
     Measured
         Its error is an estimate for the less exact of the two runs, so for the result too.
     """
+    begun = time.perf_counter()
     current, error = level, 0.0
-    first = run(current)
+    first, steps = run(current, 0)
     while True:
         go_on()
         tighter = current.tightened()
-        second = run(tighter)
+        second, taken = run(tighter, steps)
+        steps += taken
         off = apart(first, second)
         safety = float(safety_of(np.array(off), np.array(error))) if 0.0 < error < math.inf else SAFETY
         error = safety * off + 2e-16
         if error <= level.promise or current.is_floor:
-            return Measured(*((second, first) if current.aside else (first, second)), error, safety)
+            both = (second, first) if current.aside else (first, second)
+            return Measured(*both, error, safety, level.status(error), Cost(steps, (time.perf_counter() - begun) * 1e3))
         current, first = tighter, second

@@ -17,24 +17,28 @@ THREADS = min(8, os.cpu_count() or 1)
 _pool = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="kernel")
 
 
-def share(work: Callable[[int], None], parts: int, threads: int = THREADS) -> None:
-    """Run work(0), …, work(parts − 1) on the pool, or in order if `threads` is 1; the first error is raised.
+def share(work: Callable[[int], None], count: int, threads: int = THREADS, at_once: int = 1) -> None:
+    """Run work(0), …, work(count − 1) on the pool, or in order if `threads` is 1; the first error is raised.
 
-    Between parts it ends where who asked does not want to wait any longer: see `patience`.
+    at_once : how many one thread takes at a time.
+    Before each of them it ends where who asked does not want to wait any longer: see `patience`.
     """
-    if threads == 1 or parts == 1:
-        for part in range(parts):
+
+    def some(first: int, after: int) -> None:
+        for i in range(first, min(after, count)):
             go_on()
-            work(part)
+            work(i)
+
+    if threads == 1 or count <= at_once:
+        some(0, count)
         return
 
-    def one(part: int) -> None:
-        go_on()
+    def part(first: int) -> None:
         begun = time.thread_time()
         try:
-            work(part)
+            some(first, first + at_once)
         finally:
             worked(time.thread_time() - begun)
 
     # Each part in a context of its own, as two threads cannot be in one.
-    list(_pool.map(lambda both: both[0].run(one, both[1]), [(copy_context(), part) for part in range(parts)]))
+    list(_pool.map(lambda both: both[0].run(part, both[1]), [(copy_context(), i) for i in range(0, count, at_once)]))

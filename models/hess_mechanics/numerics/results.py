@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,19 @@ from numpy.typing import NDArray
 from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.numerics.labelled import Labels, Result
 
-__all__ = ["Array", "Complex", "Cost", "Ensemble", "Mask", "Orbit", "SectionCrossings", "facts_of", "frozen", "unit_of"]
+__all__ = [
+    "Array",
+    "Complex",
+    "Cost",
+    "Ensemble",
+    "Mask",
+    "Orbit",
+    "Sampled",
+    "SectionCrossings",
+    "facts_of",
+    "frozen",
+    "unit_of",
+]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -51,23 +63,18 @@ def facts_of(result: Any) -> dict[str, Any]:
     }
 
 
-def _labels(result: Orbit | Ensemble | SectionCrossings, dims: tuple[str, ...]) -> Labels:
-    """Times along the last of the dimensions, and a variable for each component of the state."""
-    names = result.variables or tuple(f"y{i + 1}" for i in range(result.states.shape[-1]))
-    variables = {name: (dims, result.states[..., i]) for i, name in enumerate(names)}
-    units = {"t": "T", **{name: unit_of(name) for name in names}}
-    return Labels({"t": (dims[-1:], result.times)}, variables, units, {"system": result.system, **facts_of(result)})
-
-
 @dataclass(frozen=True)
-class Orbit(Result):
-    """A trajectory sampled at given times.
+class Sampled(Result):
+    """States of a motion at some times.
 
     times : (n,); states : (n, d), in the order of the system's `variables`.
     error_estimate : largest estimated error of any component at any sample, absolute.
     drift : for each integral, max |F(t) − F(0)|, relative to |F(0)| where that exceeds 1; variables : names.
     """
 
+    dims: ClassVar[tuple[str, ...]] = ("t",)
+    """Of the states; the times run along the last of them."""
+
     system: str
     level: str
     times: Array
@@ -76,55 +83,38 @@ class Orbit(Result):
     error_estimate: float
     drift: Mapping[str, float]
     cost: Cost
-    variables: tuple[str, ...] = ()
+    variables: tuple[str, ...]
 
     def labels(self) -> Labels:
-        """The variables of the system over t."""
-        return _labels(self, ("t",))
+        """The variables of the system over the dimensions."""
+        return Labels(
+            {"t": (self.dims[-1:], self.times)},
+            {name: (self.dims, self.states[..., i]) for i, name in enumerate(self.variables)},
+            {"t": "T", **{name: unit_of(name) for name in self.variables}},
+            {"system": self.system, **facts_of(self)},
+        )
 
 
 @dataclass(frozen=True)
-class Ensemble(Result):
+class Orbit(Sampled):
+    """A trajectory sampled at given times."""
+
+
+@dataclass(frozen=True)
+class Ensemble(Sampled):
     """Many trajectories sampled at the same times.
 
-    times : (m,); states : (n, m, d); errors : (n,), largest estimated error of each orbit;
-    drift : as in `Orbit`, the largest over all orbits.
+    times : (m,); states : (n, m, d); drift : the largest over all orbits.
+    errors : (n,), largest estimated error of each orbit.
     """
 
-    system: str
-    level: str
-    times: Array
-    states: Array
-    status: Status
+    dims = ("orbit", "t")
+
     errors: Array
-    drift: Mapping[str, float]
-    cost: Cost
-    variables: tuple[str, ...] = ()
-
-    def labels(self) -> Labels:
-        """The variables of the system over orbit and t."""
-        return _labels(self, ("orbit", "t"))
-
-    @property
-    def error_estimate(self) -> float:
-        """Of any orbit."""
-        return float(np.max(self.errors, initial=0.0))
 
 
 @dataclass(frozen=True)
-class SectionCrossings(Result):
-    """Crossings of a surface by one orbit: times (n,), states (n, d), the rest as in `Orbit`."""
+class SectionCrossings(Sampled):
+    """Crossings of a surface by one orbit."""
 
-    system: str
-    level: str
-    times: Array
-    states: Array
-    status: Status
-    error_estimate: float
-    drift: Mapping[str, float]
-    cost: Cost
-    variables: tuple[str, ...] = ()
-
-    def labels(self) -> Labels:
-        """The variables of the system at the crossings, and when these are."""
-        return _labels(self, ("crossing",))
+    dims = ("crossing",)

@@ -28,7 +28,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import checked_times, drift_of, require_finite_states, status_of
+from hess_mechanics.dynamics.orbit import checked_times, drift_of, require_finite_states
 from hess_mechanics.dynamics.sampling import MOST_SAMPLES, SAGITTA
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
@@ -300,20 +300,17 @@ def turning(of: PassageConstants, arc: int, u: Array, level: Accuracy) -> tuple[
 
     The error is measured as in `orbit.solve`.  Raises `WorkLimit`.
     """
-    total = 0
 
-    def run(at: Level) -> tuple[Complex, Complex]:
-        nonlocal total
+    def run(at: Level, _: int) -> tuple[tuple[Complex, Complex], int]:
         A, B, steps = propagate(of, arc, u, at)
-        total += steps
-        return A, B
+        return (A, B), steps
 
     def apart(one: tuple[Complex, Complex], other: tuple[Complex, Complex]) -> float:
         # A rotation is quadratic in A and B, and both its ends have errors: a factor of 4.
         return 4.0 * float((np.abs(one[0] - other[0]) + np.abs(one[1] - other[1])).max())
 
     found = measured(as_level(level), run, apart)
-    return *found.result, found.error + 1e-15 * (1.0 + of.size), total
+    return *found.result, found.error + 1e-15 * (1.0 + of.size), found.cost.steps
 
 
 @dataclass(frozen=True)
@@ -376,7 +373,7 @@ def rotation(body: SuslovBody, omega: Sequence[float], times: Sequence[float] | 
         frozen(found),
         frozen(limits),
         motion,
-        status_of(error, level),
+        level.status(error),
         absolute,
         Cost(steps, wall_ms),
     )

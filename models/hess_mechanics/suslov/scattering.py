@@ -30,7 +30,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.dynamics.cells import centres
-from hess_mechanics.dynamics.orbit import status_of
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import Accuracy, Status
 from hess_mechanics.numerics.arguments import as_level
@@ -158,7 +157,7 @@ def scattering(body: SuslovBody, level: Accuracy, arc: int = 1, distance: float 
         min(1.0, max(-1.0, cosine)),
         min(1.0, sine),
         phi_star,
-        status_of(error, level),
+        level.status(error),
         min(error, 2.0),
         Cost(steps, wall_ms),
     )

@@ -18,7 +18,6 @@ z → (αz+β)/(β̄z+ᾱ), z = e^{iφ}, is
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -239,7 +238,6 @@ def circle_map(a: float, h: float, f: float, level: Accuracy) -> CircleMap:
     ('elliptic', 0)
     """
     level = as_level(level)
-    start = time.perf_counter()
     try:
         a, h, f = float(a), float(h), float(f) + 0.0  # f = −0.0 is f = 0
     except (TypeError, ValueError):
@@ -249,22 +247,15 @@ def circle_map(a: float, h: float, f: float, level: Accuracy) -> CircleMap:
     turning = turning_points(h, f)
     here = np.array([h]), np.array([f])
     tori = here, neighbours(*here, np.array([largest_f(h)]))
-    total = 0.0
 
-    def run(at: Level) -> Array:
-        nonlocal total
+    def run(at: Level, _: int) -> tuple[Array, int]:
         energies, fs = tori[at.aside]
         row: Array = matrices(energies, fs, a, at)[0]
-        total += row[5]
-        return row
+        return row, int(row[5])
 
     found = measured(level, run, lambda one, other: _difference(one, other) + _rounding(one))
     coarse, error = found.result, found.error
     re, im, im_beta, log_scale = (float(x) for x in coarse[:4])
-    if error <= level.promise:
-        status = Status.OK
-    else:
-        status = Status.FLOOR if level.is_floor else Status.PROMISE_NOT_MET
 
     log_trace = math.log(2 * abs(re)) + log_scale if re else -math.inf
     trace = math.exp(log_trace) if log_trace < 709.0 else math.inf
@@ -286,7 +277,6 @@ def circle_map(a: float, h: float, f: float, level: Accuracy) -> CircleMap:
     rho = float(rotation_numbers_of(coarse[None])[0])
     if kind == "parabolic":
         rho = round(rho) + 0.0
-    wall_ms = (time.perf_counter() - start) * 1e3
     return CircleMap(
         a,
         h,
@@ -300,7 +290,7 @@ def circle_map(a: float, h: float, f: float, level: Accuracy) -> CircleMap:
         rho,
         fixed,
         turning.period,
-        status,
+        found.status,
         error,
-        Cost(int(total), wall_ms),
+        found.cost,
     )

@@ -6,7 +6,7 @@ h and f (`eq03`) are in units b = 1; time and angular velocity are the body's ow
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -121,16 +121,7 @@ def cycles(
     times = _times(body, start, turning.period, half_width)
     orbit = solve(SYSTEM.at((body.a, 1.0)), start, times, level)
     mirrored = orbit.states[::-1] * np.array([-1.0, 1.0, -1.0, 1.0, 1.0])
-    image = Orbit(
-        orbit.system,
-        orbit.level,
-        frozen(turning.period - orbit.times[::-1]),
-        frozen(mirrored),
-        orbit.status,
-        orbit.error_estimate,
-        orbit.drift,
-        orbit.cost,
-    )
+    image = replace(orbit, times=frozen(turning.period - orbit.times[::-1]), states=frozen(mirrored))
     return _in_body_units(body, orbit), _in_body_units(body, image)
 
 
