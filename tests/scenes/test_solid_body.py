@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.framework.solid_body import Constrained, Heavy
+from hess_explorer.scenes.framework.solid_body import ellipsoid_of_inertia, free_I33, heavy_solid
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.rigid_body.inertia import check_body
 
@@ -75,11 +75,8 @@ def test_every_example_of_a_constrained_body_is_drawn_as_it_lies(name):
 )
 def test_the_ellipsoid_is_that_of_a_rigid_body_where_there_is_one(tensor, is_body):
     I11, I22, I13, I23 = tensor
-    one = Constrained(
-        np.zeros(2), np.zeros((2, 2)), np.tile([0.0, 0.0, 1.0], (2, 1)), tensor, (0.0, 0.0, 0.0), check_body(*tensor)
-    )
-    shape = one.shape()
-    whole = np.array([[I11, 0.0, I13], [0.0, I22, I23], [I13, I23, one.I33]])
+    shape, said = ellipsoid_of_inertia(tensor, check_body(*tensor))
+    whole = np.array([[I11, 0.0, I13], [0.0, I22, I23], [I13, I23, free_I33(tensor, check_body(*tensor))]])
     # What is drawn is the surface (ω, Iω) = const.
     for axis, half in zip(shape.axes, shape.semi_axes, strict=True):
         if half > 1.01 * min(shape.semi_axes):
@@ -87,15 +84,15 @@ def test_the_ellipsoid_is_that_of_a_rigid_body_where_there_is_one(tensor, is_bod
     assert np.all(shape.moments > 0.0)
     moments = np.sort(shape.moments)
     assert (moments[2] <= moments[0] + moments[1]) == is_body
-    assert ("no I₃₃ makes this a rigid body" in one.said()) != is_body
+    assert ("no I₃₃ makes this a rigid body" in said) != is_body
 
 
 def test_a_heavy_body_shows_its_circular_section_and_says_whether_the_centre_of_mass_is_its_normal():
     moments, states = (1.0, 1.5, 2.0), np.array([[0.3, 0.4, -0.2, 0.0, 0.6, 0.8]] * 2)
     for away in (0.0, 0.05):
         body = HeavyBody.hess(moments, -0.7, away)
-        heavy = Heavy.along(body, np.array([0.0, 0.1]), states)
-        shape = heavy.shape()
+        heavy = heavy_solid(body, np.array([0.0, 0.1]), states)
+        shape = heavy.shape
         assert shape is not None
         assert shape.section is not None
         # All radii of the gyration ellipsoid across the normal are alike.
@@ -103,7 +100,7 @@ def test_a_heavy_body_shows_its_circular_section_and_says_whether_the_centre_of_
         across = np.linalg.svd(normal[None])[2][1:]
         radii = [1.0 / math.sqrt(v @ np.diag(body.a) @ v) for v in (across[0], across[1], across.sum(axis=0) / 2**0.5)]
         assert radii == pytest.approx([math.sqrt(1.5)] * 3, rel=1e-12)
-        assert ("not normal" in heavy.said()) == (away != 0.0)
+        assert ("not normal" in heavy.about_shape) == (away != 0.0)
         # μ < 0: the centre of mass is opposite to r.
-        assert np.asarray(heavy.mass.along) == pytest.approx(-np.array(body.r))
+        assert np.asarray(heavy.mass and heavy.mass.along) == pytest.approx(-np.array(body.r))
         assert heavy.omega[0] == pytest.approx(np.array(states[0, :3]) / moments)

@@ -19,10 +19,9 @@ from hess_mechanics.chaplygin_ball.section import BallSection
 from hess_mechanics.parameters import H_BALL
 
 
-def _ball(
-    I11: float, I22: float, I13: float, I23: float, D: float, b1: float, b2: float, b3: float, h: float
-) -> dict[str, Value]:
-    return {"I11": I11, "I22": I22, "I13": I13, "I23": I23, "D": D, "b1": b1, "b2": b2, "b3": b3, "h": h}
+def _ball(*values: float) -> dict[str, Value]:
+    """Return I₁₁, I₂₂, I₁₃, I₂₃, 𝒟, b₁, b₂, b₃ and h by name."""
+    return dict(zip(("I11", "I22", "I13", "I23", "D", "b1", "b2", "b3", "h"), values, strict=True))
 
 
 PRESETS = (

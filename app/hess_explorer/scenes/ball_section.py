@@ -17,7 +17,7 @@ from hess_explorer.scenes.framework.parameters import accuracy_level, choice, nu
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.periodic_search import Closed
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
-from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
+from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.parts.branch import (
     Branch,
     branch_picture,
@@ -285,9 +285,9 @@ class BallSection(State):
         return centre_of_mass((self.b1, self.b2, self.b3))
 
     @cached_property
-    def solid(self) -> Constrained:
+    def solid(self) -> Solid:
         """The ball along the orbit."""
-        return Constrained.along(self.work, self.body.parameters, self.orbit.path.times, self.orbit.path.states)
+        return constrained_solid(self.work, self.body, self.orbit.path)
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the start at a place of the section."""
@@ -355,7 +355,7 @@ SCENE = Scene(
     summary="The ball in a field: a section at one energy shows curves, seas and, with I₁₃ or I₂₃, attractors.",
     tracks={"orbit": lambda s: orbit_columns(s.orbit.path)},
     views=(
-        constrained_body(ball=True),
+        solid_body(ball=True),
         Plot(
             name="section",
             title="Section: γ₃ grows through 0",

@@ -14,7 +14,7 @@ from hess_explorer.scenes.framework.charted import of_torus
 from hess_explorer.scenes.framework.hess_case import HeavyHess
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, choice, number, parameter, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
-from hess_explorer.scenes.framework.solid_body import Heavy, Hess, constrained_body, heavy_solid
+from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, hess_solid, solid_body
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import andoyer, theme, torus_plane
 from hess_explorer.views import circle_map as circle
@@ -218,12 +218,11 @@ class BothSides(State):
         return coordinates(self.heavy_states)
 
     @cached_property
-    def solids(self) -> tuple[Hess, Heavy]:
+    def solids(self) -> tuple[Solid, Solid]:
         """Both bodies along it."""
-        found = self.track
         return (
-            Hess(found.times, found.omega, found.gamma, self.bridge.hess),
-            Heavy.along(self.bridge.heavy, found.times, self.heavy_states),
+            hess_solid(self.bridge.hess, self.track),
+            heavy_solid(self.bridge.heavy, self.track.times, self.heavy_states),
         )
 
     @cached_property
@@ -332,8 +331,8 @@ SCENE = Scene(
     },
     angles=("phi", "phi_start", "l"),
     views=(
-        constrained_body(lambda s: s.solids[0], section=True, title="The body of Suslov–Hess"),
-        heavy_solid(lambda s: s.solids[1], name="heavy", title="The body of Euler–Poisson"),
+        solid_body(lambda s: s.solids[0], section=True, title="The body of Suslov–Hess"),
+        solid_body(lambda s: s.solids[1], name="heavy", title="The body of Euler–Poisson", wheels=False, section=True),
         picture(
             BothSides._about_torus,
             lambda s: s.half_width,

@@ -14,7 +14,7 @@ from hess_explorer.scenes.framework.charted import Charted, exponents, tensor_of
 from hess_explorer.scenes.framework.circle_left import DIGITS, PHI, sphere
 from hess_explorer.scenes.framework.parameters import accuracy_level, parameter, time_span
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
-from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
+from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.scenes.parts.orbit import Orbit
@@ -122,9 +122,9 @@ class ChaplyginBall(State):
         return self.orbit.motion()
 
     @cached_property
-    def solid(self) -> Constrained:
+    def solid(self) -> Solid:
         """The ball along it."""
-        return Constrained.along(self.work, self.body.parameters, self.orbit.path.times, self.orbit.path.states)
+        return constrained_solid(self.work, self.body, self.orbit.path)
 
     @cached_property
     def Gamma(self) -> Array:
@@ -282,7 +282,7 @@ SCENE = Scene(
     summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",
     tracks={"orbit": lambda s: plane.orbit_columns(s.orbit.path, Gamma=s.Gamma)},
     views=(
-        constrained_body(ball=True, field=False),
+        solid_body(ball=True, field=False),
         plane.picture(
             lambda s: "Every orbit crosses the strip between σ₂ and σ₁ from Nᵘ to Nˢ.",
             lambda s: s.half_width,

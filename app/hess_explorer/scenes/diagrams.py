@@ -16,6 +16,7 @@ from hess_explorer.scenes.framework.charted import Charted
 from hess_explorer.scenes.framework.parameters import (
     accuracy_level,
     choice,
+    exponent_time,
     number,
     parameter,
     places,
@@ -24,10 +25,9 @@ from hess_explorer.scenes.framework.parameters import (
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS
 from hess_explorer.scenes.framework.scene import Motion, State
-from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
+from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.parts.branch import Continuation
-from hess_explorer.scenes.parts.exponent import exponent_time
 from hess_explorer.scenes.parts.orbit import Orbit
 from hess_explorer.scenes.parts.orbit_diagram import (
     ANEW,
@@ -229,9 +229,9 @@ class DiagramState(State, ABC):
     # ---- the pictures -------------------------------------------------------------------------------------------
 
     @cached_property
-    def solid(self) -> Constrained:
+    def solid(self) -> Solid:
         """The body along the orbit."""
-        return Constrained.along(self.work, self.body.parameters, self.orbit.path.times, self.orbit.path.states)
+        return constrained_solid(self.work, self.body, self.orbit.path)
 
     @cached_property
     def turned(self) -> SectionCrossings:
@@ -320,7 +320,7 @@ def pictures(state: type[S], ball: bool = False) -> tuple[Picture[S], ...]:
                 lambda s: s.continuation.branches, lambda s: s.diagram.side, lambda s: s.poincare.turns[s.diagram.side]
             ),
         ),
-        constrained_body(ball=ball),
+        solid_body(ball=ball),
         Plot(
             name="section",
             title="Its section γ₃ = 0, growing",

@@ -20,6 +20,7 @@ from hess_explorer.scenes.framework.parameters import (
     Slider,
     accuracy_level,
     choice,
+    exponent_time,
     number,
     parameter,
     places,
@@ -27,7 +28,7 @@ from hess_explorer.scenes.framework.parameters import (
 )
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
-from hess_explorer.scenes.framework.solid_body import Heavy, heavy_solid
+from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, solid_body
 from hess_explorer.scenes.framework.windows import inside
 from hess_explorer.scenes.parts.branch import (
     Branch,
@@ -36,7 +37,7 @@ from hess_explorer.scenes.parts.branch import (
     end_of_branch,
     parameter_of_branch,
 )
-from hess_explorer.scenes.parts.exponent import Exponent, exponent_picture, exponent_time, exponent_trial
+from hess_explorer.scenes.parts.exponent import Exponent, exponent_picture, exponent_trial
 from hess_explorer.scenes.parts.filled_section import (
     FilledSection,
     filled_picture,
@@ -58,6 +59,7 @@ from hess_explorer.views.text import digits, vector
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points, hess_curve, relation
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
+from hess_mechanics.euler_poisson.hess_split import HessTorus
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.parameters import F_HEAVY, H_HEAVY, I1, I2, I3, MU_R
@@ -264,7 +266,7 @@ class EulerPoisson(State):
     @part
     def split(self) -> HessSplit:
         """The split of the separatrices."""
-        return HessSplit(self)
+        return HessSplit(self, HessTorus(self.moments, self.m, self.h, self.f), self.away)
 
     @part
     def section(self) -> FilledSection:
@@ -336,9 +338,9 @@ class EulerPoisson(State):
         return {"t": column(orbit.times), "l": column(l), "x": column(x), **gamma_columns(orbit.states[:, 3:])}
 
     @cached_property
-    def solid(self) -> Heavy:
+    def solid(self) -> Solid:
         """The body along the orbit."""
-        return Heavy.along(self.body, self.orbit.path.times, self.orbit.path.states)
+        return heavy_solid(self.body, self.orbit.path.times, self.orbit.path.states)
 
     def hess_curve(self) -> tuple[Array, Array]:
         """The Hess manifold across the window."""
@@ -422,7 +424,7 @@ SCENE = Scene(
                 across=lambda s: inside(s.rotation.ends, s.section.frame),
             ),
         ),
-        heavy_solid(),
+        solid_body(wheels=False, section=True),
         rotation_picture(lambda s: s.rotation),
         along_the_orbit(
             lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r"), lambda s: s.proof.around

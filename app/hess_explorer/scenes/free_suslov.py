@@ -14,7 +14,7 @@ from hess_explorer.scenes.framework import free_body
 from hess_explorer.scenes.framework.charted import Charted, tensor_of
 from hess_explorer.scenes.framework.parameters import ONE_TURN, Slider, accuracy_level, choice, parameter, time_span
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
-from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
+from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views import velocity_plane as plane
@@ -185,9 +185,9 @@ class FreeSuslov(State):
         )
 
     @cached_property
-    def solid(self) -> Constrained:
+    def solid(self) -> Solid:
         """The body along it."""
-        return Constrained.of_free(self.work, self.body, self.orbit)
+        return constrained_solid(self.work, self.body, self.orbit)
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 
@@ -315,7 +315,7 @@ SCENE = Scene(
                 *plane.equilibria(lambda s: s.points.stable, lambda s: s.points.unstable),
             ),
         ),
-        constrained_body(field=False),
+        solid_body(field=False),
         Sphere(
             caption=FreeSuslov._about_sphere,
             looks={"orbit": "orbit", "second": "second"},

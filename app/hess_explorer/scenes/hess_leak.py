@@ -13,7 +13,7 @@ from hess_explorer.scenes.framework.charted import of_torus
 from hess_explorer.scenes.framework.hess_case import BY_THE_UNSTABLE_CYCLE, PHI0, RIS, UNSURE, HeavyHess, reduced_motion
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, parameter
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
-from hess_explorer.scenes.framework.solid_body import Heavy, heavy_solid
+from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, solid_body
 from hess_explorer.views import andoyer, theme
 from hess_explorer.views.chart import LG_OF_0, lg, lg_axis
 from hess_explorer.views.layers import Columns, Range, column, curves
@@ -140,9 +140,9 @@ class HessLeak(State):
         return reduced_motion(self.bridge.hess, self.hess.turning, self.phi0, self._periods * self.hess.turning.period)
 
     @cached_property
-    def solid(self) -> Heavy:
+    def solid(self) -> Solid:
         """The body in its exact motion."""
-        return Heavy.along(self.bridge.heavy, self.run.times, self.states)
+        return heavy_solid(self.bridge.heavy, self.run.times, self.states)
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 
@@ -247,7 +247,7 @@ SCENE = Scene(
     tracks={"orbit": HessLeak.exact_columns, "second": HessLeak.leaking},
     angles=("l",),
     views=(
-        heavy_solid(),
+        solid_body(wheels=False, section=True),
         Plot(
             name="leak",
             title="r·M against time",

@@ -21,7 +21,7 @@ from hess_explorer.scenes.framework.parameters import (
     time_span,
 )
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
-from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
+from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import period_graph, plane_domain, plane_potential, theme
 from hess_explorer.views.graph import pieces
@@ -183,9 +183,9 @@ class Kharlamova(State):
         return self.work.get(motion_from, self.other_body, self.start, self.span, self.level)
 
     @cached_property
-    def solid(self) -> Constrained:
+    def solid(self) -> Solid:
         """The body along it."""
-        return Constrained.along(self.work, self.body.parameters, self.orbit.times, self.orbit.states)
+        return constrained_solid(self.work, self.body, self.orbit)
 
     def motion(self) -> Motion:
         """The orbit on show."""
@@ -331,7 +331,7 @@ SCENE = Scene(
     summary="Parabolas in an ellipse, run to and fro: every orbit closes but those that touch the equator from inside.",
     tracks={"orbit": Kharlamova.orbit_columns},
     views=(
-        constrained_body(),
+        solid_body(),
         plane_domain.picture(
             "Domain of (q₁, q₂)",
             Kharlamova._about_domain,

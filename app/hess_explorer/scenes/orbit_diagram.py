@@ -19,10 +19,9 @@ from hess_mechanics.suslov.section import SuslovSection
 _PARAMETERS = {"h": "h", "I₁₁": "I11", "I₂₂": "I22", "I₁₃": "I13", "I₂₃": "I23", "b₁": "b1", "b₂": "b2", "b₃": "b3"}
 
 
-def _body(
-    I11: float, I22: float, I13: float, I23: float, b1: float, b2: float, b3: float, h: float
-) -> dict[str, Value]:
-    return {"I11": I11, "I22": I22, "I13": I13, "I23": I23, "b1": b1, "b2": b2, "b3": b3, "h": h}
+def _body(*values: float) -> dict[str, Value]:
+    """Return I₁₁, I₂₂, I₁₃, I₂₃, b₁, b₂, b₃ and h by name."""
+    return dict(zip(("I11", "I22", "I13", "I23", "b1", "b2", "b3", "h"), values, strict=True))
 
 
 PRESETS = (

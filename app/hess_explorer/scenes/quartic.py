@@ -23,7 +23,7 @@ from hess_explorer.scenes.framework.parameters import (
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import Closed
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
-from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
+from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.parts.branch import (
     Branch,
     branch_picture,
@@ -229,9 +229,9 @@ class Quartic(State):
         return Axes(centred(nice_above(1.05 * self.body.longest)), _P_AXIS)
 
     @cached_property
-    def solid(self) -> Constrained:
+    def solid(self) -> Solid:
         """The body along the orbit."""
-        return Constrained.along(self.work, self.body.parameters, self.orbit.path.times, self.orbit.path.states)
+        return constrained_solid(self.work, self.body, self.orbit.path)
 
     @cached_property
     def momentum(self) -> Array:
@@ -304,7 +304,7 @@ SCENE = Scene(
         )
     },
     views=(
-        constrained_body(),
+        solid_body(),
         plane_domain.picture(
             "Point in the potential γ₃²/2",
             Quartic._about_domain,

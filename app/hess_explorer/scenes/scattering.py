@@ -14,7 +14,7 @@ from hess_explorer.scenes.framework.charted import Charted, tensor_of
 from hess_explorer.scenes.framework.circle_left import CIRCLES, DIGITS, PHI, sphere
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, parameter
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
-from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
+from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import drift_status
 from hess_explorer.views import scattering_map as square
@@ -148,9 +148,9 @@ class Scattering(State):
         return Motion(SYSTEM, (*omega, *gamma), self.body.parameters, self.span, pixels_per_unit(_RADIUS))
 
     @cached_property
-    def solid(self) -> Constrained:
+    def solid(self) -> Solid:
         """The body along it."""
-        return Constrained.of_free(self.work, self.body, self.orbit)
+        return constrained_solid(self.work, self.body, self.orbit)
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 
@@ -230,7 +230,7 @@ SCENE = Scene(
     summary="No field: from the circle γ leaves and its phase to the circle it joins, exact for all phases at once.",
     tracks={"orbit": lambda s: velocity_columns(s.orbit.times, s.orbit.omega, s.orbit.gamma)},
     views=(
-        constrained_body(field=False),
+        solid_body(field=False),
         square.over_phases(
             Scattering._about_curve,
             layers=(

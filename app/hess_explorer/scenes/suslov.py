@@ -13,12 +13,20 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.charted import Charted, Placed, exponents, motion_of
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch
-from hess_explorer.scenes.framework.parameters import TURN, accuracy_level, choice, parameter, places, time_span
+from hess_explorer.scenes.framework.parameters import (
+    TURN,
+    accuracy_level,
+    choice,
+    exponent_time,
+    parameter,
+    places,
+    time_span,
+)
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
-from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
+from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.parts.basins import Basins, basins_trial
-from hess_explorer.scenes.parts.exponent import Exponent, exponent_time, exponent_trial
+from hess_explorer.scenes.parts.exponent import Exponent, exponent_trial
 from hess_explorer.scenes.parts.filled_section import (
     FilledSection,
     filled_picture,
@@ -57,20 +65,10 @@ _PLANES = {"γ₃ = 0": 3, "γ₁ = 0": 1, "γ₂ = 0": 2}
 _BOTH = "forward and backward in time"
 
 
-def _body(
-    I11: float, I22: float, I13: float, I23: float, b1: float, b2: float, b3: float, E: float
-) -> dict[str, Value]:
-    return {
-        "I11": I11,
-        "I22": I22,
-        "I13": I13,
-        "I23": I23,
-        "b1": b1,
-        "b2": b2,
-        "b3": b3,
-        "h": round(E + math.hypot(b1, b2, b3), 6),
-        "plane": "γ₃ = 0",
-    }
+def _body(*parameters: float, E: float) -> dict[str, Value]:
+    """Return the parameters of `SYSTEM` by name, and h for an energy."""
+    values: dict[str, Value] = dict(zip(SYSTEM.parameters, parameters, strict=True))
+    return {**values, "h": round(E + math.hypot(*parameters[-3:]), 6), "plane": "γ₃ = 0"}
 
 
 PRESETS = (
@@ -80,14 +78,14 @@ PRESETS = (
             Preset("A chaotic sea", plane="γ₃ = 0", colours=_BOTH, drop="all"),
             Preset(
                 "Regular orbits (not a rigid body)",
-                **_body(1.5, 4.0, 0.0, 0.8, 0.0, 1.0, 0.7, -0.521),
+                **_body(1.5, 4.0, 0.0, 0.8, 0.0, 1.0, 0.7, E=-0.521),
                 colours=_BOTH,
                 drop="all",
                 starts="-1.5,1",
             ),
             Preset(
                 "Strange attractor (not a rigid body)",
-                **_body(1.0, 2.5, 0.6, 0.6, -1.0, -0.5, 0.7, 0.681),
+                **_body(1.0, 2.5, 0.6, 0.6, -1.0, -0.5, 0.7, E=0.681),
                 colours="forward only",
                 count=600.0,
                 drop="the later half",
@@ -95,21 +93,21 @@ PRESETS = (
             ),
             Preset(
                 "Two attractors, and their basins",
-                **_body(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0, 1.842),
+                **_body(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0, E=1.842),
                 colours="basins",
                 count=400.0,
                 drop="the later half",
             ),
             Preset(
                 "Reversal: what attracts, and what repels (not a rigid body)",
-                **_body(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3, 1.743),
+                **_body(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3, E=1.743),
                 colours=_BOTH,
                 count=100.0,
                 drop="all",
             ),
             Preset(
                 "On a principal axis, I₁₃ = I₂₃ = 0: volume is kept",
-                **_body(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.8, 0.7),
+                **_body(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.8, E=0.7),
                 colours="forward only",
                 drop="all",
                 starts="0,1.5",
@@ -294,9 +292,9 @@ class Suslov(State):
         return thinned(*self.rates[i]) if self.rates else None
 
     @cached_property
-    def solid(self) -> Constrained:
+    def solid(self) -> Solid:
         """The body along the orbit."""
-        return Constrained.along(self.work, self.body.parameters, self.orbit.path.times, self.orbit.path.states)
+        return constrained_solid(self.work, self.body, self.orbit.path)
 
     @cached_property
     def _conformal(self) -> tuple[Conformal | None, str]:
@@ -398,7 +396,7 @@ SCENE = Scene(
             ),
             over=layers(lambda s: s.periodic_orbit),
         ),
-        constrained_body(),
+        solid_body(),
         Plot(
             name="exponent",
             title="Lyapunov exponent and divergence",

@@ -16,7 +16,7 @@ from hess_explorer.scenes.framework.hess_case import Proved, limit_cycles, map_o
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, choice, number, parameter, slider_within
 from hess_explorer.scenes.framework.proved_zone import HIDDEN, SHOWN, ProvedZone, known_zone
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
-from hess_explorer.scenes.framework.solid_body import Hess, constrained_body
+from hess_explorer.scenes.framework.solid_body import Solid, hess_solid, solid_body
 from hess_explorer.scenes.framework.torus_trials import boundary
 from hess_explorer.scenes.framework.trial import COLOUR, COLOUR_UNIT, Trial, colour_error, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
@@ -176,9 +176,9 @@ class SuslovHess(State):
             return None, str(error)
 
     @cached_property
-    def solid(self) -> Hess:
+    def solid(self) -> Solid:
         """The body along the orbit on show."""
-        return Hess(self.track.times, self.track.omega, self.track.gamma, self.body)
+        return hess_solid(self.body, self.track)
 
     def motion(self) -> Motion:
         """The orbit on show, in units b = 1."""
@@ -323,7 +323,7 @@ SCENE = Scene(
     },
     angles=("phi", "phi_start", "sigma"),
     views=(
-        constrained_body(section=True),
+        solid_body(section=True),
         picture(
             lambda s: torus_plane.about(s.map, s.turning),
             lambda s: s.half_width,

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
 import numpy as np
 
-from hess_explorer.scenes.framework.parameters import number
 from hess_explorer.scenes.framework.part import Host, Part, Start
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial
@@ -25,24 +24,10 @@ from hess_mechanics.dynamics.system import Body
 from hess_mechanics.numerics.accuracy import Computation, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Exponent", "exponent_picture", "exponent_time", "exponent_trial"]
+__all__ = ["Exponent", "exponent_picture", "exponent_trial"]
 
 _LONG = 2000.0
 """The longest time for which levels are compared."""
-
-
-def exponent_time(default: float, longest: float, most: float, what: str) -> Any:
-    """Declare how long something is averaged along the orbit on show."""
-    return number(
-        "T",
-        default,
-        (10.0, longest),
-        10.0,
-        bounds=(1.0, most),
-        label="Time of the exponent",
-        group="Computation",
-        doc=f"How long {what} averaged.",
-    )
 
 
 class _Periodic(Protocol):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
@@ -32,43 +32,31 @@ _CLOSE = (1e-3, -1e-3, 2e-3, -2e-3)
 """Where the slope at ε = 0 is taken from."""
 
 
-class _Host(Host, Protocol):
-    @property
-    def moments(self) -> tuple[float, float, float]: ...
-
-    @property
-    def away(self) -> float: ...
-
-    @property
-    def m(self) -> float: ...
-
-    @property
-    def h(self) -> float: ...
-
-    @property
-    def f(self) -> float: ...
-
-
 @dataclass(frozen=True, eq=False)
-class HessSplit(Part[_Host]):
-    """How far apart the separatrices of the Hess manifold are, at the h and f of a body near the Hess case."""
+class HessSplit(Part[Host]):
+    """How far apart the separatrices of the Hess manifold are, near the Hess case.
+
+    torus : of the Hess case itself; away : ε of the state on show.
+    """
+
+    torus: HessTorus
+    away: float
 
     @property
     def reach(self) -> float:
         """How far the graph goes."""
-        return abs(self.host.away) or _WIDE
+        return abs(self.away) or _WIDE
 
     @cached_property
     def _splits(self) -> list[Split | Missed] | None:
         """At the values of the graph and those for the slope; None until all are known."""
-        torus = HessTorus(self.host.moments, self.host.m, self.host.h, self.host.f)
         asked = dict.fromkeys([*(self.reach * _QUARTERS).tolist(), *_CLOSE])
         ask = self.work.known if self.work.dragging else self.work.later
         # Where it fails at ε = 0 there is nothing to be split.
-        first = ask(_split, torus, 0.0)
+        first = ask(_split, self.torus, 0.0)
         if first is None or isinstance(first, Missed):
             return None if first is None else [first]
-        found = [ask(_split, torus, value) for value in asked]
+        found = [ask(_split, self.torus, value) for value in asked]
         known = [one for one in found if one is not None]
         return known if len(known) == len(found) else None
 
@@ -80,7 +68,7 @@ class HessSplit(Part[_Host]):
     @property
     def split(self) -> Split | None:
         """That of this state, where it is known."""
-        return next((one for one in self.splits() if one.away == self.host.away), None)
+        return next((one for one in self.splits() if one.away == self.away), None)
 
     @property
     def slope(self) -> tuple[float, float] | None:
