@@ -12,8 +12,8 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from hess_explorer.headless.browser import launched, wait_ready
-from hess_explorer.headless.screenshot import running_server
+from hess_explorer.headless.browser import wait_ready
+from hess_explorer.headless.screenshot import server_process
 
 # Asserts in helpers explain themselves as those of tests do.
 pytest.register_assert_rewrite("support", "oracle")
@@ -30,7 +30,7 @@ def pytest_configure(config):
         assert [half.wait() for half in halves] == [0, 0], "the kernels could not be compiled"
         shared = config.stash[SHARED] = ExitStack()
         log = Path(shared.enter_context(tempfile.TemporaryDirectory())) / "server.log"
-        config.stash[SHARED_SERVER] = (shared.enter_context(running_server(log)), str(log))
+        config.stash[SHARED_SERVER] = (shared.enter_context(server_process(log))[1], str(log))
 
 
 @pytest.hookimpl(optionalhook=True)
@@ -47,7 +47,9 @@ def pytest_unconfigure(config):
 @pytest.fixture(scope="session")
 def browser():
     """A headless Chromium: found, or else installed, or else every test that needs it fails."""
-    with launched(install=True) as running:
+    from support.chromium import launched_or_installed
+
+    with launched_or_installed() as running:
         yield running
 
 
@@ -58,7 +60,7 @@ def server(pytestconfig, tmp_path_factory):
         shared = getattr(pytestconfig, "workerinput", {}).get("server")
         if shared is None:
             log = tmp_path_factory.mktemp("server") / "server.log"
-            base = own.enter_context(running_server(log))
+            base = own.enter_context(server_process(log))[1]
         else:
             base, log = shared[0], Path(shared[1])
         yield base

@@ -46,11 +46,11 @@ async def _scenes(base):
 def smoke():
     """Everything once; what went wrong ends it."""
     sys.path[:0] = [str(ROOT / "tests")]
-    from hess_explorer.headless.screenshot import running_server
+    from hess_explorer.headless.screenshot import server_process
 
     with tempfile.TemporaryDirectory() as folder:
         log = Path(folder) / "log"
-        with running_server(log) as base:
+        with server_process(log) as (_, base):
             opened = asyncio.run(_scenes(base))
         # Warnings of a library are no errors of the explorer.
         assert "Traceback" not in log.read_text(), log.read_text()

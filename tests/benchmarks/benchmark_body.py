@@ -12,7 +12,7 @@ from pathlib import Path
 from playwright.sync_api import sync_playwright
 
 from hess_explorer.headless.browser import find_browser, wait_ready
-from hess_explorer.headless.screenshot import running_server
+from hess_explorer.headless.screenshot import server_process
 
 FRAMES = """async (count) => {
   const all = (root) => [...root.querySelectorAll("*")].flatMap((item) =>
@@ -40,7 +40,7 @@ FRAMES = """async (count) => {
 
 def main() -> None:
     """The median and the least time of a frame, in some scenes."""
-    with sync_playwright() as playwright, running_server(Path("/dev/null")) as base:
+    with sync_playwright() as playwright, server_process(Path("/dev/null")) as (_, base):
         browser = playwright.chromium.launch(
             executable_path=find_browser(playwright.chromium.executable_path), args=["--no-sandbox"]
         )

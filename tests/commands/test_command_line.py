@@ -27,7 +27,7 @@ import oracle
 from hess_explorer.__main__ import main
 from hess_explorer.commands import CommandError, output
 from hess_explorer.headless.browser import BrowserError
-from hess_explorer.headless.screenshot import running_server
+from hess_explorer.headless.screenshot import server_process
 from hess_mechanics import SuslovBody, basins, systems
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from hess_mechanics.errors import InvalidParameter
@@ -600,7 +600,7 @@ def test_a_first_start_answers_at_the_address_it_prints_and_ends_silently(free_p
 
 def test_shot(tmp_path, browser, server, monkeypatch, capsys):
     # A server and a browser are running: starting others is what these two did.
-    monkeypatch.setattr(hess_explorer.headless.screenshot, "running_server", lambda log: nullcontext(server))
+    monkeypatch.setattr(hess_explorer.headless.screenshot, "server_process", lambda log: nullcontext((None, server)))
     monkeypatch.setattr(hess_explorer.headless.screenshot, "launched", lambda: nullcontext(browser))
     before, file = set(browser.contexts), tmp_path / "page.png"
     assert main(["shot", "--state", "h=1.2&f=0.3", "--size", "900x700", "--dark", str(file)]) == 0
@@ -646,7 +646,7 @@ def test_a_server_that_does_not_start_says_why(monkeypatch, tmp_path):
         monkeypatch.setattr(hess_explorer.headless.screenshot, "is_alive", lambda host, port: False)
         with (
             pytest.raises(hess_explorer.headless.screenshot.ServerError, match=r"did not start .*taken"),
-            running_server(tmp_path / "log"),
+            server_process(tmp_path / "log"),
         ):
             pass
 

@@ -9,7 +9,9 @@ import pytest
 from playwright.sync_api import Error
 
 from hess_explorer.headless import browser
-from hess_explorer.headless.browser import VARIABLE, BrowserError, find_browser, install_browser, launched
+from hess_explorer.headless.browser import VARIABLE, BrowserError, find_browser, launched
+from support import chromium
+from support.chromium import install_browser, launched_or_installed
 
 
 @pytest.fixture
@@ -25,7 +27,7 @@ def machine(monkeypatch):
 def installations(monkeypatch):
     """The installing commands that are run; they change nothing."""
     commands = []
-    monkeypatch.setattr(browser.subprocess, "run", lambda command, **_: commands.append(command))
+    monkeypatch.setattr(chromium.subprocess, "run", lambda command, **_: commands.append(command))
     return commands
 
 
@@ -58,8 +60,8 @@ def test_a_wrong_variable_is_an_error_and_not_passed_over(machine, monkeypatch):
     ],
 )
 def test_installation(installations, monkeypatch, root, debian, last):
-    monkeypatch.setattr(browser, "_is_root", lambda: root)
-    monkeypatch.setattr(browser, "_is_debian", lambda: debian)
+    monkeypatch.setattr(chromium, "is_root", lambda: root)
+    monkeypatch.setattr(chromium, "_is_debian", lambda: debian)
     install_browser()
     assert installations[-1][-5:] == last
     assert (["apt-get", "update"] in installations) == (root and debian)
@@ -77,7 +79,7 @@ def test_failed_installation_is_loud(monkeypatch, failure):
     def fail(*_, **__):
         raise failure
 
-    monkeypatch.setattr(browser.subprocess, "run", fail)
+    monkeypatch.setattr(chromium.subprocess, "run", fail)
     with pytest.raises(BrowserError, match=f"No Chromium was found and .* failed .*{VARIABLE}"):
         install_browser()
 
@@ -95,12 +97,12 @@ class NoChromium:
         pass
 
 
-@pytest.mark.parametrize("install", [False, True])
-def test_no_browser_is_loud(machine, installations, monkeypatch, install):
+@pytest.mark.parametrize(("started", "installed"), [(launched, False), (launched_or_installed, True)])
+def test_no_browser_is_loud(machine, installations, monkeypatch, started, installed):
     monkeypatch.setattr("playwright.sync_api.sync_playwright", NoChromium)
-    with pytest.raises(BrowserError, match="No Chromium was found: install one"), launched(install=install):
+    with pytest.raises(BrowserError, match="No Chromium was found: install one"), started():
         pass
-    assert bool(installations) == install
+    assert bool(installations) == installed
 
 
 def test_missing_playwright_says_how_to_install_it(monkeypatch):
@@ -142,7 +144,7 @@ def test_the_sandbox_is_left_out_only_as_root_or_where_there_is_none(machine, mo
     machine.add("chromium")
     playwright = Playwright("No usable sandbox!")
     monkeypatch.setattr("playwright.sync_api.sync_playwright", playwright)
-    monkeypatch.setattr(browser, "_is_root", lambda: root)
+    monkeypatch.setattr(browser, "is_root", lambda: root)
     with launched():
         assert playwright.sandboxed == tried
 

@@ -11,7 +11,7 @@ import pytest
 from playwright.sync_api import expect
 
 from hess_explorer.headless.browser import wait_ready
-from hess_explorer.headless.screenshot import running_server
+from hess_explorer.headless.screenshot import server_process
 from hess_explorer.protocol.parameters import places
 from support.euler_poisson import EP, EulerPoisson
 from support.page import ENTER, brought, flat, one_tab, said
@@ -193,7 +193,7 @@ def gate(tmp_path_factory):
 def held_back(browser, tmp_path_factory, gate):
     """One tab on that server."""
     log = tmp_path_factory.mktemp("held back") / "server.log"
-    with running_server(log, ("-c", HELD_BACK, str(gate))) as base:
+    with server_process(log, ("-c", HELD_BACK, str(gate))) as (_, base):
         yield from one_tab(browser, base)
         gate.unlink(missing_ok=True)
     assert "Traceback" not in log.read_text()

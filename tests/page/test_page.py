@@ -15,7 +15,7 @@ import pytest
 
 from hess_explorer.assets import modules_path
 from hess_explorer.headless.browser import wait_ready
-from hess_explorer.headless.screenshot import running_server
+from hess_explorer.headless.screenshot import server_process
 from hess_explorer.protocol.parameters import MAX_QUERY
 from support.page import (
     DEFAULTS,
@@ -421,7 +421,7 @@ def test_a_page_whose_server_has_ended_keeps_its_pictures_and_plays_on(browser, 
     closed = []
     page.on("websocket", lambda socket: socket.on("close", lambda _: closed.append(socket)))
     names = ("data-orbit", "circle-map", "bifurcation-here", "bifurcation-boundary")
-    with running_server(tmp_path / "server.log", UNWARMED) as base:
+    with server_process(tmp_path / "server.log", UNWARMED) as (_, base):
         explorer = Explorer(page, base).open("h=0.75")
         before = {name: explorer.data(name) for name in names}
         captions = [explorer.caption(name) for name in PICTURES]

@@ -13,7 +13,7 @@ import pytest
 from playwright.sync_api import expect
 
 from hess_explorer.headless.browser import wait_ready
-from hess_explorer.headless.screenshot import running_server
+from hess_explorer.headless.screenshot import server_process
 from hess_explorer.scenes import scenes
 from hess_mechanics import level, solve
 from hess_mechanics.numerics.accuracy import LEVELS
@@ -578,7 +578,7 @@ SENTENCE = "That would take too many steps: choose a shorter time span."
 def refusing(browser, tmp_path_factory):
     """A page whose server refuses time spans above 100: no admissible state is refused by the mechanics themselves."""
     log = tmp_path_factory.mktemp("refusing") / "server.log"
-    with running_server(log, ("-c", REFUSING)) as base:
+    with server_process(log, ("-c", REFUSING)) as (_, base):
         yield from one_tab(browser, base)
     assert "Traceback" not in log.read_text()
 

@@ -26,7 +26,7 @@ serving.warm = lambda first_is_ready: first_is_ready()
 main()
 """,
 )
-"""What Python is told to run as a server, for `running_server`."""
+"""What Python is told to run as a server, for `server_process`."""
 
 
 @contextmanager

@@ -28,35 +28,11 @@ if TYPE_CHECKING:
 
 __all__ = ["RATE", "as_film", "moves", "pictures_at", "times_of"]
 
-_CODECS: Mapping[str, tuple[str, ...]] = {
-    "webm": (
-        "-c:v",
-        "libvpx-vp9",
-        "-b:v",
-        "0",
-        "-crf",
-        "30",
-        "-deadline",
-        "realtime",
-        "-cpu-used",
-        "6",
-        "-pix_fmt",
-        "yuv420p",
-    ),
-    "mp4": (
-        "-c:v",
-        "libx264",
-        "-preset",
-        "veryfast",
-        "-crf",
-        "20",
-        "-movflags",
-        "+faststart+use_metadata_tags",
-        "-pix_fmt",
-        "yuv420p",
-    ),
+_CODECS: Mapping[str, str] = {
+    "webm": "-c:v libvpx-vp9 -b:v 0 -crf 30 -deadline realtime -cpu-used 6 -pix_fmt yuv420p",
+    "mp4": "-c:v libx264 -preset veryfast -crf 20 -movflags +faststart+use_metadata_tags -pix_fmt yuv420p",
     # The colours of the film itself, which are few.
-    "gif": ("-filter_complex", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none"),
+    "gif": "-filter_complex split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none",
 }
 """What ffmpeg is told for each format: thin lines stay clear, and a minute of them is some megabytes."""
 
@@ -167,21 +143,8 @@ def as_film(
         tags = {"title": shown.title, "comment": shown.said, "description": shown.caption}
         command = [
             imageio_ffmpeg.get_ffmpeg_exe(),
-            "-loglevel",
-            "error",
-            "-f",
-            "rawvideo",
-            "-pix_fmt",
-            "rgb24",
-            "-s",
-            f"{_side(width)}x{_side(width)}",
-            "-r",
-            str(RATE),
-            "-i",
-            "-",
-            *_CODECS[kind],
-            "-threads",
-            "1",
+            *f"-loglevel error -f rawvideo -pix_fmt rgb24 -s {_side(width)}x{_side(width)} -r {RATE} -i -".split(),
+            *f"{_CODECS[kind]} -threads 1".split(),
             *(part for name, text in tags.items() for part in ("-metadata", f"{name}={text}")),
             str(path),
         ]

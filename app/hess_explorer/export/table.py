@@ -17,10 +17,10 @@ from hess_explorer.export.shown import Shown
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.plot import Plot
 
-__all__ = ["Block", "as_csv", "as_json", "blocks", "names_of", "rows"]
+__all__ = ["Block", "as_csv", "as_json", "blocks", "names_of"]
 
 _FIRST = ("layer", "part", "ring")
-Row = dict[str, Any]
+_GRID = ("image", "x", "y", "dw", "dh")
 Block = Mapping[str, NDArray[Any]]
 """Columns of equal length by name, "layer" the first of them."""
 
@@ -35,15 +35,6 @@ def blocks(shown: Shown) -> list[Block]:
         {"layer": np.full(len(next(iter(block.values()))), layer), **block}
         for layer, columns in _layers(shown).items()
         for block in _blocks_of(columns)
-    ]
-
-
-def rows(shown: Shown) -> list[Row]:
-    """The same, one row for each point."""
-    return [
-        dict(zip(block, numbers, strict=True))
-        for block in blocks(shown)
-        for numbers in zip(*(column.tolist() for column in block.values()), strict=True)
     ]
 
 
@@ -130,9 +121,7 @@ def _axes(shown: Shown) -> dict[str, Any]:
 
 def _blocks_of(columns: Columns) -> Iterator[dict[str, NDArray[Any]]]:
     if "image" in columns:
-        for cells, x, y, width, height in zip(
-            *(columns[name] for name in ("image", "x", "y", "dw", "dh")), strict=True
-        ):
+        for cells, x, y, width, height in zip(*(columns[name] for name in _GRID), strict=True):
             m, n = cells.shape
             across, up = x + (np.arange(n) + 0.5) * width / n, y + (np.arange(m) + 0.5) * height / m
             yield {"x": np.tile(across, m), "y": np.repeat(up, n), "value": cells.ravel()}
@@ -171,7 +160,7 @@ def _besides(shown: Shown) -> dict[str, Any]:
         f"{layer}.{name}": _plain(column)
         for layer, columns in _layers(shown).items()
         for name, column in columns.items()
-        if name not in ("xs", "ys", "image", "x", "y", "dw", "dh") and not _is_column(column)
+        if name not in ("xs", "ys", *_GRID) and not _is_column(column)
     }
 
 

@@ -1,12 +1,9 @@
-"""A headless Chromium: found or installed, started, and waited for until the page is ready."""
+"""A headless Chromium: found, started, and waited for until the page is ready."""
 
 from __future__ import annotations
 
 import os
-import platform
 import shutil
-import subprocess
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,11 +12,10 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserType, Page
 
-__all__ = ["BrowserError", "find_browser", "install_browser", "launched", "wait_ready"]
+__all__ = ["BrowserError", "find_browser", "is_root", "launched", "wait_ready"]
 
 VARIABLE = "HESS_EXPLORER_BROWSER"
 _COMMANDS = ("chromium", "chromium-headless-shell", "google-chrome")
-_INSTALL_SECONDS = 900
 _POLLING_MS = 10
 # No third-party requests by the browser itself.  Most are Playwright's defaults; here they are a promise.
 _QUIET = ("--disable-background-networking", "--disable-component-update", "--disable-domain-reliability", "--no-pings")
@@ -47,54 +43,26 @@ def find_browser(playwright_own: str) -> str | None:
     return playwright_own if Path(playwright_own).exists() else None
 
 
-def _is_root() -> bool:
+def is_root() -> bool:
+    """Return whether this process runs as root."""
     return hasattr(os, "geteuid") and os.geteuid() == 0
 
 
-def _is_debian() -> bool:
-    try:
-        return platform.freedesktop_os_release().get("ID") == "debian"
-    except OSError:
-        return False
-
-
-def install_browser() -> None:
-    """Install a Chromium from Debian (as root there) or through Playwright.  Raises `BrowserError`."""
-    if _is_root() and _is_debian():
-        commands = [
-            ["apt-get", "update"],
-            ["apt-get", "install", "-y", "--no-install-recommends", "chromium-headless-shell"],
-        ]
-    else:
-        commands = [[sys.executable, "-m", "playwright", "install", "--with-deps", "chromium"]]
-    for command in commands:
-        try:
-            subprocess.run(command, check=True, stdin=subprocess.DEVNULL, timeout=_INSTALL_SECONDS)
-        except (OSError, subprocess.SubprocessError) as error:
-            raise BrowserError(
-                f"No Chromium was found and `{' '.join(command)}` failed ({error}): "
-                f"install Chromium and name it in {VARIABLE}."
-            ) from error
-
-
 @contextmanager
-def launched(*, install: bool = False) -> Iterator[Browser]:
-    """A running headless browser; with `install` one is installed if there is none.  Raises `BrowserError`."""
+def launched() -> Iterator[Browser]:
+    """A running headless browser; Raises `BrowserError`."""
     try:
         from playwright.sync_api import sync_playwright
     except ImportError as error:
         raise BrowserError("This needs Playwright: install it with `pip install playwright`.") from error
     with sync_playwright() as playwright:
         path = find_browser(playwright.chromium.executable_path)
-        if path is None and install:
-            install_browser()
-            path = find_browser(playwright.chromium.executable_path)
         if path is None:
             raise BrowserError(
                 f"No Chromium was found: install one (`playwright install chromium`) or name it in {VARIABLE}."
             )
         # Chromium refuses to run as root with its sandbox.
-        browser = _launch(playwright.chromium, path, sandbox=not _is_root())
+        browser = _launch(playwright.chromium, path, sandbox=not is_root())
         try:
             yield browser
         finally:

@@ -14,7 +14,7 @@ from pathlib import Path
 from hess_explorer.headless.browser import BrowserError, launched, wait_ready
 from hess_explorer.server.liveness import is_alive
 
-__all__ = ["ServerError", "free_port", "running_server", "screenshot", "server_process", "wait_alive"]
+__all__ = ["ServerError", "free_port", "screenshot", "server_process", "wait_alive"]
 
 _PROGRAM = ("-m", "hess_explorer")
 _START_SECONDS = 60
@@ -42,13 +42,6 @@ def wait_alive(process: subprocess.Popen[bytes], port: int, log: Path) -> None:
             said = log.read_text(errors="replace").strip().splitlines()
             raise ServerError(f"The server did not start ({said[-1] if said else 'silent'}).")
         time.sleep(0.1)
-
-
-@contextmanager
-def running_server(log: Path, program: Sequence[str] = _PROGRAM) -> Iterator[str]:
-    """`server_process`; yields its base URL."""
-    with server_process(log, program) as (_, base):
-        yield base
 
 
 @contextmanager
@@ -85,7 +78,7 @@ def screenshot(query: str, size: tuple[int, int], *, dark: bool = False) -> byte
     with launched() as browser, tempfile.TemporaryDirectory() as folder:
         from playwright.sync_api import Error
 
-        with running_server(Path(folder) / "server.log") as base:
+        with server_process(Path(folder) / "server.log") as (_, base):
             page = browser.new_page(
                 viewport={"width": size[0], "height": size[1]},
                 color_scheme="dark" if dark else "light",

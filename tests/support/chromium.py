@@ -1,0 +1,52 @@
+"""A headless Chromium for the tests, installed where there is none."""
+
+from __future__ import annotations
+
+import platform
+import subprocess
+import sys
+from contextlib import ExitStack, contextmanager
+
+from hess_explorer.headless.browser import VARIABLE, BrowserError, is_root, launched
+
+__all__ = ["install_browser", "launched_or_installed"]
+
+_INSTALL_SECONDS = 900
+
+
+@contextmanager
+def launched_or_installed():
+    """Return a running headless browser; one is installed if there is none.  Raises `BrowserError`."""
+    with ExitStack() as stack:
+        try:
+            running = stack.enter_context(launched())
+        except BrowserError:
+            install_browser()
+            running = stack.enter_context(launched())
+        yield running
+
+
+def _is_debian():
+    try:
+        return platform.freedesktop_os_release().get("ID") == "debian"
+    except OSError:
+        return False
+
+
+def install_browser():
+    """Install a Chromium from Debian (as root there) or through Playwright.  Raises `BrowserError`."""
+    if is_root() and _is_debian():
+        commands = [
+            ["apt-get", "update"],
+            ["apt-get", "install", "-y", "--no-install-recommends", "chromium-headless-shell"],
+        ]
+    else:
+        commands = [[sys.executable, "-m", "playwright", "install", "--with-deps", "chromium"]]
+    for command in commands:
+        try:
+            subprocess.run(command, check=True, stdin=subprocess.DEVNULL, timeout=_INSTALL_SECONDS)
+        except (OSError, subprocess.SubprocessError) as error:
+            raise BrowserError(
+                f"No Chromium was found and `{' '.join(command)}` failed ({error}): "
+                f"install Chromium and name it in {VARIABLE}."
+            ) from error
