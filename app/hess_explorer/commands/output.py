@@ -21,12 +21,14 @@ if TYPE_CHECKING:
     from hess_mechanics import BodyCheck, CircleMap, Orbit, SectionCrossings, Spectrum
     from hess_mechanics.chaplygin_ball.integrable_cases import Period
     from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
+    from hess_mechanics.numerics.labelled import Labelled
     from hess_mechanics.suslov.scattering import Scattering
 
 __all__ = [
     "LONG",
     "PATIENCE",
     "Answer",
+    "columns",
     "computing",
     "quality",
     "show",
@@ -142,6 +144,12 @@ def quality(result: CircleMap | Cloud | Orbit | Period | Scattering | SectionCro
         "steps": result.cost.steps,
         "wall_ms": result.cost.wall_ms,
     }
+
+
+def columns(result: Labelled) -> dict[str, list[Any]]:
+    """Return the numbers of a result by their names: coordinates, then variables."""
+    known = result.labels()
+    return {name: values.tolist() for name, (_, values) in {**known.coords, **known.variables}.items()}
 
 
 def whether_body(check: BodyCheck) -> dict[str, Any]:

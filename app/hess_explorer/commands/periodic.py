@@ -9,7 +9,7 @@ from hess_mechanics import Branch, Manifold, PeriodicOrbit, ReturnMap, continued
 from .arguments import assigned
 from .arguments import number as any_number
 from .command import Options, option, whole
-from .output import Answer
+from .output import Answer, columns
 from .sections import command_of_sections
 
 __all__ = ["COMMAND"]
@@ -29,13 +29,7 @@ def _computed(section: ReturnMap, options: Options) -> Answer:
                 for side in (1, -1)
             ],
         )
-    return Answer(
-        {
-            "return": list(range(orbit.period)),
-            **{name: orbit.places[:, i].tolist() for i, name in enumerate(orbit.names)},
-        },
-        _facts(orbit),
-    )
+    return Answer(columns(orbit), _facts(orbit))
 
 
 def _pair(value: complex) -> list[float]:
@@ -58,14 +52,6 @@ def _facts(orbit: PeriodicOrbit) -> dict[str, Any]:
 
 
 def _of_branch(branch: Branch) -> Answer:
-    series: dict[str, Any] = {
-        branch.parameter: branch.values.tolist(),
-        **{name: branch.places[:, 0, i].tolist() for i, name in enumerate(branch.names)},
-    }
-    for i in range(branch.multipliers.shape[1]):
-        series[f"real{i + 1}"] = branch.multipliers[:, i].real.tolist()
-        series[f"imag{i + 1}"] = branch.multipliers[:, i].imag.tolist()
-    series |= {"kind": list(branch.kinds), "error": branch.errors.tolist()}
     found = [
         {
             "kind": one.kind,
@@ -77,7 +63,7 @@ def _of_branch(branch: Branch) -> Answer:
         for one in branch.bifurcations
     ]
     return Answer(
-        series,
+        columns(branch),
         {
             "period": branch.period,
             "bifurcations": found,

@@ -8,7 +8,7 @@ from hess_mechanics import Dynamics, Regime, ReturnMap, dynamics_of, regime
 from hess_mechanics.parameters import TIME
 
 from .command import Options, flag, number, whole
-from .output import Answer
+from .output import Answer, columns
 from .sections import command_of_sections
 
 __all__ = ["COMMAND"]
@@ -16,21 +16,11 @@ __all__ = ["COMMAND"]
 
 def _computed(section: ReturnMap, options: Options) -> Answer:
     asked = {"transient": options.transient, "kept": options.crossings, "t": options.t}
-    both = dynamics_of(section, options.at, **asked) if options.dynamics else None
-    found = regime(section, options.at, **asked) if both is None else both.motion
-    if both is None:
-        return Answer({name: found.places[:, i].tolist() for i, name in enumerate(found.names)}, _facts(found))
-    sets = {"attractor": both.attractor, "repeller": both.repeller}
-    return Answer(
-        {
-            "set": [name for name, places in sets.items() for _ in places],
-            **{
-                name: [x for places in sets.values() for x in places[:, i].tolist()]
-                for i, name in enumerate(found.names)
-            },
-        },
-        {**_facts(found), **_compared(both)},
-    )
+    if options.dynamics:
+        both = dynamics_of(section, options.at, **asked)
+        return Answer(columns(both), {**_facts(both.motion), **_compared(both)})
+    found = regime(section, options.at, **asked)
+    return Answer(columns(found), _facts(found))
 
 
 def _facts(found: Regime) -> dict[str, Any]:
