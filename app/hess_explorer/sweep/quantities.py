@@ -80,23 +80,25 @@ def _scattered(body: SuslovBody, level: Level) -> Scattering:
     return scattering(body, level)
 
 
-def _theta_plus(level: Level, I11: float, I22: float, I13: float, I23: float, theta: float, phi: float) -> Cell:
-    found = _scattered(SuslovBody(I11, I22, I13, I23), level)
+def _theta_plus(level: Level, theta: float, phi: float, **tensor: float) -> Cell:
+    found = _scattered(SuslovBody(**tensor), level)
     return Cell(float(found.theta_plus(theta, phi)), found.error_estimate, found.status)
 
 
-def _cos_chi(level: Level, I11: float, I22: float, I13: float, I23: float) -> Cell:
-    return Cell(cos_chi(SuslovBody(I11, I22, I13, I23)))
+def _cos_chi(level: Level, **tensor: float) -> Cell:
+    return Cell(cos_chi(SuslovBody(**tensor)))
 
 
 # ---- periods ----------------------------------------------------------------------------------------------------
 
 
-def _period(
-    level: Level, I11: float, I22: float, b1: float, b2: float, w1: float, w2: float, g1: float, g2: float, g3: float
-) -> Cell:
+def _start(w1: float, w2: float, g1: float, g2: float, g3: float) -> tuple[float, ...]:
     gamma, _ = unit_vector((g1, g2, g3))
-    found = arc(PlaneBody(I11, I22, b1, b2), (w1, w2, *gamma))
+    return w1, w2, *gamma
+
+
+def _period(level: Level, I11: float, I22: float, b1: float, b2: float, **start: float) -> Cell:
+    found = arc(PlaneBody(I11, I22, b1, b2), _start(**start))
     if found.kind != "periodic":
         raise NoValue(
             "This motion rests on the equator and has no period."
@@ -106,31 +108,16 @@ def _period(
     return Cell(found.period)
 
 
-def _ball_period(
-    level: Level,
-    I11: float,
-    I22: float,
-    b1: float,
-    b2: float,
-    D: float,
-    w1: float,
-    w2: float,
-    g1: float,
-    g2: float,
-    g3: float,
-) -> Cell:
-    gamma, _ = unit_vector((g1, g2, g3))
-    found = period(BallBody(I11, I22, 0.0, 0.0, D, b1, b2, 0.0), (w1, w2, *gamma), level)
+def _ball_period(level: Level, I11: float, I22: float, b1: float, b2: float, D: float, **start: float) -> Cell:
+    found = period(BallBody(I11, I22, 0.0, 0.0, D, b1, b2, 0.0), _start(**start), level)
     return Cell(found.value, found.error_estimate, found.status)
 
 
 # ---- Chaplygin ball ---------------------------------------------------------------------------------------------
 
 
-def _ball_theta_plus(
-    level: Level, I11: float, I22: float, I13: float, I23: float, D: float, theta: float, phi: float, distance: float
-) -> Cell:
-    found = ball_scattering(BallBody(I11, I22, I13, I23, D), theta, [phi], 1.0, distance, level)
+def _ball_theta_plus(level: Level, theta: float, phi: float, distance: float, **body: float) -> Cell:
+    found = ball_scattering(BallBody(**body), theta, [phi], 1.0, distance, level)
     return Cell(float(found.theta_plus[0]), float(found.errors[0]), found.status)
 
 

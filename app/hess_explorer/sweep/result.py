@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import math
 import shutil
+from collections.abc import Callable, Mapping
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -20,7 +21,7 @@ from hess_explorer.sweep.dataset import described
 from hess_explorer.sweep.errors import OtherSweep, StoreError
 from hess_explorer.sweep.grid import MAX_NUMBERS, Box, SweepGrid
 from hess_explorer.sweep.quantities import QUANTITIES
-from hess_explorer.sweep.quantity import Outcome, Outcomes, Quantity
+from hess_explorer.sweep.quantity import Outcome, Quantity
 from hess_explorer.sweep.work import Done, version
 from hess_mechanics.errors import MissingLibrary
 
@@ -41,12 +42,6 @@ def require_libraries() -> None:
 class Kept(Protocol):
     """Where finished boxes go."""
 
-    shape: tuple[int, ...]
-    """Of a box."""
-
-    def has(self, box: Box) -> bool:
-        """Whether this box is done."""
-
     def write(self, box: Box, done: Done) -> None:
         """Keep a box.  Raises `StoreError`."""
 
@@ -62,8 +57,18 @@ def _slices(box: Box) -> tuple[slice, ...]:
     return tuple(slice(low, high) for low, high in box)
 
 
-def _described(what: Quantity, grid: SweepGrid, level: str, values: Any, errors: Any, status: Any) -> xr.Dataset:
-    """A Dataset with names, units and words, around arrays of any kind."""
+def _names(what: Quantity) -> tuple[str, ...]:
+    """The arrays of a sweep in the order in which a box is written: the status last."""
+    return what.variable, *(("error",) if what.error else ()), "status"
+
+
+def _write(arrays: Mapping[str, Any], box: Box, done: Done) -> None:
+    for array, part in zip(arrays.values(), (done.values, *done.errors, done.status), strict=True):
+        array[_slices(box)] = part
+
+
+def _empty(what: Quantity, grid: SweepGrid, level: str, filled: Callable[[tuple[int, ...], Any], Any]) -> xr.Dataset:
+    """A Dataset with names, units and words, without a finished cell; filled(shape, value) : an array of any kind."""
     known = {one.name: one for one in what.parameters}
     axes = {
         name: (
@@ -80,9 +85,9 @@ def _described(what: Quantity, grid: SweepGrid, level: str, values: Any, errors:
     return described(
         what,
         axes,
-        values,
-        status,
-        errors if what.error else None,
+        filled((*grid.shape, *((len(what.parts),) if what.parts else ())), np.nan),
+        filled(grid.shape, np.uint8(Outcome.NOT_COMPUTED)),
+        filled(grid.shape, np.nan) if what.error else None,
         parts=what.parts,
         program=_PROGRAM,
         version=version(),
@@ -91,37 +96,22 @@ def _described(what: Quantity, grid: SweepGrid, level: str, values: Any, errors:
     )
 
 
-def _arrays(what: Quantity, grid: SweepGrid) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """The shapes of the values and of the status."""
-    return (*grid.shape, *((len(what.parts),) if what.parts else ())), grid.shape
-
-
 class Memory:
     """Finished boxes in memory."""
 
     said = ""
 
-    def __init__(self, what: Quantity, grid: SweepGrid, level: str, shape: tuple[int, ...]) -> None:
-        self.shape = shape
-        self._what, self._grid, self._level = what, grid, level
-        of_values, of_status = _arrays(what, grid)
-        self._values, self._errors = np.full(of_values, np.nan), np.full(of_status, np.nan)
-        self._status: Outcomes = np.zeros(of_status, np.uint8)
-
-    def has(self, box: Box) -> bool:
-        """Whether this box is done."""
-        return bool(self._status[_slices(box)].all())
+    def __init__(self, what: Quantity, grid: SweepGrid, level: str) -> None:
+        self._dataset = _empty(what, grid, level, np.full)
+        self._arrays = {name: self._dataset[name].values for name in _names(what)}
 
     def write(self, box: Box, done: Done) -> None:
         """Keep a box."""
-        own = _slices(box)
-        self._values[own], self._status[own] = done.values, done.status
-        if done.errors is not None:
-            self._errors[own] = done.errors
+        _write(self._arrays, box, done)
 
     def dataset(self) -> xr.Dataset:
         """What there is."""
-        return _described(self._what, self._grid, self._level, self._values, self._errors, self._status)
+        return self._dataset
 
 
 class Store:
@@ -133,7 +123,7 @@ class Store:
 
         self.path, self._what = path, what
         group = _group(path, "r+")
-        found = {name: group.get(name) for name in (what.variable, "status", *(["error"] if what.error else []))}
+        found = {name: group.get(name) for name in _names(what)}
         if not all(isinstance(array, zarr.Array) for array in found.values()):
             raise StoreError(f"{str(path)!r} is no whole store of a sweep: choose another folder.")
         self._arrays: dict[str, Any] = found
@@ -144,15 +134,7 @@ class Store:
         """Make a store with boxes of this shape, nothing in it.  Raises `StoreError`."""
         from zarr.codecs import Crc32cCodec, ZstdCodec
 
-        of_values, of_status = _arrays(what, grid)
-        empty = _described(
-            what,
-            grid,
-            level,
-            np.broadcast_to(np.nan, of_values),
-            np.broadcast_to(np.nan, of_status),
-            np.broadcast_to(np.uint8(0), of_status),
-        )
+        empty = _empty(what, grid, level, lambda of, value: np.broadcast_to(value, of))
         # Checksums tell a file that is not whole.  Doubles of a chart are as good as noise: packing them takes more
         # than it saves; how cells ended is mostly one number.
         packed = {"status": ZstdCodec(level=1, checksum=True)}
@@ -211,26 +193,17 @@ class Store:
         """Whether this box is done, and can be read."""
         own = _slices(box)
         try:
-            status = self._arrays["status"][own]
-            if not status.all():
-                return False
-            values = self._arrays[self._what.variable][own]
-            if self._what.error:
-                self._arrays["error"][own]
+            values, *_, status = (array[own] for array in self._arrays.values())
         # Whatever the decoder says of a file that is not whole.
         except (OSError, ValueError, RuntimeError):
             return False
         known = (status >= Outcome.OK) & (status < Outcome.OUTSIDE_REGION)
-        return bool(np.isfinite(values[known]).all())
+        return bool(status.all() and np.isfinite(values[known]).all())
 
     def write(self, box: Box, done: Done) -> None:
         """Keep a box: the status last."""
-        own = _slices(box)
         try:
-            self._arrays[self._what.variable][own] = done.values
-            if done.errors is not None:
-                self._arrays["error"][own] = done.errors
-            self._arrays["status"][own] = done.status
+            _write(self._arrays, box, done)
         except OSError as error:
             raise StoreError(f"{str(self.path)!r} cannot be written ({error.strerror}).  {self.said}") from error
 

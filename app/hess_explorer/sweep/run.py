@@ -98,14 +98,15 @@ def sweep(
     accuracy = as_level(level)
     grid = SweepGrid.of(what, over, fixed, most_cells)
     path = None if store is None else Path(store)
-    kept: Kept | None = None if path is None else opened(path, what, grid, level)
+    begun = None if path is None else opened(path, what, grid, level)
+    kept: Kept | None = begun
     todo: Iterable[Box] = ()
     missing = grid.cells
-    if kept is not None:
-        todo = [box for box in grid.boxes(kept.shape) if not kept.has(box)]
+    if begun is not None:
+        todo = [box for box in grid.boxes(begun.shape) if not begun.has(box)]
         missing = sum(map(_size, todo))
         if not missing:
-            return kept.dataset()
+            return begun.dataset()
     try:
         with ExitStack() as stack:
             interrupted = stack.enter_context(_ctrl_c())
@@ -118,9 +119,7 @@ def sweep(
                 if interrupted.is_set():
                     raise KeyboardInterrupt("stopped before anything was computed.")
                 shape = grid.box_of(_cells_of_a_piece(what, grid, accuracy, hands.size))
-                kept = (
-                    Memory(what, grid, level, shape) if path is None else Store.create(path, what, grid, level, shape)
-                )
+                kept = Memory(what, grid, level) if path is None else Store.create(path, what, grid, level, shape)
                 todo = grid.boxes(shape)
             pieces = ((box, Chunk(what.name, level, version(), grid.pieces(box), grid.fixed)) for box in todo)
             report = stack.enter_context(reporting(progress, grid.cells, grid.cells - missing))

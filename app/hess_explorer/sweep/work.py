@@ -44,11 +44,11 @@ class Chunk:
 class Done:
     """The outcome at the cells of a box, in its shape; values with one more axis where there are several at a cell.
 
-    errors : None where the quantity has no estimate.
+    errors : one array, none where the quantity has no estimate.
     """
 
     values: Array
-    errors: Array | None
+    errors: tuple[Array, ...]
     status: Outcomes
 
 
@@ -64,7 +64,7 @@ def compute(piece: Chunk) -> Done:
     shape = tuple(part.size for part in piece.axes.values())
     return Done(
         found.values.reshape(*shape, *found.values.shape[1:]),
-        found.errors.reshape(shape) if what.error else None,
+        (found.errors.reshape(shape),) if what.error else (),
         found.status.reshape(shape),
     )
 
