@@ -30,7 +30,7 @@ _FAINT = 0.3
 
 def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
     """What no motion changes, and lies beneath what moves: the far half, and the near one where only a point moves."""
-    canvas = SphereCanvas(frame, (shown.client["az"], shown.client["el"]), colour)
+    canvas = _canvas(frame, shown, colour)
     canvas.prepare()
     _half(canvas, shown, False)
     if not _has_guest(shown):
@@ -40,7 +40,7 @@ def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
 
 def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float, point: bool) -> None:
     """The body or the clouds at a time, with what lies over them; point : the moving point too."""
-    canvas = SphereCanvas(frame, (shown.client["az"], shown.client["el"]), colour)
+    canvas = _canvas(frame, shown, colour)
     # Over all that is still.
     canvas.start(2.0)
     picture, columns = shown.picture, shown.columns
@@ -59,6 +59,10 @@ def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float, point: boo
     state = state_at(columns.get("data-orbit", {}), shown.scene.angles, t) if point else {}
     if isinstance(picture, Sphere) and "g1" in state:
         _point(canvas, [state[name] for name in ("g1", "g2", "g3")])
+
+
+def _canvas(frame: Frame, shown: Shown, colour: Colour) -> SphereCanvas:
+    return SphereCanvas(frame, (shown.client["az"], shown.client["el"]), colour)
 
 
 def _has_guest(shown: Shown) -> bool:

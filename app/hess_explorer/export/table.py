@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hess_explorer.export.shown import Shown
-from hess_explorer.views.layers import Columns
+from hess_explorer.views.layers import Columns, Sources
 from hess_explorer.views.plot import Plot
 
 __all__ = ["Block", "as_csv", "as_json", "blocks", "names_of"]
@@ -67,9 +67,9 @@ def as_json(shown: Shown) -> str:
     return json.dumps({**shown.facts, **_axes(shown), "layers": layers}, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def _layers(shown: Shown) -> dict[str, Columns]:
+def _layers(shown: Shown) -> Sources:
     """The columns by layer: "plot-layer" → "layer", a track of the scene by its name; clouds at the link's time."""
-    found: dict[str, Columns] = {}
+    found: Sources = {}
     own = f"{shown.picture.name}-"
     for source, columns in sorted(shown.columns.items()):
         layer = source.removeprefix(own).removeprefix("data-")
@@ -96,7 +96,7 @@ def _never(column: Any) -> bool:
     return False
 
 
-def _clouds(columns: Columns, time: float) -> dict[str, Columns]:
+def _clouds(columns: Columns, time: float) -> Sources:
     """The points at the frame next to a time: u along the line of equilibria, ln|s|, the sign of s, γ; or ω and γ."""
     frame = int(np.argmin(np.abs(columns["times"] - time)))
     at = float(columns["times"][frame])
@@ -106,7 +106,7 @@ def _clouds(columns: Columns, time: float) -> dict[str, Columns]:
         return {"t": np.full(block.shape[1], at), **dict(zip(names, block, strict=True))}
 
     gamma = ("g1", "g2", "g3")
-    found: dict[str, Columns] = {"cloud": {**there("frames0", ("u", "log_s", *gamma)), "sign": columns["signs0"]}}
+    found: Sources = {"cloud": {**there("frames0", ("u", "log_s", *gamma)), "sign": columns["signs0"]}}
     if "frames1" in columns:
         found["beside"] = there("frames1", ("omega1", "omega2", *gamma))
     return found

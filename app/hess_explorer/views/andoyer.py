@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import TypeVar
 
 import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
-from hess_explorer.views.layers import Layer, curves, dots, line, ring
+from hess_explorer.views.layers import Layers, Positions, curves, dots, line, ring
 from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.results import Array
 
@@ -50,8 +50,8 @@ def picture(
 def between(
     elsewhere: Callable[[S], Array],
     curve: Callable[[S], tuple[Array, Array]],
-    across: Callable[[S], Sequence[tuple[float, float]]],
-) -> tuple[Layer[S], ...]:
+    across: Callable[[S], Positions],
+) -> Layers[S]:
     """What lies between the orbits of a section and the chosen ones, whose track is drawn too.
 
     elsewhere : points (n, 2) on another sheet; curve : l and L/G of the Hess relation.

@@ -9,7 +9,19 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Frame
-from hess_explorer.views.layers import TURNS, Axes, CellGrid, Layer, curves, image, points, region, target
+from hess_explorer.views.layers import (
+    TURNS,
+    Axes,
+    CellGrid,
+    Layers,
+    Positions,
+    Regions,
+    curves,
+    image,
+    points,
+    region,
+    target,
+)
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.accuracy import DRAFT
 from hess_mechanics.numerics.results import Array
@@ -40,14 +52,14 @@ def _mirrored(half: Array) -> list[Array]:
     return [half, half * (1.0, -1.0)]
 
 
-def impossible(curve: Array, axes: Axes) -> list[list[Array]]:
+def impossible(curve: Array, axes: Axes) -> Regions:
     """For a `region`: everything outside the curve, whose upper branch (n, 2) is given."""
     top = axes.y[1]
     edge = [[axes.x[0], 0.0], *curve, [axes.x[1], top], [axes.x[0], top]]
     return [[one] for one in _mirrored(np.array(edge))]
 
 
-def _locked(boundary: Array, axes: Axes) -> list[list[Array]]:
+def _locked(boundary: Array, axes: Axes) -> Regions:
     """The zone right of |t| = 2; where that ends on the curve it goes on along it, and the grey covers the rest."""
     if len(boundary) == 0:
         return []
@@ -62,10 +74,10 @@ def layers(
     rotation: Callable[[S], CellGrid],
     boundary: Callable[[S], Array],
     curve: Callable[[S], Array],
-    here: Callable[[S], Sequence[tuple[float, float]]],
+    here: Callable[[S], Positions],
     axes: Callable[[S], Axes],
     proved: Callable[[S], Sequence[Array]],
-) -> tuple[Layer[S], ...]:
+) -> Layers[S]:
     """Colours: rotation number ρ.  One tone where it is locked.  Grey: no motion.  A ring: the torus on show.
 
     rotation : over the window; boundary : |t| = 2, (n, 2) with f ≥ 0; curve : upper branch of the edge, (n, 2);

@@ -10,9 +10,9 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Axes, Columns, Sign, column
+from hess_explorer.views.layers import Sign, Sources, column
 from hess_explorer.views.picture import Picture
-from hess_explorer.views.poisson_sphere import Circle, Mark
+from hess_explorer.views.poisson_sphere import Circle, Direction, Mark, drawn
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.attitude import Attitude, Lying
 
@@ -127,15 +127,15 @@ class BodyInSpace(Picture[S]):
     bare : without the lines of the sphere.
     """
 
-    shape: Callable[[S], Shape | None] | None = None
+    shape: Callable[[S], Shape | None] = lambda state: None
     motion: Callable[[S], tuple[Attitude | Lying, Array] | None] | None = None
     wheels: Callable[[S], Wheels] | None = None
     trail: Callable[[S], Trail] | None = None
     hollow: bool = False
-    heavy: Callable[[S], bool] | None = None
+    heavy: Callable[[S], bool] = lambda state: True
     attitude: str = ""
-    rods: Callable[[S], Sequence[Rod]] | None = None
-    curves: Callable[[S], Sequence[Curve]] | None = None
+    rods: Callable[[S], Sequence[Rod]] = lambda state: ()
+    curves: Callable[[S], Sequence[Curve]] = lambda state: ()
     circles: Sequence[Circle] = ()
     marks: Sequence[Mark] = ()
     bare: bool = False
@@ -168,12 +168,12 @@ class BodyInSpace(Picture[S]):
             "bare": self.bare,
         }
 
-    def data(self, state: S) -> dict[str, Columns]:
+    def data(self, state: S) -> Sources:
         """The body, its motion, and what is drawn beside."""
-        shape = None if self.shape is None else self.shape(state)
+        shape = self.shape(state)
         motion = None if self.motion is None else self.motion(state)
         if self.motion is not None and motion is None:
-            return self.nothing("", None)
+            return {self.name: {}}
         columns: dict[str, Any] = {}
         if motion is not None:
             attitude, times = motion
@@ -195,20 +195,12 @@ class BodyInSpace(Picture[S]):
         if self.trail is not None:
             trail = self.trail(state)
             columns["trail"] = [*map(float, trail.along), trail.look]
-        rods = () if self.rods is None else self.rods(state)
-        curves = () if self.curves is None else self.curves(state)
+        label = "γ, gravity" if self.heavy(state) else "γ"
         return {
             self.name: {
                 **columns,
-                "rods": [[*map(float, one.along), one.look, one.label] for one in rods],
-                "curves": [[one.look, one.weight, *column(seen_in_space(one.points).T)] for one in curves],
-                "axis": [0.0, 0.0, -1.0],
-                "label": "γ, gravity" if self.heavy is None or self.heavy(state) else "γ",
-                "circles": [[*map(float, one.axis), float(one.height), one.look] for one in self.circles],
-                "marks": [[*map(float, one.at), one.look, one.label] for one in self.marks],
+                "rods": [[*map(float, one.along), one.look, one.label] for one in self.rods(state)],
+                "curves": [[one.look, one.weight, *column(seen_in_space(one.points).T)] for one in self.curves(state)],
+                **drawn(Direction((0.0, 0.0, -1.0), label), self.circles, self.marks),
             }
         }
-
-    def nothing(self, sentence: str, axes: Axes | None) -> dict[str, Columns]:
-        """The empty sphere; the reason is for the caption to say."""
-        return {self.name: {}}

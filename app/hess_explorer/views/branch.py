@@ -8,7 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Axes, Layer, curves, names, points
+from hess_explorer.views.layers import Axes, Layers, curves, names, points
 from hess_explorer.views.periodic import seen, sign_of, within
 from hess_mechanics.dynamics.continuation import Bifurcation, Branch
 from hess_mechanics.numerics.results import Array
@@ -55,7 +55,7 @@ def _ended(found: list[Array], run: list[tuple[float, float]]) -> list[tuple[flo
 
 def layers(
     branches: Callable[[S], Sequence[Branch]], side: Callable[[S], int], turn: Callable[[S], float]
-) -> tuple[Layer[S], ...]:
+) -> Layers[S]:
     """Branches over their parameter, to the right, with one coordinate of all places, an angle with that turn, or ∞."""
 
     def parts(sign: str) -> Callable[[S, Axes], list[Array]]:

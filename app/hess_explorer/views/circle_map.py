@@ -11,7 +11,7 @@ import numpy as np
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Curves, Frame
 from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
-from hess_explorer.views.layers import Axes, Layer, curves, line, mapped, points
+from hess_explorer.views.layers import Axes, Layers, curves, line, mapped, points
 from hess_explorer.views.picture import Values
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
@@ -91,7 +91,7 @@ def look(phi: Array, theta: Array) -> Curves:
     )
 
 
-def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None]) -> tuple[Layer[S], ...]:
+def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None]) -> Layers[S]:
     """Θ, the diagonal, fixed points, stable ones filled and unstable ones hollow, or the density; the cobweb."""
     here = ("phi", "theta")
     return (

@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Marks
 from hess_explorer.views.graph import over_time
-from hess_explorer.views.layers import Axes, Columns, Layer, Sign, column, levels, line, points
+from hess_explorer.views.layers import Axes, Layer, Layers, Sign, Sources, column, levels, line, points
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.text import digits, ranging
 from hess_explorer.views.velocity_plane import centred, frame, nice_above
@@ -139,7 +139,7 @@ class CloudPlane(Picture[S]):
         axis = centred(self.half_width(state))
         return Axes(axis, axis)
 
-    def data(self, state: S) -> dict[str, Columns]:
+    def data(self, state: S) -> Sources:
         """The frames of the clouds, and the ends of the halves of the line of equilibria."""
         found, strip = self.clouds(state), self.strip(state)
         cloud, body, log_s = found.cloud, strip.body, found.density.log_s
@@ -163,7 +163,7 @@ class CloudPlane(Picture[S]):
             }
         }
 
-    def framed(self, state: S, axes: Axes | None) -> dict[str, Columns]:
+    def framed(self, state: S, axes: Axes | None) -> Sources:
         """The axes, σ1 and σ2, and the line of equilibria out of the picture."""
         assert axes is not None
         strip, half = self.strip(state), axes.x[1]
@@ -180,10 +180,6 @@ class CloudPlane(Picture[S]):
                 ],
             }
         }
-
-    def nothing(self, sentence: str, axes: Axes | None) -> dict[str, Columns]:
-        """The axes alone; the reason is for the caption to say."""
-        return {self.name: {}}
 
 
 def density_axes(found: Clouds) -> Axes:
@@ -203,7 +199,7 @@ def _inside(s: Array, share: Array, axes: Axes) -> tuple[Array, Array]:
     return s[seen], y[seen]
 
 
-def density_layers(density: Callable[[S], Density]) -> tuple[Layer[S], ...]:
+def density_layers(density: Callable[[S], Density]) -> Layers[S]:
     """Shares of the points over |s| on logarithmic axes: at the start, the end, the moving time, and their mean.
 
     The browser fills "now", the one at the moving time.
@@ -228,9 +224,7 @@ def density_layers(density: Callable[[S], Density]) -> tuple[Layer[S], ...]:
     )
 
 
-def course_layers(
-    times: Callable[[S], Array], course: Callable[[S], Array], beside: Callable[[S], bool]
-) -> tuple[Layer[S], ...]:
+def course_layers(times: Callable[[S], Array], course: Callable[[S], Array], beside: Callable[[S], bool]) -> Layers[S]:
     """Mean, least and largest (3, m) of something over the cloud at times (m,); the mean is that of the track "orbit".
 
     beside : whether there is a cloud on a principal axis, where it is 0.

@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.graph import about_0, over_time, pieces, thinned
-from hess_explorer.views.layers import Axes, Layer, curves, levels, mapped
+from hess_explorer.views.layers import Axes, Layers, curves, levels, mapped
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import power
 from hess_mechanics.numerics.results import Array
@@ -51,7 +51,7 @@ def picture(found: Found[S], reason: Callable[[S], str], span: Callable[[S], flo
         motion = found(state)
         return reason(state) if motion is None else about(motion)
 
-    layers: tuple[Layer[S], ...] = (
+    layers: Layers[S] = (
         levels("levels", lambda s: [] if found(s) is None else [0.0]),
         curves("first", within=_bracket(found, 2), color=theme.MAP, width=1.5, label="{ω₁, γ₃} = γ₂/(I₁₁γ₃)"),
         curves(

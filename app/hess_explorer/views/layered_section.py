@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import TypeVar
 
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import CellGrid, Layer, Sign, dots, image, mapped, ring
+from hess_explorer.views.layers import CellGrid, Layer, Layers, Positions, Sign, dots, image, mapped, ring
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.numerics.results import Array
 
@@ -85,12 +85,12 @@ def layers(
     first: Callable[[S], Array],
     second: Callable[[S], Array],
     own: Callable[[S], Array],
-    chosen: Callable[[S], Sequence[tuple[float, float]]],
+    chosen: Callable[[S], Positions],
     impossible: Callable[[S], Array],
     window: Callable[[S], Window],
     labels: tuple[str, str],
-    between: tuple[Layer[S], ...] = (),
-) -> tuple[Layer[S], ...]:
+    between: Layers[S] = (),
+) -> Layers[S]:
     """Points (n, 2) of either kind, and of the chosen orbits, which start in rings; grey: impossible.
 
     impossible : cells (m, n) over the window, 1 where nothing is; labels : of the kinds, for the legend; between :

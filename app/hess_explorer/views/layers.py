@@ -24,8 +24,12 @@ __all__ = [
     "CellGrid",
     "Columns",
     "Layer",
+    "Layers",
+    "Positions",
     "Range",
+    "Regions",
     "Sign",
+    "Sources",
     "arrows",
     "column",
     "curves",
@@ -48,6 +52,12 @@ U = TypeVar("U")
 Range = tuple[float, float]
 Columns = Mapping[str, Any]
 """Columns of a source by name: arrays, or lists of arrays and plain values."""
+Sources = dict[str, Columns]
+"""The columns of sources, by the name of each."""
+Positions = Sequence[tuple[float, float]]
+"""Points (x, y)."""
+Regions = Sequence[Sequence[Array]]
+"""Filled parts: of each the outer closed curve (n, 2), and those of its holes."""
 
 
 @dataclass(frozen=True)
@@ -107,6 +117,12 @@ class Layer(Generic[S]):
     legend: tuple[Sign, ...] = ()
 
 
+Layers = tuple[Layer[S], ...]
+Data = Callable[[S], Any] | None
+"""What a layer shows of a state."""
+Within = Callable[[S, Axes], Any] | None
+"""The same where it depends on the axes too."""
+
 MESSAGE: Layer[Any] = Layer(
     "message",
     "text",
@@ -147,7 +163,7 @@ def _parts(value: Sequence[Array] | None) -> Columns:
     return {"xs": [x for x, _ in turned], "ys": [y for _, y in turned]} if turned else {}
 
 
-def _regions(value: Sequence[Sequence[Array]] | None) -> Columns:
+def _regions(value: Regions | None) -> Columns:
     found = [_parts(rings) for rings in value or ()]
     return {name: [[part[name]] for part in found] for name in ("xs", "ys")} if found else {}
 
@@ -162,8 +178,8 @@ def _cells(value: CellGrid | None) -> Columns:
 def _layer(
     layer: Layer[S],
     convert: Callable[[Any], Columns],
-    data: Callable[[S], Any] | None,
-    within: Callable[[S, Axes], Any] | None = None,
+    data: Data[S],
+    within: Within[S] = None,
 ) -> Layer[S]:
     """The layer with its data converted to columns."""
     return replace(
@@ -189,7 +205,7 @@ def _stroked(layer: Layer[S], color: str, width: float, dash: str, alpha: float,
 
 def line(
     name: str,
-    data: Callable[[S], Any] | None = None,
+    data: Data[S] = None,
     *,
     color: str,
     width: float = 2.0,
@@ -199,7 +215,7 @@ def line(
     moving: bool = True,
     columns: tuple[str, str] = ("x", "y"),
     track: str | None = None,
-    within: Callable[[S, Axes], Any] | None = None,
+    within: Within[S] = None,
 ) -> Layer[S]:
     """One curve: data(state) = (x, y), or None; `track`: columns of a track of the scene."""
     layer: Layer[S] = Layer(name, "line", columns, track=track, moving=moving)
@@ -218,7 +234,7 @@ def curves(
     alpha: float = 1.0,
     label: str = "",
     moving: bool = True,
-    within: Callable[[S, Axes], Any] | None = None,
+    within: Within[S] = None,
 ) -> Layer[S]:
     """Some curves: data(state) = arrays (n, 2), or None."""
     layer: Layer[S] = Layer(name, "multi_line", ("xs", "ys"), moving=moving)
@@ -227,13 +243,13 @@ def curves(
 
 def region(
     name: str,
-    data: Callable[[S], Sequence[Sequence[Array]]] | None = None,
+    data: Callable[[S], Regions] | None = None,
     *,
     color: str = theme.FORBIDDEN,
     edge: str | None = None,
     label: str = "",
     moving: bool = False,
-    within: Callable[[S, Axes], Any] | None = None,
+    within: Within[S] = None,
 ) -> Layer[S]:
     """Filled parts: data(state) = parts, each an outer closed curve (n, 2) and those of its holes."""
     layer: Layer[S] = Layer(
@@ -249,7 +265,7 @@ def region(
 
 def points(
     name: str,
-    data: Callable[[S], Any] | None = None,
+    data: Data[S] = None,
     *,
     color: str,
     size: float,
@@ -262,7 +278,7 @@ def points(
     moving: bool = True,
     columns: tuple[str, ...] = ("x", "y"),
     track: str | None = None,
-    within: Callable[[S, Axes], Any] | None = None,
+    within: Within[S] = None,
 ) -> Layer[S]:
     """Markers: data(state) = (x, y), or (x, y, angle), or None."""
     small = size < 10 and not hollow
@@ -294,7 +310,7 @@ def points(
 
 def dots(
     name: str,
-    data: Callable[[S], Any] | None = None,
+    data: Data[S] = None,
     *,
     color: str,
     size: float,
@@ -302,7 +318,7 @@ def dots(
     label: str = "",
     columns: tuple[str, str] = ("x", "y"),
     track: str | None = None,
-    within: Callable[[S, Axes], Any] | None = None,
+    within: Within[S] = None,
 ) -> Layer[S]:
     """Points by the thousand, which the page draws itself: data(state) = (x, y), or None."""
     layer: Layer[S] = Layer(
@@ -318,12 +334,12 @@ def dots(
 
 def arrows(
     name: str,
-    data: Callable[[S], Any] | None = None,
+    data: Data[S] = None,
     *,
     color: str,
     size: float = 10.0,
     alpha: float = 1.0,
-    within: Callable[[S, Axes], Any] | None = None,
+    within: Within[S] = None,
 ) -> Layer[S]:
     """Triangles that point along a motion: data(state) = (x, y, angle), angle 0 upwards, or None."""
     layer: Layer[S] = points(
@@ -334,14 +350,14 @@ def arrows(
 
 def ring(
     name: str,
-    data: Callable[[S], Sequence[tuple[float, float]]] | None = None,
+    data: Callable[[S], Positions] | None = None,
     *,
     color: str = theme.UNSTABLE,
     size: float = 16.0,
     width: float = 3.0,
     label: str = "",
     columns: tuple[str, str] = ("x", "y"),
-    within: Callable[[S, Axes], Any] | None = None,
+    within: Within[S] = None,
 ) -> Layer[S]:
     """Rings about some places [(x, y), …]."""
     layer: Layer[S] = points(name, color=color, size=size, hollow=True, edge_width=width, label=label, columns=columns)
@@ -355,10 +371,10 @@ def _rows(columns: Sequence[str], value: Sequence[Sequence[Any]]) -> Columns:
 
 def target(
     name: str,
-    data: Callable[[S], Sequence[tuple[float, float]]],
+    data: Callable[[S], Positions],
     size: float = 21.0,
     columns: tuple[str, str] = ("x", "y"),
-) -> tuple[Layer[S], Layer[S]]:
+) -> Layers[S]:
     """A ring that is seen on any colour: white, and black on it."""
     return (
         ring(name, data, color="white", size=size, width=6.0, columns=columns),
@@ -421,7 +437,7 @@ def names(
     *,
     size: int = 16,
     above: int = 0,
-    within: Callable[[S, Axes], Any] | None = None,
+    within: Within[S] = None,
 ) -> Layer[S]:
     """Words at places, or so many pixels above them: data(state) = [(x, y, word), …]."""
     layer: Layer[S] = Layer(

@@ -8,7 +8,7 @@ from typing import TypeVar
 from hess_explorer.views import theme
 from hess_explorer.views.chart import lg
 from hess_explorer.views.graph import over_time
-from hess_explorer.views.layers import Layer
+from hess_explorer.views.layers import Layers
 from hess_mechanics.euler_poisson.hess_manifold import Leak
 from hess_mechanics.numerics.results import Array
 
@@ -17,7 +17,7 @@ __all__ = ["distances"]
 S = TypeVar("S")
 
 
-def distances(leaks: Callable[[S], Mapping[str, Leak]], distance: Callable[[Leak], Array]) -> tuple[Layer[S], Layer[S]]:
+def distances(leaks: Callable[[S], Mapping[str, Leak]], distance: Callable[[Leak], Array]) -> Layers[S]:
     """lg of a distance (n,) over time, of the orbits "own", at the accuracy chosen, and "reference"."""
 
     def curve(state: S, name: str) -> tuple[Array, Array]:

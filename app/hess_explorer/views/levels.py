@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Layer, line, points
+from hess_explorer.views.layers import Layer, Layers, line, points
 from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.numerics.results import Array
 
@@ -19,7 +19,7 @@ _INTEGRALS = tuple(zip(theme.INTEGRALS, theme.DASHES.values(), strict=True))
 _OTHERS = {"DOP853": "square", "LSODA": "triangle"}
 
 
-def curves_of_levels(curve: Callable[[S, str], Curve]) -> tuple[Layer[S], ...]:
+def curves_of_levels(curve: Callable[[S, str], Curve]) -> Layers[S]:
     """A curve for each level, by its name, in its colour and dashes."""
 
     def of(name: str) -> Layer[S]:
@@ -28,7 +28,7 @@ def curves_of_levels(curve: Callable[[S, str], Curve]) -> tuple[Layer[S], ...]:
     return tuple(map(of, LEVELS))
 
 
-def integrals(curve: Callable[[S, int], Curve | None]) -> tuple[Layer[S], ...]:
+def integrals(curve: Callable[[S, int], Curve | None]) -> Layers[S]:
     """A curve for each integral, by its number from 0; None for those that a motion does not have."""
 
     def of(i: int, color: str, dash: str) -> Layer[S]:
@@ -37,13 +37,13 @@ def integrals(curve: Callable[[S, int], Curve | None]) -> tuple[Layer[S], ...]:
     return tuple(of(i, *look) for i, look in enumerate(_INTEGRALS))
 
 
-def methods(method: Callable[[S, str], Curve], level: Callable[[S, str], Curve]) -> tuple[Layer[S], ...]:
+def methods(method: Callable[[S, str], Curve], level: Callable[[S, str], Curve]) -> Layers[S]:
     """The curve of the Taylor series with a point for each level, and those of SciPy's methods, by their names."""
 
     def at(name: str) -> Layer[S]:
         return points(f"at-{name}", lambda s: level(s, name), color=theme.LEVELS[name], size=12, label=name)
 
-    def other(name: str, marker: str) -> tuple[Layer[S], Layer[S]]:
+    def other(name: str, marker: str) -> Layers[S]:
         return (
             line(name, lambda s: method(s, name), color=theme.MUTED, dash="dashed"),
             points(

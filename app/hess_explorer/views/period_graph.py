@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Axes, Layer, Range, curves, ring
+from hess_explorer.views.layers import Axes, Layers, Range, curves, ring
 from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.numerics.results import Array
 
@@ -31,7 +31,7 @@ def period_axis(periods: Array, here: float = 0.0) -> Range:
     return 0.0, nice_above(max(1.5 * float(np.median(finite)), 1.1 * here if math.isfinite(here) else 0.0))
 
 
-def layers(periods: Callable[[S], Array], here: Callable[[S], tuple[float, float] | None]) -> tuple[Layer[S], Layer[S]]:
+def layers(periods: Callable[[S], Array], here: Callable[[S], tuple[float, float] | None]) -> Layers[S]:
     """T against α from (α, T), (n, 2), and a ring round the one on show; what is infinite is beyond the frame."""
 
     def curve(state: S, axes: Axes) -> list[Array]:

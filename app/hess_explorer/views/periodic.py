@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Axes, Layer, curves, points
+from hess_explorer.views.layers import Axes, Layers, curves, points
 from hess_mechanics.dynamics.manifolds import Intersection, Manifold
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
 from hess_mechanics.numerics.results import Array
@@ -53,7 +53,7 @@ def layers(
     orbit: Callable[[S], PeriodicOrbit | None],
     manifolds: Callable[[S], Sequence[Manifold]],
     homoclinic: Callable[[S], Sequence[Intersection]],
-) -> tuple[Layer[S], ...]:
+) -> Layers[S]:
     """The places of an orbit, over the manifolds of a saddle and where they cross."""
 
     def parts(stable: bool) -> Callable[[S, Axes], list[Array]]:
@@ -80,7 +80,7 @@ def layers(
     )
 
 
-def places(orbit: Callable[[S], PeriodicOrbit | None]) -> tuple[Layer[S], ...]:
+def places(orbit: Callable[[S], PeriodicOrbit | None]) -> Layers[S]:
     """The places of an orbit, by whether it attracts."""
 
     def of_sign(sign: str) -> Callable[[S], Array | None]:

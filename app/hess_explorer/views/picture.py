@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any, ClassVar, Generic, TypeVar, cast
 
-from hess_explorer.views.layers import Axes, Columns, Layer, Sign
+from hess_explorer.views.layers import Axes, Columns, Layer, Sign, Sources
 
 __all__ = ["Corners", "Picture", "Values"]
 
@@ -97,16 +97,16 @@ class Picture(ABC, Generic[S]):
         return None
 
     @abstractmethod
-    def data(self, state: S) -> dict[str, Columns]:
+    def data(self, state: S) -> Sources:
         """The columns of its sources, by the name of the source, but those that depend on the axes."""
 
-    def framed(self, state: S, axes: Axes | None) -> dict[str, Columns]:
+    def framed(self, state: S, axes: Axes | None) -> Sources:
         """The columns that do, which join those of the same source."""
         return {}
 
-    @abstractmethod
-    def nothing(self, sentence: str, axes: Axes | None) -> dict[str, Columns]:
-        """The columns of its sources where there is nothing to see but the reason."""
+    def nothing(self, sentence: str, axes: Axes | None) -> Sources:
+        """The columns of its sources where there is nothing to see; only a plot has room for the reason."""
+        return {self.name: {}}
 
     def said(self, state: S) -> str:
         """The title and the caption."""

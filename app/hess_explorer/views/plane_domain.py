@@ -9,11 +9,11 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.graph import about_0, over_time
-from hess_explorer.views.layers import Axes, Columns, Layer, Sign, column, curves, line, region, ring
+from hess_explorer.views.layers import Axes, Columns, Layers, Regions, Sign, column, curves, line, region, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import gamma_columns
 from hess_explorer.views.text import digits, power, staying
-from hess_explorer.views.velocity_plane import centred, square
+from hess_explorer.views.velocity_plane import about_origin, square
 from hess_mechanics.numerics.results import Array, Orbit
 
 __all__ = ["ground", "momentum_picture", "orbit", "picture", "plane_columns"]
@@ -37,7 +37,7 @@ def picture(
     caption: Callable[[S], str],
     half_width: Callable[[S], float],
     names: tuple[str, str],
-    layers: tuple[Layer[S], ...],
+    layers: Layers[S],
     dots: Mapping[str, tuple[str, str]] | None = None,
     signs: tuple[Sign, ...] = (),
 ) -> Plot[S]:
@@ -47,8 +47,8 @@ def picture(
         title=title,
         caption=caption,
         axes=("q₁", "q₂"),
-        x=lambda s: centred(half_width(s)),
-        y=lambda s: centred(half_width(s)),
+        x=about_origin(half_width),
+        y=about_origin(half_width),
         dot=("q1", "q2"),
         dots=dots,
         signs=signs,
@@ -59,10 +59,10 @@ def picture(
 
 def ground(
     edge: Callable[[S], Array], forbidden: Callable[[S], Sequence[Array]], levels: Callable[[S], Sequence[Array]]
-) -> tuple[Layer[S], Layer[S]]:
+) -> Layers[S]:
     """What lies under the orbit: grey outside the edge (n, 2) and inside closed curves; equipotentials."""
 
-    def grey(state: S, axes: Axes) -> list[list[Array]]:
+    def grey(state: S, axes: Axes) -> Regions:
         outer = edge(state)
         # Axes that are held may be smaller than the domain, or larger.
         frame = square(2.0 * max(axes.x[1], float(abs(outer).max())))
@@ -74,7 +74,7 @@ def ground(
     )
 
 
-def orbit(start: Callable[[S], tuple[float, float]], label: str = "") -> tuple[Layer[S], Layer[S]]:
+def orbit(start: Callable[[S], tuple[float, float]], label: str = "") -> Layers[S]:
     """The track of the orbit, and a ring where it starts."""
     return (
         line("orbit", track="orbit", columns=("q1", "q2"), color=theme.ORBIT, label="orbit"),

@@ -12,7 +12,7 @@ from hess_explorer.views.layers import curves, line, ring
 from hess_explorer.views.plane_domain import ground
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, power
-from hess_explorer.views.velocity_plane import centred
+from hess_explorer.views.velocity_plane import about_origin
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.kharlamova import PlaneBody
 from hess_mechanics.suslov.plane_potential import (
@@ -91,8 +91,8 @@ def picture(
         title=lambda s: f"Potential: {name(s)}",
         caption=lambda s: about(body(s), motion(s)),
         axes=("q₁", "q₂"),
-        x=lambda s: centred(half_width(s)),
-        y=lambda s: centred(half_width(s)),
+        x=about_origin(half_width),
+        y=about_origin(half_width),
         folded="Show another potential",
         layers=(
             *ground(edge, too_high, levels),

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
 from hess_explorer.views import bokeh_figure
-from hess_explorer.views.layers import MOVING_POINT, POINT, Axes, Columns, Layer, Range, Sign
+from hess_explorer.views.layers import MOVING_POINT, POINT, Axes, Columns, Layer, Layers, Range, Sign, Sources
 from hess_explorer.views.picture import Picture
 
 __all__ = ["Plot"]
@@ -41,7 +41,7 @@ class Plot(Picture[S]):
     axes: tuple[str, str] | Callable[[S], tuple[str, str]]
     x: Range | Callable[[S], Range | None]
     y: Range | Callable[[S], Range | None]
-    layers: tuple[Layer[S], ...]
+    layers: Layers[S]
     message: Callable[[S], str] | None = None
     dot: tuple[str, str] | None = None
     dots: Mapping[str, tuple[str, str]] | None = None
@@ -120,24 +120,24 @@ class Plot(Picture[S]):
         x, y = self.x(state) if callable(self.x) else self.x, self.y(state) if callable(self.y) else self.y
         return None if x is None or y is None else Axes(x, y)
 
-    def data(self, state: S) -> dict[str, Columns]:
+    def data(self, state: S) -> Sources:
         """The columns of its own sources, but those that depend on the axes."""
         return {self.source_of(layer): layer.data(state) for layer in self.layers if layer.data is not None}
 
-    def framed(self, state: S, axes: Axes | None) -> dict[str, Columns]:
+    def framed(self, state: S, axes: Axes | None) -> Sources:
         """The columns of those that do."""
         assert axes is not None
         found = {self.source_of(layer): layer.within(state, axes) for layer in self.layers if layer.within is not None}
         sentence = "" if self.message is None else self.message(state)
         return {**found, **self._words(self.names(state), sentence, axes)}
 
-    def nothing(self, sentence: str, axes: Axes | None) -> dict[str, Columns]:
+    def nothing(self, sentence: str, axes: Axes | None) -> Sources:
         """The columns of all its sources where there is nothing to see but the reason."""
         assert axes is not None
-        empty: dict[str, Columns] = {self.source_of(layer): {} for layer in (*self.layers, POINT)}
+        empty: Sources = {self.source_of(layer): {} for layer in (*self.layers, POINT)}
         return {**empty, **self._words((" ", " "), sentence, axes)}
 
-    def _words(self, names: tuple[str, str], sentence: str, axes: Axes) -> dict[str, Columns]:
+    def _words(self, names: tuple[str, str], sentence: str, axes: Axes) -> Sources:
         """The columns of the names of its axes, where those depend on the state, and of the message."""
         message: Columns = (
             {}

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
-from hess_explorer.views.layers import MOVING_POINT, Axes, Columns, Sign, column
+from hess_explorer.views.layers import MOVING_POINT, Axes, Columns, Sign, Sources, column
 from hess_explorer.views.picture import Picture
 from hess_mechanics.numerics.results import Array
 
@@ -20,6 +20,7 @@ __all__ = [
     "Sphere",
     "along_the_orbit",
     "centre_of_mass",
+    "drawn",
     "ends",
     "gamma_columns",
     "levels_about",
@@ -96,9 +97,9 @@ class Sphere(Picture[S]):
     name: str = "sphere"
     title: str | Callable[[S], str] = "Poisson sphere"
     looks: Mapping[str, str]
-    axis: Callable[[S], Direction | None] | None = None
-    circles: Callable[[S], Sequence[Circle]] | None = None
-    marks: Callable[[S], Sequence[Mark]] | None = None
+    axis: Callable[[S], Direction | None] = lambda state: None
+    circles: Callable[[S], Sequence[Circle]] = lambda state: ()
+    marks: Callable[[S], Sequence[Mark]] = lambda state: ()
     clouds: str = ""
 
     kind: ClassVar[str] = "sphere"
@@ -123,19 +124,13 @@ class Sphere(Picture[S]):
         clouds = {"clouds": self.clouds} if self.clouds else {}
         return {**super().describe(), "tracks": {f"data-{track}": look for track, look in self.looks.items()}, **clouds}
 
-    def data(self, state: S) -> dict[str, Columns]:
+    def data(self, state: S) -> Sources:
         """Its axis, circles and marks."""
-        return {
-            self.name: _drawn(
-                None if self.axis is None else self.axis(state),
-                () if self.circles is None else self.circles(state),
-                () if self.marks is None else self.marks(state),
-            )
-        }
+        return {self.name: drawn(self.axis(state), self.circles(state), self.marks(state))}
 
-    def nothing(self, sentence: str, axes: Axes | None) -> dict[str, Columns]:
+    def nothing(self, sentence: str, axes: Axes | None) -> Sources:
         """Neither axis nor circles nor marks; the reason is for the caption to say."""
-        return {self.name: _drawn(None, (), ())}
+        return {self.name: drawn(None, (), ())}
 
 
 def along_the_orbit(axis: Callable[[S], Direction | None], circles: Callable[[S], Sequence[Circle]]) -> Sphere[S]:
@@ -151,7 +146,8 @@ def along_the_orbit(axis: Callable[[S], Direction | None], circles: Callable[[S]
     )
 
 
-def _drawn(axis: Direction | None, circles: Sequence[Circle], marks: Sequence[Mark]) -> Columns:
+def drawn(axis: Direction | None, circles: Sequence[Circle], marks: Sequence[Mark]) -> Columns:
+    """The columns of what a sphere shows besides tracks."""
     return {
         "axis": [] if axis is None else [float(x) for x in axis.along],
         "label": "" if axis is None else axis.label,

@@ -10,7 +10,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.graph import pieces
-from hess_explorer.views.layers import Axes, Layer, curves, levels, ring
+from hess_explorer.views.layers import Axes, Layer, Layers, curves, levels, ring
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.rotation_number import ParameterLine, TorusValues
 
@@ -52,7 +52,7 @@ def rho_layers(
     perturbed: Callable[[S], Array | None],
     rational: Callable[[S], float | None],
     place: Callable[[S], float],
-) -> tuple[Layer[S], ...]:
+) -> Layers[S]:
     """ρ along a line, that of another family, and the height that is looked for, where there is a torus with it."""
 
     def other(state: S) -> list[Array]:
@@ -73,7 +73,7 @@ def rho_layers(
     )
 
 
-def trace_layers(line: LineOf[S], values: ValuesOf[S], place: Callable[[S], float]) -> tuple[Layer[S], ...]:
+def trace_layers(line: LineOf[S], values: ValuesOf[S], place: Callable[[S], float]) -> Layers[S]:
     """|t| along a line; above 2 it locks."""
 
     def trace(state: S) -> Array:

@@ -10,7 +10,20 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.bifurcation_diagram import impossible
-from hess_explorer.views.layers import TURNS, Axes, CellGrid, Layer, Range, Sign, curves, image, region, target
+from hess_explorer.views.layers import (
+    TURNS,
+    Axes,
+    CellGrid,
+    Layers,
+    Positions,
+    Range,
+    Regions,
+    Sign,
+    curves,
+    image,
+    region,
+    target,
+)
 from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.suslov_hess.bifurcation import f_max, h_min
 from hess_mechanics.suslov_hess.rotation_number import Torus, TorusValues
@@ -74,7 +87,7 @@ def edges(plane: str, torus: Torus, x: Range, y: Range) -> list[Array]:
     return [np.array([[place, y[0]], [place, y[1]]]) for place in places if x[0] < place < x[1]]
 
 
-def outside(plane: str, torus: Torus, x: Range, y: Range) -> list[list[Array]]:
+def outside(plane: str, torus: Torus, x: Range, y: Range) -> Regions:
     """For a `region`: all of the window that is not possible."""
     (x0, x1), (y0, y1) = x, y
     if plane == "h, f":
@@ -94,11 +107,11 @@ def _rectangle(low: float, high: float, y: Range) -> Array:
 def layers(
     grids: Callable[[S], tuple[CellGrid, CellGrid]],
     boundary: Callable[[S], Sequence[Array]],
-    impossible: Callable[[S], Sequence[Sequence[Array]]],
+    impossible: Callable[[S], Regions],
     edges: Callable[[S], Sequence[Array]],
     across: Callable[[S], Sequence[Array]],
-    here: Callable[[S], Sequence[tuple[float, float]]],
-) -> tuple[Layer[S], ...]:
+    here: Callable[[S], Positions],
+) -> Layers[S]:
     """Colours and zones; curves (n, 2) where |t| = 2; the line, and the torus on show, if it is in sight.
 
     impossible, edges : `outside` and `edges`.

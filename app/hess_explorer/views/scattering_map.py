@@ -12,7 +12,7 @@ from bokeh.palettes import Cividis256
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Frame
 from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
-from hess_explorer.views.layers import Axes, CellGrid, Layer, Range, Sign, curves, image, line, ring, target
+from hess_explorer.views.layers import Axes, CellGrid, Layers, Range, Sign, curves, image, line, ring, target
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above
@@ -56,7 +56,7 @@ def over_square(
     )
 
 
-def _layers(theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]) -> tuple[Layer[S], ...]:
+def _layers(theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]) -> Layers[S]:
     """Colours: θ⁺ from 0 to π, at the centres of cells, rows of equal θ⁻.  A ring: (φ, θ⁻); a line: the curve there."""
     return (
         image(
@@ -73,9 +73,7 @@ def _layers(theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, f
     )
 
 
-def over_phases(
-    caption: Callable[[S], str], layers: tuple[Layer[S], ...], message: Callable[[S], str] | None = None
-) -> Plot[S]:
+def over_phases(caption: Callable[[S], str], layers: Layers[S], message: Callable[[S], str] | None = None) -> Plot[S]:
     """Curves θ⁺(φ); a click or a drag chooses the phase."""
     return Plot(
         name="curve",

@@ -8,7 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Axes, Layer, dots, mapped, points, region, ring
+from hess_explorer.views.layers import Axes, Layer, Layers, Positions, Regions, dots, mapped, points, region, ring
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["band", "joined", "layers", "outside"]
@@ -22,9 +22,9 @@ _CLOSES = 12
 def layers(
     own: Points[S],
     others: Points[S] | None = None,
-    forbidden: Callable[[S, Axes], Sequence[Sequence[Array]]] | None = None,
-    start: Callable[[S], Sequence[tuple[float, float]]] | None = None,
-) -> tuple[Layer[S], ...]:
+    forbidden: Callable[[S, Axes], Regions] | None = None,
+    start: Callable[[S], Positions] | None = None,
+) -> Layers[S]:
     """Points (n, 2) of the chosen orbit and small ones of others, a ring where it starts; grey where all is impossible.
 
     forbidden : parts as of `region`.

@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
-from hess_explorer.views.layers import CellGrid, Layer, Sign, dots, image
+from hess_explorer.views.layers import CellGrid, Layers, Sign, dots, image
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.results import Array
@@ -64,7 +64,7 @@ def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
         found, _ = density(state)
         return None if found is None else CellGrid(found / found.max(), ANGLE, ANGLE)
 
-    layers: tuple[Layer[S], ...] = (
+    layers: Layers[S] = (
         image(
             "density",
             shares,

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import TypeVar
 
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Columns, Layer, line, region
+from hess_explorer.views.layers import Columns, Layers, Regions, line, region
 from hess_explorer.views.text import digits, ranging
 from hess_explorer.views.velocity_plane import band, ring_outside, velocity_columns
 from hess_mechanics.numerics.results import Array
@@ -26,8 +26,8 @@ _PLANE = ("omega1", "omega2")
 def layers(
     ring: Callable[[S], tuple[Array, Array]],
     half_width: Callable[[S], float],
-    proved: Callable[[S], Sequence[Sequence[Array]]] = lambda s: (),
-) -> tuple[Layer[S], ...]:
+    proved: Callable[[S], Regions] = lambda s: (),
+) -> Layers[S]:
     """The tracks "orbit", "stable" and "unstable" in the ring between two ellipses (n, 2); a band about an orbit."""
     return (
         region(

@@ -9,7 +9,20 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Frame
-from hess_explorer.views.layers import Axes, Columns, Layer, Range, arrows, column, curves, line, points, region
+from hess_explorer.views.layers import (
+    Axes,
+    Columns,
+    Layer,
+    Layers,
+    Range,
+    Regions,
+    arrows,
+    column,
+    curves,
+    line,
+    points,
+    region,
+)
 from hess_explorer.views.picture import Values
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import gamma_columns
@@ -18,6 +31,7 @@ from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.results import Array, Orbit
 
 __all__ = [
+    "about_origin",
     "arcs",
     "arrows_at",
     "arrows_on",
@@ -72,7 +86,7 @@ def pixels_per_unit(half_width: float) -> tuple[float, ...]:
 def picture(
     caption: Callable[[S], str],
     half_width: Callable[[S], float],
-    layers: tuple[Layer[S], ...],
+    layers: Layers[S],
     title: str = "Angular velocity (ω₁, ω₂)",
     on_click: Callable[[S, float, float], Values] | None = None,
 ) -> Plot[S]:
@@ -82,8 +96,8 @@ def picture(
         title=title,
         caption=caption,
         axes=("ω₁", "ω₂"),
-        x=lambda s: centred(half_width(s)),
-        y=lambda s: centred(half_width(s)),
+        x=about_origin(half_width),
+        y=about_origin(half_width),
         dot=("omega1", "omega2"),
         on_click=on_click,
         layers=layers,
@@ -95,7 +109,7 @@ def orbit(label: str) -> Layer[S]:
     return line("orbit", track="orbit", columns=("omega1", "omega2"), color=theme.ORBIT, width=2.5, label=label)
 
 
-def band(data: Callable[[S], Sequence[Sequence[Array]]]) -> Layer[S]:
+def band(data: Callable[[S], Regions]) -> Layer[S]:
     """Polygons (n, 2) in which the true orbit is, where they are wider than a pixel."""
     return region("band", data, color=theme.SHEET, label="the true orbit, as proved", moving=True)
 
@@ -103,7 +117,7 @@ def band(data: Callable[[S], Sequence[Sequence[Array]]]) -> Layer[S]:
 def orbit_alone(
     half_width: Callable[[S], float],
     energy: Callable[[S], float],
-    proved: Callable[[S], Sequence[Sequence[Array]]],
+    proved: Callable[[S], Regions],
     label: str = "",
 ) -> Plot[S]:
     """The plane with nothing but the track of the orbit, which has this energy, and where the true one is."""
@@ -126,6 +140,11 @@ def centred(half_width: float) -> Range:
     return -half_width, half_width
 
 
+def about_origin(half_width: Callable[[S], float]) -> Callable[[S], Range]:
+    """Return the range of an axis about 0, of a state."""
+    return lambda state: centred(half_width(state))
+
+
 def frame(half_width: float) -> Frame:
     """The plane with its axes, for comparisons."""
     return Frame(Axes(centred(half_width), centred(half_width)), ("ω₁", "ω₂"))
@@ -141,7 +160,7 @@ def outside(curve: Array, half_width: float) -> list[Array]:
     return [square(half_width), curve]
 
 
-def ring_outside(inner: Array, outer: Array, half_width: float) -> list[list[Array]]:
+def ring_outside(inner: Array, outer: Array, half_width: float) -> Regions:
     """For a `region`: all but the ring between two closed curves (m, 2); axes that are held may be larger ones."""
     return [outside(outer, 4.0 * half_width), [inner]]
 
@@ -155,7 +174,7 @@ def beside(inner: Array, outer: Array, half_width: float) -> Array:
 
 def halves(
     stable: Callable[[S, Axes], Array], unstable: Callable[[S, Axes], Array], labels: tuple[str, str]
-) -> tuple[Layer[S], Layer[S]]:
+) -> Layers[S]:
     """The stable and the unstable half of the line of equilibria, (2, 2) each, from one end to the other."""
     return (
         line("stable", within=lambda s, axes: stable(s, axes).T, color=theme.STABLE, width=3, label=labels[0]),
@@ -176,7 +195,7 @@ def to_the_edge(point: Array, half_width: float, axes: Axes) -> Array:
     return np.array([np.zeros(2), far * np.asarray(point)])
 
 
-def equilibria(stable: Callable[[S], Array], unstable: Callable[[S], Array]) -> tuple[Layer[S], Layer[S]]:
+def equilibria(stable: Callable[[S], Array], unstable: Callable[[S], Array]) -> Layers[S]:
     """A stable point (2,), filled, and an unstable one, hollow."""
     return (
         points("stable-point", lambda s: stable(s)[:, None], color=theme.STABLE, size=11, edge_width=3),
@@ -186,9 +205,7 @@ def equilibria(stable: Callable[[S], Array], unstable: Callable[[S], Array]) -> 
     )
 
 
-def energy_levels(
-    data: Callable[[S], Sequence[Array]], half_width: Callable[[S], float], label: str
-) -> tuple[Layer[S], Layer[S]]:
+def energy_levels(data: Callable[[S], Sequence[Array]], half_width: Callable[[S], float], label: str) -> Layers[S]:
     """Curves (m, 2) of other energies, passed from their first to their last point, with arrows."""
     return (
         curves("levels", data, color=theme.MUTED, width=1, label=label),
