@@ -13,6 +13,7 @@ import numpy as np
 
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.section import BallSection
+from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.continuation import Branch, continued
 from hess_mechanics.dynamics.manifolds import Manifold, grown
 from hess_mechanics.dynamics.megno_map import require_plane
@@ -52,8 +53,6 @@ _TURNS = 120.0
 """Time allowed per crossing, in units of 1/ν times the slowness of the section; few orbits take longer."""
 _TRIED = (8, 200)
 """Places looked at for each orbit: where motions cross a small part of a section only, more of them."""
-_EVENLY = np.array([0.7548776662466927, 0.5698402909980532])
-"""Multiples of these fill the unit square evenly (Roberts, 2018)."""
 
 
 @dataclass(frozen=True)
@@ -171,10 +170,9 @@ def section_orbits(
 
 def _spread(section: PoincareSection, orbits: int) -> Array:
     """Return the states of as many orbits as possible, evenly over the window of a section.  Raises `OutsideRegion`."""
-    low, high = np.array(section.window).T
+    low, high = np.array(section.window).T[:, :, None]
     for tried in _TRIED:
-        shares = np.arange(1.0, tried * orbits + 1.0)[:, None] * _EVENLY % 1.0
-        states, there = section.states_at(*(low + shares * (high - low)).T)
+        states, there = section.states_at(*(low + evenly(tried * orbits) * (high - low)))
         if np.count_nonzero(there) >= orbits:
             break
     if not there.any():

@@ -12,7 +12,7 @@ from hess_explorer.__main__ import main
 from hess_mechanics import BallBody, SuslovBody, section
 from hess_mechanics.chaplygin_ball.phase_cloud import shell
 from hess_mechanics.numerics.accuracy import REFERENCE
-from hess_mechanics.suslov.section import plane_of, state_at
+from hess_mechanics.suslov.section import SuslovSection
 from support.command_line import replaced, table
 
 SECTION = [
@@ -203,8 +203,8 @@ def test_where_orbits_end_is_where_they_are_at_reference(answer):
     body = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0)
     means = {}
     for i in (0, 5, 9, 14, 20):
-        start = state_at(body, 1.842, 3, found["psi"][i], found["delta"][i])
-        exact = section(body, start, plane_of(3), 5000.0, REFERENCE, 600).states
+        start = SuslovSection(body, 1.842, 3).state_at(found["psi"][i], found["delta"][i])
+        exact = section(body, start, SuslovSection(body, 0.0, 3).surface, 5000.0, REFERENCE, 600).states
         means.setdefault(found["group"][i], []).append(float(exact[400:, 0].mean()))
         # Attractors are met again, however long the orbit.
         assert found["mean"][i] == pytest.approx(means[found["group"][i]][-1], abs=0.1)

@@ -21,7 +21,7 @@ from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.shadowing import away_from, errors_in_pixels, right_crossings, typical
 from hess_mechanics.numerics.accuracy import PLANS, REFERENCE, STANDARD, Computation
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
-from hess_mechanics.suslov.section import coordinates, seeds, suslov_points
+from hess_mechanics.suslov.section import SuslovSection
 from hess_mechanics.suslov_hess.mode_locking import lock_boundary
 from hess_mechanics.suslov_hess.rotation_number import Torus, rotation_errors, rows, rows_error, values_at
 
@@ -38,12 +38,12 @@ def within_a_factor_of_ten(errors, estimates, share=0.99):
 # ---- sections ---------------------------------------------------------------------------------------------------
 
 PIXELS, PERIODS, CROSSINGS = (300.0 / math.pi, 600.0 / math.pi), (2.0 * math.pi, math.inf), 60
-WHOLE = (-math.pi, math.pi, 0.0, math.pi)
+WHOLE = ((-math.pi, 0.0), (math.pi, math.pi))
 
 
 def places(body, starts, level, crossings=CROSSINGS):
-    found = suslov_points(body, 3, starts, crossings, True, level, threads=1)
-    return [coordinates(states, 3) for states in found.states]
+    found = SuslovSection(body, 0.0, 3).points(starts, crossings, True, level, threads=1)
+    return [SuslovSection(body, 0.0, 3).places_of(states) for states in found.states]
 
 
 @pytest.fixture(scope="module")
@@ -54,7 +54,7 @@ def followed():
     truth, growth = [], []
     for _ in range(100):
         body = SuslovBody(*random.uniform(0.5, 3.0, 2), *random.uniform(-0.5, 0.5, 2), *random.normal(size=3))
-        starts = seeds(body, random.uniform(0.2, 2.0), 3, WHOLE, 3)
+        starts = SuslovSection(body, random.uniform(0.2, 2.0), 3).spread(WHOLE, 3)
         exact = places(body, starts, REFERENCE)
         truth += exact
         for name, runs in rows.items():

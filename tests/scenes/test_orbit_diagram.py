@@ -18,7 +18,7 @@ from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.continuation import continued
 from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.numerics.accuracy import PLANS, Computation
-from hess_mechanics.suslov.section import coordinates, state_at
+from hess_mechanics.suslov.section import SuslovSection
 from support.suslov import divergence, field, permanent_rotations
 from support.view import View
 
@@ -62,7 +62,7 @@ def returns(body, state, times):
         first_step=1e-3,
     )
     states = np.array([y for t, y in zip(found.t_events[0], found.y_events[0], strict=True) if t > 1e-6][:times])
-    return coordinates(states, 3)
+    return SuslovSection(body, 0.0, 3).places_of(states)
 
 
 @pytest.mark.parametrize("preset", SCENE.presets, ids=lambda preset: preset.name)
@@ -92,9 +92,15 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
         body = replace(state.body, I23=float(value))
         M, m, h = np.eye(2), len(places), 1e-4
         for i, place in enumerate(places):
-            assert np.abs(returns(body, state_at(body, E, 3, *place), 1)[0] - places[(i + 1) % m]).max() < 1e-8
+            assert (
+                np.abs(returns(body, SuslovSection(body, E, 3).state_at(*place), 1)[0] - places[(i + 1) % m]).max()
+                < 1e-8
+            )
             sides = [
-                [returns(body, state_at(body, E, 3, *(place + sign * h * axis)), 1)[0] for sign in (1, -1)]
+                [
+                    returns(body, SuslovSection(body, E, 3).state_at(*(place + sign * h * axis)), 1)[0]
+                    for sign in (1, -1)
+                ]
                 for axis in np.eye(2)
             ]
             M = np.column_stack([(a - b) / (2.0 * h) for a, b in sides]) @ M
@@ -120,7 +126,9 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dim
     known = state.regime.kind.dynamics
     assert f"div = {digits(known.motion.divergence, 2)} ± " in captions["section"]
     # Statistics of an ensemble, each orbit from another place: one trajectory proves nothing.
-    starts = [state_at(state.body, state.poincare.E, 3, *place) for place in state.regime.sets.attractor[::250]]
+    starts = [
+        SuslovSection(state.body, state.poincare.E, 3).state_at(*place) for place in state.regime.sets.attractor[::250]
+    ]
     found = [lyapunov_spectrum(state.body, start, 4000.0) for start in starts]
     assert all(one.signs[0] == "+" for one in found)
     values = np.array([one.values[0] for one in found])
@@ -140,7 +148,9 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dim
     # scatter of six is too uncertain to judge by; without their beginnings, as a start on the section is no typical
     # moment: the first 25 units of time shift the mean over 500 by 0.0027.
     t = np.linspace(0.0, 500.0, 2001)
-    many = [state_at(state.body, state.poincare.E, 3, *place) for place in state.regime.sets.attractor[::60]]
+    many = [
+        SuslovSection(state.body, state.poincare.E, 3).state_at(*place) for place in state.regime.sets.attractor[::60]
+    ]
     rates = [
         np.mean([divergence(state.body, y) for y in solve(state.body, start, t, level("draft")).states[100:]])
         for start in many
@@ -191,7 +201,7 @@ def product(body, E, places):
     M, h = np.eye(2), 1e-4
     for place in places:
         sides = [
-            [returns(body, state_at(body, E, 3, *(place + sign * h * axis)), 1)[0] for sign in (1, -1)]
+            [returns(body, SuslovSection(body, E, 3).state_at(*(place + sign * h * axis)), 1)[0] for sign in (1, -1)]
             for axis in np.eye(2)
         ]
         M = np.column_stack([(a - b).ravel() / (2.0 * h) for a, b in sides]) @ M
@@ -200,7 +210,7 @@ def product(body, E, places):
 
 def multipliers(body, E, place):
     """Of the return map at a place, by SciPy, the largest first; and where it takes the place."""
-    return product(body, E, [place]), returns(body, state_at(body, E, 3, *place), 1)[0].ravel()
+    return product(body, E, [place]), returns(body, SuslovSection(body, E, 3).state_at(*place), 1)[0].ravel()
 
 
 def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_doubles():
@@ -302,7 +312,7 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     assert np.abs(found) == pytest.approx(np.abs(orbit.multipliers), abs=1e-4)
     # The strange attractor: two orbits side by side part as fast.
     assert "Motion: chaotic. Looks dissipative.\ndiv = −0." in captions["section"]
-    last = state_at(state.body, E, 3, *state.regime.sets.attractor[-1])
+    last = SuslovSection(state.body, E, 3).state_at(*state.regime.sets.attractor[-1])
     exponents = lyapunov_spectrum(state.body, last, 20_000.0)
     twin = lyapunov_exponent(state.body, last, 8000.0, PLANS[Computation.EXPONENT]["standard"].level)
     value, error = exponents.values[0], exponents.errors[0]
@@ -358,7 +368,7 @@ def test_a_motion_that_comes_to_a_saddle_focus_has_left_it_before():
     (one,) = (k for k in range(2) if low[k][0] < 0.05 and high[k][0] < 0.05)
     assert low[one][1] * high[one][1] == -1.0
     assert "Motion: chaotic." in captions["section"]
-    last = state_at(body, state.poincare.E, 3, *state.regime.sets.attractor[-1])
+    last = SuslovSection(body, state.poincare.E, 3).state_at(*state.regime.sets.attractor[-1])
     # Its return to the rotation.
     orbit = solve(body, last, np.linspace(0.0, 4000.0, 80_001), level("draft")).states
     assert np.linalg.norm(orbit - like, axis=1).min() < 0.1

@@ -19,7 +19,6 @@ from hess_explorer.scenes.framework.work import AUTO, Work, kept_status
 from hess_mechanics.dynamics.trade import LevelCost
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Computation
-from hess_mechanics.suslov.section import coordinates, suslov_points
 from hess_mechanics.suslov_hess.rotation_number import values_at
 from support.board import Browser
 
@@ -93,9 +92,9 @@ def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_draw
     )
     own, others = map(int, said.groups())
     plan = PLANS[Computation.SECTION]["reference"]
-    exact = suslov_points(state.body, 3, [state.start], 60, True, plan.level, threads=1)
+    exact = state.poincare.points([state.start], 60, True, plan.level, threads=1)
     both = min(len(state.section.own), 60)
-    away = state.section.own[:both] - coordinates(exact.states[0], 3)[:both]
+    away = state.section.own[:both] - state.poincare.places_of(exact.states[0])[:both]
     away[:, 0] -= 2.0 * math.pi * np.round(away[:, 0] / (2.0 * math.pi))
     pixels = np.linalg.norm(away * [300.0 / math.pi, 600.0 / math.pi], axis=1)
     # The estimate of two runs: one crossing more or less.
@@ -282,11 +281,11 @@ def test_the_points_that_move_are_those_of_the_finer_run_that_lie_elsewhere():
     starts, away, longer = [section.start, *section.poincare.spread(section.section.frame, 12)], [], 0
     for forward, some in ((True, starts), (False, starts[1:])):
         coarse, fine = (
-            suslov_points(section.body, 3, some, count, forward, PLANS[Computation.SECTION][name].level, threads=1)
+            section.poincare.points(some, count, forward, PLANS[Computation.SECTION][name].level, threads=1)
             for name, count in (("draft", 30), ("standard", 120))
         )
         for one, other in zip(coarse.states, fine.states, strict=True):
-            off = coordinates(one, 3) - coordinates(other, 3)[: len(one)]
+            off = section.poincare.places_of(one) - section.poincare.places_of(other)[: len(one)]
             off[:, 0] -= 2.0 * math.pi * np.round(off[:, 0] / (2.0 * math.pi))
             away.append(np.linalg.norm(off * [300.0 / math.pi, 600.0 / math.pi], axis=1))
             longer += len(other) - len(one)

@@ -55,7 +55,7 @@ from hess_mechanics.parameters import B1, B2, B3, H_SUSLOV, I11, I13, I22, I23
 from hess_mechanics.rigid_body.inertia import check_body
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.principal_axis import Conformal, conformal
-from hess_mechanics.suslov.section import MeanDivergence, SuslovSection, lowest_energy, mean_divergence, suslov_points
+from hess_mechanics.suslov.section import MeanDivergence, SuslovSection, mean_divergence
 
 _MOST_STEPS = 100_000
 _CELLS = 32
@@ -154,7 +154,7 @@ class Suslov(State):
     def admitted(self, notes: list[str]) -> Suslov:
         """Return a state with a valid window, at least one start, and an energy that reaches the plane."""
         state = super().admitted(notes)
-        bottom = lowest_energy(self.body, _PLANES[self.plane]) + math.hypot(self.b1, self.b2, self.b3)
+        bottom = self.poincare.lowest_energy + math.hypot(self.b1, self.b2, self.b3)
         if self.h <= bottom * (1.0 + 1e-9):
             state = replace(state, h=bottom * 1.01 + 1e-6)
             notes.append(f"Motions reach {self.plane} only for h > {digits(bottom)}: h is {digits(state.h)} now.")
@@ -349,9 +349,7 @@ class Suslov(State):
 def _batch(
     section: SuslovSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level
 ) -> OrbitBatch:
-    points = suslov_points(
-        section.body, section.k, starts, crossings, forward, level, threads=1, most_steps=_MOST_STEPS
-    )
+    points = section.points(starts, crossings, forward, level, threads=1, most_steps=_MOST_STEPS)
     return OrbitBatch(
         tuple(frozen(section.places_of(states)) for states in points.states), (forward,) * len(starts), points.drift
     )

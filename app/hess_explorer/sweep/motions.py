@@ -115,14 +115,14 @@ def suslov_section(values: Values) -> of_suslov.SuslovSection:
     """That of a body at this energy above the bottom.  Raises `InvalidParameter` where no motion reaches it."""
     body = SuslovBody(*(values[name] for name in SUSLOV.parameters))
     made = of_suslov.SuslovSection(body, values["h"] - math.hypot(body.b1, body.b2, body.b3), int(values["k"]))
-    if of_suslov.lowest_energy(body, made.k) >= made.E:
+    if made.lowest_energy >= made.E:
         raise InvalidParameter(f"No motion with h = {values['h']:g} reaches γ{made.k} = 0: choose a larger h.")
     return made
 
 
 def _on_suslov(values: Values) -> tuple[Body, Start]:
     of = suslov_section(values)
-    return of.body, of_suslov.state_at(of.body, of.E, of.k, values["psi"], values["delta"])
+    return of.body, of.state_at(values["psi"], values["delta"])
 
 
 def _ball_section(values: Values) -> of_ball.BallSection:

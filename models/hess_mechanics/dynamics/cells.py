@@ -6,7 +6,7 @@ import numpy as np
 
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Window", "centres"]
+__all__ = ["Window", "centres", "evenly"]
 
 Window = tuple[tuple[float, float], tuple[float, float]]
 """Two opposite corners, (x0, y0), (x1, y1), the lower left one first."""
@@ -15,3 +15,18 @@ Window = tuple[tuple[float, float], tuple[float, float]]
 def centres(low: float, high: float, count: int) -> Array:
     """Of `count` equal cells between two ends, (count,)."""
     return low + (np.arange(count) + 0.5) * (high - low) / count
+
+
+_PLASTIC = np.array([[0.7548776662466927], [0.5698402909980532]])
+"""1/ρ and 1/ρ² of the plastic number, ρ³ = ρ + 1."""
+
+
+def evenly(count: int, origin: float = 0.0) -> Array:
+    """Return points (2, count) of the unit square: each beginning of them fills it evenly (Roberts, 2018).
+
+    Parameters
+    ----------
+    count : how many.
+    origin : both coordinates of the point before the first.
+    """
+    return np.asarray((origin + _PLASTIC * np.arange(1, count + 1)) % 1.0)

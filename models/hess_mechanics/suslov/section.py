@@ -19,7 +19,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from hess_mechanics.dynamics.cells import Window, centres
+from hess_mechanics.dynamics.cells import Window, centres, evenly
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, SectionPoints, section_points
@@ -35,177 +35,15 @@ from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 __all__ = [
     "MeanDivergence",
     "SuslovSection",
-    "coordinates",
     "divergence",
-    "invariant_density",
-    "lowest_energy",
     "mean_divergence",
-    "plane_of",
-    "possible",
     "require_reached",
-    "seeds",
-    "state_at",
-    "states_at",
-    "suslov_points",
 ]
 
 _TURNS = 40.0
 """Time allowed per crossing, in units of 1/ν; few orbits take longer."""
 _EDGE = 1e-6
 _COLUMNS = 240
-
-
-def _check(k: int) -> None:
-    if k not in (1, 2, 3):
-        raise InvalidParameter("The section is γ1 = 0, γ2 = 0 or γ3 = 0: choose 1, 2 or 3.")
-
-
-def plane_of(k: int) -> Plane:
-    """The plane γ_k = 0, crossed while γ_k grows.  Raises `InvalidParameter`."""
-    _check(k)
-    return Plane(tuple(float(i == k + 1) for i in range(5)))
-
-
-def lowest_energy(body: SuslovBody, k: int) -> float:
-    """The energy below which no motion reaches the plane γ_k = 0."""
-    _check(k)
-    return -math.hypot(*(b for i, b in enumerate((body.b1, body.b2, body.b3), 1) if i != k))
-
-
-def _gamma(k: int, psi: Array) -> Array:
-    gamma = np.zeros((3, psi.size))
-    first, second = (i for i in range(3) if i != k - 1)
-    gamma[first], gamma[second] = np.cos(psi), np.sin(psi)
-    return gamma
-
-
-def states_at(body: SuslovBody, E: float, k: int, psi: Array, delta: Array) -> tuple[Array, Mask]:
-    """States (n, 5) on γ_k = 0 at (ψ, δ), each (n,), and whether the energy E is possible there (n,).
-
-    Raises `InvalidParameter`.
-    """
-    require_finite(E=E)
-    _check(k)
-    psi, delta = np.array(psi, float, ndmin=1), np.array(delta, float, ndmin=1)
-    gamma = _gamma(k, psi)
-    side = np.where(np.sin(psi) < 0.0, -1.0, 1.0)
-    if k == 3:
-        u = np.stack([np.cos(psi + delta), np.sin(psi + delta)])
-    elif k == 1:
-        u = -side * np.stack([np.cos(delta), np.sin(delta)])
-    else:
-        u = side * np.stack([np.sin(delta), np.cos(delta)])
-    kinetic = E - np.array([body.b1, body.b2, body.b3]) @ gamma
-    speed = np.sqrt(np.maximum(0.0, kinetic) / (0.5 * (body.I11 * u[0] ** 2 + body.I22 * u[1] ** 2)))
-    inside = (delta > 0.0) & (delta < math.pi) & np.isfinite(psi)
-    return np.vstack([speed * u, gamma]).T, inside & (kinetic > 0.0)
-
-
-def state_at(body: SuslovBody, E: float, k: int, psi: float, delta: float) -> tuple[float, ...]:
-    """The state (5,) on γ_k = 0 at (ψ, δ).  Raises `InvalidParameter` where the energy E is impossible."""
-    states, ok = states_at(body, E, k, np.array([psi]), np.array([delta]))
-    if not ok[0]:
-        raise InvalidParameter(
-            f"At ψ = {psi:.6g}, δ = {delta:.6g} no motion has the energy E = {E:.6g}: choose a "
-            "larger energy, or another point with 0 < δ < π."
-        )
-    return tuple(map(float, states[0]))
-
-
-def invariant_density(body: SuslovBody, E: float, k: int, psi: Array, delta: Array) -> Array:
-    """σ(ψ, δ) (n,): the return map of γ_k = 0 keeps σ dψ dδ where I13 = I23 = 0; 0 where the energy E is impossible.
-
-    The flow keeps dω dγ.  With ω = |ω|u and K = I11u1² + I22u2² it is dE/K times the angle of u times dγ_k dψ, and the
-    flux through γ_k = 0 has the factor γ̇_k = |ω| c sin δ: σ = √(2(E − (b, γ))) c sin δ/K^(3/2), where c = 1 for k = 3
-    and |sin ψ| for the others.
-    Raises `InvalidParameter`.
-    """
-    if body.I13 != 0.0 or body.I23 != 0.0:
-        raise InvalidParameter("The return map keeps an area by itself only with I13 = I23 = 0: set these to 0.")
-    states, ok = states_at(body, E, k, psi, delta)
-    w1, w2 = states[:, 0], states[:, 1]
-    speed = np.hypot(w1, w2)
-    growth = SYSTEM.field(list(states.T), body.parameters)[k + 1]
-    twice = np.where(ok, body.I11 * w1 * w1 + body.I22 * w2 * w2, 1.0)  # K|ω|² = 2(E − (b, γ))
-    return np.where(ok, speed**2 * growth / twice, 0.0)
-
-
-def coordinates(states: Array, k: int) -> Array:
-    """(ψ, δ) (n, 2) of states (n, 5) of the section."""
-    _check(k)
-    first, second = (i + 2 for i in range(3) if i != k - 1)
-    psi = np.arctan2(states[:, second], states[:, first])
-    w1, w2 = states[:, 0], states[:, 1]
-    if k == 3:
-        delta = np.arctan2(w2, w1) - psi
-        delta = np.abs(np.arctan2(np.sin(delta), np.cos(delta)))
-    elif k == 1:
-        delta = np.arctan2(np.abs(w2), -np.where(np.sin(psi) < 0.0, -1.0, 1.0) * w1)
-    else:
-        delta = np.arctan2(np.abs(w1), np.where(np.sin(psi) < 0.0, -1.0, 1.0) * w2)
-    return np.column_stack([psi, delta])
-
-
-def possible(body: SuslovBody, E: float, k: int, psi: Array) -> Mask:
-    """Whether the energy E allows γ at ψ (n,)."""
-    _check(k)
-    return np.asarray(np.array([body.b1, body.b2, body.b3]) @ _gamma(k, np.asarray(psi, float)) < E)
-
-
-def _arcs(body: SuslovBody, E: float, k: int, psi0: float, psi1: float) -> list[tuple[float, float]]:
-    """The intervals of ψ0 … ψ1 where (b, γ) < E, in order."""
-    first, second = (b for i, b in enumerate((body.b1, body.b2, body.b3), 1) if i != k)
-    size = math.hypot(first, second)
-    if size < E:
-        return [(psi0, psi1)]
-    if size <= -E:
-        return []
-    half = math.acos(-E / size)
-    bottom = math.atan2(-second, -first)
-    turns = range(math.floor((psi0 - bottom) / (2.0 * math.pi)) - 1, math.ceil((psi1 - bottom) / (2.0 * math.pi)) + 2)
-    arcs = ((max(psi0, bottom + 2.0 * math.pi * n - half), min(psi1, bottom + 2.0 * math.pi * n + half)) for n in turns)
-    return [arc for arc in arcs if arc[0] < arc[1]]
-
-
-def seeds(body: SuslovBody, E: float, k: int, window: Sequence[float], count: int) -> tuple[tuple[float, ...], ...]:
-    """At most `count` states of the section, spread evenly over the possible part of `window` (ψ0, ψ1, δ0, δ1).
-
-    Fewer only where nothing is possible, or the possible part holds no double.
-    """
-    psi0, psi1, delta0, delta1 = window
-    _check(k)
-    arcs = _arcs(body, E, k, psi0, psi1)
-    if not arcs:
-        return ()
-    # A low-discrepancy sequence: each of its beginnings fills the window evenly (Roberts, 2018).
-    n = np.arange(1, count + 1)
-    ends = np.cumsum([0.0, *(high - low for low, high in arcs)])
-    along = ends[-1] * ((0.5 + 0.7548776662466927 * n) % 1.0)
-    arc = np.searchsorted(ends[1:-1], along)
-    psi = along - ends[arc] + np.array([low for low, _ in arcs])[arc]
-    delta = delta0 + (delta1 - delta0) * ((0.5 + 0.5698402909980532 * n) % 1.0)
-    states, ok = states_at(body, E, k, psi, np.clip(delta, _EDGE, math.pi - _EDGE))
-    return tuple(tuple(map(float, state)) for state in states[ok])
-
-
-def suslov_points(
-    body: SuslovBody,
-    k: int,
-    starts: Sequence[Sequence[float]],
-    crossings: int,
-    forward: bool,
-    level: Accuracy,
-    threads: int = THREADS,
-    most_steps: int = MAX_STEPS,
-) -> SectionPoints:
-    """The first `crossings` crossings of γ_k = 0 by each orbit, forward or backward in time, as in `section_points`.
-
-    Raises `InvalidParameter`, `WorkLimit`.
-    """
-    nu = float(np.max(SYSTEM.frequency(np.array(starts, float).T, np.array(body.parameters))))
-    ratio = math.sqrt(max(body.I11, body.I22) / min(body.I11, body.I22))
-    end = crossings * _TURNS * ratio / max(nu, 1e-300)
-    return section_points(body, starts, plane_of(k), end if forward else -end, level, crossings, threads, most_steps)
 
 
 def divergence(body: SuslovBody, states: Array) -> Array:
@@ -229,9 +67,13 @@ def mean_divergence(body: SuslovBody, start: Sequence[float], span: float, count
     return MeanDivergence(frozen(times[1:]), frozen(np.cumsum(steps) / times[1:]))
 
 
+def _side(psi: Array) -> Array:
+    return np.where(np.sin(psi) < 0.0, -1.0, 1.0)
+
+
 @dataclass(frozen=True)
 class SuslovSection(PoincareSection):
-    """The section γ_k = 0 of a body at E = h.  Its methods raise `InvalidParameter`."""
+    """The section γ_k = 0 of a body at E = h, crossed while γ_k grows.  Raises `InvalidParameter`."""
 
     body: SuslovBody
     E: float
@@ -242,6 +84,11 @@ class SuslovSection(PoincareSection):
     window: ClassVar[tuple[tuple[float, float], ...]] = ((-math.pi, math.pi), (0.0, math.pi))
     system: ClassVar[System] = SYSTEM
 
+    def __post_init__(self) -> None:
+        require_finite(E=self.E)
+        if self.k not in (1, 2, 3):
+            raise InvalidParameter("The section is γ1 = 0, γ2 = 0 or γ3 = 0: choose 1, 2 or 3.")
+
     @property
     def parameters(self) -> tuple[float, ...]:
         """Of the body."""
@@ -250,7 +97,25 @@ class SuslovSection(PoincareSection):
     @property
     def surface(self) -> Plane:
         """γ_k = 0."""
-        return plane_of(self.k)
+        return Plane(tuple(float(i == self.k + 1) for i in range(5)))
+
+    @property
+    def _in_plane(self) -> tuple[int, int]:
+        """The indices of the other two components of γ."""
+        first, second = (i for i in range(3) if i != self.k - 1)
+        return first, second
+
+    @property
+    def _field(self) -> tuple[float, float]:
+        """Their components of b."""
+        b = self.body.parameters[4:]
+        first, second = self._in_plane
+        return b[first], b[second]
+
+    @property
+    def lowest_energy(self) -> float:
+        """The energy below which no motion reaches the plane."""
+        return -math.hypot(*self._field)
 
     @property
     def slowness(self) -> float:
@@ -280,16 +145,120 @@ class SuslovSection(PoincareSection):
 
     def states_at(self, psi: Array, delta: Array) -> tuple[Array, Mask]:
         """The states (n, 5) at (ψ, δ) (n,), and whether motions are possible there (n,)."""
-        return states_at(self.body, self.E, self.k, psi, delta)
+        body, psi, delta = self.body, np.array(psi, float, ndmin=1), np.array(delta, float, ndmin=1)
+        gamma = self._gamma(psi)
+        side = _side(psi)
+        if self.k == 3:
+            u = np.stack([np.cos(psi + delta), np.sin(psi + delta)])
+        elif self.k == 1:
+            u = -side * np.stack([np.cos(delta), np.sin(delta)])
+        else:
+            u = side * np.stack([np.sin(delta), np.cos(delta)])
+        kinetic = self.E - np.array(body.parameters[4:]) @ gamma
+        speed = np.sqrt(np.maximum(0.0, kinetic) / (0.5 * (body.I11 * u[0] ** 2 + body.I22 * u[1] ** 2)))
+        inside = (delta > 0.0) & (delta < math.pi) & np.isfinite(psi)
+        return np.vstack([speed * u, gamma]).T, inside & (kinetic > 0.0)
+
+    def _gamma(self, psi: Array) -> Array:
+        gamma = np.zeros((3, psi.size))
+        gamma[self._in_plane, :] = np.cos(psi), np.sin(psi)
+        return gamma
+
+    def state_at(self, psi: float, delta: float) -> tuple[float, ...]:
+        """The state (5,) at (ψ, δ).  Raises `InvalidParameter` where the energy is impossible."""
+        states, ok = self.states_at(np.array([psi]), np.array([delta]))
+        if not ok[0]:
+            raise InvalidParameter(
+                f"At ψ = {psi:.6g}, δ = {delta:.6g} no motion has the energy E = {self.E:.6g}: choose a "
+                "larger energy, or another point with 0 < δ < π."
+            )
+        return tuple(map(float, states[0]))
+
+    def invariant_density(self, psi: Array, delta: Array) -> Array:
+        """σ(ψ, δ) (n,): the return map keeps σ dψ dδ where I13 = I23 = 0; 0 where the energy is impossible.
+
+        The flow keeps dω dγ.  With ω = |ω|u and K = I11u1² + I22u2² it is dE/K times the angle of u times dγ_k dψ, and
+        the flux through γ_k = 0 has the factor γ̇_k = |ω| c sin δ: σ = √(2(E − (b, γ))) c sin δ/K^(3/2), where c = 1 for
+        k = 3 and |sin ψ| for the others.
+        Raises `InvalidParameter`.
+        """
+        body = self.body
+        if body.I13 != 0.0 or body.I23 != 0.0:
+            raise InvalidParameter("The return map keeps an area by itself only with I13 = I23 = 0: set these to 0.")
+        states, ok = self.states_at(psi, delta)
+        w1, w2 = states[:, 0], states[:, 1]
+        speed = np.hypot(w1, w2)
+        growth = SYSTEM.field(list(states.T), body.parameters)[self.k + 1]
+        twice = np.where(ok, body.I11 * w1 * w1 + body.I22 * w2 * w2, 1.0)  # K|ω|² = 2(E − (b, γ))
+        return np.where(ok, speed**2 * growth / twice, 0.0)
 
     def places_of(self, states: Array) -> Array:
         """(ψ, δ) (n, 2) of states (n, 5) of the section."""
-        return coordinates(states, self.k)
+        first, second = self._in_plane
+        psi = np.arctan2(states[:, 2 + second], states[:, 2 + first])
+        w1, w2 = states[:, 0], states[:, 1]
+        if self.k == 3:
+            delta = np.arctan2(w2, w1) - psi
+            delta = np.abs(np.arctan2(np.sin(delta), np.cos(delta)))
+        elif self.k == 1:
+            delta = np.arctan2(np.abs(w2), -_side(psi) * w1)
+        else:
+            delta = np.arctan2(np.abs(w1), _side(psi) * w2)
+        return np.column_stack([psi, delta])
+
+    def possible(self, psi: Array) -> Mask:
+        """Whether the energy allows γ at ψ (n,)."""
+        return np.asarray(np.array(self.body.parameters[4:]) @ self._gamma(psi) < self.E)
+
+    def _arcs(self, psi0: float, psi1: float) -> list[tuple[float, float]]:
+        """The intervals of ψ0 … ψ1 where (b, γ) < E, in order."""
+        (first, second), size, turn = self._field, -self.lowest_energy, 2.0 * math.pi
+        if size < self.E:
+            return [(psi0, psi1)]
+        if size <= -self.E:
+            return []
+        half = math.acos(-self.E / size)
+        bottom = math.atan2(-second, -first)
+        turns = range(math.floor((psi0 - bottom) / turn) - 1, math.ceil((psi1 - bottom) / turn) + 2)
+        arcs = ((max(psi0, bottom + turn * n - half), min(psi1, bottom + turn * n + half)) for n in turns)
+        return [arc for arc in arcs if arc[0] < arc[1]]
 
     def spread(self, window: Window, count: int) -> tuple[tuple[float, ...], ...]:
-        """At most `count` states, spread evenly over what is possible of the window."""
-        (x0, y0), (x1, y1) = window
-        return seeds(self.body, self.E, self.k, (x0, x1, y0, y1), count) if count else ()
+        """At most `count` states, spread evenly over what is possible of the window.
+
+        Fewer only where nothing is possible, or the possible part holds no double.
+        """
+        (psi0, delta0), (psi1, delta1) = window
+        arcs = self._arcs(psi0, psi1)
+        if not arcs or not count:
+            return ()
+        shares = evenly(count, 0.5)
+        ends = np.cumsum([0.0, *(high - low for low, high in arcs)])
+        along = ends[-1] * shares[0]
+        arc = np.searchsorted(ends[1:-1], along)
+        psi = along - ends[arc] + np.array([low for low, _ in arcs])[arc]
+        delta = delta0 + (delta1 - delta0) * shares[1]
+        states, ok = self.states_at(psi, np.clip(delta, _EDGE, math.pi - _EDGE))
+        return tuple(tuple(map(float, state)) for state in states[ok])
+
+    def points(
+        self,
+        starts: Sequence[Sequence[float]],
+        crossings: int,
+        forward: bool,
+        level: Accuracy,
+        threads: int = THREADS,
+        most_steps: int = MAX_STEPS,
+    ) -> SectionPoints:
+        """The first `crossings` crossings by each orbit, forward or backward in time, as in `section_points`.
+
+        Raises `InvalidParameter`, `WorkLimit`.
+        """
+        nu = float(np.max(SYSTEM.frequency(np.array(starts, float).T, np.array(self.parameters))))
+        end = crossings * _TURNS * self.slowness / max(nu, 1e-300)
+        return section_points(
+            self.body, starts, self.surface, end if forward else -end, level, crossings, threads, most_steps
+        )
 
     def somewhere(self) -> tuple[float, ...] | None:
         """A state of it; None where no motion crosses."""
@@ -298,7 +267,7 @@ class SuslovSection(PoincareSection):
     def impossible(self, window: Window) -> Array:
         """Cells (1, n) over the window: 1 where the energy does not allow ψ."""
         psi = np.linspace(window[0][0], window[1][0], _COLUMNS + 1)
-        return frozen(1.0 - possible(self.body, self.E, self.k, 0.5 * (psi[1:] + psi[:-1]))[None, :].astype(float))
+        return frozen(1.0 - self.possible(0.5 * (psi[1:] + psi[:-1]))[None, :].astype(float))
 
     def cells_of_row(self, window: Window, cells: tuple[int, int], row: int) -> tuple[Array, Mask]:
         """The states (m, 5) in the middles of the cells of a row, and whether motions are possible there (m,)."""
@@ -322,9 +291,7 @@ class SuslovSection(PoincareSection):
         states, ok = self.cells_of_row(window, cells, row)
         out = np.full(cells[0], np.inf)
         if ok.any():
-            found = suslov_points(
-                self.body, self.k, states[ok].tolist(), crossings, True, level, threads=1, most_steps=most_steps
-            )
+            found = self.points(states[ok].tolist(), crossings, True, level, threads=1, most_steps=most_steps)
             out[ok] = [
                 float(orbit[2 * len(orbit) // 3 :, 0].mean()) if len(orbit) > 30 else math.inf for orbit in found.states
             ]
@@ -333,6 +300,7 @@ class SuslovSection(PoincareSection):
 
 def require_reached(section: SuslovSection) -> None:
     """Raise `OutsideRegion` where no motion of this energy reaches the plane."""
-    lowest = lowest_energy(section.body, section.k)
-    if lowest >= section.E:
-        raise OutsideRegion(f"No motion with E = {section.E:g} reaches γ{section.k} = 0: choose E above {lowest:.6g}.")
+    if section.lowest_energy >= section.E:
+        raise OutsideRegion(
+            f"No motion with E = {section.E:g} reaches γ{section.k} = 0: choose E above {section.lowest_energy:.6g}."
+        )

@@ -28,7 +28,7 @@ from hess_mechanics.euler_poisson.andoyer import hess_curve
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.numerics.patience import limited_by
 from hess_mechanics.suslov.quartic import state_on_section
-from hess_mechanics.suslov.section import invariant_density
+from hess_mechanics.suslov.section import SuslovSection
 from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary_f
 
 REFERENCE = level("reference")
@@ -64,7 +64,9 @@ def test_where_an_area_is_kept_the_determinant_says_so():
     body = SuslovBody(1.5, 1.0, 0.0, 0.0, 0.3, -0.5, 1.0)
     P = return_map(body, E=1.842)
     image, DP = P.with_derivative(np.array([0.3, 1.2]))
-    before, after = (invariant_density(body, 1.842, 3, *np.array(one)[:, None])[0] for one in ((0.3, 1.2), image))
+    before, after = (
+        SuslovSection(body, 1.842, 3).invariant_density(*np.array(one)[:, None])[0] for one in ((0.3, 1.2), image)
+    )
     assert np.linalg.det(DP) == pytest.approx(before / after, rel=1e-9)
     # The Andoyer section is of a Hamiltonian system, in canonical coordinates (l, L) with dL = G dx + x dG.
     P = return_map(HEAVY, h=1.5, f=-0.7)

@@ -17,7 +17,7 @@ from hess_mechanics.suslov.principal_axis import (
     energy_gradient,
     poisson_matrix,
 )
-from hess_mechanics.suslov.section import coordinates, invariant_density, plane_of, state_at
+from hess_mechanics.suslov.section import SuslovSection
 
 SUSLOV = systems()["suslov"]
 FLOOR = level("reference")
@@ -147,11 +147,11 @@ def test_the_brackets_with_the_energy_are_the_rates_of_the_motion():
 def test_the_return_map_keeps_its_density(k):
     E, p = 1.5, GENERAL.parameters
     step = 1e-5
-    plane = plane_of(k)
+    plane = SuslovSection(GENERAL, 0.0, k).surface
 
     def image(psi, delta):
-        start = state_at(GENERAL, E, k, psi, delta)
-        return coordinates(section(SUSLOV.at(p), start, plane, 100.0, FLOOR, 1).states, k)[0]
+        start = SuslovSection(GENERAL, E, k).state_at(psi, delta)
+        return SuslovSection(GENERAL, 0.0, k).places_of(section(SUSLOV.at(p), start, plane, 100.0, FLOOR, 1).states)[0]
 
     def slope(psi, delta, x, y):
         return (image(psi + x, delta + y) - image(psi - x, delta - y)) / (2.0 * (x + y))
@@ -163,7 +163,8 @@ def test_the_return_map_keeps_its_density(k):
         ]
         there = image(psi, delta)
         before, after = (
-            float(invariant_density(GENERAL, E, k, np.array([x]), np.array([y]))[0]) for x, y in ((psi, delta), there)
+            float(SuslovSection(GENERAL, E, k).invariant_density(np.array([x]), np.array([y]))[0])
+            for x, y in ((psi, delta), there)
         )
         assert after * abs(np.linalg.det(np.array(columns))) == pytest.approx(before, rel=1e-5)
         # The area dψ dδ alone is not kept.
@@ -173,14 +174,14 @@ def test_the_return_map_keeps_its_density(k):
 def test_the_density_is_the_closed_form_and_0_where_nothing_is_possible():
     psi = np.array([0.3, 3.0, -2.0])
     for k, gamma in ((3, lambda s: (math.cos(s), math.sin(s), 0.0)), (1, lambda s: (0.0, math.cos(s), math.sin(s)))):
-        found = invariant_density(GENERAL, 0.3, k, psi, np.array([1.0, 1.5, 2.0]))
+        found = SuslovSection(GENERAL, 0.3, k).invariant_density(psi, np.array([1.0, 1.5, 2.0]))
         for value, at, delta in zip(found, psi, (1.0, 1.5, 2.0), strict=True):
             twice = 2.0 * (0.3 - np.dot((0.4, -0.3, 0.8), gamma(at)))
             u = (math.cos(at + delta), math.sin(at + delta)) if k == 3 else (math.cos(delta), math.sin(delta))
             K = 1.5 * u[0] ** 2 + 1.0 * u[1] ** 2
             c = 1.0 if k == 3 else abs(math.sin(at))
             assert value == pytest.approx(math.sqrt(max(0.0, twice)) * c * math.sin(delta) / K**1.5, abs=1e-12)
-    assert invariant_density(GENERAL, 0.3, 1, np.array([1.5]), np.array([1.0]))[0] == 0.0
+    assert SuslovSection(GENERAL, 0.3, 1).invariant_density(np.array([1.5]), np.array([1.0]))[0] == 0.0
 
 
 @pytest.mark.parametrize(
@@ -191,7 +192,7 @@ def test_the_density_is_the_closed_form_and_0_where_nothing_is_possible():
         (lambda: conformal(GENERAL, START, math.nan, FLOOR), InvalidParameter, "finite"),
         (lambda: conformal(GENERAL, START, 1e6, FLOOR), WorkLimit, "choose a shorter time span"),
         (
-            lambda: invariant_density(SuslovBody(1.5, 1.0, 0.1, 0.0), 1.0, 3, np.zeros(1), np.ones(1)),
+            lambda: SuslovSection(SuslovBody(1.5, 1.0, 0.1, 0.0), 1.0, 3).invariant_density(np.zeros(1), np.ones(1)),
             InvalidParameter,
             "I13 = I23 = 0",
         ),

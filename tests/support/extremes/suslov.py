@@ -11,12 +11,12 @@ from hess_mechanics import SuslovBody, f_max, level, section
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
 from hess_mechanics.suslov.equations import SYSTEM
-from hess_mechanics.suslov.section import lowest_energy, plane_of, seeds, state_at, states_at, suslov_points
+from hess_mechanics.suslov.section import SuslovSection
 from hess_mechanics.suslov_hess.rotation_number import MAX_POINTS, Torus, closed_after, perturbed_rotation, values_at
 
 __all__ = ["refusals", "rows"]
 
-WHOLE = (-math.pi, math.pi, 0.0, math.pi)
+WHOLE = ((-math.pi, 0.0), (math.pi, math.pi))
 
 
 def body_of(b=1.0, I11=1.5, I22=3.0, I13=0.4, I23=0.4):
@@ -25,12 +25,12 @@ def body_of(b=1.0, I11=1.5, I22=3.0, I13=0.4, I23=0.4):
 
 def crossings(Row, name, body, k, E, count=3, sense=1, **options):
     """How far the first crossings are from where a Taylor series is at their times, and that from the plane."""
-    start = seeds(body, E, k, WHOLE, 1)[0]
+    start = SuslovSection(body, E, k).spread(WHOLE, 1)[0]
     nu = float(SYSTEM.frequency(np.array(start), np.array(body.parameters)))
     truth = oracle.Along(SYSTEM, start, body.parameters, 30)
 
     def error(grade):
-        found = section(body, start, plane_of(k), sense * 400.0 / nu, level(grade), count)
+        found = section(body, start, SuslovSection(body, E, k).surface, sense * 400.0 / nu, level(grade), count)
         if not found.times.size:
             return 1.0
         states = truth.at(found.times.tolist()).astype(float)
@@ -115,7 +115,7 @@ def rows(Row):
     h_n = (1.0 - 3.0 * n * n) / (2.0 * n)
     f_n = f_max(h_n)
     return [
-        crossings(Row, "γ3 = 0, E at the bottom + 1e-9", flat, 3, lowest_energy(flat, 3) + 1e-9),
+        crossings(Row, "γ3 = 0, E at the bottom + 1e-9", flat, 3, SuslovSection(flat, 0.0, 3).lowest_energy + 1e-9),
         crossings(Row, "γ3 = 0, E = 1e6", plain, 3, 1e6),
         crossings(Row, "γ3 = 0, b = 1e6", strong, 3, 0.3e6),
         crossings(Row, "γ3 = 0, b = 1e-6", weak, 3, 0.3e-6),
@@ -174,20 +174,20 @@ def refusals(Refusal):
     def tori(name, request, words, error=InvalidParameter):
         return Refusal(f"rotation number, {name}", request, error, words)
 
-    start = state_at(body, 0.3, 3, -0.3, 1.0)
+    start = SuslovSection(body, 0.3, 3).state_at(-0.3, 1.0)
     return [
-        plainly("Suslov section, γ4 = 0", lambda: plane_of(4), "choose 1, 2 or 3"),
+        plainly("Suslov section, γ4 = 0", lambda: SuslovSection(body, 0.0, 4).surface, "choose 1, 2 or 3"),
         plainly(
             "Suslov section, E below the plane",
-            lambda: state_at(body, lowest_energy(body, 3), 3, 0.7, 1.0),
+            lambda: SuslovSection(body, SuslovSection(body, 0.0, 3).lowest_energy, 3).state_at(0.7, 1.0),
             "choose a larger energy",
         ),
-        plainly("Suslov section, δ = π", lambda: state_at(body, 1.0, 3, 0.7, math.pi), "0 < δ < π"),
-        plainly("Suslov section, E = ∞", lambda: states_at(body, math.inf, 3, 0.7, 1.0), "E is not"),
+        plainly("Suslov section, δ = π", lambda: SuslovSection(body, 1.0, 3).state_at(0.7, math.pi), "0 < δ < π"),
+        plainly("Suslov section, E = ∞", lambda: SuslovSection(body, math.inf, 3).states_at(0.7, 1.0), "E is not"),
         plainly("Suslov section, a body with I22 = 0", lambda: body_of(I22=0.0), "choose", NotPositiveDefinite),
         Refusal(
             "Suslov section of 1e6 crossings",
-            lambda grade: suslov_points(body, 3, [start], 10**6, True, grade),
+            lambda grade: SuslovSection(body, 0.0, 3).points([start], 10**6, True, grade),
             WorkLimit,
             "number of crossings",
         ),
