@@ -18,13 +18,13 @@ from hess_mechanics.dynamics.orbit import (
     require_finite_neighbours,
     require_finite_rates,
     require_finite_states,
+    require_steps,
 )
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Accuracy, Computation, plan
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, frozen
-from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
 __all__ = ["Exponent", "lyapunov_exponent"]
 
@@ -66,19 +66,6 @@ class Exponent(Result):
         return self.value < 2.0 * math.log(max(math.e, self.times.size)) / float(self.times[-1])
 
 
-def _checked(body: Body, state: Sequence[float], span: float) -> tuple[Problem, int]:
-    """The problem, and how often neighbours return.  Raises `InvalidParameter`, `WorkLimit`."""
-    span = checked_span(span, "a Lyapunov exponent")
-    problem = Problem.of(body, [state])
-    returns = abs(span) / _INTERVAL * problem.nu
-    if not returns <= MAX_RETURNS:
-        raise WorkLimit(
-            f"This takes {returns:.3g} returns of the neighbour, at most {MAX_RETURNS} are allowed: choose "
-            "a shorter time span."
-        )
-    return problem, max(1, math.ceil(returns))
-
-
 def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Accuracy = STANDARD) -> Exponent:
     """The exponent of the orbit from `state` (d,) over the time `span` (negative: backwards), per unit of time.
 
@@ -92,7 +79,15 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
     50.0
     """
     level = plan(Computation.EXPONENT, level).level
-    problem, count = _checked(body, state, span)
+    span = checked_span(span, "a Lyapunov exponent")
+    problem = Problem.of(body, [state])
+    returns = abs(span) / _INTERVAL * problem.nu
+    if not returns <= MAX_RETURNS:
+        raise WorkLimit(
+            f"This takes {returns:.3g} returns of the neighbour, at most {MAX_RETURNS} are allowed: choose "
+            "a shorter time span."
+        )
+    count = max(1, math.ceil(returns))
     interval = np.array([span * problem.nu / count])
     direction = np.cos(1.0 + np.arange(problem.scale.size) ** 2)
     y = problem.states[0].copy()
@@ -105,8 +100,7 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
             taken = body.system.orbit(
                 start, problem.parameters, interval, level.order, level.tolerance, MAX_STEPS - steps, end
             )
-            if taken == STEP_LIMIT_REACHED:
-                raise WorkLimit(f"This exponent needs more than {MAX_STEPS} steps: choose a shorter time span.")
+            require_steps(taken, f"This exponent needs more than {MAX_STEPS} steps: choose a shorter time span.")
             steps += taken
         require_finite_states(ends[0])
         y = ends[0, 0].copy()

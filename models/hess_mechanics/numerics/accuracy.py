@@ -120,42 +120,32 @@ def cheapest(error: float) -> Level:
 
 
 class Computation(StrEnum):
-    """What is computed, each with its own meaning of the levels."""
+    """What is computed, each with its own meaning of the levels and of the promise of a `Plan`."""
 
     ORBIT = "orbit"
+    """Promised is the error where the state is O(1)."""
     SECTION = "section"
+    """Promised are the crossings right to half a pixel where neighbours part e-fold from one to the next."""
     ROTATION = "rotation number"
+    """Promised is the error of the rotation number of a closed curve, in turns."""
     GRID = "grid"
+    """Promised is the error of ρ where |trace| is not within 1e-2 of 2, in turns."""
     LINE = "line"
+    """Promised is the same as of a grid."""
     COLOURS = "colours"
+    """Promised is the same as of a grid; 256 colours tell 4e-3 apart."""
     MAP = "map"
+    """Promised is the error of θ⁺, in radians."""
     CURVE = "curve"
+    """Promised is the distance from the curve, in pixels, for |a| ≤ 1."""
     BASINS = "basins"
+    """Promised is the share of the cells that twice as many along each side change, where the boundary is a curve."""
     INDICATOR = "indicator"
+    """Promised is the same as of basins."""
     EXPONENT = "exponent"
+    """Promised is the error of λ beside the fastest angular velocity ν, for a time of 2000/ν."""
     CLOUD = "cloud"
-
-    @property
-    def unit(self) -> str:
-        """What the promise of a `Plan` of this kind counts."""
-        return _UNITS[self]
-
-
-_UNITS = {
-    Computation.ORBIT: "error where the state is O(1)",
-    Computation.SECTION: "crossings right to half a pixel where neighbours part e-fold from one to the next",
-    Computation.ROTATION: "error of the rotation number of a closed curve, in turns",
-    Computation.GRID: "error of ρ where |trace| is not within 1e-2 of 2, in turns",
-    Computation.LINE: "error of ρ where |trace| is not within 1e-2 of 2, in turns",
-    Computation.COLOURS: "error of ρ where |trace| is not within 1e-2 of 2, in turns; 256 colours tell 4e-3 apart",
-    Computation.MAP: "error of θ⁺, in radians",
-    Computation.CURVE: "distance from the curve, in pixels, for |a| ≤ 1",
-    Computation.BASINS: "share of the cells that twice as many along each side change, where the boundary is a curve",
-    Computation.INDICATOR: "share of the cells that twice as many along each side change, where the boundary is a "
-    "curve",
-    Computation.EXPONENT: "error of λ beside the fastest angular velocity ν, for a time of 2000/ν",
-    Computation.CLOUD: "error of ln|s|, of γ, and of ω beside its largest size",
-}
+    """Promised is the error of ln|s|, of γ, and of ω beside its largest size."""
 
 
 _CROSSED = Level("draft", 1e-3, 1e-6, 12)
@@ -168,7 +158,7 @@ class Plan:
     Parameters
     ----------
     level : order and tolerance of the Taylor steps, under the name of the level.
-    promise : in the `unit` of the kind.
+    promise : see `Computation`.
     share : of the crossings, of the turns, of the time, of the points asked for, the part that is computed.
     cells : cells along each side of a grid, as a multiple of those at `standard`; phases of a map, orbits on a line,
         tori on one.

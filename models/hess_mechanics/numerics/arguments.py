@@ -63,9 +63,9 @@ def as_pairs(name: str, places: Any) -> list[tuple[float, float]]:
     """Places of a plane."""
     try:
         return [(as_number(name, x), as_number(name, y)) for x, y in places]
-    except (TypeError, ValueError) as error:
-        if isinstance(error, InvalidParameter):
-            raise
+    except InvalidParameter:
+        raise
+    except (TypeError, ValueError):
         raise InvalidParameter(
             f"{name} = {places!r} are no places; write them like [(0.0, 0.5), (1.0, 0.2)]."
         ) from None
@@ -74,9 +74,8 @@ def as_pairs(name: str, places: Any) -> list[tuple[float, float]]:
 def as_place(names: tuple[str, ...], place: Any) -> tuple[float, ...]:
     """A place with one number for each of these coordinates."""
     try:
-        found = tuple(as_number(name, x) for name, x in zip(names, place, strict=True))
-    except (TypeError, ValueError) as error:
-        if isinstance(error, InvalidParameter):
-            raise
+        return tuple(as_number(name, x) for name, x in zip(names, place, strict=True))
+    except InvalidParameter:
+        raise
+    except (TypeError, ValueError):
         raise InvalidParameter(f"{place!r} is no place here: give {len(names)} numbers, {', '.join(names)}.") from None
-    return found

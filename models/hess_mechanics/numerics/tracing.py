@@ -23,6 +23,7 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from operator import add, mul, sub, truediv
 from typing import Any, NoReturn
 
 import numpy as np
@@ -36,6 +37,7 @@ Field = Callable[[Sequence[Any], Sequence[Any]], Sequence[Any]]
 
 
 _Number = int | float | np.integer | np.floating
+_ARITHMETIC: dict[str, Callable[[float, float], float]] = {"+": add, "-": sub, "*": mul, "/": truediv}
 
 
 class NotTraceable(TypeError):
@@ -171,11 +173,7 @@ class _Tape:
         if operation == "/" and b is zero:
             raise NotTraceable("This field cannot be traced: it divides by 0.")
         if a.operation == b.operation == "number":
-            return self.number(
-                {"+": a.value + b.value, "-": a.value - b.value, "*": a.value * b.value, "/": a.value / (b.value or 1)}[
-                    operation
-                ]
-            )
+            return self.number(_ARITHMETIC[operation](a.value, b.value))
         if b is zero and operation in "+-":
             return a
         if a is zero and operation in "+-":
@@ -230,6 +228,11 @@ class _Tape:
         return self._node(operation, arguments, signs, True, False)
 
 
+def _operators(sign: str) -> tuple[Callable[[Symbol, Any], Any], Callable[[Symbol, Any], Any]]:
+    """Return the methods of an operation: with the symbol on the left, and on the right."""
+    return lambda one, other: one.combined(sign, one, other), lambda one, other: one.combined(sign, other, one)
+
+
 class Symbol:
     """A variable, a parameter, or what a field has made of them so far."""
 
@@ -240,34 +243,16 @@ class Symbol:
     def __init__(self, tape: _Tape, node: _Node) -> None:
         self.tape, self.node = tape, node
 
-    def _with(self, operation: str, left: Any, right: Any) -> Any:
+    def combined(self, operation: str, left: Any, right: Any) -> Any:
+        """Return the symbol of an operation on two symbols or numbers."""
         if not all(isinstance(x, Symbol | _Number) for x in (left, right)):
             return NotImplemented
         return Symbol(self.tape, self.tape.apply(operation, self.tape.lifted(left), self.tape.lifted(right)))
 
-    def __add__(self, other: Any) -> Any:
-        return self._with("+", self, other)
-
-    def __radd__(self, other: Any) -> Any:
-        return self._with("+", other, self)
-
-    def __sub__(self, other: Any) -> Any:
-        return self._with("-", self, other)
-
-    def __rsub__(self, other: Any) -> Any:
-        return self._with("-", other, self)
-
-    def __mul__(self, other: Any) -> Any:
-        return self._with("*", self, other)
-
-    def __rmul__(self, other: Any) -> Any:
-        return self._with("*", other, self)
-
-    def __truediv__(self, other: Any) -> Any:
-        return self._with("/", self, other)
-
-    def __rtruediv__(self, other: Any) -> Any:
-        return self._with("/", other, self)
+    __add__, __radd__ = _operators("+")
+    __sub__, __rsub__ = _operators("-")
+    __mul__, __rmul__ = _operators("*")
+    __truediv__, __rtruediv__ = _operators("/")
 
     def __neg__(self) -> Symbol:
         return Symbol(self.tape, self.tape.negative(self.node))

@@ -38,23 +38,20 @@ class Variation:
 
     recursion : of the field, which also returns the entries of J that are not 0 and, last, the divergence tr J.
     moving, fixed : row and column of the entries, in this order; those that are fixed depend on parameters only.
-    divergence_free : whether tr J is 0 whatever the parameters.
     """
 
     recursion: Recursion
     moving: tuple[tuple[int, int], ...]
     fixed: tuple[tuple[int, int], ...]
-    divergence_free: bool
 
 
 def variation(field: Field, variables: int, parameters: int) -> Variation:
     """The field and its Jacobian, derived.  Raises `NotTraceable`."""
     moving: list[tuple[int, int]] = []
     fixed: list[tuple[int, int]] = []
-    free: list[bool] = []
 
     def with_jacobian(y: Sequence[Any], p: Sequence[Any]) -> Sequence[Any]:
-        for found in (moving, fixed, free):
+        for found in (moving, fixed):
             found.clear()
         rates = tuple(field(y, p))
         entries = {(i, j): derivative(rate, x) for i, rate in enumerate(rates) for j, x in enumerate(y)}
@@ -62,13 +59,12 @@ def variation(field: Field, variables: int, parameters: int) -> Variation:
             if isinstance(entry, Symbol):
                 (moving if entry.moves else fixed).append(place)
         divergence = sum(entries[i, i] for i in range(len(rates)))
-        free.append(not isinstance(divergence, Symbol))
         return *rates, *(entries[place] for place in (*moving, *fixed)), divergence
 
     # Which entries there are is known only when the field has run.
     trace(lambda y, p: with_jacobian(y, p)[: len(y)], variables, parameters)
     recursion = trace(with_jacobian, variables, parameters, len(moving) + len(fixed) + 1)
-    return Variation(recursion, tuple(moving), tuple(fixed), free[0])
+    return Variation(recursion, tuple(moving), tuple(fixed))
 
 
 def _lanes(columns: int) -> int:

@@ -62,11 +62,7 @@ def with_attitude(system: System) -> System:
 
 def across(vertical: Sequence[float] | Array) -> Array:
     """A unit vector (3,) normal to the vertical, for the start of e where any will do."""
-    g = np.asarray(vertical, float)
-    e = np.zeros(3)
-    e[np.argmin(np.abs(g))] = 1.0
-    e -= g * (g @ e) / (g @ g)
-    return e / np.linalg.norm(e)
+    return _frames(np.array(vertical, float, ndmin=2))[1][:, 0]
 
 
 @dataclass(frozen=True)
