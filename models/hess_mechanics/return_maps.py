@@ -18,7 +18,7 @@ from hess_mechanics.dynamics.continuation import Branch, continued
 from hess_mechanics.dynamics.manifolds import Manifold, grown
 from hess_mechanics.dynamics.megno_map import require_plane
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over
-from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic, place_units
+from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, find_periodic, place_units
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.dynamics.section import section_points
 from hess_mechanics.dynamics.system import Problem
@@ -191,7 +191,7 @@ def periodic_orbit(map_: ReturnMap, at: Sequence[float], period: int | None = No
     >>> periodic_orbit(P, (-2.0,)).kind  # the stable limit cycle
     'stable node'
     """
-    found = find_periodic(map_, at, None if period is None else as_whole("period", period, 1, 64))
+    found = find_periodic(map_, at, None if period is None else as_whole("period", period, 1, MAX_PERIOD))
     return replace(found, symmetric=tuple(map_.symmetries_of(found.places)))
 
 

@@ -30,15 +30,14 @@ from hess_mechanics.dynamics.periodic import (
     place_units,
     shoot,
 )
-from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, WorkLimit
-from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged
+from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Complex, frozen
 
-__all__ = ["MAX_POINTS", "Bifurcation", "Branch", "MapFamily", "Symmetric", "continued", "gone_on"]
+__all__ = ["Bifurcation", "Branch", "MapFamily", "Symmetric", "continued", "gone_on"]
 
-MAX_POINTS = 2000
 _FIRST, _LONGEST, _SHORTEST = 0.01, 0.1, 1e-7
 """Steps along the branch, in units of the coordinates and of the width of the parameter's range."""
 _TURN = 0.3
@@ -117,7 +116,7 @@ class Branch(Result):
         return Labels(
             {self.parameter: (along, self.values)},
             {
-                **{name: (along, self.places[:, 0, i]) for i, name in enumerate(self.names)},
+                **components(self.names, self.places[:, 0], *along),
                 **parts,
                 "kind": (along, np.array(self.kinds)),
                 "error": (along, self.errors),
@@ -279,7 +278,6 @@ def continued(
     edge = start if edge is None else edge
     if not (all(map(math.isfinite, (start, end, edge))) and min(edge, end) <= start <= max(edge, end) and start != end):
         raise InvalidParameter(f"{parameter} runs from {start:g} to {end:g}: give two different finite numbers.")
-    _check(points)
     track = _Track(family, parameter, orbit.names, orbit.level, (edge, end), orbit.places.shape, symmetries)
     along = np.zeros(orbit.places.size + 1)
     along[-1] = math.copysign(1.0, end - start)
@@ -308,7 +306,6 @@ def gone_on(
 
     Raises as `continued`.
     """
-    _check(points)
     if branch.heading is None:
         raise InvalidParameter(f"This branch does not go on: {branch.ended}")
     shape = branch.places.shape[1:]
@@ -316,11 +313,6 @@ def gone_on(
     along, step = branch.heading
     point = track.corrected(track.joined(branch.places[-1], float(branch.values[-1])), along)
     return _followed(track, point, point.tangent(along), points, step, longest)
-
-
-def _check(points: int) -> None:
-    if not 2 <= points <= MAX_POINTS:
-        raise WorkLimit(f"A branch has from 2 to {MAX_POINTS} points: choose a number between them.")
 
 
 def _followed(track: _Track, point: _Point, t: Array, points: int, step: float, longest: float) -> Branch:

@@ -8,12 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import checked_times, require_finite_states
+from hess_mechanics.dynamics.orbit import checked_times, require_finite_states, require_steps
 from hess_mechanics.dynamics.system import Body, Problem
-from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Complex, frozen
-from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
 __all__ = ["Doubled", "doubled"]
 
@@ -66,10 +64,9 @@ def doubled(body: Body, state: Sequence[float] | Array, times: Sequence[float] |
         go_on()
         part = slice(first, first + _AT_ONCE)
         steps = body.system.doubled(here, start, p, problem.scale, unit, t[part], left, out[part])
-        if steps == STEP_LIMIT_REACHED:
-            raise WorkLimit(
-                f"With 31 digits this motion needs more than {_MOST_STEPS} steps: choose a shorter time span."
-            )
+        require_steps(
+            steps, f"With 31 digits this motion needs more than {_MOST_STEPS} steps: choose a shorter time span."
+        )
         require_finite_states(out[part].real)
         here, start, left = out[part][-1].copy(), float(t[part][-1]), left - steps
     return Doubled(frozen(t), frozen(out), frozen(problem.scale))

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS, checked_times, drift_of, require_finite_states
+from hess_mechanics.dynamics.orbit import MAX_STEPS, checked_times, drift_of, require_finite_states, require_steps
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
@@ -16,7 +16,6 @@ from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.measured import safety_of
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.results import Array, Cost, Ensemble, frozen
-from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
 __all__ = ["MAX_NUMBERS", "ensemble"]
 
@@ -50,8 +49,7 @@ def integrated(
         steps[i] = kernel(states[own], parameters, times, level.order, level.tolerance, most_steps, out[own])
 
     share(part, parts, threads)
-    if np.any(steps == STEP_LIMIT_REACHED):
-        raise WorkLimit(too_long)
+    require_steps(steps.min(initial=0), too_long)
     require_finite_states(out)
     return out, int(steps.sum())
 

@@ -21,16 +21,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hess_mechanics.dynamics.periodic import Map, PeriodicOrbit, apart, place_units
-from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, WorkLimit
+from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged
 from hess_mechanics.numerics.accuracy import Status
-from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["MAX_POINTS", "MAX_RETURNS", "Intersection", "Manifold", "crossings_of", "grown", "heights_at", "split"]
+__all__ = ["MAX_RETURNS", "Intersection", "Manifold", "crossings_of", "grown", "heights_at", "split"]
 
-MAX_POINTS = 20_000
 MAX_RETURNS = 2_000_000
 _FIRST = 4
 """Pieces into which one return of the curve is cut at first."""
@@ -85,7 +84,7 @@ class Manifold(Result):
         return Labels(
             {"length": (("length",), self.lengths)},
             {
-                **{name: (("length",), self.points[:, i]) for i, name in enumerate(self.names)},
+                **components(self.names, self.points, "length"),
                 "τ": (("length",), self.parameters),
             },
             place_units(self.names),
@@ -196,8 +195,6 @@ def grown(
         raise InvalidParameter("The length of a manifold, its sagitta and its chords are positive numbers.")
     if side not in (-1, 1):
         raise InvalidParameter("A branch leaves the saddle along its direction, side 1, or against it, side -1.")
-    if not _FIRST <= most <= MAX_POINTS:
-        raise WorkLimit(f"A manifold has from {_FIRST} to {MAX_POINTS} points: choose a number between them.")
     if len(map_.turns) != 2:
         raise InvalidParameter("Manifolds are curves in a plane: this is a map of a line.")
     forwards = map_.inverse() if stable else map_
@@ -262,7 +259,7 @@ def _followed(
         chord = there - here
         size = float(np.linalg.norm(chord))
         off = float(np.linalg.norm(middle - 0.5 * (here + there)))
-        across = abs(chord[0] * (middle - here)[1] - chord[1] * (middle - here)[0]) / max(size, 1e-300)
+        across = abs(_cross(chord, middle - here)) / max(size, 1e-300)
         # A middle that is far from the middle of the chord, though on its line, may hide a fold between.
         if (across > sagitta or size > longest or off > 0.35 * size) and right - tau > 1e-12 * max(1.0, tau):
             waiting.append((0.5 * (tau + right), middle))
@@ -286,6 +283,11 @@ def _followed(
     return np.array(points), np.array(parameters), ended
 
 
+def _cross(u: Array, v: Array) -> Array:
+    """The signed area u₁v₂ − u₂v₁ of vectors (2,), or (2, n)."""
+    return np.asarray(u[0] * v[1] - u[1] * v[0])
+
+
 def _error(curve: _Curve, points: Array, parameters: Array) -> float:
     """The largest distance across the curve of some of its points from those of a more accurate map, from its own δ."""
     better = replace(curve, map_=curve.map_.tightened())
@@ -298,7 +300,7 @@ def _error(curve: _Curve, points: Array, parameters: Array) -> float:
         along = points[i + 1] - points[i - 1]
         along = along / max(float(np.linalg.norm(along)), 1e-300)
         away = apart(curve.map_.turns, there, points[i])
-        off = max(off, abs(float(away[0] * along[1] - away[1] * along[0])))
+        off = max(off, abs(float(_cross(away, along))))
     return SAFETY * off + curve.first_error + 4e-16
 
 
@@ -346,10 +348,8 @@ def _meeting(one: Manifold, other: Manifold) -> list[tuple[int, int]]:
     da, db = np.diff(a, axis=0), np.diff(b, axis=0)
     for i in range(len(da)):
         start = apart(one.turns, b[:-1], a[i])
-        cross = da[i, 0] * db[:, 1] - da[i, 1] * db[:, 0]
         with np.errstate(divide="ignore", invalid="ignore"):
-            s = (start[:, 0] * db[:, 1] - start[:, 1] * db[:, 0]) / cross
-            t = (start[:, 0] * da[i, 1] - start[:, 1] * da[i, 0]) / cross
+            s, t = (_cross(start.T, along) / _cross(da[i], db.T) for along in (db.T, da[i]))
         pairs += [(i + 1, int(j) + 1) for j in np.flatnonzero((s >= 0.0) & (s < 1.0) & (t >= 0.0) & (t < 1.0))]
     return pairs
 
@@ -380,7 +380,7 @@ def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Intersect
     if any(not end[0] - np.ptp(end) <= value <= end[1] + np.ptp(end) for value, end in zip(tau, ends, strict=True)):
         return None
     u, v = (slopes[:, k] / np.linalg.norm(slopes[:, k]) for k in (0, 1))
-    angle = math.atan2(abs(float(u[0] * v[1] - u[1] * v[0])), abs(float(u @ v)))
+    angle = math.atan2(abs(float(_cross(u, v))), abs(float(u @ v)))
     off = (one.error_estimate + other.error_estimate + float(np.abs(left).max())) / max(math.sin(angle), 1e-6)
     return Intersection(
         frozen(place),
@@ -409,7 +409,7 @@ def _changes_sides(one: Manifold, other: Manifold, tau: Array, chord: float, alo
                 return False
         except ModelError:
             return False
-        gaps.append(float(away[1] * u[0] - away[0] * u[1]))
+        gaps.append(float(_cross(u, away)))
     return gaps[0] * gaps[1] < 0.0 and min(map(abs, gaps)) > one.error_estimate + other.error_estimate
 
 

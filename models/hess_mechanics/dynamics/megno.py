@@ -22,6 +22,7 @@ from hess_mechanics.dynamics.orbit import (
     require_finite_neighbours,
     require_finite_rates,
     require_finite_states,
+    require_steps,
 )
 from hess_mechanics.dynamics.spectrum import batch_error, volume_sign
 from hess_mechanics.dynamics.system import Body, Problem
@@ -31,7 +32,6 @@ from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.results import Array, Cost, Mask, frozen
-from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
 __all__ = ["CHAOTIC", "REGULAR", "Megno", "longest_span", "megno"]
 
@@ -144,8 +144,7 @@ def megno(
             grown,
             volume,
         )
-        if steps[i] == STEP_LIMIT_REACHED:
-            raise WorkLimit(f"This indicator needs more than {MAX_STEPS} steps: choose a shorter time span.")
+        require_steps(steps[i], f"This indicator needs more than {MAX_STEPS} steps: choose a shorter time span.")
         require_finite_states(along)
         require_finite_neighbours(frames, grown, volume)
         length = np.concatenate([[0.0], grown[:, 0] + np.log(np.linalg.norm(frames[:, :, 0], axis=1))])

@@ -22,9 +22,11 @@ __all__ = [
     "checked_span",
     "checked_times",
     "drift_of",
+    "drifts_along",
     "require_finite_neighbours",
     "require_finite_rates",
     "require_finite_states",
+    "require_steps",
     "solve",
 ]
 
@@ -60,6 +62,12 @@ def checked_span(span: float, what: str) -> float:
     return as_number("t", span)
 
 
+def require_steps(steps: int, too_long: str) -> None:
+    """Raise `WorkLimit` with the sentence `too_long` where a kernel needs more steps than it was given."""
+    if steps == STEP_LIMIT_REACHED:
+        raise WorkLimit(too_long)
+
+
 def require_finite_states(states: Array) -> None:
     """Raise `InvalidParameter` where a state has left double range."""
     if not np.all(np.isfinite(states)):
@@ -85,9 +93,15 @@ def require_finite_rates(*rates: Array | float) -> None:
 
 
 def drift_of(system: System, start: Array, states: Array, parameters: Array) -> dict[str, float]:
-    """For each integral max |F(y) − F(start)|, relative to |F(start)| where that exceeds 1.
+    """Return the largest of `drifts_along` of each integral."""
+    drifts = drifts_along(system, start, states, parameters)
+    return {name: float(np.max(drift, initial=0.0)) for name, drift in drifts.items()}
 
-    start (d,) and states (m, d) of one orbit, or (n, d) and (n, m, d) of many; the maximum is over all of them.
+
+def drifts_along(system: System, start: Array, states: Array, parameters: Array) -> dict[str, Array]:
+    """Return |F(y) − F(start)| for each integral F, relative to |F(start)| where that exceeds 1.
+
+    start (d,) and states (m, d) of one orbit, or (n, d) and (n, m, d) of many; the result is (m,) or (n, m).
     """
     p = list(parameters)
     initial = system.integrals(list(np.moveaxis(start, -1, 0)), p)
@@ -95,8 +109,7 @@ def drift_of(system: System, start: Array, states: Array, parameters: Array) -> 
     drift = {}
     for name, value in initial.items():
         origin = np.asarray(value)[..., None]
-        change = np.abs(along[name] - origin) / np.maximum(1.0, np.abs(origin))
-        drift[name] = float(np.max(change, initial=0.0))
+        drift[name] = np.abs(along[name] - origin) / np.maximum(1.0, np.abs(origin))
     return drift
 
 
@@ -149,10 +162,9 @@ def solve(
         steps = body.system.orbit(
             starts[at.aside], problem.parameters, scaled_times, at.order, at.tolerance, MAX_STEPS - spent, out
         )
-        if steps == STEP_LIMIT_REACHED:
-            raise WorkLimit(
-                f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper accuracy."
-            )
+        require_steps(
+            steps, f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper accuracy."
+        )
         require_finite_states(out)
         return out, steps
 

@@ -11,7 +11,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import groupby, pairwise
+from operator import itemgetter
 from typing import Protocol
 
 import numpy as np
@@ -21,7 +22,7 @@ from hess_mechanics.dynamics.continuation import Bifurcation, continued
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, Map, PeriodicOrbit, apart, find_periodic, place_units, shoot
 from hess_mechanics.dynamics.point_sets import how_far_apart
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, OutsideRegion, WorkLimit
-from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask, frozen
 
@@ -100,7 +101,7 @@ class Diagram(Result):
         along = ("point",)
         return Labels(
             {self.parameter: (along, value)},
-            {name: (along, points[:, i]) for i, name in enumerate(self.names)},
+            components(self.names, points, *along),
             place_units(self.names),
             {"level": self.level},
         )
@@ -238,17 +239,8 @@ def hysteresis(turns: Sequence[float], there: Diagram, back: Diagram) -> tuple[t
             continue
         found = how_far_apart(turns, one, other)
         differ.append((float(value), found.distance > 3.0 * (found.grain + found.error) + 1e-3))
-    found_: list[tuple[float, float]] = []
-    begun: float | None = None
-    last = math.nan
-    for value, is_other in [*sorted(differ), (math.inf, False)]:
-        if is_other:
-            begun = value if begun is None else begun
-            last = value
-        elif begun is not None:
-            found_.append((begun, last))
-            begun = None
-    return tuple(found_)
+    runs = [(is_other, [value for value, _ in run]) for is_other, run in groupby(sorted(differ), itemgetter(1))]
+    return tuple((run[0], run[-1]) for is_other, run in runs if is_other)
 
 
 @dataclass(frozen=True)

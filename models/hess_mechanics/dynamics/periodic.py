@@ -16,7 +16,7 @@ import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged
 from hess_mechanics.numerics.accuracy import Status
-from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Complex, frozen
@@ -233,7 +233,7 @@ class PeriodicOrbit(Result):
         multipliers = {f"multiplier {i + 1}": _shown(complex(one)) for i, one in enumerate(self.multipliers)}
         return Labels(
             {"return": (("return",), np.arange(self.period))},
-            {name: (("return",), self.places[:, i]) for i, name in enumerate(self.names)},
+            components(self.names, self.places, "return"),
             place_units(self.names),
             {
                 "period": self.period,
@@ -308,9 +308,6 @@ def find_periodic(
         raise InvalidParameter(f"A place is {len(map_.turns)} finite numbers here: {', '.join(map_.names)}.")
     if len(places) > 1:
         return _measured(map_, *_converged(map_, places))
-    for name, value in (("period", period), ("most", most)):
-        if value is not None and not 1 <= value <= MAX_PERIOD:
-            raise InvalidParameter(f"{name} = {value} is no period from 1 to {MAX_PERIOD}: choose one of these.")
     if period is not None:
         return _of_period(map_, places[0], period, near)
     orbit = _orbit_from(map_, places[0], most)

@@ -22,9 +22,6 @@ _QUANTILE = 0.95
 _RESOLVED = 1e-6
 """Places closer than this are the same."""
 _SETTLED = 0.2
-_ALIKE = 0.8
-"""Of the places of one set that lie at the other: 95 of 100 of samples of one set that do not hang together; those of
-chaotic orbits do a little (0.92 to 0.98 in seas), sets that only touch have at most 0.2."""
 _LEAST = 8
 _BATCHES = 4
 
@@ -68,11 +65,6 @@ class Apart:
     grain: float
     shared: float
     settled: bool
-
-    @property
-    def equal(self) -> bool:
-        """Whether nothing tells the sets apart."""
-        return self.settled and self.distance <= self.grain + self.error and self.shared > _ALIKE
 
     @property
     def apart(self) -> bool:

@@ -31,7 +31,7 @@ from hess_mechanics.dynamics.spectrum import ensemble_mean, lyapunov_spectrum, v
 from hess_mechanics.dynamics.zero_one import LEAST, zero_one_test
 from hess_mechanics.errors import NoReturn, OutsideRegion
 from hess_mechanics.numerics.arguments import as_number, as_place, as_whole
-from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
 
@@ -169,7 +169,7 @@ class Regime(Result):
         """The places, and what was found of them."""
         return Labels(
             {},
-            {name: (("crossing",), self.places[:, i].copy()) for i, name in enumerate(self.names)},
+            components(self.names, self.places, "crossing"),
             place_units(self.names),
             {
                 "kind": self.kind.words,
@@ -465,7 +465,7 @@ class Dynamics(Result):
         along, names = ("crossing",), self.motion.names
         return Labels(
             {"set": (along, which)},
-            {name: (along, points[:, i].copy()) for i, name in enumerate(names)},
+            components(names, points, *along),
             place_units(names),
             {
                 "verdict": self.verdict,

@@ -19,17 +19,16 @@ from typing import Protocol
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS, require_finite_states
+from hess_mechanics.dynamics.orbit import MAX_STEPS, require_finite_states, require_steps
 from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.dynamics.section import Surface
 from hess_mechanics.dynamics.symmetry import Mirror, sign_symmetries
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.dynamics.variation import followed, onto_surface
-from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
+from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask
-from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
 __all__ = ["PoincareSection", "ReturnMap"]
 
@@ -47,6 +46,7 @@ _WEIGHTS = np.array([-1.0, 9.0, -45.0, 45.0, -9.0, 1.0]) / 60.0
 _AGREE = 1e-14
 """To what differences with a step and a quarter of it agree, times the step: that is their round-off."""
 _TRIED = 100
+_TOO_LONG = f"This return needs more than {MAX_STEPS} steps: choose another place, or a cheaper level."
 _AT_ONCE = 1e-8
 """A crossing before this time, in units of 1/ν, is the start itself."""
 
@@ -190,10 +190,10 @@ class ReturnMap:
             problem = self._problem(self.state_at(place))
             wanted = min(left, _PIECE)
             found, times, states = self._crossed(problem, wanted + 1, _WAIT)
-            if found == STEP_LIMIT_REACHED:
-                raise WorkLimit(
-                    f"{wanted} returns need more than {MAX_STEPS} steps here: choose another place, or a cheaper level."
-                )
+            require_steps(
+                found,
+                f"{wanted} returns need more than {MAX_STEPS} steps here: choose another place, or a cheaper level.",
+            )
             first = int(found > 0 and abs(times[0]) < _AT_ONCE)
             states = states[first : min(found, first + wanted)] * problem.scale
             require_finite_states(states)
@@ -226,8 +226,7 @@ class ReturnMap:
         steps, _, frames, _ = followed(
             system, problem, np.array([time]), self.accuracy.order, self.accuracy.tolerance, MAX_STEPS
         )
-        if steps == STEP_LIMIT_REACHED:
-            raise WorkLimit(f"This return needs more than {MAX_STEPS} steps: choose another place, or a cheaper level.")
+        require_steps(steps, _TOO_LONG)
         require_finite_states(frames)
         state = scaled * problem.scale
         flow = problem.scale[:, None] * frames[0] / problem.scale
@@ -271,8 +270,7 @@ class ReturnMap:
             if not (found and wanted == count and abs(times[0]) < _AT_ONCE):
                 break
             wanted += 1
-        if found == STEP_LIMIT_REACHED:
-            raise WorkLimit(f"This return needs more than {MAX_STEPS} steps: choose another place, or a cheaper level.")
+        require_steps(found, _TOO_LONG)
         if found < wanted:
             raise NoReturn(
                 f"From here the motion was not seen to return to the section {_times(count)} within t = "

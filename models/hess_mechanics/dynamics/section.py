@@ -10,17 +10,16 @@ from typing import Protocol
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import drift_of, require_finite_states
+from hess_mechanics.dynamics.orbit import drift_of, require_finite_states, require_steps
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_level
-from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Cost, SectionCrossings, frozen, unit_of
-from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
 __all__ = [
     "MAX_CROSSINGS",
@@ -143,8 +142,7 @@ class _Search:
                 times,
                 states,
             )
-            if found == STEP_LIMIT_REACHED:
-                raise WorkLimit(f"This section needs more than {max_steps} steps: choose a shorter time span.")
+            require_steps(found, f"This section needs more than {max_steps} steps: choose a shorter time span.")
             total += steps
             if found < room or room == self.crossings:
                 break
@@ -254,7 +252,7 @@ class SectionPoints(Result):
         points = np.concatenate([np.empty((0, len(self.variables))), *self.states])
         return Labels(
             {"orbit": (("crossing",), orbit)},
-            {name: (("crossing",), points[:, i]) for i, name in enumerate(self.variables)},
+            components(self.variables, points, "crossing"),
             {name: unit_of(name) for name in self.variables},
             {**{f"drift of {name}": value for name, value in self.drift.items()}, "steps": self.cost.steps},
         )

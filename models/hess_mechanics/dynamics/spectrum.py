@@ -25,16 +25,15 @@ from hess_mechanics.dynamics.orbit import (
     require_finite_neighbours,
     require_finite_rates,
     require_finite_states,
+    require_steps,
 )
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.dynamics.variation import frame_ahead, neighbours
-from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Accuracy, Computation, Status
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Cost, frozen
-from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
 __all__ = [
     "LIMIT",
@@ -290,8 +289,7 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, l
         taken, states, frames, logs, traces = neighbours(
             system, y, frame, problem.parameters, part, level.order, level.tolerance, MAX_STEPS - steps, LIMIT, ahead
         )
-        if taken == STEP_LIMIT_REACHED:
-            raise WorkLimit(f"These exponents need more than {MAX_STEPS} steps: choose a shorter time span.")
+        require_steps(taken, f"These exponents need more than {MAX_STEPS} steps: choose a shorter time span.")
         steps += taken
         require_finite_states(states)
         require_finite_neighbours(frames, logs, traces)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -56,13 +56,12 @@ def measure(
 def measure_until(kind: Computation, run: Callable[[Plan], R], error: Callable[[R, R], float], largest: float) -> str:
     """The level that `enough` finds, without the cost of those above it."""
     truth = run(beyond(kind))
-    samples = (_sample(PLANS[kind][name], run, error, truth, 1) for name in LEVELS)
-    return next((one.level for one in samples if one.complete and one.error <= largest), REFERENCE.name)
+    return enough((_sample(PLANS[kind][name], run, error, truth, 1) for name in LEVELS), largest)
 
 
-def enough(samples: Sequence[LevelCost], largest: float) -> str:
-    """The first level that computes all that was asked for with an error of at most `largest`; the last if none does.
+def enough(samples: Iterable[LevelCost], largest: float) -> str:
+    """The first level that computes all that was asked for with an error of at most `largest`, or the last level.
 
     More accuracy than that changes nothing that can be seen, if `largest` is what can just not be seen.
     """
-    return next((one.level for one in samples if one.complete and one.error <= largest), samples[-1].level)
+    return next((one.level for one in samples if one.complete and one.error <= largest), REFERENCE.name)

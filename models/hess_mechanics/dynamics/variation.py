@@ -20,16 +20,16 @@ from hess_mechanics.dynamics.orbit import (
     checked_times,
     require_finite_neighbours,
     require_finite_states,
+    require_steps,
 )
 from hess_mechanics.dynamics.section import Surface, section
 from hess_mechanics.dynamics.system import Body, Problem, System
-from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labelled, Labels
 from hess_mechanics.numerics.measured import measured
-from hess_mechanics.numerics.results import Array, Cost, frozen
-from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
+from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
 
 __all__ = [
     "Return",
@@ -74,13 +74,7 @@ class Transition(Labelled):
             {"t": (("t",), self.times), "of": (("of",), of), "by": (("by",), by)},
             {"derivative": (("t", "of", "by"), self.matrices)},
             {"t": "T"},
-            {
-                "system": self.system,
-                "level": self.level,
-                "status": str(self.status),
-                "error_estimate": self.error_estimate,
-                "steps": self.cost.steps,
-            },
+            {"system": self.system, **facts_of(self)},
         )
 
 
@@ -109,10 +103,9 @@ def transition_matrix(
         steps, states, frames, volume = followed(
             system, problems[level.aside], scaled_times, level.order, level.tolerance, MAX_STEPS - spent
         )
-        if steps == STEP_LIMIT_REACHED:
-            raise WorkLimit(
-                f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper accuracy."
-            )
+        require_steps(
+            steps, f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper accuracy."
+        )
         require_finite_states(states)
         require_finite_neighbours(frames, volume)
         return (states, frames, volume), steps

@@ -12,7 +12,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_mechanics.dynamics.doubled import Doubled, doubled
-from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.orbit import drifts_along, solve
 from hess_mechanics.dynamics.system import Problem, systems
 from hess_mechanics.numerics.accuracy import LEVELS, REFERENCE
 from hess_mechanics.numerics.patience import go_on
@@ -105,11 +105,8 @@ def growth(
         pixels[level.name] = frozen(
             np.maximum(np.linalg.norm(weighted[:, :first], axis=1), np.linalg.norm(weighted[:, first:], axis=1))
         )
-        initial = system.integrals(state, parameters)
-        drifts[level.name] = {
-            key: frozen(np.abs(value - initial[key]) / max(1.0, abs(float(initial[key]))))
-            for key, value in system.integrals(list(states.T), parameters).items()
-        }
+        along = drifts_along(system, np.array(state), states, np.array(parameters))
+        drifts[level.name] = {key: frozen(drift) for key, drift in along.items()}
     return ErrorGrowth(exact.times, errors, pixels, drifts)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from html import escape
 from typing import Any
@@ -14,10 +14,15 @@ from numpy.typing import NDArray
 
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["Labelled", "Labels", "Result"]
+__all__ = ["Labelled", "Labels", "Result", "components"]
 
 Named = Mapping[str, tuple[tuple[str, ...], NDArray[Any]]]
 """Arrays by name, each with the names of its dimensions."""
+
+
+def components(names: Iterable[str], values: NDArray[Any], *dims: str) -> Named:
+    """Return the components along the last axis of an array by their names, for `Labels`."""
+    return {name: (dims, values[..., i]) for i, name in enumerate(names)}
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hess_mechanics.numerics.accuracy import Status
-from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.labelled import Labels, Result, components
 
 __all__ = [
     "Array",
@@ -89,7 +89,7 @@ class Sampled(Result):
         """The variables of the system over the dimensions."""
         return Labels(
             {"t": (self.dims[-1:], self.times)},
-            {name: (self.dims, self.states[..., i]) for i, name in enumerate(self.variables)},
+            components(self.variables, self.states, *self.dims),
             {"t": "T", **{name: unit_of(name) for name in self.variables}},
             {"system": self.system, **facts_of(self)},
         )

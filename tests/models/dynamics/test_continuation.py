@@ -10,7 +10,7 @@ import pytest
 
 from hess_mechanics.dynamics.continuation import continued, gone_on
 from hess_mechanics.dynamics.periodic import find_periodic
-from hess_mechanics.errors import InvalidParameter, NotConverged, WorkLimit
+from hess_mechanics.errors import InvalidParameter, NotConverged
 from support.maps import arnold, delayed_logistic, henon, pitchfork
 
 B = 0.3
@@ -122,7 +122,5 @@ def test_what_it_says_over_its_points():
 def test_what_cannot_be_continued_is_refused():
     with pytest.raises(InvalidParameter, match="two different finite"):
         branch(arnold, 0.1, (0.3,), 0.1)
-    with pytest.raises(WorkLimit, match="from 2 to 2000"):
-        branch(arnold, 0.1, (0.3,), 0.5, points=10**6)
     with pytest.raises(NotConverged, match="Begin a little aside"):
         continued(arnold, find_periodic(arnold(0.1), (0.3,), 1), "λ", 0.9, 1.0)

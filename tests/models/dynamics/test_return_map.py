@@ -201,6 +201,10 @@ def test_what_a_body_does_not_have_is_refused():
         P.image((0.3, 4.0))
     with pytest.raises(NotConverged):
         periodic_orbit(P, (0.3, 4.0), 1)
+    with pytest.raises(InvalidParameter, match="from 1 to 64"):
+        periodic_orbit(P, (0.3, 1.2), 65)
+    with pytest.raises(InvalidParameter, match="from 2 to 2000"):
+        continued_orbit(P, periodic_orbit(P, (0.3, 1.2)), "E", 2.0, points=10**6)
 
 
 def test_who_asks_is_asked_at_every_crossing_whether_to_go_on():
