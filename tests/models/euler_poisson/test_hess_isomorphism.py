@@ -341,7 +341,7 @@ def test_growth_sees_through_a_wiggle_and_refuses_what_is_not_straight():
 @pytest.mark.parametrize("run", [run_free, on_manifold])
 def test_too_long_a_run_is_refused(run):
     start, _ = on_torus(GESS1, 50.0, 5.0)
-    with pytest.raises(WorkLimit, match="choose a shorter (time span|one)"):
+    with pytest.raises(WorkLimit, match=r"choose a shorter (time span|one)"):
         run(GESS1.heavy, start, 1e9, 3, level("draft"))
 
 
