@@ -14,7 +14,7 @@ const STOP = "M6 6h12v12H6z"
 let stop = null
 let pace = 1
 
-for (const name of ["preset", "reset", "undo", "redo", "restore", "scene", "enter"]) listen(name, () => stop?.())
+for (const name of ["preset", "reset", "undo", "redo", "restore", "scene", "enter"]) listen({ [name]: () => stop?.() })
 // Before it brings all pictures back.
 window.addEventListener("keydown", (event) => {
   if (event.key !== "Escape" || stop === null) return
@@ -31,13 +31,13 @@ export function animation(frame, { symbol, value, limits, stepOf, move }) {
   const sway = button("sway", () => (stop === end ? end : begin)(), { innerHTML: icon("", "1.2em") })
   const menu = element("select.pace", {
     ariaLabel: `Pace of ${symbol}`, title: "Pace", onchange: () => { pace = Number(menu.value) },
-  }, ...PACES.map((value) => new Option(`${value}×`, String(value))))
+  }, ...PACES.map((value) => new Option(`${value}×`, value)))
 
   function show(on) {
     relabel(sway, on ? STOP : PLAY, on ? `Stop ${symbol} (Escape)` : `Move ${symbol} to and fro`)
     sway.ariaPressed = on
     menu.hidden = !on
-    menu.value = String(pace)
+    menu.value = pace
   }
 
   function end() {

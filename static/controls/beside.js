@@ -35,7 +35,7 @@ export function besideDialog() {
     element("div.halves", ...halves.map((half) => section(half.title, half.title, half))))
   dialog.addEventListener("close", () => { for (const half of halves) half.src = "about:blank" })
   window.addEventListener("message", ({ source, origin, data }) => {
-    if (origin !== window.location.origin || !halves.some(({ contentWindow }) => contentWindow === source)) return
+    if (origin !== location.origin || !halves.some(({ contentWindow }) => contentWindow === source)) return
     for (const { contentWindow } of halves) if (contentWindow !== source) contentWindow.postMessage(data, origin)
   })
   return {

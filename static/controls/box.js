@@ -36,7 +36,7 @@ export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
   }
   const put = (shown) => {
     isAsked = false
-    box.value = String(shown)
+    box.value = shown
     box.setCustomValidity("")
     box.ariaInvalid = null
   }
@@ -52,7 +52,7 @@ export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
     if (text === "") return void box.reportValidity()
     if (typed !== value()) change(typed)
     // As the server will write it: from here on another text is one that is being typed.
-    box.value = String(typed)
+    box.value = typed
   }
 
   function onkeydown(event) {
@@ -73,7 +73,7 @@ export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
       if (!isAsked && isFocused() && box.value !== String(before)) return
       isAsked = false
       // Nobody can look along a disabled box for digits that it has no room for.
-      box.value = String(isIdle ? Number(shown.toPrecision(6)) : shown)
+      box.value = isIdle ? Number(shown.toPrecision(6)) : shown
       box.ariaInvalid = null
     },
     refuse(sentence) {

@@ -111,7 +111,10 @@ export function chartPanel(palettes) {
   // With the places that it has at first, where the link says nothing of them.
   function state() {
     const query = new URL(linkTo()).searchParams
-    for (const { name, place } of scene.sides) if (!query.get(name.split(":")[0])) query.set(name.split(":")[0], place)
+    for (const { name, place } of scene.sides) {
+      const [list] = name.split(":")
+      if (!query.get(list)) query.set(list, place)
+    }
     return query.toString()
   }
 
@@ -248,9 +251,11 @@ export function chartPanel(palettes) {
     act()
   }
 
-  listen("controls", (changed) => {
-    Object.assign(values, changed)
-    mark()
+  listen({
+    controls(changed) {
+      Object.assign(values, changed)
+      mark()
+    },
   })
   follow()
 
@@ -271,7 +276,7 @@ export function chartPanel(palettes) {
       opener = panel.getRootNode().activeElement
       const { charts } = scene
       if (charts.length > 0 && chart?.scene !== scene.name) {
-        const large = new URLSearchParams(window.location.search).get("large")?.split(",")[0]
+        const large = new URLSearchParams(location.search).get("large")?.split(",")[0]
         const pointed = gallery.pointed ?? large
         quantity.value = (charts.find(({ pictures }) => pictures.includes(pointed)) ?? charts[0]).quantity
         offer(pointed)

@@ -48,15 +48,17 @@ export function chartJob(changed, explained) {
     changed(ended)
   }
 
-  listen("charted", ({ head, cells }) => {
-    if (head.why !== undefined) return explained(head.why, head.at)
-    if (chart === null || head.id !== chart.id) return
-    if (head.of === undefined) return end(head.said)
-    take(head, cells)
-    if (!head.running && head.cells === 0) return end(head.said)
-    tell("charting", chart.share)
-    changed(chart)
-    timer = setTimeout(() => ask({ more: chart.known, id: chart.id }), head.running ? PAUSE : 0)
+  listen({
+    charted({ head, cells }) {
+      if (head.why !== undefined) return explained(head.why, head.at)
+      if (chart === null || head.id !== chart.id) return
+      if (head.of === undefined) return end(head.said)
+      take(head, cells)
+      if (!head.running && head.cells === 0) return end(head.said)
+      tell("charting", chart.share)
+      changed(chart)
+      timer = setTimeout(() => ask({ more: chart.known, id: chart.id }), head.running ? PAUSE : 0)
+    },
   })
 
   return {

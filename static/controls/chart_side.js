@@ -27,7 +27,7 @@ export function sideForm(label, ends, chosen) {
   const [low, high] = ["from", "to"].map((what) => box(what, { step: "any" }))
   const count = box("cells", { min: 2, max: MOST_SIDE, step: 1, value: CELLS })
   const put = (from, to) => {
-    ;[low.value, high.value] = [from, to].map((end) => String(Number(end.toPrecision(DIGITS))))
+    ;[low.value, high.value] = [from, to].map((end) => Number(end.toPrecision(DIGITS)))
   }
   return {
     frame: element("div.side", name, element("label", "from ", low), element("label", "to ", high),

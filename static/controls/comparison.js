@@ -19,20 +19,22 @@ export function comparison() {
     element("thead", element("tr", element("td"), element("th", "A"), element("th", "B"))), body)
   const box = element("section.comparison", { hidden: true, ariaLabel: "Comparison" },
     said, element("div.comparing", flip, apart, unpin), table, beside.dialog)
-  listen("compared", (compared) => {
-    // It comes with every state.
-    const text = JSON.stringify(compared)
-    if (text === shown) return
-    shown = text
-    box.hidden = compared === null
-    if (compared === null) return
-    const { title, isPinnedShown, rows } = compared
-    queries = compared.queries
-    said.textContent = title !== null ? `A: ${title}` : isPinnedShown ? "A, pinned, is on show" : "B is on show, A is pinned"
-    flip.ariaPressed = isPinnedShown
-    table.hidden = rows.length === 0
-    body.replaceChildren(...rows.map(([name, one, two]) => (
-      element("tr", element("th", { scope: "row" }, name), element("td", one), element("td", two)))))
+  listen({
+    compared(compared) {
+      // It comes with every state.
+      const text = JSON.stringify(compared)
+      if (text === shown) return
+      shown = text
+      box.hidden = compared === null
+      if (compared === null) return
+      const { title, isPinnedShown, rows } = compared
+      queries = compared.queries
+      said.textContent = title !== null ? `A: ${title}` : isPinnedShown ? "A, pinned, is on show" : "B is on show, A is pinned"
+      flip.ariaPressed = isPinnedShown
+      table.hidden = rows.length === 0
+      body.replaceChildren(...rows.map(([name, one, two]) => (
+        element("tr", element("th", { scope: "row" }, name), element("td", one), element("td", two)))))
+    },
   })
   return box
 }

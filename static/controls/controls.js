@@ -8,10 +8,29 @@ import { listen, tell } from "../page/bus.js"
 import { sayDragMe } from "../page/handle.js"
 import { PHONE } from "../page/windows.js"
 import { comparison } from "./comparison.js"
-import { menu } from "./menu.js"
+import { optionsOf } from "./dialog.js"
 import { number } from "./number.js"
 
 const twice = (names) => names.map((name) => [name, name])
+
+/**
+ * Return [element, show(value)].
+ * @param {string} name
+ * @param {string} label
+ * @param {[string, string][]} options value and text of each
+ * @param {string} help
+ * @param {(value: string) => void} choose
+ */
+function menu(name, label, options, help, choose) {
+  const select = element("select", { title: help, ariaLabel: label, onchange: () => choose(select.value) }, ...optionsOf(options))
+  const frame = element(`label.menu.param-${name}`, element("span", label), select)
+  // The name of what is chosen may be longer than its place.
+  const show = (option) => {
+    select.value = option
+    select.title = option === "" ? help : `${select.selectedOptions[0]?.textContent ?? option}. ${help}`
+  }
+  return [frame, show]
+}
 
 // [element, show(option)].
 function choice({ name, label, options, help }) {
@@ -94,8 +113,10 @@ export function render({ el }) {
     const place = share < 60 ? { left: `calc(${share}% + 1.4em)` } : { right: `calc(${100 - share}% + 1.4em)` }
     return { host: item, place: () => place }
   })
-  listen("enter", build)
-  // What is wrong with an expression is said by "error-" and the name of the number.
-  listen("texts", (texts) => { for (const [key, text] of Object.entries(texts)) refusals[key]?.(text) })
-  listen("controls", show)
+  listen({
+    enter: build,
+    // What is wrong with an expression is said by "error-" and the name of the number.
+    texts(texts) { for (const [key, text] of Object.entries(texts)) refusals[key]?.(text) },
+    controls: show,
+  })
 }

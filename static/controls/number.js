@@ -1,16 +1,19 @@
-// The control of a number: a slider, a box for exact values ("box.js"), a label that can be dragged ("scrub.js"), and a
-// button that moves the slider to and fro ("animation.js").
+// The control of a number: a slider, a box for exact values ("box.js"), a label that can be dragged, and a button
+// that moves the slider to and fro ("animation.js").
 
 import { tell } from "../page/bus.js"
+import { onDrag } from "../page/drag.js"
 import { arrowOf } from "../page/keys.js"
 import { element } from "../page/elements.js"
 import { animation } from "./animation.js"
 import { exactBox } from "./box.js"
-import { scrub } from "./scrub.js"
 
 const IDLE = "Disabled: under the choices made it changes nothing."
 // Of a slider without steps.
 const PARTS = 400
+
+// Pixels: so far a label is dragged from one end to the other, where steps are not longer.
+const FULL_DRAG = 400
 
 // 0.1 + 0.2 as it would be typed.
 const tidy = (value) => Number(value.toPrecision(12))
@@ -22,7 +25,7 @@ const LEAST_SHARE = 1 / 8
  * Return [low, high] of the slider's scale.  It is the parameter's own, whatever the others are: then the thumb of a slider
  * that nobody touches stays where it is, and what is possible is drawn on the track.
  */
-export function scaleOf([own, end], low, high, value) {
+function scaleOf([own, end], low, high, value) {
   const [from, to] = high - low < LEAST_SHARE * (end - own) ? [low, high] : [Math.min(own, low), Math.max(end, high)]
   return [Math.min(from, value), Math.max(to, value)]
 }
@@ -32,8 +35,7 @@ export function scaleOf([own, end], low, high, value) {
  * step of an arrow; change(value) takes what was typed, nudge(value) what an arrow gives, move(value) a place within the
  * limits.
  * @typedef {{name: string, symbol: string, help: string, value: () => number, limits: () => number[], stepOf: () => number,
- *   change: (value: number) => void, nudge: (value: number) => void, move: (value: number) => void,
- *   isIdle: () => boolean}} Controlled
+ *   change: (value: number) => void, nudge: (value: number) => void, move: (value: number) => void}} Controlled
  */
 
 /**
@@ -60,7 +62,7 @@ export function number({ name, label, symbol, help, range }) {
       exact.forget()
       tell("change", { [name]: value })
     },
-    nudge: (value) => take(tidy(value)), move: (value) => take(within(tidy(value))), isIdle: () => slider.disabled,
+    nudge: (value) => take(tidy(value)), move: (value) => take(within(tidy(value))),
   }
 
   const title = element("span.label.scrub", { title: help }, label)
@@ -80,7 +82,12 @@ export function number({ name, label, symbol, help, range }) {
     },
   })
   const exact = exactBox(controlled)
-  scrub(title, controlled)
+  onDrag(title, ({ button, clientX }) => (slider.disabled || button !== 0 ? null : [clientX, shown]),
+    ([x, from], { clientX, shiftKey }) => {
+      const step = controlled.stepOf()
+      const steps = Math.max(1, Math.round((high - low) / FULL_DRAG / step)) * (shiftKey ? 10 : 1)
+      controlled.move(from + Math.round(clientX - x) * steps * step)
+    })
   const frame = element(`div.number.param-${name}`)
   const [sway, pace] = animation(frame, controlled)
   const moves = sway.title

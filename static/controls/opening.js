@@ -20,10 +20,12 @@ export function opening({ begin, end, isOwn }) {
   let isWaiting = false
   let isReading = false
 
-  listen("reading", (on) => { isReading = on })
-  listen("painted", () => {
-    if (isWaiting && !isReading) begin()
-    isWaiting = false
+  listen({
+    reading(on) { isReading = on },
+    painted() {
+      if (isWaiting && !isReading) begin()
+      isWaiting = false
+    },
   })
   for (const name of TOUCHES) {
     document.addEventListener(name, (event) => {

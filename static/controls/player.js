@@ -52,7 +52,7 @@ export function render({ el }) {
   const output = element("output")
   const speed = element("select.param-speed", {
     ariaLabel: "Speed", title: "Speed: units of t per second", onchange: () => announce({ speed: speed.value }),
-  }, ...SPEEDS.map((value) => new Option(`${value}×`, String(value))))
+  }, ...SPEEDS.map((value) => new Option(`${value}×`, value)))
   const back = transport("back", BACK, "Step back (←)", () => step(-1))
   const toggle = transport("play", PLAY, "Play (Space)", () => play(!playing))
   const forward = transport("forward", FORWARD, "Step forward (→)", () => step(1))
@@ -71,12 +71,6 @@ export function render({ el }) {
   // Units of t per second while nobody has touched anything, see "opening.js"; else null.
   let gentle = null
 
-  const begin = (own) => {
-    t = Number(own.t)
-    // A link that names a time is one to that moment.
-    if (t !== 0) start.rest()
-    speed.value = String(SPEEDS.includes(Number(own.speed)) ? Number(own.speed) : 1)
-  }
   const end = () => source?.data.t?.at(-1) ?? 0
   const announce = (keys) => tell("url", keys)
   function writeTime() { announce({ t: t.toFixed(3) }) }
@@ -86,7 +80,7 @@ export function render({ el }) {
     for (const [name, [x, y]] of Object.entries(scene.dots)) {
       gallery.source(name).put(state ? { x: [state[x]], y: [state[y]] } : { x: [], y: [] })
     }
-    slider.value = String(t)
+    slider.value = t
     output.textContent = `t = ${t.toFixed(2)}`
     slider.ariaValueText = `${output.textContent} of ${end().toFixed(2)}`
     tell("time", { t, state })
@@ -115,7 +109,7 @@ export function render({ el }) {
     if (!on) run = gentle = null
     last = null
     relabel(toggle, on ? PAUSE : PLAY, on ? "Pause (Space)" : "Play (Space)")
-    bar.dataset.playing = String(on)
+    bar.dataset.playing = on
     if (on) requestAnimationFrame(frame)
     else writeTime()
   }
@@ -141,20 +135,6 @@ export function render({ el }) {
   document.addEventListener("keyup", (event) => {
     if (event.key === " " && !isTaken(event) && !toggle.hidden) event.preventDefault()
   })
-  listen("run", (wanted) => {
-    play(false)
-    if (wanted === null) return
-    run = wanted
-    move(run.from)
-    play(true)
-  })
-  listen("follow", (time) => {
-    if (playing) play(false)
-    move(Number(time))
-  })
-  // The player of the next scene goes on from here.
-  listen("scene", () => { if (playing) play(false) })
-
   const start = opening({
     begin() {
       if (playing || end() === 0) return
@@ -166,22 +146,41 @@ export function render({ el }) {
   })
 
   const onData = () => {
-    slider.max = String(end())
+    slider.max = end()
     // Where there is nothing to see the time waits.
     if (end() > 0 && t > end()) t = end()
     show()
   }
-  const enter = (entered) => {
-    start.enter(entered.name)
-    scene = entered
-    source = gallery.source("data-orbit") ?? null
-    // A scene without a motion needs no time.
-    for (const item of items) item.hidden = source === null
-    folds.replaceChildren(...entered.pictures.filter(({ folded }) => folded !== null).map(unfolding))
-    source?.watch(onData)
-    onData()
-  }
-  listen("folded", ({ name, folded }) => { folds.querySelector(`.unfold-${name}`).ariaExpanded = !folded })
-  listen("client", begin)
-  listen("enter", enter)
+  listen({
+    run(wanted) {
+      play(false)
+      if (wanted === null) return
+      run = wanted
+      move(run.from)
+      play(true)
+    },
+    follow(time) {
+      if (playing) play(false)
+      move(Number(time))
+    },
+    // The player of the next scene goes on from here.
+    scene() { if (playing) play(false) },
+    folded({ name, folded }) { folds.querySelector(`.unfold-${name}`).ariaExpanded = !folded },
+    client(own) {
+      t = Number(own.t)
+      // A link that names a time is one to that moment.
+      if (t !== 0) start.rest()
+      speed.value = SPEEDS.includes(Number(own.speed)) ? Number(own.speed) : 1
+    },
+    enter(entered) {
+      start.enter(entered.name)
+      scene = entered
+      source = gallery.source("data-orbit") ?? null
+      // A scene without a motion needs no time.
+      for (const item of items) item.hidden = source === null
+      folds.replaceChildren(...entered.pictures.filter(({ folded }) => folded !== null).map(unfolding))
+      source?.watch(onData)
+      onData()
+    },
+  })
 }

@@ -60,7 +60,7 @@ export function shareDialog() {
   const controls = choices("controls", "Controls", write)
   const [copyLink, sayLink] = copyButton("link", "Copy link", () => tell("link"))
   const [copyHtml, sayHtml] = copyButton("snippet", "Copy HTML", () => tell("copy", html.value))
-  listen("copied", ({ text, said }) => (text === null ? sayLink : sayHtml)(said))
+  listen({ copied: ({ text, said }) => (text === null ? sayLink : sayHtml)(said) })
   const dialog = dialogOf("Share", "menu-of-scenes.share", [], element("div.parts",
     section("Link", "All that is on the screen", link, copyLink, code, why),
     section("Embed", "Parts of it in a page of yours", pictures.frame, controls.frame, html, copyHtml)))

@@ -13,14 +13,14 @@ export function createAddress({ query, isDark, own }) {
     clearTimeout(timer)
     timer = null
     const wanted = addressOf(query())
-    if (wanted !== window.location.search) window.history.replaceState(null, "", wanted)
+    if (wanted !== location.search) history.replaceState(null, "", wanted)
   }
   return {
     writeNow,
     // An entry of its own for the state on show: Back leads to the state before.
     push(before) {
-      window.history.replaceState(null, "", addressOf(before))
-      window.history.pushState(null, "", addressOf(query()))
+      history.replaceState(null, "", addressOf(before))
+      history.pushState(null, "", addressOf(query()))
     },
     // Browsers limit how often the address may change.
     write: () => { timer ??= setTimeout(writeNow, PAUSE) },

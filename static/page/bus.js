@@ -23,7 +23,7 @@ const bus = new EventTarget()
 
 export const tell = (name, detail) => { bus.dispatchEvent(new CustomEvent(name, { detail })) }
 
-// hear(detail) is called for every event of that name.
-export const listen = (name, hear) => {
-  bus.addEventListener(name, ({ detail }) => hear(detail))
+// hears: {name of an event: hear(detail)}.
+export function listen(hears) {
+  for (const [name, hear] of Object.entries(hears)) bus.addEventListener(name, ({ detail }) => hear(detail))
 }

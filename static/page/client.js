@@ -14,10 +14,9 @@ import { joinOther } from "./side_by_side.js"
 import { fill, paint } from "./painting.js"
 import { createPage } from "./panel_page.js"
 import { present } from "./presenting.js"
-import { answering } from "./reconnect.js"
 import { createRequests } from "./requests.js"
 import { createVisibility } from "./visibility.js"
-import { openWebsocket } from "./websocket.js"
+import { answering, openWebsocket } from "./websocket.js"
 import { handleCommands } from "./commands.js"
 
 // The next pieces are asked for after a pause as long as the last ones took: half of the time is the user's, and a
@@ -44,8 +43,6 @@ export function startClient(model, view) {
   if (isPart) embed()
 
   let send = null
-  listen("ask-chart", (chart) => send({ chart }))
-
   const page = createPage(view)
   const address = createAddress({ query: () => state.query, isDark: page.isDark, own })
   const visibility = createVisibility(() => requests.request())
@@ -68,12 +65,15 @@ export function startClient(model, view) {
   createHandout(() => latest)
   joinOther()
 
-  listen("url", (keys) => {
-    Object.assign(own, keys)
-    // The first state brings the others.
-    if (state !== null) address.write()
+  listen({
+    url(keys) {
+      Object.assign(own, keys)
+      // The first state brings the others.
+      if (state !== null) address.write()
+    },
+    "ask-client": (hear) => hear(own),
+    "ask-chart": (chart) => send({ chart }),
   })
-  listen("ask-client", (hear) => hear(own))
 
   // The plots that a state gives other axes or other data; all of them at first.
   const touchedPlots = ({ ranges, sources }) => {
@@ -108,7 +108,7 @@ export function startClient(model, view) {
     if (scene?.name !== state.scene) enter(state.scene)
     await paint(touchedPlots(state.tree), () => fillAll(state, block))
     address.write()
-    root.dataset.state = String(state.number)
+    root.dataset.state = state.number
     requests.settled()
     history.settle()
     compare.painted()
@@ -159,7 +159,7 @@ export function startClient(model, view) {
     // Its own link is all that it needs; a page that has never shown anything would only come here again.
     if (state === null) return
     address.writeNow()
-    window.location.reload()
+    location.reload()
   }
 
   const start = async () => {

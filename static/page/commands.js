@@ -14,20 +14,22 @@ async function copy(text, instead) {
 }
 
 export function handleCommands({ address, page }) {
-  listen("link", async () => {
-    // The link of what is on the screen, not of what the address bar has come to.
-    address.writeNow()
-    tell("copied", { text: null, said: await copy(window.location.href, "It is in the address bar") })
-  })
-  listen("address", address.writeNow)
-  listen("copy", async (text) => tell("copied", { text, said: await copy(text, "Copy it by hand") }))
-  listen("theme", page.turnTheme)
-  listen("present", () => {
-    present(!isPresenting())
-    tell("url", { present: isPresenting() ? "1" : "" })
-  })
-  listen("fullscreen", () => {
-    if (document.fullscreenElement === null) document.documentElement.requestFullscreen().catch(console.warn)
-    else document.exitFullscreen()
+  listen({
+    async link() {
+      // The link of what is on the screen, not of what the address bar has come to.
+      address.writeNow()
+      tell("copied", { text: null, said: await copy(location.href, "It is in the address bar") })
+    },
+    address: address.writeNow,
+    copy: async (text) => tell("copied", { text, said: await copy(text, "Copy it by hand") }),
+    theme: page.turnTheme,
+    present() {
+      present(!isPresenting())
+      tell("url", { present: isPresenting() ? "1" : "" })
+    },
+    fullscreen() {
+      if (document.fullscreenElement === null) document.documentElement.requestFullscreen().catch(console.warn)
+      else document.exitFullscreen()
+    },
   })
 }

@@ -74,20 +74,22 @@ export function createCompare(now) {
     before = null
     refresh()
   }
-  listen("change", begin)
-  listen("pick", ({ drag }) => { if (drag) begin() })
-  listen("animated", (on) => {
-    if (on) isHeld = true
-    else end()
+  listen({
+    change: begin,
+    pick({ drag }) { if (drag) begin() },
+    animated(on) {
+      if (on) isHeld = true
+      else end()
+    },
+    pin() {
+      pinned = pinned === null ? keep() : null
+      other = null
+      refresh()
+    },
+    flip,
   })
   document.addEventListener("pointerdown", () => { isHeld = true }, { capture: true })
   for (const name of ["pointerup", "pointercancel"]) document.addEventListener(name, end, { capture: true })
-  listen("pin", () => {
-    pinned = pinned === null ? keep() : null
-    other = null
-    refresh()
-  })
-  listen("flip", flip)
   onKeys({ c: flip })
   // A state is painted.
   return { painted: () => { if (pinned !== null) refresh() } }

@@ -14,7 +14,7 @@ export function embed() {
 
 // The address of the whole page in the state of this one, or of these parts of it.
 export function linkTo(parts = null) {
-  const url = new URL(window.location.href)
+  const url = new URL(location.href)
   for (const key of [...KEYS, ...(parts === null ? [] : ["large", "present"])]) url.searchParams.delete(key)
   if (parts === null) return url.href
   url.searchParams.set("embed", "1")

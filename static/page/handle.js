@@ -10,7 +10,7 @@ const CHANGES = ["change", "expression", "preset", "reset", "clear", "pick", "re
 // The names of the scenes where it was said; where nothing may be kept it is said anew in each tab.
 const said = new Set()
 try {
-  for (const name of window.localStorage.getItem(KEY)?.split(",") ?? []) said.add(name)
+  for (const name of localStorage.getItem(KEY)?.split(",") ?? []) said.add(name)
 } catch (error) {
   console.info("Nothing can be kept in this browser.", error.message)
 }
@@ -18,7 +18,7 @@ try {
 function remember(name) {
   said.add(name)
   try {
-    window.localStorage.setItem(KEY, [...said].join(","))
+    localStorage.setItem(KEY, [...said].join(","))
   } catch {
     // Nor then.
   }
@@ -29,24 +29,26 @@ function remember(name) {
 export function sayDragMe(of) {
   let end = () => {}
   let entered = null
-  for (const name of CHANGES) listen(name, () => end())
-  listen("enter", (description) => { entered = description })
-  listen("painted", () => {
-    if (entered === null) return
-    const { name, handle } = entered
-    entered = null
-    const found = handle === null || isEmbedded() || said.has(name) ? null : of(handle)
-    if (found === null) return
-    const { host, place, moved } = found
-    const sign = element("span.drag-me", { ariaHidden: true }, "drag me")
-    const put = () => { Object.assign(sign.style, place()) }
-    put()
-    moved?.connect(put)
-    host.append(sign)
-    end = () => {
-      moved?.disconnect(put)
-      sign.remove()
-    }
-    remember(name)
+  for (const name of CHANGES) listen({ [name]: () => end() })
+  listen({
+    enter(description) { entered = description },
+    painted() {
+      if (entered === null) return
+      const { name, handle } = entered
+      entered = null
+      const found = handle === null || isEmbedded() || said.has(name) ? null : of(handle)
+      if (found === null) return
+      const { host, place, moved } = found
+      const sign = element("span.drag-me", { ariaHidden: true }, "drag me")
+      const put = () => { Object.assign(sign.style, place()) }
+      put()
+      moved?.connect(put)
+      host.append(sign)
+      end = () => {
+        moved?.disconnect(put)
+        sign.remove()
+      }
+      remember(name)
+    },
   })
 }

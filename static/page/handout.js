@@ -61,11 +61,13 @@ export function createHandout(now) {
     document.body.append(sheet)
   }
 
-  listen("time", ({ t }) => { moment = t })
-  listen("print", async () => {
-    tell("address")
-    put((await qrCode(linkTo())).svg)
-    window.print()
+  listen({
+    time({ t }) { moment = t },
+    async print() {
+      tell("address")
+      put((await qrCode(linkTo())).svg)
+      window.print()
+    },
   })
   document.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || !(event.ctrlKey || event.metaKey) || event.shiftKey || event.altKey || event.key !== "p") return

@@ -71,17 +71,19 @@ export function createHistory({ query, isSettled, address }) {
   }
 
   for (const name of CHANGES) {
-    listen(name, () => {
+    listen({ [name]() {
       if (goal !== null) current = goal
       goal = null
       isChanged = true
       isExample = name === "preset"
       isPopped = false
-    })
+    } })
   }
-  listen("animated", (on) => { isAnimated = on })
-  listen("undo", undo)
-  listen("redo", redo)
+  listen({
+    animated(on) { isAnimated = on },
+    undo,
+    redo,
+  })
   for (const name of ["pointerdown", "keydown"]) {
     document.addEventListener(name, () => { isHeld = true }, { capture: true })
   }
@@ -102,7 +104,7 @@ export function createHistory({ query, isSettled, address }) {
   })
   window.addEventListener("popstate", () => {
     isPopped = true
-    tell("restore", window.location.search.slice(1))
+    tell("restore", location.search.slice(1))
   })
   return { settle }
 }

@@ -87,18 +87,17 @@ export function render({ index, el }) {
   }
 
   // The state of the step is on show.
-  function arrive() {
-    const step = lesson.steps[at]
-    if (step.look !== "") tell("look", step.look)
+  function arrive({ look }) {
+    if (look !== "") tell("look", look)
     guess?.begin()
-    if (animation !== null && !CALM.matches) animation.start()
+    if (!CALM.matches) animation?.start()
   }
 
   function turnTo(number) {
     if (number < 0 || number >= lesson.steps.length) return
     at = number
     showStep()
-    go(lesson.name, at, false, arrive)
+    go(lesson.name, at, false, () => arrive(lesson.steps[at]))
     panel.querySelector(".title").focus({ preventScroll: true })
     panel.scrollIntoView({ block: "start" })
   }
@@ -131,8 +130,9 @@ export function render({ index, el }) {
     tell("reading", true)
     if (isHere) {
       showStep()
-      if (gallery.shown === null) arriving = arrive
-      else arrive()
+      const here = () => arrive(lesson.steps[at])
+      if (gallery.shown === null) arriving = here
+      else here()
     } else turnTo(at)
   }
 
@@ -172,12 +172,9 @@ export function render({ index, el }) {
     }
     const perform = () => {
       animation?.stop()
-      animation = steps[one].animation ? createAnimation(steps[one].animation) : null
-      const { look } = steps[one]
-      go(name, one, false, () => {
-        if (look !== "") tell("look", look)
-        if (!CALM.matches) animation?.start()
-      })
+      animation = steps[one].animation && createAnimation(steps[one].animation)
+      const step = steps[one]
+      go(name, one, false, () => arrive(step))
     }
     const count = element("span.count")
     tries.append(title, text, element("div.row",
@@ -187,16 +184,18 @@ export function render({ index, el }) {
     turn(0)
   }
 
-  listen("enter", showTries)
-  listen("painted", () => {
-    const then = arriving
-    arriving = null
-    then?.()
-  })
-  listen("lesson-read", ({ lesson: given, step }) => {
-    if (step !== null) begin(given, step, true)
-    else if (given.name === wanted) begin(given, 0, false)
-    wanted = null
+  listen({
+    enter: showTries,
+    painted() {
+      const then = arriving
+      arriving = null
+      then?.()
+    },
+    "lesson-read"({ lesson: given, step }) {
+      if (step !== null) begin(given, step, true)
+      else if (given.name === wanted) begin(given, 0, false)
+      wanted = null
+    },
   })
   onKeys({ pagedown: () => lesson !== null && next(), pageup: () => lesson !== null && turnTo(at - 1) })
 }

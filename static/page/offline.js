@@ -25,7 +25,7 @@ function controlOf({ name, label, kind }, shown) {
 async function start() {
   const { description, tree, client, sheets } = JSON.parse(place("state").textContent)
   const block = Uint8Array.from(atob(place("block").textContent), (letter) => letter.charCodeAt(0)).buffer
-  listen("ask-client", (hear) => hear(client))
+  listen({ "ask-client": (hear) => hear(client) })
   const mount = createMount(sheets)
   mount("pictures", renderPictures, {}, place("pictures"))
   mount("player", renderPlayer, {}, place("player"))

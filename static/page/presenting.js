@@ -30,7 +30,10 @@ export function wear(el) {
     el.classList.toggle("presenting", isOn)
     el.classList.toggle("embedded", isEmbedded())
   }
-  for (const mode of ["presenting", "embedding"]) listen(mode, follow)
+  listen({
+    presenting: follow,
+    embedding: follow,
+  })
   follow()
 }
 

@@ -16,9 +16,11 @@ export function render({ el }) {
     tell("stop")
     event.preventDefault()
   })
-  listen("progress", (progress) => {
-    since = progress && (since ?? performance.now())
-    box.hidden = progress === null || performance.now() - since < SHOWN_AFTER
-    if (progress !== null) [bar.value, bar.max] = progress
+  listen({
+    progress(progress) {
+      since = progress && (since ?? performance.now())
+      box.hidden = progress === null || performance.now() - since < SHOWN_AFTER
+      if (progress !== null) [bar.value, bar.max] = progress
+    },
   })
 }

@@ -11,16 +11,17 @@ export function showSigns(box, signs) {
 
 export function render({ part, el }) {
   const item = element(`div.${part}`)
-  const show = (scene) => { item.innerHTML = scene[part] }
   // A formula or a table that scrolls by itself is reached by the keyboard.
   new ResizeObserver(() => {
     for (const wide of item.querySelectorAll('math[display="block"], table')) {
       wide.tabIndex = wide.scrollWidth > wide.clientWidth ? 0 : -1
     }
   }).observe(item)
-  listen("enter", show)
-  if (part === "legend") listen("texts", ({ signs }) => { if (signs !== undefined) showSigns(item, signs) })
-  // A lesson has the place of the words.
-  if (part === "words") listen("reading", (on) => { item.hidden = on })
+  listen({
+    enter(scene) { item.innerHTML = scene[part] },
+    texts({ signs }) { if (signs !== undefined) showSigns(item, signs) },
+    // A lesson has the place of the words.
+    reading(on) { item.hidden = on && part === "words" },
+  })
   el.append(item)
 }

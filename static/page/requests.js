@@ -92,49 +92,52 @@ export function createRequests({ send, changed, hidden, known }) {
       request()
     }, { capture: true })
   }
-  listen("animated", (on) => {
-    animated = on
-    request()
-  })
-  listen("change", (changes) => {
-    for (const name of Object.keys(changes)) {
-      moved.set(name, requested + 1)
-      delete pending.expressions?.[name]
-    }
-    want({ values: { ...pending.values, ...changes } })
-  })
-  listen("expression", (texts) => {
-    for (const name of Object.keys(texts)) moved.set(name, requested + 1)
-    want({ expressions: { ...pending.expressions, ...texts } })
-  })
-  listen("preset", (preset) => restart({ preset }))
-  for (const what of ["reset", "clear"]) listen(what, () => restart({ [what]: true }))
-  // The query of a state, perhaps of another scene.
-  listen("restore", (restore) => {
-    chosen = target = new URLSearchParams(restore).get("scene") ?? shown
-    restart({ restore })
-  })
-  listen("step", (step) => {
-    chosen = target = null
-    restart({ step })
-  })
-  listen("lesson", (lesson) => add({ lesson }))
-  listen("stop", () => want({ stop: true }))
-  listen("pick", ({ pick, drag }) => {
-    // A finger that moves scrolls the page.
-    if ((drag && touched) || !Array.isArray(pick) || !pick.slice(1).every(Number.isFinite)) return
-    want({ picked: pick })
-  })
-  listen("hover", (place) => {
-    if (place.slice(1).every(Number.isFinite)) add({ hover: place })
-  })
-  listen("near", (near) => { if (!known(near)) add({ near }) })
-  listen("scene", (scene) => {
-    // The scene chosen last, though its pictures may still be on their way.
-    if (scene === (target ?? shown)) return
-    chosen = target = scene
-    delete pending.restore
-    request()
+  listen({
+    animated(on) {
+      animated = on
+      request()
+    },
+    change(changes) {
+      for (const name of Object.keys(changes)) {
+        moved.set(name, requested + 1)
+        delete pending.expressions?.[name]
+      }
+      want({ values: { ...pending.values, ...changes } })
+    },
+    expression(texts) {
+      for (const name of Object.keys(texts)) moved.set(name, requested + 1)
+      want({ expressions: { ...pending.expressions, ...texts } })
+    },
+    preset: (preset) => restart({ preset }),
+    reset: () => restart({ reset: true }),
+    clear: () => restart({ clear: true }),
+    // The query of a state, perhaps of another scene.
+    restore(restore) {
+      chosen = target = new URLSearchParams(restore).get("scene") ?? shown
+      restart({ restore })
+    },
+    step(step) {
+      chosen = target = null
+      restart({ step })
+    },
+    lesson: (lesson) => add({ lesson }),
+    stop: () => want({ stop: true }),
+    pick({ pick, drag }) {
+      // A finger that moves scrolls the page.
+      if ((drag && touched) || !Array.isArray(pick) || !pick.slice(1).every(Number.isFinite)) return
+      want({ picked: pick })
+    },
+    hover(place) {
+      if (place.slice(1).every(Number.isFinite)) add({ hover: place })
+    },
+    near(near) { if (!known(near)) add({ near }) },
+    scene(scene) {
+      // The scene chosen last, though its pictures may still be on their way.
+      if (scene === (target ?? shown)) return
+      chosen = target = scene
+      delete pending.restore
+      request()
+    },
   })
 
   return {

@@ -76,7 +76,7 @@ function sayWhatMoves(stage, reading) {
     if (PHONE.matches) reading.prepend(sentence)
     else stage.before(sentence)
   }
-  listen("enter", ({ moves }) => { sentence.textContent = moves })
+  listen({ enter({ moves }) { sentence.textContent = moves } })
   PHONE.addEventListener("change", place)
   place()
 }
@@ -106,7 +106,7 @@ export function render({ model, view, el }) {
     element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener(), spot())
   sayWhatMoves(stage, reader.firstChild)
   wear(el)
-  listen("reading", (on) => el.classList.toggle("in-lesson", on))
+  listen({ reading: (on) => el.classList.toggle("in-lesson", on) })
   onKeys({ f: () => tell("fullscreen"), p: () => tell("present") })
   startClient(model, view)
 }

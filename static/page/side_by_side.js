@@ -11,10 +11,12 @@ export function joinOther() {
   if (window.name !== HALF || window.parent === window) return
   // What is done because the other page has asked for it is not told back.
   let isFollowing = false
-  const { origin } = window.location
+  const { origin } = location
   const say = (name, detail) => { if (!isFollowing) window.parent.postMessage([name, detail], origin) }
-  listen("time", ({ t }) => say("time", t))
-  listen("turned", (turned) => say("turned", turned))
+  listen({
+    time: ({ t }) => say("time", t),
+    turned: (turned) => say("turned", turned),
+  })
   window.addEventListener("message", ({ source, origin: from, data }) => {
     if (source !== window.parent || from !== origin || !Array.isArray(data) || !Object.hasOwn(HEARD, data[0])) return
     isFollowing = true

@@ -11,7 +11,7 @@ export function render({ el }) {
     if ("summary" in texts) summary.textContent = texts.summary
     if ("status" in texts) details.textContent = texts.status
   }
-  listen("texts", show)
+  listen({ texts: show })
   document.addEventListener("pointerdown", (event) => {
     if (!event.composedPath().includes(item)) item.open = false
   })

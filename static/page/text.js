@@ -9,7 +9,7 @@ export function render({ key, tag = "p", el }) {
     item.textContent = text
     item.hidden = text === ""
   }
-  listen("texts", (texts) => { if (key in texts) show(texts[key]) })
+  listen({ texts(texts) { if (key in texts) show(texts[key]) } })
   show("")
   el.append(item)
 }

@@ -4,6 +4,11 @@ const LENGTHS = 8
 // The code with which a server that has no room closes it.
 const FULL = 1013
 
+// Milliseconds between two questions whether a server is back that is gone: restarted, out of reach, or left behind while
+// the machine slept.
+const FIRST = 1000
+const LONGEST = 15000
+
 const decoder = new TextDecoder()
 
 /**
@@ -13,7 +18,7 @@ const decoder = new TextDecoder()
  */
 export function openWebsocket(receive, lost) {
   // The query says what is shown first; which process answers is no matter.
-  const url = new URL(`states${window.location.search}`, document.baseURI)
+  const url = new URL(`states${location.search}`, document.baseURI)
   url.protocol = url.protocol.replace("http", "ws")
   const socket = new WebSocket(url)
   socket.binaryType = "arraybuffer"
@@ -25,4 +30,13 @@ export function openWebsocket(receive, lost) {
   })
   socket.addEventListener("close", ({ code, reason }) => lost(code === FULL ? reason : ""))
   return (message) => socket.send(JSON.stringify(message))
+}
+
+// Resolves once it answers.  A class does not come back all at once.
+export async function answering() {
+  for (let pause = FIRST; ; pause = Math.min(2 * pause, LONGEST)) {
+    await new Promise((done) => setTimeout(done, pause * (0.5 + Math.random())))
+    const answer = await fetch(new URL("liveness", document.baseURI), { cache: "no-store" }).catch(() => null)
+    if (answer?.ok) return
+  }
 }

@@ -1,6 +1,6 @@
 // Which window the page is in: the same lines as the media queries of the style sheets.
 
-export const PHONE = window.matchMedia("(max-width: 799px), (max-height: 499px)")
+export const PHONE = matchMedia("(max-width: 799px), (max-height: 499px)")
 // Controls and text share a column, as tabs.
-export const NARROW = window.matchMedia("(max-width: 1499px)")
-export const CALM = window.matchMedia("(prefers-reduced-motion: reduce)")
+export const NARROW = matchMedia("(max-width: 1499px)")
+export const CALM = matchMedia("(prefers-reduced-motion: reduce)")

@@ -12,11 +12,10 @@
 //   curves [[look, weight, xs, ys, zs]] in space, weight 0 for that of the look;  axis and label: of the arrow below.
 
 import { drawArrow, drawBall, drawLine, drawWheel, WHEEL } from "./body_parts.js"
-import { circle } from "./circles.js"
 import { circlePath, LOOKS } from "./looks.js"
 import { between } from "./moment.js"
 import { covers, createSolid, leaves } from "./solid.js"
-import { cross, dot, plus, scaled, unit } from "./vectors.js"
+import { circle, cross, dot, plus, scaled, unit } from "./vectors.js"
 
 const TRAIL = 160
 const PIECES = 16

@@ -1,8 +1,7 @@
 // What stands out of a body: rods, the ball of its mass, wheels, and the arrow below it.
 
-import { circle } from "./circles.js"
 import { circlePath, LOOKS } from "./looks.js"
-import { cross, plus, scaled, unit } from "./vectors.js"
+import { circle, cross, plus, scaled, unit } from "./vectors.js"
 
 // The radius of a wheel, and half of its thickness.
 export const WHEEL = 0.15

@@ -76,7 +76,7 @@ function majority(a, b, c, d, right, up) {
 }
 
 /**
- * Return what paints layers of cells, see "frame_canvas.js".
+ * Return what paints layers of cells, see `frameCanvas`.
  * @param {{source: string, palette: string[], low: number, high: number, smooth?: boolean, cyclic?: boolean, kinds?: boolean}[]} layers
  * @param {(name: string) => {data: any}} source its data hold image, x, y, dw, dh, as Bokeh's glyph "image"
  */

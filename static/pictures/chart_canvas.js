@@ -4,12 +4,11 @@
 import { onDrag } from "../page/drag.js"
 import { arrowOf } from "../page/keys.js"
 import { zoom } from "../page/presenting.js"
-import { drawTicks } from "./axes.js"
 import { liveCanvas } from "./canvas.js"
 import { cellsPainter } from "./cells.js"
 import { coloursOf, filled } from "./chart_colours.js"
 import { circlePath, POINT } from "./looks.js"
-import { roundNumbers, tickLabels } from "./ticks.js"
+import { drawTicks, roundNumbers, tickLabels } from "./ticks.js"
 
 // In units of the type's size.
 const LEFT = 4.6

@@ -6,11 +6,11 @@
 
 import { listen, tell } from "../page/bus.js"
 import { zoom } from "../page/presenting.js"
-import { drawTicks } from "./axes.js"
 import { squareCanvas } from "./canvas.js"
 import { cloudsOf } from "./cloud.js"
 import { drawMark, LOOKS, useLook } from "./looks.js"
 import { pointLayer } from "./point_layer.js"
+import { drawTicks } from "./ticks.js"
 
 const MARGIN = { left: 46, right: 8, top: 8, bottom: 42 }
 const SHARES = [-1, -0.5, 0, 0.5, 1]
@@ -109,10 +109,12 @@ export function cloudPlane(el, options, source, isShown) {
     request()
     source(options.density).put(densityOf(clouds.at(t)[0], own.data.bins))
   }
-  listen("time", (now) => {
-    if (!isShown()) return
-    t = now.t
-    refresh()
+  listen({
+    time(now) {
+      if (!isShown()) return
+      t = now.t
+      refresh()
+    },
   })
   own.watch(refresh)
   return { shoot }

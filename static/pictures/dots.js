@@ -7,7 +7,7 @@ import { shade } from "./looks.js"
 const sideOf = (size) => (size / 8) * Math.sqrt(Math.PI)
 
 /**
- * Return what paints layers of dots, see "frame_canvas.js".
+ * Return what paints layers of dots, see `frameCanvas`.
  * @param {{source: string, x: string, y: string, size: number, color: string, alpha: number}[]} layers x and y are columns
  * @param {(name: string) => import("./sources.js").Source} source
  */

@@ -163,9 +163,11 @@ export function render({ el }) {
   el.append(shelf)
   stage = createStage(shelf, gallery)
   sayDragMe(besideLayer)
-  listen("texts", (texts) => { for (const cell of shown?.cells ?? []) fillTexts(cell, texts) })
+  listen({
+    texts(texts) { for (const cell of shown?.cells ?? []) fillTexts(cell, texts) },
+    // In the frame after a state: the browser looks up styles then in any case.
+    painted: () => requestAnimationFrame(followTheme),
+  })
   watchTheme(followThemeForAWhile)
-  // In the frame after a state: the browser looks up styles then in any case.
-  listen("painted", () => requestAnimationFrame(followTheme))
   stand()
 }

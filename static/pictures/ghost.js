@@ -1,7 +1,7 @@
 // Ghosts: faint copies of an earlier state, drawn once, and again only where axes or sizes change.
 
 import { element } from "../page/elements.js"
-import { frameCanvas } from "./frame_canvas.js"
+import { frameCanvas } from "./canvas.js"
 
 export const FAINT = 0.4
 

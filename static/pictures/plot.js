@@ -4,9 +4,9 @@ import { listen } from "../page/bus.js"
 import { element } from "../page/elements.js"
 import { isPresenting } from "../page/presenting.js"
 import { checkBokeh, waitLongForPress } from "./bokeh_private.js"
+import { frameCanvas } from "./canvas.js"
 import { cellsPainter } from "./cells.js"
 import { dotsPainter } from "./dots.js"
-import { frameCanvas } from "./frame_canvas.js"
 import { connectPicks } from "./picks.js"
 import { tickFormatter } from "./ticks.js"
 
@@ -37,7 +37,7 @@ function addCanvases(plot, { cells, dots }, source) {
     if (layers.length === 0) return
     const canvas = frameCanvas(plot, before, painter(layers, source))
     for (const layer of layers) source(layer.source).watch(canvas.request)
-    listen("paint", canvas.draw)
+    listen({ paint: canvas.draw })
   }
   add(cells, primary.el, cellsPainter)
   add(dots, overlays.el, dotsPainter)

@@ -11,12 +11,11 @@ import { onDrag } from "../page/drag.js"
 import { arrowOf } from "../page/keys.js"
 import { bodyIn } from "./body.js"
 import { squareCanvas } from "./canvas.js"
-import { circle, graticule } from "./circles.js"
 import { sphereClouds } from "./cloud_on_sphere.js"
 import { FAINT } from "./ghost.js"
 import { circlePath, drawMark, LOOKS, POINT } from "./looks.js"
 import { createSheet, RADIUS } from "./projection.js"
-import { scaled } from "./vectors.js"
+import { circle, graticule, scaled } from "./vectors.js"
 
 const STEP = Math.PI / 36
 const HOME = [0.6, 0.35]
@@ -67,8 +66,6 @@ export function sphere(el, options, source, isShown) {
   const beginTurn = (keys) => { turn = [Number(keys.az), Number(keys.el)] }
   const askForTurn = () => tell("ask-client", beginTurn)
   askForTurn()
-  // The sphere of another scene may have been turned since.
-  listen("enter", () => { if (isShown()) askForTurn() })
   let point = null
 
   const own = source(options.name)
@@ -160,14 +157,18 @@ export function sphere(el, options, source, isShown) {
     rotate(azimuth - (clientX - x) * perPixel, elevation + (clientY - y) * perPixel)
   })
 
-  listen("turn", ([name, ...turned]) => {
-    if (isShown() && name === options.name && turned.every(Number.isFinite)) rotate(...turned)
-  })
-  listen("time", ({ t, state }) => {
-    if (!isShown()) return
-    point = inSpace || state?.g1 === undefined ? null : [state.g1, state.g2, state.g3]
-    if (guest !== null) guest.t = t
-    request()
+  // The sphere of another scene may have been turned since.
+  listen({
+    enter() { if (isShown()) askForTurn() },
+    turn([name, ...turned]) {
+      if (isShown() && name === options.name && turned.every(Number.isFinite)) rotate(...turned)
+    },
+    time({ t, state }) {
+      if (!isShown()) return
+      point = inSpace || state?.g1 === undefined ? null : [state.g1, state.g2, state.g3]
+      if (guest !== null) guest.t = t
+      request()
+    },
   })
   const watched = [options.name, ...Object.keys(options.tracks), options.clouds, options.attitude]
   for (const name of watched) if (name !== undefined) source(name).watch(request)

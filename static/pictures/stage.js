@@ -142,23 +142,25 @@ export function createStage(shelf, gallery) {
   // After whatever else Escape is for.
   onKeys({ escape: () => large.length > 0 && enlarge([]) }, window)
 
-  listen("client", (own) => { wanted = own.large ?? "" })
-  // What a lesson looks at.
-  listen("look", (name) => {
-    if (isFolded(gallery.cell(name))) tell("fold", name)
-    enlarge([name])
-  })
-  listen("fold", (name) => {
-    const folded = gallery.cell(name).classList.toggle("folded")
-    if (folded) large = large.filter((one) => one !== name)
-    else if (PHONE.matches) large = [name]
-    placeShown()
-    tell("folded", { name, folded })
+  listen({
+    // When all of the page has its new sizes.
+    presenting: () => requestAnimationFrame(placeShown),
+    client(own) { wanted = own.large ?? "" },
+    // What a lesson looks at.
+    look(name) {
+      if (isFolded(gallery.cell(name))) tell("fold", name)
+      enlarge([name])
+    },
+    fold(name) {
+      const folded = gallery.cell(name).classList.toggle("folded")
+      if (folded) large = large.filter((one) => one !== name)
+      else if (PHONE.matches) large = [name]
+      placeShown()
+      tell("folded", { name, folded })
+    },
   })
 
   new ResizeObserver(placeShown).observe(shelf)
-  // When all of the page has its new sizes.
-  listen("presenting", () => requestAnimationFrame(placeShown))
 
   return {
     place, size,

@@ -1,4 +1,4 @@
-// Vectors in space, as arrays of three numbers.
+// Vectors in space, as arrays of three numbers, and circles on the unit sphere, as columns [xs, ys, zs].
 
 export const dot = (u, v) => u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 export const cross = (u, v) => [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
@@ -6,3 +6,29 @@ export const scaled = (v, factor) => v.map((x) => factor * x)
 export const unit = (v) => scaled(v, 1 / Math.hypot(...v))
 /** u + factor v */
 export const plus = (u, v, factor = 1) => u.map((x, k) => x + factor * v[k])
+
+/** Return the circle (γ, axis) = height. */
+export function circle(axis, height, count = 96) {
+  const [a, b, c] = axis
+  const e = unit(Math.abs(a) < 0.9 ? [0, c, -b] : [-c, 0, a])
+  const g = cross(axis, e)
+  const radius = Math.sqrt(Math.max(0, 1 - height * height))
+  const points = [[], [], []]
+  for (let i = 0; i <= count; i++) {
+    const s = (2 * Math.PI * i) / count
+    for (let k = 0; k < 3; k++) {
+      points[k].push(height * axis[k] + radius * (Math.cos(s) * e[k] + Math.sin(s) * g[k]))
+    }
+  }
+  return points
+}
+
+/** Return three parallels and six meridians. */
+export function graticule() {
+  const lines = [-0.5, 0, 0.5].map((height) => circle([0, 0, 1], height))
+  for (let i = 0; i < 6; i++) {
+    const s = (Math.PI * i) / 6
+    lines.push(circle([Math.cos(s), Math.sin(s), 0], 0))
+  }
+  return lines
+}

@@ -133,7 +133,7 @@ def test_the_modules_in_the_file_name_each_other_and_nothing_else():
     modules = bundled("page/offline.js")
     assert {"page/offline.js", "page/bus.js", "pictures/sphere.js", "controls/player.js"} <= modules.keys()
     # What speaks to the server is not among them.
-    assert not {"page/client.js", "page/requests.js", "page/reconnect.js"} & modules.keys()
+    assert not {"page/client.js", "page/requests.js", "page/websocket.js"} & modules.keys()
 
 
 def test_a_picture_that_is_not_there_is_refused():

@@ -19,7 +19,7 @@ _SCRIPT = """const begin = () => {
   ]).then(([bus, { gallery }, { cloudsOf }, ticks, solid, { arrange }]) => {
     window.hess = {
       get plots() { return gallery.shown.plots }, source: gallery.source, has: gallery.has, tell: bus.tell,
-      listen: bus.listen, clouds: (source, t) => cloudsOf(source).at(t), ticks, solid,
+      listen: (name, hear) => bus.listen({ [name]: hear }), clouds: (source, t) => cloudsOf(source).at(t), ticks, solid,
       arrange,
       plotted() {
         const { sources, cells } = gallery.shown
