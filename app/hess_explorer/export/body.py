@@ -100,48 +100,18 @@ class BodyDrawing:
     def _inside(self) -> None:
         """The cavity of a ball of glass, and the ball that it rolls on."""
         canvas = self.canvas
-        from matplotlib.patches import Circle
-
-        canvas.frame.add_patch(
-            Circle(
-                (0.0, 0.0),
-                _CAVITY,
-                facecolor="none",
-                edgecolor=canvas.colour(theme.INK),
-                linewidth=0.7,
-                alpha=0.5,
-                zorder=canvas.above(),
-            )
-        )
+        canvas.disc(0.0, 0.0, _CAVITY, facecolor="none", edgecolor=canvas.colour(theme.INK), linewidth=0.7, alpha=0.5)
         x, y, _ = canvas.at((0.0, 0.0, _INNER - _CAVITY))
         self._ball(x, y, _INNER, "#9AA0AA")
         x, y, _ = canvas.at((0.0, 0.0, -_CAVITY))
         canvas.dot(x, y, 3.0, color=canvas.colour(theme.INK))
 
     def _ball(self, x: float, y: float, radius: float, colour: str) -> None:
-        from matplotlib.patches import Circle
-
         canvas = self.canvas
-        canvas.frame.add_patch(
-            Circle(
-                (x, y),
-                radius,
-                facecolor=canvas.colour(colour),
-                linewidth=0.9,
-                edgecolor=canvas.colour(theme.INK),
-                zorder=canvas.above(),
-            )
-        )
+        canvas.disc(x, y, radius, facecolor=canvas.colour(colour), linewidth=0.9, edgecolor=canvas.colour(theme.INK))
         # The light comes over the left shoulder of whoever looks.
-        canvas.frame.add_patch(
-            Circle(
-                (x - 0.35 * radius, y + 0.38 * radius),
-                0.28 * radius,
-                facecolor="white",
-                edgecolor="none",
-                alpha=0.85,
-                zorder=canvas.above(),
-            )
+        canvas.disc(
+            x - 0.35 * radius, y + 0.38 * radius, 0.28 * radius, facecolor="white", edgecolor="none", alpha=0.85
         )
 
     def _trail(self, near: bool) -> None:

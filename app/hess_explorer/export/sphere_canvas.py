@@ -156,6 +156,12 @@ class SphereCanvas:
         # As an artist: a patch is first asked how far it reaches, which takes longer than to draw it.
         self.frame.add_artist(Polygon(corners, zorder=self.above(), **style))
 
+    def disc(self, x: float, y: float, radius: float, **style: Any) -> None:
+        """A disc of so many radii of the sphere, in the plane of the picture."""
+        from matplotlib.patches import Circle
+
+        self.frame.add_patch(Circle((x, y), radius, zorder=self.above(), **style))
+
     def dot(self, x: float, y: float, size: float, **style: Any) -> None:
         """A disc of so many points across, in the plane of the picture."""
         self.frame.plot([x], [y], marker="o", markersize=size, linestyle="none", zorder=self.above(), **style)

@@ -210,7 +210,6 @@ def line(
     color: str,
     width: float = 2.0,
     dash: str = "solid",
-    alpha: float = 1.0,
     label: str = "",
     moving: bool = True,
     columns: tuple[str, str] = ("x", "y"),
@@ -220,7 +219,7 @@ def line(
     """One curve: data(state) = (x, y), or None; `track`: columns of a track of the scene."""
     layer: Layer[S] = Layer(name, "line", columns, track=track, moving=moving)
     return _layer(
-        _stroked(layer, color, width, dash, alpha, label), lambda value: _positions(columns, value), data, within
+        _stroked(layer, color, width, dash, 1.0, label), lambda value: _positions(columns, value), data, within
     )
 
 
@@ -277,7 +276,6 @@ def points(
     label: str = "",
     moving: bool = True,
     columns: tuple[str, ...] = ("x", "y"),
-    track: str | None = None,
     within: Within[S] = None,
 ) -> Layer[S]:
     """Markers: data(state) = (x, y), or (x, y, angle), or None."""
@@ -301,7 +299,6 @@ def points(
             "line_alpha": alpha,
             **({"angle": "angle"} if "angle" in columns else {}),
         },
-        track=track,
         moving=moving,
         legend=_signed(label, "dot small" if small else "dot", look),
     )
@@ -318,7 +315,6 @@ def dots(
     label: str = "",
     columns: tuple[str, str] = ("x", "y"),
     track: str | None = None,
-    within: Within[S] = None,
 ) -> Layer[S]:
     """Points by the thousand, which the page draws itself: data(state) = (x, y), or None."""
     layer: Layer[S] = Layer(
@@ -329,7 +325,7 @@ def dots(
         track=track,
         legend=_signed(label, "dot small", f"background: {color}"),
     )
-    return _layer(layer, lambda value: _positions(columns, value), data, within)
+    return _layer(layer, lambda value: _positions(columns, value), data)
 
 
 def arrows(
@@ -339,11 +335,10 @@ def arrows(
     color: str,
     size: float = 10.0,
     alpha: float = 1.0,
-    within: Within[S] = None,
 ) -> Layer[S]:
     """Triangles that point along a motion: data(state) = (x, y, angle), angle 0 upwards, or None."""
     layer: Layer[S] = points(
-        name, data, color=color, size=size, marker="triangle", alpha=alpha, columns=("x", "y", "angle"), within=within
+        name, data, color=color, size=size, marker="triangle", alpha=alpha, columns=("x", "y", "angle")
     )
     return replace(layer, style={**layer.style, "line_alpha": 0.0})
 
