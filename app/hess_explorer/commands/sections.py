@@ -9,6 +9,7 @@ from functools import partial
 
 from hess_mechanics import HessBody, QuarticBody, ReturnMap, return_map
 from hess_mechanics.parameters import B3, F_HEAVY, H_HEAVY, H_QUARTIC, TENSOR, E
+from hess_mechanics.return_maps import SectionedBody
 
 from .circle_map import TORUS
 from .command import OUTPUT, Command, Option, Options, number, option, vector
@@ -23,38 +24,25 @@ class _System:
     """One system.
 
     purpose : a few words on it; where : its section, in words, and its place; place : as options name it.
-    options, made : its options, and their map; example : values of them.
+    options, body : its options, and their body; values : those options that fix the section; example : values of all.
     """
 
     purpose: str
     where: tuple[str, str]
     place: str
     options: tuple[Option, ...]
-    made: Callable[[Options], ReturnMap]
+    body: Callable[[Options], SectionedBody]
+    values: tuple[str, ...]
     example: str
 
 
-def _suslov(options: Options) -> ReturnMap:
-    return return_map(suslov_of(options), E=options.E, plane=options.plane, accuracy=options.accuracy)
+def _quartic(options: Options) -> QuarticBody:
+    return QuarticBody(*(*options.I, options.b3, options.h))
 
 
-def _quartic(options: Options) -> ReturnMap:
-    return return_map(QuarticBody(*(*options.I, options.b3, options.h)), accuracy=options.accuracy)
-
-
-def _ball(options: Options) -> ReturnMap:
-    return return_map(ball_of(options), h=options.h, accuracy=options.accuracy)
-
-
-def _heavy(options: Options) -> ReturnMap:
-    return return_map(heavy_of(options), h=options.h, f=options.f, sheet=options.sheet, accuracy=options.accuracy)
-
-
-def _hess(options: Options) -> ReturnMap:
+def _hess(options: Options) -> HessBody:
     # I22 = 1, and b3 such that b = 1.
-    return return_map(
-        HessBody(1.0, options.a, -math.hypot(1.0, options.a)), h=options.h, f=options.f, accuracy=options.accuracy
-    )
+    return HessBody(1.0, options.a, -math.hypot(1.0, options.a))
 
 
 _SYSTEMS: Mapping[str, _System] = {
@@ -67,7 +55,8 @@ _SYSTEMS: Mapping[str, _System] = {
             number(E, help="energy"),
             option("--plane", "k of γ_k = 0 (default 3)", type=int, choices=(1, 2, 3), default=3),
         ),
-        _suslov,
+        suslov_of,
+        ("E", "plane"),
         "--I 1.5,1,0,0 --b 0.3,-0.5,1 --E 1.842",
     ),
     "quartic": _System(
@@ -80,6 +69,7 @@ _SYSTEMS: Mapping[str, _System] = {
             number(H_QUARTIC, help="energy, h > -|b3|"),
         ),
         _quartic,
+        (),
         "--I 2,1 --b3 1 --h 0.8",
     ),
     "ball": _System(
@@ -87,7 +77,8 @@ _SYSTEMS: Mapping[str, _System] = {
         ("the section γ3 = 0 at the energy h", "(ψ, δ)"),
         "psi,delta",
         (*BALL, number(E, name="--h", help="energy")),
-        _ball,
+        ball_of,
+        ("h",),
         "--I 1,3,0.2,-0.1 --D 5 --b 0.5,0.2,0.8 --h 2",
     ),
     "euler-poisson": _System(
@@ -106,7 +97,8 @@ _SYSTEMS: Mapping[str, _System] = {
                 default=0,
             ),
         ),
-        _heavy,
+        heavy_of,
+        ("h", "f", "sheet"),
         "--A 1,0.625,0.25 --r 0.6,0,0.8 --mu 1 --h 1.5 --f -0.7",
     ),
     "hess": _System(
@@ -118,6 +110,7 @@ _SYSTEMS: Mapping[str, _System] = {
         "phi",
         TORUS,
         _hess,
+        ("h", "f"),
         "--a 0.7 --h 0.5 --f 0.6",
     ),
 }
@@ -144,7 +137,8 @@ def command_of_sections(
     """
 
     def run(system: _System, options: Options) -> Answer:
-        return compute(system.made(options), options)
+        values = {name: getattr(options, name) for name in system.values}
+        return compute(return_map(system.body(options), accuracy=options.accuracy, **values), options)
 
     return Command(
         systems={
