@@ -23,7 +23,7 @@ from hess_mechanics.errors import InvalidParameter, MissingLibrary
 if TYPE_CHECKING:
     from distributed import Client
 
-__all__ = ["Crew", "WorkerCount", "crew", "here"]
+__all__ = ["Crew", "WorkerCount", "crew"]
 
 WorkerCount = str | int | None
 """None: this thread; "all": a process for each core; a number of processes; the address of a Dask scheduler."""
@@ -52,6 +52,8 @@ class Crew(Protocol):
 
 
 class _Here:
+    """This thread alone."""
+
     size = 1
 
     def run(self, pieces: Chunks, stopped: Callable[[], bool]) -> Iterator[tuple[Box, Done]]:
@@ -59,11 +61,6 @@ class _Here:
             if stopped():
                 return
             yield box, compute(piece)
-
-
-def here() -> Crew:
-    """This thread alone."""
-    return _Here()
 
 
 class _Others:
@@ -126,7 +123,7 @@ def crew(workers: WorkerCount, stopped: Callable[[], bool]) -> Iterator[Crew]:
     """Who computes; it waits for workers until `stopped`.  Raises `InvalidParameter`, `WorkersLost`."""
     wanted = _cores() if workers == "all" else workers
     if wanted is None or wanted == 1:
-        yield here()
+        yield _Here()
         return
     with ExitStack() as stack:
         if isinstance(wanted, int) and not isinstance(wanted, bool):
