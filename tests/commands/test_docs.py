@@ -1,62 +1,66 @@
-"""The pages of the packages: every public name is on them, with its words, and they ask no other host."""
+"""The documentation: built once, its tutorials run, every public name in it, and it asks no other host."""
 
-import html
-import inspect
 import re
 import sys
 import webbrowser
+
+import pytest
 
 import hess_explorer
 import hess_mechanics
 from hess_explorer import sweep
 from hess_explorer.__main__ import main
-from hess_explorer.commands import docs
+from hess_explorer.scenes import scenes
 
 
-def test_every_public_name_has_its_words_on_a_page_that_asks_no_other_host(tmp_path, capsys):
-    assert main(["docs", "--out", str(tmp_path / "pages")]) == 0
-    assert capsys.readouterr().err == ""
-    index = (tmp_path / "pages/index.html").read_text(encoding="utf-8")
-    for package in (hess_mechanics, hess_explorer, sweep):
-        page = html.unescape((tmp_path / f"pages/{package.__name__}.html").read_text(encoding="utf-8"))
-        for name in package.__all__:
-            # What Python says of it, which imports the package, as the pages do not.
-            one = getattr(package, name)
-            assert f"id='{name}'" in page and f"{package.__name__}.html#{name}" in index
-            if inspect.isfunction(one) or inspect.isclass(one):
-                assert (inspect.getdoc(one) or "") in page
-            if inspect.isfunction(one):
-                assert [
-                    key
-                    for key in inspect.signature(one).parameters
-                    if not re.search(rf"<h2 id='{name}'>[^<]*\b{key}\b", page)
-                ] == []
-    everything = "".join(path.read_text(encoding="utf-8") for path in (tmp_path / "pages").iterdir())
-    assert re.findall(r"(?:src|href)\s*=\s*.?(?:https?:)?//", everything) == []
-    # `help` leads there.
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("docs")
+    assert main(["docs", "--out", str(folder)]) == 0
+    return {str(file.relative_to(folder)): file.read_text(encoding="utf-8") for file in folder.rglob("*.html")}
+
+
+@pytest.mark.parametrize(
+    ("page", "package"),
+    [("hess_mechanics", hess_mechanics), ("hess_explorer", hess_explorer), ("sweep", sweep)],
+)
+def test_every_public_name_is_in_the_api(site, page, package):
+    names = set(re.findall(r'<dt[^>]* id="([\w.]+)"', site[f"api/{page}.html"]))
+    assert [name for name in package.__all__ if f"{package.__name__}.{name}" not in names] == []
+
+
+def test_tutorials_have_the_output_of_their_code(site):
+    outputs = re.findall(r'<div class="output .*?</div>\s*</div>', site["tutorials/circle_map.html"], re.DOTALL)
+    assert "scene=suslov-hess" in outputs[-1]
+    # A fixed point of the map is where it locks: the kinds of the torus from pendulum to two cycles.
+    assert "hyperbolic" in outputs[1]
+    assert "<svg" in site["tutorials/circle_map.html"] or ".svg" in site["tutorials/circle_map.html"]
+    assert "two cycles" in site["tutorials/theorem.html"]
+
+
+def test_the_gallery_has_a_picture_of_every_scene(site):
+    shown = [scene for scene in scenes().values() if scene.origin is None]
+    assert [scene.title for scene in shown if scene.title not in site["gallery.html"]] == []
+    assert len(re.findall(r"<img[^>]*_images/", site["gallery.html"])) == len(shown)
+
+
+def test_it_loads_nothing_from_another_host(site):
+    """Links that a reader follows are allowed; scripts, styles, pictures and fonts of others are not."""
+    loaded = re.compile(r'<(?:script|img|iframe)[^>]*src="(?:https?:)?//|<link[^>]*href="(?:https?:)?//', re.IGNORECASE)
+    assert {name: loaded.findall(text) for name, text in site.items() if loaded.search(text)} == {}
+
+
+def test_help_leads_there():
     assert "hess-explorer docs" in hess_mechanics.__doc__ and "hess-explorer docs" in hess_explorer.__doc__
 
 
-def test_they_are_opened_where_they_are_and_made_where_the_packages_are_edited(tmp_path, capsys, monkeypatch):
+def test_a_build_that_cannot_be_is_refused_with_a_sentence(tmp_path, capsys, monkeypatch):
     opened = []
     monkeypatch.setattr(webbrowser, "open", opened.append)
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    assert main(["docs"]) == 0
-    made = capsys.readouterr().out.strip()
-    assert made.startswith(str(tmp_path)) and opened == [f"file://{made}"]
-    (tmp_path / "packed").mkdir()
-    (tmp_path / "packed/index.html").write_text("packed", encoding="utf-8")
-    monkeypatch.setattr(docs, "_PACKED", tmp_path / "packed")
-    assert main(["docs"]) == 0
-    assert opened[1:] == [(tmp_path / "packed/index.html").as_uri()]
-    assert main(["docs", "--out", str(tmp_path / "copy")]) == 0
-    assert (tmp_path / "copy/index.html").read_text(encoding="utf-8") == "packed"
-
-
-def test_what_cannot_be_written_is_refused_with_a_sentence(tmp_path, capsys, monkeypatch):
     (tmp_path / "file").write_text("")
     assert main(["docs", "--out", str(tmp_path / "file")]) == 2
-    assert "choose another one." in capsys.readouterr().err
-    monkeypatch.setitem(sys.modules, "griffe", None)
-    assert main(["docs", "--out", str(tmp_path / "pages")]) == 2
-    assert "pip install 'hess-explorer[docs]'" in capsys.readouterr().err
+    assert "could not be built" in capsys.readouterr().err
+    monkeypatch.setitem(sys.modules, "furo", None)
+    assert main(["docs"]) == 2
+    assert "pip install 'hess-explorer[docs" in capsys.readouterr().err
+    assert opened == []

@@ -1,59 +1,56 @@
-"""`hess-explorer docs`: the pages of the Python packages, which the wheel has."""
+"""`hess-explorer docs`: the documentation, built by Sphinx."""
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import tempfile
 import webbrowser
 from importlib.resources import files
+from importlib.util import find_spec
 from pathlib import Path
-
-from hess_explorer.api_pages import pages
 
 from . import CommandError
 from .command import Command, Options, option
-from .output import show, write_file
+from .output import show
 
 __all__ = ["COMMAND"]
 
-_PACKED = Path(str(files("hess_explorer"))) / "pages"
+_SOURCE = Path(str(files("hess_explorer"))) / "docs"
 
 
 def _run(options: Options) -> None:
-    if options.out is None and _PACKED.is_dir():
-        _open(_PACKED)
-        return
-    folder: Path = options.out or Path(tempfile.mkdtemp(prefix="hess-explorer-docs-"))
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise CommandError(f"{str(folder)!r} is no folder ({error.strerror}); choose another one.") from error
-    for name, text in _pages().items():
-        write_file(folder / name, text.encode())
-    if options.out is None:
-        _open(folder)
-
-
-def _open(folder: Path) -> None:
+    missing = [name for name in ("sphinx", "myst_nb", "furo", "numpydoc", "matplotlib") if find_spec(name) is None]
+    if missing:
+        raise CommandError(f"The documentation needs {', '.join(missing)}: pip install 'hess-explorer[docs]'.")
+    folder = Path(options.out or tempfile.mkdtemp(prefix="hess-explorer-docs-"))
+    print("Running the tutorials takes about a minute.", file=sys.stderr)
+    build = [
+        sys.executable,
+        "-m",
+        "sphinx",
+        "-q",
+        "-b",
+        "html",
+        "-d",
+        str(folder / ".doctrees"),
+        str(_SOURCE),
+        str(folder),
+    ]
+    # Of what Sphinx prints only the end of a failure matters.
+    ran = subprocess.run(build, capture_output=True, text=True, check=False)
+    if ran.returncode:
+        raise CommandError(f"The documentation could not be built in {str(folder)!r}: {ran.stderr.strip()[-500:]}")
     index = folder / "index.html"
     show(f"{index}\n".encode())
-    webbrowser.open(index.as_uri())
-
-
-def _pages() -> dict[str, str]:
-    """Those in the wheel, else made from the sources.  Raises `CommandError`."""
-    if _PACKED.is_dir():
-        return {file.name: file.read_text(encoding="utf-8") for file in sorted(_PACKED.iterdir())}
-    try:
-        return pages([Path(str(files(package))).parent for package in ("hess_explorer", "hess_mechanics")])
-    except ImportError as error:
-        raise CommandError("The pages need griffelib: pip install 'hess-explorer[docs]'.") from error
+    if options.out is None:
+        webbrowser.open(index.as_uri())
 
 
 COMMAND = Command(
-    "Open the pages of what can be imported from hess_mechanics and hess_explorer, of the version that is installed, "
-    "with search, and no host to ask. Where the packages are installed to be edited, the pages are made from the "
-    "sources, which needs the extra: pip install '.[docs]'.",
-    (option("--out", "write them there, and open none", type=Path, metavar="FOLDER"),),
+    "Build the documentation and open it: a start, tutorials that are run, a gallery, guides, the API. It works "
+    "without a network. Needs the extra: pip install '.[docs]'.",
+    (option("--out", "build it there, and open nothing", type=Path, metavar="FOLDER"),),
     _run,
     "--out docs",
 )
