@@ -146,3 +146,14 @@ def test_a_frame_holds_what_is_told_and_nothing_else(block, cells, has_state, ch
 
 def test_where_there_is_nothing_to_tell_no_frame_is_sent():
     assert Answer().encode() == b""
+
+
+@pytest.mark.parametrize("place", [(math.inf, 1.0), (1.0, math.nan), (0.0, 1.0, 2.0, -math.inf), (10**400, 0.0)])
+def test_a_click_or_box_with_a_number_that_is_not_finite_is_none(place):
+    assert parse({"requested": 1, "picked": ["section", *place]}).picked is None
+    assert parse({"requested": 1, "picked": ["section", *(1.0 for _ in place)]}).picked is not None
+
+
+def test_the_reason_of_a_cell_is_asked_at_a_finite_place_only():
+    assert isinstance(parse({"chart": {"why": {}, "at": [0.5, 1.0]}}), ExplainCell)
+    assert parse({"chart": {"why": {}, "at": [math.nan, 1.0]}}) is None

@@ -473,3 +473,13 @@ def test_reversals_are_where_the_rate_about_the_vertical_is_zero():
     assert np.all((times[crossings] <= state.turned.times) & (state.turned.times <= times[crossings + 1]))
     # From one sense of turning to the other.
     assert rate[0] * rate[-1] < 0.0
+
+
+def test_the_way_back_begins_where_the_way_there_ended():
+    """Nothing is left out of the orbits, so that the first point of the way back is next to the last one there."""
+    state = View(SCENE, {**LIGHT, "transient": 0.0}, seen=["diagram"]).result
+    there, back = (state.diagram.branches[way] for way in ("rising", "falling"))
+    assert (there[-1].values[-1], back[0].values[0]) == (2.4, 2.4)
+    body, E = replace(state, I22=2.4).body, state.poincare.E
+    last, first = there[-1].places[-1][-1], back[0].places[0][0]
+    assert np.linalg.norm(returns(body, state_at(body, E, 3, *last), 1)[0] - first) < 1e-4
