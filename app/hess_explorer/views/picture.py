@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any, ClassVar, Generic, TypeVar, cast
 
-from hess_explorer.views.layers import Axes, Columns, Layer, Sign, Sources
+from hess_explorer.views.layers import Axes, Columns, Sign, Sources
 
-__all__ = ["Corners", "Picture", "Values"]
+__all__ = ["Corners", "Picture", "Values", "adapted"]
 
 S = TypeVar("S")
 H = TypeVar("H")
@@ -50,7 +50,7 @@ class Picture(ABC, Generic[S]):
 
     def of_part(self, part: Callable[[H], S]) -> Picture[H]:
         """The same picture of a state that holds what is shown as a part of it."""
-        return cast("Picture[H]", _of_part(self, part))
+        return cast("Picture[H]", adapted(self, part))
 
     @property
     def needs(self) -> frozenset[str]:
@@ -114,10 +114,10 @@ class Picture(ABC, Generic[S]):
         return f"{title}\n{self.caption(state)}"
 
 
-def _of_part(shown: Any, part: Callable[[Any], Any]) -> Any:
-    """Turn functions of a part into functions of the state that holds it: in a picture, a layer, or one field."""
-    if isinstance(shown, Picture | Layer):
-        return replace(shown, **{one.name: _of_part(getattr(shown, one.name), part) for one in fields(shown)})
+def adapted(shown: Any, part: Callable[[Any], Any]) -> Any:
+    """Turn functions of a part into functions of the state that holds it: in a picture, a layer, one field."""
+    if is_dataclass(shown) and not isinstance(shown, type):
+        return replace(shown, **{one.name: adapted(getattr(shown, one.name), part) for one in fields(shown)})
     if isinstance(shown, tuple):
-        return tuple(_of_part(one, part) for one in shown)
+        return tuple(adapted(one, part) for one in shown)
     return (lambda state, *mouse: shown(part(state), *mouse)) if callable(shown) else shown

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from hess_explorer.compute.budget import OverBudget
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.comparison import Difference, Frame, Look, Marks, compared
 from hess_explorer.views.layers import Axes
+from hess_explorer.views.picture import adapted
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import HALF_A_PIXEL, errors_in_pixels, torn_away
@@ -43,6 +44,7 @@ __all__ = [
 ]
 
 S = TypeVar("S", bound="State")
+H = TypeVar("H")
 T = TypeVar("T")
 
 _SAMPLES = 400
@@ -51,36 +53,41 @@ COLOUR = 1.0 / 256.0
 COLOUR_UNIT = "steps of the colour, 99 of 100 cells"
 
 
-def _always(state: State) -> bool:
+def _always(shown: object) -> bool:
     return True
 
 
-def _as_it_is(state: S) -> S:
-    return state
-
-
 @dataclass(frozen=True)
-class Trial(Generic[S]):
-    """One kind of computation of a scene.
+class Trial(Generic[H]):
+    """One kind of computation of a scene, of a state or of a part of one.
 
     kind, pictures : which, and the pictures that show it; none: all of them.
     run(state, plan) : computes it as the scene does, by itself; error(state, result, truth) : in the `unit`.
     look(state, result) : how a picture shows it.
     seen : the largest error that cannot be seen; shown(state) : whether the pictures have it now.
     alike : whether levels are compared where they compute as many points, as other points are those of other motions.
-    small(state) : the state with no more of it than is computed in about a second.
+    most : the largest values of parameters, with which it is computed in about a second.
     """
 
     kind: Computation
     pictures: tuple[str, ...]
-    run: Callable[[S, Plan], Any]
-    error: Callable[[S, Any, Any], float]
-    look: Callable[[S, Any], Look]
+    run: Callable[[H, Plan], Any]
+    error: Callable[[H, Any, Any], float]
+    look: Callable[[H, Any], Look]
     unit: str = "pixels"
     seen: float = HALF_A_PIXEL
-    shown: Callable[[S], bool] = _always
+    shown: Callable[[H], bool] = _always
     alike: bool = False
-    small: Callable[[S], S] = _as_it_is
+    most: tuple[tuple[str, float], ...] = ()
+
+    def of_part(self, part: Callable[[S], H]) -> Trial[S]:
+        """Return the same of a state that holds what is computed as a part of it."""
+        return cast("Trial[S]", adapted(self, part))
+
+    def small(self, state: S) -> S:
+        """Return the state with no more of it than is computed in about a second."""
+        less = {name: min(float(getattr(state, name)), most) for name, most in self.most}
+        return state.changed(less) if less else state
 
 
 @dataclass(frozen=True)

@@ -138,13 +138,13 @@ S = TypeVar("S", bound=State)
 
 def basins_trial(of: Callable[[S], Basins]) -> Trial[S]:
     """Return how the basins of a state are computed at each level."""
-    return Trial(
+    return Trial[Basins](
         Computation.BASINS,
         ("section",),
-        lambda s, plan: groups_of_cells(np.stack([SuslovSection.ends(*row) for row in of(s).rows(plan)])),
+        lambda s, plan: groups_of_cells(np.stack([SuslovSection.ends(*row) for row in s.rows(plan)])),
         lambda s, cells, truth: changed(cells, truth),
-        lambda s, cells: look(of(s).section.frame, of(s).host.poincare.names, cells),
+        lambda s, cells: look(s.section.frame, s.host.poincare.names, cells),
         unit="% of the cells that change",
         seen=3.0,
-        shown=lambda s: of(s).wanted,
-    )
+        shown=lambda s: s.wanted,
+    ).of_part(of)

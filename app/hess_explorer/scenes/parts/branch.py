@@ -23,7 +23,7 @@ from hess_explorer.views import theme
 from hess_explorer.views.branch import bifurcations
 from hess_explorer.views.layers import Axes, curves, points
 from hess_explorer.views.periodic import seen
-from hess_explorer.views.picture import Corners
+from hess_explorer.views.picture import Corners, Picture
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import conjugates, digits, power
 from hess_mechanics.dynamics import continuation as mechanics
@@ -514,33 +514,31 @@ class Branch(Part[_Section]):
 S = TypeVar("S", bound=State)
 
 
-def branch_picture(of: Callable[[S], Branch]) -> Plot[S]:
+def branch_picture(of: Callable[[S], Branch]) -> Picture[S]:
     """Return the picture of the branch over its parameter."""
 
-    def at_the_value(s: S, axes: Axes) -> list[Array]:
-        return [np.array([[of(s).at, axes.y[0]], [of(s).at, axes.y[1]]])]
+    def at_the_value(s: Branch, axes: Axes) -> list[Array]:
+        return [np.array([[s.at, axes.y[0]], [s.at, axes.y[1]]])]
 
-    def shown(s: S, axes: Axes) -> Array | None:
-        here = of(s).here
-        return None if here is None else seen(here[::-1].T, of(s).continuation.turn, Axes(axes.y, axes.x))[:, ::-1].T
+    def shown(s: Branch, axes: Axes) -> Array | None:
+        here = s.here
+        return None if here is None else seen(here[::-1].T, s.continuation.turn, Axes(axes.y, axes.x))[:, ::-1].T
 
-    return Plot(
+    return Plot[Branch](
         name="branch",
         title="Branch of the periodic orbit",
-        caption=lambda s: of(s).caption,
+        caption=lambda s: s.caption,
         folded="Show the branch of the periodic orbit",
-        axes=lambda s: (of(s).host.over, of(s).host.upwards),
-        message=lambda s: of(s).message,
-        on_click=lambda s, x, y: of(s).choose(x, y),
-        on_box=lambda s, corners: of(s).boxed(corners),
-        on_hover=lambda s, x, y: of(s).continuation.about(x, y),
-        x=lambda s: of(s).ends,
-        y=lambda s: of(s).upwards_range,
+        axes=lambda s: (s.host.over, s.host.upwards),
+        message=lambda s: s.message,
+        on_click=Branch.choose,
+        on_box=Branch.boxed,
+        on_hover=lambda s, x, y: s.continuation.about(x, y),
+        x=lambda s: s.ends,
+        y=lambda s: s.upwards_range,
         layers=(
             curves("value", within=at_the_value, color=theme.INK, width=1.5, label="the state on show"),
-            *view.layers(
-                lambda s: of(s).continuation.branches, lambda s: of(s).side, lambda s: of(s).continuation.turn
-            ),
+            *view.layers(lambda s: s.continuation.branches, lambda s: s.side, lambda s: s.continuation.turn),
             points(
                 "shown",
                 within=shown,
@@ -551,7 +549,7 @@ def branch_picture(of: Callable[[S], Branch]) -> Plot[S]:
                 label="the periodic orbit on show",
             ),
         ),
-    )
+    ).of_part(of)
 
 
 def _symmetries(map_: Map, places: Array) -> tuple[str, ...]:

@@ -16,6 +16,7 @@ from hess_explorer.views import theme
 from hess_explorer.views.comparison import Curves, Frame
 from hess_explorer.views.graph import over_time, settled_range, thinned, with_room
 from hess_explorer.views.layers import Axes, Range
+from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above
@@ -119,36 +120,36 @@ class Exponent(Part[_Host]):
 S = TypeVar("S", bound=State)
 
 
-def exponent_picture(of: Callable[[S], Exponent], folded: str = "") -> Plot[S]:
+def exponent_picture(of: Callable[[S], Exponent], folded: str = "") -> Picture[S]:
     """Return the picture of the mean growth rate over time."""
-    return Plot(
+    return Plot[Exponent](
         name="exponent",
         title="Largest Lyapunov exponent",
-        caption=lambda s: of(s).caption,
+        caption=lambda s: s.caption,
         axes=("t", "λ"),
         folded=folded,
         first=Axes((0.0, 200.0), (0.0, 1.0)),
-        x=lambda s: (0.0, of(s).host.long),
-        y=lambda s: of(s).axis,
-        layers=(over_time("lambda", lambda s: of(s).rates, color=theme.ORBIT),),
-    )
+        x=lambda s: (0.0, s.host.long),
+        y=lambda s: s.axis,
+        layers=(over_time("lambda", lambda s: s.rates, color=theme.ORBIT),),
+    ).of_part(of)
 
 
 def exponent_trial(of: Callable[[S], Exponent]) -> Trial[S]:
     """Return how the exponent of a state is computed at each level."""
 
-    def look(s: S, found: lyapunov.Exponent) -> Curves:
+    def look(s: Exponent, found: lyapunov.Exponent) -> Curves:
         # With room for all but the first tenth of the time.
-        axes = Axes((0.0, of(s).host.long), settled_range([found.rates]))
+        axes = Axes((0.0, s.host.long), settled_range([found.rates]))
         return Curves(Frame(axes, ("t", "λ")), (np.column_stack(thinned(found.times, found.rates)),))
 
-    return Trial(
+    return Trial[Exponent](
         Computation.EXPONENT,
         ("exponent",),
-        lambda s, plan: of(s).at(plan),
+        Exponent.at,
         lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12),
         look,
         unit="of what it changes by in the second half of its time",
         seen=10.0,
-        small=lambda s: s.changed({"long": min(of(s).host.long, _LONG)}),
-    )
+        most=(("long", _LONG),),
+    ).of_part(of)

@@ -41,7 +41,7 @@ _COMPARED = 3
 """Batches besides the orbit on show that are computed twice."""
 _PERIODS = (2.0 * math.pi, math.inf)
 """The first coordinate of these sections is an angle."""
-_LARGE = {"orbits": 40.0, "count": 400.0}
+_LARGE = (("orbits", 40.0), ("count", 400.0))
 """The largest section for which levels are compared."""
 
 Place = tuple[float, float]
@@ -403,17 +403,14 @@ def _place(found: Array) -> Place:
 def filled_trial(of: Callable[[S], FilledSection]) -> Trial[S]:
     """Return how the section of a state is computed at each level."""
 
-    def small(s: S) -> S:
-        return s.changed({name: min(float(getattr(s, name)), most) for name, most in _LARGE.items()})
-
-    return Trial(
+    return Trial[FilledSection](
         Computation.SECTION,
         ("section",),
-        lambda s, plan: of(s).orbits_at(plan),
-        lambda s, orbits, truth: section_error(orbits, truth, of(s).pixels, _PERIODS),
-        lambda s, orbits: Marks(frame_of(of(s).frame, of(s).poincare.names), tuple(orbits), _PERIODS, crossings=True),
-        small=small,
-    )
+        FilledSection.orbits_at,
+        lambda s, orbits, truth: section_error(orbits, truth, s.pixels, _PERIODS),
+        lambda s, orbits: Marks(frame_of(s.frame, s.poincare.names), tuple(orbits), _PERIODS, crossings=True),
+        most=_LARGE,
+    ).of_part(of)
 
 
 def filled_picture(

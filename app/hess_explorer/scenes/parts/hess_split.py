@@ -15,6 +15,7 @@ from hess_explorer.scenes.framework.scene import State
 from hess_explorer.views import theme
 from hess_explorer.views.graph import about_0
 from hess_explorer.views.layers import Axes, curves, levels, points, ring
+from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, power
 from hess_mechanics.errors import ModelError
@@ -116,41 +117,41 @@ def _split(torus: HessTorus, away: float) -> Split | Missed:
 S = TypeVar("S", bound=State)
 
 
-def split_picture(of: Callable[[S], HessSplit]) -> Plot[S]:
+def split_picture(of: Callable[[S], HessSplit]) -> Picture[S]:
     """Return the picture of the split over ε."""
 
-    def values(s: S) -> Array:
-        return np.array([(one.away, one.value) for one in of(s).splits()]).reshape(-1, 2).T
+    def values(s: HessSplit) -> Array:
+        return np.array([(one.away, one.value) for one in s.splits()]).reshape(-1, 2).T
 
-    def slope(s: S, axes: Axes) -> list[Array]:
-        found = of(s).slope
+    def slope(s: HessSplit, axes: Axes) -> list[Array]:
+        found = s.slope
         return [] if found is None else [np.array([[x, found[0] * x] for x in axes.x])]
 
-    def here(s: S) -> list[tuple[float, float]]:
-        split = of(s).split
+    def here(s: HessSplit) -> list[tuple[float, float]]:
+        split = s.split
         return [] if split is None else [(split.away, split.value)]
 
-    return Plot(
+    return Plot[HessSplit](
         name="split",
         title="Split of the separatrices",
-        caption=lambda s: of(s).caption(),
+        caption=HessSplit.caption,
         folded="Show the split of the separatrices",
         axes=("ε", "split in L/G"),
         first=Axes((-_WIDE, _WIDE), (-1.0, 1.0)),
-        message=lambda s: of(s).message(),
+        message=HessSplit.message,
         on_click=lambda s, x, y: {"away": x},
-        x=lambda s: (-1.1 * of(s).reach, 1.1 * of(s).reach),
-        y=lambda s: about_0(values(s)[1], 1e-12) if of(s).splits() else None,
+        x=lambda s: (-1.1 * s.reach, 1.1 * s.reach),
+        y=lambda s: about_0(values(s)[1], 1e-12) if s.splits() else None,
         layers=(
-            levels("levels", lambda s: [0.0] if of(s).splits() else []),
+            levels("levels", lambda s: [0.0] if s.splits() else []),
             curves("slope", within=slope, color=theme.MUTED, dash="dashed", label="in proportion to ε, as next to 0"),
             points(
                 "splits",
-                lambda s: values(s) if of(s).splits() else None,
+                lambda s: values(s) if s.splits() else None,
                 color=theme.UNSTABLE,
                 size=10,
                 label="how far apart the separatrices are",
             ),
             ring("here", here, color=theme.INK),
         ),
-    )
+    ).of_part(of)

@@ -124,17 +124,17 @@ def indicator_layer(of: Callable[[S], Indicator]) -> Layer[S]:
 def indicator_trial(of: Callable[[S], Indicator]) -> Trial[S]:
     """Return how the cells of a state are computed at each level."""
 
-    def look_of(s: S, cells: Array) -> Cells:
-        host = of(s).host
+    def look_of(s: Indicator, cells: Array) -> Cells:
+        host = s.host
         return look(host.frame, host.poincare.names, cells)
 
-    return Trial(
+    return Trial[Indicator](
         Computation.INDICATOR,
         ("section",),
-        lambda s, plan: np.stack([row_of_cells(*row)[1] for row in of(s).rows(plan)]),
+        lambda s, plan: np.stack([row_of_cells(*row)[1] for row in s.rows(plan)]),
         lambda s, cells, truth: changed(cells, truth),
         look_of,
         unit="% of the cells that change",
         seen=3.0,
-        shown=lambda s: of(s).wanted,
-    )
+        shown=lambda s: s.wanted,
+    ).of_part(of)

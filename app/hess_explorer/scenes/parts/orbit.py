@@ -14,6 +14,7 @@ from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views.graph import with_room
 from hess_explorer.views.layers import Columns, Range, column, line
+from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.sampling import sampled_orbit
@@ -85,19 +86,19 @@ class Orbit(Part[_Host]):
 S = TypeVar("S", bound=State)
 
 
-def orbit_picture(of: Callable[[S], Orbit], x: str, y: str, title: str = "The orbit") -> Plot[S]:
+def orbit_picture(of: Callable[[S], Orbit], x: str, y: str, title: str = "The orbit") -> Picture[S]:
     """Return the picture of the orbit in the plane of two variables; the scene has `columns` as its track "orbit"."""
 
-    def room_for(name: str) -> Callable[[S], Range]:
-        return lambda s: with_room(of(s).columns[name], 0.06, 1e-3)
+    def room_for(name: str) -> Callable[[Orbit], Range]:
+        return lambda s: with_room(s.columns[name], 0.06, 1e-3)
 
-    return Plot(
+    return Plot[Orbit](
         name="orbit",
         title=title,
-        caption=lambda s: f"From t = 0 to t = {digits(of(s).host.lasts)}.",
+        caption=lambda s: f"From t = 0 to t = {digits(s.host.lasts)}.",
         axes=(x, y),
         x=room_for(x),
         y=room_for(y),
         dot=(x, y),
         layers=(line("orbit", track="orbit", columns=(x, y), color=theme.ORBIT, width=2.5, label="orbit"),),
-    )
+    ).of_part(of)

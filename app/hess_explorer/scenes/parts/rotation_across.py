@@ -19,6 +19,7 @@ from hess_explorer.views import theme
 from hess_explorer.views.comparison import Curves, Frame
 from hess_explorer.views.graph import with_room
 from hess_explorer.views.layers import Axes, Range, curves, points, region
+from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
@@ -196,54 +197,54 @@ S = TypeVar("S", bound=State)
 def rotation_trial(of: Callable[[S], RotationAcross]) -> Trial[S]:
     """Return how the rotation numbers of a state are computed at each level."""
 
-    def look(s: S, found: RotationProfile) -> Curves:
-        return Curves(Frame(Axes(of(s).along, _axis_of(found)), of(s).names), tuple(_branches(found)))
+    def look(s: RotationAcross, found: RotationProfile) -> Curves:
+        return Curves(Frame(Axes(s.along, _axis_of(found)), s.names), tuple(_branches(found)))
 
-    return Trial(
+    return Trial[RotationAcross](
         Computation.ROTATION,
         ("rotation",),
-        lambda s, plan: of(s).at(plan),
+        RotationAcross.at,
         lambda s, found, truth: found.distance(truth),
         look,
         unit="turns, the median",
         seen=RESOLVED,
-    )
+    ).of_part(of)
 
 
 def _branches(found: RotationProfile) -> list[Array]:
     return [np.column_stack(part) for part in zip(found.along, found.rho, strict=True)]
 
 
-def rotation_picture(of: Callable[[S], RotationAcross]) -> Plot[S]:
+def rotation_picture(of: Callable[[S], RotationAcross]) -> Picture[S]:
     """Return ρ along the line, in branches, the orbits that it is known from, and where on the line there is none."""
-    return Plot(
+    return Plot[RotationAcross](
         name="rotation",
         title="Rotation number across the section",
-        caption=lambda s: of(s).caption(),
-        axes=lambda s: of(s).names,
+        caption=RotationAcross.caption,
+        axes=lambda s: s.names,
         first=Axes((-1.0, 1.0), (-0.5, 0.5)),
-        message=lambda s: of(s).message(),
-        x=lambda s: of(s).along,
-        y=lambda s: _axis_of(of(s).found),
+        message=RotationAcross.message,
+        x=lambda s: s.along,
+        y=lambda s: _axis_of(s.found),
         layers=(
             region(
                 "sea",
-                within=lambda s, axes: of(s).parts_at_sea(axes),
+                within=RotationAcross.parts_at_sea,
                 color=theme.MUTED + "38",
                 moving=True,
                 label="ρ does not settle",
             ),
             points(
                 "standing",
-                lambda s: (of(s).found.standing, np.zeros(of(s).found.standing.size)),
+                lambda s: (s.found.standing, np.zeros(s.found.standing.size)),
                 size=7,
                 hollow=True,
                 color=theme.MUTED,
                 edge_width=1.5,
                 label="does not go round: 0 turns",
             ),
-            curves("rho", lambda s: _branches(of(s).found), color=theme.ORBIT),
+            curves("rho", lambda s: _branches(s.found), color=theme.ORBIT),
             # An orbit between two gaps is a curve of one point.
-            points("orbits", lambda s: (of(s).found.places, of(s).found.numbers), size=4, color=theme.ORBIT),
+            points("orbits", lambda s: (s.found.places, s.found.numbers), size=4, color=theme.ORBIT),
         ),
-    )
+    ).of_part(of)

@@ -22,6 +22,7 @@ from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views import section_plane
 from hess_explorer.views.comparison import Marks
 from hess_explorer.views.layers import Axes, Range
+from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
 from hess_mechanics.dynamics.return_map import PoincareSection
@@ -260,44 +261,44 @@ def _spread(poincare: PoincareSection, crossings: int, level: Level) -> SectionP
 S = TypeVar("S", bound=State)
 
 
-def section_picture(of: Callable[[S], Section], start: str, title: str = "Poincaré section") -> Plot[S]:
+def section_picture(of: Callable[[S], Section], start: str, title: str = "Poincaré section") -> Picture[S]:
     """Return the picture of a section, in which a click chooses where the orbit starts.
 
     start : the name of the parameter with its place, see `places`.
     """
 
-    def range_of(axis: int) -> Callable[[S], Range]:
-        return lambda s: (of(s).frame[0][axis], of(s).frame[1][axis])
+    def range_of(axis: int) -> Callable[[Section], Range]:
+        return lambda s: (s.frame[0][axis], s.frame[1][axis])
 
-    def names(s: S) -> tuple[str, str]:
-        first, second = of(s).poincare.names
+    def names(s: Section) -> tuple[str, str]:
+        first, second = s.poincare.names
         return first, second
 
-    return Plot(
+    return Plot[Section](
         name="section",
         title=title,
-        caption=lambda s: of(s).caption,
+        caption=lambda s: s.caption,
         axes=names,
         x=range_of(0),
         y=range_of(1),
-        message=lambda s: of(s).reason,
+        message=lambda s: s.reason,
         on_click=lambda s, x, y: {start: written([(x, y)])},
-        layers=section_plane.layers(lambda s: of(s).points, others=lambda s: of(s).others),
-    )
+        layers=section_plane.layers(lambda s: s.points, others=lambda s: s.others),
+    ).of_part(of)
 
 
 def section_trial(of: Callable[[S], Section]) -> Trial[S]:
     """Return how the section of a state is computed at each level."""
 
-    def look(s: S, orbits: list[Array]) -> Marks:
-        section = of(s)
+    def look(s: Section, orbits: list[Array]) -> Marks:
+        section = s
         return Marks(frame_of(section.frame, section.poincare.names), tuple(orbits), section.periods, crossings=True)
 
-    return Trial(
+    return Trial[Section](
         Computation.SECTION,
         ("section",),
-        lambda s, plan: of(s).orbits_at(plan),
-        lambda s, orbits, truth: section_error(orbits, truth, of(s).pixels, of(s).periods),
+        Section.orbits_at,
+        lambda s, orbits, truth: section_error(orbits, truth, s.pixels, s.periods),
         look,
-        small=lambda s: s.changed({"count": min(of(s).host.count, _MOST_COMPARED)}),
-    )
+        most=(("count", _MOST_COMPARED),),
+    ).of_part(of)
