@@ -16,7 +16,7 @@ from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
 from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
-from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.rotation import LineEnds, RotationProfile, on_line, rotation_along
 from hess_mechanics.numerics.accuracy import Accuracy, Computation, plan
@@ -189,9 +189,7 @@ def rotation_along_line(
     if not started:
         raise OutsideRegion("Nowhere on this line does a motion cross the section: choose another line, or a larger h.")
     chosen = plan(Computation.ROTATION, accuracy)
-    found = andoyer_points(
-        body, h, f, [state for _, state in started], as_whole("crossings", crossings, 20, 10_000), chosen.level
-    )
+    found = section.points([state for _, state in started], as_whole("crossings", crossings, 20, 10_000), chosen.level)
     return rotation_along(
         (first, last),
         [one for one, _ in started],

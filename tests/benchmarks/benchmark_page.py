@@ -34,7 +34,7 @@ from hess_explorer.protocol.parameters import Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics import level, rotation_number_grid
-from hess_mechanics.euler_poisson.andoyer import andoyer_points, seeds
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.suslov_hess.rotation_number import values_at
 from support.measured import write_measured
@@ -185,11 +185,11 @@ def grid_milliseconds() -> float:
 def section_milliseconds() -> float:
     """Median of 5: 117 orbits × 400 crossings of the Andoyer–Deprit section of figure 11, at `standard`."""
     body = HeavyBody.hess((1.0, 0.625, 0.375), 9.975)
-    starts = seeds(body, 50.0, 5.0, (-math.pi, math.pi, -1.0, 1.0), 117)
+    starts = AndoyerSection(body, 50.0, 5.0).spread(((-math.pi, -1.0), (math.pi, 1.0)), 117)
     times = []
     for _ in range(6):
         start = time.perf_counter()
-        andoyer_points(body, 50.0, 5.0, starts, 400, level("standard"))
+        AndoyerSection(body, 50.0, 5.0).points(starts, 400, level("standard"))
         times.append((time.perf_counter() - start) * 1e3)
     # The first one loads the kernel.
     return statistics.median(times[1:])

@@ -20,7 +20,7 @@ from hess_mechanics import circle_map, f_max, level, solve
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.errors import ModelError
-from hess_mechanics.euler_poisson.andoyer import andoyer_points, coordinates, hess_curve, state_at
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection, coordinates, hess_curve
 from hess_mechanics.euler_poisson.equations import SYSTEM
 from hess_mechanics.euler_poisson.hess_split import HessTorus, split_at
 from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD
@@ -122,8 +122,8 @@ def test_rotation_numbers_are_those_of_10000_points(preset):
     ends = np.column_stack([view.data["section-line"][key] for key in ("x", "y")]).astype(float)
     for i in np.linspace(0, len(rho) - 1, 5).astype(int):
         place = (along[i], ends[0, 1]) if turning else (ends[0, 0], along[i])
-        start = [state_at(view.body, view.h, view.f, *place)]
-        states = andoyer_points(view.body, view.h, view.f, start, 10_000, STANDARD).states[0]
+        start = [AndoyerSection(view.body, view.h, view.f).state_at(*place)]
+        states = AndoyerSection(view.body, view.h, view.f).points(start, 10_000, STANDARD).states[0]
         exact, spread = rotation_number(coordinates(states), tuple(ends[0]) if turning else None)
         if spread < 1e-6:
             assert math.remainder(rho[i] - exact, 1.0) == pytest.approx(0.0, abs=3e-4)
@@ -148,8 +148,8 @@ def test_at_the_meandering_torus_the_rotation_number_turns_round_at_an_eighth():
     centre = view.result.rotation.ends[0]
 
     def exact(l):
-        start = [state_at(GESS1, 50.0, 5.0, l, centre[1])]
-        points = coordinates(andoyer_points(GESS1, 50.0, 5.0, start, 10_000, STANDARD).states[0])
+        start = [AndoyerSection(GESS1, 50.0, 5.0).state_at(l, centre[1])]
+        points = coordinates(AndoyerSection(GESS1, 50.0, 5.0).points(start, 10_000, STANDARD).states[0])
         return rotation_number(points, centre)[0], points
 
     least, islands = exact(place)
@@ -215,7 +215,11 @@ def test_at_high_energy_rotation_numbers_are_those_of_the_free_body():
     # The difference falls as 1/h, for f = 0.
     missed = []
     for h in (5e3, 5e4):
-        orbit = andoyer_points(GESS1, h, 0.0, [state_at(GESS1, h, 0.0, 0.0, 0.75)], 1000, STANDARD).states[0]
+        orbit = (
+            AndoyerSection(GESS1, h, 0.0)
+            .points([AndoyerSection(GESS1, h, 0.0).state_at(0.0, 0.75)], 1000, STANDARD)
+            .states[0]
+        )
         rho, _ = rotation_number(coordinates(orbit), None)
         missed.append(math.remainder(rho - free_rotation_number(0.0, 0.75), 1.0))
     assert missed[0] / missed[1] == pytest.approx(10.0, rel=0.02)
@@ -239,7 +243,7 @@ def test_the_barrier_is_gone_away_from_hess_and_there_in_it():
     times = np.linspace(0.0, 100.0, 4000)
     for away, crosses in ((0.0, False), (0.02, True)):
         body = EP.of({**EP.defaults(), "away": away}).body
-        starts = [state_at(body, 50.0, 5.0, l, x) for l, x in ((0.0, 0.2), (2.6, -0.55), (-2.5, 0.3))]
+        starts = [AndoyerSection(body, 50.0, 5.0).state_at(l, x) for l, x in ((0.0, 0.2), (2.6, -0.55), (-2.5, 0.3))]
         along = [solve(body, start, times, STANDARD).states[:, :3] @ body.r for start in starts]
         assert any(np.min(values) < 0.0 < np.max(values) for values in along) is crosses
 
@@ -334,7 +338,7 @@ def test_on_the_second_sheet_orbits_start_with_the_smaller_momentum():
     l, x = coordinates(start[None])[0]
     G = float(np.linalg.norm(start[:3]))
     assert second.h == pytest.approx(float(energies_at(second.body, 0.3, l, x, G)[0]), abs=1e-9)
-    larger = state_at(second.body, 0.5, 0.3, float(l), float(x))
+    larger = AndoyerSection(second.body, 0.5, 0.3).state_at(float(l), float(x))
     assert np.linalg.norm(larger[:3]) > 1.01 * G
     # Nearly all of the section is grey then, as hardly any motion crosses that sheet.
     grey = [np.mean(np.asarray(view.data["section-impossible"]["image"][0])) for view in (largest, second)]
@@ -353,8 +357,8 @@ def test_curves_that_do_not_go_round_have_no_rotation_number():
     assert "No closed curve of the line goes round." in view.text["rotation"]
     assert len(view.data["rotation-orbits"]["x"]) == 0
     # l of an orbit from the middle of the line stays in a part of the circle.
-    start = [state_at(view.body, view.h, view.f, 2.8, 0.1)]
-    l = np.sort(coordinates(andoyer_points(view.body, view.h, view.f, start, 2000, STANDARD).states[0])[:, 0])
+    start = [AndoyerSection(view.body, view.h, view.f).state_at(2.8, 0.1)]
+    l = np.sort(coordinates(AndoyerSection(view.body, view.h, view.f).points(start, 2000, STANDARD).states[0])[:, 0])
     assert max(np.max(np.diff(l)), 2.0 * math.pi - np.ptp(l)) > 0.5
 
 
@@ -435,7 +439,7 @@ def test_the_rotation_picture_says_of_all_the_line_what_its_orbits_are():
     # The exponent of an orbit from the middle of the largest sea is positive, of one in an island it falls to 0.
     sea = max(seas, key=np.ptp)
     exponents = [
-        lyapunov_exponent(view.body, state_at(GESS1, 50.0, 5.0, 0.0, place), 300.0).value
+        lyapunov_exponent(view.body, AndoyerSection(GESS1, 50.0, 5.0).state_at(0.0, place), 300.0).value
         for place in (float(sea.mean()), float(view.data["rotation-standing"]["x"][2]))
     ]
     assert exponents[0] > 0.2
@@ -460,7 +464,7 @@ def test_the_motion_for_speed_and_accuracy_is_the_chosen_orbit():
     values = {**EP.defaults(), "starts": "0,0.2;0.5,-0.3"}
     found = EP.of(values).motion()
     assert found.system is SYSTEM
-    assert found.state == pytest.approx(state_at(GESS1, 50.0, 5.0, 0.5, -0.3), abs=1e-12)
+    assert found.state == pytest.approx(AndoyerSection(GESS1, 50.0, 5.0).state_at(0.5, -0.3), abs=1e-12)
     assert found.span == values["span"]
     energy = energies_at(GESS1, 5.0, 0.5, -0.3, np.linalg.norm(found.state[:3]))[0]
     assert energy == pytest.approx(50.0, abs=1e-10)

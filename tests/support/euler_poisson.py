@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes import scenes
-from hess_mechanics.euler_poisson.andoyer import state_at
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from support.view import View
 
 EP = scenes()["euler-poisson"]
@@ -21,4 +21,4 @@ class EulerPoisson(View):
     @property
     def start(self):
         """The state of the chosen orbit."""
-        return state_at(self.body, self.h, self.f, *places(self.values["starts"])[-1])
+        return AndoyerSection(self.body, self.h, self.f).state_at(*places(self.values["starts"])[-1])

@@ -8,7 +8,7 @@ from typing import Any
 
 from hess_mechanics import BodyCheck, Plane, SectionCrossings, level, section
 from hess_mechanics.dynamics.section import MAX_CROSSINGS
-from hess_mechanics.euler_poisson.andoyer import AndoyerPlane, coordinates, state_at, time_for
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import SYSTEM as HEAVY_SYSTEM
 from hess_mechanics.parameters import F_HEAVY, H_HEAVY, TIME, L, X
 
@@ -24,10 +24,11 @@ _COUNT = whole("--crossings", 1, MAX_CROSSINGS, "at most this many", 100)
 
 def _of_heavy(options: Options) -> Answer:
     accuracy, body = level(options.accuracy), heavy_of(options)
-    start = state_at(body, options.h, options.f, *options.start)
-    end = time_for(body, options.h, options.f, options.crossings) if options.t is None else options.t
-    result = section(body, start, AndoyerPlane(options.f), end, accuracy, options.crossings)
-    l, x = coordinates(result.states).T
+    plane = AndoyerSection(body, options.h, options.f)
+    start = plane.state_at(*options.start)
+    end = plane.time_for(options.crossings) if options.t is None else options.t
+    result = section(body, start, plane.surface, end, accuracy, options.crossings)
+    l, x = plane.places_of(result.states).T
     return Answer(
         {
             "t": result.times.tolist(),

@@ -57,7 +57,7 @@ from hess_explorer.views.poisson_sphere import Direction, along_the_orbit, gamma
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits, vector
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points, hess_curve, relation
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve, relation
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.euler_poisson.hess_split import HessTorus
 from hess_mechanics.numerics.accuracy import Level
@@ -370,9 +370,7 @@ class EulerPoisson(State):
 
 
 def _batch(section: AndoyerSection, starts: tuple[Start, ...], crossings: int, level: Level) -> OrbitBatch:
-    found = andoyer_points(
-        section.body, section.h, section.f, starts, crossings, level, threads=1, most_steps=_MOST_STEPS
-    )
+    found = section.points(starts, crossings, level, threads=1, most_steps=_MOST_STEPS)
     signs = np.sign(relation(section.body, np.array(starts)))
     kept = (
         bool(np.all(sign * relation(section.body, states) >= 0.0))

@@ -144,7 +144,7 @@ def _heavy_section(values: Values) -> andoyer.AndoyerSection:
 
 def _on_heavy(values: Values) -> tuple[Body, Start]:
     of = _heavy_section(values)
-    return of.body, andoyer.state_at(of.body, of.h, of.f, values["l"], values["x"], of.sheet)
+    return of.body, of.state_at(values["l"], values["x"])
 
 
 _ON_SECTIONS = (

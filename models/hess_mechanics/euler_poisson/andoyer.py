@@ -25,7 +25,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from hess_mechanics.dynamics.cells import Window, centres
+from hess_mechanics.dynamics.cells import Window, centres, evenly
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section import MAX_STEPS, SectionPoints, section_points
 from hess_mechanics.dynamics.system import Problem, System
@@ -41,17 +41,10 @@ __all__ = [
     "SHEETS",
     "AndoyerPlane",
     "AndoyerSection",
-    "andoyer_points",
     "coordinates",
     "hess_circle",
     "hess_curve",
-    "possible",
     "relation",
-    "roots",
-    "seeds",
-    "sheet_of",
-    "state_at",
-    "states_at",
 ]
 
 
@@ -77,122 +70,16 @@ class AndoyerPlane:
         return cross, np.array([self.f / problem.scale[0]]), 0.0
 
 
-def _factors(body: HeavyBody, l: Array, x: Array) -> tuple[Array, Array, Array]:
-    """K, P, Q of the energy on the plane, see the module."""
-    a1, a2, a3 = body.a
-    m1, m2, m3 = (body.mu * r for r in body.r)
-    s = np.sqrt(np.maximum(0.0, 1.0 - x * x))
-    sin, cos = np.sin(l), np.cos(l)
-    return (s * s * (a1 * sin**2 + a2 * cos**2) + a3 * x * x, s * (m1 * sin + m2 * cos) + m3 * x, m1 * cos - m2 * sin)
-
-
 _SCAN = 64
 _ROUGH = 24
 _CELLS = (96, 64)
-
-
+_TRIED = (4, 200, 200)
+"""Places tried for each state of a sheet: where the second exists, g hardly ever grows on it."""
+_TURNS = 40.0
+"""Time allowed per crossing, in units of 1/ν; few orbits take longer."""
 SHEETS = 3
 """More there cannot be: as a function of α, see the module, the energy turns round twice at most."""
 _ORDINALS = ("largest", "second", "third")
-
-
-def _check_places(h: float, f: float, l: Array, x: Array) -> tuple[Array, Array]:
-    require_finite(h=h, f=f)
-    l, x = np.array(l, float, ndmin=1), np.array(x, float, ndmin=1)
-    if not (np.all(np.isfinite(l)) and np.all(np.abs(x) <= 1.0)):
-        raise InvalidParameter("On the section l is an angle and x = L/G lies between −1 and 1.")
-    return l, x
-
-
-def roots(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Array:
-    """All G ≥ |f| with the energy h at points l, x (n,) of the plane, falling; shape (n, SHEETS), NaN where fewer.
-
-    Raises `InvalidParameter`.
-    """
-    l, x = _check_places(h, f, l, x)
-    out = np.full((l.size, SHEETS), np.nan)
-    if f == 0.0:
-        K, _, Q = _factors(body, l, x)
-        out[:, 0] = np.sqrt(np.where(h + Q >= 0.0, 2.0 * (h + Q) / K, np.nan))
-        return out
-    roots_into(float(h), float(f), body.strength, *_factors(body, l, x), _SCAN, out)
-    return out
-
-
-def momenta(body: HeavyBody, h: float, f: float, l: Array, x: Array, sheet: int = 0) -> Array:
-    """The G (n,) of that sheet with the energy h at points l, x (n,) of the plane; NaN where there is none.
-
-    Raises `InvalidParameter`.
-    """
-    if sheet not in range(SHEETS):
-        raise InvalidParameter(f"The section has at most {SHEETS} sheets: choose one from 0 to {SHEETS - 1}.")
-    return roots(body, h, f, l, x)[:, sheet]
-
-
-def sheet_of(body: HeavyBody, h: float, f: float, states: Array) -> Sheets:
-    """On which sheet states (n, 6) of the section are, (n,): how many roots G at their (l, L/G) are larger."""
-    l, x = coordinates(states).T
-    G = np.sqrt(np.sum(states[:, :3] ** 2, axis=1))
-    K, P, Q = _factors(body, l, x)
-    ratio = f / np.maximum(G, 1e-300)
-    across = np.sqrt(np.maximum(0.0, 1.0 - ratio * ratio))
-    found = np.where((K * G * G + ratio * P) * across < ratio * ratio * Q, 1, 0)
-    # The third sheet rises as the first does, and falls for some larger α = arccos |f|/G: only where
-    # K f² tan α/cos²α < √(P² + Q²).
-    steep = K * G**3 * across < abs(f) * np.hypot(P, Q)
-    unsure = np.flatnonzero((found == 0) & (f * P < 0.0) & (Q < 0.0) & steep) if f else np.empty(0, int)
-    if unsure.size:
-        larger = roots(body, h, f, l[unsure], x[unsure]) > G[unsure, None] * (1.0 + 1e-9)
-        found[unsure] = np.where(larger.sum(axis=1) == 2, 2, 0)
-    return found
-
-
-def possible(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Mask:
-    """Whether some G ≥ |f| has an energy of at most h at l, x (n,), accurate enough for a picture."""
-    least = np.empty(l.size)
-    least_excess(float(h), float(f), body.strength, *_factors(body, l, x), _ROUGH, least)
-    return np.asarray(least <= 0.0)
-
-
-def states_at(body: HeavyBody, h: float, f: float, l: Array, x: Array, sheet: int = 0) -> tuple[Array, Array, Mask]:
-    """States (n, 6) of a sheet at l, x = L/G (n,), G (n,), and whether g grows through π/2 there (n,).
-
-    G is NaN where that sheet has no G ≥ |f| of this energy.  Raises `InvalidParameter`.
-    """
-    G = momenta(body, h, f, l, x, sheet)
-    safe = np.where(G > 0.0, G, 1.0)
-    s, c = np.sqrt(np.maximum(0.0, 1.0 - x * x)), f / safe
-    across = np.sqrt(np.maximum(0.0, 1.0 - c * c))
-    sin, cos = np.sin(l), np.cos(l)
-    y = np.stack(
-        [safe * s * sin, safe * s * cos, safe * x, c * s * sin + across * cos, c * s * cos - across * sin, c * x]
-    )
-    rates = np.stack(field(list(y), body.parameters))
-    growth = 2.0 * np.sum(y[:3] * rates[:3], axis=0) * y[5] + safe * safe * rates[5] - f * rates[2]
-    return y.T, np.where(G > 0.0, G, np.nan), (G > 0.0) & (growth > 0.0)
-
-
-def state_at(body: HeavyBody, h: float, f: float, l: float, x: float, sheet: int = 0) -> tuple[float, ...]:
-    """The state (6,) of a sheet of the section at (l, x = L/G).
-
-    Raises `InvalidParameter` where that sheet has no real G ≥ |f| of this energy, or g does not grow through π/2.
-    """
-    states, G, growing = states_at(body, h, f, np.array([l], float), np.array([x], float), sheet)
-    if sheet and not math.isfinite(G[0]):
-        raise InvalidParameter(
-            f"At l = {l:.6g}, L/G = {x:.6g} there is no {_ORDINALS[sheet]} root G ≥ |f| with the energy h = {h:.6g}: "
-            "choose the largest one, sheet 0, or another point."
-        )
-    if not math.isfinite(G[0]):
-        raise InvalidParameter(
-            f"At l = {l:.6g}, L/G = {x:.6g} no real G ≥ |f| has the energy h = {h:.6g}: choose a larger h, or another "
-            "point."
-        )
-    if not growing[0]:
-        raise InvalidParameter(
-            f"At l = {l:.6g}, L/G = {x:.6g} the angle g does not grow through π/2: choose another point."
-        )
-    return tuple(map(float, states[0]))
 
 
 def coordinates(states: Array) -> Array:
@@ -219,52 +106,9 @@ def hess_circle(body: HeavyBody) -> Array:
     return coordinates(np.column_stack([body.r[2] * np.sin(turn), np.cos(turn), -body.r[0] * np.sin(turn)]))
 
 
-_TRIED = (4, 200, 200)
-"""Places tried for each seed of a sheet: where the second exists, g hardly ever grows on it."""
-
-
-def seeds(
-    body: HeavyBody, h: float, f: float, window: Sequence[float], count: int, sheet: int = 0
-) -> list[tuple[float, ...]]:
-    """At most `count` states of a sheet, spread evenly over the possible part of `window` (l0, l1, x0, x1)."""
-    l0, l1, x0, x1 = window
-    # A low-discrepancy sequence: each of its beginnings fills the window evenly (Roberts, 2018).
-    n = np.arange(1.0, _TRIED[sheet] * count + 1)
-    l = l0 + (l1 - l0) * ((0.5 + 0.7548776662466927 * n) % 1.0)
-    x = x0 + (x1 - x0) * ((0.5 + 0.5698402909980532 * n) % 1.0)
-    states, _, growing = states_at(body, h, f, l, x, sheet)
-    return [tuple(map(float, state)) for state in states[growing][:count]]
-
-
-_TURNS = 40.0
-"""Time allowed per crossing, in units of 1/ν; few orbits take longer."""
-
-
-def time_for(body: HeavyBody, h: float, f: float, crossings: int) -> float:
-    """A time in which orbits with the energy h usually cross the plane `crossings` times."""
-    speed = math.sqrt(2.0 * max(body.a) * max(h + body.strength, 1e-300))
-    return crossings * _TURNS * math.sqrt(max(body.a) / min(body.a)) / speed
-
-
-def andoyer_points(
-    body: HeavyBody,
-    h: float,
-    f: float,
-    starts: Sequence[Sequence[float]],
-    crossings: int,
-    level: Accuracy,
-    threads: int = THREADS,
-    most_steps: int = MAX_STEPS,
-) -> SectionPoints:
-    """The first crossings of g = π/2 by each orbit, as in `section_points`.  Raises `InvalidParameter`, `WorkLimit`."""
-    return section_points(
-        body, starts, AndoyerPlane(f), time_for(body, h, f, crossings), level, crossings, threads, most_steps
-    )
-
-
 @dataclass(frozen=True)
 class AndoyerSection(PoincareSection):
-    """One sheet of the section g = π/2 of a body at H = h, F1 = f.  Its methods raise `InvalidParameter`."""
+    """One sheet of the section g = π/2 of a body at H = h, F1 = f.  Raises `InvalidParameter`."""
 
     body: HeavyBody
     h: float
@@ -275,6 +119,11 @@ class AndoyerSection(PoincareSection):
     turns: ClassVar[tuple[float, float]] = (2.0 * math.pi, math.inf)
     window: ClassVar[tuple[tuple[float, float], ...]] = ((-math.pi, math.pi), (-1.0, 1.0))
     system: ClassVar[System] = SYSTEM
+
+    def __post_init__(self) -> None:
+        require_finite(h=self.h, f=self.f)
+        if self.sheet not in range(SHEETS):
+            raise InvalidParameter(f"The section has at most {SHEETS} sheets: choose one from 0 to {SHEETS - 1}.")
 
     @property
     def parameters(self) -> tuple[float, ...]:
@@ -310,23 +159,116 @@ class AndoyerSection(PoincareSection):
         )
         return replace(self, body=HeavyBody((p[0], p[1], p[2]), (p[3], p[4], p[5]), p[6]))
 
+    def _factors(self, l: Array, x: Array) -> tuple[Array, Array, Array]:
+        """K, P, Q of the energy, see the module."""
+        a1, a2, a3 = self.body.a
+        m1, m2, m3 = (self.body.mu * r for r in self.body.r)
+        s = np.sqrt(np.maximum(0.0, 1.0 - x * x))
+        sin, cos = np.sin(l), np.cos(l)
+        K = s * s * (a1 * sin**2 + a2 * cos**2) + a3 * x * x
+        return K, s * (m1 * sin + m2 * cos) + m3 * x, m1 * cos - m2 * sin
+
+    def roots(self, l: Array, x: Array) -> Array:
+        """All G ≥ |f| with this energy at (l, L/G) (n,), falling; shape (n, SHEETS), NaN where fewer."""
+        l, x = np.array(l, float, ndmin=1), np.array(x, float, ndmin=1)
+        if not (np.all(np.isfinite(l)) and np.all(np.abs(x) <= 1.0)):
+            raise InvalidParameter("On the section l is an angle and x = L/G lies between −1 and 1.")
+        out = np.full((l.size, SHEETS), np.nan)
+        K, P, Q = self._factors(l, x)
+        if self.f == 0.0:
+            out[:, 0] = np.sqrt(np.where(self.h + Q >= 0.0, 2.0 * (self.h + Q) / K, np.nan))
+        else:
+            roots_into(float(self.h), float(self.f), self.body.strength, K, P, Q, _SCAN, out)
+        return out
+
     def states_at(self, l: Array, x: Array) -> tuple[Array, Mask]:
         """The states (n, 6) at (l, L/G) (n,), and whether motions cross this sheet there (n,)."""
-        states, _, growing = states_at(self.body, self.h, self.f, l, x, self.sheet)
-        return states, growing
+        G = self.roots(l, x)[:, self.sheet]
+        safe = np.where(G > 0.0, G, 1.0)
+        s, c = np.sqrt(np.maximum(0.0, 1.0 - x * x)), self.f / safe
+        across = np.sqrt(np.maximum(0.0, 1.0 - c * c))
+        sin, cos = np.sin(l), np.cos(l)
+        y = np.stack(
+            [safe * s * sin, safe * s * cos, safe * x, c * s * sin + across * cos, c * s * cos - across * sin, c * x]
+        )
+        rates = np.stack(field(list(y), self.parameters))
+        growth = 2.0 * np.sum(y[:3] * rates[:3], axis=0) * y[5] + safe * safe * rates[5] - self.f * rates[2]
+        return y.T, (G > 0.0) & (growth > 0.0)
+
+    def state_at(self, l: float, x: float) -> tuple[float, ...]:
+        """The state (6,) at (l, L/G).
+
+        Raises `InvalidParameter` where this sheet has no real G ≥ |f| of this energy, or g does not grow through π/2.
+        """
+        place = np.array([l], float), np.array([x], float)
+        where = f"At l = {l:.6g}, L/G = {x:.6g}"
+        if not self.roots(*place)[0, self.sheet] > 0.0:
+            raise InvalidParameter(
+                f"{where} there is no {_ORDINALS[self.sheet]} root G ≥ |f| with the energy h = {self.h:.6g}: choose "
+                "the largest one, sheet 0, or another point."
+                if self.sheet
+                else f"{where} no real G ≥ |f| has the energy h = {self.h:.6g}: choose a larger h, or another point."
+            )
+        states, growing = self.states_at(*place)
+        if not growing[0]:
+            raise InvalidParameter(f"{where} the angle g does not grow through π/2: choose another point.")
+        return tuple(map(float, states[0]))
 
     def places_of(self, states: Array) -> Array:
         """(l, L/G) (n, 2) of states (n, 6), on whichever sheet."""
         return coordinates(states)
 
+    def sheet_of(self, states: Array) -> Sheets:
+        """On which sheet states (n, 6) are, (n,): how many roots G at their (l, L/G) are larger."""
+        f, (l, x) = self.f, coordinates(states).T
+        G = np.sqrt(np.sum(states[:, :3] ** 2, axis=1))
+        K, P, Q = self._factors(l, x)
+        ratio = f / np.maximum(G, 1e-300)
+        across = np.sqrt(np.maximum(0.0, 1.0 - ratio * ratio))
+        found = np.where((K * G * G + ratio * P) * across < ratio * ratio * Q, 1, 0)
+        # The third sheet rises as the first does, and falls for some larger α = arccos |f|/G: only where
+        # K f² tan α/cos²α < √(P² + Q²).
+        steep = K * G**3 * across < abs(f) * np.hypot(P, Q)
+        unsure = np.flatnonzero((found == 0) & (f * P < 0.0) & (Q < 0.0) & steep) if f else np.empty(0, int)
+        if unsure.size:
+            larger = self.roots(l[unsure], x[unsure]) > G[unsure, None] * (1.0 + 1e-9)
+            found[unsure] = np.where(larger.sum(axis=1) == 2, 2, 0)
+        return found
+
     def is_on(self, states: Array) -> Mask:
         """Whether states (n, 6) of the section are on this sheet, (n,)."""
-        return np.asarray(sheet_of(self.body, self.h, self.f, states) == self.sheet)
+        return np.asarray(self.sheet_of(states) == self.sheet)
 
     def spread(self, window: Window, count: int) -> tuple[tuple[float, ...], ...]:
         """At most `count` states of this sheet, spread evenly over what is possible of the window."""
         (l0, x0), (l1, x1) = window
-        return tuple(seeds(self.body, self.h, self.f, (l0, l1, x0, x1), count, self.sheet)) if count else ()
+        shares = evenly(_TRIED[self.sheet] * count, 0.5)
+        states, growing = self.states_at(l0 + (l1 - l0) * shares[0], x0 + (x1 - x0) * shares[1])
+        return tuple(tuple(map(float, state)) for state in states[growing][:count])
+
+    def time_for(self, crossings: int) -> float:
+        """A time in which orbits usually cross the plane `crossings` times."""
+        speed = math.sqrt(2.0 * max(self.body.a) * max(self.h + self.body.strength, 1e-300))
+        return crossings * _TURNS * self.slowness / speed
+
+    def points(
+        self,
+        starts: Sequence[Sequence[float]],
+        crossings: int,
+        level: Accuracy,
+        threads: int = THREADS,
+        most_steps: int = MAX_STEPS,
+    ) -> SectionPoints:
+        """The first crossings by each orbit, as in `section_points`.  Raises `InvalidParameter`, `WorkLimit`."""
+        return section_points(
+            self.body, starts, self.surface, self.time_for(crossings), level, crossings, threads, most_steps
+        )
+
+    def possible(self, l: Array, x: Array) -> Mask:
+        """Whether some G ≥ |f| has an energy of at most h at (l, L/G) (n,), accurate enough for a picture."""
+        least = np.empty(l.size)
+        least_excess(float(self.h), float(self.f), self.body.strength, *self._factors(l, x), _ROUGH, least)
+        return np.asarray(least <= 0.0)
 
     def impossible(self, window: Window) -> Array:
         """Cells (m, n) over the window: 1 where this sheet has no motion of this energy."""
@@ -334,5 +276,5 @@ class AndoyerSection(PoincareSection):
         m, n = _CELLS
         grid = np.meshgrid(centres(l0, l1, m), centres(x0, x1, n))
         l, x = grid[0].ravel(), np.clip(grid[1].ravel(), -1.0, 1.0)
-        inside = self.states_at(l, x)[1] if self.sheet else possible(self.body, self.h, self.f, l, x)
+        inside = self.states_at(l, x)[1] if self.sheet else self.possible(l, x)
         return frozen(1.0 - inside.reshape(n, m).astype(float))

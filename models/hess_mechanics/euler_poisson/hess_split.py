@@ -18,7 +18,7 @@ from hess_mechanics.dynamics.manifolds import Manifold, grown, split
 from hess_mechanics.dynamics.periodic import apart, find_periodic
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import NotConverged, OutsideRegion
-from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points, hess_curve
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.numerics.accuracy import REFERENCE, Accuracy
@@ -94,7 +94,7 @@ def saddles(torus: HessTorus, level: Accuracy) -> Saddles:
     found = []
     for point in sorted(theta.fixed_points, key=lambda one: one.stable):
         state = bridge.from_reduced(bridge.hess.from_units_of_b(turning.state_at_lower_turn(point.phi)[None]))[0]
-        crossing = andoyer_points(body, torus.h, torus.f, [tuple(map(float, state))], 1, REFERENCE, threads=1)
+        crossing = AndoyerSection(body, torus.h, torus.f).points([tuple(map(float, state))], 1, REFERENCE, threads=1)
         if not len(crossing.states[0]):
             raise OutsideRegion(
                 "A limit cycle of the Hess manifold does not cross the section g = π/2 here: choose other h and f."

@@ -11,7 +11,7 @@ from hess_mechanics import systems
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.lyapunov import MAX_RETURNS, Exponent, lyapunov_exponent
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.euler_poisson.andoyer import andoyer_points, coordinates, state_at
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection, coordinates
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.numerics.accuracy import STANDARD
 from support.andoyer import GESS1, RIS
@@ -24,7 +24,8 @@ REGULAR = [(RIS, -0.4, 0.0, 2.8, 0.3), (RIS, 0.0, 0.0, 2.8, 0.3), (GESS1, 20.0, 
 
 
 def state_of(case):
-    return case[0], state_at(*case)
+    body, h, f, l, x = case
+    return body, AndoyerSection(body, h, f).state_at(l, x)
 
 
 # ---- Exponents --------------------------------------------------------------------------------------------------
@@ -167,7 +168,9 @@ def test_points_without_order_are_no_closed_curve():
     ],
 )
 def test_with_500_points_it_is_that_of_10000(body, h, f, place, centre):
-    states = andoyer_points(body, h, f, [state_at(body, h, f, *place)], 10_000, STANDARD).states[0]
+    states = (
+        AndoyerSection(body, h, f).points([AndoyerSection(body, h, f).state_at(*place)], 10_000, STANDARD).states[0]
+    )
     assert len(states) == 10_000
     points = coordinates(states)
     if centre is not None and centre[0] > 3.0:

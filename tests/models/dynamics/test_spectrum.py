@@ -13,7 +13,7 @@ from hess_mechanics import System, lyapunov_exponent, lyapunov_spectrum, megno, 
 from hess_mechanics.dynamics.spectrum import kaplan_yorke
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.euler_poisson.andoyer import state_at
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import DRAFT, PRECISE, REFERENCE
 from hess_mechanics.suslov.equations import SuslovBody
@@ -23,7 +23,7 @@ SUSLOV, HEAVY = systems()["suslov"], systems()["euler-poisson"]
 STRANGE = (0.8, 1.3, 0.6, 0.0, 0.8), (1.7, 3.0, 0.3, 0.1, -2.0, -2.1, 2.6)
 """Found by tests/benchmarks/search_strange_attractors.py."""
 CHAOTIC = HeavyBody((1.0, 1.6, 2.1), (0.3, -0.5, 0.7), 6.0)
-CHAOTIC_START = state_at(CHAOTIC, 4.0, 1.0, 0.3, 0.2)
+CHAOTIC_START = AndoyerSection(CHAOTIC, 4.0, 1.0).state_at(0.3, 0.2)
 
 
 def a_system(field, name, size, example, integrals: Mapping[str, float] | None = None):

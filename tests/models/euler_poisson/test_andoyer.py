@@ -18,18 +18,9 @@ from hess_mechanics.euler_poisson.andoyer import (
     SHEETS,
     AndoyerPlane,
     AndoyerSection,
-    andoyer_points,
     coordinates,
     hess_curve,
-    momenta,
-    possible,
     relation,
-    roots,
-    seeds,
-    sheet_of,
-    state_at,
-    states_at,
-    time_for,
 )
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.numerics.accuracy import PRECISE, STANDARD, Level
@@ -37,7 +28,16 @@ from support.andoyer import GESS1, RIS, angles, crossings_by_scipy, dense, energ
 
 SLANTING = HeavyBody((1.0, 1.6, 2.1), (0.3, -0.5, 0.7), 2.0)
 """No Hess case, and r2 ≠ 0."""
-WHOLE = (-math.pi, math.pi, -1.0, 1.0)
+WHOLE = ((-math.pi, -1.0), (math.pi, 1.0))
+
+
+def states_at(body, h, f, l, x, sheet=0):
+    """States of a sheet at l, L/G, the momenta G there, and whether g grows."""
+    section = AndoyerSection(body, h, f, sheet)
+    states, growing = section.states_at(l, x)
+    return states, section.roots(l, x)[:, sheet], growing
+
+
 CASES = [
     (GESS1, 50.0, 5.0),
     (GESS1, 50.0, -5.0),
@@ -96,7 +96,7 @@ def test_a_state_of_the_section_has_g_h_f_and_its_place(body, h, f):
 def test_the_state_is_the_one_with_the_largest_momentum(body, h, f):
     top = math.sqrt(2.0 * (h + body.strength) / min(body.a))
     l, x = scattered(60, seed=2)
-    found = momenta(body, h, f, l, x)
+    found = AndoyerSection(body, h, f).roots(l, x)[:, 0]
     for place, G in zip(zip(l, x, strict=True), found, strict=True):
         lengths, energies = dense(body, f, *map(float, place), top)
         if math.isnan(G):
@@ -113,7 +113,7 @@ def test_what_is_possible_agrees_with_a_dense_search(body, h, f):
     least = np.array(
         [np.min(dense(body, f, float(one), float(other), top)[1]) for one, other in zip(l, x, strict=True)]
     )
-    found = possible(body, h, f, l, x)
+    found = AndoyerSection(body, h, f).possible(l, x)
     size = abs(h) + body.strength
     assert not np.any(found & (least > h + 1e-5 * size))
     # A picture is coarser than that: a margin of 1 % of the energy.
@@ -122,8 +122,8 @@ def test_what_is_possible_agrees_with_a_dense_search(body, h, f):
 
 def test_grey_and_possible_both_exist_where_the_paper_draws_grey():
     l, x = scattered(400, seed=4)
-    assert 0.05 < np.mean(possible(RIS, 0.0, 0.0, l, x)) < 0.95
-    assert np.all(possible(GESS1, 50.0, 5.0, l, x))
+    assert 0.05 < np.mean(AndoyerSection(RIS, 0.0, 0.0).possible(l, x)) < 0.95
+    assert np.all(AndoyerSection(GESS1, 50.0, 5.0).possible(l, x))
 
 
 def test_for_f_0_the_momentum_is_that_of_the_closed_form():
@@ -133,7 +133,7 @@ def test_for_f_0_the_momentum_is_that_of_the_closed_form():
     kinetic = s * s * (a1 * np.sin(l) ** 2 + a2 * np.cos(l) ** 2) + a3 * x * x
     # μr = −(1/√3, 0, 1/√6), γ = (cos l, −sin l, 0).
     square = 2.0 * (0.1 - np.cos(l) / math.sqrt(3.0)) / kinetic
-    G = momenta(RIS, 0.1, 0.0, l, x)
+    G = AndoyerSection(RIS, 0.1, 0.0).roots(l, x)[:, 0]
     assert np.array_equal(np.isnan(G), square < 0.0)
     assert G[square >= 0.0] ** 2 == pytest.approx(square[square >= 0.0], rel=1e-12)
 
@@ -147,8 +147,8 @@ def test_on_the_hess_curve_the_relation_holds():
 
 
 def test_seeds_are_in_their_window_spread_evenly_and_on_the_section():
-    window = (-1.0, 2.0, -0.6, 0.4)
-    found = seeds(GESS1, 50.0, 5.0, window, 64)
+    window = ((-1.0, -0.6), (2.0, 0.4))
+    found = AndoyerSection(GESS1, 50.0, 5.0).spread(window, 64)
     assert len(found) == 64
     points = coordinates(np.array(found))
     l, x = points.T
@@ -158,11 +158,11 @@ def test_seeds_are_in_their_window_spread_evenly_and_on_the_section():
     assert len(cells) == 16
     assert np.max(np.abs(energy(GESS1, found) - 50.0)) < 1e-10
     assert np.max(turned_away(angles(np.array(found))[1], math.pi / 2)) < 1e-10
-    assert seeds(GESS1, -11.0, 5.0, WHOLE, 10) == []
+    assert AndoyerSection(GESS1, -11.0, 5.0).spread(WHOLE, 10) == ()
     # Fewer than asked for where most of the window is impossible, and none beyond it.
-    few = seeds(RIS, -0.5, 0.0, WHOLE, 50)
+    few = AndoyerSection(RIS, -0.5, 0.0).spread(WHOLE, 50)
     assert 0 < len(few) <= 50
-    assert np.all(possible(RIS, -0.5, 0.0, *coordinates(np.array(few)).T))
+    assert np.all(AndoyerSection(RIS, -0.5, 0.0).possible(*coordinates(np.array(few)).T))
 
 
 # ---- Sheets -----------------------------------------------------------------------------------------------------
@@ -207,7 +207,7 @@ def test_a_state_is_a_start_where_g_grows_and_nowhere_else(body, h, f):
 @pytest.mark.parametrize(("body", "h", "f"), SHEETED)
 def test_all_momenta_with_this_energy_are_found(body, h, f):
     l, x = scattered(150, seed=6)
-    found = roots(body, h, f, l, x)
+    found = AndoyerSection(body, h, f).roots(l, x)
     counts = set()
     for place, some in zip(zip(l.tolist(), x.tolist(), strict=True), found, strict=True):
         exact = all_roots(body, h, f, *place)
@@ -219,16 +219,16 @@ def test_all_momenta_with_this_energy_are_found(body, h, f):
 
 def test_a_third_momentum_exists_where_both_slopes_are_negative():
     l, x = (axis.ravel() for axis in np.meshgrid(np.linspace(-math.pi, math.pi, 200), np.linspace(-0.99, 0.99, 100)))
-    found = np.isfinite(roots(RIS, 0.5, 0.3, l, x))
+    found = np.isfinite(AndoyerSection(RIS, 0.5, 0.3).roots(l, x))
     third = np.flatnonzero(found[:, 2])
     assert third.size > 5
     for i in third[:5]:
-        assert roots(RIS, 0.5, 0.3, l[i : i + 1], x[i : i + 1])[0] == pytest.approx(
+        assert AndoyerSection(RIS, 0.5, 0.3).roots(l[i : i + 1], x[i : i + 1])[0] == pytest.approx(
             all_roots(RIS, 0.5, 0.3, l[i], x[i]), rel=1e-9
         )
     states, G, _ = states_at(RIS, 0.5, 0.3, l[third], x[third], 2)
     assert np.all(np.isfinite(G))
-    assert np.array_equal(sheet_of(RIS, 0.5, 0.3, states), np.full(third.size, 2))
+    assert np.array_equal(AndoyerSection(RIS, 0.5, 0.3).sheet_of(states), np.full(third.size, 2))
     # m = μr = −(1/√3, 0, 1/√6) here: f P < 0 and Q < 0.
     s = np.sqrt(1.0 - x[third] ** 2)
     assert np.all(s * np.sin(l[third]) / math.sqrt(3.0) + x[third] / math.sqrt(6.0) > 0.0)
@@ -242,7 +242,7 @@ def test_a_state_is_on_the_sheet_that_it_was_asked_for_on(body, h, f):
         states, G, _ = states_at(body, h, f, l, x, sheet)
         there = np.isfinite(G)
         assert there.any() or sheet
-        assert np.array_equal(sheet_of(body, h, f, states[there]), np.full(there.sum(), sheet))
+        assert np.array_equal(AndoyerSection(body, h, f).sheet_of(states[there]), np.full(there.sum(), sheet))
         assert np.max(np.abs(energy(body, states[there]) - h), initial=0.0) < 1e-10 * (1.0 + abs(h) + body.strength)
         assert np.max(np.abs(area(states[there]) - f), initial=0.0) < 1e-10 * (1.0 + abs(f))
         if there.any():
@@ -252,17 +252,19 @@ def test_a_state_is_on_the_sheet_that_it_was_asked_for_on(body, h, f):
 def test_in_gess_ris2_some_points_of_orbits_from_the_first_sheet_are_on_the_second():
     shares = []
     for h in (0.0, 0.2, 0.5, 0.8, 1.0, 1.3, 2.0):
-        points = np.concatenate(andoyer_points(RIS, h, 1.0, seeds(RIS, h, 1.0, WHOLE, 60), 100, STANDARD).states)
-        sheets = sheet_of(RIS, h, 1.0, points)
+        points = np.concatenate(
+            AndoyerSection(RIS, h, 1.0).points(AndoyerSection(RIS, h, 1.0).spread(WHOLE, 60), 100, STANDARD).states
+        )
+        sheets = AndoyerSection(RIS, h, 1.0).sheet_of(points)
         shares.append(float(np.mean(sheets > 0)))
         # By the momenta themselves: those that are larger are counted.
         G = np.linalg.norm(points[:, :3], axis=1)
-        larger = roots(RIS, h, 1.0, *coordinates(points).T) > G[:, None] * (1.0 + 1e-7)
+        larger = AndoyerSection(RIS, h, 1.0).roots(*coordinates(points).T) > G[:, None] * (1.0 + 1e-7)
         clear = (
             np.min(
-                np.abs(roots(RIS, h, 1.0, *coordinates(points).T) / G[:, None] - 1.0),
+                np.abs(AndoyerSection(RIS, h, 1.0).roots(*coordinates(points).T) / G[:, None] - 1.0),
                 axis=1,
-                where=~np.isnan(roots(RIS, h, 1.0, *coordinates(points).T)),
+                where=~np.isnan(AndoyerSection(RIS, h, 1.0).roots(*coordinates(points).T)),
                 initial=np.inf,
             )
             < 1e-7
@@ -277,7 +279,7 @@ def test_how_much_of_gess_ris2_is_covered_twice():
     l, x = (axis.ravel() for axis in np.meshgrid(np.linspace(-math.pi, 3.1, 160), np.linspace(-0.995, 0.995, 81)))
     shares = []
     for h in (0.0, 0.2, 0.5, 0.8, 1.0, 1.3, 2.0, 4.0):
-        found = np.isfinite(roots(RIS, h, 1.0, l, x))
+        found = np.isfinite(AndoyerSection(RIS, h, 1.0).roots(l, x))
         shares.append(found[:, 1].sum() / found[:, 0].sum())
     assert all(0.01 < share < 0.14 for share in shares[:5])
     assert shares[5:] == [0.0, 0.0, 0.0]
@@ -295,8 +297,8 @@ def test_an_orbit_from_the_second_sheet_returns_as_scipy_says():
     assert len(times) >= 3
     assert result.times == pytest.approx(times, abs=1e-6)
     place = tuple(coordinates(starts[:1])[0])
-    assert state_at(RIS, 0.5, 1.0, *place, sheet=1) == pytest.approx(tuple(starts[0]), abs=1e-9)
-    assert state_at(RIS, 0.5, 1.0, *place) != pytest.approx(tuple(starts[0]), abs=1e-3)
+    assert AndoyerSection(RIS, 0.5, 1.0, sheet=1).state_at(*place) == pytest.approx(tuple(starts[0]), abs=1e-9)
+    assert AndoyerSection(RIS, 0.5, 1.0).state_at(*place) != pytest.approx(tuple(starts[0]), abs=1e-3)
     # Grey on the second sheet is nearly everything; in the middle of the other cells there is a second momentum.
     cells = section_.impossible(((-math.pi, -1.0), (math.pi, 1.0)))
     assert 0.9 < cells.mean() < 1.0
@@ -312,7 +314,7 @@ def test_an_orbit_from_the_second_sheet_returns_as_scipy_says():
 @every_case
 def test_crossings_are_those_that_scipy_finds_from_the_angle(body, h, f):
     found = 0
-    for start in seeds(body, h, f, WHOLE, 3):
+    for start in AndoyerSection(body, h, f).spread(WHOLE, 3):
         end = 6.0 / math.sqrt(2.0 * max(body.a) * (h + body.strength)) * 4.0
         times, states = crossings_by_scipy(body, start, end)
         result = section(body, start, AndoyerPlane(f), end, level("precise"))
@@ -326,7 +328,7 @@ def test_crossings_are_those_that_scipy_finds_from_the_angle(body, h, f):
 
 def test_a_start_by_hand_is_the_same_and_its_first_return_too():
     by_hand = start_by_hand(GESS1, 50.0, 5.0, 0.7, -0.3)
-    state = state_at(GESS1, 50.0, 5.0, 0.7, -0.3)
+    state = AndoyerSection(GESS1, 50.0, 5.0).state_at(0.7, -0.3)
     assert state == pytest.approx(by_hand, abs=1e-11)
     times, states = crossings_by_scipy(GESS1, by_hand, 3.0)
     result = section(GESS1, state, AndoyerPlane(5.0), 3.0, level("precise"), 1)
@@ -336,8 +338,8 @@ def test_a_start_by_hand_is_the_same_and_its_first_return_too():
 
 @every_case
 def test_points_are_on_the_plane_and_on_their_levels_at_precise(body, h, f):
-    end = time_for(body, h, f, 15)
-    for start in seeds(body, h, f, WHOLE, 6):
+    end = AndoyerSection(body, h, f).time_for(15)
+    for start in AndoyerSection(body, h, f).spread(WHOLE, 6):
         result = section(body, start, AndoyerPlane(f), end, level("precise"), 15)
         assert len(result.times)
         size = max(1.0, abs(h))
@@ -359,9 +361,9 @@ SHORT_STEPS = Level("short steps", 1e-6, 1e-24, 16)
     ("body", "h", "f", "count"), [(GESS1, 50.0, 5.0, 12), (RIS, 0.3, 0.0, 40), (RIS, 1.0, 1.0, 12)]
 )
 def test_no_crossing_is_lost_or_doubled_against_steps_a_tenth_as_long(body, h, f, count):
-    starts = seeds(body, h, f, WHOLE, 50)
-    coarse = andoyer_points(body, h, f, starts, count, STANDARD)
-    fine = andoyer_points(body, h, f, starts, count, SHORT_STEPS)
+    starts = AndoyerSection(body, h, f).spread(WHOLE, 50)
+    coarse = AndoyerSection(body, h, f).points(starts, count, STANDARD)
+    fine = AndoyerSection(body, h, f).points(starts, count, SHORT_STEPS)
     assert fine.cost.steps > 8 * coarse.cost.steps
     for one, other in zip(coarse.states, fine.states, strict=True):
         assert one.shape == other.shape
@@ -371,7 +373,7 @@ def test_no_crossing_is_lost_or_doubled_against_steps_a_tenth_as_long(body, h, f
 
 def test_between_two_crossings_of_a_long_chaotic_orbit_there_is_no_other_one():
     """From each crossing the orbit is followed anew, densely: only there and at the next one g is π/2 and grows."""
-    start = state_at(GESS1, 50.0, 5.0, 0.0, 0.2)
+    start = AndoyerSection(GESS1, 50.0, 5.0).state_at(0.0, 0.2)
     result = section(GESS1, start, AndoyerPlane(5.0), 200.0, level("standard"), 300)
     assert len(result.times) == 300
     gaps = np.diff(result.times)
@@ -392,7 +394,7 @@ def test_of_50_orbits_of_gess1_none_changes_the_sign_of_r_M_in_10000_crossings()
     l, x = random.uniform(-math.pi, math.pi, 120), random.uniform(-0.99, 0.99, 120)
     states, _, growing = states_at(GESS1, 50.0, 5.0, l, x)
     starts = states[growing][:50]
-    points = andoyer_points(GESS1, 50.0, 5.0, starts, 10_000, STANDARD)
+    points = AndoyerSection(GESS1, 50.0, 5.0).points(starts, 10_000, STANDARD)
     assert [len(states) for states in points.states] == [10_000] * 50
     signs = np.array([np.sign(3.0 * state[0] + 4.0 * state[2]) for state in starts])
     assert 10 < np.count_nonzero(signs > 0) < 40
@@ -403,34 +405,34 @@ def test_of_50_orbits_of_gess1_none_changes_the_sign_of_r_M_in_10000_crossings()
 
 def test_away_from_hess_the_same_orbits_do_change_it():
     away = HeavyBody.hess((1.0, 0.625, 0.375), 9.975, 0.02)
-    starts = seeds(away, 50.0, 5.0, WHOLE, 20)
-    points = andoyer_points(away, 50.0, 5.0, starts, 1000, STANDARD)
+    starts = AndoyerSection(away, 50.0, 5.0).spread(WHOLE, 20)
+    points = AndoyerSection(away, 50.0, 5.0).points(starts, 1000, STANDARD)
     changed = [np.ptp(np.sign(relation(away, states))) > 0 for states in points.states]
     assert sum(changed) > 1
     # And in the Hess case itself, with as many crossings, none.
-    points = andoyer_points(GESS1, 50.0, 5.0, seeds(GESS1, 50.0, 5.0, WHOLE, 20), 1000, STANDARD)
+    points = AndoyerSection(GESS1, 50.0, 5.0).points(AndoyerSection(GESS1, 50.0, 5.0).spread(WHOLE, 20), 1000, STANDARD)
     assert not any(np.ptp(np.sign(relation(GESS1, states))) > 0 for states in points.states)
 
 
 def test_the_layers_of_a_picture_are_the_same_on_one_thread_and_on_two():
-    starts = seeds(GESS1, 50.0, 5.0, WHOLE, 9)
-    one = andoyer_points(GESS1, 50.0, 5.0, starts, 50, STANDARD, threads=1)
-    two = andoyer_points(GESS1, 50.0, 5.0, starts, 50, STANDARD, threads=2)
+    starts = AndoyerSection(GESS1, 50.0, 5.0).spread(WHOLE, 9)
+    one = AndoyerSection(GESS1, 50.0, 5.0).points(starts, 50, STANDARD, threads=1)
+    two = AndoyerSection(GESS1, 50.0, 5.0).points(starts, 50, STANDARD, threads=2)
     assert all(np.array_equal(a, b) for a, b in zip(one.states, two.states, strict=True))
 
 
 def test_points_of_a_picture_are_the_crossings_of_the_orbit_one_after_the_other():
     """They are found in parts; the seams show neither a gap nor a point twice."""
-    start = seeds(RIS, 0.0, 0.0, WHOLE, 1)
-    points = andoyer_points(RIS, 0.0, 0.0, start, 100, PRECISE).states[0]
-    exact = section(RIS, start[0], AndoyerPlane(0.0), time_for(RIS, 0.0, 0.0, 100), PRECISE, 100)
+    start = AndoyerSection(RIS, 0.0, 0.0).spread(WHOLE, 1)
+    points = AndoyerSection(RIS, 0.0, 0.0).points(start, 100, PRECISE).states[0]
+    exact = section(RIS, start[0], AndoyerPlane(0.0), AndoyerSection(RIS, 0.0, 0.0).time_for(100), PRECISE, 100)
     assert len(points) == len(exact.times) == 100
     assert np.max(np.abs(points - exact.states)) < 1e-5
     assert min(np.linalg.norm(b - a) for a, b in pairwise(points)) > 1e-4
 
 
 def test_backward_and_forward_again_the_crossings_are_the_same():
-    start = np.array(state_at(GESS1, 50.0, 5.0, 0.4, 0.5))
+    start = np.array(AndoyerSection(GESS1, 50.0, 5.0).state_at(0.4, 0.5))
     back = section(GESS1, start, AndoyerPlane(5.0), -3.0, level("precise"))
     assert len(back.times) >= 2
     assert np.all(np.diff(back.times) < 0.0)
@@ -446,17 +448,23 @@ def test_backward_and_forward_again_the_crossings_are_the_same():
 @pytest.mark.parametrize(
     ("request_", "words"),
     [
-        (lambda: state_at(GESS1, -9.9, 5.0, 0.0, 0.2), "no real G ≥ .f. has the energy h = -9.9: choose a larger h"),
-        (lambda: state_at(GESS1, 50.0, 12.0, 0.0, 0.2), "choose a larger h, or another point"),
         (
-            lambda: state_at(GESS1, 50.0, 5.0, 0.0, 0.2, sheet=1),
+            lambda: AndoyerSection(GESS1, -9.9, 5.0).state_at(0.0, 0.2),
+            "no real G ≥ .f. has the energy h = -9.9: choose a larger h",
+        ),
+        (lambda: AndoyerSection(GESS1, 50.0, 12.0).state_at(0.0, 0.2), "choose a larger h, or another point"),
+        (
+            lambda: AndoyerSection(GESS1, 50.0, 5.0, sheet=1).state_at(0.0, 0.2),
             "there is no second root G ≥ .f.*choose the largest one",
         ),
-        (lambda: state_at(GESS1, 50.0, 5.0, 0.0, 0.2, sheet=3), "at most 3 sheets: choose one from 0 to 2"),
-        (lambda: state_at(GESS1, 50.0, 5.0, 0.0, 1.5), "lies between −1 and 1"),
-        (lambda: state_at(GESS1, 50.0, 5.0, math.nan, 0.5), "l is an angle"),
-        (lambda: state_at(GESS1, math.inf, 5.0, 0.0, 0.5), "h is not a finite number"),
-        (lambda: state_at(GESS1, 50.0, math.nan, 0.0, 0.5), "f is not a finite number"),
+        (
+            lambda: AndoyerSection(GESS1, 50.0, 5.0, sheet=3).state_at(0.0, 0.2),
+            "at most 3 sheets: choose one from 0 to 2",
+        ),
+        (lambda: AndoyerSection(GESS1, 50.0, 5.0).state_at(0.0, 1.5), "lies between −1 and 1"),
+        (lambda: AndoyerSection(GESS1, 50.0, 5.0).state_at(math.nan, 0.5), "l is an angle"),
+        (lambda: AndoyerSection(GESS1, math.inf, 5.0).state_at(0.0, 0.5), "h is not a finite number"),
+        (lambda: AndoyerSection(GESS1, 50.0, math.nan).state_at(0.0, 0.5), "f is not a finite number"),
         (
             lambda: section(*systems()["suslov"].example_motion, AndoyerPlane(1.0), 1.0, STANDARD),
             "those of the Euler–Poisson equations",
@@ -469,8 +477,8 @@ def test_a_request_that_means_nothing_is_refused_in_a_sentence(request_, words):
 
 
 def test_too_much_work_is_refused():
-    start = [state_at(GESS1, 50.0, 5.0, 0.0, 0.2)]
+    start = [AndoyerSection(GESS1, 50.0, 5.0).state_at(0.0, 0.2)]
     with pytest.raises(WorkLimit, match="shorter time span"):
-        andoyer_points(GESS1, 50.0, 5.0, start, 1000, STANDARD, most_steps=50)
+        AndoyerSection(GESS1, 50.0, 5.0).points(start, 1000, STANDARD, most_steps=50)
     with pytest.raises(WorkLimit, match="between 1 and 100000"):
-        andoyer_points(GESS1, 50.0, 5.0, start, 10**6, STANDARD)
+        AndoyerSection(GESS1, 50.0, 5.0).points(start, 10**6, STANDARD)

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from hess_mechanics import HeavyBody, circle_map, level
 from hess_mechanics.errors import NotConverged, OutsideRegion
-from hess_mechanics.euler_poisson.andoyer import hess_curve, state_at
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.euler_poisson.hess_split import HessTorus, saddles, slope_of, split_at
 from hess_mechanics.numerics.accuracy import PRECISE
@@ -27,7 +27,7 @@ def melnikov(torus, l):
     body = HeavyBody.hess(torus.moments, torus.strength)
     A, r, mu = np.array(body.a), np.array(body.r), body.mu
     x = float(hess_curve(body, np.array([l]))[0])
-    start = np.array(state_at(body, torus.h, torus.f, l, x))
+    start = np.array(AndoyerSection(body, torus.h, torus.f).state_at(l, x))
 
     def field(t, y, sense):
         M, g = y[:3] - (y[:3] @ r) * r, y[3:6]

@@ -10,7 +10,7 @@ import oracle
 from hess_mechanics import level, section, solve
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
-from hess_mechanics.euler_poisson.andoyer import AndoyerPlane, hess_curve, state_at
+from hess_mechanics.euler_poisson.andoyer import AndoyerPlane, AndoyerSection, hess_curve
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 
 __all__ = ["refusals", "rows"]
@@ -46,7 +46,7 @@ def crossings(Row, name, body, h, f, place, count, **options):
 
     And how far g is from π/2 there, as a time.
     """
-    state = state_at(body, h, f, *place)
+    state = AndoyerSection(body, h, f).state_at(*place)
     truth = oracle.Along(SYSTEM, state, body.parameters, 40)
 
     def error(grade):
@@ -65,7 +65,7 @@ def a_state(Row, name, body, h, f, place, **options):
     """Energy, area integral and plane of the state at a place, with 40 digits, relative to the size of their terms."""
 
     def error(_):
-        state = state_at(body, h, f, *place)
+        state = AndoyerSection(body, h, f).state_at(*place)
         with mpmath.workdps(40):
             M, gamma = [mpmath.mpf(x) for x in state[:3]], [mpmath.mpf(x) for x in state[3:]]
             kinetic = sum(mpmath.mpf(a) * m * m for a, m in zip(body.a, M, strict=True)) / 2
@@ -96,7 +96,7 @@ def rows(Row, symmetric, there_and_back, drift):
 
     l = 0.7
     barrier = float(hess_curve(GESS1, np.array([l]))[0])
-    near = tuple(state_at(GESS1, 50.0, 5.0, l, barrier + small) for small in (1e-9, -1e-12))
+    near = tuple(AndoyerSection(GESS1, 50.0, 5.0).state_at(l, barrier + small) for small in (1e-9, -1e-12))
     mirror = (-1, -1, -1, 1, 1, 1)
     grows = "what rounds the start grows twenty-fold in each period of n3"
     return [
@@ -167,18 +167,21 @@ def refusals(Refusal):
     return [
         plainly(
             "G < |f|",
-            lambda: state_at(GESS1, 50.0, 13.0, 0.7, -0.3),
+            lambda: AndoyerSection(GESS1, 50.0, 13.0).state_at(0.7, -0.3),
             InvalidParameter,
             "no real G ≥ .f. has the energy h = 50: choose a larger h, or another point",
         ),
         plainly(
             "h below the potential",
-            lambda: state_at(GESS1, -9.976, 0.0, 0.0, 0.0),
+            lambda: AndoyerSection(GESS1, -9.976, 0.0).state_at(0.0, 0.0),
             InvalidParameter,
             "choose a larger h",
         ),
         plainly(
-            "L/G = 1 + 1e-9", lambda: state_at(GESS1, 50.0, 5.0, 0.0, 1.0 + 1e-9), InvalidParameter, "between −1 and 1"
+            "L/G = 1 + 1e-9",
+            lambda: AndoyerSection(GESS1, 50.0, 5.0).state_at(0.0, 1.0 + 1e-9),
+            InvalidParameter,
+            "between −1 and 1",
         ),
         plainly(
             "a2 = 0", lambda: HeavyBody((1.0, 0.0, 2.0), (1.0, 0.0, 0.0), 1.0), NotPositiveDefinite, "choose a2 > 0"
