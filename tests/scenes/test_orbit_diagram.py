@@ -482,4 +482,4 @@ def test_the_way_back_begins_where_the_way_there_ended():
     assert (there[-1].values[-1], back[0].values[0]) == (2.4, 2.4)
     body, E = replace(state, I22=2.4).body, state.poincare.E
     last, first = there[-1].places[-1][-1], back[0].places[0][0]
-    assert np.linalg.norm(returns(body, state_at(body, E, 3, *last), 1)[0] - first) < 1e-4
+    assert np.linalg.norm(returns(body, SuslovSection(body, E, 3).state_at(*last), 1)[0] - first) < 1e-4
