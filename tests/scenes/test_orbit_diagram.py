@@ -477,7 +477,7 @@ def test_reversals_are_where_the_rate_about_the_vertical_is_zero():
 
 def test_the_way_back_begins_where_the_way_there_ended():
     """Nothing is left out of the orbits, so that the first point of the way back is next to the last one there."""
-    state = View(SCENE, {**LIGHT, "transient": 0.0}, seen=["diagram"]).result
+    state, _ = complete(SCENE.presets[0].name, ("diagram",), **{**LIGHT, "transient": 0.0})
     there, back = (state.diagram.branches[way] for way in ("rising", "falling"))
     assert (there[-1].values[-1], back[0].values[0]) == (2.4, 2.4)
     body, E = replace(state, I22=2.4).body, state.poincare.E
