@@ -1,4 +1,4 @@
-"""The guide "A new scene": its example is a whole scene, and every part that it names is there."""
+"""The guide "A scene": its example is a whole scene, and every part that it names is there."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hess_explorer.scenes.framework.stage import Stage
 from support.wire import read
 
 PACKAGE = Path(hess_explorer.__file__).parent
-GUIDE = (PACKAGE.parent / "README.md").read_text(encoding="utf-8").split("## A new scene")[1].split("\n## ")[0]
+GUIDE = (PACKAGE / "docs/guides/scene.md").read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")

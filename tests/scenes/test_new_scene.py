@@ -1,4 +1,4 @@
-"""A scene of a system that is not in the package, written by the guide "A new scene" in app/README.md."""
+"""A scene of a system that is not in the package, written by the guide "A scene" of the documentation."""
 
 from __future__ import annotations
 

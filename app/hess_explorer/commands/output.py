@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from hess_mechanics import BodyCheck, CircleMap, Orbit, SectionCrossings, Spectrum
     from hess_mechanics.chaplygin_ball.integrable_cases import Period
     from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
-    from hess_mechanics.numerics.labelled import Labelled
+    from hess_mechanics.numerics.labelled import Result
     from hess_mechanics.suslov.scattering import Scattering
 
 __all__ = [
@@ -146,7 +146,7 @@ def quality(result: CircleMap | Cloud | Orbit | Period | Scattering | SectionCro
     }
 
 
-def columns(result: Labelled) -> dict[str, list[Any]]:
+def columns(result: Result) -> dict[str, list[Any]]:
     """Return the numbers of a result by their names: coordinates, then variables."""
     known = result.labels()
     return {name: values.tolist() for name, (_, values) in {**known.coords, **known.variables}.items()}

@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from hess_explorer.export.shown import Shown
 from hess_explorer.export.table import Block, blocks, names_of
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.labelled import Labelled, Labels
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import frozen
 
 __all__ = ["Table", "columns_of"]
 
 
 @dataclass(frozen=True, eq=False)
-class Table(Labelled):
+class Table(Result):
     """Columns of equal length by the names of the CSV: "layer", and coordinates, NaN where a layer has no such one.
 
     columns : read-only arrays; facts : link, parameters, level, errors, version, as every file says them.

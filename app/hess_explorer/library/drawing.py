@@ -15,6 +15,7 @@ from hess_explorer.export.shown import Shown
 from hess_explorer.views import theme
 from hess_explorer.views.elements import SIDE, overlay
 from hess_explorer.views.plot import Plot
+from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.labelled import Labels, Result
 
 __all__ = ["draw", "draw_result"]
@@ -61,21 +62,25 @@ def _painted(shown: Shown) -> Any:
 def draw_result(result: Result) -> Any:
     """A result of the mechanics, a panel for each variable: over its coordinate, or a map over two of them.
 
-    What has no coordinate are points of a plane, whose first two variables are the axes.
+    Without coordinates they are points of a plane, whose first two variables are the axes.
+    Raises `InvalidParameter` where there is nothing to draw.
     """
     _show_in_notebooks()
     known = result.labels()
     axes = [dims[0] for name, (dims, _) in known.coords.items() if dims == (name,)]
-    if not axes:
-        (x, (_, across)), (y, (_, up)), *_ = known.variables.items()
+    points = [(name, values) for name, (dims, values) in known.variables.items() if len(dims) == 1]
+    if not axes and len(points) > 1:
+        (x, across), (y, up), *_ = points
         return hv.Points((across, up), [_axis(known, x), _axis(known, y)]).opts(
             hv.opts.Points(size=1.5, frame_width=SIDE, frame_height=SIDE, title=type(result).__name__)
         )
     panels = [
         _panel(known, name, axes)
         for name, (dims, values) in known.variables.items()
-        if dims[-1] in axes and values.dtype.kind == "f"
+        if len(dims) in (1, 2) and dims[-1] in axes and values.dtype.kind == "f"
     ]
+    if not panels:
+        raise InvalidParameter(f"A {type(result).__name__} has no curve to draw: `to_xarray()` has its numbers.")
     return hv.Layout(panels).cols(2) if len(panels) > 1 else panels[0]
 
 

@@ -28,7 +28,7 @@ from hess_mechanics.dynamics.section import Plane, section
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy, Status
 from hess_mechanics.numerics.arguments import as_a, as_level
-from hess_mechanics.numerics.labelled import Labelled, Labels
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import nearby
 from hess_mechanics.numerics.results import Array, Cost, facts_of
 
@@ -57,7 +57,7 @@ def area_integral(states: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Period(Labelled):
+class Period(Result):
     """The period of one orbit, and how exact it is.
 
     crossings : the first two times at which it crosses the equator.

@@ -27,7 +27,7 @@ from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level
-from hess_mechanics.numerics.labelled import Labelled, Labels
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
 
@@ -47,7 +47,7 @@ _MOVES = 0.1
 
 
 @dataclass(frozen=True)
-class Transition(Labelled):
+class Transition(Result):
     """∂y(t)/∂y(0) along an orbit.
 
     times : (n,); states : (n, d); matrices : (n, d, d), row i, column j: ∂y_i(t)/∂y_j(0), in the units of the states.

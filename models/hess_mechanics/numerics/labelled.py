@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["Labelled", "Labels", "Result", "components"]
+__all__ = ["Labels", "Result", "components"]
 
 Named = Mapping[str, tuple[tuple[str, ...], NDArray[Any]]]
 """Arrays by name, each with the names of its dimensions."""
@@ -40,8 +40,8 @@ class Labels:
     facts: Mapping[str, Any] = field(default_factory=dict)
 
 
-class Labelled(ABC):
-    """A result that can be handed on; what it needs for that is imported only then."""
+class Result(ABC):
+    """A result that can be handed on and drawn; the libraries for that are imported only then."""
 
     @abstractmethod
     def labels(self) -> Labels:
@@ -79,6 +79,14 @@ class Labelled(ABC):
         frame.attrs.update(known.facts)
         return frame
 
+    def plot(self) -> Any:
+        """Return a HoloViews object: variables over a coordinate, over two, or points of a plane.
+
+        Needs the package `hess_explorer` beside this one.  Raises `InvalidParameter` where there is nothing to draw.
+        """
+        # By name, as pandas finds what plots: the mechanics know no user interface.
+        return importlib.import_module("hess_explorer.library.drawing").draw_result(self)
+
     def _repr_html_(self) -> str:
         """A table of the facts, and of the arrays with their units, for notebooks."""
         known = self.labels()
@@ -92,15 +100,6 @@ class Labelled(ABC):
             for name, (dims, values) in {**known.coords, **known.variables}.items()
         )
         return f"<table><caption>{escape(type(self).__name__)}</caption>{facts}{arrays}</table>"
-
-
-class Result(Labelled):
-    """One that has something to draw: variables over a coordinate, over two, or points of a plane."""
-
-    def plot(self) -> Any:
-        """A HoloViews object, which a notebook shows.  Needs the package `hess_explorer` beside this one."""
-        # By name, as pandas finds what plots: the mechanics know no user interface.
-        return importlib.import_module("hess_explorer.library.drawing").draw_result(self)
 
 
 def _short(value: Any) -> str:

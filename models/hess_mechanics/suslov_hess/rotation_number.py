@@ -22,7 +22,7 @@ from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_level
-from hess_mechanics.numerics.labelled import Labelled, Labels
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -125,7 +125,7 @@ def possible_part(line: ParameterLine, margin: float = 0.03) -> ParameterLine:
 
 
 @dataclass(frozen=True)
-class TorusValues(Labelled):
+class TorusValues(Result):
     """Values at tori (n,), NaN (of `locked` False) where no motion is possible.
 
     rho : rotation number; trace : |t|, ∞ beyond double range; locked : whether the map locks; possible : the mask.
