@@ -101,8 +101,8 @@ def test_the_newest_of_fifty_changes_wins_and_none_arrives_later(explorer, pause
     assert explorer.shown("h") == (2.0, 2.0)
     # Whatever were still under way would be painted before the answer to this.
     explorer.change(lambda: explorer.slide(f=0.5))
-    # The answer, and once more with what is proved.
-    assert explorer.state in (painted + 1, painted + 2)
+    # The answer, and with what is proved, which a busy machine sends in two parts.
+    assert painted < explorer.state <= painted + 3
 
 
 def test_changes_of_several_sliders_at_once_are_one_state(explorer):
