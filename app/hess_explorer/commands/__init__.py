@@ -29,7 +29,7 @@ COMMANDS: Mapping[str, str] = {
     "tube": "intervals that contain one motion, as a theorem",
     "export": "what a picture of the page shows, as CSV, JSON, PNG, SVG, PDF or a film; HTML of all",
     "code": "the lines of Python that compute and draw what the page shows",
-    "docs": "the pages of the Python packages",
+    "docs": "the documentation: tutorials, a gallery, guides, the API",
     "sweep": "a quantity over one to three parameters",
     "shot": "a picture of the page, as PNG",
     "bench": "speed beside other integrators, at the same measured error",
