@@ -115,7 +115,7 @@ export function render({ el }) {
   })
   listen({
     enter: build,
-    // What is wrong with an expression is said by "error-" and the name of the number.
+    // "error-" and the name of a number: why its expression is refused.
     texts(texts) { for (const [key, text] of Object.entries(texts)) refusals[key]?.(text) },
     controls: show,
   })

@@ -31,7 +31,7 @@ export function render({ index, el }) {
   let wanted = null
   let at = 0
   let begun = 0
-  // What ends with the step on show.
+  // These belong to the step on show and end with it.
   let guess = null
   let animation = null
   let arriving = null

@@ -45,7 +45,7 @@ export function present(on) {
   tell("presenting", on)
 }
 
-// What goes with the pointer, and is not seen while that rests; Escape leaves present mode.
+// A spot that follows the pointer and hides while it rests; Escape leaves present mode.
 export function spot() {
   const item = element("div.spot", { ariaHidden: true })
   let resting = null

@@ -146,7 +146,7 @@ export function createStage(shelf, gallery) {
     // When all of the page has its new sizes.
     presenting: () => requestAnimationFrame(placeShown),
     client(own) { wanted = own.large ?? "" },
-    // What a lesson looks at.
+    // The picture that a lesson looks at.
     look(name) {
       if (isFolded(gallery.cell(name))) tell("fold", name)
       enlarge([name])

@@ -119,7 +119,7 @@ class Layer(Generic[S]):
 
 Layers = tuple[Layer[S], ...]
 Data = Callable[[S], Any] | None
-"""What a layer shows of a state."""
+"""The data of a layer as a function of the state."""
 Within = Callable[[S, Axes], Any] | None
 """The same where it depends on the axes too."""
 

@@ -156,7 +156,7 @@ class _Point:
 
 @dataclass(frozen=True)
 class _Track:
-    """What stays the same along a branch: z holds the places (m, d) over √m, and λ over the width of its range."""
+    """The constants of a branch: z holds the places (m, d) over √m, and λ over the width of its range."""
 
     family: MapFamily
     parameter: str

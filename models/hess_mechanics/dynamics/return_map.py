@@ -19,6 +19,7 @@ from typing import Protocol
 
 import numpy as np
 
+from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.orbit import MAX_STEPS, require_finite_states, require_steps
 from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.dynamics.section import Surface
@@ -344,8 +345,7 @@ class ReturnMap:
 
     def _mirrored(self, mirror: Mirror) -> Array | None:
         """The image of the first place of a few where motions cross."""
-        for i in range(1, _TRIED):
-            shares = np.array([0.7548776662466927, 0.5698402909980532]) * i % 1.0
+        for shares in evenly(_TRIED - 1).T:
             place = np.array(
                 [low + share * (high - low) for share, (low, high) in zip(shares, self.section.window, strict=False)]
             )

@@ -371,7 +371,7 @@ def _series(
 
 
 def _errors(orbit: Orbit, found: Tube) -> list[list[tuple[Fraction, Fraction]]]:
-    """Of each component of each sample, between which bounds its error lies."""
+    """Return the bounds between which the error of each component of each sample lies."""
     if orbit.system != found.system or not np.array_equal(orbit.times[: found.times.size], found.times):
         raise InvalidParameter("A tube judges the orbit of the same system at the same times.")
 

@@ -265,7 +265,7 @@ class AndoyerSection(PoincareSection):
         )
 
     def possible(self, l: Array, x: Array) -> Mask:
-        """Whether some G ≥ |f| has an energy of at most h at (l, L/G) (n,), accurate enough for a picture."""
+        """Return where some G ≥ |f| has an energy of at most h at (l, L/G) (n,), accurate enough for a picture."""
         least = np.empty(l.size)
         least_excess(float(self.h), float(self.f), self.body.strength, *self._factors(l, x), _ROUGH, least)
         return np.asarray(least <= 0.0)

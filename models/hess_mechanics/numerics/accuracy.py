@@ -120,7 +120,7 @@ def cheapest(error: float) -> Level:
 
 
 class Computation(StrEnum):
-    """What is computed, each with its own meaning of the levels and of the promise of a `Plan`."""
+    """The kinds of computation, each with its own meaning of the levels and of the promise of a `Plan`."""
 
     ORBIT = "orbit"
     """Promised is the error where the state is O(1)."""

@@ -73,7 +73,7 @@ class Sampled(Result):
     """
 
     dims: ClassVar[tuple[str, ...]] = ("t",)
-    """Of the states; the times run along the last of them."""
+    """Dimensions of the states; the times run along the last of them."""
 
     system: str
     level: str

@@ -207,7 +207,7 @@ class SuslovSection(PoincareSection):
         return np.column_stack([psi, delta])
 
     def possible(self, psi: Array) -> Mask:
-        """Whether the energy allows γ at ψ (n,)."""
+        """Return where the energy allows γ at ψ (n,)."""
         return np.asarray(np.array(self.body.parameters[4:]) @ self._gamma(psi) < self.E)
 
     def _arcs(self, psi0: float, psi1: float) -> list[tuple[float, float]]:

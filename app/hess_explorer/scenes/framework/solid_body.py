@@ -69,7 +69,7 @@ class Solid:
 
     @property
     def caption(self) -> str:
-        """Of its picture."""
+        """The caption of its picture."""
         return _TOO_LONG if self.drawn and self.in_space() is None else self.about_shape
 
 

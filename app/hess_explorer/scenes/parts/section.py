@@ -25,6 +25,7 @@ from hess_explorer.views.layers import Axes, Range
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
+from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.section import SectionPoints, section_points
@@ -43,8 +44,6 @@ _ORBITS, _MOST_STEPS = 20, 100_000
 """Of the default section: orbits besides the one on show; Taylor steps of each."""
 _TURNS = 60.0
 """Time allowed for a crossing, in units of 1/ν times the slowness of the section."""
-_EVENLY = np.array([0.7548776662466927, 0.5698402909980532])
-"""1/ρ and 1/ρ² of the plastic number ρ³ = ρ + 1: multiples of it fill a square evenly."""
 _MOST_COMPARED = 400.0
 """Crossings of each orbit for which levels are compared."""
 
@@ -252,7 +251,7 @@ def _crossings(
 
 def _spread(poincare: PoincareSection, crossings: int, level: Level) -> SectionPoints:
     """Return the crossings of orbits spread over the window of the section, where motions cross it."""
-    ways = np.arange(1.0, 8 * _ORBITS)[:, None] * _EVENLY % 1.0
+    ways = evenly(8 * _ORBITS - 1).T
     low, high = np.array(poincare.window).T
     states, there = poincare.states_at(*(low + ways * (high - low)).T)
     return _crossings(poincare, tuple(map(tuple, states[there][:_ORBITS].tolist())), crossings, level)
