@@ -22,8 +22,17 @@ pytest.register_assert_rewrite("support", "oracle")
 SHARED, SHARED_SERVER = pytest.StashKey(), pytest.StashKey()
 
 
+def pytest_addoption(parser):
+    parser.addoption(
+        "--thorough", action="store_true", help="all cases of sampled tests, ten times as many examples of hypothesis"
+    )
+
+
 def pytest_configure(config):
     """Where several processes run the tests: compile everything once before they begin, and serve the page to all."""
+    from support.thorough import load_profile
+
+    load_profile(is_thorough=config.getoption("thorough"))
     if config.getoption("numprocesses", None) and not config.option.collectonly:
         compile_half = "from hess_explorer.server.warm import compile_all; compile_all(backwards={})"
         halves = [subprocess.Popen([sys.executable, "-c", compile_half.format(end)]) for end in (False, True)]

@@ -17,7 +17,6 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.trial import differing
 from hess_mechanics.numerics.results import frozen
 from support.board import modules_of_scenes
-from support.mechanics import PROPERTY
 
 KILOBYTE = 1024
 WAIT = 30
@@ -153,7 +152,6 @@ def keeps(cache, function, key):
         return False
 
 
-@PROPERTY
 @given(st.integers(0, 20 * KILOBYTE), st.lists(st.tuples(st.integers(0, 9), st.integers(0, 8 * KILOBYTE)), max_size=40))
 def test_what_is_held_is_what_is_counted_and_never_exceeds_the_capacity(capacity, questions):
     cache, function = ResultCache(capacity), Counted()

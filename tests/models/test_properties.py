@@ -11,10 +11,10 @@ from hess_mechanics import Plane, circle_map, ensemble, f_max, level, section, s
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import LEVELS, Status
-from support.mechanics import PROPERTY
+from support.thorough import examples
 
 SYSTEMS = systems()
-WIDE = settings(PROPERTY, suppress_health_check=[HealthCheck.too_slow])
+WIDE = settings(suppress_health_check=[HealthCheck.too_slow])
 
 
 def spread(low, high):
@@ -102,7 +102,7 @@ def test_there_and_back_returns_within_the_two_errors(motion):
     assert np.max(np.abs(back.states[0] - state)) <= error
 
 
-@settings(WIDE, max_examples=60)
+@settings(WIDE, max_examples=examples(6))
 @given(motion=motions(), more=st.lists(vectors, min_size=1, max_size=12))
 def test_an_ensemble_holds_the_orbits_one_by_one(motion, more):
     system, state, parameters, span = motion
@@ -114,7 +114,7 @@ def test_an_ensemble_holds_the_orbits_one_by_one(motion, more):
         assert np.max(np.abs(own - one.states)) <= 10 * (error + one.error_estimate)
 
 
-@settings(WIDE, max_examples=60)
+@settings(WIDE, max_examples=examples(6))
 @given(motion=motions(), normal=normals, offset=st.floats(-0.5, 0.5))
 def test_crossings_lie_on_the_plane_and_alternate(motion, normal, offset):
     system, state, parameters, span = motion

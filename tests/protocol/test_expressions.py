@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hess_explorer.protocol.expressions import FUNCTIONS, MOST, NotANumber, evaluate
+from support.thorough import examples
 
 
 @pytest.mark.parametrize(
@@ -97,7 +98,7 @@ def test_what_has_no_finite_value_says_so_at_once(text):
     assert time.perf_counter() - begun < 0.5
 
 
-@settings(max_examples=300, deadline=1000)
+@settings(max_examples=examples(30), deadline=1000)
 @given(
     st.lists(
         st.sampled_from([*"0123456789.eπ+-*/() ", "**", "pi", "1e9", *FUNCTIONS, "'", "[", "lambda", "_"]), max_size=40

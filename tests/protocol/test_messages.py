@@ -24,7 +24,6 @@ from hess_explorer.protocol.messages import (
     StopChart,
     parse,
 )
-from support.mechanics import PROPERTY
 from support.wire import read_frame
 
 KEYS = [field.name for field in dataclasses.fields(Request)]
@@ -44,7 +43,6 @@ def numbers_of(request):
             yield from (point.x, point.y)
 
 
-@PROPERTY
 @given(st.one_of(anything, st.dictionaries(st.sampled_from([*KEYS, "chart", "nobody"]), anything)))
 def test_whatever_comes_is_parsed_into_its_types(message):
     request = parse(message)
@@ -126,7 +124,6 @@ def test_a_request_about_a_chart_is_one_of_four(chart, expected):
     assert parse({"chart": chart}) == expected
 
 
-@PROPERTY
 @given(
     st.binary(),
     st.binary(),

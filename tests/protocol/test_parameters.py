@@ -24,7 +24,7 @@ from hess_explorer.protocol.parameters import (
     written,
 )
 from hess_explorer.scenes import scenes
-from support.mechanics import PROPERTY
+from support.thorough import examples
 
 SCENES = scenes()
 SCENE = SCENES["suslov-hess"]
@@ -75,7 +75,6 @@ def understood(spec, text):
 CHOICE = Choice("scene", "Scene", tuple(SCENES), next(iter(SCENES)))
 
 
-@PROPERTY
 @given(st.sampled_from(list(SCENES)), states(SPECS))
 def test_what_is_encoded_is_decoded_unchanged_and_without_a_note(name, values):
     query = encode(name, values)
@@ -105,7 +104,6 @@ def test_keys_of_nobody_are_ignored():
     assert decode("utm_source=mail&h=2.5&I22[]=7&__proto__=1&=", SPECS) == ({**DEFAULTS, "h": 2.5}, [])
 
 
-@PROPERTY
 @given(
     st.one_of(
         st.text(max_size=300),
@@ -158,7 +156,6 @@ texts = st.one_of(
 )
 
 
-@PROPERTY
 @given(st.dictionaries(st.sampled_from(list(DEFAULTS)), texts))
 def test_there_is_one_note_for_each_key_whose_value_had_to_be_changed(given_texts):
     query = urlencode(given_texts)
@@ -180,7 +177,6 @@ def test_there_is_one_note_for_each_key_whose_value_had_to_be_changed(given_text
 
 
 @every_key
-@PROPERTY
 @given(
     values=states(SPECS),
     text=st.one_of(
@@ -199,7 +195,6 @@ def test_a_key_that_makes_no_sense_leaves_the_others_alone(spec, values, text):
 
 
 @every_number
-@PROPERTY
 @given(value=st.floats(allow_nan=False, allow_infinity=False))
 def test_a_number_out_of_range_becomes_the_nearest_one_in_range(spec, value):
     admitted, note = spec.admit(value)
@@ -237,7 +232,6 @@ def test_a_link_of_another_version_is_read_and_the_version_noted(version):
 
 
 @every_key
-@PROPERTY
 @given(text=st.text("<>\"'&;=/()xyz§", min_size=3, max_size=20))
 def test_a_note_never_repeats_what_the_link_said(spec, text):
     for key in (spec.name, "v"):
@@ -248,7 +242,7 @@ def test_a_note_never_repeats_what_the_link_said(spec, text):
 
 # A scene that looks into another one has its parameters.
 @pytest.mark.parametrize("scene", [one for one in SCENES.values() if one.origin is None], ids=lambda one: one.name)
-@settings(PROPERTY, max_examples=50)
+@settings(max_examples=examples(5))
 @given(data=st.data())
 def test_what_a_scene_admits_it_admits_again_unchanged(scene, data):
     values = data.draw(states(scene.specs))
@@ -275,7 +269,6 @@ energies = st.one_of(
 )
 
 
-@PROPERTY
 @given(energies, st.one_of(st.floats(-1e4, 1e4), st.floats(-1.1, 1.1)))
 def test_f_is_inside_the_region_and_changed_only_where_it_must_be(h, f):
     edge = largest_f(h)
@@ -290,7 +283,6 @@ def test_f_is_inside_the_region_and_changed_only_where_it_must_be(h, f):
         assert abs(mpf(admitted["f"]) - mp.sign(f) * edge) <= edge * mpf(1e-15)
 
 
-@PROPERTY
 @given(st.floats(1e-3, 1e3), st.floats(-1e3, 1e3))
 def test_a_stays_within_a_hundred_and_is_changed_only_where_it_must_be(I22, I23):
     admitted, notes = SCENE.admit({**SCENE.defaults(), "I22": I22, "I23": I23})
@@ -300,7 +292,6 @@ def test_a_stays_within_a_hundred_and_is_changed_only_where_it_must_be(I22, I23)
     assert admitted["I23"] == pytest.approx(math.copysign(min(abs(I23), 100 * I22), I23))
 
 
-@PROPERTY
 @given(energies, st.floats(0.0, 1.0))
 def test_every_position_of_the_f_slider_is_possible(h, share):
     values = {**SCENE.defaults(), "h": h}

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 from hess_explorer.protocol.wire import Wire
-from support.mechanics import PROPERTY
+from support.thorough import examples
 from support.wire import read
 
 
@@ -48,7 +48,7 @@ columns = st.one_of(vectors, trees)
 sources = st.dictionaries(st.text(max_size=8), st.dictionaries(st.text(max_size=8), columns, max_size=4), max_size=4)
 
 
-@settings(PROPERTY, max_examples=50)
+@settings(max_examples=examples(5))
 @given(sources)
 def test_the_browser_reads_the_columns_that_were_put(put):
     wire = Wire()
@@ -62,7 +62,7 @@ def test_the_browser_reads_the_columns_that_were_put(put):
             assert same(column, found[source][name]), (source, name)
 
 
-@settings(PROPERTY, max_examples=50)
+@settings(max_examples=examples(5))
 @given(sources)
 def test_the_block_holds_each_array_once_and_nothing_else(put):
     wire = Wire()
@@ -136,7 +136,6 @@ def test_of_two_columns_for_one_source_the_last_count():
     assert len(block) == 12
 
 
-@PROPERTY
 @given(st.dictionaries(st.text(max_size=8), st.text(max_size=40)))
 def test_texts_arrive_as_they_are(texts):
     wire = Wire()
@@ -146,7 +145,6 @@ def test_texts_arrive_as_they_are(texts):
     assert unpack(wire)[1] == texts
 
 
-@PROPERTY
 @given(st.floats(allow_nan=False, allow_infinity=False), st.tuples(*[st.floats(-1e9, 1e9)] * 3))
 def test_the_numbers_of_controls_keep_double_precision(value, limits):
     wire = Wire()
@@ -154,7 +152,6 @@ def test_the_numbers_of_controls_keep_double_precision(value, limits):
     assert unpack(wire)[2] == {"h": [value, *limits]}
 
 
-@PROPERTY
 @given(st.dictionaries(st.text(max_size=8), st.text(max_size=40)))
 def test_the_options_of_menus_arrive_as_they_are(options):
     wire = Wire()
@@ -164,7 +161,6 @@ def test_the_options_of_menus_arrive_as_they_are(options):
     assert unpack(wire)[2] == options
 
 
-@PROPERTY
 @given(st.tuples(*[st.floats(-1e300, 1e300)] * 4))
 def test_axes_arrive_in_double_precision_and_the_last_ones_count(ends):
     wire = Wire()

@@ -47,7 +47,7 @@ from support.board import (
     shown,
     variant,
 )
-from support.mechanics import PROPERTY
+from support.thorough import examples
 from support.view import NUMBER, View
 
 # A state with other axes than the default one.
@@ -500,7 +500,6 @@ def assert_drawn(scene, values, seen, dragging):
         assert 0.0 < orbit["t"][-1] <= (closed.time if closed else admitted.get("span", math.inf)) * (1.0 + 1e-6)
 
 
-@settings(PROPERTY, max_examples=100)
 @given(data=st.data(), dragging=st.booleans())
 def test_every_admissible_state_is_computed_and_drawn_without_a_number_that_is_none(data, dragging):
     values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in HESS.specs}
@@ -511,7 +510,7 @@ def test_every_admissible_state_is_computed_and_drawn_without_a_number_that_is_n
     "scene",
     [pytest.param(scene, id=name) for name, scene in SCENES.items() if scene.origin is None and scene is not HESS],
 )
-@settings(PROPERTY, max_examples=16)
+@settings(max_examples=examples(2))
 @given(data=st.data(), dragging=st.booleans())
 def test_an_admissible_state_of_the_other_scenes_is_drawn_whole_or_refused_with_a_sentence(scene, data, dragging):
     values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in scene.specs}
@@ -524,7 +523,7 @@ def assert_errors_drawn(scene, data):
     assert_drawn(scene, values, data.draw(in_sight(scene), label="in sight"), True)
 
 
-@settings(PROPERTY, max_examples=30)
+@settings(max_examples=examples(3))
 @given(data=st.data())
 def test_the_errors_of_every_admissible_state_are_computed_and_drawn_too(data):
     assert_errors_drawn(ACCURACY, data)
@@ -539,7 +538,7 @@ def test_the_errors_of_every_admissible_state_are_computed_and_drawn_too(data):
     ],
 )
 # All of one class: what is wrong with it shows in the first states of one of the scenes (tried: no floor of the axes).
-@settings(PROPERTY, max_examples=3)
+@settings(max_examples=examples(1))
 @given(data=st.data())
 def test_the_errors_of_the_other_scenes_are_drawn_too_or_refused_with_a_sentence(scene, data):
     assert_errors_drawn(scene, data)
@@ -649,7 +648,6 @@ messages = st.one_of(
 )
 
 
-@PROPERTY
 @given(message=messages)
 def test_no_message_raises_or_makes_a_state_inadmissible(browser, message):
     browser.send(message)

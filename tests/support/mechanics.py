@@ -1,19 +1,15 @@
-"""What the tests of the mechanics share: the reference values, hypothesis settings, angles, an integrator of φ."""
+"""What the tests of the mechanics share: the reference values, angles, an integrator of φ."""
 
 import json
 from pathlib import Path
 
 import numpy as np
-from hypothesis import settings
 from scipy.integrate import solve_ivp
 
 from hess_mechanics import turning_points
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = json.loads((Path(__file__).parent / "reference.json").read_text())
-
-# The same examples in every run: what fails on one machine fails on all.
-PROPERTY = settings(deadline=None, derandomize=True, database=None, max_examples=100)
 
 
 def numbers(texts):

@@ -27,7 +27,6 @@ from hess_mechanics.chaplygin_ball.phase_cloud import (
 from hess_mechanics.chaplygin_ball.phase_cloud_density import sides
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
-from support.mechanics import PROPERTY
 from support.phase_cloud import SCENE, captions, complete
 
 BALL, SUSLOV = systems()["ball"], systems()["suslov"]
@@ -101,7 +100,6 @@ tensors = st.tuples(
 )
 
 
-@PROPERTY
 @given(state=fractions(5), tensor=tensors, D=st.fractions(0, 5, max_denominator=20))
 def test_without_a_field_the_rate_of_s_is_s_times_the_divergence(state, tensor, D):
     # That is div(v/|s|) = 0, Liouville's equation for the density 1/|s|.
@@ -111,7 +109,6 @@ def test_without_a_field_the_rate_of_s_is_s_times_the_divergence(state, tensor, 
         assert tensor[2] * v[0] + tensor[3] * v[1] == (tensor[2] * state[0] + tensor[3] * state[1]) * div
 
 
-@PROPERTY
 @given(state=fractions(5), tensor=tensors, D=st.fractions(0, 5, max_denominator=20), b=fractions(3))
 def test_on_a_principal_axis_the_divergence_is_zero_in_every_field(state, tensor, D, b):
     for system, parameters in ((SUSLOV, (*tensor[:2], 0, 0, *b)), (BALL, (*tensor[:2], 0, 0, D, *b))):

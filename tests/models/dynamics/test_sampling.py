@@ -16,7 +16,7 @@ from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.suslov_hess.equations import SYSTEM
 from hess_mechanics.suslov_hess.torus import cycles, pixels_per_unit, start_of_track, track
-from support.mechanics import PROPERTY
+from support.thorough import examples
 
 REFERENCE = level("reference")
 MOST = 6000
@@ -77,7 +77,7 @@ phases = st.floats(-math.pi, math.pi)
 shares = st.one_of(st.floats(-1.0, 1.0), st.sampled_from([-1.0, 0.0, 1.0]), st.floats(-8.0, 0.0).map(lambda e: 10.0**e))
 
 
-@settings(PROPERTY, max_examples=300)
+@settings(max_examples=examples(30))
 @given(bodies(1.0), energies, shares, phases, spans)
 def test_the_polyline_through_the_samples_is_the_curve_to_a_quarter_of_a_pixel(body, h, share, phi0, span):
     error, samples = error_of_track(body, h, share * f_max(h), phi0, span)
@@ -85,7 +85,7 @@ def test_the_polyline_through_the_samples_is_the_curve_to_a_quarter_of_a_pixel(b
     assert error < SAGITTA * ALMOST
 
 
-@settings(PROPERTY, max_examples=200)
+@settings(max_examples=examples(20))
 @given(bodies(10.0), energies, shares, phases, spans)
 def test_with_any_a_of_the_sliders_it_is_the_curve_to_half_a_pixel(body, h, share, phi0, span):
     # At f = 0, h < 1 a large a makes the motion magnify its errors by e^(2πa): no orbit to compare with.
@@ -120,7 +120,7 @@ def test_with_a_large_a_the_samples_are_close_enough_too(a):
     assert max(error for error, _ in errors) < SAGITTA * ALMOST
 
 
-@settings(PROPERTY, max_examples=60)
+@settings(max_examples=examples(6))
 @given(bodies(1.0), st.floats(1.05, 4.0), st.floats(0.0, 0.5))
 def test_limit_cycles_are_their_polylines_too(body, h, share):
     f = share * f_max(h)
@@ -205,7 +205,7 @@ random_spans = st.builds(lambda sign, e: sign * 10.0**e, st.sampled_from([-1.0, 
 
 
 @pytest.mark.parametrize("name", systems())
-@settings(PROPERTY, max_examples=60)
+@settings(max_examples=examples(6))
 @given(seed=st.integers(0, 10**6), span=random_spans, most=st.sampled_from([2, 3, 50, 6000]))
 def test_times_run_from_0_to_the_end_and_keep_their_budget(name, seed, span, most):
     system = systems()[name]

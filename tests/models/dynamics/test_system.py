@@ -21,7 +21,8 @@ from hess_mechanics.dynamics.system import in_units_of_time
 from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit, WrongScaling
 from hess_mechanics.numerics.accuracy import LEVELS, Level, Status
 from hess_mechanics.numerics.taylor_kernels import columns_of, compensated, workspace
-from support.mechanics import PROPERTY, ROOT
+from support.mechanics import ROOT
+from support.thorough import examples
 
 SYSTEMS = systems()
 every_system = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
@@ -104,7 +105,7 @@ def test_integrals_are_constant_along_the_field_symbolically(system):
 
 
 @every_system
-@settings(PROPERTY, max_examples=30)
+@settings(max_examples=examples(3))
 @given(data=st.data())
 def test_the_kernels_taylor_series_is_that_of_the_plain_field(system, data):
     size = st.floats(-2.0, 2.0)
@@ -480,7 +481,6 @@ def test_an_unknown_level_names_those_there_are():
         level("exact")
 
 
-@PROPERTY
 @given(data=st.data())
 def test_the_suslov_field_is_eulers_equation_with_the_reaction_of_the_constraint(data):
     # I ω̇ + ω × Iω = γ × b + λ e3 with ω3 = 0: rows 1 and 2 are free of λ; γ̇ = γ × ω.
@@ -497,7 +497,6 @@ def test_the_suslov_field_is_eulers_equation_with_the_reaction_of_the_constraint
     assert rates[2:] == pytest.approx(np.cross(gamma, omega), abs=1e-12)
 
 
-@PROPERTY
 @given(st.tuples(*[st.floats(-1e150, 1e150)] * 3).filter(any))
 def test_unit_vectors_have_length_one_and_keep_their_direction(gamma):
     unit, note = unit_vector(gamma)

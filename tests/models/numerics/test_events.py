@@ -12,7 +12,6 @@ from scipy.optimize import brentq
 
 from hess_mechanics.numerics import events_kernels as crossings
 from hess_mechanics.numerics.events_kernels import largest_bend, root_between, value_and_slope
-from support.mechanics import PROPERTY
 
 EPS = np.finfo(float).eps
 
@@ -80,7 +79,6 @@ WITHOUT_ROOTS = [
 with_others = pytest.mark.parametrize("others", WITHOUT_ROOTS)
 
 
-@PROPERTY
 @given(st.lists(st.integers(-1000, 1000), min_size=1, max_size=25), st.integers(-1500, 1500))
 def test_value_and_slope_are_those_of_the_polynomial(coefficients, at):
     e, s = np.array(coefficients) / 1000.0, at / 1000.0
@@ -92,7 +90,6 @@ def test_value_and_slope_are_those_of_the_polynomial(coefficients, at):
     assert abs(slope - float(exactly(derivative, s))) <= e.size * size
 
 
-@PROPERTY
 @given(st.lists(st.integers(-1000, 1000), min_size=1, max_size=25), st.floats(0.01, 3.0))
 def test_the_largest_bend_bounds_the_second_derivative(coefficients, h):
     e = np.array(coefficients) / 1000.0
@@ -298,7 +295,6 @@ def changes_of_side(e, h):
     ]
 
 
-@PROPERTY
 @given(st.lists(st.integers(-1000, 1000), min_size=2, max_size=25), st.floats(0.1, 1.5))
 def test_random_polynomials_have_the_roots_that_numpy_finds(coefficients, h):
     e = np.array(coefficients) / 1000.0
@@ -308,7 +304,6 @@ def test_random_polynomials_have_the_roots_that_numpy_finds(coefficients, h):
     assert agree(found_roots(e, h), e, roots, h)
 
 
-@PROPERTY
 @given(
     st.lists(st.integers(-3, 13), min_size=1, max_size=7, unique=True),
     st.lists(st.tuples(st.integers(-300, 1300), st.integers(500, 1000)), max_size=4),

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from hess_mechanics import HessBody, check_body
 from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite
-from support.mechanics import PROPERTY
 
 moments = st.floats(0.05, 20.0)
 shares = st.one_of(st.just(0.0), st.floats(-1.2, 1.2))
@@ -31,7 +30,6 @@ def obeys_the_triangle_inequality(inertia):
     return smallest > 0 and smallest + middle > largest
 
 
-@PROPERTY
 @given(point_masses)
 def test_any_heap_of_point_masses_is_a_body_and_its_I33_is_admissible(masses):
     m, positions = np.array(masses)[:, 0], np.array(masses)[:, 1:]
@@ -49,7 +47,6 @@ def test_any_heap_of_point_masses_is_a_body_and_its_I33_is_admissible(masses):
     assert found.I33[0] < inertia[2, 2] < found.I33[1]
 
 
-@PROPERTY
 @given(moments, moments, shares, shares)
 def test_a_scan_over_I33_finds_the_same_interval(I11, I22, share13, share23):
     root = math.sqrt(I11 * I22)
@@ -64,7 +61,6 @@ def test_a_scan_over_I33_finds_the_same_interval(I11, I22, share13, share23):
     assert all(obeys_the_triangle_inequality(tensor(I11, I22, I13, I23, I33)) for I33 in inside)
 
 
-@PROPERTY
 @given(moments, moments, shares, shares)
 def test_at_the_ends_of_the_interval_the_body_is_flat(I11, I22, share13, share23):
     root = math.sqrt(I11 * I22)
@@ -78,7 +74,6 @@ def test_at_the_ends_of_the_interval_the_body_is_flat(I11, I22, share13, share23
     assert least_second_moment(tensor(I11, I22, I13, I23, middle)) > 0
 
 
-@PROPERTY
 @given(moments, moments, shares, shares, st.integers(-200, 200))
 def test_the_answer_knows_no_axis_no_sign_and_no_unit(I11, I22, share13, share23, exponent):
     root = math.sqrt(I11 * I22)
@@ -96,7 +91,6 @@ def test_the_answer_knows_no_axis_no_sign_and_no_unit(I11, I22, share13, share23
         assert np.array(scaled.I33) / unit == pytest.approx(found.I33, rel=1e-12)
 
 
-@PROPERTY
 @given(st.floats(1e-3, 1e3), st.one_of(st.floats(-3.0, 3.0), st.floats(-1e6, 1e6)))
 def test_under_bizi1_a_body_exists_exactly_for_a_below_one(I22, a):
     # At |a| = 1 the interval shrinks like (1 − |a|)²: nearer than 1e-6 it is lost in round-off.
@@ -104,7 +98,6 @@ def test_under_bizi1_a_body_exists_exactly_for_a_below_one(I22, a):
     assert HessBody(I22, a * I22, 1.0).check.is_body == (abs(a) < 1.0)
 
 
-@PROPERTY
 @given(st.floats(1e-3, 1e3), st.floats(-0.999, 0.999))
 def test_under_bizi1_the_interval_of_I33_has_a_closed_form(I22, a):
     # y = I33/2 has g(y) = 0 at a²I22/2 and (2 − a²)I22/2; the general search knows nothing of it.

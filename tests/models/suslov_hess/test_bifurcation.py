@@ -15,7 +15,6 @@ from hess_mechanics import curve, curve_point, f_max, systems, turning_points
 from hess_mechanics.errors import InvalidParameter, ModelError, OutsideRegion, Separatrix
 from hess_mechanics.suslov_hess.bifurcation import SPECIAL_POINTS, h_min
 from oracle import turning_roots
-from support.mechanics import PROPERTY
 
 ULP = 2.0**-52
 
@@ -143,7 +142,6 @@ def check_against_multiple_precision(h, f):
     return found, oracle
 
 
-@PROPERTY
 @given(energies)
 def test_the_largest_f_is_that_of_multiple_precision(h):
     assert f_max(h) == pytest.approx(float(exact_f_max(h)), rel=2e-15)
@@ -173,7 +171,6 @@ def test_turning_points_at_the_edge_are_those_of_the_curve(h, inside):
     assert found.sine_squared == pytest.approx(float(edge["sine_squared"]), rel=opening)
 
 
-@PROPERTY
 @given(tori)
 def test_turning_points_keep_their_accuracy_everywhere_and_the_period_is_the_elliptic_integral_of_scipy(torus):
     h, share = torus
@@ -208,7 +205,6 @@ def test_next_to_the_separatrix_the_period_grows_like_a_logarithm():
     assert np.diff(periods) == pytest.approx([20 * math.log(10.0)] * 3, rel=1e-9)
 
 
-@PROPERTY
 @given(tori, st.floats(-math.pi, math.pi))
 def test_the_state_at_the_lower_turn_is_on_the_torus_and_turns_there(torus, phi):
     h, share = torus
@@ -238,7 +234,6 @@ def test_the_turning_points_do_not_know_the_sign_of_f_and_of_zero():
     )
 
 
-@PROPERTY
 @given(st.floats(0.0, 1.0, exclude_min=True).filter(lambda n: n > 1e-6))
 def test_points_of_the_curve_are_where_the_cubic_has_a_double_root(n):
     h, f = curve_point(n)

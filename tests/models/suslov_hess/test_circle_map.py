@@ -29,7 +29,8 @@ from hess_mechanics import (
 from hess_mechanics.errors import InvalidParameter, ModelError, OutsideRegion, Separatrix, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
 from hess_mechanics.suslov_hess.mode_locking import lock_boundary_end, rotation_number_window
-from support.mechanics import PROPERTY, angle_between, lifted_return
+from support.mechanics import angle_between, lifted_return
+from support.thorough import examples
 
 HESS = systems()["hess"]
 REFERENCE, STANDARD, DRAFT = level("reference"), level("standard"), level("draft")
@@ -108,7 +109,6 @@ def test_theta_is_where_the_orbit_comes_back_by_scipy_alone(a, h, f):
         assert angle_between(math.atan2(end[0], end[1]), found.theta(phi)) < 1e-8
 
 
-@settings(PROPERTY, max_examples=100)
 @given(tori, st.floats(-math.pi, math.pi))
 def test_theta_is_where_the_orbit_comes_back_on_every_torus(torus, phi):
     a, h, share = torus
@@ -158,7 +158,6 @@ def test_theta_agrees_with_multiple_precision_to_round_off(a, h, share, digits, 
 # ---- closed forms -----------------------------------------------------------------------------------------------
 
 
-@PROPERTY
 @given(st.floats(0.0, 3.0), st.one_of(st.floats(0.01, 0.9999), st.floats(-9.0, -1.0).map(lambda e: 1 - 10.0**e)))
 def test_on_the_bifurcation_curve_trace_and_rotation_number_have_closed_forms(a, n):
     # There w turns at a constant rate, and Θ is its rotation through one (limiting) period of n3.
@@ -222,7 +221,6 @@ def test_for_large_a_the_trace_grows_as_the_cycle_slides_along_w(a, near, h, f):
 # ---- structure --------------------------------------------------------------------------------------------------
 
 
-@PROPERTY
 @given(tori)
 def test_the_matrix_is_in_SU11(torus):
     found = map_of(torus)
@@ -232,14 +230,12 @@ def test_the_matrix_is_in_SU11(torus):
     assert found.trace == pytest.approx(math.exp(found.log_trace), rel=1e-12, abs=1e-300)
 
 
-@PROPERTY
 @given(tori)
 def test_returning_backwards_is_the_mirror_image_of_returning(torus):
     found = map_of(torus)
     assert angle_between(found.theta(-found.theta(PHASES)), -PHASES) < 10 * round_off(found)
 
 
-@PROPERTY
 @given(tori)
 def test_the_other_sign_of_f_turns_the_other_way(torus):
     # (w2, n1) → −(w2, n1) takes f to −f and φ to π − φ.
@@ -251,7 +247,6 @@ def test_the_other_sign_of_f_turns_the_other_way(torus):
     assert mirrored.trace == pytest.approx(there.trace, rel=1e-12, abs=1e-14)
 
 
-@PROPERTY
 @given(tori)
 def test_the_other_sign_of_a_turns_the_section_through_pi(torus):
     a, h, share = torus
@@ -260,7 +255,6 @@ def test_the_other_sign_of_a_turns_the_section_through_pi(torus):
     assert mirrored.rotation_number == pytest.approx(there.rotation_number, abs=1e-12)
 
 
-@PROPERTY
 @given(tori)
 def test_theta_goes_round_the_circle_once_and_never_back(torus):
     found = map_of(torus)
@@ -272,7 +266,6 @@ def test_theta_goes_round_the_circle_once_and_never_back(torus):
     assert steps.sum() == pytest.approx(2 * math.pi, abs=1e-8)
 
 
-@PROPERTY
 @given(tori, st.lists(st.floats(-10.0, 10.0), min_size=1, max_size=5))
 def test_angles_are_given_between_minus_pi_and_pi_with_pi_included(torus, phases):
     found = map_of(torus, DRAFT)
@@ -282,7 +275,6 @@ def test_angles_are_given_between_minus_pi_and_pi_with_pi_included(torus, phases
     assert all(-math.pi < point.phi <= math.pi for point in found.fixed_points)
 
 
-@PROPERTY
 @given(tori)
 def test_fixed_points_are_fixed_with_the_multiplier_that_a_difference_quotient_has(torus):
     found = map_of(torus)
@@ -340,7 +332,7 @@ def test_a_circle_map_cannot_be_changed():
 
 
 @pytest.mark.parametrize("name", LEVELS)
-@settings(PROPERTY, max_examples=60)
+@settings(max_examples=examples(6))
 @given(torus=tori)
 def test_every_level_keeps_its_promise_and_its_estimate_on_every_torus(name, torus):
     found, truth = map_of(torus, level(name)), map_of(torus, REFERENCE)
@@ -382,7 +374,7 @@ def test_the_rotation_number_is_the_mean_turn_of_the_integrated_lift(a, h, f):
     check_rotation_number(a, h, f)
 
 
-@settings(PROPERTY, max_examples=15)
+@settings(max_examples=examples(2))
 @given(tori.filter(lambda torus: 0.02 < abs(torus[2]) < 0.999))
 def test_the_rotation_number_is_the_mean_turn_on_every_torus(torus):
     a, h, share = torus
@@ -400,7 +392,6 @@ def test_the_rotation_number_is_the_mean_turn_of_one_long_orbit():
     assert circle_map(a, h, f, REFERENCE).rotation_number == pytest.approx(mean, abs=1.0 / returns)
 
 
-@PROPERTY
 @given(tori)
 def test_for_positive_f_the_rotation_number_is_between_minus_one_half_and_zero(torus):
     a, h, share = torus

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from hess_mechanics import HessBody, level, solve, systems
 from hess_mechanics.errors import InvalidParameter, NoField, NotPositiveDefinite
-from support.mechanics import PROPERTY
 
 SUSLOV, HESS = systems()["suslov"], systems()["hess"]
 
@@ -32,7 +31,6 @@ def angular_momentum_about_the_vertical(body, y):
     return (inertia @ [w1, w2, 0.0]) @ [g1, g2, g3]
 
 
-@PROPERTY
 @given(bodies)
 def test_derived_values_satisfy_the_conditions_of_hess(body):
     product_of_moments = body.I11 * body.I22
@@ -44,7 +42,6 @@ def test_derived_values_satisfy_the_conditions_of_hess(body):
     assert body.suslov.parameters == (body.I11, body.I22, 0.0, body.I23, 0.0, body.b2, body.b3)
 
 
-@PROPERTY
 @given(moment, product, st.lists(field_strength, min_size=3, max_size=3))
 def test_the_third_coordinate_of_the_centre_of_mass_has_b2_where_the_paper_prints_b3(I22, I23, b):
     # After `eq02`, before `bizi2` is used: the potential (b, γ) is (c, n) for every γ, c the new coordinates.
@@ -58,7 +55,6 @@ def test_the_third_coordinate_of_the_centre_of_mass_has_b2_where_the_paper_print
     assert abs(printed - c[2]) == pytest.approx(abs(I23 * (b3 - b2)) / math.hypot(I22, I23), abs=size)
 
 
-@PROPERTY
 @given(bodies, states)
 def test_the_map_to_the_reduced_variables_has_an_inverse(body, y):
     size = 1.0 + np.max(np.abs(y))
@@ -66,7 +62,6 @@ def test_the_map_to_the_reduced_variables_has_an_inverse(body, y):
     assert body.to_reduced(body.from_reduced(y)) == pytest.approx(y, abs=1e-14 * size)
 
 
-@PROPERTY
 @given(bodies_in_a_field, states)
 def test_the_change_of_units_has_an_inverse(body, y):
     assert body.from_units_of_b(body.in_units_of_b(y)) == pytest.approx(y, rel=1e-14)
@@ -80,7 +75,6 @@ def test_maps_take_whole_orbits():
         assert np.array_equal(change(many)[1, 0], change(many[1, 0]))
 
 
-@PROPERTY
 @given(bodies, states)
 def test_the_reduction_is_a_rotation_of_the_vertical(body, y):
     reduced = body.to_reduced(y)
@@ -89,7 +83,6 @@ def test_the_reduction_is_a_rotation_of_the_vertical(body, y):
     assert reduced[1] * math.hypot(1.0, body.a) == pytest.approx(y[1], rel=1e-14)  # eq02, corrected
 
 
-@PROPERTY
 @given(bodies, states)
 def test_the_suslov_field_becomes_the_reduced_field(body, y):
     # The map is linear, so that it takes the field as it takes the state.
@@ -99,7 +92,6 @@ def test_the_suslov_field_becomes_the_reduced_field(body, y):
     assert np.max(np.abs(image - expected)) < 1e-13 * size
 
 
-@PROPERTY
 @given(bodies, states)
 def test_energy_and_angular_momentum_are_those_of_suslov_divided_by_I11(body, y):
     suslov = SUSLOV.integrals(y, body.suslov.parameters)
@@ -110,7 +102,6 @@ def test_energy_and_angular_momentum_are_those_of_suslov_divided_by_I11(body, y)
     assert hess["F2"] == pytest.approx(angular_momentum_about_the_vertical(body, y) / body.I11, abs=1e-13 * size)
 
 
-@PROPERTY
 @given(bodies_in_a_field, states)
 def test_in_units_of_b_the_field_and_the_integrals_have_b_one(body, y):
     nu, sign = math.sqrt(abs(body.b)), math.copysign(1.0, body.b)
