@@ -1,8 +1,8 @@
-"""The bifurcation diagram of the Suslov–Hess case: possible (h, f), and the turning points of n3 (`Geq3`, `Geq4`).
+"""Bifurcation diagram of the Suslov–Hess case: the region of (h, f) and the turning points of n3 (`Geq3`, `Geq4`).
 
 Units b = 1.  The gyroscopic function is p(n) = 2(h+n)(1−n²) − f².  Motion needs |f| ≤ f_max(h); on the curve
 f = ±f_max the torus shrinks to a circle.
-`Geq3` is printed with h = (1−3n³)/(2n); correct is h = (1−3n²)/(2n).
+The paper prints `Geq3` with h = (1−3n³)/(2n); the correct form is h = (1−3n²)/(2n).
 """
 
 from __future__ import annotations
@@ -35,10 +35,24 @@ SPECIAL_POINTS: tuple[tuple[float, float], ...] = ((1.0, 0.0), (-1.0, 0.0))
 
 @dataclass(frozen=True)
 class TurningPoints:
-    """The turning points of n3 for given (h, f), units b = 1.
+    """Turning points of n3 on the torus (h, f), in units b = 1; the result of `turning_points`.
 
-    roots : n0 < n1 ≤ n2 of 2(h+n)(1−n²) − f²; the motion has n1 ≤ n3 ≤ n2.
-    w_squared : |w|² at n1; sine_squared : 1 − n1²; period : of n3; f_max : the largest |f| at this h.
+    Attributes
+    ----------
+    h : float
+        The energy.
+    f : float
+        The area integral.
+    roots : tuple of three floats
+        The roots n0 < n1 ≤ n2 of 2(h+n)(1−n²) − f²; the motion has n1 ≤ n3 ≤ n2.
+    w_squared : float
+        |w|² at n3 = n1.
+    sine_squared : float
+        1 − n1².
+    period : float
+        Period of n3.
+    f_max : float
+        Largest |f| at this h.
     """
 
     h: float
@@ -51,18 +65,36 @@ class TurningPoints:
 
     @property
     def initial_rho(self) -> float:
-        """ρ = |w| at n3 = n1."""
+        """The value ρ = |w| at n3 = n1."""
         return math.sqrt(self.w_squared)
 
     @property
     def final_rho(self) -> float:
-        """ρ at n3 = n2, where it is largest."""
+        """The value ρ = |w| at n3 = n2, where it is largest."""
         return math.sqrt(2.0 * max(0.0, self.h + self.roots[2]))
 
     def state_at_lower_turn(self, phi: float) -> Array:
-        """The reduced state (w1, w2, n1, n2, n3) on the section n3 = n1 with w = ρ(sin φ, cos φ), shape (5,).
+        """Return the reduced state at n3 = n1 with w = ρ(sin φ, cos φ).
 
-        There (n1, n2) is parallel to w, with the sign of f (f = 0: the limit f → 0+).
+        Parameters
+        ----------
+        phi : float
+            The angle φ in radians.
+
+        Returns
+        -------
+        ndarray of float, shape (5,)
+            The state (w1, w2, n1, n2, n3) in units b = 1.
+
+        Notes
+        -----
+        (n1, n2) is parallel to w, with the sign of f; f = 0 is the limit f → 0+.
+
+        Examples
+        --------
+        >>> from hess_mechanics import turning_points
+        >>> turning_points(1.5, 0.6).state_at_lower_turn(0.0).round(4)
+        array([ 0.    ,  1.1399,  0.    ,  0.5263, -0.8503])
         """
         s, c = math.sin(phi), math.cos(phi)
         rho = self.initial_rho
@@ -79,9 +111,34 @@ def _check_h(h: float) -> None:
 
 
 def f_max(h: float) -> float:
-    """The largest |f| of motions with this h (`Geq3`).  Raises `OutsideRegion` for h ≤ −1.
+    """Return the largest |f| of motions with the energy h.
 
+    Parameters
+    ----------
+    h : float
+        The energy, −1 < h ≤ 1e12, in units b = 1.
+
+    Returns
+    -------
+    float
+        The largest |f|, in units b = 1.
+
+    Raises
+    ------
+    OutsideRegion
+        If h ≤ −1.
+    InvalidParameter
+        If h is not finite or too large.
+
+    References
+    ----------
+    `Geq3`.
+
+    Examples
+    --------
     >>> from hess_mechanics import curve_point, f_max
+    >>> round(f_max(1.0), 6)
+    1.539601
     >>> h, f = curve_point(0.5)
     >>> abs(f_max(h) - f) < 1e-12
     True
@@ -91,35 +148,60 @@ def f_max(h: float) -> float:
 
 
 def f_max_each(h: Array) -> Array:
-    """`f_max` of each h (n,) from −1 to 1e12, where it is 0 at the bottom."""
+    """Return `f_max` of each h (n,) in [−1, 1e12]; it is 0 at h = −1."""
     out = np.empty(h.size)
     largest_f_into(h, out)
     return out
 
 
 def h_min(f: float) -> float:
-    """The least h of motions with this f, where |f| = `f_max` (`Geq3`): 1 − n² = |f|√n there, of √n the root in (0, 1].
+    """Return the least h of motions with this f (`Geq3`): |f| = `f_max` there, and 1 − n² = |f|√n with n in (0, 1].
 
-    Raises `InvalidParameter` for f that is not finite.
+    Raises `InvalidParameter` if f is not finite.
     """
     require_finite(f=f)
     low, high = 0.0, 1.0
-    # Bisection to round-off: n⁴ + |f|n − 1 grows.
+    # Bisection in √n to round-off: r⁴ + |f| r − 1 increases with r = √n.
     while low < (root := 0.5 * (low + high)) < high:
         low, high = (root, high) if root**4 + abs(f) * root < 1.0 else (low, root)
     return curve_point(high * high)[0]
 
 
 def reach(h: float, n3: Array) -> Array:
-    """The largest |f| of motions with this h that come to the heights n3 (n,); at a turning point it is |f|."""
+    """Return the largest |f| of motions with this h that reach the heights n3 (n,); it is |f| at a turning point."""
     return np.sqrt(np.maximum(0.0, 2.0 * (h + n3) * (1.0 - n3 * n3)))
 
 
 def turning_points(h: float, f: float) -> TurningPoints:
-    """Roots, period and section of the torus (h, f).
+    """Return the turning points and the period of n3 on the torus (h, f).
 
-    Raises `OutsideRegion` (h ≤ −1, |f| > f_max), `Separatrix` (f = 0, h = 1), `InvalidParameter`.
+    Parameters
+    ----------
+    h : float
+        The energy, −1 < h ≤ 1e12, in units b = 1.
+    f : float
+        The area integral, |f| ≤ f_max(h), in units b = 1.
 
+    Returns
+    -------
+    TurningPoints
+        Roots of the gyroscopic function, period, and the section at the lower turning point.
+
+    Raises
+    ------
+    OutsideRegion
+        If h ≤ −1 or |f| > f_max(h).
+    Separatrix
+        If h = 1 and f = 0.
+    InvalidParameter
+        If h or f is not finite, or h too large.
+
+    References
+    ----------
+    `Geq3`, `Geq4`.
+
+    Examples
+    --------
     >>> from hess_mechanics import turning_points
     >>> [round(float(n3), 9) for n3 in turning_points(1.5, 0.0).roots]  # 2(h + n3)(1 − n3²) = 0
     [-1.5, -1.0, 1.0]
@@ -141,10 +223,31 @@ def turning_points(h: float, f: float) -> TurningPoints:
 
 
 def curve_point(n: float) -> tuple[float, float]:
-    """The point (h, f ≥ 0) of the bifurcation curve (`Geq3`, corrected) at n3 = n.
+    """Return the point of the bifurcation curve at n3 = n, on the branch f ≥ 0.
 
-    Raises `InvalidParameter` unless 0 < n ≤ 1.
+    Parameters
+    ----------
+    n : float
+        The constant value of n3, 0 < n ≤ 1.
 
+    Returns
+    -------
+    h : float
+        The energy, in units b = 1.
+    f : float
+        The area integral, in units b = 1.
+
+    Raises
+    ------
+    InvalidParameter
+        If n is not in (0, 1].
+
+    References
+    ----------
+    `Geq3`, with the correction h = (1 − 3n²)/(2n).
+
+    Examples
+    --------
     >>> from hess_mechanics import curve_point
     >>> h, f = curve_point(0.5)  # (1 − 3/4)/1, (1 − 1/4)/√½
     >>> h, round(f * 2**-0.5, 12)
@@ -156,11 +259,38 @@ def curve_point(n: float) -> tuple[float, float]:
 
 
 def curve(h_end: float, points: int = 200) -> Array:
-    """The branch f ≥ 0 of the bifurcation curve (`Geq3`) from (−1, 0) to h = h_end, shape (points, 2).
+    """Return the bifurcation curve from (−1, 0) to h = h_end, on the branch f ≥ 0.
 
+    Parameters
+    ----------
+    h_end : float
+        The last energy, −1 < h_end ≤ 1e12, in units b = 1.
+    points : int, optional
+        Number of points.
+
+    Returns
+    -------
+    ndarray of float, shape (points, 2)
+        The points (h, f), read-only.
+
+    Raises
+    ------
+    OutsideRegion
+        If h_end ≤ −1.
+    InvalidParameter
+        If h_end is not finite or too large.
+
+    References
+    ----------
+    `Geq3`.
+
+    Examples
+    --------
     >>> from hess_mechanics import curve
-    >>> curve(2.0, 100).shape[1]
-    2
+    >>> curve(2.0, 3).round(4)
+    array([[-1.    ,  0.    ],
+           [-0.0886,  0.8092],
+           [ 2.    ,  2.0555]])
     """
     _check_h(h_end)
     n_end = 2.0 / (2.0 * h_end + 2.0 * math.sqrt(h_end * h_end + 3.0))

@@ -2,8 +2,8 @@
 """Kernels of `bifurcation`: the largest f, the roots of the gyroscopic function, and the period of n3, units b = 1.
 
 The roots of p(n) = 2(h+n)(1−n²) − f² come from its expansions about its two extrema, p(n_c+s) = p_c ∓ 2D s² − 2s³
-with D = √(h²+3): every gap between roots then keeps its relative accuracy, however close (h, f) is to the bifurcation
-curve, to the separatrix (1, 0) or to the bottom (−1, 0).
+with D = √(h²+3).  The gaps between the roots then keep their relative accuracy, however close (h, f) is to the
+bifurcation curve, to the separatrix (1, 0) or to the bottom (−1, 0).
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ __all__ = ["f_max_and_roots", "largest_f", "largest_f_into", "period_from_gaps",
 
 @inner
 def upper_extremum(h):
-    """(D, h+n_c, 1−n_c) at the maximum n_c of p, without cancellation for any h ≥ −1."""
+    """Return (D, h+n_c, 1−n_c) at the maximum n_c of p, without cancellation for any h ≥ −1."""
     e = h + 1.0
     D = math.sqrt(h * h + 3.0)
     return D, e * (e + D) / (e + 2.0 + D), 2.0 * e / (e + 2.0 + D)
@@ -25,35 +25,35 @@ def upper_extremum(h):
 
 @inner
 def largest_f(h):
-    """f_max(h) = √(2(h+n_c)(1−n_c²))."""
+    """Return f_max(h) = √(2(h+n_c)(1−n_c²))."""
     _, k, d = upper_extremum(h)
     return math.sqrt(2.0 * k * d * (2.0 - d))
 
 
 @kernel
 def largest_f_into(h, out):
-    """f_max of each h[i] ≥ −1 into out[i]."""
+    """Store f_max of each h[i] ≥ −1 in out[i]."""
     for i in range(h.size):
         out[i] = largest_f(h[i])
 
 
 @inner
 def roots(h, f):
-    """The roots of p(n) = 2(h+n)(1−n²) − f² and their differences, free of cancellation, for |f| ≤ f_max(h).
+    """Return the roots of p(n) = 2(h+n)(1−n²) − f² and their differences, without cancellation, for |f| ≤ f_max(h).
 
-    Returns (n0, n1, n2, g10, g21, g20, w1, v1): n0 ≤ n1 ≤ n2; gaps g_ij = n_i − n_j;
+    The result is (n0, n1, n2, g10, g21, g20, w1, v1): roots n0 ≤ n1 ≤ n2; gaps g_ij = n_i − n_j;
     w1 = h + n1 (half of |w|² at the lower turning point) and v1 = 1 − n1².
     """
     D, k, d = upper_extremum(h)
     fm = math.sqrt(2.0 * k * d * (2.0 - d))
     above = max(0.0, (fm - abs(f)) * (fm + abs(f)))
-    # The minimum n_m = (−h−D)/3: p(n_m) = −below, with h+n_m and 1+n_m free of cancellation.
+    # The minimum n_m = (−h−D)/3: p(n_m) = −below, with h+n_m and 1+n_m computed without cancellation.
     n_m = (-h - D) / 3.0
     if 2.0 * h + D > 1.0:
         h_plus = (h - 1.0) * (h + 1.0) / (2.0 * h + D)
     else:
         h_plus = (2.0 * h - D) / 3.0
-    # D − h, which cancels for large h.
+    # D − h would cancel for large h.
     D_less_h = 3.0 / (D + h) if h > 0.0 else D - h
     one_plus = 2.0 * (1.0 - h) / (3.0 + D_less_h)
     below = max(0.0, f * f - 2.0 * h_plus * one_plus * (1.0 - n_m))
@@ -77,8 +77,9 @@ def roots(h, f):
         one_minus = min(2.0, 1.0 + h)
         n1 = -min(1.0, h)
     elif min(w1 / k, u1) < 0.1:
-        # Near the pole or the rim |w| = 0 the smaller of h+n1 and 1+n1 has cancelled.  With v = 1−n1 it
-        # solves x² ± (1−h)x = f²/2v, refined by Newton on p; this is never near the curve, a double root of p.
+        # Near the pole or the circle |w| = 0 the smaller of h+n1 and 1+n1 has lost digits.  With v = 1−n1 it
+        # solves x² ± (1−h)x = f²/2v; Newton's method on p refines it.  The bifurcation curve, where p has a double
+        # root, is far away.
         v = one_minus
         x = f * f / v
         root = math.sqrt((1.0 - h) * (1.0 - h) + 2.0 * x)
@@ -106,7 +107,7 @@ def roots(h, f):
 
 @inner
 def period_from_gaps(g10, g20):
-    """The period of n3, T = 2√2/√(n2−n0) K(m), by the arithmetic–geometric mean of 1 and √(1−m)."""
+    """Return the period of n3, T = 2√2/√(n2−n0) K(m), by the arithmetic–geometric mean of 1 and √(1−m)."""
     x = 1.0
     y = math.sqrt(g10 / g20)
     for _ in range(60):
@@ -118,10 +119,10 @@ def period_from_gaps(g10, g20):
 
 @kernel
 def f_max_and_roots(h, f):
-    """f_max(h), `roots(h, f)` and the period of n3 (∞ on the separatrix); zeros for |f| > f_max."""
+    """Return f_max(h), `roots(h, f)` and the period of n3 (∞ on the separatrix); zeros if |f| > f_max."""
     fm = largest_f(h)
     if not abs(f) <= fm * (1.0 + 1e-15):
         return fm, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0
     found = roots(h, f)
-    # The gap n1 − n0 is 0 at the separatrix only, where the period is infinite.
+    # The gap n1 − n0 is 0 only on the separatrix, where the period is infinite.
     return fm, found, period_from_gaps(found[3], found[5]) if found[3] > 0.0 else math.inf

@@ -1,14 +1,14 @@
-"""The circle map Θ(φ) of the Suslov–Hess torus (figure 7) as one matrix of SU(1,1).
+"""Circle map Θ(φ) of a Suslov–Hess torus (figure 7), as one matrix of SU(1,1).
 
 Section n3 = n3^(1) (the lower turning point), w = |w|(sin φ, cos φ), units b = 1.  The equation of φ on the torus
-(`eq0003`) is a Riccati equation in e^{iφ}; with (w, n) a solution of the reduced equations (`eq01`) at a = 0 and
+(`eq0003`) is a Riccati equation in e^{iφ}.  With a solution (w, n) of the reduced equations (`eq01`) at a = 0 and
 W = w2 + i w1 it becomes the linear system
 
     A' = −(ia/2)·conj(W B),   B' = −(ia/2)·conj(W A),   A(0) = 1, B(0) = 0,
 
-which is regular also where h + n3 → 0.  From the lower to the upper turning point it gives U = (A, B)·e^{iχ/2}, χ the
-angle through which W turns; time reversal with φ → −φ gives the way back, so that the whole map
-z → (αz+β)/(β̄z+ᾱ), z = e^{iφ}, is
+which is regular also where h + n3 → 0.  Integration from the lower to the upper turning point gives
+U = (A, B)·e^{iχ/2}, where χ is the angle through which W turns.  Time reversal with φ → −φ gives the second half, and
+the complete map is z → (αz+β)/(β̄z+ᾱ) with z = e^{iφ} and
 
     α = A² − conj(B)²,   β = 2i Im(AB).
 
@@ -50,9 +50,9 @@ _MAX_STEPS = 200_000
 
 
 def matrices(h: Array, f: Array, a: float, level: Accuracy) -> Array:
-    """(Re α, Im α, Im β, L, ζ, steps), see `monodromy`, for each torus (h[i], f[i]); shape (n, 6).
+    """Return the rows (Re α, Im α, Im β, L, ζ, steps) of the tori (h[i], f[i]), shape (n, 6); see `monodromy`.
 
-    All (h[i], f[i]) must be possible, |f| ≤ f_max(h).  Raises `WorkLimit`.
+    Every (h[i], f[i]) must satisfy |f| ≤ f_max(h).  Raises `WorkLimit`.
     """
     level = as_level(level)
     out = np.empty((h.size, 6))
@@ -63,9 +63,10 @@ def matrices(h: Array, f: Array, a: float, level: Accuracy) -> Array:
 
 
 def discriminants(rows: Array) -> Array:
-    """(Re α)² − |det| = (Im β)² − (Im α)², times e^{−2L}, from the rows of `matrices`; positive where the map locks.
+    """Return ((Re α)² − |det|) e^{−2L} from the rows of `matrices`; it is positive where the map locks.
 
-    The first form is used where Im α and Im β are large and nearly equal, and would cancel.
+    It equals (Im β)² − (Im α)².  The first form is used where Im α and Im β are large and nearly equal, because their
+    difference loses digits there.
     """
     re, im, im_beta, log_scale, *_ = np.moveaxis(rows, -1, 0)
     unit = np.exp(-log_scale)
@@ -75,7 +76,7 @@ def discriminants(rows: Array) -> Array:
 
 
 def rotation_numbers_of(rows: Array) -> Array:
-    """ρ from the rows of `matrices`: an integer where the map locks, otherwise k + arccos(±Re α)/π; shape (n,)."""
+    """Return ρ (n,) from the rows of `matrices`: an integer where the map locks, otherwise k + arccos(±Re α)/π."""
     re, _, _, _, zeta, _ = rows.T
     discriminant = discriminants(rows)
     k = np.floor(zeta / np.pi)
@@ -90,30 +91,66 @@ _EVEN = np.linspace(-math.pi, math.pi, 193)
 
 @dataclass(frozen=True)
 class FixedPoint:
-    """A fixed point of Θ, that is, a limit cycle.  The multiplier itself may exceed double range."""
+    """Fixed point of a circle map, that is, a limit cycle of the flow on the torus.
+
+    Attributes
+    ----------
+    phi : float
+        The angle φ of the fixed point, in radians.
+    log_multiplier : float
+        Natural logarithm of the multiplier, which itself may exceed the range of doubles.
+    """
 
     phi: float
     log_multiplier: float
 
     @property
     def stable(self) -> bool:
-        """Whether the limit cycle attracts."""
+        """True if the limit cycle attracts."""
         return self.log_multiplier < 0.0
 
     @property
     def multiplier(self) -> float:
-        """dΘ/dφ at the fixed point; ∞ where it exceeds double range."""
+        """The multiplier dΘ/dφ at the fixed point; ∞ beyond the range of doubles."""
         return math.exp(self.log_multiplier) if self.log_multiplier < 709.0 else math.inf
 
 
 @dataclass(frozen=True)
 class CircleMap(Result):
-    """Θ for one torus (a, h, f), units b = 1, angles in radians.
+    """Circle map Θ of one torus (a, h, f), in units b = 1; the result of `circle_map`.
 
-    matrix : (Re α, Im α, Im β), each times e^{−log_scale}.
-    kind : "elliptic" (no cycle; conjugate to a rotation), "parabolic", "hyperbolic" (two cycles).
-    trace, log_trace : |2 Re α| and its logarithm (the trace is ∞ beyond double range).
-    rotation_number : lifted, turns per return; fixed_points : stable first.
+    Attributes
+    ----------
+    a : float
+        The coupling, a = I23/I22.
+    h : float
+        The energy.
+    f : float
+        The area integral.
+    level : str
+        Name of the accuracy level.
+    matrix : tuple of three floats
+        (Re α, Im α, Im β), each times e^{−log_scale}.
+    log_scale : float
+        Natural logarithm of the common factor of `matrix`.
+    kind : str
+        "elliptic" (no limit cycle; conjugate to a rotation), "parabolic" or "hyperbolic" (two limit cycles).
+    trace : float
+        |2 Re α|; ∞ beyond the range of doubles.
+    log_trace : float
+        Natural logarithm of `trace`.
+    rotation_number : float
+        Rotation number ρ of the lifted map, in turns per return.
+    fixed_points : tuple of FixedPoint
+        The stable fixed point, then the unstable one; one for a parabolic map, none for an elliptic map.
+    period : float
+        Period of n3, that is, the time between two returns.
+    status : Status
+        State of the computation, see `Status`.
+    error_estimate : float
+        Estimated error of Θ in radians and of the trace (relative if the trace exceeds 1).
+    cost : Cost
+        Steps and time of the computation.
     """
 
     a: float
@@ -133,11 +170,48 @@ class CircleMap(Result):
     cost: Cost
 
     def theta(self, phi: Array | Sequence[float]) -> Array:
-        """Θ(φ) in (−π, π]; same shape as φ."""
+        """Return Θ(φ).
+
+        Parameters
+        ----------
+        phi : array_like of float
+            Angles φ in radians.
+
+        Returns
+        -------
+        ndarray of float, same shape as phi
+            Angles in (−π, π].
+
+        Examples
+        --------
+        >>> from hess_mechanics import circle_map
+        >>> found = circle_map(a=0.5, h=1.5, f=0.6, level="standard")
+        >>> found.theta([0.0, 1.0]).round(4)
+        array([-1.8468, -1.7131])
+        """
         return _theta(self.matrix, np.asarray(phi, float))
 
     def iterate(self, phi: float, count: int) -> Array:
-        """φ, Θ(φ), …, Θ^count(φ); shape (count + 1,)."""
+        """Return the orbit φ, Θ(φ), …, Θ^count(φ).
+
+        Parameters
+        ----------
+        phi : float
+            First angle in radians.
+        count : int
+            Number of iterations.
+
+        Returns
+        -------
+        ndarray of float, shape (count + 1,)
+            Angles in [−π, π].
+
+        Examples
+        --------
+        >>> from hess_mechanics import circle_map
+        >>> circle_map(a=0.5, h=1.5, f=0.6, level="standard").iterate(0.0, 3).round(4)
+        array([ 0.    , -1.8468, -1.9509, -1.9569])
+        """
         orbit = np.empty(count + 1)
         orbit[0] = math.remainder(phi, 2 * math.pi)
         for i in range(count):
@@ -145,7 +219,13 @@ class CircleMap(Result):
         return frozen(orbit)
 
     def labels(self) -> Labels:
-        """Θ over φ, continued without jumps."""
+        """Return the graph of Θ with names, units and coordinates.
+
+        Returns
+        -------
+        Labels
+            Θ over φ, continued without jumps.
+        """
         phi, theta = self.graph
         return Labels(
             {"φ": (("φ",), phi)},
@@ -165,15 +245,16 @@ class CircleMap(Result):
 
     @property
     def alpha_beta(self) -> tuple[complex, complex]:
-        """α and β of the map; at most e^700 times `matrix`, where they are beyond double range."""
+        """The coefficients α and β of the map, with a factor of at most e^700 to stay within the range of doubles."""
         re, im, beta = (value * math.exp(min(self.log_scale, 700.0)) for value in self.matrix)
         return complex(re, im), complex(0.0, beta)
 
     @cached_property
     def graph(self) -> tuple[Array, Array]:
-        """φ (n,) from −π to π and Θ (n,), continued without jumps, close together on the curve also where it is steep.
+        """Angles φ (n,) from −π to π and values Θ (n,), continued without jumps, dense on steep parts of the curve.
 
-        The reversor gives the inverse, Θ⁻¹(ψ) = −Θ(−ψ): values at even φ and at even Θ are joined.
+        The points are even values of φ and the preimages of even values of Θ.  The reversor gives the inverse,
+        Θ⁻¹(ψ) = −Θ(−ψ).
         """
         phi = np.unique(np.concatenate([_EVEN, -self.theta(-_EVEN)]))
         return frozen(phi), frozen(np.unwrap(self.theta(phi)))
@@ -196,7 +277,7 @@ _PROBES = np.linspace(-math.pi, math.pi, 32, endpoint=False)
 
 
 def _difference(m: Array, n: Array) -> float:
-    """The difference of two computed maps, rows of `matrices`: in Θ over 32 phases, and in the trace."""
+    """Return the difference of two maps, rows of `matrices`: the larger of those in Θ (32 phases) and the trace."""
     turned = _theta((m[0], m[1], m[2]), _PROBES) - _theta((n[0], n[1], n[2]), _PROBES)
     angle = float(np.max(np.abs(np.angle(np.exp(1j * turned)))))
     other = m[0] - n[0] * math.exp(n[3] - m[3])
@@ -204,21 +285,21 @@ def _difference(m: Array, n: Array) -> float:
 
 
 def _weight(m: Array) -> float:
-    """The factor from an error of Re α e^{−L} to one of the trace, relative where the trace exceeds 1."""
+    """Return the factor from an error of Re α e^{−L} to one of the trace, which is relative if the trace exceeds 1."""
     scale = math.exp(min(m[3], 700.0))
     return scale / max(1.0, 2 * abs(float(m[0])) * scale)
 
 
 def _rounding(m: Array) -> float:
-    """The round-off of the trace where its large parts cancel, as below the separatrix for large a."""
+    """Return the round-off of the trace from the cancellation of large terms, as below the separatrix for large a."""
     return 2 * 8e-16 * (math.hypot(m[0], m[1]) + abs(float(m[2]))) * _weight(m) if m[0] else 0.0
 
 
 def neighbours(h: Array, f: Array, edge: Array) -> tuple[Array, Array]:
     """Return tori (h, f), each (n,), moved by three units in the last place, as `measured.nearby` moves states.
 
-    f moves into the region, which ends at the `edge` f_max(h) (n,); h moves into it near that edge, otherwise away from
-    the separatrix.
+    f moves into the region, which ends at the `edge` f_max(h) (n,).  h moves into the region near that edge, otherwise
+    away from the separatrix.
     """
     upwards = (h >= 1.0) | (np.abs(f) > 0.5 * edge)
     moved = h + np.where(upwards, 3.0, -3.0) * np.spacing(np.abs(h))
@@ -226,14 +307,48 @@ def neighbours(h: Array, f: Array, edge: Array) -> tuple[Array, Array]:
 
 
 def circle_map(a: float, h: float, f: float, level: Accuracy) -> CircleMap:
-    """The circle map of the torus (h, f) at this a.
+    """Return the circle map of the torus (h, f).
 
-    The error estimate is the difference, in Θ and in the trace (relative where that exceeds 1), from a second run with
-    a hundredth of the tolerance, of one of its `neighbours`: see `numerics.measured`.
-    Raises `OutsideRegion`, `Separatrix`, `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    a : float
+        The coupling a = I23/I22, |a| ≤ 1e6.
+    h : float
+        The energy h > −1, in units b = 1.
+    f : float
+        The area integral, |f| ≤ f_max(h), in units b = 1.
+    level : Level or str
+        Accuracy level or its name, see `level`.
 
+    Returns
+    -------
+    CircleMap
+        The map with its trace, rotation number and fixed points.
+
+    Raises
+    ------
+    OutsideRegion
+        If no motion has this h and f.
+    Separatrix
+        If h = 1 and f = 0.
+    InvalidParameter
+        If a parameter is not finite, or |a| or h is too large.
+    WorkLimit
+        If the torus needs too many steps.
+
+    Notes
+    -----
+    The error estimate compares the map with a second run at a hundredth of the tolerance on one of the `neighbours` of
+    the torus, see `numerics.measured`.
+
+    References
+    ----------
+    `eq0003`, figure 7.  The form as a Möbius map is not in the paper, see models/README.md.
+
+    Examples
+    --------
     >>> from hess_mechanics import circle_map, level
-    >>> found = circle_map(a=0.0, h=1.5, f=0.6, level=level("precise"))  # without coupling nothing locks
+    >>> found = circle_map(a=0.0, h=1.5, f=0.6, level=level("precise"))  # without coupling the map does not lock
     >>> found.kind, len(found.fixed_points)
     ('elliptic', 0)
     """

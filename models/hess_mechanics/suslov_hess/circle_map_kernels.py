@@ -1,5 +1,5 @@
 # mypy: allow-untyped-defs
-"""Kernels of `circle_map`: the matrix of SU(1,1) of one torus or many, and Θ."""
+"""Kernels of `circle_map`: the SU(1,1) matrix of one torus or of many, and the map Θ."""
 
 from __future__ import annotations
 
@@ -20,7 +20,10 @@ __all__ = ["field", "matrices_into", "monodromy", "theta_of"]
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    """`eq01` at a = 0 and the linear system of `circle_map`; A = a1 + i a2, B = b1 + i b2, p = (a/2, b)."""
+    """Return the right-hand side of `eq01` at a = 0 and of the linear system of `circle_map`.
+
+    A = a1 + i a2, B = b1 + i b2, p = (a/2, b).
+    """
     w1, w2, _, _, _, a1, a2, b1, b2 = y
     half_a, b = p
     return (
@@ -40,9 +43,9 @@ _evaluate = evaluation(9)
 
 @part
 def monodromy(h, f, a, order, tolerance, max_steps):
-    """(Re α, Im α, Im β, L, ζ, steps): the first three times e^{−L}; ζ is arg α, lifted.
+    """Return (Re α, Im α, Im β, L, ζ, steps); the first three are times e^{−L}, and ζ is the lift of arg α.
 
-    A, B are rescaled as they grow, so that a and h may be large; steps = −1: too many.
+    A and B are rescaled as they grow, so that a and h may be large.  steps = −1 means that the step limit was reached.
     """
     _, n1, _, g10, _, g20, w_low, v_low = roots(h, f)
     half_period = 0.5 * period_from_gaps(g10, g20)
@@ -78,7 +81,7 @@ def monodromy(h, f, a, order, tolerance, max_steps):
         steps += 1
     A = complex(c[0, 5], c[0, 6])
     B = complex(c[0, 7], c[0, 8])
-    # W starts real and positive and turns by less than π on the way up: the principal value.
+    # W starts real and positive and turns by less than π on the way up, so the principal value is right.
     chi = math.atan2(c[0, 0], c[0, 1])
     turn = complex(math.cos(0.5 * chi), math.sin(0.5 * chi))
     A *= turn
@@ -88,14 +91,14 @@ def monodromy(h, f, a, order, tolerance, max_steps):
     ratio = (B.conjugate() / A) ** 2
     zeta = 2.0 * (arg_A + 0.5 * chi) + math.atan2(-ratio.imag, 1.0 - ratio.real)
     if f == 0.0 and h < 1.0:
-        # The limit f → 0+, in which Re α vanishes: its two parts are too large to cancel by themselves.
+        # In the limit f → 0+ Re α vanishes, but its two terms are too large to cancel exactly.
         return 0.0, alpha.imag, beta, 2.0 * log_scale, -0.5 * math.pi, float(steps)
     return alpha.real, alpha.imag, beta, 2.0 * log_scale, zeta, float(steps)
 
 
 @kernel
 def matrices_into(h, f, a, order, tolerance, max_steps, out):
-    """`monodromy` of each torus (h[i], f[i]) into out[i]."""
+    """Store `monodromy` of each torus (h[i], f[i]) in out[i]."""
     for i in range(h.size):
         row = monodromy(h[i], f[i], a, order, tolerance, max_steps)
         for j in range(6):
@@ -104,7 +107,7 @@ def matrices_into(h, f, a, order, tolerance, max_steps, out):
 
 @kernel
 def theta_of(re, im, im_beta, phi, out):
-    """Θ(φ) = 2 arg(αz + β) − φ with z = e^{iφ}, in (−π, π]."""
+    """Store Θ(φ) = 2 arg(αz + β) − φ, z = e^{iφ}, in (−π, π], in out."""
     for i in range(phi.size):
         c = math.cos(phi[i])
         s = math.sin(phi[i])

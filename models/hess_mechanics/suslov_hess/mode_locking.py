@@ -39,14 +39,14 @@ _MAX_A_OF_BOUNDARY = 1e5
 
 
 def _locked(h: Array, f: Array, a: float, level: Level) -> Array:
-    """(Im β² − Im α²)/(Im β² + Im α²): positive where the map is locked, 0 where |t| = 2, bounded and smooth."""
+    """Return (Im β² − Im α²)/(Im β² + Im α²): positive where the map is locked, 0 where |t| = 2, bounded and smooth."""
     _, im, im_beta, *_ = matrices(h, f, a, level).T
     locked: Array = (im_beta - im) * (im_beta + im) / (im_beta**2 + im**2)
     return locked
 
 
 def _rising_roots(function: Callable[[Array], Array], low: Array, high: Array) -> Array:
-    """The roots where the components of `function` rise, by regula falsi (Illinois) on all of them at once."""
+    """Return the roots at which the components of `function` increase, by the Illinois variant of regula falsi."""
     f_low, f_high = function(low), function(high)
     side = np.zeros(low.size)
     x = low
@@ -65,15 +65,46 @@ def _rising_roots(function: Callable[[Array], Array], low: Array, high: Array) -
 
 
 def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float] | Array, level: Accuracy) -> Array:
-    """ρ on the grid h × f, shape (f.size, h.size), read-only; NaN where there is no torus, |f| > f_max(h).
+    """Return the rotation number ρ on a grid of (h, f).
 
-    So `np.isfinite` of the result is the mask of what is possible.  At the separatrix, (1, 0), which has no return, it
-    is the limit f → 0 at h = 1.  ρ is odd in f, so only |f| is computed.  Two threads share the points.
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    a : float
+        The coupling a = I23/I22.
+    h : array_like of float, shape (m,)
+        Energies, −1 < h ≤ 1e12, in units b = 1.
+    f : array_like of float, shape (n,)
+        Values of the area integral, in units b = 1.
+    level : Level or str
+        Accuracy level or its name, see `level`.
 
-    >>> from hess_mechanics import level, rotation_number_grid
-    >>> rotation_number_grid(0.5, [0.0, 1.5], [0.2, 0.4, 0.6], level("standard")).shape
-    (3, 2)
+    Returns
+    -------
+    ndarray of float, shape (n, m)
+        Values ρ in turns per return, read-only; NaN where there is no torus, |f| > f_max(h).
+
+    Raises
+    ------
+    InvalidParameter
+        If a value is not finite, or a or h out of range.
+    WorkLimit
+        If the grid has more than a million points, or a torus needs too many steps.
+
+    Notes
+    -----
+    `np.isfinite` of the result is the mask of the region.  The separatrix (1, 0) has no return: its value is the limit
+    f → 0 at h = 1.  ρ is odd in f, so only |f| is computed.  Two threads share the points.
+
+    References
+    ----------
+    `eq0003`.
+
+    Examples
+    --------
+    >>> from hess_mechanics import rotation_number_grid
+    >>> rotation_number_grid(0.5, [0.0, 1.5], [0.2, 0.6], "standard").round(4)
+    array([[-0.4427,  0.    ],
+           [-0.3426,  0.    ]])
     """
     level = as_level(level)
     hs, fs = np.asarray(h, float), np.asarray(f, float)
@@ -82,7 +113,7 @@ def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float
 
 
 def _filled_grid(a: float, hs: Array, fs: Array, level: Level) -> Array:
-    """`rotation_number_grid`, with the value at the edge of the region (same h) outside it."""
+    """Return `rotation_number_grid`, with the value at the edge of the region (same h) outside it."""
     check_a(a)
     if hs.ndim != 1 or fs.ndim != 1 or hs.size * fs.size > 1_000_000:
         raise WorkLimit("A grid has at most a million points on two axes: choose fewer.")
@@ -96,12 +127,12 @@ def _filled_grid(a: float, hs: Array, fs: Array, level: Level) -> Array:
     F[(F == 0.0) & (H == 1.0)] = 1e-12
     out = np.empty(H.size)
 
-    # Near the separatrix the motion is slow and the saddle magnifies every error.
+    # Near the separatrix the motion is slow and the saddle magnifies errors.
     near = np.abs(H - 1.0) + F < 1e-3
     exact = level.tightened().tightened()
 
     def part(i: int) -> None:
-        # Every second point, so that both threads get their share of slow ones.
+        # Every second point, so that both threads get equally many slow points.
         own = np.arange(H.size) % 2 == i
         for points, chosen in ((own & ~near, level), (own & near, exact)):
             if points.any():
@@ -113,13 +144,34 @@ def _filled_grid(a: float, hs: Array, fs: Array, level: Level) -> Array:
 
 
 def trace_on_curve(a: float, n: float) -> float:
-    """The trace t on the bifurcation curve at n3 = n: 2cos(π√(n²(1+a²)−a²)/√(1+3n²)), cosh if the root is imaginary.
+    """Return the trace |t| on the bifurcation curve at n3 = n.
 
-    ∞ beyond double range.  Raises `InvalidParameter` (a or n not finite, |a| too large).
+    Parameters
+    ----------
+    a : float
+        The coupling a = I23/I22, |a| ≤ 1e6.
+    n : float
+        The constant value of n3 on the curve.
 
+    Returns
+    -------
+    float
+        2 cos(π√(n²(1+a²)−a²)/√(1+3n²)), with cosh for an imaginary root; ∞ beyond the range of doubles.
+
+    Raises
+    ------
+    InvalidParameter
+        If a or n is not finite, or |a| is too large.
+
+    References
+    ----------
+    `Geq3`.  The limit of the trace is not in the paper, see models/README.md.
+
+    Examples
+    --------
     >>> from hess_mechanics import trace_on_curve
-    >>> trace_on_curve(0.0, 0.5) <= 2.0  # without coupling the map is a rotation
-    True
+    >>> round(trace_on_curve(0.5, 0.5), 6)
+    1.657747
     """
     check_a(a)
     require_finite(n=n)
@@ -131,16 +183,36 @@ def trace_on_curve(a: float, n: float) -> float:
 
 
 def lock_boundary_end(a: float) -> float:
-    """h* = (1−2a²)/(2|a|√(1+a²)), where the lock boundary meets the bifurcation curve; ∞ for a = 0 (no lock zone)."""
+    """Return h* = (1−2a²)/(2|a|√(1+a²)), the end of the lock boundary on the bifurcation curve; ∞ for a = 0."""
     a = abs(a)
     return math.inf if a == 0 else (1 - 2 * a * a) / (2 * a * math.hypot(1.0, a))
 
 
 def lock_boundary(a: float, level: Accuracy, points: int = 48) -> Array:
-    """The curve |t| = 2 with f ≥ 0, from the bifurcation curve down to (1, 0); shape (n, 2), read-only.
+    """Return the boundary |t| = 2 of the lock zone, for f ≥ 0.
 
-    The map locks to its right.  Empty for a = 0, where no map locks.  Raises `InvalidParameter` (|a| > 1e5).
+    Parameters
+    ----------
+    a : float
+        The coupling a = I23/I22, |a| ≤ 1e5.
+    level : Level or str
+        Accuracy level or its name, see `level`.
+    points : int, optional
+        Number of points.
 
+    Returns
+    -------
+    ndarray of float, shape (points, 2)
+        Points (h, f) from the bifurcation curve to (1, 0), in units b = 1, read-only.  The map locks at larger h.
+        Shape (0, 2) if a = 0, where no map locks.
+
+    Raises
+    ------
+    InvalidParameter
+        If a is not finite or |a| > 1e5.
+
+    Examples
+    --------
     >>> from hess_mechanics import circle_map, level, lock_boundary
     >>> h, f = lock_boundary(0.5, level("precise"))[20]
     >>> abs(circle_map(0.5, h, f, level("precise")).trace - 2.0) < 1e-6
@@ -178,8 +250,31 @@ def _root(function: Callable[[float], float], low: float, high: float, what: str
 
 
 def lock_boundary_f(a: float, h: float, level: Accuracy) -> float:
-    """The f > 0 with |t| = 2 at given a and h.  Raises `InvalidParameter` where there is none.
+    """Return the f > 0 with |t| = 2 at given a and h.
 
+    Parameters
+    ----------
+    a : float
+        The coupling a = I23/I22.
+    h : float
+        The energy, in units b = 1.
+    level : Level or str
+        Accuracy level or its name, see `level`.
+
+    Returns
+    -------
+    float
+        The area integral f on the lock boundary, in units b = 1.
+
+    Raises
+    ------
+    OutsideRegion
+        If h ≤ −1.
+    InvalidParameter
+        If no such f exists, or a or h is out of range.
+
+    Examples
+    --------
     >>> from hess_mechanics import circle_map, level, lock_boundary_f
     >>> f = lock_boundary_f(0.5, 0.5, level("precise"))
     >>> abs(circle_map(0.5, 0.5, f, level("precise")).trace - 2.0) < 1e-6
@@ -192,10 +287,35 @@ def lock_boundary_f(a: float, h: float, level: Accuracy) -> float:
 
 
 def critical_a(h: float, f: float, level: Accuracy, high: float = 10.0) -> float:
-    """The a in (0, high) at which the limit cycles of the torus (h, f) appear, |t| = 2.
+    """Return the a at which the limit cycles of the torus (h, f) appear, |t| = 2.
 
-    Raises `OutsideRegion`, `Separatrix`, `InvalidParameter` where there is none.
+    Parameters
+    ----------
+    h : float
+        The energy, in units b = 1.
+    f : float
+        The area integral, in units b = 1.
+    level : Level or str
+        Accuracy level or its name, see `level`.
+    high : float, optional
+        Upper end of the search interval (0, high).
 
+    Returns
+    -------
+    float
+        The critical coupling a.
+
+    Raises
+    ------
+    OutsideRegion
+        If no motion has this h and f.
+    Separatrix
+        If h = 1 and f = 0.
+    InvalidParameter
+        If there is no such a in (0, high).
+
+    Examples
+    --------
     >>> from hess_mechanics import circle_map, critical_a, level
     >>> a = critical_a(0.5, 0.6, level("precise"))
     >>> [circle_map(factor * a, 0.5, 0.6, level("precise")).kind for factor in (0.99, 1.01)]
@@ -208,11 +328,11 @@ def critical_a(h: float, f: float, level: Accuracy, high: float = 10.0) -> float
 
 
 CELLS = (100, 75)
-"""Of a window, at most."""
+"""Largest number of cells of a window, horizontally and vertically."""
 
 
 def affordable_cells(a: float, cells: tuple[int, int]) -> tuple[int, int]:
-    """Fewer cells (m, n) than these where a makes each one expensive, but at least 8 × 8."""
+    """Return fewer cells (m, n) if a large |a| makes each one expensive, but at least 8 × 8."""
     share_ = min(1.0, math.sqrt(10.0 / max(abs(a), 1e-9)))
     m, n = (max(8, round(size * share_)) for size in cells)
     return m, n
@@ -221,10 +341,10 @@ def affordable_cells(a: float, cells: tuple[int, int]) -> tuple[int, int]:
 def rotation_number_window(
     a: float, h: tuple[float, float], f: tuple[float, float], level: Accuracy, cells: tuple[int, int] = CELLS
 ) -> Array:
-    """ρ at the centres of the cells (m, n) of a window, shape (n, m).
+    """Return ρ at the centres of the cells (m, n) of a window, shape (n, m).
 
-    Cells outside the region take the value at its edge (same h), so that a picture can be clipped along the
-    bifurcation curve.  Raises as `rotation_number_grid`.
+    Cells outside the region have the value at its edge (same h), so that a plot can be clipped along the bifurcation
+    curve.  Raises as `rotation_number_grid`.
     """
     level = as_level(level)
     m, n = cells

@@ -1,6 +1,6 @@
 """Orbits and limit cycles on one Suslov–Hess torus, in the variables (ω1, ω2, γ) of the Suslov problem.
 
-h and f (`eq03`) are in units b = 1; time and angular velocity are the body's own.
+h and f (`eq03`) are in units b = 1; time and angular velocity are in the units of the body.
 """
 
 from __future__ import annotations
@@ -36,10 +36,22 @@ _MOST = 6000
 
 @dataclass(frozen=True)
 class Track:
-    """One orbit on a torus.
+    """One orbit on a torus, in the units of the body.
 
-    times : (n,), in the body's units; omega : (n, 2); gamma : (n, 3);
-    phi : (n,), the angle of (w2, w1) in (−π, π]; n3 : (n,); orbit : the reduced orbit in units b = 1.
+    Attributes
+    ----------
+    times : ndarray of float, shape (n,)
+        Times.
+    omega : ndarray of float, shape (n, 2)
+        Angular velocity (ω1, ω2).
+    gamma : ndarray of float, shape (n, 3)
+        Vertical γ.
+    phi : ndarray of float, shape (n,)
+        Angle of (w2, w1) in (−π, π].
+    n3 : ndarray of float, shape (n,)
+        Third component of n.
+    orbit : Orbit
+        The reduced orbit in units b = 1.
     """
 
     times: Array
@@ -68,10 +80,10 @@ def _solve_reduced(body: HessBody, start: Array, times: Array, level: Level) -> 
 
 
 def start_of_track(body: HessBody, h: float, f: float, phi0: float, span: float) -> tuple[Array, float]:
-    """State (5,) and time span, in units b = 1, of the orbit with phase φ0 that `track` follows.
+    """Return the initial state (5,) and the time span, in units b = 1, of the orbit that `track` follows.
 
-    It starts at n3 = n3^(1), and the span is limited to `MAX_RETURNS` periods of n3.  On the separatrix
-    (h = 1, f = 0), which has no lower turning point, it starts at the maximum of n3.
+    The orbit has the phase φ0 at n3 = n3^(1), and its span is limited to `MAX_RETURNS` periods of n3.  The separatrix
+    (h = 1, f = 0) has no lower turning point: the orbit starts there at the maximum of n3.
     Raises `OutsideRegion`, `NoField`, `InvalidParameter`.
     """
     require_finite(phi0=phi0, span=span)
@@ -84,9 +96,9 @@ def start_of_track(body: HessBody, h: float, f: float, phi0: float, span: float)
 
 
 def pixels_per_unit(body: HessBody, half_width: float) -> Array:
-    """Pixels per unit of w1, w2, n1, n2, n3 (units b = 1) in pictures of `PIXELS`; shape (5,).
+    """Return the pixels per unit of w1, w2, n1, n2, n3 (units b = 1) in plots of `PIXELS`; shape (5,).
 
-    The pictures show ω within ± half_width, and γ within the unit circle.
+    The plots show ω within ± half_width, and γ within the unit circle.
     """
     radius = 0.5 * PIXELS
     w = radius * body.frequency_unit / half_width
@@ -94,7 +106,7 @@ def pixels_per_unit(body: HessBody, half_width: float) -> Array:
 
 
 def track(body: HessBody, h: float, f: float, phi0: float, span: float, level: Accuracy, half_width: float) -> Track:
-    """The orbit of `start_of_track` over `span` of the body's time, sampled for the pictures of `pixels_per_unit`.
+    """Return the orbit of `start_of_track` over `span` (in the time of the body), sampled for `pixels_per_unit`.
 
     Raises `OutsideRegion`, `NoField`, `InvalidParameter`.
     """
@@ -111,10 +123,10 @@ def _times(body: HessBody, start: Array, length: float, half_width: float) -> Ar
 def cycles(
     body: HessBody, h: float, f: float, stable: FixedPoint, level: Accuracy, half_width: float
 ) -> tuple[Track, Track]:
-    """The stable and the unstable limit cycle, over one period each.
+    """Return the stable and the unstable limit cycle, each over one period and sampled as in `track`.
 
-    Sampled as `track`.  Only the stable one is integrated; the other is its image under the reversor
-    (w1, n1, t) → (−w1, −n1, −t), so that its instability does no harm.
+    Only the stable cycle is integrated.  The reversor (w1, n1, t) → (−w1, −n1, −t) maps it to the unstable one, which
+    avoids integrating an unstable orbit.
     """
     turning = turning_points(h, f)
     start = turning.state_at_lower_turn(stable.phi)
@@ -126,9 +138,9 @@ def cycles(
 
 
 def annulus(body: HessBody, h: float, turning: TurningPoints | None) -> tuple[Array, Array]:
-    """The inner and outer ellipse that bound the motion in the (ω1, ω2) plane, shape (181, 2) each.
+    """Return the inner and the outer ellipse that bound the motion in the (ω1, ω2) plane; shape (181, 2) each.
 
-    |w|² = 2(h + n3) between the turning points; on the separatrix (`turning` None) between 0 and 4.
+    |w|² = 2(h + n3) between the turning points; on the separatrix (`turning` is None) |w|² lies between 0 and 4.
     """
     inner, outer = (0.0, 2.0) if turning is None else (turning.initial_rho, turning.final_rho)
     s = np.linspace(0.0, 2.0 * math.pi, 181)
