@@ -54,7 +54,7 @@ PRESETS = (
         chosen="1,1.5",
     ),
 )
-"""All of them are rigid bodies for some I₃₃; the third was found by `tests/benchmarks/search_regimes.py --ball`."""
+"""All of them are rigid bodies for some I₃₃; the third was found in a search of random bodies."""
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ from hess_mechanics.suslov.section import mean_divergence
 
 SUSLOV, HEAVY = systems()["suslov"], systems()["euler-poisson"]
 STRANGE = (0.8, 1.3, 0.6, 0.0, 0.8), (1.7, 3.0, 0.3, 0.1, -2.0, -2.1, 2.6)
-"""Found by tests/benchmarks/search_strange_attractors.py."""
+"""State and parameters on a strange attractor, found in a search of random bodies."""
 CHAOTIC = HeavyBody((1.0, 1.6, 2.1), (0.3, -0.5, 0.7), 6.0)
 CHAOTIC_START = AndoyerSection(CHAOTIC, 4.0, 1.0).state_at(0.3, 0.2)
 
