@@ -42,6 +42,14 @@ def pytest_configure(config):
         config.stash[SHARED_SERVER] = (shared.enter_context(server_process(log))[1], str(log))
 
 
+def pytest_collection_modifyitems(config, items):
+    """Leave out the tests marked `thorough`, unless the option is given."""
+    if not config.getoption("thorough"):
+        left_out = [item for item in items if item.get_closest_marker("thorough")]
+        items[:] = [item for item in items if item not in left_out]
+        config.hook.pytest_deselected(items=left_out)
+
+
 @pytest.hookimpl(optionalhook=True)
 def pytest_configure_node(node):
     """Tell a process of the server."""

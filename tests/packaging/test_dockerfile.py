@@ -3,6 +3,7 @@
 import re
 import signal
 import subprocess
+import sys
 import tomllib
 import zipfile
 from pathlib import Path
@@ -16,6 +17,7 @@ from support.kernels import copy_kernels
 from support.processes import interruptible
 
 ROOT = Path(__file__).resolve().parents[2]
+thorough = pytest.mark.thorough  # the image takes half a minute
 
 
 @pytest.fixture(scope="module")
@@ -38,12 +40,14 @@ def test_the_readme_builds_and_runs_it_at_the_port_and_address_that_it_serves():
     assert allowed == f"localhost:{port}"
 
 
+@thorough
 def test_what_runs_is_the_installed_package(image):
     for name in ("hess_explorer", "hess_mechanics"):
         where = image.run(["python", "-c", f"import {name}; print({name}.__file__)"])
         assert Path(where.strip()).parent == image.site / name
 
 
+@thorough
 def test_neither_the_folder_nor_its_files_shadow_the_packages(image):
     for name in ("models", "app", "static"):
         (image.at(image.workdir) / f"{name}.py").write_text("raise SystemExit('the wrong module')\n")
@@ -51,12 +55,14 @@ def test_neither_the_folder_nor_its_files_shadow_the_packages(image):
     assert image.run(["python", "-m", "hess_explorer", "--version"]).startswith("hess-explorer ")
 
 
+@thorough
 def test_its_user_has_the_kernels_compiled(image):
     assert image.user != "root"
     (mark,) = Path(image.set["NUMBA_CACHE_DIR"]).glob("hess-explorer/complete-*")
     assert list(mark.parent.rglob("*.nbc"))
 
 
+@thorough
 def test_the_command_serves_the_page_is_healthy_and_ends(image, browser, tmp_path):
     port = free_port()
 
@@ -95,9 +101,21 @@ def test_the_command_serves_the_page_is_healthy_and_ends(image, browser, tmp_pat
 
 
 @pytest.fixture(scope="module")
-def wheel(image, tmp_path_factory):
+def wheel(tmp_path_factory):
     folder = tmp_path_factory.mktemp("wheel")
-    image.run(["pip", "wheel", "--no-deps", "--no-build-isolation", "-w", str(folder), str(ROOT)])
+    build = [
+        sys.executable,
+        "-m",
+        "pip",
+        "wheel",
+        "-q",
+        "--no-deps",
+        "--no-build-isolation",
+        "-w",
+        str(folder),
+        str(ROOT),
+    ]
+    subprocess.run(build, check=True)
     (file,) = folder.glob("*.whl")
     with zipfile.ZipFile(file) as opened:
         return {one.filename: one.compress_size for one in opened.infolist()}
