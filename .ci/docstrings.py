@@ -1,0 +1,94 @@
+"""Validate the docstrings of all public names by numpydoc, with the checks of `pyproject.toml`.
+
+Public are the names in `__all__` of the packages below, and the public methods and properties of these classes.  A
+class documents its fields as Parameters, or as Attributes where its users do not construct it.  Functions also need
+Examples.  `--all` ignores the list of names that are not valid yet.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import inspect
+import re
+import sys
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from types import FunctionType
+from typing import Any
+
+from numpydoc.docscrape import get_doc_object
+from numpydoc.validate import Validator, validate
+
+PACKAGES = ("hess_mechanics", "hess_explorer")
+CONFIGURATION = Path(__file__).parents[1] / "pyproject.toml"
+PENDING = Path(__file__).with_name("docstrings-pending.txt")
+MEMBERS = (FunctionType, property, classmethod, functools.cached_property)
+OPENING = re.compile(r"(What|Whether|Who|Whose|Of|How|Where|Which)\b")
+
+
+class Documented(Validator):  # type: ignore[misc]  # numpydoc has no types
+    """The validator of numpydoc, for which Attributes document the fields of a class too."""
+
+    def __init__(self, obj_name: str) -> None:
+        super().__init__(get_doc_object(self._load_obj(obj_name)))
+
+    @property
+    def source_file_def_line(self) -> None:
+        """None: some methods have no `def` of their own, and no comment in the code turns off a check."""
+
+    @property
+    def parameter_mismatches(self) -> list[Any]:
+        """Errors in the names or the order of the parameters or fields."""
+        if not inspect.isclass(self.obj) or not self.doc["Attributes"]:
+            return list(super().parameter_mismatches)
+        missing = set(self.signature_parameters) - set(self._doc_parameters(["Parameters", "Attributes"]))
+        return [("PR01", f"Fields {missing} not documented")] if missing else []
+
+
+def public_names() -> Iterator[str]:
+    """Yield the full names of all public functions and classes, and of the methods and properties that these define.
+
+    Inherited members are named once, in the first class that has them.
+    """
+    seen: set[int] = set()
+    for package in map(importlib.import_module, PACKAGES):
+        for name in package.__all__:
+            found = getattr(package, name)
+            if inspect.isfunction(found) or inspect.isclass(found):
+                yield f"{package.__name__}.{name}"
+            for base in getattr(found, "__mro__", ()):
+                for member, value in vars(base).items() if base.__module__.startswith(PACKAGES) else ():
+                    if not member.startswith("_") and isinstance(value, MEMBERS) and id(value) not in seen:
+                        seen.add(id(value))
+                        yield f"{package.__name__}.{name}.{member}"
+
+
+def errors_of(name: str, ignored: set[str]) -> list[str]:
+    """Return the errors in the docstring of a public name, as "code: message"."""
+    found = validate(name, Documented)
+    errors = [f"{code}: {message}" for code, message in found["errors"] if code not in ignored]
+    if found["type"] == "function" and name.count(".") == 1 and ">>>" not in found["docstring"]:
+        errors.append("EX01: No examples")
+    if OPENING.match(found["docstring"]):
+        errors.append("SS: The summary begins with a clause; say what is returned or done")
+    return errors
+
+
+def main() -> int:
+    """Print all errors, and return 1 where there are any."""
+    checks = tomllib.loads(CONFIGURATION.read_text(encoding="utf-8"))["tool"]["numpydoc_validation"]["checks"]
+    pending = set(PENDING.read_text(encoding="utf-8").split()) if PENDING.exists() else set()
+    wrong = {name: errors for name in public_names() if (errors := errors_of(name, set(checks[1:])))}
+    shown = wrong if "--all" in sys.argv else {name: wrong[name] for name in wrong if name not in pending}
+    for name, errors in shown.items():
+        print(name, *errors, sep="\n    ")
+    if done := sorted(pending - set(wrong)):
+        print("These are valid now; take them off the list:", *done)
+    print(f"{len(wrong)} names are not valid, {len(shown)} of them shown")
+    return int(bool(shown))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
