@@ -22,7 +22,7 @@ def test_the_code_of_a_tutorial_runs(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = (TUTORIALS / f"{name}.md").read_text(encoding="utf-8")
     cells = re.findall(r"^```\{code-cell\}\n(?::[^\n]*\n)*(.*?)^```", text, re.DOTALL | re.MULTILINE)
-    assert len(cells) == text.count("```{code-cell}") > 1
+    assert len(cells) == text.count("```{code-cell}") > 0
     names = {}
     for cell in cells:
         exec(compile(cell, name, "exec"), names)
