@@ -6,7 +6,7 @@ import { button, element, icon, relabel } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
 import { arrowOf, isTaken } from "../page/keys.js"
 import { gallery } from "../pictures/gallery.js"
-import { between } from "../pictures/moment.js"
+import { stateAt } from "../pictures/moment.js"
 import { isFolded } from "../pictures/picture.js"
 import { opening } from "./opening.js"
 
@@ -22,19 +22,6 @@ const FORWARD = "M16 6h2v12h-2zM6 18l8.5-6L6 6z"
 
 const transport = (name, path, title, onclick) => (
   button(`transport.param-${name}`, onclick, { innerHTML: icon(path, "1.6em"), title, ariaLabel: title }))
-
-// The columns of `data` at a time; `angles`: those that may jump by a turn.
-function stateAt(data, angles, time) {
-  const [i, s] = between(data.t, time)
-  const state = {}
-  for (const [name, column] of Object.entries(data)) {
-    const [a, b] = [column[i], column[i + 1]]
-    // An angle that crosses ±π between two samples is not interpolated.
-    const jump = angles.includes(name) && Math.abs(b - a) > 1
-    state[name] = jump ? (s < 0.5 ? a : b) : a + s * (b - a)
-  }
-  return state
-}
 
 // A button that shows a picture which is not seen at first, or folds it again.
 const unfolding = ({ name, folded: label }) => button(`button.unfold.unfold-${name}`, () => tell("fold", name), {

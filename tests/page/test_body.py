@@ -128,33 +128,6 @@ def test_what_is_behind_the_body_is_hidden_and_what_is_before_it_is_not(quartic)
     assert np.mean(shown) > 0.9
 
 
-def test_the_module_s_outline_and_exits_are_those_of_the_ellipsoid(quartic):
-    rng = np.random.default_rng(3)
-    for _ in range(20):
-        axes = np.linalg.qr(rng.normal(size=(3, 3)))[0]
-        semi = rng.uniform(0.1, 0.8, 3)
-        v = rng.normal(size=3)
-        ellipsoid = axes.T @ np.diag(semi**-2.0) @ axes
-        edge, out, inner, outer = quartic.page.evaluate(
-            """([axes, semi, v]) => {
-              const edge = hess.solid.outline(axes, semi)
-              const [c, s] = [Math.cos(edge.angle), Math.sin(edge.angle)]
-              const at = (r) => hess.solid.covers(axes, semi, r * (c * edge.halves[0] * 0.6 - s * edge.halves[1] * 0.8),
-                                                  r * (s * edge.halves[0] * 0.6 + c * edge.halves[1] * 0.8))
-              return [edge, hess.solid.leaves(axes, semi, v), at(0.999), at(1.001)]
-            }""",
-            [axes.tolist(), semi.tolist(), v.tolist()],
-        )
-        shadow = np.linalg.inv(ellipsoid)[:2, :2]
-        assert np.square(edge["halves"])[::-1] == pytest.approx(np.linalg.eigvalsh(shadow), rel=1e-9)
-        assert (edge["width"] ** 2, edge["height"] ** 2) == pytest.approx(np.diag(shadow), rel=1e-12)
-        long = np.array([math.cos(edge["angle"]), math.sin(edge["angle"])])
-        assert shadow @ long == pytest.approx(edge["halves"][0] ** 2 * long, abs=1e-12)
-        assert (inner, outer) == (True, False)
-        assert (out["at"] * v) @ ellipsoid @ (out["at"] * v) == pytest.approx(1.0, rel=1e-12)
-        assert out["near"] == bool((ellipsoid @ v)[2] >= 0.0)
-
-
 def test_the_point_behind_the_sphere_is_as_strong_as_before_it_and_has_a_ring_that_says_so(quartic):
     orbit = quartic.data("data-orbit")
     behind = {True: [], False: []}

@@ -56,17 +56,6 @@ def test_an_example_of_the_bridge_is_drawn_with_a_difference_of_round_off(bridge
     assert_painted(bridge, BRIDGE)
 
 
-def test_the_point_of_an_angle_that_crosses_half_a_turn_stands_at_an_end_and_not_between(leak):
-    orbit = leak.data("data-orbit")
-    t, l = np.array(orbit["t"]), np.array(orbit["l"])
-    crossings = np.flatnonzero(np.abs(np.diff(l)) > 3.0)
-    assert crossings.size > 0
-    for i in crossings[:3]:
-        for share in (0.25, 0.75):
-            leak.set_time(float(t[i] + share * (t[i + 1] - t[i])))
-            assert leak.data("andoyer-point")["x"][0] == pytest.approx(l[i] if share < 0.5 else l[i + 1], abs=1e-6)
-
-
 def test_a_slider_changes_the_rate_and_a_refusal_empties_the_pictures(leak):
     leak.change(lambda: leak.slide(h=80.0))
     assert leak.shown("h")[0] == 80.0

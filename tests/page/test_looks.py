@@ -519,23 +519,6 @@ def test_on_a_phone_tools_without_room_in_the_bar_are_in_a_menu(look_at, size):
 
 
 @pytest.mark.parametrize(
-    ("ticks", "labels"),
-    [
-        ([-4, -2, 0, 2, 4], ["−4", "−2", "0", "2", "4"]),
-        ([0.1, 0.2, 0.1 + 0.2], ["0.1", "0.2", "0.3"]),
-        # Sums of steps that should be zero.
-        ([-2e-4, 1.3e-20, 2e-4], ["−2e−4", "0", "2e−4"]),
-        ([0, 2.5e5, 5e5], ["0", "2.5e5", "5e5"]),
-        # Seven letters each: only every second has room.
-        ([0.50001, 0.50002, 0.50003, 0.50004, 0.50005], ["0.50001", "", "0.50003", "", "0.50005"]),
-        ([1.5e-7 * n for n in range(-3, 4)], ["−4.5e−7", "", "−1.5e−7", "", "1.5e−7", "", "4.5e−7"]),
-    ],
-)
-def test_labels_of_ticks_are_short_and_have_room(look_at, ticks, labels):
-    assert look_at(HESS).evaluate("ticks => hess.ticks.tickLabels(ticks, 26)", ticks) == labels
-
-
-@pytest.mark.parametrize(
     ("scene", "values"),
     [
         ("free-suslov", {"w1": 1e-4, "w2": 2e-4}),

@@ -1,8 +1,7 @@
 """What tests look at inside the page: its own modules, imported once more, as `window.hess`.
 
 hess.plots, hess.source(name), hess.has(scene) are the gallery's; hess.tell(name, detail) and hess.listen(name, hear)
-the bus's; hess.plotted() names the sources of the planar pictures on show; hess.clouds(source, t), hess.ticks,
-hess.solid, hess.arrange.
+the bus's; hess.plotted() names the sources of the planar pictures on show; hess.clouds(source, t).
 """
 
 from __future__ import annotations
@@ -14,13 +13,11 @@ _SCRIPT = """const begin = () => {
   if (window.importShim === undefined) return void setTimeout(begin, 5)
   const load = (path) => importShim(new URL(`MODULES/${path}`, document.baseURI).href)
   Promise.all([
-    load("page/bus.js"), load("pictures/gallery.js"), load("pictures/cloud.js"), load("pictures/ticks.js"),
-    load("pictures/solid.js"), load("pictures/arrange.js"),
-  ]).then(([bus, { gallery }, { cloudsOf }, ticks, solid, { arrange }]) => {
+    load("page/bus.js"), load("pictures/gallery.js"), load("pictures/cloud.js"),
+  ]).then(([bus, { gallery }, { cloudsOf }]) => {
     window.hess = {
       get plots() { return gallery.shown.plots }, source: gallery.source, has: gallery.has, tell: bus.tell,
-      listen: (name, hear) => bus.listen({ [name]: hear }), clouds: (source, t) => cloudsOf(source).at(t), ticks, solid,
-      arrange,
+      listen: (name, hear) => bus.listen({ [name]: hear }), clouds: (source, t) => cloudsOf(source).at(t),
       plotted() {
         const { sources, cells } = gallery.shown
         const drawn = cells.filter((cell) => cell.querySelector("canvas") !== null).map((cell) => cell.dataset.name)

@@ -1,0 +1,64 @@
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import { arrange } from "../../static/pictures/arrange.js"
+
+const GAP = 8
+const CAPTION = 38
+const PLACES = [[964, 620], [936, 850], [2500, 2010], [1900, 500], [500, 1400], [700, 700]]
+
+const arranged = (width, height, count, large = []) => (
+  arrange({ width, height, count, gap: GAP, caption: Object.assign(() => CAPTION, { title: 20, wide: 400 }) }, large))
+
+function assertInsideAndApart(boxes, width, height) {
+  const cells = boxes.map(({ x, y, width: wide, caption, edge }) => [x, y, x + wide, y + caption + edge])
+  for (const [left, top, right, bottom] of cells) {
+    assert.ok(left >= -0.5 && left < right && right <= width + 0.5)
+    assert.ok(top >= -0.5 && top < bottom && bottom <= height + 0.5)
+  }
+  cells.forEach((one, i) => cells.slice(i + 1).forEach((other) => {
+    assert.ok([0, 1].some((k) => one[k + 2] <= other[k] + 0.5 || other[k + 2] <= one[k] + 0.5))
+  }))
+}
+
+// The largest edge of equal squares with captions, over all numbers of columns.
+function largestEdge(width, height, count) {
+  return Math.max(...Array.from({ length: count }, (_, i) => i + 1).map((columns) => {
+    const rows = Math.ceil(count / columns)
+    return Math.min((width - GAP * (columns - 1)) / columns, (height - GAP * (rows - 1)) / rows - CAPTION)
+  }))
+}
+
+test("the smallest picture is as large as a grid allows, and all pictures fit", () => {
+  for (const [width, height] of PLACES) for (const count of [1, 2, 3, 4, 5]) {
+    const boxes = arranged(width, height, count)
+    assert.equal(boxes.length, count)
+    assertInsideAndApart(boxes, width, height)
+    assert.ok(Math.min(...boxes.map(({ edge }) => edge)) >= largestEdge(width, height, count) - 1)
+    assert.ok(boxes.every(({ small }) => !small))
+  }
+})
+
+test("an enlarged picture takes its share of the height, and the others share the rest", () => {
+  for (const [width, height] of PLACES.slice(0, 4)) for (const count of [2, 3, 4, 5]) for (const large of [[0], [1], [1, 0]]) {
+    const boxes = arranged(width, height, count, large)
+    assertInsideAndApart(boxes, width, height)
+    const chosen = large.map((i) => boxes[i].edge)
+    const others = boxes.filter((_, i) => !large.includes(i))
+    const edges = others.map(({ edge }) => edge)
+    assert.ok(Math.min(...chosen) >= Math.max(0, ...edges))
+    assert.ok(Math.min(height, ...edges) > 0.05 * height)
+    if (large.length > 1) continue
+    assert.ok(chosen[0] >= 0.8 * Math.min(height, width / 1.3))
+    assert.ok(others.every(({ small }) => small))
+  }
+})
+
+test("the first of three pictures is larger where that costs the others nothing", () => {
+  const [first, second, third] = arranged(936, 850, 3)
+  assert.ok(first.edge > second.edge)
+  assert.equal(second.edge, third.edge)
+  assert.ok(second.edge >= largestEdge(936, 850, 3) - 1)
+})
+
+test("no pictures, no boxes", () => assert.deepEqual(arranged(900, 600, 0), []))

@@ -1,0 +1,89 @@
+import "./browser.mjs"
+
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import { tell } from "../../static/page/bus.js"
+import { createRequests } from "../../static/page/requests.js"
+import { Element, point } from "./browser.mjs"
+
+const sent = []
+const requests = createRequests({
+  send: (message) => sent.push(message), changed() {}, hidden: () => ["circle"], known: (scene) => scene === "a",
+})
+const microtasks = () => new Promise(setImmediate)
+
+// The answer to the last request is painted; return the request that follows, if any.
+async function settled() {
+  requests.settled()
+  requests.ask()
+  await microtasks()
+  return sent.pop()
+}
+
+async function told(...events) {
+  sent.length = 0
+  for (const [name, detail] of events) tell(name, detail)
+  await microtasks()
+  return sent
+}
+
+test.after(() => requests.lose())
+
+test("nothing is asked before a scene is on show", async () => {
+  assert.deepEqual(await told(["change", { h: 1 }]), [])
+  requests.entered("a")
+  const [first] = await told(["change", { f: 2 }])
+  assert.deepEqual([first.values, first.scene, first.hidden, first.held], [{ h: 1, f: 2 }, null, ["circle"], false])
+  requests.settled()
+})
+
+test("one request at a time, and the newest values win", async () => {
+  const [first] = await told(["change", { h: 1 }])
+  assert.deepEqual(first.values, { h: 1 })
+  const later = [2, 3, 4].map((h) => ["change", { h }])
+  assert.deepEqual(await told(...later, ["expression", { f: "pi/3" }], ["change", { f: 5 }]), [])
+  assert.ok(requests.isBehind(first.requested))
+  assert.ok(requests.hasMoved("h", first.requested))
+  const next = await settled()
+  assert.deepEqual([next.values, next.expressions], [{ h: 4, f: 5 }, {}])
+  assert.ok(!requests.isBehind(next.requested))
+  assert.ok(!requests.hasMoved("h", next.requested))
+  requests.settled()
+})
+
+test("an example discards the changes before it and keeps those after it", async () => {
+  const [message] = await told(["change", { h: 1 }], ["preset", "No cycle"], ["change", { f: 2 }])
+  assert.deepEqual([message.preset, message.values], ["No cycle", { f: 2 }])
+  requests.settled()
+})
+
+test("a slider is held until it is let go, which is a request of its own", async () => {
+  point("pointerdown", new Element(".hand"))
+  assert.equal((await told(["change", { h: 1 }]))[0].held, true)
+  requests.settled()
+  sent.length = 0
+  point("pointerup", new Element(".hand"))
+  await microtasks()
+  assert.equal(sent.length, 1)
+  assert.equal(sent[0].held, false)
+  requests.settled()
+})
+
+test("the scene that was chosen last is entered, with no picture hidden", async () => {
+  const [message] = await told(["scene", "b"], ["scene", "c"])
+  assert.deepEqual([message.scene, message.hidden], ["c", null])
+  requests.settled()
+  assert.deepEqual(await told(["scene", "c"]), [])
+  requests.entered("c")
+  assert.deepEqual((await told(["near", "a"], ["near", "d"])).map(({ near }) => near), ["d"])
+  requests.settled()
+})
+
+test("a place that is no number and a finger that scrolls choose nothing", async () => {
+  assert.deepEqual(await told(["pick", { pick: ["omega", NaN, 1], drag: false }]), [])
+  point("pointerdown", new Element(), "touch")
+  assert.deepEqual(await told(["pick", { pick: ["omega", 0, 1], drag: true }]), [])
+  assert.deepEqual((await told(["pick", { pick: ["omega", 0, 1], drag: false }]))[0].picked, ["omega", 0, 1])
+  requests.settled()
+})
