@@ -1,12 +1,12 @@
-"""The explorer, from Python: states by name with their data and pictures, besides the page.
+"""Python interface of the explorer: the data and pictures of any state, without the page.
 
 >>> import hess_explorer as hess
 >>> state = hess.state("suslov-hess", h=1.2, f=0.3, accuracy="draft")
 >>> state.data("circle").layer("stable")["phi"].round(3)
 array([-2.283])
 
-The mechanics are the package `hess_mechanics`, sweeps `hess_explorer.sweep`.  `hess-explorer docs` opens the pages of
-all of it, with search.
+The package `hess_mechanics` holds the mechanics, `hess_explorer.sweep` the parameter sweeps.  `hess-explorer docs`
+builds and opens the documentation.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _PLACES = {"SceneState": "state", "explore": "exploring", "from_link": "state", 
 
 
 def __getattr__(name: str) -> Any:
-    # Only when they are asked for: the commands that compute do not load what draws.
+    # Imported on first use, so that commands that only compute do not load the plotting libraries.
     if name not in _PLACES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     found = globals()[name] = getattr(importlib.import_module(f"{__name__}.library.{_PLACES[name]}"), name)

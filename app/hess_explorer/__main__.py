@@ -1,4 +1,4 @@
-"""The command line: `hess-explorer` alone opens the explorer; other commands compute or draw without the page."""
+"""Command line of the explorer.  `hess-explorer` alone serves the page; other commands compute or draw without it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["main"]
 
 
 class _Parser(argparse.ArgumentParser):
-    """Reports a mistake in one sentence, without the usage text."""
+    """Argument parser that reports an error in one sentence, without the usage text."""
 
     def error(self, message: str) -> NoReturn:
         raise CommandError(f"{message} (see {self.prog} --help).")
@@ -30,7 +30,7 @@ def _version() -> str:
 
 
 def _parser(declared: Iterable[str] = COMMANDS) -> argparse.ArgumentParser:
-    """Return the parser of all commands; declared : those whose files are imported and whose options it knows."""
+    """Return the parser of all commands; only the modules of the `declared` commands are imported."""
     parser = _Parser(
         prog="hess-explorer",
         description="An interactive explorer of the Suslov problem, its Hess case "
@@ -48,14 +48,14 @@ def _parser(declared: Iterable[str] = COMMANDS) -> argparse.ArgumentParser:
 
 
 def _with_command(words: list[str]) -> list[str]:
-    """`hess-explorer`, and options alone, mean `serve`."""
+    """Prepend `serve` when the arguments name no command."""
     if words and (not words[0].startswith("-") or words[0] in ("-h", "--help", "--version")):
         return words
     return ["serve", *words]
 
 
 def _with_negative_values(words: list[str]) -> list[str]:
-    """`--omega -0.4,0.2` → `--omega=-0.4,0.2`: argparse would take the value for an option."""
+    """Join `--omega -0.4,0.2` to `--omega=-0.4,0.2`; argparse would read the value as an option."""
     joined: list[str] = []
     for word in words:
         if joined and re.match(r"-([\d.]|inf|nan)", word, re.IGNORECASE) and re.fullmatch(r"--[\w-]+", joined[-1]):
@@ -66,9 +66,20 @@ def _with_negative_values(words: list[str]) -> list[str]:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run one command.  Returns 0, 2 when the request cannot be carried out, 130 when interrupted."""
+    """Run one command and return its exit status.
+
+    Parameters
+    ----------
+    argv : sequence of str, optional
+        The arguments after the program name; by default those of the process.
+
+    Returns
+    -------
+    int
+        0 on success, 2 if the command cannot be carried out, 130 if it was interrupted.
+    """
     words = list(sys.argv[1:] if argv is None else argv)
-    # A terminal of another encoding than UTF-8 shows Greek letters by their numbers.
+    # A terminal that does not use UTF-8 shows Greek letters as escape sequences.
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
     try:

@@ -13,19 +13,19 @@ from hess_explorer.scenes import scenes
 from hess_mechanics.errors import InvalidParameter
 
 WRONG = {
-    "scene=nope": "'scene=nope' cannot be used: Scene was not one of suslov-hess, ",
-    "h=abc": "'h=abc' cannot be used: h was not a number, but lies between -1 and 1e+06; correct it",
-    "h=1e9": "'h=1e9' cannot be used: h lies between -1 and 1e+06; correct it",
-    "h=nan": "'h=nan' cannot be used: h was not finite, but lies between -1 and 1e+06",
-    "h=": "'h=' cannot be used: h was not a number",
-    "hh=1.2": "The scene suslov-hess has no parameter 'hh', but I22, I23, ",
-    "h=1&h=2": "The link says 'h' more than once",
-    "v=0&h=1.2": "The link is of another version of this page",
-    "accuracy=best": "'accuracy=best' cannot be used: Accuracy was not one of draft, standard, precise, reference,",
-    "scene=scattering&h=1": "The scene scattering has no parameter 'h', but I22, I13, ",
-    "t=-1": "'t=-1' cannot be used: t lies between 0 and 1e+06",
+    "scene=nope": "'scene=nope' cannot be used: Scene must be one of suslov-hess, ",
+    "h=abc": "'h=abc' cannot be used: h must be a finite number between -1 and 1e+06; correct it",
+    "h=1e9": "'h=1e9' cannot be used: h must lie between -1 and 1e+06; correct it",
+    "h=nan": "'h=nan' cannot be used: h must be a finite number between -1 and 1e+06",
+    "h=": "'h=' cannot be used: h must be a finite number",
+    "hh=1.2": "The scene suslov-hess has no parameter 'hh', only I22, I23, ",
+    "h=1&h=2": "The link contains 'h' more than once",
+    "v=0&h=1.2": "The link was made by another version of this page",
+    "accuracy=best": "'accuracy=best' cannot be used: Accuracy must be one of draft, standard, precise, reference,",
+    "scene=scattering&h=1": "The scene scattering has no parameter 'h', only I22, I13, ",
+    "t=-1": "'t=-1' cannot be used: t must lie between 0 and 1e+06",
     "h=0.2&f=5": "At h = 0.2 only |f| ≤ ",
-    "scene=suslov&starts=1": "'starts=1' cannot be used: The places of the chosen orbits could not be read as",
+    "scene=suslov&starts=1": "'starts=1' cannot be used: The places of the chosen orbits must be points x,y;x,y",
 }
 COMMANDS = {
     "export": ("export", "--format", "json"),
@@ -43,7 +43,7 @@ def test_a_command_refuses_what_it_does_not_understand_and_writes_nothing(comman
     assert main([*COMMANDS[command], "--state", state, "--out", str(file)]) == 2
     said = capsys.readouterr()
     assert said.err.startswith(f"hess-explorer: {WRONG[state]}")
-    assert said.err.endswith("; correct it, or have it put right with --lenient (in Python lenient=True).\n")
+    assert said.err.endswith("; correct it, or use --lenient (in Python lenient=True) to have it corrected.\n")
     assert said.err.count("\n") == 1
     assert said.out == ""
     assert not file.exists()

@@ -323,8 +323,8 @@ def test_what_names_no_places_is_replaced_and_not_repeated(text):
     if note is not None:
         assert value == STARTS.default
         assert note == (
-            "The places of the chosen orbits could not be read as points x,y;x,y from -3.14159,-1 to "
-            "3.14159,1: what it is at first is shown."
+            "The places of the chosen orbits must be points x,y;x,y from -3.14159,-1 to "
+            "3.14159,1: the default is shown."
         )
     else:
         assert STARTS.read(value) == (value, None)
@@ -651,12 +651,12 @@ def test_a_step_back_is_read_as_a_link_is(free_gate):
     state = browser.ask(1, restore=f"scene={EP.name}&h=1e9&f=nobody&t=3&large=section&theme=dark&undo=1")
     low, high = next(spec for spec in EP.specs if spec.name == "h").bounds
     assert dict(decode(state["query"], EP.specs)[0])["h"] == high
-    assert f"h lies between {low:g} and {high:g}" in browser.texts["notes"]
-    assert "f was not a number" in browser.texts["notes"]
+    assert f"h must lie between {low:g} and {high:g}" in browser.texts["notes"]
+    assert "f must be a finite number" in browser.texts["notes"]
     # Of no scene that there is: this one.
     state = browser.ask(2, restore="scene=nowhere&h=1")
     assert state["scene"] == EP.name
-    assert "Scene was not one of" in browser.texts["notes"]
+    assert "Scene must be one of" in browser.texts["notes"]
     # Too long is not read at all.
     state = browser.ask(3, restore="h=2&" + "x" * MAX_QUERY)
     assert f"longer than {MAX_QUERY} characters" in browser.texts["notes"]

@@ -59,7 +59,7 @@ MISTAKES = [
     ("\n## ", "\n# ", 1, "there is no step"),
     ('state: "?scene=suslov-hess&h=0.2&f=0.5"\n', "", 9, "the first step needs a state"),
     ('"?scene=suslov-hess&h=0.2', '"?scene=nowhere&h=0.2', 9, "one of suslov-hess"),
-    ("&h=0.2&f=0.5", "&h=1e9&f=0.5", 9, "h lies between"),
+    ("&h=0.2&f=0.5", "&h=1e9&f=0.5", 9, "h must lie between"),
     ("&h=0.2&f=0.5", "&g=0.2", 9, "'g', which the scene suslov-hess does not"),
     ("&h=0.2&f=0.5", "&h=0.2" + "0" * 2000, 9, "longer than 2000"),
     ("look: circle", "look: circel", 9, "look is one of body, omega"),

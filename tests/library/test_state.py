@@ -41,7 +41,7 @@ def test_a_link_and_its_parameters_are_the_same_state():
     assert state.but(b1=0.25, t=0.0).parameters == {**again.parameters, "b1": 0.25}
     noted = hess.from_link("h=-7&scene=suslov-hess", lenient=True)
     assert noted.parameters["h"] == pytest.approx(-1.0)
-    assert noted.notes[0].startswith("h lies between -1 and")
+    assert noted.notes[0].startswith("h must lie between -1 and")
 
 
 def test_a_notebook_shows_a_state_by_its_parameters_and_link():
@@ -64,9 +64,9 @@ def test_a_notebook_shows_a_state_by_its_parameters_and_link():
         ({"h": True}, "True is not a number"),
         ({"h": None}, "None is not a number"),
         ({"h": math.nan}, "h (Energy h) must be a finite number."),
-        ({"h": -2.0}, "h lies between -1 and 1e+06."),
+        ({"h": -2.0}, "h must lie between -1 and 1e+06."),
         ({"f": 50.0}, "At h = 1.5 only |f| ≤ 1.812 is possible."),
-        ({"accuracy": "best"}, "Accuracy was not one of draft, standard, precise, reference, auto."),
+        ({"accuracy": "best"}, "Accuracy must be one of draft, standard, precise, reference, auto."),
     ],
 )
 def test_what_cannot_be_is_refused_with_a_sentence(given, sentence):
@@ -87,7 +87,7 @@ def test_scenes_pictures_layers_and_columns_that_are_not_there_are_named():
         (lambda: state.data("circle")["z"], "no column 'z': choose one of layer"),
         (lambda: state.data("circle").layer("z"), "no layer 'z': choose one of cobweb"),
         (lambda: state.save("x.doc", "circle"), "ends in '.doc' cannot be written"),
-        (lambda: hess.state("bridge", given=2), "was not one of"),
+        (lambda: hess.state("bridge", given=2), "must be one of"),
     ):
         with pytest.raises(ModelError, match=sentence):
             call()

@@ -245,11 +245,11 @@ def test_a_ball_without_a_line_of_rest_says_so_and_nothing_stale_stays(ball):
 @pytest.mark.parametrize(
     ("name", "text", "value", "words"),
     [
-        ("D", "-1", 0.0, "𝒟 lies between 0 and 300"),
-        ("h", "0", 1e-6, "h lies between 1e-06 and 1e+06"),
-        ("theta", "4", math.pi, "θ⁻ lies between 0 and"),
-        ("I11", "-2", 1e-3, "I₁₁ lies between 0.001 and 1000"),
-        ("digits", "99", 10.0, "−lg δ lies between 2 and 10"),
+        ("D", "-1", 0.0, "𝒟 must lie between 0 and 300"),
+        ("h", "0", 1e-6, "h must lie between 1e-06 and 1e+06"),
+        ("theta", "4", math.pi, "θ⁻ must lie between 0 and"),
+        ("I11", "-2", 1e-3, "I₁₁ must lie between 0.001 and 1000"),
+        ("digits", "99", 10.0, "−lg δ must lie between 2 and 10"),
     ],
 )
 def test_a_number_that_cannot_be_is_put_right_and_said(ball, name, text, value, words):
@@ -301,7 +301,7 @@ def test_an_extreme_ball_with_a_field_is_drawn(field, typed):
     for name, text in typed.items():
         field.change(field.type, name, text)
     if "delta" in typed:
-        assert "δ lies between" in field.text("notes")
+        assert "δ must lie between" in field.text("notes")
     if "b1" in typed:
         assert "no field" in field.caption("sphere")
     values = {spec.name: field.shown(spec.name)[0] for spec in SECTION.specs if isinstance(spec, Number)}

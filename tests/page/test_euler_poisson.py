@@ -300,7 +300,7 @@ def test_a_link_brings_back_window_and_starts(page):
 )
 def test_bad_places_in_a_link_are_replaced_and_said(page, texts):
     page.open(urlencode({"scene": EP.name, **SMALL, **texts}))
-    assert page.text("notes").count("could not be read as points") == len(texts)
+    assert page.text("notes").count("must be points") == len(texts)
     body, values = page.page.locator("body").inner_text(), values_of(page)
     for name, text in texts.items():
         assert text not in body

@@ -142,9 +142,9 @@ def test_a_link_to_a_step_that_is_not_there_is_one_to_the_last_and_a_lesson_is_c
     explorer.goto("/?lesson=two-chaotic-layers-that-never-mix&step=99")
     last = lessons["two-chaotic-layers-that-never-mix"].steps[-1]
     assert page.locator(".lesson .title").inner_text() == last.title
-    assert "step lies between 1 and 9" in explorer.text("notes")
+    assert "step must lie between 1 and 9" in explorer.text("notes")
     explorer.goto("/?lesson=none")
-    assert "Lesson was not one of" in explorer.text("notes")
+    assert "Lesson must be one of" in explorer.text("notes")
     page.locator(".lesson-menu > summary").click()
     assert page.locator(".lesson-menu button").count() == len(lessons)
     explorer.change(page.locator(".param-lesson-limit-cycles-and-locking").click)

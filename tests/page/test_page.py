@@ -325,7 +325,7 @@ def test_a_value_is_read_as_it_was_written_and_no_key_leaks_into_another(explore
     expected = {**DEFAULTS, "h": 2.5, "I22": 1.5, "f": 0.5}
     assert {name: explorer.shown(name)[0] for name in SLIDERS} == {name: expected[name] for name in SLIDERS}
     notes = explorer.text("notes").splitlines()
-    noted = ("t was", "φ₀ was", "I₂₃ was", "b₃ was", "another version")
+    noted = ("t must", "φ₀ must", "I₂₃ must", "b₃ must", "another version")
     assert len(notes) == len(noted)
     for what in noted:
         assert any(what in note for note in notes), what

@@ -458,7 +458,7 @@ def test_a_link_leads_into_a_scene(explorer):
 def test_a_link_into_no_scene_opens_the_first_one_and_says_so(explorer):
     explorer.open("scene=nowhere&h=0.75")
     assert_defaults(explorer, FIRST, h=0.75)
-    assert explorer.text("notes").startswith("Scene was not one of")
+    assert explorer.text("notes").startswith("Scene must be one of")
     assert "nowhere" not in explorer.text("notes")
     explorer.wait_url(scene=FIRST)
 

@@ -84,7 +84,7 @@ def test_an_expression_has_its_value(text, exact):
     ],
 )
 def test_what_is_no_number_is_refused_with_a_sentence(text):
-    with pytest.raises(NotANumber, match=r"^(This (is no|has no)|At most).*\.$"):
+    with pytest.raises(NotANumber, match=r"^(This is not a|The (value|expression) is).*\.$"):
         evaluate(text)
 
 
@@ -93,7 +93,7 @@ def test_what_is_no_number_is_refused_with_a_sentence(text):
 )
 def test_what_has_no_finite_value_says_so_at_once(text):
     begun = time.perf_counter()
-    with pytest.raises(NotANumber, match="no finite value"):
+    with pytest.raises(NotANumber, match="not finite"):
         evaluate(text)
     assert time.perf_counter() - begun < 0.5
 

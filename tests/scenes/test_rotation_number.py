@@ -276,7 +276,13 @@ def test_what_a_link_says_wrongly_is_put_right_and_said():
     values, notes = decode("h=abc&a=1e9&epsilon=0.9&over=x&part_hf=1,nan;2,3", SCENE.specs)
     assert [values[name] for name in ("h", "a", "epsilon", "over", "part_hf")] == [0.5, 100.0, 0.33, "h, f", ""]
     said = " ".join(notes)
-    for word in ("h was not a number", "a lies between", "ε lies between", "Map over was not", "The window of the map"):
+    for word in (
+        "h must be a finite number",
+        "a must lie between",
+        "ε must lie between",
+        "Map over must be",
+        "The window of the map",
+    ):
         assert word in said
 
 

@@ -326,8 +326,7 @@ def test_what_is_compared_is_one_of_the_kinds_the_costliest_at_first():
     values, notes = decode("v=1&difference=everything", scene.specs)
     assert values["difference"] == "rotation number"
     assert notes == [
-        "What is compared was not one of orbit, section, indicator, exponent, rotation number: it is "
-        "rotation number now."
+        "What is compared must be one of orbit, section, indicator, exponent, rotation number: set to rotation number."
     ]
     admitted, notes = scene.admit({**scene.defaults(), "difference": "<b>"})
     assert admitted == scene.defaults()

@@ -41,7 +41,7 @@ def test_mistakes_of_a_link_that_is_restored_are_told(session):
     answer = ask(session, restore="scene=suslov-hess&h=banana&f=0.25")
     assert session.values["f"] == 0.25
     (note,) = session.requested.notes
-    assert note.startswith("h was not a number") and note in answer.state.tree["texts"]["notes"]
+    assert note.startswith("h must be a finite number") and note in answer.state.tree["texts"]["notes"]
 
 
 def test_a_state_that_is_impossible_in_the_next_scene_is_its_first_one_there(session):

@@ -88,7 +88,7 @@ def test_a_message_of_hundred_kilobytes_is_none_too_large(base):
         await visitor.leave()
         return state
 
-    assert "At most 100 characters are read." in finished(visit())["tree"]["texts"]["error-h"]
+    assert "The expression is longer than 100 characters." in finished(visit())["tree"]["texts"]["error-h"]
 
 
 def answer(base, path, **options):
@@ -118,7 +118,7 @@ def test_a_link_that_is_too_long_is_refused_with_a_sentence(base):
     # Up to there the page opens.
     for length in (MAX_QUERY + 100, QUERY_LIMIT):
         state = finished(visit(length))
-        assert "longer than 2000 characters: it was not read" in state["tree"]["texts"]["notes"]
+        assert "longer than 2000 characters: it was ignored" in state["tree"]["texts"]["notes"]
 
 
 def test_what_nothing_here_takes_is_not_taken(base):

@@ -1,1 +1,1 @@
-"""Cached and background computation."""
+"""Cached computations, the scheduler of requests and background work."""

@@ -1,4 +1,4 @@
-"""The missing parts of a state, computed task by task on all cores while the page stays responsive."""
+"""Background computation of the missing parts of a state, task by task on all cores."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ from hess_mechanics.numerics.parallel import THREADS
 __all__ = ["SECONDS", "Background", "run_in_steps"]
 
 SECONDS = 30.0
-"""Of the processor, all cores together, for one piece."""
+"""CPU time limit of one task in seconds, summed over all cores."""
 
 WAIT = 600.0
-"""Seconds by the clock for one, on a machine that has much else to do."""
+"""Wall-clock limit of one task in seconds, for a busy machine."""
 
 logger = logging.getLogger("hess_explorer")
 
@@ -30,7 +30,7 @@ _pool = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="background")
 
 
 def run_in_steps(step: Callable[[], bool]) -> None:
-    """Call step() in the background until it returns False, each time behind what others have queued."""
+    """Call `step` repeatedly in the background until it returns False; each call queues behind waiting work."""
 
     def one() -> None:
         with CORES.fill():
@@ -42,7 +42,7 @@ def run_in_steps(step: Callable[[], bool]) -> None:
 
 
 class _Job:
-    """The tasks of one state."""
+    """The background tasks of one state."""
 
     def __init__(self, tasks: Iterable[Task]) -> None:
         self.tasks = deque(tasks)
@@ -50,31 +50,30 @@ class _Job:
         self.error = ""
 
     def fail(self, error: str) -> None:
-        """Leave out the tasks that have not begun."""
+        """Record the error and drop the tasks that have not started."""
         self.error = error
         self.tasks.clear()
 
 
 class Background:
-    """The background work of one session: a new state discards what is left of the previous one."""
+    """The background work of one session; a new state discards the remaining tasks of the previous one."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._job = _Job(())
-        # The tasks that have begun, of earlier states too, each with what ends it.
+        # The running tasks, including those of earlier states, each with the event that cancels it.
         self._begun: list[tuple[Task, threading.Event]] = []
 
     def follow(self, tasks: Iterable[Task]) -> None:
-        """Compute these into the cache, and discard all earlier tasks but those of them that have begun."""
+        """Compute these tasks into the cache.  Earlier tasks are discarded, except running ones that are listed."""
         wanted = list(tasks)
         self._discard(wanted)
         self._job = job = _Job(wanted)
-        # No thread is woken for nothing.
         for _ in range(min(THREADS, len(wanted))):
             run_in_steps(lambda: self._step(job))
 
     def stop(self) -> None:
-        """Discard all tasks; those that have begun end between two parts of their computations."""
+        """Discard all tasks; running ones end at the next check of their budget."""
         self._discard(())
 
     def _discard(self, but: Collection[Task]) -> None:
@@ -85,7 +84,7 @@ class Background:
                     left.set()
 
     def _step(self, job: _Job) -> bool:
-        """Do one task; return whether there may be more."""
+        """Run one task; return False when the queue is empty."""
         with self._lock:
             if not job.tasks:
                 return False
@@ -93,14 +92,14 @@ class Background:
             job.running += 1
             self._begun.append(begun)
         try:
-            # The mechanics check their results for overflow themselves.
+            # `hess_mechanics` checks its results for overflow itself.
             with np.errstate(all="ignore"), limited(left, SECONDS, WAIT, "A part of this state"):
                 CACHE.get(task.function, *task.arguments)
         except Abandoned:
             pass
         except ModelError as error:
             job.fail(str(error))
-        # A worker that died silently would leave the page waiting for ever: report here, details in the log.
+        # Report any error: if the worker died silently, the page would wait for ever.
         except Exception:
             logger.exception("a computation in the background failed: %s", task.function.__qualname__)
             job.fail("A part of this state could not be computed. Please report the link.")
@@ -111,11 +110,11 @@ class Background:
 
     @property
     def left(self) -> int:
-        """The number of tasks not finished."""
+        """The number of unfinished tasks."""
         with self._lock:
             return len(self._job.tasks) + self._job.running
 
     @property
     def error(self) -> str:
-        """Message of a task that failed, which discards the others; empty if none did."""
+        """The message of a failed task, which also discards the others; empty if no task failed."""
         return self._job.error

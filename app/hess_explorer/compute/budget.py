@@ -1,5 +1,7 @@
-"""How much an answer, or a piece behind it, may cost: what takes longer is refused with a sentence, between two
-computations of it, and between two parts of a long one."""
+"""Time budgets of responses and background tasks.
+
+`check` is called between computations, and between the parts of a long one.  It raises when the budget is used up.
+"""
 
 from __future__ import annotations
 
@@ -16,22 +18,22 @@ from hess_mechanics.numerics.patience import limited_by
 __all__ = ["SECONDS", "WAIT", "Abandoned", "Budget", "OverBudget", "check", "limited"]
 
 SECONDS = 4.0
-"""Of the processor, all cores together, for one answer; what is compiled meanwhile is compiled once, and apart."""
+"""CPU time limit of one response in seconds, summed over all cores; compilation is not counted."""
 
 WAIT = 60.0
-"""Seconds by the clock, on a machine that has much else to do."""
+"""Wall-clock limit of one response in seconds, for a busy machine."""
 
 
 class Abandoned(Exception):
-    """Nobody waits for the answer any more."""
+    """The client has gone, so the result is no longer needed."""
 
 
 class OverBudget(WorkLimit):
-    """An answer has cost too much."""
+    """A computation has exceeded its time budget."""
 
 
 class Budget:
-    """Of the thread that makes it; others work for it."""
+    """CPU budget of the answering thread; helpers charge it through `spend`."""
 
     def __init__(self, left: threading.Event, seconds: float, wait: float, what: str) -> None:
         self.left, self.seconds, self.wait, self.what = left, seconds, wait, what
@@ -40,13 +42,13 @@ class Budget:
         self._elsewhere, self._lock = 0.0, threading.Lock()
 
     def spend(self, seconds: float) -> None:
-        """Another thread has worked."""
+        """Charge the CPU time of another thread."""
         with self._lock:
             self._elsewhere += seconds
 
     @property
     def spent(self) -> float:
-        """Seconds of the processor, but for compiling; what this thread has done is known in it alone."""
+        """CPU seconds spent, without compilation.  Only the answering thread sees its own share."""
         own = 0.0
         if threading.get_ident() == self._thread:
             own = max(0.0, time.thread_time() - self._began - (seconds_compiling() - self._compiled))
@@ -60,9 +62,16 @@ _budget: ContextVar[Budget | None] = ContextVar("budget", default=None)
 def limited(
     left: threading.Event, seconds: float = SECONDS, wait: float = WAIT, what: str = "This state"
 ) -> Iterator[Budget]:
-    """What this thread computes inside is refused by `check` when that is used up, and abandoned once `left` is set.
+    """Give this thread a time budget; `check` raises when it is used up or the client has gone.
 
-    what : is computed, as the refusal says.
+    Parameters
+    ----------
+    left : threading.Event
+        Set when the client has gone.
+    seconds, wait : float
+        Limits of CPU time and of wall-clock time, in seconds.
+    what : str
+        Subject of the error message.
     """
     budget = Budget(left, seconds, wait, what)
     token = _budget.set(budget)
@@ -74,7 +83,7 @@ def limited(
 
 
 def check() -> None:
-    """Raise `OverBudget` where the answer has cost too much, `Abandoned` where nobody waits for it."""
+    """Raise `OverBudget` if the time budget is used up, `Abandoned` if the client has gone."""
     budget = _budget.get()
     if budget is None:
         return
@@ -82,11 +91,11 @@ def check() -> None:
         raise Abandoned
     if budget.spent > budget.seconds:
         raise OverBudget(
-            f"{budget.what} takes more than {budget.seconds:g} s to compute, and no more is given to one: "
-            "choose a shorter time span, fewer orbits or a cheaper accuracy."
+            f"{budget.what} takes more than {budget.seconds:g} s to compute, which is the limit: "
+            "choose a shorter time span, fewer orbits or a lower accuracy."
         )
     if time.monotonic() > budget.clock_ends:
         raise OverBudget(
             f"The server is too busy to compute this state within {budget.wait:g} s: try again later, or "
-            "choose a shorter time span or a cheaper accuracy."
+            "choose a shorter time span or a lower accuracy."
         )

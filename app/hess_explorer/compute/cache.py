@@ -1,4 +1,4 @@
-"""The process-wide cache of results: bounded by bytes, one computation for concurrent misses."""
+"""Process-wide cache of results, bounded in bytes; concurrent misses of one key share a computation."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ _OVERHEAD, _NUMBER = 512, 64
 
 
 def size_of(value: Any) -> int:
-    """Bytes held by a result: its arrays, nested in dataclasses, mappings and tuples, and an overhead for each."""
-    # First what there is most of.
+    """Return the size of a result in bytes: its arrays, nested in dataclasses, mappings and tuples, plus overhead."""
+    # The most frequent type first.
     if type(value) is float:
         return _NUMBER
     if isinstance(value, np.ndarray):
@@ -38,21 +38,21 @@ def size_of(value: Any) -> int:
 
 @dataclass(frozen=True)
 class Task:
-    """A computation that can wait: function(*arguments), its result for the cache."""
+    """A deferred computation function(*arguments), whose result goes into the cache."""
 
     function: Callable[..., Any]
     arguments: tuple[Hashable, ...]
 
     def now(self) -> Any:
-        """The result, computed here and now, whatever the cache has."""
+        """Compute and return the result, bypassing the cache."""
         return self.function(*self.arguments)
 
 
 class ResultCache:
-    """Results by function and arguments; the least recently used are dropped first.
+    """Thread-safe LRU cache of results by function and arguments.
 
-    Safe to use from several threads.  Functions must be pure, arguments hashable, results frozen.
-    A computation that raises is not kept; all who waited for it get the error.
+    Functions must be pure, arguments hashable and results frozen.  Errors are not cached; they are raised in all
+    threads that wait for the same result.
     """
 
     def __init__(self, capacity: int) -> None:
@@ -63,7 +63,7 @@ class ResultCache:
         self._running: dict[Hashable, Future[Any]] = {}
 
     def get(self, function: Callable[..., Any], *arguments: Hashable) -> tuple[Any, bool]:
-        """Return function(*arguments), and whether it was there already.  Raises as `budget.check`."""
+        """Return (function(*arguments), hit); hit is True if the result was cached.  Raises as `budget.check`."""
         check()
         key = _key(function, arguments)
         with self._lock:
@@ -78,7 +78,7 @@ class ResultCache:
             try:
                 return running.result(), True
             except (Abandoned, OverBudget):
-                # That was the end of another session's budget.
+                # Another session's budget ended, not this one's.
                 return self.get(function, *arguments)
         try:
             value = function(*arguments)
@@ -89,14 +89,14 @@ class ResultCache:
             raise
         with self._lock:
             del self._running[key]
-            # A result larger than the whole cache is not kept.
+            # LRUCache raises ValueError for a result larger than the whole cache.
             with suppress(ValueError):
                 self._results[key] = value
         own.set_result(value)
         return value, False
 
     def peek(self, function: Callable[..., Any], *arguments: Hashable) -> Any | None:
-        """Return function(*arguments) if it is there, which counts as a hit; else None."""
+        """Return the cached result of function(*arguments), or None; a cached result counts as a hit."""
         key = _key(function, arguments)
         with self._lock:
             self.hits += key in self._results
@@ -104,16 +104,16 @@ class ResultCache:
 
     @property
     def bytes(self) -> int:
-        """How much is held."""
+        """The total size of the cached results in bytes."""
         return int(self._results.currsize)
 
     @property
     def asked(self) -> int:
-        """How many results have been asked for."""
+        """The number of lookups so far."""
         return self.hits + self.misses
 
     def metrics(self) -> dict[str, int]:
-        """The counters, all of one moment."""
+        """Return a consistent snapshot of the counters."""
         with self._lock:
             return {
                 "cache_hits": self.hits,

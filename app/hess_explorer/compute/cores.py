@@ -1,4 +1,4 @@
-"""Who waits for an answer goes first: what is filled in behind it has the cores that are left, and never stops."""
+"""Share of the cores between requests and background work: requests come first, background work never stops."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from hess_mechanics.numerics.parallel import THREADS
 __all__ = ["CORES", "PATIENCE", "Cores", "queue_again"]
 
 PATIENCE = 1.0
-"""Seconds after which a piece is computed though others wait for answers: under any load it goes on."""
+"""Maximum delay of a background task in seconds while requests occupy the cores."""
 
 
 class Cores:
-    """How many of the cores are asked for."""
+    """Counts the cores in use."""
 
     def __init__(self, count: int) -> None:
         self.count = count
@@ -24,22 +24,23 @@ class Cores:
         self._free = threading.Condition()
 
     def shared_by(self, processes: int) -> None:
-        """Of the cores each of so many processes has its share, and at least one."""
+        """Reduce the count to this process's share among several processes, at least one core."""
         with self._free:
             self.count = max(1, self.count // processes)
             self._free.notify_all()
 
     def answer(self, begins: bool) -> None:
-        """A session that somebody waits for has something to do, or nothing any more."""
+        """Record that a session starts (True) or stops (False) processing requests."""
         with self._free:
             self._answering += 1 if begins else -1
             self._free.notify_all()
 
     @contextmanager
     def fill(self, patience: float = PATIENCE) -> Iterator[None]:
-        """Inside, one core computes what nobody waits for; one that is left is waited for as long as that.
+        """Reserve one core for background work.
 
-        Never more than there are cores.
+        Waits up to `patience` seconds for a free core.  The number of background tasks never exceeds the number of
+        cores.
         """
         with self._free:
             self._free.wait_for(lambda: self._answering + self._filling < self.count, patience)
@@ -57,6 +58,6 @@ CORES = Cores(THREADS)
 
 
 def queue_again(pool: ThreadPoolExecutor, work: Callable[[], None]) -> None:
-    """In a thread of the pool: do this behind what waits there; not at all where the interpreter ends meanwhile."""
+    """Queue work from a thread of the pool; does nothing if the interpreter is shutting down."""
     with suppress(RuntimeError):
         pool.submit(work)

@@ -1,8 +1,8 @@
-"""The scheduler of requests: computed outside the thread that serves, one of a session at a time, fairly for all.
+"""Scheduler of requests: one at a time per session, outside the thread of the event loop, fair between sessions.
 
-Fair in processor time, not in number: start-time fair queueing (Goyal, Vin and Cheng, 1996).  A request is tagged with
-the time at which the session's last one would have ended, had the session had its share and no more; the least tag
-comes first.  So a session whose requests take long waits for the others, and they hardly wait for it.
+It shares CPU time rather than the number of requests, by start-time fair queueing (Goyal, Vin and Cheng, 1996).  The
+tag of a request is the virtual time at which the session's previous request ended; the smallest tag is served first.
+A session with slow requests therefore waits for the others, which hardly wait for it.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ __all__ = ["MOST", "RequestQueue"]
 logger = logging.getLogger("hess_explorer")
 
 MOST = 20
-"""The most requests that wait in a session: a page sends one and waits for its answer."""
+"""Maximum number of waiting requests of a session; a page sends one at a time."""
 
-# One thread more than there are cores: one that takes long keeps no other waiting.  Many more would keep the thread
-# that serves from the interpreter's lock.
+# One thread more than cores, so that a slow request does not block the others.  Many more threads would delay the event
+# loop, which competes with them for the interpreter lock.
 _pool = ThreadPoolExecutor(max_workers=THREADS + 1, thread_name_prefix="request")
 
 
 class _Scheduler:
-    """Which session is next.  Times are seconds of the processor that a session with its share has had."""
+    """Chooses the next session.  Virtual time is measured in CPU seconds of a session with its fair share."""
 
     def __init__(self) -> None:
         self._waiting: list[tuple[float, int, Callable[[float], None]]] = []
@@ -41,9 +41,9 @@ class _Scheduler:
         self._lock = threading.Lock()
 
     def put(self, ended: float, run: Callable[[float], None]) -> None:
-        """Call run(start) when it is next; ended : when the last request of the same session did."""
+        """Schedule run(start); ended : virtual end time of the session's previous request."""
         with self._lock:
-            # Of those that start at the same time the first comes first.
+            # The counter breaks ties in order of arrival.
             heapq.heappush(self._waiting, (max(ended, self._now), next(self._number), run))
         queue_again(_pool, self._next)
 
@@ -58,7 +58,7 @@ _scheduler = _Scheduler()
 
 
 class RequestQueue:
-    """The requests of one session, handled in their order."""
+    """The queue of one session's requests, processed in order."""
 
     def __init__(self) -> None:
         self._waiting: deque[Callable[[], None]] = deque(maxlen=MOST)
@@ -68,7 +68,7 @@ class RequestQueue:
         self._left = threading.Event()
 
     def put(self, work: Callable[[], None]) -> bool:
-        """Do this when it is next; return False where the oldest that waits is dropped for it."""
+        """Queue a request; return False if the oldest waiting one was dropped to make room."""
         with self._lock:
             if self._left.is_set():
                 return True
@@ -81,13 +81,13 @@ class RequestQueue:
         return room
 
     def end(self) -> None:
-        """Drop what waits; what runs ends before its next computation."""
+        """Drop the waiting requests; the running one ends at the next check of its budget."""
         with self._lock:
             self._left.set()
             self._waiting.clear()
 
     def _run(self, start: float) -> None:
-        """Do one thing, then queue again where more waits."""
+        """Process one request, then schedule the next one."""
         with self._lock:
             work = self._waiting.popleft() if self._waiting else None
         with limited(self._left) as budget:
@@ -96,7 +96,7 @@ class RequestQueue:
                     work()
             except Abandoned:
                 pass
-            # Whatever it is, what waits behind it in the session is handled; the log says all.
+            # Log any error, and go on with the next request of the session.
             except Exception:
                 logger.exception("a request could not be handled")
         with self._lock:

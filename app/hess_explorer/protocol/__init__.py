@@ -1,1 +1,1 @@
-"""What travels between browser and server: parameters and data."""
+"""Messages between browser and server: parameters, requests and responses."""

@@ -1,7 +1,7 @@
-"""Numbers written as a user writes them: pi/3, sqrt(2), 1/7.
+"""Evaluate numbers that a user types as expressions: pi/3, sqrt(2), 1/7.
 
-What is read comes from outside: numbers, + − * / **, parentheses, pi, e and elementary functions, of bounded length,
-evaluated by a library that runs no code.
+The text is untrusted.  Only numbers, + − * / **, parentheses, pi, e and elementary functions are accepted, up to a
+maximum length; simpleeval evaluates the expression without running code.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from simpleeval import InvalidExpression, SimpleEval
 __all__ = ["FUNCTIONS", "MOST", "NotANumber", "evaluate"]
 
 MOST = 100
-"""So many characters are read."""
+"""Maximum length of an expression, in characters."""
 
 FUNCTIONS: Mapping[str, Callable[..., float]] = {
     name: getattr(math, name)
@@ -28,7 +28,7 @@ FUNCTIONS: Mapping[str, Callable[..., float]] = {
 
 _NAMES = {"pi": math.pi, "π": math.pi, "e": math.e}
 _KINDS = (ast.Expr, ast.Constant, ast.Name, ast.UnaryOp, ast.BinOp, ast.Call)
-# The power of floats: that of whole numbers may have millions of digits.
+# `math.pow`, because powers of integers may have millions of digits.
 _OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
@@ -38,32 +38,43 @@ _OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
     ast.USub: operator.neg,
     ast.UAdd: operator.pos,
 }
-# No quotes, commas, dots or brackets but those of numbers: nothing else than numbers can be made of these.
+# No quotes, commas or brackets, and dots only in numbers: such a text can only produce numbers.
 _TEXT = re.compile(
     r"(?>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![\w.])|[A-Za-zπ]+[0-9]*(?![\w.])|[-+*/()]|\s)+"
 )
 
 
 class NotANumber(ValueError):
-    """A text that has no value as a number; the message says what is allowed."""
+    """The text is not a number; the message lists the accepted forms."""
 
 
 def evaluate(text: str) -> float:
-    """The finite value of an expression.
+    """Return the value of an expression.
+
+    Parameters
+    ----------
+    text : str
+        The expression, for example "2*pi/3"; "^" means a power.
+
+    Returns
+    -------
+    float
+        The value, always finite.
 
     Raises
     ------
-    NotANumber : it is too long, cannot be read, or has no finite value.
+    NotANumber
+        If the text is too long, cannot be parsed, or has no finite value.
     """
     text = text.strip().replace("−", "-").replace("^", "**").replace("·", "*")
     if len(text) > MOST:
-        raise NotANumber(f"At most {MOST} characters are read.")
+        raise NotANumber(f"The expression is longer than {MOST} characters.")
     if not _TEXT.fullmatch(text):
         raise NotANumber("This is not a number: type one like 1.5, 1e-8, pi/3, sqrt(2) or 1/7.")
     evaluator = SimpleEval(operators=_OPERATORS, functions=dict(FUNCTIONS), names=_NAMES)
     evaluator.nodes = {kind: evaluator.nodes[kind] for kind in _KINDS}
     try:
-        # Python warns of what it may mean, and such is refused anyway.
+        # Python warns about suspicious syntax; such expressions are rejected.
         with warnings.catch_warnings(action="error"):
             value = evaluator.eval(text)
         if isinstance(value, bool) or not isinstance(value, int | float):
@@ -73,9 +84,8 @@ def evaluate(text: str) -> float:
         value = math.nan
     except (InvalidExpression, SyntaxError, TypeError, RecursionError, MemoryError, Warning):
         raise NotANumber(
-            "This is no number and no expression that can be read: + − * / **, parentheses, pi, e and "
-            f"{', '.join(FUNCTIONS)} are known."
+            f"This is not a valid expression: use numbers, + − * / **, parentheses, pi, e and {', '.join(FUNCTIONS)}."
         ) from None
     if not math.isfinite(value):
-        raise NotANumber("This has no finite value: change the expression.")
+        raise NotANumber("The value is not finite: change the expression.")
     return value

@@ -1,21 +1,22 @@
-"""The messages of a page's websocket: requests are parsed once from untrusted JSON, answers are encoded once.
+"""Messages of a page's websocket: `parse` reads requests from untrusted JSON, `Answer.encode` writes responses.
 
-A request is JSON in a text frame.  It asks for the state after the user's n-th change, "requested": n, with
+A request is a text frame of JSON.  The key "requested": n asks for the state after the user's n-th change.  Other keys:
 
 - "values": {name: number or option, …}; "preset": the chosen example; "scene": the chosen scene;
-- "expressions": {name: text, …}, numbers as they were typed, pi/3;
-- "picked": [picture, x, y], a click, or [picture, x0, y0, x1, y1], a box; "hover": [picture, x, y];
-- "lesson": the wanted lesson; "step": [lesson or scene, number of the step from 0, whether its guess is revealed];
-- "near": a scene that may be chosen next;
-- "restore": the query of a state to go to, as in a link;
-- "reset", "clear", "stop": whether that was pressed; "held": whether a slider is held;
-- "hidden": [the pictures out of sight, …].
+- "expressions": {name: text, …}, numbers typed as expressions such as pi/3;
+- "picked": a click [picture, x, y] or a box [picture, x0, y0, x1, y1]; "hover": [picture, x, y];
+- "lesson": the name of a lesson to describe; "step": [lesson or scene, index of the step, true if its prediction is
+  revealed];
+- "near": a scene that the user may choose next;
+- "restore": the query of the state to go to, as in a link;
+- "reset", "clear", "stop": true if that button was pressed; "held": true while a slider is held;
+- "hidden": [picture outside of the viewport, …].
 
-Or it is about the chart of the page: {"chart": …} with {"start": what `Chart.read` takes, "id": number}, {"more":
-number of known cells, "id": number}, {"stop": true}, or {"why": what `Chart.read` takes, "at": [x, y]}.
+A chart request has the single key "chart".  Its value is one of {"start": argument of `Chart.read`, "id": number},
+{"more": number of known cells, "id": number}, {"stop": true}, {"why": argument of `Chart.read`, "at": [x, y]}.
 
-An answer is one binary frame: the lengths of its head and of its block (32 bits each, little endian), the head, the
-block, the cells.  The head is JSON, see `Answer`.  "page/websocket.js" takes it apart.
+A response is one binary frame: the lengths of head and block (32 bits each, little endian), the head, the block, the
+cells.  The head is the JSON of an `Answer`.  "page/websocket.js" decodes the frame.
 """
 
 from __future__ import annotations
@@ -50,7 +51,7 @@ __all__ = [
 
 @dataclass(frozen=True)
 class PicturePoint:
-    """A point in a picture, finite."""
+    """A point in a picture, with finite coordinates."""
 
     picture: str
     x: float
@@ -59,7 +60,7 @@ class PicturePoint:
 
 @dataclass(frozen=True)
 class PictureBox:
-    """A box in a picture, with the finite corners (x0, y0, x1, y1)."""
+    """A box in a picture, with finite corners (x0, y0, x1, y1)."""
 
     picture: str
     corners: tuple[float, float, float, float]
@@ -67,7 +68,7 @@ class PictureBox:
 
 @dataclass(frozen=True)
 class StepChoice:
-    """A step of a lesson, or of what can be tried in a scene."""
+    """A step of a lesson, or of the suggestions of a scene."""
 
     lesson: str
     number: int
@@ -76,7 +77,7 @@ class StepChoice:
 
 @dataclass(frozen=True)
 class Request:
-    """A request for a state; its fields are described above, and a field that was missing or wrong says nothing."""
+    """A request for a state, with the fields described above; a missing or invalid field has its default."""
 
     requested: int | None = None
     restore: str | None = None
@@ -98,7 +99,7 @@ class Request:
 
 @dataclass(frozen=True)
 class StartChart:
-    """A chart in place of the one before; chart : what `Chart.read` takes."""
+    """Start a chart, which replaces the previous one; chart : argument of `Chart.read`."""
 
     chart: Mapping[str, object]
     id: int
@@ -106,7 +107,7 @@ class StartChart:
 
 @dataclass(frozen=True)
 class ContinueChart:
-    """The cells after the first `known` ones."""
+    """Send the cells after the first `known` ones."""
 
     known: int
     id: int
@@ -119,7 +120,7 @@ class StopChart:
 
 @dataclass(frozen=True)
 class ExplainCell:
-    """How the cell at (x, y) ends; chart : what `Chart.read` takes."""
+    """Explain the status of the cell at (x, y); chart : argument of `Chart.read`."""
 
     chart: Mapping[str, object]
     x: float
@@ -130,7 +131,7 @@ ChartRequest = StartChart | ContinueChart | StopChart | ExplainCell
 
 
 def parse(message: Any) -> Request | ChartRequest | None:
-    """Return the request in decoded JSON; None where there is none."""
+    """Return the request in decoded JSON, or None if there is none."""
     if not isinstance(message, dict):
         return None
     chart = message.get("chart")
@@ -203,7 +204,7 @@ def _value(value: Any) -> Value:
 
 
 def _number(value: Any) -> float:
-    """Return a number; NaN for whatever is none, or beyond double range."""
+    """Return the value as a float; NaN if it is not a number or exceeds the double range."""
     try:
         return float(value) if isinstance(value, int | float) else math.nan
     except OverflowError:
@@ -212,9 +213,12 @@ def _number(value: Any) -> float:
 
 @dataclass(frozen=True)
 class StateAnswer:
-    """A state: its number among those of the session, the request it answers, its query, what changes on the page.
+    """A state of the page.
 
-    tree : see `Wire.pack`; progress : (done, of) while some of its tasks are on their way.
+    Attributes
+    ----------
+    number : index of the state in the session; answers : value of "requested" in the request; query : of its link;
+    tree : changes of the page, see `Wire.pack`; progress : tasks (done, total) while background tasks are running.
     """
 
     number: int
@@ -227,7 +231,7 @@ class StateAnswer:
 
 @dataclass(frozen=True)
 class ChartCells:
-    """Cells of a chart that follow those known, and how far it is; x, y : (name, low, high, count) as clamped."""
+    """New cells of a chart and its progress; x, y : its axes (name, low, high, count), clamped."""
 
     id: int | None
     cells: int
@@ -246,7 +250,7 @@ class ChartCells:
 
 @dataclass(frozen=True)
 class ChartEnded:
-    """There is no chart, and why."""
+    """The chart has ended; said : the reason."""
 
     id: int | None
     said: str
@@ -256,7 +260,7 @@ class ChartEnded:
 
 @dataclass(frozen=True)
 class CellExplained:
-    """How the cell at (x, y) ends."""
+    """Explanation of the status of the cell at (x, y)."""
 
     at: tuple[float, float]
     why: str
@@ -264,10 +268,12 @@ class CellExplained:
 
 @dataclass(frozen=True)
 class Answer:
-    """What a page is told at once.
+    """A response to the page.
 
-    scene, lesson : descriptions, JSON, empty for none; block : the numbers of the state; cells : those of the chart,
-    double precision, their indices (32 bits) and status (8 bits).
+    Attributes
+    ----------
+    scene, lesson : descriptions as JSON, empty for none; block : the numbers of the state; cells : of the chart, the
+    values (double precision), indices (32 bits) and status (8 bits).
     """
 
     scene: str = ""
@@ -278,7 +284,7 @@ class Answer:
     cells: bytes = b""
 
     def encode(self) -> bytes:
-        """Return the frame; empty where there is nothing to tell."""
+        """Return the binary frame; empty if the response has no content."""
         parts = {"scene": self.scene, "lesson": self.lesson, "state": _json(self.state), "chart": _json(self.chart)}
         told = ", ".join(f'"{name}": {text}' for name, text in parts.items() if text)
         head = f"{{{told}}}".encode()
@@ -286,5 +292,5 @@ class Answer:
 
 
 def _json(part: StateAnswer | ChartCells | ChartEnded | CellExplained | None) -> str:
-    # Not `asdict`, which copies all that is in it.
+    # Not `asdict`, which makes a deep copy.
     return json.dumps(vars(part)) if part is not None else ""

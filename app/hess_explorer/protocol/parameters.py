@@ -1,7 +1,7 @@
-"""Parameters of a page: their specification, and their form in the URL.
+"""Parameters of the page: their specification and their form in the URL.
 
-The URL holds the whole state under a version.  Nothing in it is trusted: each key is checked
-and clamped by itself, and what had to be changed is said in a note.
+The URL holds the whole state and a version.  It is untrusted: each key is checked and clamped by itself, and each
+change is reported in a note.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ __all__ = [
 VERSION = "1"
 MAX_QUERY = 2000
 _SHORT = 60
-"""So many characters of what a link says are repeated in a message."""
+"""Maximum number of characters of a link that a message quotes."""
 
 Value = float | str
 Values = Mapping[str, Value]
@@ -46,28 +46,25 @@ Values = Mapping[str, Value]
 
 @dataclass(frozen=True)
 class Number(Parameter):
-    """A parameter with a slider over `softbounds`; values within `bounds` may be typed."""
+    """A numeric parameter; its slider covers `softbounds`, typed values may lie anywhere within `bounds`."""
 
     def read(self, text: str) -> tuple[float, str | None]:
-        """The value that a text from outside means, and a note where it had to be changed."""
+        """Return the value of an untrusted text, and a note if it had to be changed."""
         try:
             value = float(text)
         except ValueError:
-            return self._default("a number")
+            value = math.nan
         return self.admit(value)
 
     def admit(self, value: float) -> tuple[float, str | None]:
-        """The value clamped to what may be, and a note where it was."""
+        """Return the value clamped to `bounds`, and a note if it had to be changed."""
         if not math.isfinite(value):
-            return self._default("finite")
+            return self.default, f"{self.symbol} must be a finite number {self.range}: set to {self.default:g}."
         low, high = self.bounds
         clamped = min(max(value, low), high)
         if clamped != value:
-            return clamped, f"{self.symbol} lies {self.range}: it is {clamped:g} now."
+            return clamped, f"{self.symbol} must lie {self.range}: set to {clamped:g}."
         return value, None
-
-    def _default(self, what: str) -> tuple[float, str]:
-        return self.default, f"{self.symbol} was not {what}, but lies {self.range}: it is {self.default:g} now."
 
 
 @dataclass(frozen=True)
@@ -82,17 +79,17 @@ class Choice:
     group: Group = "Computation"
 
     def read(self, text: str) -> tuple[str, str | None]:
-        """The option of that name, or the default and a note (which does not repeat the text)."""
+        """Return the option of that name; otherwise the default and a note, which does not quote the text."""
         if text in self.options:
             return text, None
-        return self.default, f"{self.label} was not one of {', '.join(self.options)}: it is {self.default} now."
+        return self.default, f"{self.label} must be one of {', '.join(self.options)}: set to {self.default}."
 
 
 @dataclass(frozen=True)
 class Places:
-    """Points chosen with the mouse in a picture, as a text "x,y;x,y": at most `most` within `low` … `high`.
+    """Points chosen with the mouse in a picture, as a text "x,y;x,y"; they have no control.
 
-    They have no control of their own.
+    most : maximum number of points; low, high : corners of the rectangle that contains them.
     """
 
     name: str
@@ -103,7 +100,7 @@ class Places:
     default: str = ""
 
     def read(self, text: str) -> tuple[str, str | None]:
-        """The last `most` of the points, as a text; the default where it is none; a note where it had to be changed."""
+        """Return the last `most` points as a text, and a note if the text had to be changed."""
         try:
             pairs = [tuple(map(float, pair.split(","))) for pair in text.split(";") if pair]
             inside = all(
@@ -115,16 +112,14 @@ class Places:
             inside = False
         if not inside:
             low, high = (",".join(f"{value:g}" for value in corner) for corner in (self.low, self.high))
-            return self.default, (
-                f"{self.label} could not be read as points x,y;x,y from {low} to {high}: what it is at first is shown."
-            )
-        note = f"{self.label} may be {self.most} at most: the last are kept." if len(pairs) > self.most else None
+            return self.default, (f"{self.label} must be points x,y;x,y from {low} to {high}: the default is shown.")
+        note = f"{self.label} may be at most {self.most}: the last ones are kept." if len(pairs) > self.most else None
         return written(pairs[-self.most :]), note
 
 
 @dataclass(frozen=True)
 class Names:
-    """At most `most` of a fixed list of names, as a text "a,b".  They have no control of their own."""
+    """At most `most` names from a fixed list, as a text "a,b"; they have no control."""
 
     name: str
     label: str
@@ -133,12 +128,14 @@ class Names:
     default: str = ""
 
     def read(self, text: str) -> tuple[str, str | None]:
-        """The first `most` of the names, each once; a note where one is not of the list, the default if all are not."""
+        """Return the first `most` known names, without duplicates, and a note if a name had to be dropped.
+
+        The default is returned if none of the names is known.
+        """
         names = list(dict.fromkeys(name for name in text.split(",") if name))
         known = [name for name in names if name in self.options]
         note = (
-            f"{self.label} may be {', '.join(self.options)}, {self.most} at most: what the link names besides is "
-            "left out."
+            f"{self.label} may be {', '.join(self.options)}, at most {self.most}: other names in the link are ignored."
             if len(known) < len(names) or len(known) > self.most
             else None
         )
@@ -146,12 +143,12 @@ class Names:
 
 
 def written(places: Sequence[tuple[float, ...]]) -> str:
-    """The text of these points."""
+    """Return the points as a text "x,y;x,y"."""
     return ";".join(",".join(f"{value:.10g}" for value in place) for place in places)
 
 
 def places(text: Value) -> list[tuple[float, float]]:
-    """The points that an admitted text names."""
+    """Return the points of a text that was checked before."""
     pairs = (pair.split(",") for pair in str(text).split(";") if pair)
     return [(float(x), float(y)) for x, y in pairs]
 
@@ -164,7 +161,7 @@ CLIENT: tuple[Number, ...] = (
     Number("az", "azimuth", "Azimuth of the sphere", 0.6, (-3.1416, 3.1416), 0.0, (-3.1416, 3.1416)),
     Number("el", "elevation", "Elevation of the sphere", 0.35, (-1.5708, 1.5708), 0.0, (-1.5708, 1.5708)),
 )
-"""Keys of the URL that the browser itself keeps, besides the pictures enlarged: they need no computation."""
+"""Keys of the URL that the browser keeps; they need no computation."""
 
 PAGE_KEYS = (
     "v",
@@ -179,7 +176,7 @@ PAGE_KEYS = (
     "lesson",
     "step",
 )
-"""Keys of the URL that are no parameters of a scene."""
+"""Keys of the URL that are not parameters of a scene."""
 
 
 def _text(value: Value) -> str:
@@ -187,34 +184,42 @@ def _text(value: Value) -> str:
 
 
 def encode(scene: str, values: Values) -> str:
-    """The query of these values of a scene, version first."""
+    """Return the query of a link to these values of a scene, version first."""
     return urlencode([("v", VERSION), ("scene", scene), *((name, _text(value)) for name, value in values.items())])
 
 
 def refusal(note: str) -> str:
-    """Return the sentence of a note on what was wrong, without what was put in its place, which follows a colon."""
+    """Return the requirement of a note: the part before the colon, without the value that was set instead."""
     return f"{note.partition(': ')[0].removesuffix('.')}."
 
 
 def query_in(link: str) -> str:
-    """Return the query of a whole link, or of what follows ? in one."""
+    """Return the query of a link, which may be a full URL or only the part after "?"."""
     parts = urlsplit(link)
     return parts.query if parts.scheme or link.startswith("?") else link
 
 
 class Link:
-    """A query from outside, read once.
+    """An untrusted query, parsed.
 
     Parameters
     ----------
-    query : what follows ? in a link.
-    lenient : whether what is wrong is put right and noted; else it is refused.
+    query : str
+        The part of a link after "?".
+    lenient : bool
+        True to correct errors and append a note for each; False to raise an error.
 
-    notes : what had to be changed in it, and what is wrong with all of it, each once; given : its keys and their texts.
+    Attributes
+    ----------
+    given : mapping of str to str
+        The keys of the query and their texts.
+    notes : list of str
+        The corrections, without duplicates.
 
     Raises
     ------
-    InvalidParameter : it is read strictly and something in it is wrong; so do its methods.
+    InvalidParameter
+        If the query is invalid and `lenient` is False.  The methods raise it as well.
     """
 
     def __init__(self, query: str, lenient: bool = True) -> None:
@@ -222,24 +227,24 @@ class Link:
         self.notes: list[str] = []
         self._lenient = lenient
         if len(query) > MAX_QUERY:
-            self.note(f"The link was longer than {MAX_QUERY} characters: it was not read.")
+            self.note(f"The link is longer than {MAX_QUERY} characters: it was ignored.")
             return
         pairs = parse_qsl(query.lstrip("?"), keep_blank_values=True)
         self.given = dict(pairs)
         if not lenient:
             self._refuse_repeated([name for name, _ in pairs])
         if self.given.get("v", VERSION) != VERSION:
-            self.note("The link is of another version of this page: what it says may mean something else here.")
+            self.note("The link was made by another version of this page: its values may have another meaning here.")
 
     def note(self, note: str, given: str = "") -> None:
-        """Note what had to be changed, or refuse it; given : what the link says there."""
+        """Append a note on a correction, or raise `InvalidParameter`; given : quotation from the link."""
         if not self._lenient:
             raise InvalidParameter(f"{given}{refusal(note).removesuffix('.')}; {_REMEDY}")
         if note not in self.notes:
             self.notes.append(note)
 
     def value(self, spec: Spec) -> Value:
-        """The value of a parameter, its default where the link says nothing."""
+        """Return the value of a parameter; the default if the link does not contain it."""
         if spec.name not in self.given:
             return spec.default
         text = self.given[spec.name]
@@ -249,24 +254,24 @@ class Link:
         return value
 
     def values(self, specs: Sequence[Spec]) -> dict[str, Value]:
-        """The values of all of these."""
+        """Return the values of several parameters by name."""
         return {spec.name: self.value(spec) for spec in specs}
 
     def require(self, scene: str, names: Sequence[str]) -> None:
-        """Refuse a key that is neither one of these names, of a scene, nor one of the page; leniently it is ignored."""
+        """Check that each key belongs to the scene or to the page.  A lenient link ignores unknown keys."""
         unknown = [name for name in self.given if name not in names and name not in PAGE_KEYS]
         if unknown and not self._lenient:
             raise InvalidParameter(
-                f"The scene {scene} has no parameter {_short(unknown[0])}, but {', '.join(names)}; {_REMEDY}"
+                f"The scene {scene} has no parameter {_short(unknown[0])}, only {', '.join(names)}; {_REMEDY}"
             )
 
     def _refuse_repeated(self, names: list[str]) -> None:
         twice = [name for name in names if names.count(name) > 1]
         if twice:
-            raise InvalidParameter(f"The link says {_short(twice[0])} more than once; {_REMEDY}")
+            raise InvalidParameter(f"The link contains {_short(twice[0])} more than once; {_REMEDY}")
 
 
-_REMEDY = "correct it, or have it put right with --lenient (in Python lenient=True)."
+_REMEDY = "correct it, or use --lenient (in Python lenient=True) to have it corrected."
 
 
 def _short(text: str) -> str:
@@ -274,6 +279,6 @@ def _short(text: str) -> str:
 
 
 def decode(query: str, specs: Sequence[Spec]) -> tuple[dict[str, Value], list[str]]:
-    """The values of all specs from a query, defaults where it has none, and notes on what was changed."""
+    """Return the values of all parameters in a query, and the notes on corrections."""
     link = Link(query)
     return link.values(specs), link.notes

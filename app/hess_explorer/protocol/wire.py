@@ -1,8 +1,8 @@
-"""How new data reach the pictures: all columns of one state in one message.
+"""Pack the data of a state for the browser: all arrays in one message.
 
-Bokeh sends every array of a source as a message of its own, some fifty per state.  Here the
-arrays become one block of bytes, and their places in it a small tree of numbers, which the
-browser turns back into the sources' columns ("unpack.js").  A picture is filled in no other way.
+Bokeh would send each array of a source as a separate message, about fifty per state.  Here the arrays become one block
+of bytes and a small tree with their positions.  The browser ("unpack.js") restores the columns of the sources.  All
+data of the pictures take this way.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ __all__ = ["Wire"]
 
 
 class Wire:
-    """Collects the columns, axes, texts and control values that change, and packs them."""
+    """Collects the changes of columns, axes, texts and controls, and packs them."""
 
     def __init__(self) -> None:
         self._pending: dict[str, Mapping[str, Any]] = {}
@@ -25,31 +25,31 @@ class Wire:
         self._controls: dict[str, list[float] | str] = {}
 
     def put(self, source: str, columns: Mapping[str, Any]) -> None:
-        """New columns for the source of that name; the last ones put before `pack` count."""
+        """Set the columns of a source; a later call before `pack` replaces them."""
         self._pending[source] = columns
 
     def put_ranges(self, plot: str, x: tuple[float, float], y: tuple[float, float]) -> None:
-        """New axes for the plot of that name."""
+        """Set the axis ranges of a plot."""
         self._ranges[plot] = [*x, *y]
 
     def say(self, key: str, text: str) -> None:
-        """A new text for the component `Text` of that key."""
+        """Set the text of the `Text` component of that key."""
         self._texts[key] = text
 
     def show_number(self, name: str, value: float, limits: Sequence[float], idle: bool = False) -> None:
-        """What the control of a number shows: its value, (low, high, step) of its slider, whether it is disabled."""
+        """Set the control of a number: its value, the (low, high, step) of its slider, idle if it is disabled."""
         self._controls[name] = [value, *limits, *([True] if idle else [])]
 
     def show_choice(self, name: str, option: str) -> None:
-        """What a menu shows."""
+        """Set the selected option of a menu."""
         self._controls[name] = option
 
     def pack(self) -> tuple[dict[str, Any], bytes]:
-        """The tree {"sources": …, "ranges": …, "texts": …, "controls": …} and the
-        block of all that was put, and forget it.
+        """Return the tree and the block of all collected changes, and clear them.
 
-        In the tree an array is {"at": first, "n": length}, counted in single-precision numbers,
-        with its shape if that is not (n,); lists and short plain values stand as they are.
+        The tree has the keys "sources", "ranges", "texts" and "controls".  It represents an array by {"at": first,
+        "n": length}, counted in single-precision numbers, and its "shape" unless that is (n,).  Lists and plain values
+        are copied.
         """
         blocks: list[np.ndarray] = []
         position = 0
