@@ -1,7 +1,7 @@
-"""Proofs as certificates: plain data with everything that an independent check of them needs.
+"""Certificates of proofs: plain data with everything that an independent check needs.
 
-Numbers are texts: decimals, or rationals p/q; a pair of them encloses a number.  `tests/check_certificate.py` checks
-certificates with intervals of mpmath and shares no code with the prover.
+Numbers are strings, decimals or rationals p/q; a pair of strings is an interval that encloses a number.
+`tests/check_certificate.py` checks certificates with the intervals of mpmath and shares no code with the prover.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ EDGE_FORMAT = "Suslov–Hess edge, 1"
 
 
 def _pair(found: Enclosure) -> list[str]:
-    """Exact where both ends are one."""
+    """Return both ends as strings: rationals if they are equal, otherwise decimals."""
     return [str(found.low)] * 2 if found.low == found.high else list(found.decimals())
 
 
@@ -32,7 +32,7 @@ def _pairs(found: Iterable[Enclosure] | None) -> list[list[str]] | None:
 
 
 def _short(number: Fraction) -> str:
-    """A decimal where it ends, as the user wrote it; else p/q."""
+    """Return a decimal if it terminates, otherwise p/q."""
     rest = number.denominator
     for prime in (2, 5):
         while rest % prime == 0:
@@ -42,11 +42,17 @@ def _short(number: Fraction) -> str:
 
 
 def claim(proof: Proof | EdgeProof) -> str:
-    """Return what is proved, in words.
+    """Return the proved statement in words.
 
     Parameters
     ----------
-    proof : of a torus, or of a circle on the edge.
+    proof : Proof or EdgeProof
+        Proof of a torus, or of a circle on the edge of the region.
+
+    Returns
+    -------
+    str
+        One or two sentences.
     """
     place = f"h = {_short(proof.h)}, f = {_short(proof.f)}"
     if isinstance(proof, EdgeProof):
@@ -69,20 +75,27 @@ def claim(proof: Proof | EdgeProof) -> str:
 
 
 def certificate(proof: Proof | EdgeProof) -> dict[str, Any]:
-    """Return the proof as plain data, for JSON.
+    """Return a proof as plain data, for JSON.
 
     Parameters
     ----------
-    proof : of a torus, or of a circle on the edge.
+    proof : Proof or EdgeProof
+        Proof of a torus, or of a circle on the edge of the region.
 
     Returns
     -------
     dict
-        Of a torus: trace, two decimals that enclose |t|, also as doubles unless the statement needs more digits;
-        trace_ball, the same with all digits; roots, half and steps, see `suslov_hess.proof`, where each step has its
-        exact start, radius and bound, its number of terms, and what encloses its matrix.  Of the edge: the fields of
-        `EdgeProof`.
+        All numbers of the proof, as strings and pairs of strings.
 
+    Notes
+    -----
+    The data of a torus contain `trace`, two decimals that enclose the absolute value of t, which are doubles too unless
+    the statement needs more digits; `trace_ball`, the same with all digits; `roots`, `half` and `steps`, see
+    `suslov_hess.proof`.  Each step has its exact start, radius and bound, its number of terms, and enclosures of its
+    matrix.  The data of a circle on the edge are the attributes of `EdgeProof`.
+
+    Examples
+    --------
     >>> from hess_mechanics import certificate, prove
     >>> certificate(prove("0.5", "0.5", "0.3"))["statement"]
     'no cycle'

@@ -1,23 +1,23 @@
-"""The smooth invariant measure of a Suslov–Hess torus without limit cycles, |t| < 2, and the linear flow on it.
+"""Smooth invariant measure of a Suslov–Hess torus without limit cycles, |t| < 2, and the linear flow on it.
 
 Not in the paper.  An elliptic Θ is a Möbius map of the unit disk with one fixed point ζ inside it.  The map
-z → (z − ζ)/(1 − ζ̄z) takes ζ to 0 and so makes a rotation of Θ:
+z → (z − ζ)/(1 − ζ̄z) takes ζ to 0 and conjugates Θ to a rotation:
 
     ψ(Θ(φ)) = ψ(φ) + 2πρ,   ψ = arg((e^{iφ} − ζ)/(1 − ζ̄e^{iφ})),
 
-and ψ'(φ)/2π is Poisson's kernel of ζ, an invariant density on the circle (`circle_map`: ζ is real there),
+and ψ'(φ)/2π is the Poisson kernel of ζ, an invariant density on the circle (`circle_map`: ζ is real there),
 
     p(φ; ζ) = (1 − |ζ|²)/(2π |e^{iφ} − ζ|²),   p(Θ(φ)) Θ'(φ) = p(φ).
 
-All orbits return to n3 = n3^(1) after the same time T, so p dφ ds/T, s the time since the last return, is an invariant
-measure of the flow.  From the return to the time s the motion of φ is a Möbius map too (`eq0003` is a Riccati
-equation), which takes ζ to some ζ_s with ζ_T = ζ: at that s the density is p(φ; ζ_s), and along every motion
+All orbits return to n3 = n3^(1) after the same time T, so p dφ ds/T is an invariant measure of the flow, where s is the
+time since the last return.  The motion of φ during the time s is a Möbius map too (`eq0003` is a Riccati equation).  It
+takes ζ to some ζ_s with ζ_T = ζ: the density at s is p(φ; ζ_s), and along every orbit
 
     ψ(φ; ζ_s) = ψ(φ0; ζ) + δ(s),   δ(T) = 2πρ mod 2π.
 
 So s and ψ − δ(s) + 2πρs/T are angles of the torus in which the flow is linear: quasi-periodic for irrational ρ,
-periodic on every orbit for rational ρ.  Where |t| > 2 every motion tends to a limit cycle, and no invariant measure has
-a density; at |t| = 2 likewise.
+periodic on every orbit for rational ρ.  If |t| > 2 every orbit tends to a limit cycle, and no invariant measure has a
+density; the same holds for |t| = 2.
 """
 
 from __future__ import annotations
@@ -49,28 +49,43 @@ __all__ = [
 
 
 def poisson_kernel(phi: Array | Sequence[float], zeta: complex | Complex) -> Array:
-    """p(φ; ζ), per radian, for φ (...) and |ζ| < 1 that broadcast; its integral over the circle is 1."""
+    """Return p(φ; ζ), per radian, for φ (...) and |ζ| < 1 that broadcast; its integral over the circle is 1."""
     z = np.exp(1j * np.asarray(phi, float))
     density: Array = (1.0 - np.abs(zeta) ** 2) / (2.0 * math.pi * np.abs(z - zeta) ** 2)
     return density
 
 
 def seen_from(phi: Array | Sequence[float], zeta: complex | Complex) -> Array:
-    """ψ(φ; ζ) in (−π, π]: the direction in which φ is seen from ζ, for φ (...) and |ζ| < 1 that broadcast."""
+    """Return ψ(φ; ζ) in (−π, π], the hyperbolic direction of φ from ζ, for φ (...) and |ζ| < 1 that broadcast."""
     z = np.exp(1j * np.asarray(phi, float))
     angle: Array = np.angle((z - zeta) / (1.0 - np.conj(zeta) * z))
     return angle
 
 
 _LEAST_GAP = 1e-150
-"""1 − |ζ|: on the lock boundary it is 0."""
+"""Lower bound of 1 − |ζ|, which is 0 on the lock boundary."""
 
 
 @dataclass(frozen=True)
 class InvariantMeasure:
-    """The measure on the section of one torus: ζ, which is real, the rotation number, and T in units b = 1.
+    """Invariant measure on the section of one torus.
 
-    gap : 1 − |ζ|, which keeps its digits where ζ rounds to ±1.
+    Attributes
+    ----------
+    a : float
+        The coupling.
+    h : float
+        The energy, in units b = 1.
+    f : float
+        The area integral, in units b = 1.
+    zeta : float
+        The fixed point ζ, which is real.
+    gap : float
+        1 − |ζ|, accurate also if ζ rounds to ±1.
+    rotation_number : float
+        Rotation number ρ in turns per return.
+    period : float
+        Return time T in units b = 1.
     """
 
     a: float
@@ -82,17 +97,17 @@ class InvariantMeasure:
     period: float
 
     def _half(self, phi: Array | Sequence[float]) -> Array:
-        """Half the angles from ζ to φ."""
+        """Return half the angles from ζ to φ."""
         half: Array = 0.5 * (np.asarray(phi, float) - (math.pi if self.zeta < 0.0 else 0.0))
         return half
 
     def density(self, phi: Array | Sequence[float]) -> Array:
-        """p(φ), per radian; same shape as φ."""
+        """Return p(φ), per radian; same shape as φ."""
         square = self.gap * self.gap + 4.0 * (1.0 - self.gap) * np.sin(self._half(phi)) ** 2
         return np.asarray(self.gap * (2.0 - self.gap) / (2.0 * math.pi * square))
 
     def angle(self, phi: Array | Sequence[float]) -> Array:
-        """ψ(φ) in (−π, π], which grows by 2πρ with each return; same shape as φ."""
+        """Return ψ(φ) in (−π, π], which grows by 2πρ with each return; same shape as φ."""
         half = self._half(phi)
         turned = 2.0 * np.arctan2((2.0 - self.gap) * np.sin(half), self.gap * np.cos(half))
         turned += math.pi if self.zeta < 0.0 else 0.0
@@ -100,14 +115,14 @@ class InvariantMeasure:
 
 
 def invariant_measure(theta: CircleMap) -> InvariantMeasure:
-    """The measure of an elliptic circle map.  Raises `InvalidParameter` where the map has limit cycles."""
+    """Return the invariant measure of an elliptic circle map.  Raises `InvalidParameter` for other maps."""
     if theta.kind != "elliptic":
         raise InvalidParameter(
             f"At a = {theta.a:g}, h = {theta.h:g}, f = {theta.f:g} the circle map has limit cycles, and no invariant "
             "measure with a density: choose a torus with |trace| < 2."
         )
     _, im, im_beta = theta.matrix
-    # β̄z² + (ᾱ − α)z − β = 0 with an imaginary β; of its roots, ζ and 1/ζ, that inside.
+    # β̄z² + (ᾱ − α)z − β = 0 with an imaginary β has the roots ζ and 1/ζ: take the one inside the disk.
     root = math.sqrt(max(0.0, -float(discriminants(np.array([*theta.matrix, theta.log_scale])))))
     zeta = -im_beta / (im + math.copysign(root, im))
     # 1 − ζ² = 2 root/(|im| + root).
@@ -117,11 +132,20 @@ def invariant_measure(theta: CircleMap) -> InvariantMeasure:
 
 @dataclass(frozen=True)
 class TorusMeasure:
-    """The measure on the whole torus.
+    """Invariant measure on the whole torus, at given times since a return.
 
-    times : s (m,) since a return, units b = 1; zeta : ζ_s (m,); turned : δ(s) (m,), up to whole turns, without jumps;
-    period : T.
-    error_estimate : of the motions from which they are found.
+    Attributes
+    ----------
+    times : ndarray of float, shape (m,)
+        Times s since a return, in units b = 1.
+    zeta : ndarray of complex, shape (m,)
+        ζ_s at these times.
+    turned : ndarray of float, shape (m,)
+        δ(s) in radians up to multiples of 2π, without jumps.
+    period : float
+        Return time T.
+    error_estimate : float
+        Estimated error of the three orbits from which ζ_s and δ(s) are computed.
     """
 
     times: Array
@@ -131,11 +155,11 @@ class TorusMeasure:
     error_estimate: float
 
     def density(self, phi: Array | Sequence[float]) -> Array:
-        """The density (m, n), per radian and unit of time, at these times and angles φ (n,); its integral is 1."""
+        """Return the density (m, n), per radian and unit of time, at these times and at angles φ (n,)."""
         return poisson_kernel(np.asarray(phi, float)[None, :], self.zeta[:, None]) / self.period
 
     def angle(self, phi: Array) -> Array:
-        """ψ(φ; ζ_s) − δ(s) (m,) in (−π, π] of angles φ (m,) at these times: constant along a motion."""
+        """Return ψ(φ; ζ_s) − δ(s) (m,) in (−π, π] for angles φ (m,) at these times; it is constant along an orbit."""
         turned: Array = np.angle(np.exp(1j * (seen_from(phi, self.zeta) - self.turned)))
         return turned
 
@@ -144,13 +168,14 @@ _CUBE_ROOTS = np.exp(2j * math.pi * np.arange(3) / 3.0)
 
 
 def on_torus(measure: InvariantMeasure, times: Sequence[float] | Array, level: Accuracy) -> TorusMeasure:
-    """ζ_s and δ(s) at the times s ≥ 0 (m,), units b = 1.
+    """Return ζ_s and δ(s) at the times s ≥ 0 (m,), in units b = 1.
 
-    Found from three motions that from ζ are seen at angles of 120°, as they are from ζ_s: cross-ratios are kept.
+    They follow from three orbits whose hyperbolic directions from ζ are 120° apart: their directions from ζ_s stay 120°
+    apart, because a Möbius map conserves cross-ratios.
     Raises `InvalidParameter` (f = 0, where w vanishes at the return), `WorkLimit`.
     """
     if measure.f == 0.0:
-        raise InvalidParameter("f = 0: there w vanishes at the lower turning point, and φ jumps. Choose another f.")
+        raise InvalidParameter("f = 0: w vanishes at the lower turning point, and φ jumps there. Choose another f.")
     turning = turning_points(measure.h, measure.f)
     starts = np.angle((_CUBE_ROOTS + measure.zeta) / (1.0 + measure.zeta * _CUBE_ROOTS))
     found = [
@@ -167,16 +192,16 @@ def on_torus(measure: InvariantMeasure, times: Sequence[float] | Array, level: A
 
 
 CELLS = (120, 120)
-"""Of the torus."""
+"""Number of cells of the torus: along σ, along φ."""
 _NARROWEST = 1e-4
-"""Of 1 − |ζ_s| found: below it the density is a line too thin to be drawn, or to be found from motions."""
+"""Smallest 1 − |ζ_s|: below it the density is too narrow a line to draw, or to find from orbits."""
 
 
 def density_on_torus(theta: CircleMap, level: Accuracy, cells: tuple[int, int] = CELLS) -> Array:
-    """The density at the centres of cells (m, n) of the torus, relative to an even one; shape (n, m).
+    """Return the density at the centres of the cells (m, n) of the torus, relative to a uniform one; shape (n, m).
 
-    Rows of equal φ and columns of equal σ = 2πs/T, both from −π to π; σ = 0 at the return.  Its mean is 1.
-    Raises `InvalidParameter` where there is none (limit cycles), at f = 0 and where it is too narrow; `WorkLimit`.
+    Rows have equal φ and columns equal σ = 2πs/T, both from −π to π; σ = 0 at the return.  The mean is 1.
+    Raises `InvalidParameter` if there is no density (limit cycles), at f = 0 and if it is too narrow; `WorkLimit`.
     """
     measure = invariant_measure(theta)
     m, n = 2 * max(1, cells[0] // 2), cells[1]
@@ -188,5 +213,5 @@ def density_on_torus(theta: CircleMap, level: Accuracy, cells: tuple[int, int] =
             relative = 2.0 * math.pi * measure.period * found.density(phi)
             return frozen(np.roll(relative, m // 2, axis=0).T.copy())
     raise InvalidParameter(
-        "The density is too thin to be drawn, all but on one line: choose a smaller |a| or another torus."
+        "The density is too thin to draw: it lies almost on one line. Choose a smaller |a| or another torus."
     )

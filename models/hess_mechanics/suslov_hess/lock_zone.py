@@ -1,4 +1,4 @@
-"""The lock zone over (h, f), proved: cells of which all tori have two limit cycles, or all have none.
+"""Proofs over the lock zone in (h, f): cells in which all tori have two limit cycles, or none has.
 
 With σ = n1 + n2, α = (1 − n1²)/σ² and β = (1 − n2²)/σ² the linear system of `proof` depends on α and β alone:
 
@@ -9,20 +9,20 @@ since n0 = −h − σ, |w|² = 2σz, n3 − n0 = σ(1 + z).  Each torus with f 
 
     σ = 2/√((1 + α + β)² − 4αβ),   h = (α + β − 1)σ/2,   f = √(2αβ) σ^(3/2).
 
-Exchanging α and β is s → π − s, which keeps BC and AD.  So a cell may lie across α = β, the edge of the region.  Its
-statement is about its tori, α ≠ β.  Where α = β there is no torus but a circle of states, see `edge`: in a cell with
+Exchanging α and β is s → π − s, which conserves BC and AD.  So a cell may extend across α = β, the edge of the region.
+Its statement is about its tori, α ≠ β.  On α = β there is no torus but a circle of states, see `edge`: in a cell with
 "two cycles" it has exactly two equilibria, in a cell with "no cycle" it is one periodic orbit.
 
 A cell is a rectangle of (α, β).  Along a straight line of (ln α, ln β) from its centre, P = Pc(1 + Y1 + R), where Pc
-is P at the centre, Y1 is linear, found there with the variational equations (Taylor steps with Cauchy's bound, as in
-`proof`), and, M the matrix of the system, with bars for bounds over the cell,
+is P at the centre, and Y1 is linear and follows from the variational equations there (Taylor steps with Cauchy's bound,
+as in `proof`).  With the matrix M of the system, and bounds over the cell,
 
     R' = F(Y1 + R) + F2,   |F| ≤ |Pc⁻¹| |M'| |Pc|,   |F2| ≤ ½ |Pc⁻¹| |M''| |Pc|;
 
-logarithmic derivatives of u and v are sums of shares between 0 and 1, hence small wherever the cell lies.  So the
-error is of second order in the size of the cell, and only cells on the boundary |t| = 2 are left over; these are
-halved, across the side that leaves more doubt.  As that needs small cells, and for large |a| very small ones, each is
-first tried as in `zone_directions`.
+logarithmic derivatives of u and v are sums of fractions between 0 and 1, hence bounded for every cell.  The error is
+of second order in the size of the cell, so that only cells on the boundary |t| = 2 remain undecided.  They are halved
+across the side that contributes more to the error.  That needs small cells, and for large |a| very small ones, so each
+cell is first tried by `zone_directions`.
 The theorem and its proof are in `hess_mechanics/proofs.md`; they are not in the paper.
 """
 
@@ -69,28 +69,40 @@ __all__ = [
 MOST_A, _MOST_H, _MOST_CELLS = 3.0, 1e3, 100_000
 _BITS = 64
 _TAIL_BITS = 18
-"""Of the remainder of a Taylor step: far below what a cell leaves open."""
+"""Bits of the remainder of a Taylor step: far smaller than the error over a cell."""
 _STEPS = 120
-"""More than these would cost more than halving the cell is worth."""
+"""Largest number of steps; halving the cell is cheaper than more."""
 _LARGEST, _LARGEST_LINEAR, _SMALL = 1.2, 0.5, 0.15
-"""Half the logarithm of α1/α0 or β1/β0 up to which a cell is tried at all; by its matrix, for a = 0, for others less;
-by lines of four times as many pieces."""
+"""Largest half logarithm of α1/α0 or β1/β0 of a cell: to be tried at all; to be tried by its matrix, for a = 0 (less
+for other a); to be tried by lines of four times as many pieces."""
 _PIECES = 48
 _PARTS = 2
-"""Of each step, in which bounds over the cell are constants."""
+"""Number of parts of each step; bounds over the cell are constant on a part."""
 _ENDS = 2.0**-20, 2.0**20
-"""Of α and β: beyond them all is left undecided, f < 0.003 for most h."""
+"""Range of α and β: everything beyond is undecided, f < 0.003 for most h."""
 _SHARE, _GROWTH, _STEP = 0.8, 8.0, 0.25
 _BEND = 12.0
-"""Points along each side of an outline, for a side of which the logarithm of its ends differs by 2."""
+"""Points along each side of an outline whose ends differ by 2 in their logarithms."""
 
 
 @dataclass(frozen=True)
 class ZoneCell:
-    """All tori, α ≠ β, with α and β between these doubles, which are meant exactly, and what is proved of all of them.
+    """Cell of all tori, α ≠ β, in a rectangle of (α, β), and the statement proved for all of them.
 
-    Where a cell meets the edge, α = β, its statement does not speak of the circles of states there.
-    across : the side, 0 or 1, across which an undecided cell is halved.
+    Attributes
+    ----------
+    alpha : tuple of two floats
+        Ends of the interval of α, taken as exact.
+    beta : tuple of two floats
+        Ends of the interval of β, taken as exact.
+    statement : str
+        `TWO_CYCLES`, `NO_CYCLE` or `UNDECIDED`.
+    across : int or None
+        Side, 0 (α) or 1 (β), across which an undecided cell is halved.
+
+    Notes
+    -----
+    If a cell meets the edge, α = β, its statement does not include the circles of states there.
     """
 
     alpha: tuple[float, float]
@@ -104,9 +116,18 @@ class ZoneCell:
 
 @dataclass(frozen=True)
 class LockZone:
-    """What is proved over the part −1 < h ≤ h_end of the region, for f > 0, and so for f < 0 by symmetry.
+    """Proved cells of the lock zone for −1 < h ≤ h_end and f > 0; f < 0 is symmetric.
 
-    cells : they cover all of that but a rim next to f = 0 and h = −1; tried : how many proofs that took.
+    Attributes
+    ----------
+    a : Fraction
+        The coupling.
+    h_end : float
+        Largest energy, in units b = 1.
+    cells : tuple of ZoneCell
+        Cells that cover the region except a strip next to f = 0 and h = −1.
+    tried : int
+        Number of cells for which a proof was tried.
     """
 
     a: Fraction
@@ -116,7 +137,7 @@ class LockZone:
 
     @cached_property
     def areas(self) -> dict[str, float]:
-        """The area in (h, f) of each statement, in doubles; what lies beyond all cells counts as undecided."""
+        """Area in (h, f) of each statement, in double precision; the area outside all cells counts as undecided."""
         found = dict.fromkeys((TWO_CYCLES, NO_CYCLE, UNDECIDED), 0.0)
         for cell in self.cells:
             if cell.statement != UNDECIDED:
@@ -131,13 +152,41 @@ class LockZone:
 
 
 def lock_zone(a: ExactNumber, h_end: float = 4.0, cells: int = 200) -> LockZone:
-    """The lock zone up to h = h_end, after so many proofs of cells; a is exact, see `balls.exact`.
+    """Prove where in the region of (h, f) all tori have two limit cycles, and where none has.
 
-    Raises `MissingLibrary`, `InvalidParameter`, `OutsideRegion`.
+    Parameters
+    ----------
+    a : str, float or Fraction
+        The coupling a = I23/I22, |a| ≤ 3, taken as exact, see `balls.exact`.
+    h_end : float, optional
+        Largest energy, −1 < h_end ≤ 1000, in units b = 1.
+    cells : int, optional
+        Number of cells for which a proof is tried.
 
+    Returns
+    -------
+    LockZone
+        Cells in (α, β) with their statements.
+
+    Raises
+    ------
+    MissingLibrary
+        If python-flint is not installed.
+    InvalidParameter
+        If a, h_end or cells is out of range.
+    OutsideRegion
+        If h_end ≤ −1.
+
+    References
+    ----------
+    `eq0003`.  The theorem is not in the paper, see `hess_mechanics/proofs.md`.
+
+    Examples
+    --------
     >>> from hess_mechanics import lock_zone
-    >>> 0.0 < lock_zone("0.5", cells=20).decided < 1.0
-    True
+    >>> zone = lock_zone("0.5", cells=20)
+    >>> zone.tried, round(zone.decided, 2)
+    (20, 0.65)
     """
     number = exact("a", a)
     if abs(number) > MOST_A:
@@ -150,14 +199,14 @@ def lock_zone(a: ExactNumber, h_end: float = 4.0, cells: int = 200) -> LockZone:
 
 
 def refined(zone: LockZone, cells: int) -> LockZone:
-    """The same after so many further proofs of cells, of which the largest undecided one always comes first.
+    """Return the lock zone after proofs for a further number of cells, always the largest undecided one first.
 
     Raises `MissingLibrary`, `InvalidParameter`.
     """
     if not 0 <= cells <= _MOST_CELLS:
         raise InvalidParameter(f"{cells} cells: choose at most {_MOST_CELLS}.")
     done = [cell for cell in zone.cells if cell.statement != UNDECIDED]
-    # The counter decides between equal areas, so that cells are never compared.
+    # The counter breaks ties between equal areas, so that cells are never compared.
     open_ = [
         (-cell_area(cell, zone.h_end), i, cell) for i, cell in enumerate(zone.cells) if cell.statement == UNDECIDED
     ]
@@ -167,7 +216,7 @@ def refined(zone: LockZone, cells: int) -> LockZone:
         go_on()
         area, _, cell = heapq.heappop(open_)
         if area == 0.0:
-            # All of them lie beyond the part that is asked for.
+            # All remaining cells lie beyond h_end.
             break
         if cell.across is None and max(_radii(cell)) <= _LARGEST:
             cell = _proved(zone.a, cell)
@@ -184,7 +233,7 @@ def refined(zone: LockZone, cells: int) -> LockZone:
 
 
 def _radii(cell: ZoneCell) -> tuple[float, float]:
-    """Half the logarithms of α1/α0 and β1/β0."""
+    """Return half the logarithms of α1/α0 and β1/β0."""
     return 0.5 * math.log(cell.alpha[1] / cell.alpha[0]), 0.5 * math.log(cell.beta[1] / cell.beta[0])
 
 
@@ -198,25 +247,25 @@ def _halves(cell: ZoneCell) -> Iterator[ZoneCell]:
         yield ZoneCell(ends, cell.beta) if across == 0 else ZoneCell(cell.alpha, ends)
 
 
-# ---- where cells lie ------------------------------------------------------------------------------------------------
+# ---- Geometry of the cells ------------------------------------------------------------------------------------------
 
 
 def alpha_beta(roots: tuple[float, float, float]) -> tuple[float, float]:
-    """(α, β) of a torus, from n0, n1, n2 of `turning_points`."""
+    """Return (α, β) of a torus, from n0, n1, n2 of `turning_points`."""
     n0, n1, n2 = roots
     total = n1 + n2
-    # 1 − n1² = σ(h + n2) and h = −n0 − n1 − n2: without the difference of 1 and a square.
+    # 1 − n1² = σ(h + n2) and h = −n0 − n1 − n2 avoid the cancellation in 1 − n1².
     return -(n0 + n1) / total, -(n0 + n2) / total
 
 
 def places(alpha: Array, beta: Array) -> Array:
-    """(h, f) of each pair, (n, 2)."""
+    """Return (h, f) of each pair (α, β); shape (n, 2)."""
     sigma = 2.0 / np.sqrt((1.0 + alpha + beta) ** 2 - 4.0 * alpha * beta)
     return np.column_stack([0.5 * (alpha + beta - 1.0) * sigma, np.sqrt(2.0 * alpha * beta) * sigma**1.5])
 
 
 def cell_outline(cell: ZoneCell, h_end: float) -> Array:
-    """The outline (n, 2) in (h, f) of what of a cell is possible, β ≤ α, and has h ≤ h_end; perhaps empty."""
+    """Return the outline (n, 2) in (h, f) of the part of a cell with β ≤ α and h ≤ h_end; it may be empty."""
     (x0, x1), (y0, y1) = (np.log(ends) for ends in (cell.alpha, cell.beta))
     corners = _cut(np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]]), np.array([1.0, -1.0]), 0.0)
     if len(corners) < 3:
@@ -228,7 +277,7 @@ def cell_outline(cell: ZoneCell, h_end: float) -> Array:
 
 
 def _cut(polygon: Array, normal: Array, least: float) -> Array:
-    """The part of a convex polygon, or nearly convex one, with (normal, x) ≥ least."""
+    """Return the part of a convex or nearly convex polygon with (normal, x) ≥ least."""
     over = polygon @ normal - least
     if np.all(over >= 0.0):
         return polygon
@@ -242,7 +291,7 @@ def _cut(polygon: Array, normal: Array, least: float) -> Array:
 
 
 def cell_area(cell: ZoneCell, h_end: float) -> float:
-    """The area of its outline."""
+    """Return the area of the outline of a cell."""
     outline = cell_outline(cell, h_end)
     if len(outline) < 3:
         return 0.0
@@ -251,7 +300,7 @@ def cell_area(cell: ZoneCell, h_end: float) -> float:
 
 
 def region_area(h_end: float) -> float:
-    """∫ f_max dh from −1 to h_end: over n of the edge, of (1 − n²)(1 + 3n²)/(2n^(5/2))."""
+    """Return ∫ f_max dh from −1 to h_end, as an integral of (1 − n²)(1 + 3n²)/(2n^(5/2)) over n on the edge."""
     n = 1.0 / (h_end + math.sqrt(h_end * h_end + 3.0))
 
     def primitive(n: float) -> float:
@@ -260,11 +309,11 @@ def region_area(h_end: float) -> float:
     return primitive(1.0) - primitive(n)
 
 
-# ---- the proof of one cell ------------------------------------------------------------------------------------------
+# ---- Proof of one cell ----------------------------------------------------------------------------------------------
 
 
 def _proved(a: Fraction, cell: ZoneCell) -> ZoneCell:
-    """What can be proved of all tori of a cell, as large as it is; of an undecided one, across which side to halve."""
+    """Return the cell with the statement proved for all of its tori, or with the side across which to halve it."""
     with working(_BITS) as library:
         size, radius = abs(library.arb(rational(a))), max(_radii(cell))
         linear = radius <= _LARGEST_LINEAR / (1.0 + 0.5 * float(a) ** 2)
@@ -276,7 +325,7 @@ def _proved(a: Fraction, cell: ZoneCell) -> ZoneCell:
         if found is None:
             return replace(cell, across=int(np.argmax(_radii(cell))))
         (A, B, C, D), across = found
-        # Comparisons of balls are true only where they are certain.
+        # A comparison of balls is true only if it is certain.
         small, large = B * C, A * D
         if small > 0 or large < 0:
             return replace(cell, statement=TWO_CYCLES)
@@ -287,11 +336,11 @@ def _proved(a: Fraction, cell: ZoneCell) -> ZoneCell:
 
 Pair = tuple[ArbBall, ArbBall]
 Column = tuple[list[Any], list[list[Any]], ArbBall]
-"""Polynomials of a step: x and y; of each derivative; the ball of their remainder."""
+"""Polynomials of a step: x and y; their derivatives by ln α and ln β; the ball of the remainder."""
 
 
 def _half_over(a: Fraction, cell: ZoneCell) -> tuple[tuple[ArbBall, ...], int] | None:
-    """(A, B, C, D) over a cell, and the side, 0 or 1, that leaves more of their width."""
+    """Return (A, B, C, D) over a cell and the side, 0 or 1, that contributes more to their width, or None."""
     from flint import arb
 
     A = abs(arb(rational(a)))
@@ -327,7 +376,7 @@ def _half_over(a: Fraction, cell: ZoneCell) -> tuple[tuple[ArbBall, ...], int] |
         found.append(columns[k][0][i] + arb(0, (linear[-1][0] + linear[-1][1] + left[-1]).upper()))
     if not all(x.is_finite() for x in found):
         return None
-    # Of B, whose sign decides in most places.
+    # Use the width of B, whose sign decides in most cells.
     doubt = [float(linear[1][d]) + float(left[1]) * change[d] / (change[0] + change[1]) for d in (0, 1)]
     return tuple(found), int(doubt[1] > doubt[0])
 
@@ -335,7 +384,7 @@ def _half_over(a: Fraction, cell: ZoneCell) -> tuple[tuple[ArbBall, ...], int] |
 def _with_rest(
     rest: list[list[ArbBall]], step: list[Column], part: ArbBall, width: ArbBall, first: Pair, second: Pair
 ) -> list[list[ArbBall]]:
-    """Bounds of R at the end of a part of a step, from those at its beginning."""
+    """Return bounds of R at the end of a part of a step, from those at its start."""
     X = [[step[k][0][i](part) + step[k][2] for k in (0, 1)] for i in (0, 1)]
     inverse = [[X[1][1], -X[0][1]], [-X[1][0], X[0][0]]]
     Y1 = [[0, 0], [0, 0]]
@@ -357,7 +406,7 @@ def _with_rest(
 
 
 def _plan(a: float, alpha: float, beta: float) -> list[tuple[float, float, int]]:
-    """(start, radius, terms) of each step for the centre, in doubles."""
+    """Return (start, radius, terms) of each step for the centre, chosen in double precision."""
     q, m, k = math.sqrt(alpha * beta), 0.5 * (alpha + beta), 0.5 * (alpha - beta)
     found: list[tuple[float, float, int]] = []
     s = 0.0
@@ -389,7 +438,7 @@ def _step(
     terms: int,
     columns: list[tuple[list[ArbBall], list[list[ArbBall]]]],
 ) -> list[Column] | None:
-    """The columns of P and of its derivatives ∂/∂ ln α · radius, ∂/∂ ln β · radius, along a step; None if too long."""
+    """Return the columns of P and of radius · ∂P/∂ ln α, radius · ∂P/∂ ln β along a step; None if it is too long."""
     from flint import arb, arb_poly, arb_series, ctx
 
     ctx.cap = terms
@@ -451,7 +500,7 @@ def _step(
 
 
 def _largest(*numbers: ArbBall) -> ArbBall:
-    """The largest of some sizes, not rounded."""
+    """Return the largest absolute value, without rounding."""
     found = numbers[0].abs_upper()
     for number in numbers[1:]:
         found = found.max(number.abs_upper())
@@ -461,13 +510,16 @@ def _largest(*numbers: ArbBall) -> ArbBall:
 def _bounds(
     A: ArbBall, centre: list[ArbBall], ends: list[list[ArbBall]], radii: list[ArbBall], s: ArbBall
 ) -> tuple[Pair, Pair, list[ArbBall]]:
-    """Over a cell and a part of a step: bounds of |u'|, |v'|; of ½|u''|, ½|v''|; of |u'| + |v'| along either side."""
+    """Return bounds over a cell and a part of a step.
+
+    They are bounds of |u'| and |v'|, of ½|u''| and ½|v''|, and of |u'| + |v'| along each side.
+    """
     from flint import arb
 
     sine, cosine = (s / 2).sin() ** 2, (s / 2).cos() ** 2
     (a0, a1), (b0, b1) = ends
     half, one = arb(1) / 2, arb(1)
-    # share = α sin²/z grows with α/β and s, ζ = z/(1 + z) with α and β: from end to end.
+    # share = α sin²/z increases with α/β and s, and ζ = z/(1 + z) with α and β: their ends give their range.
     s0, s1 = _nonnegative(sine)
     c0, c1 = _nonnegative(cosine)
     share = (a0 * s0 / (a0 * s0 + b1 * c1)).union(a1 * s1 / (a1 * s1 + b0 * c0))
@@ -482,7 +534,7 @@ def _bounds(
     rise, lift = du[0] + du[1], dv[0] + dv[1]
     u_most = ((centre[0] * centre[1]).sqrt() / (4 * z * (1 + z).sqrt())).abs_upper() * rise.exp()
     v_most = (A / 2 * (1 / (1 + 1 / z)).sqrt()).abs_upper() * lift.exp()
-    # (ln z)'' = share (1 − share) (difference of the directions)², ζ' = ζ(1 − ζ) (ln z)'.
+    # (ln z)'' = share (1 − share) (difference of the logarithmic directions)², ζ' = ζ(1 − ζ) (ln z)'.
     bend = (share * (1 - share)).abs_upper() * (rx + ry) ** 2
     curve = (zeta * (1 - zeta)).abs_upper() / 2 * (shares[0] + shares[1]) ** 2
     first = (u_most * rise).upper(), (v_most * lift).upper()
@@ -494,7 +546,7 @@ def _bounds(
 
 
 def _nonnegative(x: ArbBall) -> tuple[ArbBall, ArbBall]:
-    """The ends of a ball of a number that is not negative."""
+    """Return the ends of a ball that encloses a nonnegative number."""
     from flint import arb
 
     low = x.lower()
@@ -502,10 +554,10 @@ def _nonnegative(x: ArbBall) -> tuple[ArbBall, ArbBall]:
 
 
 def _turned(X: list[list[ArbBall]], most: Pair) -> list[list[ArbBall]]:
-    """|P⁻¹ E P| for E = ((0, e − g), (−e − g, 0)), |e| and |g| bounded."""
+    """Return |P⁻¹ E P| for E = ((0, e − g), (−e − g, 0)), from bounds of |e| and |g|."""
     (A, B), (C, D) = X
     e, g = most
-    # Row by column of P⁻¹ E P: coefficient of e, and of g.
+    # The coefficients of e and of g in the entries of P⁻¹ E P.
     entries = [
         [(D * C + B * A, B * A - D * C), (D * D + B * B, B * B - D * D)],
         [(-C * C - A * A, C * C - A * A), (-C * D - A * B, C * D - A * B)],
@@ -514,7 +566,7 @@ def _turned(X: list[list[ArbBall]], most: Pair) -> list[list[ArbBall]]:
 
 
 def _grown(F: list[list[ArbBall]], width: ArbBall, R: list[list[ArbBall]]) -> list[list[ArbBall]]:
-    """Bounds of e^(F width) R, of matrices without negative entries."""
+    """Return bounds of e^(F width) R, for matrices with nonnegative entries."""
     T = [[width * x for x in row] for row in F]
     norm = _largest(T[0][0] + T[0][1], T[1][0] + T[1][1])
     more = norm * norm / 2 * norm.exp()

@@ -1,28 +1,28 @@
-"""Proofs that one torus (a, h, f), three rationals taken as exact, has exactly two limit cycles, or none.
+"""Proofs that a torus (a, h, f), three rationals taken as exact, has exactly two limit cycles, or none.
 
-Units b = 1.  With n3 = n1 + κ(1 − cos s), κ = (n2 − n1)/2, one half period of n3 is s from 0 to π, and the equation of
-φ (`eq0003`), φ' = −a|w| cos φ − f/|w|², |w|² = 2(h + n3), is that of φ = 2 arg(x + iy) along a linear system,
+Units b = 1.  Let n3 = n1 + κ(1 − cos s), κ = (n2 − n1)/2, so that s runs from 0 to π in half a period of n3.  The
+equation of φ (`eq0003`), φ' = −a|w| cos φ − f/|w|², |w|² = 2(h + n3), is that of φ = 2 arg(x + iy) along the linear
+system
 
     dx/ds = q(f/|w|² − a|w|) y,   dy/ds = −q(f/|w|² + a|w|) x,   q = 1/(2√(2(n3 − n0))),
 
-whose coefficients are analytic around the whole interval; nothing is singular where n3 turns.  Its matrix from s = 0 to
-π is P = ((A, B), (C, D)), AD − BC = 1.  The coefficients are even about π and the matrix has no diagonal, so the
-way back has the matrix σP⁻¹σ, σ = diag(1, −1), and the whole map is
+whose coefficients are analytic around the whole interval; the turning points of n3 are regular.  Its matrix from s = 0
+to π is P = ((A, B), (C, D)), AD − BC = 1.  The coefficients are even about π and the system has no diagonal, so the
+matrix from π to 2π is σP⁻¹σ, σ = diag(1, −1), and the whole map is
 
     ((AD + BC, 2BD), (2AC, AD + BC)),   t = 2 + 4BC = 4AD − 2.
 
-So t > 2 where BC > 0, t < −2 where AD < 0, |t| < 2 where BC < 0 < AD: signs, without cancellation.  The fixed points
+So t > 2 if BC > 0, t < −2 if AD < 0, |t| < 2 if BC < 0 < AD: signs, without cancellation.  The fixed points
 are tan(φ/2) = ±√(AC/BD) and the multipliers (√|AD| + √|BC|)^∓4.  The rotation number is an integer, or
-ρ = m + {β or 1 − β}, β = (2/π) arctan √(−BC/AD), m = ⌊2θ/π⌋ (β where m is even), θ the angle through which the way up
-turns (1, 0): by the reversor, the whole map turns it beyond kπ exactly where the half turns it beyond kπ/2.
+ρ = m + {β or 1 − β}, β = (2/π) arctan √(−BC/AD), m = ⌊2θ/π⌋ (β for even m), where θ is the angle through which P
+turns (1, 0): by the reversor, the whole map turns it beyond kπ exactly if the half map turns it beyond kπ/2.
 
-Proof by balls: each number below is a ball of Arb that contains the true one.  n0, n1, n2 are isolated exactly.  About
-s0 the series of n3 is majorized, |n3(s) − n3(s0)| ≤ Δ = κ(|cos s0|(cosh r − 1) + |sin s0| sinh r) for complex
-|s − s0| ≤ r; where Δ is less than h + n3(s0) and n3(s0) − n0 this bounds the coefficients of the system by some K,
-hence its solutions by e^{Kr} and, by Cauchy, the remainder of their Taylor series after N terms at a step δ by
-e^{Kr} τ^N/(1 − τ), τ = δ/r.  Steps and radii are chosen in doubles, which proves nothing and need not: all that the
-proof assumes of them is checked in balls.
-On the edge of the possible (h, f) there is no torus; `edge` has a theorem of its own for it.  The theorems and their
+Proof by ball arithmetic: each number below is a ball of Arb that contains the true value.  n0, n1, n2 are isolated
+exactly.  For complex |s − s0| ≤ r, |n3(s) − n3(s0)| ≤ Δ = κ(|cos s0|(cosh r − 1) + |sin s0| sinh r).  If Δ is less
+than h + n3(s0) and n3(s0) − n0, it bounds the coefficients of the system by some K, hence its solutions by e^{Kr} and,
+by Cauchy's estimate, the remainder of their Taylor series after N terms at a step δ by e^{Kr} τ^N/(1 − τ), τ = δ/r.
+Steps and radii are chosen in double precision; balls check everything that the proof assumes of them.
+On the edge of the region there is no torus; `edge` has a theorem of its own for it.  The theorems and their
 proofs are in `hess_mechanics/proofs.md`; they are not in the paper.
 """
 
@@ -67,10 +67,10 @@ __all__ = [
 TWO_CYCLES, NO_CYCLE, UNDECIDED = "two cycles", "no cycle", "undecided"
 FIRST_BITS, MOST_BITS = 64, 512
 MOST_WORK = 2e7
-"""Steps times the square of their terms, of one proof at one precision: some 15 s."""
+"""Limit on the number of steps times the square of their terms, in one proof at one precision: about 15 s."""
 _SHARE = 0.8
 _GROWTH = 8
-"""The largest K r of a step: with δ = r/4 no direction then turns by more than 2, less than π."""
+"""Largest K r of a step: with δ = r/4 no direction then turns by more than 2, which is less than π."""
 _LEAST_F = Fraction(1, 10**100)
 
 Matrix = tuple[ArbBall, ArbBall, ArbBall, ArbBall]
@@ -79,9 +79,20 @@ Matrix = tuple[ArbBall, ArbBall, ArbBall, ArbBall]
 
 @dataclass(frozen=True)
 class ProofStep:
-    """One Taylor step: from `start` (the next one's start, or π, ends it), with what bounds its remainder.
+    """One Taylor step and the bounds of its remainder.
 
-    radius : of the disc |s − start| ≤ r; bound : K there; terms : N; matrix : encloses (A, B, C, D) of the step.
+    Attributes
+    ----------
+    start : Fraction
+        The value of s at which the step starts; it ends at the start of the next step, or at π.
+    radius : Fraction
+        Radius r of the disc |s − start| ≤ r.
+    bound : Fraction
+        Bound K of the coefficients on the disc.
+    terms : int
+        Number N of terms.
+    matrix : tuple of Enclosure
+        Enclosures of A, B, C, D of the step.
     """
 
     start: Fraction
@@ -93,12 +104,40 @@ class ProofStep:
 
 @dataclass(frozen=True)
 class Proof:
-    """What is proved of the torus (a, h, f), for the equations with exactly these rationals, if Arb's balls are right.
+    """Proved statement about the torus (a, h, f), for rational a, h, f in units b = 1; the result of `prove`.
 
-    statement : `TWO_CYCLES` (|trace| > 2), `NO_CYCLE` (|trace| < 2) or `UNDECIDED`; trace : of |t|.
-    rotation_number : turns per return; None while undecided.  fixed_points, multipliers : the stable cycle first.
-    roots : n0 < n1 < n2 (None for f = 0, h < 1, where the map is a limit in closed form); half : (A, B, C, D).
-    bits : of precision; seconds : that it took.
+    Attributes
+    ----------
+    a : Fraction
+        The coupling.
+    h : Fraction
+        The energy.
+    f : Fraction
+        The area integral.
+    statement : str
+        `TWO_CYCLES` (|t| > 2), `NO_CYCLE` (|t| < 2) or `UNDECIDED`.
+    trace : Enclosure
+        Enclosure of |t|.
+    rotation_number : Enclosure or None
+        Rotation number in turns per return; None if undecided.
+    fixed_points : tuple of Enclosure
+        Angles φ of the stable and of the unstable limit cycle in radians; empty without limit cycles.
+    multipliers : tuple of Enclosure
+        Multipliers of the stable and of the unstable limit cycle; empty without limit cycles.
+    roots : tuple of Enclosure or None
+        n0 < n1 < n2; None for f = 0, h < 1, where the map is a limit in closed form.
+    half : tuple of Enclosure or None
+        A, B, C, D of the half map.
+    steps : tuple of ProofStep
+        The Taylor steps.
+    bits : int
+        Precision in bits.
+    seconds : float
+        Wall time in seconds.
+
+    Notes
+    -----
+    The statement holds for the equations with exactly these rationals if the ball arithmetic of Arb is correct.
     """
 
     a: Fraction
@@ -117,7 +156,7 @@ class Proof:
 
     @property
     def trace_decimals(self) -> tuple[str, str]:
-        """Two decimals that enclose |t|, with as many digits as show the statement, and as doubles if these do."""
+        """Two decimals that enclose |t| with enough digits for the statement; doubles if these suffice."""
         low, high = self.trace.outside_doubles()
         digits = 17
         while (self.statement == TWO_CYCLES and Fraction(low) <= 2) or (
@@ -136,32 +175,54 @@ def prove(
     most_work: float = MOST_WORK,
     digits: int = 6,
 ) -> Proof | EdgeProof:
-    """Prove that the torus (a, h, f) has exactly two limit cycles, or none; on the edge, how its circle moves.
+    """Prove that the torus (a, h, f) has exactly two limit cycles, or none.
 
-    The precision doubles until the statement is decided and |t| known to `digits` digits, or until `most_bits` or
-    `most_work` is reached.  (Not in the paper; the equation of φ is `eq0003`.)
+    On the edge of the region, where there is no torus, prove how its circle of states moves.
 
     Parameters
     ----------
-    a, h, f : in units b = 1, taken as exact, see `balls.exact`.
-    most_bits : the largest precision in bits.
-    most_work : the largest number of Taylor steps times the square of their terms, at one precision.
-    digits : of |t| that are asked for.
+    a : str, float or Fraction
+        The coupling a = I23/I22, |a| ≤ 1e6, taken as exact, see `balls.exact`.
+    h : str, float or Fraction
+        The energy, −1 < h ≤ 1e12, in units b = 1, taken as exact.
+    f : str, float or Fraction
+        The area integral, in units b = 1, taken as exact.
+    most_bits : int, optional
+        Largest precision in bits.
+    most_work : float, optional
+        Largest number of Taylor steps times the square of their terms, at one precision.
+    digits : int, optional
+        Number of decimal digits to which |t| is enclosed.
 
     Returns
     -------
-    Proof | EdgeProof
-        An `EdgeProof` exactly where 2(h + n)(1 − n²) − f² has a double root, so that there is no torus.
+    Proof or EdgeProof
+        An `EdgeProof` exactly if 2(h + n)(1 − n²) − f² has a double root.
 
     Raises
     ------
     MissingLibrary
-        Without python-flint.
-    InvalidParameter, OutsideRegion, Separatrix
-        As `check_possible`; `InvalidParameter` also for a number that cannot be taken as exact.
+        If python-flint is not installed.
+    InvalidParameter
+        If a number cannot be taken as exact, |a| or h is too large, or f too close to 0.
+    OutsideRegion
+        If no motion has this h and f.
+    Separatrix
+        If h = 1 and f = 0.
     WorkLimit
-        If `most_work` is spent at the first precision.
+        If `most_work` is reached at the first precision.
 
+    Notes
+    -----
+    The precision doubles until the statement is decided and |t| known to `digits` digits, or until `most_bits` or
+    `most_work` is reached.
+
+    References
+    ----------
+    `eq0003`.  The theorem is not in the paper, see `hess_mechanics/proofs.md`.
+
+    Examples
+    --------
     >>> from hess_mechanics import prove
     >>> prove("0.5", "1.5", "0.6").statement
     'two cycles'
@@ -201,11 +262,16 @@ def prove(
 
 
 def check_possible(a: Fraction, h: Fraction, f: Fraction) -> None:
-    """Check that a motion has exactly (h, f): by the exact sign of the discriminant of 2(h + n)(1 − n²) − f².
+    """Check that motions with exactly this (h, f) exist, from the sign of the discriminant of 2(h + n)(1 − n²) − f².
 
     Parameters
     ----------
-    a, h, f : in units b = 1.
+    a : Fraction
+        The coupling.
+    h : Fraction
+        The energy, in units b = 1.
+    f : Fraction
+        The area integral, in units b = 1.
 
     Raises
     ------
@@ -233,24 +299,32 @@ def check_possible(a: Fraction, h: Fraction, f: Fraction) -> None:
 
 
 def on_edge(h: Fraction, f: Fraction) -> bool:
-    """Return whether possible h and f lie on the edge, where n3 is constant and there is no torus (`Geq3`).
+    """Return True if (h, f) lies on the edge of the region, where n3 is constant and there is no torus (`Geq3`).
 
     Parameters
     ----------
-    h, f : in units b = 1, as `check_possible` accepts them.
+    h : Fraction
+        The energy, in units b = 1, accepted by `check_possible`.
+    f : Fraction
+        The area integral, in units b = 1.
+
+    Returns
+    -------
+    bool
+        True on the edge.
     """
     return _discriminant(h, f) == 0
 
 
 def _discriminant(h: Fraction, f: Fraction) -> Fraction:
-    """Of −2n³ − 2hn² + 2n + (2h − f²), over 4: positive inside the region, 0 on its edge."""
+    """Return a quarter of the discriminant of −2n³ − 2hn² + 2n + (2h − f²): positive in the region, 0 on its edge."""
     A, B, C, D = -2, -2 * h, 2, 2 * h - f * f
     return Fraction(18 * A * B * C * D - 4 * B**3 * D + B * B * C * C - 4 * A * C**3 - 27 * A * A * D * D) / 4
 
 
 @dataclass(frozen=True)
 class _Turns:
-    """n0, n1, n2; balls: w = h + n1 and gap = n1 − n0 with small relative radii; κ."""
+    """The roots n0, n1, n2 and balls with small relative radii: w = h + n1, gap = n1 − n0, κ = (n2 − n1)/2."""
 
     roots: tuple[Enclosure, ...]
     w: ArbBall
@@ -259,7 +333,7 @@ class _Turns:
 
 
 def _turns(h: Fraction, f: Fraction, bits: int) -> _Turns:
-    """Roots of 2W(1 − (W − h)²) − f², W = h + n, each isolated, with as many bits as the gaps between them need."""
+    """Return the isolated roots W = h + n of 2W(1 − (W − h)²) − f², with enough bits for the gaps between them."""
     precision = 2 * bits + 64
     while True:
         with working(precision) as library:
@@ -267,14 +341,14 @@ def _turns(h: Fraction, f: Fraction, bits: int) -> _Turns:
             cubic = library.fmpq_poly([rational(c) for c in (-f * f, 2 * (1 - h * h), 4 * h, Fraction(-2))])
             W = sorted((root.real for root, _ in cubic.numer().complex_roots()), key=lambda root: root.mid())
             w, gap = W[1], W[1] - W[0]
-            # Comparisons of balls are true only where they are certain.
+            # A comparison of balls is true only if it is certain.
             if w > 0 and gap > 0 and W[1] < W[2] and (min(w.rel_accuracy_bits(), gap.rel_accuracy_bits()) > bits + 16):
                 return _Turns(tuple(enclosure(root - arb(H)) for root in W), w, gap, (W[2] - W[1]) / 2)
         precision *= 2
 
 
 def _plan(a: Fraction, f: Fraction, turns: _Turns, bits: int) -> Iterator[tuple[Fraction, Fraction, int]]:
-    """(start, radius, terms) of each step, in doubles."""
+    """Yield (start, radius, terms) of each step, chosen in double precision."""
     size, drift = abs(float(a)), abs(float(f))
     w1, g1, kappa = (float(x) for x in (turns.w, turns.gap, turns.kappa))
     s = 0.0
@@ -321,7 +395,7 @@ def _proof(
     rotation = _rotation(statement, t, A, B, C, D, theta)
     cycles = _cycles(t, A, B, C, D) if statement == TWO_CYCLES else ((), ())
     if rotation is None or cycles is None:
-        # The sign of the trace is known, but not yet the numbers that belong to it.
+        # The sign of the trace is known, but the rotation number or the cycles are not enclosed yet.
         statement, rotation, cycles = UNDECIDED, None, ((), ())
     trace = Enclosure(max(Fraction(0), t.low, -t.high), max(abs(t.low), abs(t.high)))
     return Proof(
@@ -341,7 +415,7 @@ def _proof(
 def _step(
     a: ArbBall, f: ArbBall, turns: _Turns, s: ArbBall, r: ArbBall, delta: ArbBall, terms: int
 ) -> tuple[Fraction, Matrix]:
-    """K, and the matrix of the step δ from s, by its Taylor series about s and Cauchy's bound of the rest."""
+    """Return K and the matrix of the step δ from s, by its Taylor series and Cauchy's bound of the remainder."""
     from flint import arb, arb_series, ctx
 
     rise = 2 * turns.kappa * (s / 2).sin() ** 2
@@ -349,7 +423,7 @@ def _step(
     change = abs(turns.kappa) * (abs(s.cos()) * 2 * (r / 2).sinh() ** 2 + abs(s.sin()) * r.sinh())
     largest = (abs(f) / (2 * (w - change)) + abs(a) * (2 * (w + change)).sqrt()) / (8 * (gap - change)).sqrt()
     K = Fraction(math.nextafter(float(largest) * (1.0 + 1e-12), math.inf))
-    # No direction turns by more than Kδ, and by less than π the angle between its ends tells how far.
+    # No direction turns by more than Kδ < π, so the angle between its ends is the angle through which it turns.
     if not (
         change < w
         and change < gap
@@ -363,7 +437,8 @@ def _step(
     rest = (arb(rational(K)) * r).exp() * tau**terms / (1 - tau)
 
     ctx.cap = terms
-    # Of h + n3 and n3 − n0 only the first coefficient differs: small near a singular point, it has all its digits.
+    # The series of h + n3 and n3 − n0 differ in the first coefficient only: it is small near a singular point, and
+    # computed without cancellation.
     change_of_n3 = (-turns.kappa * arb_series([s, 1]).cos()).coeffs()[1:]
     w_squared = 2 * arb_series([w, *change_of_n3])
     q = (8 * arb_series([gap, *change_of_n3])).rsqrt()
@@ -389,7 +464,7 @@ def _step(
 
 
 def _decided(A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall) -> tuple[str, Enclosure]:
-    """Return the statement and t: both forms of t enclose it, the one with the smaller product more closely."""
+    """Return the statement and t: both forms enclose t, and the one with the smaller product does so more closely."""
     small, large = enclosure(B * C), enclosure(A * D)
     t = Enclosure(2 + 4 * max(small.low, large.low - 1), 2 + 4 * min(small.high, large.high - 1))
     if t.low > 2 or t.high < -2:
@@ -400,13 +475,13 @@ def _decided(A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall) -> tuple[str, Enclo
 def _cycles(
     t: Enclosure, A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall
 ) -> tuple[tuple[Enclosure, ...], tuple[Enclosure, ...]] | None:
-    """Return φ and the multiplier of the stable and of the unstable cycle; None where these balls do not tell."""
+    """Return φ and the multipliers of the stable and of the unstable cycle; None if these balls do not decide."""
     phi = 2 * (A * C / (B * D)).sqrt().atan()
     multiplier = (abs(A * D).sqrt() + abs(B * C).sqrt()) ** -4
     if not (phi.is_finite() and multiplier.is_finite() and multiplier > 0):
         return None
-    # The eigenvalue of (1, κ), κ = tan(φ/2), is (AD + BC) + 2BDκ, and AD + BC = t/2: of κ > 0 it is the larger one
-    # where BD has the sign of t.  BD is not 0, as φ is finite.
+    # The eigenvalue of (1, κ), κ = tan(φ/2), is (AD + BC) + 2BDκ, and AD + BC = t/2.  For κ > 0 it is the larger one
+    # if BD has the sign of t.  BD is not 0, as φ is finite.
     if (t.low > 0) != (B * D > 0):
         phi = -phi
     return (enclosure(phi), enclosure(-phi)), (enclosure(multiplier), enclosure(1 / multiplier))
@@ -415,7 +490,7 @@ def _cycles(
 def _rotation(
     statement: str, t: Enclosure, A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall, theta: ArbBall
 ) -> Enclosure | None:
-    """Return ρ, or None where these balls do not tell."""
+    """Return ρ; None if these balls do not decide."""
     from flint import arb
 
     quadrants = enclosure(2 * theta / arb.pi()) if theta.is_finite() else None
@@ -423,7 +498,7 @@ def _rotation(
         return None
     m = math.floor(quadrants.low)
     if statement == TWO_CYCLES:
-        # Of m and m + 1 the even one for t > 2, the odd one for t < −2.
+        # ρ is the even one of m and m + 1 for t > 2, the odd one for t < −2.
         locked = Fraction(m + (m + int(t.low < 0)) % 2)
         return Enclosure(locked, locked)
     share = 2 * (-(B * C) / (A * D)).sqrt().atan() / arb.pi()
@@ -431,6 +506,9 @@ def _rotation(
 
 
 def _oscillation(a: Fraction, h: Fraction, f: Fraction, begun: float) -> Proof:
-    """f = 0, h < 1: a pendulum that swings; φ turns by −π where w = 0, in the limit f → 0+, so that Θ∘Θ = id, t = 0."""
+    """Return the proof for f = 0, h < 1, where the pendulum swings.
+
+    In the limit f → 0+ φ turns by −π where w = 0, so that Θ∘Θ = id and t = 0.
+    """
     zero, half = Enclosure(Fraction(0), Fraction(0)), Enclosure(Fraction(-1, 2), Fraction(-1, 2))
     return Proof(a, h, f, NO_CYCLE, zero, half, (), (), None, None, (), FIRST_BITS, time.perf_counter() - begun)

@@ -1,6 +1,7 @@
-"""Closed forms of the Suslov–Hess case with proved bounds, by balls of Arb: the period of n3, the trace on the edge.
+"""Closed forms of the Suslov–Hess case with proved bounds: the period of n3 and the trace on the edge of the region.
 
-Numbers are exact, see `balls.exact`; the precision doubles until the enclosure has as many digits as are asked for.
+Ball arithmetic is that of Arb.  Numbers are exact, see `balls.exact`; the precision doubles until the enclosure has
+the requested number of digits.
 """
 
 from __future__ import annotations
@@ -17,18 +18,45 @@ __all__ = ["proved_torus_period", "proved_trace_on_curve"]
 
 
 def proved_torus_period(h: ExactNumber, f: ExactNumber, digits: int = 30) -> Enclosure:
-    """The period of n3 on the torus (h, f), units b = 1: T = √2 π/AGM(√(n2 − n0), √(n1 − n0)).
+    """Return an enclosure of the period of n3 on the torus (h, f): T = √2 π/AGM(√(n2 − n0), √(n1 − n0)).
 
+    Parameters
+    ----------
+    h : str, float or Fraction
+        The energy, in units b = 1, taken as exact.
+    f : str, float or Fraction
+        The area integral, in units b = 1, taken as exact.
+    digits : int, optional
+        Number of significant decimal digits.
+
+    Returns
+    -------
+    Enclosure
+        The period in units b = 1.
+
+    Raises
+    ------
+    MissingLibrary
+        If python-flint is not installed.
+    InvalidParameter
+        If a number cannot be taken as exact, or (h, f) lies on the edge, where n3 is constant.
+    OutsideRegion
+        If no motion has this h and f.
+    Separatrix
+        If h = 1 and f = 0.
+    WorkLimit
+        If the enclosure needs more precision than allowed.
+
+    Notes
+    -----
     n0 < n1 < n2 are the roots of 2(h + n)(1 − n²) − f², isolated as balls.
-    Raises `MissingLibrary`, `InvalidParameter` (also on the edge, where n3 is constant), `OutsideRegion`,
-    `Separatrix`, `WorkLimit`.
     """
     energy, area = exact("h", h), exact("f", f)
     check_possible(Fraction(0), energy, area)
     if on_edge(energy, area):
         raise InvalidParameter(
-            f"h = {energy}, f = {area} lies on the edge of the possible (h, f), where n3 is "
-            "constant and has no period. Choose a smaller |f|, or a larger h."
+            f"h = {energy}, f = {area} lies on the edge of the region, where n3 is constant and has no period. "
+            "Choose a smaller |f|, or a larger h."
         )
 
     def compute(library: Any) -> ArbBall:
@@ -46,10 +74,34 @@ def proved_torus_period(h: ExactNumber, f: ExactNumber, digits: int = 30) -> Enc
 
 
 def proved_trace_on_curve(a: ExactNumber, n: ExactNumber, digits: int = 30) -> Enclosure:
-    """The limit of t at the point n3 = n of the bifurcation curve: 2 cos(π√(n²(1+a²)−a²)/√(1+3n²)).
+    """Return an enclosure of the limit of t at the point n3 = n of the bifurcation curve.
 
-    It is cosh where the radicand is negative.  On the curve itself there is no torus, see `edge`.
-    Raises `MissingLibrary`, `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    a : str, float or Fraction
+        The coupling, |a| ≤ 1000, taken as exact.
+    n : str, float or Fraction
+        The constant value of n3, 0 < n ≤ 1, taken as exact.
+    digits : int, optional
+        Number of significant decimal digits.
+
+    Returns
+    -------
+    Enclosure
+        2 cos(π√(n²(1+a²)−a²)/√(1+3n²)), with cosh if the radicand is negative.
+
+    Raises
+    ------
+    MissingLibrary
+        If python-flint is not installed.
+    InvalidParameter
+        If a or n is out of range, or cannot be taken as exact.
+    WorkLimit
+        If the enclosure needs more precision than allowed.
+
+    Notes
+    -----
+    On the curve itself there is no torus, see `edge`.
     """
     ratio, height = exact("a", a), exact("n", n)
     if not 0 < height <= 1:

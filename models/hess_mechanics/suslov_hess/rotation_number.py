@@ -1,12 +1,12 @@
-"""The rotation number of the Suslov–Hess torus over its parameters (a, h, f), and of a map that is not Möbius.
+"""Rotation number of the Suslov–Hess torus over its parameters (a, h, f), and of a perturbed map that is not Möbius.
 
-`circle_map` uses the lift Θ(φ) = φ + 2ζ + 2 arg(1 + (β/α) e^{−iφ}), ζ the lift of arg α.  With a harmonic that no
-Möbius map has,
+`circle_map` uses the lift Θ(φ) = φ + 2ζ + 2 arg(1 + (β/α) e^{−iφ}), where ζ is the lift of arg α.  With a harmonic that
+no Möbius map has,
 
     Θ_ε(φ) = Θ(φ + ε sin 3φ),  3|ε| < 1,
 
-which is still one-to-one, the map also locks at other rational numbers.  This answers the open problem at the end of
-the paper's appendix for these tori.
+is still one-to-one, but locks at other rational numbers too.  This answers the open problem at the end of the paper's
+appendix for these tori.
 """
 
 from __future__ import annotations
@@ -62,11 +62,11 @@ __all__ = [
 ]
 
 PLANES = ("h, f", "h, a", "f, a")
-"""The planes of parameters: horizontal, vertical."""
+"""Planes of parameters: horizontal axis, vertical axis."""
 
 MAX_POINTS = 1_000_000
 TURNS = 1500
-"""Of a perturbed map, over which ρ is averaged."""
+"""Number of returns of a perturbed map over which ρ is averaged."""
 _TERM = 3
 """The harmonic that breaks the Möbius form."""
 _NEAR_SEPARATRIX = 1e-9
@@ -74,20 +74,20 @@ _NEAR_SEPARATRIX = 1e-9
 
 @dataclass(frozen=True)
 class Torus:
-    """The parameters of one torus, units b = 1."""
+    """Parameters (a, h, f) of one torus, in units b = 1."""
 
     a: float
     h: float
     f: float
 
     def at(self, **values: float) -> Torus:
-        """The torus with some parameters replaced."""
+        """Return the torus with some parameters replaced."""
         return Torus(**{**vars(self), **values})
 
 
 @dataclass(frozen=True)
 class ParameterLine:
-    """The tori whose parameter `name` ("a", "h", "f") lies between low and high, the others as of one torus."""
+    """Tori with the parameter `name` ("a", "h" or "f") between `low` and `high`, and the others from `torus`."""
 
     name: str
     torus: Torus
@@ -96,20 +96,20 @@ class ParameterLine:
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Of the parameter."""
+        """The two ends of the interval."""
         return self.low, self.high
 
     def place(self, torus: Torus) -> float:
-        """The parameter of a torus."""
+        """Return the value of the parameter for a torus."""
         return float(vars(torus)[self.name])
 
     def places(self, count: int) -> Array:
-        """Even places (count,), both ends included."""
+        """Return equidistant values of the parameter (count,), both ends included."""
         return np.linspace(self.low, self.high, count)
 
 
 def possible_part(line: ParameterLine, margin: float = 0.03) -> ParameterLine:
-    """The line with no more of it where no motion is possible than that share at each end; whole where none is."""
+    """Return the line cut to the values with motion, plus a share `margin` at each end; uncut if there is none."""
     first, last = -math.inf, math.inf
     if line.name == "h":
         first = h_min(line.torus.f)
@@ -126,9 +126,18 @@ def possible_part(line: ParameterLine, margin: float = 0.03) -> ParameterLine:
 
 @dataclass(frozen=True)
 class TorusValues(Result):
-    """Values at tori (n,), NaN (of `locked` False) where no motion is possible.
+    """Values at n tori; NaN (False for `locked`) if no motion is possible.
 
-    rho : rotation number; trace : |t|, ∞ beyond double range; locked : whether the map locks; possible : the mask.
+    Attributes
+    ----------
+    rho : ndarray of float, shape (n,)
+        Rotation number in turns per return.
+    trace : ndarray of float, shape (n,)
+        |t|; ∞ beyond the range of doubles.
+    locked : ndarray of bool, shape (n,)
+        True if the map locks.
+    possible : ndarray of bool, shape (n,)
+        True if motion is possible.
     """
 
     rho: Array
@@ -137,21 +146,21 @@ class TorusValues(Result):
     possible: Mask
 
     def labels(self) -> Labels:
-        """All of it over the number of the torus."""
+        """Return all values with names and units, over the index of the torus."""
         named = {"ρ": self.rho, "trace": self.trace, "locked": self.locked, "possible": self.possible}
         return Labels({}, {name: (("torus",), values) for name, values in named.items()}, {"ρ": "turns", "trace": "1"})
 
 
 @dataclass(frozen=True)
 class PeriodicTorus:
-    """A torus with ρ = p/q, and max |Θ^q − id| there."""
+    """A torus with ρ = p/q, and the defect max |Θ^q − id| in radians."""
 
     torus: Torus
     defect: float
 
 
 def _matrices(a: Array, h: Array, f: Array, level: Level) -> Array:
-    """`matrices` of tori (a, h, |f|), each (n,)."""
+    """Return the rows of `matrices` for tori (a, h, |f|), each (n,)."""
     rows = np.zeros((a.size, 6))
     for value in np.unique(a):
         own = a == value
@@ -160,12 +169,12 @@ def _matrices(a: Array, h: Array, f: Array, level: Level) -> Array:
 
 
 def _together(*numbers: Array | float) -> Iterator[Array]:
-    """Yield arrays of equal length (n,)."""
+    """Yield the arguments broadcast to arrays of equal shape."""
     return (np.ascontiguousarray(x, float) for x in np.broadcast_arrays(*np.atleast_1d(*numbers)))
 
 
 def values_at(a: Array | float, h: Array | float, f: Array | float, level: Accuracy) -> TorusValues:
-    """ρ, |t| and locking of tori (a, h, f), arrays (n,) or numbers.  Raises `InvalidParameter`, `WorkLimit`."""
+    """Return ρ, |t| and locking of tori (a, h, f), arrays (n,) or numbers.  Raises `InvalidParameter`, `WorkLimit`."""
     level = as_level(level)
     a, h, f = _together(a, h, f)
     if a.ndim != 1 or a.size > MAX_POINTS:
@@ -186,9 +195,9 @@ def values_at(a: Array | float, h: Array | float, f: Array | float, level: Accur
 
 
 def rotation_errors(a: Array | float, h: Array | float, f: Array | float, level: Accuracy) -> Array:
-    """Estimated errors (n,) of ρ as `values_at` finds it, from the `neighbours` with a hundredth of the tolerance.
+    """Return estimated errors (n,) of ρ from `values_at`; NaN if there is no torus.
 
-    NaN where there is no torus.  Raises as `values_at`.
+    They compare ρ with that of the `neighbours` at a hundredth of the tolerance.  Raises as `values_at`.
     """
     level = as_level(level)
     energies, fs = np.broadcast_arrays(*np.atleast_1d(h, f))
@@ -198,7 +207,7 @@ def rotation_errors(a: Array | float, h: Array | float, f: Array | float, level:
 
 
 def lock_curve(plane: str, torus: Torus, window: Sequence[float], level: Accuracy, points: int = 48) -> Array:
-    """The boundary |t| = 2 in a plane of `PLANES` through the torus, for x0 … x1 of `window`; (n, 2).
+    """Return the boundary |t| = 2 in a plane of `PLANES` through the torus, for x0 … x1 of `window`; shape (n, 2).
 
     In (h, f) it is `lock_boundary`, f ≥ 0; in the other planes a(h) or a(f), where it exists.
     """
@@ -216,7 +225,7 @@ def lock_curve(plane: str, torus: Torus, window: Sequence[float], level: Accurac
 
 
 def _abscissas(plane: str, torus: Torus, x0: float, x1: float, points: int) -> Array:
-    """Places between x0 and x1 from edge to edge of what is possible; of f closer to 0, where the a wanted grows."""
+    """Return values between x0 and x1 where motion is possible; values of f are denser near 0, where a(f) is steep."""
     if plane == "h, a":
         low = max(x0, h_min(torus.f) + 1e-9)
         return np.linspace(low, x1, points) if low < x1 else np.empty(0)
@@ -230,7 +239,7 @@ def _abscissas(plane: str, torus: Torus, x0: float, x1: float, points: int) -> A
 def perturbed_rotation(
     a: Array | float, h: Array | float, f: Array | float, epsilon: float, level: Accuracy, count: int = TURNS
 ) -> Array:
-    """ρ (n,) of Θ_ε for possible tori (a, h, f), arrays (n,) or numbers, by a weighted average of `count` turns.
+    """Return ρ (n,) of Θ_ε for tori (a, h, f), arrays (n,) or numbers, by a weighted average over `count` returns.
 
     Raises `InvalidParameter` (|ε| ≥ 1/3), `WorkLimit`.
     """
@@ -258,12 +267,12 @@ def perturbed_rotation(
 
 
 def place_of(rho: float, name: str, torus: Torus, low: float, high: float, level: Accuracy) -> float | None:
-    """A value of the parameter `name` ("a", "h", "f") between low and high with this ρ; None where none is found."""
+    """Return a value of the parameter `name` ("a", "h", "f") between `low` and `high` with this ρ, or None."""
     x = np.linspace(low, high, 121)
     values = values_at(**{**vars(torus), name: x}, level=level)
     excess = values.rho - rho
     both = values.possible[1:] & values.possible[:-1]
-    # Not the jump of ρ from −½ to ½.
+    # The jump of ρ from −½ to ½ is not a root.
     changes = np.flatnonzero(both & (excess[1:] * excess[:-1] <= 0.0) & (np.abs(np.diff(values.rho)) < 0.25))
     if not changes.size:
         return None
@@ -280,12 +289,12 @@ def place_of(rho: float, name: str, torus: Torus, low: float, high: float, level
 
 
 def closed_after(torus: Torus, q: int, level: Accuracy) -> float:
-    """max |Θ^q(φ) − φ| over 64 phases: round-off where every orbit closes after q returns.
+    """Return max |Θ^q(φ) − φ| over 64 phases, in radians: round-off if every orbit closes after q returns.
 
     Raises `InvalidParameter` for q < 1 or q > 1000.
     """
     if not (abs(torus.a) <= MAX_A and 1 <= q <= 1000):
-        raise InvalidParameter("The number of returns q lies between 1 and 1000.")
+        raise InvalidParameter("The number of returns q must be between 1 and 1000.")
     theta = circle_map(torus.a, torus.h, torus.f, level)
     phi = np.linspace(-math.pi, math.pi, 64, endpoint=False)
     image = phi
@@ -297,15 +306,15 @@ def closed_after(torus: Torus, q: int, level: Accuracy) -> float:
 def rows(
     plane: str, torus: Torus, window: Window, cells: tuple[int, int], first: int, last: int, level: Accuracy
 ) -> TorusValues:
-    """`values_at` the centres of cells (m, n) that fill the window of a plane, from the row `first` to before `last`.
+    """Return `values_at` the centres of the cells (m, n) of a window of a plane, for the rows first … last − 1.
 
-    The rows (last − first) × m stand one after the other.
+    The result is flat, row after row: (last − first) × m values.
     """
     return values_at(**_tori(plane, torus, window, cells, slice(first, last)), level=level)
 
 
 def _tori(plane: str, torus: Torus, window: Window, cells: tuple[int, int], own: slice) -> dict[str, Array]:
-    """Return the parameters of the tori at the centres of cells, in some of their rows."""
+    """Return the parameters of the tori at the centres of cells, for some of their rows."""
     names = plane.split(", ")
     x, y = (centres(*window[i], cells[i]) for i in (0, 1))
     X, Y = np.meshgrid(x, y[own])
@@ -313,14 +322,14 @@ def _tori(plane: str, torus: Torus, window: Window, cells: tuple[int, int], own:
 
 
 def rows_error(plane: str, torus: Torus, window: Window, level: Accuracy) -> float:
-    """The estimated error of ρ that 99 of 100 cells of a window have at most, from 30 × 20 of them; 0 where none is."""
+    """Return the 99 % quantile of the estimated error of ρ over a window, from 30 × 20 cells; 0 if none is possible."""
     errors = rotation_errors(**_tori(plane, torus, window, (30, 20), slice(None)), level=level)
     known = errors[np.isfinite(errors)]
     return float(np.quantile(known, 0.99)) if known.size else 0.0
 
 
 def together(parts: Sequence[TorusValues]) -> TorusValues:
-    """Parts of one map, one after the other."""
+    """Return the parts of one map, concatenated."""
     return TorusValues(
         *(
             frozen(np.concatenate([getattr(part, name) for part in parts]))
@@ -330,12 +339,12 @@ def together(parts: Sequence[TorusValues]) -> TorusValues:
 
 
 def along(line: ParameterLine, count: int, level: Accuracy) -> TorusValues:
-    """`values_at` even places of a line."""
+    """Return `values_at` equidistant points of a line."""
     return values_at(**{**vars(line.torus), line.name: line.places(count)}, level=level)
 
 
 def perturbed_along(line: ParameterLine, count: int, epsilon: float, level: Accuracy, turns: int = TURNS) -> Array:
-    """`perturbed_rotation` by so many turns at even places of a line, (count,); NaN where there is no torus."""
+    """Return `perturbed_rotation` at equidistant points of a line, (count,); NaN if there is no torus."""
     x, possible = line.places(count), along(line, count, level).possible
     out = np.full(count, np.nan)
     if possible.any():
@@ -345,7 +354,7 @@ def perturbed_along(line: ParameterLine, count: int, epsilon: float, level: Accu
 
 
 def periodic_torus(rho: Fraction, line: ParameterLine, level: Accuracy) -> PeriodicTorus | None:
-    """The torus of a line with this ρ, if one is seen."""
+    """Return the torus of a line with this ρ, or None if none is found."""
     place = place_of(float(rho), line.name, line.torus, line.low, line.high, level)
     if place is None:
         return None
@@ -354,7 +363,7 @@ def periodic_torus(rho: Fraction, line: ParameterLine, level: Accuracy) -> Perio
 
 
 def plateaus(rho: Array, possible: Mask) -> list[Fraction]:
-    """The rational numbers that neighbours of a curve ρ (n,) share to 1e-6, the least denominators first."""
+    """Return the rationals that neighbours of a curve ρ (n,) share to 1e-6, in order of their denominators."""
     level = np.flatnonzero(possible[1:] & possible[:-1] & (np.abs(np.diff(rho)) < 1e-6))
     steps = [(Fraction(float(rho[i])).limit_denominator(12), float(rho[i])) for i in level]
     near = {step for step, value in steps if abs(float(step) - value) < 1e-5}

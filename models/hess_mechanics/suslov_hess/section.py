@@ -1,11 +1,11 @@
-"""A section of one torus of the Suslov–Hess case: n3 rises through the middle of its range, in the angle of w.
+"""Section of one Suslov–Hess torus: n3 increases through the middle of its range; the coordinate is the angle of w.
 
 At fixed (h, f), units b = 1, let w = ρ (sin φ, cos φ), ρ² = 2(h + n3), at n3 = (n3^(1) + n3^(2))/2.  Then
 
     (n1, n2) = (f/ρ) w/ρ + √(1 − n3² − f²/ρ²) (cos φ, −sin φ),   as ṅ3 = n1 w2 − n2 w1 > 0.
 
-Its return map is conjugate to Θ of `circle_map`, which is seen from n3 = n3^(1), where n3 does not rise but turns: both
-have the same multipliers.
+The return map is conjugate to Θ of `circle_map`, whose section is the lower turning point n3 = n3^(1): the multipliers
+of both are equal.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ __all__ = ["TorusSection"]
 
 @dataclass(frozen=True)
 class TorusSection(PoincareSection):
-    """The section of the torus (h, f) of the reduced equations with this a, units b = 1, in φ.
+    """Section of the torus (h, f) of the reduced equations with coupling a, units b = 1, with the coordinate φ.
 
-    Raises `OutsideRegion`, `Separatrix`, `InvalidParameter` where there is no torus.
+    Raises `OutsideRegion`, `Separatrix`, `InvalidParameter` if there is no torus.
     """
 
     a: float
@@ -46,40 +46,40 @@ class TorusSection(PoincareSection):
 
     @cached_property
     def turning(self) -> TurningPoints:
-        """Between which n3 moves."""
+        """The turning points of n3."""
         return turning_points(self.h, self.f)
 
     @property
     def n3(self) -> float:
-        """The middle of its range."""
+        """The middle of the range of n3."""
         return 0.5 * (self.turning.roots[1] + self.turning.roots[2])
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """a and b = 1."""
+        """The parameters a and b = 1."""
         return (self.a, 1.0)
 
     @property
     def surface(self) -> Plane:
-        """n3 rises through the middle."""
+        """The plane that n3 crosses upwards."""
         return Plane((0.0, 0.0, 0.0, 0.0, 1.0), self.n3)
 
     @property
     def slowness(self) -> float:
-        """By the period of n3, in the time of the fastest motion."""
+        """The time between two crossings in units of the fastest motion, from the period of n3."""
         return max(1.0, 0.1 * self.turning.period * math.sqrt(2.0 * (self.h + 3.0)))
 
     @property
     def constants(self) -> Mapping[str, float]:
-        """a, h and f."""
+        """The constants a, h and f."""
         return {"a": self.a, "h": self.h, "f": self.f}
 
     def moved(self, name: str, value: float) -> TorusSection:
-        """With another value of a constant."""
+        """Return the section with another value of one constant."""
         return replace(self, **{name: value})
 
     def states_at(self, phi: Array) -> tuple[Array, Mask]:
-        """The states (n, 5) at φ (n,), all of them possible."""
+        """Return the states (n, 5) at φ (n,) and the mask of possible states, which is True everywhere."""
         n3 = self.n3
         rho = math.sqrt(2.0 * (self.h + n3))
         along = self.f / rho
@@ -89,5 +89,5 @@ class TorusSection(PoincareSection):
         return np.column_stack([rho * s, rho * c, *gamma]), np.isfinite(s)
 
     def places_of(self, states: Array) -> Array:
-        """φ (n, 1) of states (n, 5)."""
+        """Return φ (n, 1) of states (n, 5)."""
         return np.arctan2(states[:, :1], states[:, 1:2])
