@@ -40,15 +40,6 @@ class HessBody:
     b3 : float
         Third component of the centre of mass times the weight, **b** = mg **r**.
 
-    Attributes
-    ----------
-    I22 : float
-        Moment of inertia.
-    I23 : float
-        Product of inertia.
-    b3 : float
-        Third component of **b**.
-
     Raises
     ------
     InvalidParameter
