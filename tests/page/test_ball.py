@@ -27,6 +27,7 @@ from support.ball import (
 from support.page import brought, chosen, flat, said, wait_frames
 from support.painted import SOURCES, assert_painted, track, yellow
 from support.pointer import at, click_on, frame
+from support.thorough import sample
 
 PLANAR = {"chaplygin-ball": ("omega", "curve", "Gamma"), "ball-section": ("section", "returns", "omega")}
 
@@ -66,7 +67,7 @@ def assert_follows(explorer, values, times):
 # --- Examples ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("preset", BALL.presets, ids=lambda preset: preset.name)
+@pytest.mark.parametrize("preset", sample(BALL.presets, 3), ids=lambda preset: preset.name)
 def test_an_example_of_the_ball_is_drawn_with_the_numbers_of_its_captions(ball, preset):
     values = chosen(ball, BALL, preset)
     assert ball.chosen("preset") == preset.name
@@ -93,7 +94,7 @@ def test_an_example_of_the_ball_is_drawn_with_the_numbers_of_its_captions(ball, 
     assert_painted(ball, BALL)
 
 
-@pytest.mark.parametrize("preset", SECTION.presets, ids=lambda preset: preset.name)
+@pytest.mark.parametrize("preset", sample(SECTION.presets, 3), ids=lambda preset: preset.name)
 def test_an_example_with_a_field_is_drawn_with_the_numbers_of_its_captions(field, preset):
     values = chosen(field, SECTION, preset)
     assert field.chosen("preset") == preset.name

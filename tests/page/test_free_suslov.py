@@ -27,6 +27,7 @@ from support.free_suslov import (
 from support.page import brought, chosen, flat, said, values_of, wait_frames
 from support.painted import SOURCES, assert_painted, track, yellow
 from support.pointer import at, click_on
+from support.thorough import sample
 
 PLANAR = {"free-suslov": ("omega", "gamma1", "Gamma"), "scattering": ("curve", "map", "chi")}
 
@@ -46,7 +47,7 @@ def scattering(tab):
 # --- Examples ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("preset", FREE.presets, ids=lambda preset: preset.name)
+@pytest.mark.parametrize("preset", sample(FREE.presets, 3), ids=lambda preset: preset.name)
 def test_an_example_of_free_motion_is_drawn_with_the_numbers_of_its_captions(free, preset):
     values = chosen(free, FREE, preset)
     assert free.chosen("preset") == preset.name
@@ -79,7 +80,7 @@ def track_of_second(explorer):
     return np.column_stack([data[name] for name in ("g1", "g2", "g3")])
 
 
-@pytest.mark.parametrize("preset", SCATTERING.presets, ids=lambda preset: preset.name)
+@pytest.mark.parametrize("preset", sample(SCATTERING.presets, 3), ids=lambda preset: preset.name)
 def test_an_example_of_scattering_is_drawn_with_the_numbers_of_its_captions(scattering, preset):
     values = chosen(scattering, SCATTERING, preset)
     assert scattering.chosen("preset") == preset.name

@@ -5,11 +5,12 @@ import random
 import pytest
 
 from support.fuzzing import fuzz_commands, fuzz_links, fuzz_messages
+from support.thorough import examples
 
 
 @pytest.mark.parametrize(
     ("fuzz", "count"),
-    [(fuzz_links, 12), (fuzz_messages, 25), (fuzz_commands, 25)],
+    [(fuzz_links, examples(4)), (fuzz_messages, examples(12)), (fuzz_commands, examples(12))],
     ids=["links", "messages", "commands"],
 )
 def test_strangers_get_answers(fuzz, count):

@@ -13,6 +13,7 @@ from support.kharlamova import ARC, POINT
 from support.page import brought, chosen, flat, said
 from support.painted import SOURCES, assert_painted
 from support.pointer import click_on
+from support.thorough import sample
 
 
 @pytest.fixture
@@ -33,7 +34,7 @@ def arc_of(values):
     return arc(body, state_at(body, (values["q1"], values["q2"]), p))
 
 
-@pytest.mark.parametrize("preset", ARC.presets, ids=lambda preset: preset.name)
+@pytest.mark.parametrize("preset", sample(ARC.presets, 3), ids=lambda preset: preset.name)
 def test_an_example_of_b3_0_is_drawn_with_the_numbers_of_its_captions(arcs, preset):
     found = arc_of(chosen(arcs, ARC, preset))
     if found.kind == "periodic":
@@ -47,7 +48,7 @@ def test_an_example_of_b3_0_is_drawn_with_the_numbers_of_its_captions(arcs, pres
     assert_painted(arcs, ARC)
 
 
-@pytest.mark.parametrize("preset", POINT.presets, ids=lambda preset: preset.name)
+@pytest.mark.parametrize("preset", sample(POINT.presets, 3), ids=lambda preset: preset.name)
 def test_an_example_of_the_quartic_potential_is_drawn_with_the_numbers_of_its_captions(point, preset):
     values = chosen(point, POINT, preset)
     I22, size = values["I22"], abs(values["b3"])

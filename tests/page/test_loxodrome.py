@@ -10,6 +10,7 @@ import pytest
 from support.loxodrome import HESS, LOXODROME, clock, slope, swing_at
 from support.page import brought, chosen, flat, said, wait_frames
 from support.painted import assert_painted
+from support.thorough import sample
 
 YELLOW = (240, 228, 66)
 
@@ -47,7 +48,7 @@ def centre_at(values, t):
     return 0.0, math.sin(alpha), -math.cos(alpha)
 
 
-@pytest.mark.parametrize("preset", LOXODROME.presets, ids=lambda preset: preset.name)
+@pytest.mark.parametrize("preset", sample(LOXODROME.presets, 3), ids=lambda preset: preset.name)
 def test_a_preset_is_drawn_with_the_numbers_of_its_captions(loxodrome, preset):
     values = chosen(loxodrome, LOXODROME, preset)
     assert loxodrome.chosen("preset") == preset.name

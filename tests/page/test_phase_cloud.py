@@ -14,6 +14,7 @@ from hess_mechanics.chaplygin_ball.phase_cloud import carried, frame_times, patc
 from support.page import brought
 from support.painted import assert_captions_fit
 from support.phase_cloud import SCENE, captions
+from support.thorough import sample
 
 DEFAULTS = SCENE.defaults()
 HERE = ".gallery:not(.away) .picture-{} canvas"
@@ -56,7 +57,7 @@ def share_of(cloud, picture, colour):
 def test_every_example_is_drawn_and_says_what_the_scene_says(cloud):
     # At t = 0 the clouds of two bodies are one.
     cloud.set_time(6.0)
-    for preset in SCENE.presets:
+    for preset in sample(SCENE.presets, 3):
         if cloud.chosen("preset") != preset.name:
             cloud.change(cloud.choose, "preset", preset.name)
         values = {**DEFAULTS, **preset.values}
@@ -88,7 +89,7 @@ INTERPOLATED = [
 ]
 
 
-@pytest.mark.parametrize("changes", INTERPOLATED, ids=str)
+@pytest.mark.parametrize("changes", sample(INTERPOLATED, 2), ids=str)
 def test_between_frames_nearly_all_points_are_right_to_a_pixel(cloud, changes):
     values = {**DEFAULTS, **changes}
     body = BallBody(*(values[name] for name in ("I11", "I22", "I13", "I23", "D")))

@@ -7,6 +7,7 @@ import pytest
 from hess_explorer.scenes import scenes
 from support.accessible import assert_accessible
 from support.page import HESS, Explorer, wait_frames
+from support.thorough import sample
 
 # The size of every text in sight, those of the axes among them; the widths of Bokeh's lines by plot and model.
 SIZES = """() => {
@@ -53,7 +54,7 @@ def plain(tab):
     tab.assert_quiet()
 
 
-@pytest.mark.parametrize(("size", "theme"), [((1920, 1080), "light"), ((1280, 720), "dark")])
+@pytest.mark.parametrize(("size", "theme"), sample([((1920, 1080), "light"), ((1280, 720), "dark")], 1))
 def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(plain, open_page, server, size, theme):
     tab, page = plain, plain.page
     tab.turn_theme(is_dark=theme == "dark")

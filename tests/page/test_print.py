@@ -13,6 +13,7 @@ from hess_explorer.protocol.parameters import Number
 from hess_explorer.scenes import scenes
 from hess_explorer.server.qr_code import drawing
 from support.page import HESS, WIDE, Explorer, wait_frames
+from support.thorough import sample
 
 # Nobody can answer a print dialog.
 NO_DIALOG = "window.printed = 0; window.print = () => { window.printed += 1 }"
@@ -41,7 +42,7 @@ HANDOUT = """() => {
 }"""
 
 
-@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("theme", sample(["light", "dark"], 1))
 def test_a_handout_has_the_pictures_the_numbers_the_text_and_the_link_dark_on_white(browser, server, theme):
     context = browser.new_context(viewport=dict(zip(("width", "height"), WIDE, strict=True)), reduced_motion="reduce")
     page = context.new_page()

@@ -20,6 +20,7 @@ from support.free_suslov import shown
 from support.page import brought, chosen, flat, said, values_of
 from support.painted import SOURCES, assert_painted
 from support.pointer import at, frame
+from support.thorough import sample
 from support.view import View
 
 SUSLOV, ROTATION = scenes()["suslov"], scenes()["rotation-number"]
@@ -81,7 +82,7 @@ def drag(explorer, picture, first, last):
 # --- The Suslov problem ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("preset", SUSLOV.presets, ids=lambda preset: preset.name)
+@pytest.mark.parametrize("preset", sample(SUSLOV.presets, 4), ids=lambda preset: preset.name)
 def test_an_example_of_the_suslov_problem_is_drawn_with_the_numbers_of_its_captions(tab, preset):
     explorer = brought(tab, SUSLOV)
     values = chosen(explorer, SUSLOV, preset)
@@ -243,7 +244,7 @@ def test_an_exponent_over_too_long_a_time_is_said(tab):
 # --- The rotation number -----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("preset", ROTATION.presets, ids=lambda preset: preset.name)
+@pytest.mark.parametrize("preset", sample(ROTATION.presets, 3), ids=lambda preset: preset.name)
 def test_an_example_of_the_rotation_number_is_drawn_with_the_numbers_of_its_captions(rotation, preset):
     values = chosen(rotation, ROTATION, preset)
     assert rotation.chosen("preset") == preset.name
