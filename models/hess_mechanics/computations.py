@@ -1,7 +1,7 @@
-"""Computations for one kind of body: basins, clouds and rotation numbers.
+"""Computations for one kind of body: basins, clouds of phase points and rotation numbers.
 
-`accuracy` is a level or its name: "draft", "standard", "precise" or "reference".  Results can be handed on:
-`.to_pandas()`, `.to_xarray()`, `.plot()`.
+`accuracy` is a level or its name: "draft", "standard", "precise" or "reference".  All results have `.to_pandas()`,
+`.to_xarray()` and `.plot()`.
 """
 
 from __future__ import annotations
@@ -33,15 +33,29 @@ __all__ = ["Basins", "basins", "cloud", "rotation_along_line", "rotation_numbers
 
 _MOST_ORBITS = 1000
 _LONG = 1000.0
-"""Time over which the divergence of one motion of each group is averaged."""
+"""Time over which the divergence of one motion per group is averaged."""
 
 
 @dataclass(frozen=True)
 class Basins(Result):
-    """To which group of motions each cell of a section leads.
+    """Basins of attraction on a section of the Suslov problem.
 
-    psi (m,), delta (n,) : the middles of the cells; mean (n, m) : of ω1 in the long run, NaN where no motion is;
-    group (n, m) : the number of the group, −1 where no motion is; divergence : of one motion of each group.
+    Cells belong to one group if the long-run means of ω₁ along their orbits agree.
+
+    Attributes
+    ----------
+    psi : ndarray, shape (m,)
+        Centres of the cells in ψ, in radians.
+    delta : ndarray, shape (n,)
+        Centres of the cells in δ, in radians.
+    mean : ndarray, shape (n, m)
+        Long-run mean of ω₁; NaN where no motion crosses the section.
+    group : ndarray of int, shape (n, m)
+        Group of each cell; −1 where no motion crosses the section.
+    divergence : tuple of Contraction
+        Mean divergence along one motion of each group.
+    level : str
+        Name of the accuracy level.
     """
 
     psi: Array
@@ -53,11 +67,17 @@ class Basins(Result):
 
     @property
     def attractors(self) -> int:
-        """How many of the groups attract."""
+        """Number of groups that attract."""
         return sum(one.attracts for one in self.divergence)
 
     def labels(self) -> Labels:
-        """Mean and group over δ and ψ."""
+        """Return the mean and the group, labelled with δ and ψ.
+
+        Returns
+        -------
+        Labels
+            Both arrays over the cells.
+        """
         return Labels(
             {"δ": (("δ",), self.delta), "ψ": (("ψ",), self.psi)},
             {"mean": (("δ", "ψ"), self.mean), "group": (("δ", "ψ"), self.group)},
@@ -76,12 +96,41 @@ def basins(
     crossings: int = 150,
     accuracy: Accuracy = "standard",
 ) -> Basins:
-    """To which group of motions the cells of a section of the Suslov problem lead, and which groups attract.
+    """Return the basins of attraction on a section of the Suslov problem.
 
-    cells : across ψ and up δ; window : (ψ0, δ0), (ψ1, δ1); crossings : how far each orbit is followed.
-    accuracy : the four levels are coarser here than elsewhere; any other level is used as it is.
-    Raises `InvalidParameter`, `OutsideRegion`, `WorkLimit`.
+    Parameters
+    ----------
+    body : SuslovBody
+        The body.
+    E : float
+        Energy.
+    plane : int, default 3
+        Index k of the section γ_k = 0: 1, 2 or 3.
+    cells : (int, int), default (16, 12)
+        Number of cells along ψ and along δ.
+    window : ((float, float), (float, float)), optional
+        Corners (ψ0, δ0) and (ψ1, δ1) of the window, in radians.  By default the whole section.
+    crossings : int, default 150
+        Number of crossings for which each orbit is followed.
+    accuracy : str or Level, default "standard"
+        Accuracy level.  The four named levels are coarser here than for orbits.
 
+    Returns
+    -------
+    Basins
+        The group of each cell, and the divergence of each group.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is out of range.
+    OutsideRegion
+        If no motion of this energy crosses the section.
+    WorkLimit
+        If an orbit needs too many steps.
+
+    Examples
+    --------
     >>> from hess_mechanics import SuslovBody, basins
     >>> basins(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842, cells=(6, 4), accuracy="draft").group.shape
     (4, 6)
@@ -118,11 +167,40 @@ def cloud(
     angle: float | None = None,
     accuracy: Accuracy = "standard",
 ) -> Cloud:
-    """A cloud of phase points of the ball without a field, about the energy h, followed to the time t.
+    """Return a cloud of phase points of the Chaplygin ball without a field, at time t.
 
-    spread : of the energies, or the radius of a patch about the ω at an `angle` with γ = e3.
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    body : BallBody
+        The ball.
+    h : float
+        Energy about which the points are spread at time 0.
+    t : float
+        Time, in units of the problem; may be negative.
+    count : int, default 1000
+        Number of points, 1 to 20 000.
+    spread : float, default 0.1
+        Spread of the energies, or the radius of the patch if an `angle` is given.
+    angle : float, optional
+        Start in a patch about the ω at this angle, in radians, with γ = e₃.  By default the points fill the energy
+        surface.
+    accuracy : str or Level, default "standard"
+        Accuracy level.
 
+    Returns
+    -------
+    Cloud
+        The points at time t.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is out of range.
+    WorkLimit
+        If the motions need too many steps.
+
+    Examples
+    --------
     >>> from hess_mechanics import BallBody, cloud
     >>> cloud(BallBody(2.0, 1.0, 0.5, 0.7, 0.0), 2.0, 5.0, count=50, accuracy="draft").omega.shape[0]
     50
@@ -143,10 +221,35 @@ def cloud(
 def rotation_numbers(
     a: float | Array, h: float | Array, f: float | Array, accuracy: Accuracy = "precise"
 ) -> TorusValues:
-    """Rotation number, trace and locking of the tori (a, h, f) of the Suslov–Hess case, numbers or arrays (n,).
+    """Return the rotation numbers of tori of the Suslov–Hess case, with trace and mode locking.
 
-    Raises `InvalidParameter`, `WorkLimit`.
+    Arrays are broadcast against each other.
 
+    Parameters
+    ----------
+    a : float or array_like, shape (n,)
+        Inertia parameter.
+    h : float or array_like, shape (n,)
+        Energy integral, in units b = 1.
+    f : float or array_like, shape (n,)
+        Area integral, in units b = 1.
+    accuracy : str or Level, default "precise"
+        Accuracy level.
+
+    Returns
+    -------
+    TorusValues
+        Rotation number, trace and locking of each torus.
+
+    Raises
+    ------
+    InvalidParameter
+        If a value is not a finite number.
+    WorkLimit
+        If there are too many tori.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from hess_mechanics import rotation_numbers
     >>> rotation_numbers(0.5, np.array([0.2, 1.5]), 0.6).locked.tolist()
@@ -157,7 +260,7 @@ def rotation_numbers(
             np.asarray(values, float)
         except (TypeError, ValueError):
             raise InvalidParameter(
-                f"{name} = {values!r} is not a number, nor several; write it like 1.5 or [1.5, 2.0]."
+                f"{name} = {values!r} is neither a number nor an array of numbers; write it like 1.5 or [1.5, 2.0]."
             ) from None
     return values_at(a, h, f, as_level(accuracy))
 
@@ -173,11 +276,43 @@ def rotation_along_line(
     about_first: bool = False,
     accuracy: Accuracy = "standard",
 ) -> RotationProfile:
-    """Rotation numbers of orbits that start on a line of the Andoyer–Deprit section, between places (l, L/G).
+    """Return the rotation numbers of orbits that start on a line of the Andoyer–Deprit section.
 
-    about_first : turns are counted about the first end of the line; else by the angle l.
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    body : HeavyBody
+        The body.
+    h : float
+        Energy integral.
+    f : float
+        Area integral.
+    ends : ((float, float), (float, float))
+        The two ends (l, L/G) of the line; l in radians.
+    count : int, default 24
+        Number of orbits, spread evenly over the line, at most 1000.
+    crossings : int, default 300
+        Number of crossings per orbit, 20 to 10 000.
+    about_first : bool, default False
+        Count turns about the first end of the line.  Otherwise by the angle l.
+    accuracy : str or Level, default "standard"
+        Accuracy level.
 
+    Returns
+    -------
+    RotationProfile
+        The rotation number of each orbit, in turns per return.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is out of range.
+    OutsideRegion
+        If no motion crosses the section on the line.
+    WorkLimit
+        If an orbit needs too many steps.
+
+    Examples
+    --------
     >>> from hess_mechanics import HeavyBody, rotation_along_line
     >>> body = HeavyBody.hess((1.0, 1.5, 2.0), 0.01)
     >>> rotation_along_line(body, 2.0, 0.5, ((0.0, 0.85), (0.0, 0.95)), count=4).to_xarray()["ρ"].attrs["units"]
@@ -187,7 +322,7 @@ def rotation_along_line(
     first, last = as_pairs("ends", ends)
     started = on_line(section, (first, last), as_whole("count", count, 1, _MOST_ORBITS))
     if not started:
-        raise OutsideRegion("Nowhere on this line does a motion cross the section: choose another line, or a larger h.")
+        raise OutsideRegion("No motion crosses the section on this line: choose another line, or a larger h.")
     chosen = plan(Computation.ROTATION, accuracy)
     found = section.points([state for _, state in started], as_whole("crossings", crossings, 20, 10_000), chosen.level)
     return rotation_along(
@@ -201,7 +336,8 @@ def rotation_along_line(
 
 
 def _window(window: Window) -> Window:
+    """Return the window if its corners are in order.  Raises `InvalidParameter`."""
     (x0, y0), (x1, y1) = window
     if not (x0 < x1 and 0.0 <= y0 < y1 <= math.pi):
-        raise InvalidParameter("The window is ψ0 < ψ1 and 0 ≤ δ0 < δ1 ≤ π: choose such angles.")
+        raise InvalidParameter("The window needs ψ0 < ψ1 and 0 ≤ δ0 < δ1 ≤ π.")
     return window

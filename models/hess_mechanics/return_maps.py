@@ -1,7 +1,7 @@
-"""Return maps of Poincaré sections: their orbits, periodic orbits, manifolds, orbit diagrams.
+"""Return maps of Poincaré sections: their orbits, periodic orbits, manifolds and orbit diagrams.
 
-A return map is that of a section of a body at fixed values of its integrals, `return_map(body, …)`.  Results can be
-handed on: `.to_pandas()`, `.to_xarray()`, `.plot()`.
+`return_map(body, …)` makes the return map of a section at fixed values of the integrals; the other functions take it as
+their first argument.  All results have `.to_pandas()`, `.to_xarray()` and `.plot()`.
 """
 
 from __future__ import annotations
@@ -50,16 +50,23 @@ SectionedBody = SuslovBody | QuarticBody | BallBody | HeavyBody | HessBody
 _MOST_PLACES = 1_000_000
 _MOST_ORBITS, _MOST_CROSSINGS = 1000, 10_000
 _TURNS = 120.0
-"""Time allowed per crossing, in units of 1/ν times the slowness of the section; few orbits take longer."""
+"""Time limit per crossing, in units of 1/ν times the slowness of the section; few orbits need more."""
 _TRIED = (8, 200)
-"""Places looked at for each orbit: where motions cross a small part of a section only, more of them."""
+"""Candidate starts per orbit; the second number is for sections that motions cross in a small part only."""
 
 
 @dataclass(frozen=True)
 class PlanePoints(Result):
-    """Points of a section in its plane.
+    """Crossings of many orbits with a section, in the plane of the section.
 
-    names : of the axes; orbits : the points (n, 2) of each orbit, as they are passed; facts : of the whole.
+    Attributes
+    ----------
+    names : tuple of str
+        Names of the two coordinates.
+    orbits : tuple of ndarray, shape (n, 2)
+        Crossings of each orbit, in order of time.
+    facts : dict
+        Accuracy level, drift of each integral and number of steps.
     """
 
     names: tuple[str, str]
@@ -67,7 +74,13 @@ class PlanePoints(Result):
     facts: dict[str, float | str]
 
     def labels(self) -> Labels:
-        """Both coordinates of all points, with the number of the orbit."""
+        """Return the coordinates of all points, labelled with the number of the orbit.
+
+        Returns
+        -------
+        Labels
+            Both coordinates over the points.
+        """
         number = np.repeat(np.arange(len(self.orbits)), [len(one) for one in self.orbits])
         points = np.concatenate([np.empty((0, 2)), *self.orbits])
         return Labels(
@@ -88,13 +101,45 @@ def return_map(
     sheet: int = 0,
     accuracy: Accuracy = "precise",
 ) -> ReturnMap:
-    """The return map of a section of a body at fixed values of its integrals.
+    """Return the return map of a Poincaré section of a body at fixed values of its integrals.
 
-    A `SuslovBody` takes E and the plane γ_k = 0, k = `plane`, places (ψ, δ); a `BallBody` h, places (ψ, δ); a
-    `HeavyBody` h, f and a sheet, places (l, L/G); a `HessBody` h and f of a torus, units b = 1, places (φ,); a
-    `QuarticBody` has its energy already, places (q, p).
-    Raises `InvalidParameter`.
+    Each kind of body has its own section:
 
+    - `SuslovBody`: the plane γ_k = 0 at energy `E`, coordinates (ψ, δ).
+    - `BallBody`: the plane γ₃ = 0 at energy `h` above its lowest, coordinates (ψ, δ).
+    - `HeavyBody`: the Andoyer–Deprit section at `h` and `f`, coordinates (l, L/G).
+    - `HessBody`: a circle on the torus (`h`, `f`) in units b = 1, coordinate φ.
+    - `QuarticBody`: the section of the plane motion at the body's own energy, coordinates (q, p).
+
+    Parameters
+    ----------
+    body : SuslovBody, BallBody, HeavyBody, HessBody or QuarticBody
+        The body.
+    E : float, optional
+        Energy of a `SuslovBody`.
+    h : float, optional
+        Energy integral of a `BallBody`, `HeavyBody` or `HessBody`.
+    f : float, optional
+        Area integral of a `HeavyBody` or `HessBody`.
+    plane : int, default 3
+        Index k of the plane γ_k = 0 of a `SuslovBody`: 1, 2 or 3.
+    sheet : int, default 0
+        Sheet of the section of a `HeavyBody`, 0 to 2; the largest momentum G is on sheet 0.
+    accuracy : str or Level, default "precise"
+        Accuracy level.
+
+    Returns
+    -------
+    ReturnMap
+        The return map.
+
+    Raises
+    ------
+    InvalidParameter
+        If an integral is missing or does not apply to this kind of body, or if a value is out of range.
+
+    Examples
+    --------
     >>> from hess_mechanics import SuslovBody, return_map
     >>> P = return_map(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), E=1.842)
     >>> P.image((0.3, 1.2)).shape, P.names
@@ -121,19 +166,37 @@ def return_map(
 def section_orbits(
     map_: ReturnMap, *, starts: Sequence[Sequence[float]] = (), orbits: int = 20, crossings: int = 200
 ) -> PlanePoints:
-    """Return the crossings of many orbits with the section of a `return_map`, each computed once.
+    """Return the crossings of many orbits with a section.
+
+    Each orbit is integrated once, without an error estimate.
 
     Parameters
     ----------
-    map_ : its section, direction of time and level of accuracy.
-    starts : places of the section where the orbits start.
-    orbits : how many are spread over the section where no `starts` are given.
-    crossings : of each orbit.
+    map_ : ReturnMap
+        Return map of a section with two coordinates; also sets the direction of time and the accuracy level.
+    starts : sequence of (float, float), optional
+        Points of the section where the orbits start.
+    orbits : int, default 20
+        Number of orbits, spread evenly over the section, if no `starts` are given.  At most 1000.
+    crossings : int, default 200
+        Number of crossings per orbit.  At most 10 000.
+
+    Returns
+    -------
+    PlanePoints
+        The crossings of each orbit.
 
     Raises
     ------
-    `InvalidParameter`, `OutsideRegion`, `WorkLimit`.
+    InvalidParameter
+        If the section has only one coordinate, or a number is out of range.
+    OutsideRegion
+        If no motion crosses the section at a start, or anywhere.
+    WorkLimit
+        If an orbit needs too many steps.
 
+    Examples
+    --------
     >>> from hess_mechanics import SuslovBody, return_map, section_orbits
     >>> P = return_map(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), E=1.842, accuracy="standard")
     >>> section_orbits(P, orbits=4, crossings=30).to_xarray().sizes["point"]
@@ -169,7 +232,7 @@ def section_orbits(
 
 
 def _spread(section: PoincareSection, orbits: int) -> Array:
-    """Return the states of as many orbits as possible, evenly over the window of a section.  Raises `OutsideRegion`."""
+    """Return up to `orbits` states, spread evenly over the window of a section.  Raises `OutsideRegion`."""
     low, high = np.array(section.window).T[:, :, None]
     for tried in _TRIED:
         states, there = section.states_at(*(low + evenly(tried * orbits) * (high - low)))
@@ -181,11 +244,32 @@ def _spread(section: PoincareSection, orbits: int) -> Array:
 
 
 def periodic_orbit(map_: ReturnMap, at: Sequence[float], period: int | None = None) -> PeriodicOrbit:
-    """The periodic orbit of a `return_map` that Newton's method finds from a place, with multipliers and type.
+    """Return the periodic orbit that Newton's method finds from a point of a section.
 
-    period : the least number of returns; None: found, up to 12.
-    Raises `InvalidParameter`, `NotConverged`.
+    Parameters
+    ----------
+    map_ : ReturnMap
+        Return map of the section.
+    at : sequence of float, shape (d,)
+        Point of the section where the search starts.
+    period : int, optional
+        Period, as a number of returns, 1 to 64.  By default the periods up to 12 at which the orbit comes back closest
+        are tried.
 
+    Returns
+    -------
+    PeriodicOrbit
+        The orbit with its multipliers, type, symmetries and error.
+
+    Raises
+    ------
+    InvalidParameter
+        If the point or the period is out of range.
+    NotConverged
+        If Newton's method finds no orbit.
+
+    Examples
+    --------
     >>> from hess_mechanics import HessBody, periodic_orbit, return_map
     >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
     >>> periodic_orbit(P, (-2.0,)).kind  # the stable limit cycle
@@ -196,11 +280,39 @@ def periodic_orbit(map_: ReturnMap, at: Sequence[float], period: int | None = No
 
 
 def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, points: int = 200) -> Branch:
-    """The branch of a periodic orbit of a `return_map` over a parameter of it, from its own value towards `to`.
+    """Continue a periodic orbit of a section in a parameter, and locate its bifurcations.
 
-    parameter : one of `map_.section.constants`.  Folds are passed; bifurcations are found and named.
-    Raises `InvalidParameter`, `NotConverged`, `WorkLimit`.
+    Pseudo-arclength continuation, which passes folds.
 
+    Parameters
+    ----------
+    map_ : ReturnMap
+        Return map of the section.
+    orbit : PeriodicOrbit
+        A periodic orbit of this map.
+    parameter : str
+        Name of the parameter, one of `map_.section.constants`.
+    to : float
+        Value of the parameter towards which the branch starts and at which it ends.
+    points : int, default 200
+        Largest number of points of the branch, 2 to 2000.
+
+    Returns
+    -------
+    Branch
+        The branch, from the parameter's current value on.
+
+    Raises
+    ------
+    InvalidParameter
+        If there is no such parameter, or a number is out of range.
+    NotConverged
+        If the orbit is not a periodic orbit of this map.
+    WorkLimit
+        If an orbit needs too many steps.
+
+    Examples
+    --------
     >>> from hess_mechanics import HessBody, continued_orbit, periodic_orbit, return_map
     >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
     >>> branch = continued_orbit(P, periodic_orbit(P, (-2.0,)), "h", 1.6, points=5)
@@ -229,11 +341,43 @@ def manifold(
     sagitta: float = 1e-3,
     longest: float = 0.1,
 ) -> Manifold:
-    """A branch of the unstable or stable manifold of a saddle of a `return_map`, up to a length.
+    """Return one branch of the stable or unstable manifold of a saddle, up to a given length.
 
-    side : 1 or −1, along its direction or against it; place : from which of the places of the saddle; sagitta : the
-    largest distance from the polyline; longest : of its chords.  Raises `InvalidParameter`, `WorkLimit`, `NoReturn`.
+    Parameters
+    ----------
+    map_ : ReturnMap
+        Return map of a section with two coordinates.
+    saddle : PeriodicOrbit
+        A saddle of this map.
+    length : float
+        Length along the curve at which the branch ends, in units of the coordinates.
+    stable : bool, default False
+        Return the stable manifold instead of the unstable one.
+    side : {1, -1}, default 1
+        Leave the saddle along its direction (1) or against it (−1).
+    place : int, default 0
+        Index of the point of the saddle orbit from which the branch starts.
+    sagitta : float, default 1e-3
+        Largest distance between the curve and the returned polyline.
+    longest : float, default 0.1
+        Longest chord of the polyline.
 
+    Returns
+    -------
+    Manifold
+        The branch, as a polyline.
+
+    Raises
+    ------
+    InvalidParameter
+        If the orbit is not a saddle, or a number is out of range.
+    WorkLimit
+        If the branch needs too many returns.
+    NoReturn
+        If the motion does not return to the section.
+
+    Examples
+    --------
     >>> from hess_mechanics import HeavyBody, manifold, periodic_orbit, return_map
     >>> P = return_map(HeavyBody.hess((1.0, 1.6, 4.0), 1.0), h=1.5, f=-0.76)
     >>> saddle = periodic_orbit(P, (-2.84, 0.288), 1)
@@ -262,12 +406,41 @@ def orbit_diagram(
     kept: int = 64,
     follow: bool = True,
 ) -> Diagram:
-    """Where an orbit of a `return_map` settles over a parameter of it, at each of the values (n,), in their order.
+    """Return the orbit diagram of a section: the points where an orbit settles, over a parameter.
 
-    at : where it starts.  transient, kept : crossings that are left out, and shown, at each value.
-    follow : it goes on from where it was at the value before; else it starts anew at each.
-    Backward in time, where repellers are: of `map_.inverse()`.  Raises `InvalidParameter`, `WorkLimit`.
+    Use `map_.inverse()` for repellers.
 
+    Parameters
+    ----------
+    map_ : ReturnMap
+        Return map of the section.
+    parameter : str
+        Name of the parameter, one of `map_.section.constants`.
+    values : array_like, shape (n,)
+        Values of the parameter, in the order in which they are visited.
+    at : sequence of float, shape (d,)
+        Point of the section where the orbit starts.
+    transient : int, default 200
+        Crossings discarded at each value.
+    kept : int, default 64
+        Crossings kept at each value.
+    follow : bool, default True
+        Start each value from the last point of the one before.  Otherwise each value starts from `at`.
+
+    Returns
+    -------
+    Diagram
+        The points and the period at each value.
+
+    Raises
+    ------
+    InvalidParameter
+        If there is no such parameter, or a number is out of range.
+    WorkLimit
+        If the diagram has too many points.
+
+    Examples
+    --------
     >>> from hess_mechanics import SuslovBody, orbit_diagram, return_map
     >>> P = return_map(SuslovBody(1.0, 2.25, 0.6, 0.6, -1.0, -0.5, 0.7), E=0.681, accuracy="standard")
     >>> orbit_diagram(P, "I22", [2.11, 2.2], (0.8, 1.9)).periods.tolist()  # it doubles at 2.126
@@ -282,10 +455,37 @@ def orbit_diagram(
 
 
 def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, most: int = 6) -> Cascade:
-    """The doublings of the period of an orbit of a `return_map`, over a parameter from its own value towards `to`.
+    """Return the cascade of period doublings of a periodic orbit, over a parameter.
 
-    Each is where the orbit of that period has the multiplier −1.  Raises `InvalidParameter`, `NotConverged`.
+    Each doubling is the value of the parameter at which the orbit of that period has the multiplier −1.
 
+    Parameters
+    ----------
+    map_ : ReturnMap
+        Return map of the section.
+    orbit : PeriodicOrbit
+        A periodic orbit of this map.
+    parameter : str
+        Name of the parameter, one of `map_.section.constants`.
+    to : float
+        Value towards which the parameter changes, from its current value.
+    most : int, default 6
+        Largest number of doublings, 1 to 6.
+
+    Returns
+    -------
+    Cascade
+        The doublings that were found.
+
+    Raises
+    ------
+    InvalidParameter
+        If there is no such parameter, or a number is out of range.
+    NotConverged
+        If the orbit is not a periodic orbit of this map.
+
+    Examples
+    --------
     >>> from hess_mechanics import SuslovBody, period_doublings, periodic_orbit, return_map
     >>> P = return_map(SuslovBody(1.0, 2.11, 0.6, 0.6, -1.0, -0.5, 0.7), E=0.681)
     >>> found = period_doublings(P, periodic_orbit(P, (0.83, 1.89), 1), "I22", 2.4, most=1)
@@ -303,7 +503,10 @@ def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: 
 
 
 def _given(asked: dict[str, float | None], *names: str) -> list[float]:
-    """The numbers of these names; those that the section does not have must not be given."""
+    """Return the values of these integrals; any other integral must be absent.
+    =>
+                raise OutsideRegion("No motion crosses the section here: choose a larger energy.")
+    """
     lost = [name for name in names if asked[name] is None]
     if lost:
         raise InvalidParameter(f"The section of this body lies at given {' and '.join(names)}: give {lost[0]}.")

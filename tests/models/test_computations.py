@@ -168,7 +168,7 @@ def test_free_motions_periods_and_tori_hand_on_their_arrays():
         (lambda: hm.solve(hm.SuslovBody, (1.0,), 3.0), "is no body that moves"),
         (lambda: hm.lyapunov_spectrum(None, (1.0,), 3.0), "None is no body that moves"),
         (lambda: hm.circle_map(0.5, 1.5, "x", hm.level("draft")), "f = 'x' is not a number; write it like 1.5"),
-        (lambda: hm.rotation_numbers("a", 1.0, 0.2), "a = 'a' is not a number, nor several"),
+        (lambda: hm.rotation_numbers("a", 1.0, 0.2), "a = 'a' is neither a number nor an array of numbers"),
         (
             lambda: hm.section_orbits(hm.return_map(hm.HessBody(2.0, 1.0, -1.0), h=1.5, f=0.6)),
             "φ alone: there is no plane",
