@@ -213,5 +213,5 @@ def density_on_torus(theta: CircleMap, level: Accuracy, cells: tuple[int, int] =
             relative = 2.0 * math.pi * measure.period * found.density(phi)
             return frozen(np.roll(relative, m // 2, axis=0).T.copy())
     raise InvalidParameter(
-        "The density is too thin to draw: it lies almost on one line. Choose a smaller |a| or another torus."
+        "The density is too thin to draw, as it lies almost on one line: choose a smaller |a| or another torus."
     )
