@@ -32,8 +32,10 @@ from support.board import (
     plots_of,
     variant,
 )
+from support.thorough import sample
 
 every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+some_scenes = pytest.mark.parametrize("scene", sample(SCENES.values(), 8), ids=lambda scene: scene.name)
 
 # By the names of the functions.
 MAP, CYCLES, TRACK = "circle_map", "cycles", "track"
@@ -213,7 +215,7 @@ def test_a_request_that_changes_nothing_does_not_even_ask_the_cache(cache):
     assert (cache.hits, cache.misses) == before
 
 
-@every_scene
+@some_scenes
 def test_the_mouse_chooses_nothing_in_a_hidden_picture(scene, cache):
     browser = Browser(scene)
     for name in [view.name for view in scene.views if view.on_click or view.on_box or view.on_hover]:
@@ -390,9 +392,7 @@ STATES = [(scene, elsewhere(scene)) for scene in SCENES.values()] + [
     for scene in (HESS, ACCURACY)
     for change in ({"h": 1.25, "phi0": -1.0, "I23": 0.35}, {"h": 1.0, "f": 0.0}, {"h": 30.0})
 ]
-every_other = pytest.mark.parametrize(
-    ("scene", "values"), STATES, ids=[f"{scene.name}-{i}" for i, (scene, _) in enumerate(STATES)]
-)
+every_other = pytest.mark.parametrize(("scene", "values"), sample(STATES, 14), ids=lambda one: getattr(one, "name", ""))
 
 
 @every_other
@@ -423,7 +423,7 @@ def test_what_was_hidden_is_of_the_present_state_when_it_is_seen_again(scene, va
         assert board.captions == whole.captions
 
 
-@every_scene
+@some_scenes
 def test_an_error_while_pictures_are_hidden_leaves_none_of_them_behind(scene):
     whole, board = Board(scene), Board(scene)
     whole.show(compute(scene, scene.defaults()))

@@ -18,6 +18,7 @@ from hess_explorer.export.notebook import notebook
 from hess_explorer.export.shown import address, shown
 from hess_explorer.protocol.parameters import encode
 from hess_explorer.scenes import scenes
+from support.thorough import sample
 
 OWN = [
     (scene.name, number) for scene in scenes().values() if scene.origin is None for number in range(len(scene.presets))
@@ -39,7 +40,7 @@ def link_of(name, number, **more):
     return encode(name, {**scene.defaults(), **scene.example(scene.presets[number]), "accuracy": "draft", **more})
 
 
-@pytest.mark.parametrize(("name", "number"), OWN)
+@pytest.mark.parametrize(("name", "number"), sample(OWN, 16))
 def test_the_lines_leave_what_is_exported_of_every_picture_of_every_preset(name, number, monkeypatch):
     drawn = []
     # Drawing has tests of its own, and takes as long as all the rest.
@@ -92,6 +93,7 @@ def test_the_lines_are_few_and_name_every_parameter():
     assert "b1=-0.25" in given
 
 
+@pytest.mark.thorough
 def test_a_notebook_runs_from_its_first_cell_to_its_last():
     found = address("h=1.2&f=0.3&accuracy=draft", "circle")
     book = nbformat.reads(notebook(found), as_version=4)

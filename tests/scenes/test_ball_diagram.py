@@ -87,6 +87,7 @@ def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_oth
         assert there.D > 0.0
 
 
+@pytest.mark.thorough
 def test_where_periods_double_along_the_ball_inside_another_integrator_finds_the_multiplier_minus_one():
     state, captions = complete("Period doubling", ("diagram", "section"))
     found = state.diagram.cascade

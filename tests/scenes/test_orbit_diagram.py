@@ -262,6 +262,7 @@ def turns_between(angles):
     return (whole / steps).max(), ((whole + 1.0) / steps).min()
 
 
+@pytest.mark.thorough
 def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_breaks_up():
     state, captions = complete("A torus")
     E = state.poincare.E
@@ -437,7 +438,7 @@ def test_a_branch_folds_and_where_there_is_none_that_is_said():
 
 
 def test_volume_that_is_kept_is_said():
-    state, captions = complete("Equal: volume")
+    state, captions = complete("Equal: volume", steps=30.0)
     assert captions["diagram"].endswith("Volume is kept: each value shows one orbit, and nothing attracts.")
     assert state.regime.kind.regime.divergence == 0.0
 

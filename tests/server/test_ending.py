@@ -9,6 +9,8 @@ import sys
 import time
 from pathlib import Path
 
+import pytest
+
 from hess_explorer.headless.screenshot import server_process
 from support.asynchronous import finished
 from support.processes import below
@@ -68,6 +70,7 @@ compile_beside()
 """
 
 
+@pytest.mark.thorough
 def test_the_compiler_beside_a_server_holds_none_of_its_pipes_and_ends_with_it(tmp_path):
     """Whoever reads the output of a server to its end waited for minutes while kernels were compiled."""
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}

@@ -66,6 +66,7 @@ def kernels(shared, package):
     assert spoiled >= 2
 
 
+@pytest.mark.thorough
 def test_a_bare_machine_serves(tmp_path, read_only):
     """A read-only installation, no home, a full disk, files of kernels that are spoiled, ASCII, unknown warnings."""
     shared, log, port = tmp_path / "kernels", tmp_path / "log", free_port()
