@@ -53,6 +53,7 @@ from support.extremes import special_motions
 from support.extremes import suslov as extremes_suslov
 from support.extremes.unstable import unstable_starts
 from support.measured import write_measured
+from support.thorough import sample
 
 HESS, SUSLOV = systems()["hess"], systems()["suslov"]
 # What each level promises; `reference` goes to the floor of double precision, wherever the motion puts that.
@@ -913,7 +914,7 @@ REFUSALS = [
         "track, b3 = 0",
         lambda grade: track(HessBody(1.0, 0.5, 0.0), 1.5, 0.6, 0.0, 10.0, grade, 4.0),
         NoField,
-        "b3 = 0.*Choose b3 other than 0",
+        "b3 = 0.*Choose b3 ≠ 0",
     ),
     *extremes_ball.refusals(Refusal),
     *extremes_euler_poisson.refusals(Refusal),
@@ -949,10 +950,11 @@ def test_kind_trace_cycles_and_rotation_number_of_an_extreme_map_agree_with_each
 
 @pytest.fixture(scope="module", params=systems())
 def unstable(request):
-    """A system with 30 starts at unstable equilibria and next to them, and where these motions truly are."""
+    """A system with starts at unstable equilibria and next to them, and where these motions truly are."""
     system = systems()[request.param]
     return system, [
-        (*start, oracle.orbit_in_decimals(system, *map(list, start), 30)) for start in unstable_starts(system, 30)
+        (*start, oracle.orbit_in_decimals(system, *map(list, start), 30))
+        for start in sample(unstable_starts(system, 30), 10)
     ]
 
 
@@ -1003,7 +1005,7 @@ def test_moments_so_different_that_the_unit_of_time_says_nothing_are_refused(rat
 
 
 @every_refusal
-@pytest.mark.parametrize("name", ["draft", "reference"])
+@pytest.mark.parametrize("name", sample(["draft", "reference"], 1))
 def test_a_request_beyond_the_extremes_is_refused_in_a_sentence(row, name):
     assert issubclass(row.error, ModelError)
     with pytest.raises(row.error, match=row.words) as refused:

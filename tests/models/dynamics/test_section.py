@@ -4,6 +4,7 @@ import math
 import sys
 import threading
 from functools import cache
+from itertools import product
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from scipy.optimize import brentq
 from hess_mechanics import LEVELS, Level, Plane, Status, level, section, sections, solve, systems
 from hess_mechanics.dynamics.section import MAX_CROSSINGS
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
+from support.thorough import sample
 
 SYSTEMS = systems()
 every_system = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
@@ -131,7 +133,7 @@ def turning_heights(system, state, parameters, normal, heights, end):
             yield float(normal @ at(brentq(lambda t: rate(system, parameters, normal, at(t)), low, high)))
 
 
-@every_system
+@pytest.mark.parametrize("system", sample(SYSTEMS.values(), 2))
 def test_crossings_are_those_that_an_integrator_of_another_family_finds(system):
     end, found = 10.0, 0
     for random, state, parameters, normal, heights in random_motions(system, 20, seed=1):
@@ -178,7 +180,7 @@ def crossings_by_kernel(system, state, parameters, normal, offset, end, toleranc
     return times[:found], states[:found], steps
 
 
-@every_system
+@pytest.mark.parametrize("system", sample(SYSTEMS.values(), 2))
 def test_no_crossing_is_lost_or_doubled_however_long_the_steps(system):
     end, found, near = 10.0, 0, 0
     for random, state, parameters, normal, heights in random_motions(system, 50, seed=2):
@@ -446,8 +448,7 @@ def turnings(system):
     ]
 
 
-@every_system
-@pytest.mark.parametrize("sense", [1, -1, 0])
+@pytest.mark.parametrize(("system", "sense"), sample(product(SYSTEMS.values(), [1, -1, 0]), 4))
 def test_a_run_that_finds_other_crossings_than_the_more_exact_one_is_replaced_by_it(system, sense):
     # Next to a turning one of them may have two crossings more; if only those of one sense are counted, one more.
     careless = Level("draft", 1e-3, 1e-4, 10)

@@ -25,6 +25,7 @@ from hess_mechanics.euler_poisson.andoyer import (
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.numerics.accuracy import PRECISE, STANDARD, Level
 from support.andoyer import GESS1, RIS, angles, crossings_by_scipy, dense, energies_at, energy, rates, start_by_hand
+from support.thorough import sample
 
 SLANTING = HeavyBody((1.0, 1.6, 2.1), (0.3, -0.5, 0.7), 2.0)
 """No Hess case, and r2 ≠ 0."""
@@ -389,15 +390,15 @@ def test_between_two_crossings_of_a_long_chaotic_orbit_there_is_no_other_one():
             assert passed[0] <= gap + times[1] + 1e-6
 
 
-def test_of_50_orbits_of_gess1_none_changes_the_sign_of_r_M_in_10000_crossings():
+def test_no_orbit_of_gess1_changes_the_sign_of_r_M_in_10000_crossings():
     random = np.random.default_rng(50)
     l, x = random.uniform(-math.pi, math.pi, 120), random.uniform(-0.99, 0.99, 120)
     states, _, growing = states_at(GESS1, 50.0, 5.0, l, x)
-    starts = states[growing][:50]
+    starts = np.array(sample(states[growing][:50], 10))
     points = AndoyerSection(GESS1, 50.0, 5.0).points(starts, 10_000, STANDARD)
-    assert [len(states) for states in points.states] == [10_000] * 50
+    assert [len(states) for states in points.states] == [10_000] * len(starts)
     signs = np.array([np.sign(3.0 * state[0] + 4.0 * state[2]) for state in starts])
-    assert 10 < np.count_nonzero(signs > 0) < 40
+    assert 0.2 < np.mean(signs > 0) < 0.8
     for states, sign in zip(points.states, signs, strict=True):
         assert np.all(sign * (3.0 * states[:, 0] + 4.0 * states[:, 2]) > 0.0)
     assert max(points.drift.values()) < 1e-4

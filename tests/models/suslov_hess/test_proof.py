@@ -21,6 +21,7 @@ from hess_mechanics.numerics.balls import Enclosure, exact
 from hess_mechanics.suslov_hess.certificate import claim
 from oracle.kept import KEPT
 from support.mechanics import REFERENCE, ROOT
+from support.thorough import sample
 
 STATEMENTS = {True: "two cycles", False: "no cycle"}
 
@@ -80,8 +81,8 @@ def test_on_both_sides_of_the_held_boundary_the_statements_differ(moved, row):
 
 def test_traces_of_random_tori_to_forty_digits_are_inside():
     """Random tori of other tests: |a| up to 50, down to 1e-14 from the separatrix and the edge, f down to 1e-20."""
-    decided = 0
-    for (a, h, f), known in kept_maps(100):
+    decided, tori = 0, sample(kept_maps(100), 30)
+    for (a, h, f), known in tori:
         proof = prove(a, h, f)
         with mpmath.workdps(60):
             held = rational(abs(2 * mpmath.re(known.A)))
@@ -89,7 +90,7 @@ def test_traces_of_random_tori_to_forty_digits_are_inside():
         assert proof.trace.low - slack <= held <= proof.trace.high + slack, (a, h, f)
         decided += proof.statement == STATEMENTS[held > 2]
         assert proof.statement in ("undecided", STATEMENTS[held > 2]), (a, h, f)
-    assert decided >= 99
+    assert decided >= len(tori) - 1
 
 
 def test_cycles_and_rotation_numbers_are_those_of_the_map_to_forty_digits():
