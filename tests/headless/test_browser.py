@@ -100,7 +100,7 @@ class NoChromium:
 @pytest.mark.parametrize(("started", "installed"), [(launched, False), (launched_or_installed, True)])
 def test_no_browser_is_loud(machine, installations, monkeypatch, started, installed):
     monkeypatch.setattr("playwright.sync_api.sync_playwright", NoChromium)
-    with pytest.raises(BrowserError, match="No Chromium was found: install one"), started():
+    with pytest.raises(BrowserError, match="No Chromium was found: run `playwright install chromium`"), started():
         pass
     assert bool(installations) == installed
 

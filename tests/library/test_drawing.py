@@ -7,5 +7,7 @@ from hess_mechanics.errors import InvalidParameter
 
 
 def test_a_result_without_a_curve_says_where_its_numbers_are():
-    with pytest.raises(InvalidParameter, match=r"A Transition has no curve to draw: `to_xarray\(\)` has its numbers"):
+    with pytest.raises(
+        InvalidParameter, match=r"A Transition has no curve to draw: use `to_xarray\(\)` for its numbers"
+    ):
         transition_matrix(*systems()["suslov"].example_motion, [5.0], "standard").plot()

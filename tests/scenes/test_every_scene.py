@@ -1101,7 +1101,7 @@ def test_where_what_was_chosen_before_is_impossible_the_scene_begins_in_its_own_
     browser.ask(1, values={"h": 3.0, "I22": 1.25})
     browser.ask(2, scene="other")
     assert browser.session.values == other.defaults()
-    assert browser.texts["notes"] == "What was chosen before is not possible here: this is the scene's own first state."
+    assert browser.texts["notes"] == "The previous values are not possible here: this is the scene's default state."
     assert len(browser.data["data-orbit"]["omega1"]) > 100
     # A choice in the scene itself is refused in its own words, and so is a link.
     browser.ask(3, values={"h": 2.5})

@@ -48,7 +48,7 @@ def test_of_several_workers_all_tell_their_pages_and_end_with_the_process_that_b
         heard = finished(told(base, process.terminate, 4))
         assert process.wait(20) == 0
         gone(workers)
-    assert heard == ["1001: The server ends or is started anew: open the page again in a moment."] * 8
+    assert heard == ["1001: The server is shutting down or restarting: open the page again in a moment."] * 8
     said = log.read_text()
     assert "Traceback" not in said
     assert "ERROR" not in said

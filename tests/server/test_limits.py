@@ -33,8 +33,8 @@ async def cut_off(visitor):
     return str(why.value)
 
 
-LARGE = "1009: A message may have 256 KB: send a smaller one."
-FAST = "1008: More than 150 messages in a second: wait for each answer before you ask again."
+LARGE = "1009: A message may have at most 256 KB: send a smaller one."
+FAST = "1008: More than 150 messages per second: wait for each response before you send again."
 
 
 def test_who_sends_too_much_reads_why_and_others_are_served(base, monkeypatch):
@@ -77,7 +77,7 @@ def test_what_is_no_json_ends_the_websocket_with_a_sentence_and_whatever_is_json
         return whys, state["query"]
 
     whys, query = finished(visits())
-    assert whys == ["1007: A message must be a text that is JSON."] * 3
+    assert whys == ["1007: A message must be a text frame of JSON."] * 3
     assert "h=1.25" in query
 
 
@@ -112,7 +112,7 @@ def test_a_link_that_is_too_long_is_refused_with_a_sentence(base):
 
     assert answer(base, "?" + "x" * (QUERY_LIMIT + 1)) == (
         414,
-        "The link is longer than 8000 characters, and the explorer's own are shorter than 2000: open the page "
+        "The link is longer than 8000 characters; links of the explorer have at most 2000: open the page "
         "without the part of its address after “?”.",
     )
     # Up to there the page opens.
@@ -134,7 +134,7 @@ def test_of_too_many_files_at_once_the_last_are_refused_with_a_sentence(base, mo
     monkeypatch.setattr(Export, "waiting", 20)
     assert answer(base, "export?picture=circle") == (
         503,
-        "Too many files are being made at the moment: try again in a minute.",
+        "The server is making too many files at the moment: try again in a minute.",
     )
     monkeypatch.setattr(Export, "waiting", 19)
     code, table = answer(base, "export?picture=circle&accuracy=draft")

@@ -54,7 +54,7 @@ def test_a_session_that_is_left_is_freed_and_nothing_watches_for_it(monkeypatch)
 def test_who_finds_no_room_reads_why_and_finds_it_when_another_has_left():
     async def visit(base):
         inside = [await Visitor.open(base) for _ in range(2)]
-        with pytest.raises(Closed, match=r"as many pages are open as this server has room for \(2\)"):
+        with pytest.raises(Closed, match=r"this server can have at most 2 open pages"):
             await Visitor.open(base)
         # Nor is there a session without a page.
         stray = await websocket_connect(f"ws{base.removeprefix('http')}/states")

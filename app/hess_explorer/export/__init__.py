@@ -1,1 +1,1 @@
-"""What a state shows, to take away: its data as tables, its pictures as figures for paper."""
+"""Export of a state: data as tables, pictures as figures and films, code and notebooks."""

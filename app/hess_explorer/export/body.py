@@ -1,4 +1,4 @@
-"""The body in space as a figure: what is far of it is drawn before it, what is near after it, as `body.js` does."""
+"""Draw the body in space with Matplotlib: the far parts before the body, the near parts after it, as in `body.js`."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ _CAVITY, _INNER = 0.62, 0.26
 _BALL = 0.055
 """Radius of the ball at the end of a rod with a mass."""
 _SHADES = 224
-"""Pixels of the shading on a side."""
+"""Width and height of the shading in pixels."""
 _COLUMNS = ("g1", "g2", "g3", "e1", "e2", "e3")
 
 
 def placing(attitude: Columns, t: float) -> Array:
-    """The rotation (3, 3) that takes directions of the body to the axes of the picture: e, γ × −e and upwards, −γ.
+    """Return the rotation (3, 3) from the body to the axes of the picture: e, −γ × e and −γ, which points up.
 
     attitude : the columns t, γ and e along the motion, orthonormal at the samples.
     """
@@ -37,7 +37,7 @@ def placing(attitude: Columns, t: float) -> Array:
 
 
 def _turned(directions: Array) -> Array:
-    """The same (n, 3, 3) from γ and e (n, 6), whatever straight lines between samples have made of them."""
+    """Return the rotations (n, 3, 3) from γ and e (n, 6), which linear interpolation has made inexact."""
     g, raw = directions[:, :3], directions[:, 3:]
     g = g / np.linalg.norm(g, axis=1, keepdims=True)
     e = raw - np.sum(g * raw, axis=1, keepdims=True) * g
@@ -46,9 +46,9 @@ def _turned(directions: Array) -> Array:
 
 
 class BodyDrawing:
-    """A body at a time, to be drawn on a canvas: `half(False)`, `middle()`, `half(True)`.
+    """Draws a body at time t: call `half(False)`, `middle()`, `half(True)` in this order.
 
-    own : the columns of its picture; attitude : those with its motion, {} where it has none.
+    own : the columns of its picture; attitude : the columns of its motion, {} without a motion.
     """
 
     def __init__(self, canvas: SphereCanvas, own: Columns, attitude: Columns, t: float) -> None:
@@ -72,7 +72,7 @@ class BodyDrawing:
         return np.vstack([_turned(samples) @ tip, self.turn @ tip])
 
     def half(self, near: bool) -> None:
-        """All of it on this side but the solid itself."""
+        """Draw the far or near half of everything except the body itself."""
         for look, weight, *curve in self.own.get("curves", ()):
             ink, dash, usual = LOOKS[look]
             self.canvas.stroke(np.array(curve).T, (ink, dash, 0.6 * weight or usual), near, 1.0 if near else 0.45)
@@ -89,7 +89,7 @@ class BodyDrawing:
             self._arrow(np.array(self.own["axis"]), self.own.get("label", ""))
 
     def middle(self) -> None:
-        """The body itself, between both halves."""
+        """Draw the body, between both halves."""
         if self.seen is None:
             return
         hollow = bool(self.own.get("hollow"))
@@ -98,7 +98,7 @@ class BodyDrawing:
         solid.paint(self.canvas, self.seen, self.semi, hollow, _SHADES)
 
     def _inside(self) -> None:
-        """The cavity of a ball of glass, and the ball that it rolls on."""
+        """Draw the cavity of a glass ball and the ball inside."""
         canvas = self.canvas
         canvas.disc(0.0, 0.0, _CAVITY, facecolor="none", edgecolor=canvas.colour(theme.INK), linewidth=0.7, alpha=0.5)
         x, y, _ = canvas.at((0.0, 0.0, _INNER - _CAVITY))
@@ -109,7 +109,7 @@ class BodyDrawing:
     def _ball(self, x: float, y: float, radius: float, colour: str) -> None:
         canvas = self.canvas
         canvas.disc(x, y, radius, facecolor=canvas.colour(colour), linewidth=0.9, edgecolor=canvas.colour(theme.INK))
-        # The light comes over the left shoulder of whoever looks.
+        # The light comes from the upper left.
         canvas.disc(
             x - 0.35 * radius, y + 0.38 * radius, 0.28 * radius, facecolor="white", edgecolor="none", alpha=0.85
         )
@@ -120,7 +120,7 @@ class BodyDrawing:
             return
         ink, dash, _ = LOOKS[self.own["trail"][3]]
         for k in range(_PIECES):
-            # The newest piece ends at the point itself.
+            # The newest piece ends at the moving point.
             first, last = max(0, count - 1 - (k + 1) * most), count - 1 - k * most
             if last < 1:
                 break
@@ -130,7 +130,7 @@ class BodyDrawing:
             )
 
     def _section(self) -> None:
-        """The circular section, where the surface there looks to the eye."""
+        """Draw the visible part of the circular section."""
         assert self.axes is not None
         assert self.turn is not None
         *normal, radius = self.own["section"]
@@ -147,7 +147,7 @@ class BodyDrawing:
                     self._rod(sign * length * axis, (theme.INK, "-", 1.2), name if sign > 0.0 else "", near)
 
     def _rod(self, to: Array, look: Look, label: str, near: bool, ball: bool = False) -> None:
-        """From the surface to its end, on the side where it leaves that."""
+        """Draw a rod from the surface to its end, in the half in which it leaves the surface."""
         canvas = self.canvas
         at, is_near = (
             (0.0, canvas.is_near(to))
@@ -162,11 +162,11 @@ class BodyDrawing:
             self._ball(x, y, _BALL, look[0])
         right, up, _ = canvas.at((1.0 + 0.12 / float(np.linalg.norm(to))) * to)
         if ball:
-            # Beyond the ball, also where the rod points to the eye.
+            # Beside the ball, even if the rod points to the viewer.
             far = math.hypot(x, y)
             along = (x / far, y / far) if far > 0.1 else (0.7, 0.7)
             right, up = (at + (2.5 * _BALL) * one for at, one in zip((x, y), along, strict=True))
-        # What is half hidden cannot be read.
+        # A partly hidden label would be illegible.
         if near or self.seen is None or not solid.covers(self.seen, self.semi, right, up, 0.05):
             canvas.write(label, right, up)
 
@@ -196,14 +196,14 @@ class BodyDrawing:
                 joinstyle="round",
             )
 
-        # The tread is what its discs cover.
+        # A stack of discs makes the tread.
         for along in (-side, -0.6 * side, -0.2 * side, 0.2 * side, 0.6 * side):
             disc(along, _WHEEL, ink)
         disc(side, _WHEEL, "#EEEEEE")
         disc(side, 0.25 * _WHEEL, ink)
 
     def _arrow(self, along: Array, label: str) -> None:
-        """From the sphere outwards, with the label beside its head."""
+        """Draw an arrow outwards from the sphere, with the label next to its head."""
         canvas = self.canvas
         canvas.line(1.02 * along, 1.15 * along, (theme.INK, "-", 1.5))
         (x, y, _), (x0, y0, _) = canvas.at(1.15 * along), canvas.at(1.02 * along)

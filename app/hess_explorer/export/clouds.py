@@ -1,4 +1,4 @@
-"""Clouds of phase points as figures, on the plane of ω1 and ω2 and on the sphere: pixels in a vector file too."""
+"""Draw clouds of phase points with Matplotlib, on the plane (ω1, ω2) and on the sphere, rasterized in vector files."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ __all__ = ["draw_moving", "draw_still", "on_sphere"]
 
 _COLOURS = (theme.ORBIT, theme.MAP)
 _SIDE = 0.9
-"""Of a point, in points of type."""
+"""Size of a point, in typographic points."""
 
 
 def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
-    """The axes, σ1 and σ2, the line of equilibria and the ends of its halves."""
+    """Draw the axes, the lines σ1 and σ2, the line of equilibria and the ends of its halves."""
     picture, axes = shown.picture, shown.axes
     assert isinstance(picture, CloudPlane)
     assert axes is not None
@@ -50,13 +50,13 @@ def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
 
 
 def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float) -> None:
-    """The clouds at a time, over the points of rest: there all of a cloud may end."""
+    """Draw the clouds at time t above the equilibria, where a whole cloud may end."""
     for cloud, ink in zip(clouds_at(shown.columns.get(shown.picture.name, {}), t), _COLOURS, strict=False):
         _dots(frame, cloud.omega, colour(ink), 3.0)
 
 
 def on_sphere(canvas: SphereCanvas, clouds: Sequence[CloudFrame], near: bool) -> None:
-    """The half of the points that is near, or far."""
+    """Draw the points of the near or far half."""
     for cloud, ink in zip(clouds, _COLOURS, strict=False):
         x, y, depth = seen(cloud.gamma, *canvas.view).T
         there = (depth >= 0.0) == near
@@ -64,7 +64,7 @@ def on_sphere(canvas: SphereCanvas, clouds: Sequence[CloudFrame], near: bool) ->
 
 
 def _dots(frame: Frame, places: Array, colour: str, order: float, faint: float = 1.0) -> None:
-    # The fewer, the darker.
+    # Fewer points are more opaque.
     alpha = faint * float(np.clip(4300.0 / max(1, len(places)), 0.43, 0.9))
     frame.plot(
         *places.T,

@@ -1,4 +1,4 @@
-"""The few lines of Python that compute and draw what is on the screen."""
+"""Generate the Python code that computes and draws a picture of the page."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ _WIDTH = 100
 
 
 def code(address: Address) -> str:
-    """A program that leaves the numbers of a picture in `data`: the columns of its CSV, bit for bit at the same level.
+    """Return a script that computes the data of a picture, identical to its CSV at the same accuracy, and draws it.
 
-    All parameters are named, so that it means the same when a default changes.
+    The script names all parameters, so that it does not depend on defaults.
     """
     return "\n".join(
         [f"# {line}" for line in _about(address)] + ["import hess_explorer as hess", "", *lines_of(address), ""]
@@ -27,7 +27,7 @@ def _about(address: Address) -> list[str]:
 
 
 def lines_of(address: Address) -> list[str]:
-    """Those that make the state, compute and draw."""
+    """Return the lines that create the state, compute and draw."""
     scene, name = address.scene, address.picture.name
     given = {spec.name: _value(spec, address.values[spec.name]) for spec in scene.specs}
     given |= {key: repr(value) for key, value in address.looks.items()}
@@ -36,7 +36,7 @@ def lines_of(address: Address) -> list[str]:
 
 
 def _filled(words: Sequence[str]) -> Iterator[str]:
-    """Arguments, as many in a line as there is room for, and the closing bracket."""
+    """Yield lines filled with the arguments, up to the closing bracket."""
     line = "   "
     for word in words[:-1]:
         if len(line) + len(word) > _WIDTH:
@@ -47,7 +47,7 @@ def _filled(words: Sequence[str]) -> Iterator[str]:
 
 
 def _value(spec: Spec, value: Value) -> str:
-    """As Python writes it; empty for what is left out."""
+    """Return a value as Python code; empty for an argument to omit."""
     if isinstance(spec, Number):
         return repr(float(value))
     if isinstance(spec, Places):

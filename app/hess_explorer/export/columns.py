@@ -1,4 +1,4 @@
-"""The data of a picture as columns by name: those of its CSV, in memory."""
+"""The data of a picture as columns by name, the same as in its CSV file."""
 
 from __future__ import annotations
 
@@ -20,10 +20,19 @@ __all__ = ["Table", "columns_of"]
 
 @dataclass(frozen=True, eq=False)
 class Table(Result):
-    """Columns of equal length by the names of the CSV: "layer", and coordinates, NaN where a layer has no such one.
+    """Data of a picture: columns of equal length, with one row for each point.
 
-    columns : read-only arrays; facts : link, parameters, level, errors, version, as every file says them.
+    The column "layer" names the layer of a row.  A coordinate that the layer does not have is NaN.
 
+    Attributes
+    ----------
+    columns : mapping of str to ndarray
+        The columns by the names of the CSV file, read-only.
+    facts : mapping of str
+        Link, parameters, accuracy, errors and version, the same as in exported files.
+
+    Examples
+    --------
     >>> import hess_explorer as hess
     >>> data = hess.state("suslov-hess", accuracy="draft").data("circle")
     >>> data.layers
@@ -47,11 +56,11 @@ class Table(Result):
         return iter(self.columns)
 
     def __len__(self) -> int:
-        """How many rows."""
+        """Return the number of rows."""
         return len(self.columns["layer"])
 
     def keys(self) -> tuple[str, ...]:
-        """The names of the columns."""
+        """Return the names of the columns."""
         return tuple(self.columns)
 
     @property
@@ -60,14 +69,36 @@ class Table(Result):
         return tuple(dict.fromkeys(self.columns["layer"].tolist()))
 
     def layer(self, name: str) -> Table:
-        """The rows of one layer, and those columns that it has.  Raises `InvalidParameter`."""
+        """Return the rows of one layer, with only the columns that it has.
+
+        Parameters
+        ----------
+        name : str
+            Name of the layer, one of `layers`.
+
+        Returns
+        -------
+        Table
+            The rows of the layer.
+
+        Raises
+        ------
+        InvalidParameter
+            If there is no such layer.
+        """
         if name not in self.layers:
             raise InvalidParameter(f"There is no layer {name!r}: choose one of {', '.join(self.layers)}.")
         there = self.columns["layer"] == name
         return Table({key: part for key, column in self.columns.items() if _has_any(part := column[there])}, self.facts)
 
     def labels(self) -> Labels:
-        """All columns over the rows."""
+        """Return the columns as variables over the rows, for `to_pandas` and `to_xarray`.
+
+        Returns
+        -------
+        Labels
+            The variables by name.
+        """
         return Labels({}, {name: (("row",), column) for name, column in self.columns.items()}, {}, self.facts)
 
     def __repr__(self) -> str:
@@ -75,7 +106,7 @@ class Table(Result):
 
 
 def columns_of(shown: Shown) -> Table:
-    """The columns of the CSV of a picture, every digit."""
+    """Return the data of a picture in double precision."""
     found = blocks(shown)
     return Table({name: frozen(_column(name, found)) for name in names_of(found)}, shown.facts)
 

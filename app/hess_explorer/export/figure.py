@@ -1,4 +1,4 @@
-"""A picture as a figure for paper, by Matplotlib: the layers and axes of the page, in its colours or black on white."""
+"""Draw a picture for print with Matplotlib: the layers and axes of the page, in its colours or black on white."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ __all__ = ["STYLE", "as_file", "draw", "draw_moving", "draw_still", "in_black", 
 
 _DOTS_PER_INCH = 300
 STYLE: Mapping[str, Any] = {
-    # The one without 𝒟 falls back on the other.
+    # DejaVu Sans has no 𝒟, so STIXGeneral is the fallback.
     "font.family": ["DejaVu Sans", "STIXGeneral"],
     "font.size": 9.0,
     "axes.linewidth": 0.6,
@@ -36,30 +36,45 @@ STYLE: Mapping[str, Any] = {
 
 
 def as_file(shown: Shown, kind: str, width: float = 85.0, black: bool = False) -> bytes:
-    """A square figure of so many millimetres as PNG (300 dots an inch), SVG or PDF; fonts stay text.
+    """Return a square figure as a file, in which text stays text.
 
-    black : black on white, lines told apart by their dashes, instead of the colours of the page.
+    Parameters
+    ----------
+    shown : Shown
+        The picture and its data.
+    kind : str
+        "png" (300 dots per inch), "svg" or "pdf".
+    width : float
+        Width in millimetres.
+    black : bool
+        True for black on white, with lines distinguished by dashes, instead of the colours of the page.
+
+    Returns
+    -------
+    bytes
+        The contents of the file.
 
     Raises
     ------
-    InvalidParameter : no such format or width, or Matplotlib is not installed.
+    InvalidParameter
+        If the format or width is not supported, or Matplotlib is not installed.
     """
     if kind not in holding("figure"):
-        raise InvalidParameter(f"{kind!r} is no format of a figure: choose one of {', '.join(holding('figure'))}.")
+        raise InvalidParameter(f"{kind!r} is not a figure format: choose one of {', '.join(holding('figure'))}.")
     if not WIDTHS.low <= width <= WIDTHS.high:
-        raise InvalidParameter(f"A figure is {WIDTHS} mm wide, not {width:g}.")
+        raise InvalidParameter(f"A figure must be {WIDTHS} mm wide, not {width:g}.")
     try:
         import matplotlib as mpl
     except ImportError as error:
         raise InvalidParameter(
-            "Figures need Matplotlib: pip install 'hess-explorer[export]'. CSV and JSON need nothing."
+            "Figures need Matplotlib: pip install 'hess-explorer[export]'. CSV and JSON work without it."
         ) from error
     with mpl.rc_context(dict(STYLE)):
         return saved(draw(shown, width, black), shown, kind)
 
 
 def saved(figure: Figure, shown: Shown, kind: str) -> bytes:
-    """The file of a figure, which says where it comes from."""
+    """Return a figure as a file whose metadata contain link, parameters and version."""
     program, said = shown.facts["program"], shown.said
     metadata: dict[str, Any] = {
         "png": {"Title": shown.title, "Description": said, "Comment": shown.caption, "Software": program},
@@ -72,7 +87,7 @@ def saved(figure: Figure, shown: Shown, kind: str) -> bytes:
 
 
 def draw(shown: Shown, width: float = 85.0, black: bool = False) -> Figure:
-    """The figure itself, of so many millimetres, at the time and the turn of the link."""
+    """Return the figure, `width` millimetres wide, at the time and view of the link."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(width / 25.4, width / 25.4), layout="constrained")
@@ -84,7 +99,7 @@ def draw(shown: Shown, width: float = 85.0, black: bool = False) -> Figure:
 
 
 def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
-    """What no motion changes, and lies beneath what moves."""
+    """Draw the static parts, beneath the moving ones."""
     if isinstance(shown.picture, Plot):
         plots.draw_still(frame, shown, colour)
     elif isinstance(shown.picture, CloudPlane):
@@ -94,7 +109,7 @@ def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
 
 
 def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float, point: bool) -> None:
-    """What moves, at a time: bodies and clouds; point : the moving points of the orbit too."""
+    """Draw bodies and clouds at time t; point : True to include the moving points of the orbit."""
     if isinstance(shown.picture, Plot):
         plots.draw_moving(frame, shown, colour, t, point)
     elif isinstance(shown.picture, CloudPlane):
@@ -104,7 +119,7 @@ def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float, point: boo
 
 
 def in_black(colour: str) -> str:
-    """Areas keep their lightness, everything else is black."""
+    """Return the colour in black on white: areas keep their lightness, everything else is black."""
     return (
         colour
         if colour in (theme.PAPER, "white")

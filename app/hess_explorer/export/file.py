@@ -1,4 +1,4 @@
-"""A picture of a state as a file of any of the formats."""
+"""Write a picture in any of the file formats."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["content"]
 
 
 def content(found: Shown, wish: Wish, tell: Callable[[int, int], None] = lambda done, of: None) -> bytes:
-    """The bytes of the file; tell : as of `as_film`.  Raises `InvalidParameter`."""
+    """Return the contents of the file; tell : progress callback of `as_film`.  Raises `InvalidParameter`."""
     holds = FORMATS[wish.kind].holds
     if holds == "film":
         return as_film(found, wish.kind, wish.width, wish.black, wish.seconds, tell)

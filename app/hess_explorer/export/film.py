@@ -1,4 +1,4 @@
-"""A picture in motion as a film: its figure at even times, with the moving point, encoded by ffmpeg."""
+"""Make a film of a picture: frames at evenly spaced times, with the moving point, encoded by ffmpeg."""
 
 from __future__ import annotations
 
@@ -31,22 +31,22 @@ __all__ = ["RATE", "as_film", "moves", "pictures_at", "times_of"]
 _CODECS: Mapping[str, str] = {
     "webm": "-c:v libvpx-vp9 -b:v 0 -crf 30 -deadline realtime -cpu-used 6 -pix_fmt yuv420p",
     "mp4": "-c:v libx264 -preset veryfast -crf 20 -movflags +faststart+use_metadata_tags -pix_fmt yuv420p",
-    # The colours of the film itself, which are few.
+    # A palette from the film itself, which has few colours.
     "gif": "-filter_complex split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none",
 }
-"""What ffmpeg is told for each format: thin lines stay clear, and a minute of them is some megabytes."""
+"""Options of ffmpeg for each format; thin lines stay clear, and a minute takes a few megabytes."""
 
 RATE = 25
-"""Frames a second."""
+"""Frames per second."""
 _PIXELS = 8
-"""For a millimetre."""
+"""Pixels per millimetre."""
 _INCH = 25.4
 _AXIS, _LETTER, _CLOCK = 13.0, 1.75, 11
-"""Millimetres of what is written beside a plot, and of a letter; the letters of the clock, with the space before it."""
+"""Width of the axis labels and of a letter in millimetres; length of the clock in letters, including a space."""
 
 
 def moves(shown: Shown) -> bool:
-    """Whether something moves in the picture of this state."""
+    """Return True if the picture changes with time."""
     picture = shown.picture
     follows = (
         bool(picture.followers)
@@ -58,12 +58,12 @@ def moves(shown: Shown) -> bool:
 
 
 def times_of(shown: Shown, seconds: float) -> Array:
-    """The times of the frames, (n,): all of the motion in so many seconds, its first and its last moment included."""
+    """Return the times of the frames (n,), which spread the whole motion over `seconds`, both ends included."""
     return np.linspace(0.0, end(shown.columns), round(RATE * seconds))
 
 
 def pictures_at(shown: Shown, times: Array, width: float = 85.0, black: bool = False) -> Iterator[Array]:
-    """Red, green, blue (n, n, 3) of each frame; n is even.  What stands still is drawn once."""
+    """Yield the RGB image (n, n, 3) of each frame, n even.  Static parts are drawn only once."""
     import matplotlib as mpl
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -78,7 +78,7 @@ def pictures_at(shown: Shown, times: Array, width: float = 85.0, black: bool = F
         frame.set_title(_title(shown.title, width), loc="left", y=1.0, fontsize="medium")
         clock = frame.set_title("t = 0", loc="right", y=1.0, fontsize="medium")
         canvas.draw()
-        # The places are those of this layout; the clock is drawn anew.
+        # Keep this layout; only the clock is redrawn in each frame.
         clock.set_text("")
         figure.set_layout_engine("none")
         canvas.draw()
@@ -97,12 +97,12 @@ def pictures_at(shown: Shown, times: Array, width: float = 85.0, black: bool = F
 
 
 def _side(width: float) -> int:
-    """Pixels, an even number."""
+    """Return the side of a frame in pixels, an even number."""
     return 2 * round(0.5 * _PIXELS * width)
 
 
 def _title(title: str, width: float) -> str:
-    """In lines beside the clock, or above it where there is no room for both."""
+    """Return the title on one line with the clock, or wrapped above it if there is not enough room."""
     room = int((width - _AXIS) / _LETTER)
     return title if len(title) + _CLOCK <= room else textwrap.fill(title, room) + "\n"
 
@@ -115,19 +115,38 @@ def as_film(
     seconds: float = 10.0,
     tell: Callable[[int, int], None] = lambda done, of: None,
 ) -> bytes:
-    """The whole motion in so many seconds, as WebM, MP4 or GIF, square, 8 pixels a millimetre; its tags say the facts.
+    """Return a square film of the whole motion, whose tags contain link, parameters and version.
 
-    tell : is told after each frame how many there are, and of how many.
+    Parameters
+    ----------
+    shown : Shown
+        The picture and its data.
+    kind : str
+        "webm", "mp4" or "gif".
+    width : float
+        Width in millimetres, with 8 pixels per millimetre.
+    black : bool
+        True for black on white instead of the colours of the page.
+    seconds : float
+        Duration in seconds.
+    tell : callable
+        Called after each frame with the number of frames done and their total.
+
+    Returns
+    -------
+    bytes
+        The contents of the file.
 
     Raises
     ------
-    InvalidParameter : no such format, width or length, nothing moves, or the libraries are not installed.
+    InvalidParameter
+        If format, width or duration are not supported, nothing moves, or a library is not installed.
     """
     if kind not in _CODECS:
-        raise InvalidParameter(f"{kind!r} is no format of a film: choose one of {', '.join(_CODECS)}.")
+        raise InvalidParameter(f"{kind!r} is not a film format: choose one of {', '.join(_CODECS)}.")
     for value, bounds, what in ((width, FILM_WIDTHS, "mm wide"), (seconds, SECONDS, "seconds long")):
         if not bounds.low <= value <= bounds.high:
-            raise InvalidParameter(f"A film is {bounds} {what}, not {value:g}.")
+            raise InvalidParameter(f"A film must be {bounds} {what}, not {value:g}.")
     if not moves(shown):
         raise InvalidParameter(f"Nothing moves in “{shown.title}” in this state: choose another picture, or a figure.")
     try:
@@ -135,7 +154,8 @@ def as_film(
         import matplotlib  # noqa: F401
     except ImportError as error:
         raise InvalidParameter(
-            "Films need Matplotlib and imageio-ffmpeg: pip install 'hess-explorer[export]'. CSV and JSON need nothing."
+            "Films need Matplotlib and imageio-ffmpeg: pip install 'hess-explorer[export]'. CSV and JSON work without "
+            "them."
         ) from error
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"film.{kind}"
@@ -160,7 +180,7 @@ def as_film(
             except BrokenPipeError:
                 said = encoder.stderr.read().decode(errors="replace").strip() or "it has ended"
             except BaseException:
-                # Stopped: nothing is left behind.
+                # Do not leave the encoder running.
                 encoder.kill()
                 raise
         if encoder.returncode or not path.exists():
@@ -170,7 +190,7 @@ def as_film(
 
 
 def _commented(gif: bytes, text: str) -> bytes:
-    """With a comment, which ffmpeg does not write, behind the header and the colours of all frames."""
+    """Insert a comment, which ffmpeg does not write, after the header and the global palette of a GIF."""
     head, data = 13 + (3 << (gif[10] % 8 + 1) if gif[10] & 0x80 else 0), text.encode()
     parts = [data[i : i + 255] for i in range(0, len(data), 255)]
     return gif[:head] + b"\x21\xfe" + b"".join(bytes([len(part)]) + part for part in parts) + b"\0" + gif[head:]

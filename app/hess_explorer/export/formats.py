@@ -1,4 +1,4 @@
-"""Formats of files, and how large and long figures and films may be: for commands, server and `SceneState.save`."""
+"""File formats, and the limits of figures and films, for commands, server and `SceneState.save`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ __all__ = ["FILM_WIDTHS", "FORMATS", "SECONDS", "SERVED_SECONDS", "WIDTHS", "Bou
 
 
 class Bounds(NamedTuple):
-    """Of a number."""
+    """Limits of a number."""
 
     low: float
     high: float
@@ -20,7 +20,7 @@ class Bounds(NamedTuple):
 
 
 class Format(NamedTuple):
-    """What a file holds (data, figure, film, the whole state or a program), its media type, its words in the dialog."""
+    """A file format: category ("data", "figure", "film", "state", "program"), media type, label in the dialog."""
 
     holds: str
     media: str
@@ -40,17 +40,17 @@ FORMATS: Mapping[str, Format] = {
     "py": Format("program", "text/x-python; charset=utf-8"),
     "ipynb": Format("program", "application/x-ipynb+json"),
 }
-"""By the ending of the file."""
+"""File formats by suffix."""
 
 WIDTHS, FILM_WIDTHS = Bounds(20.0, 400.0), Bounds(60.0, 160.0)
-"""Millimetres of a figure, and of a film, which fix how large its type is beside its lines."""
+"""Width of a figure and of a film in millimetres; it determines the relative size of text and lines."""
 SECONDS, SERVED_SECONDS = Bounds(1.0, 60.0), Bounds(1.0, 30.0)
-"""Of a film, and of one that a server makes."""
+"""Duration in seconds of a film, and of a film that a server makes."""
 
 
 @dataclass(frozen=True)
 class Wish:
-    """What a file is to be: its format; of figures and films millimetres and whether in black; of films the length."""
+    """Requested file: suffix; width in mm and black on white, for figures and films; duration in s, for films."""
 
     kind: str = "csv"
     width: float = 85.0
@@ -59,5 +59,5 @@ class Wish:
 
 
 def holding(*what: str) -> tuple[str, ...]:
-    """The formats that hold one of these."""
+    """Return the formats of the given categories."""
     return tuple(kind for kind, one in FORMATS.items() if one.holds in what)

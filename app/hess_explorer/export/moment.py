@@ -1,4 +1,4 @@
-"""What moves, at a time: the moving point of the orbit, and clouds of points between the frames kept of them."""
+"""The moving point of an orbit and the points of a cloud at a given time, interpolated between samples."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ __all__ = ["CloudFrame", "between", "clouds_at", "density_at", "end", "state_at"
 
 
 def between(times: Array, t: float) -> tuple[int, float]:
-    """(i, s): t lies between the samples i and i + 1, the share s of the way; at an end where it lies beyond."""
+    """Return (i, s) with t = times[i] + s (times[i + 1] − times[i]), clamped to the range of times."""
     i = int(np.clip(np.searchsorted(times, t, side="right") - 1, 0, len(times) - 2))
     return i, float(np.clip((t - times[i]) / (times[i + 1] - times[i]), 0.0, 1.0))
 
 
 def end(columns: Mapping[str, Columns]) -> float:
-    """The last time of the orbit, or of the clouds; 0 where nothing moves."""
+    """Return the last time of the orbit or of the clouds; 0 if nothing moves."""
     clouds = (one["times"] for one in columns.values() if "frames0" in one)
     tracks = (columns.get("data-orbit", {}).get("t", ()), *clouds)
     return max((float(times[-1]) for times in tracks if len(times) > 1), default=0.0)
 
 
 def state_at(track: Columns, angles: tuple[str, ...], t: float) -> dict[str, float]:
-    """The columns of the orbit at a time, as the player of the page has them; nothing where there is no orbit."""
+    """Return the columns of the orbit at time t, interpolated as on the page; {} without an orbit."""
     if len(track.get("t", ())) < 2:
         return {}
     i, s = between(track["t"], t)
@@ -42,7 +42,7 @@ def state_at(track: Columns, angles: tuple[str, ...], t: float) -> dict[str, flo
 
 @dataclass(frozen=True)
 class CloudFrame:
-    """Phase points at a time: ω1, ω2 (n, 2), γ (n, 3), and ln|s| (n,) where the motion has no field."""
+    """Phase points at one time: ω1, ω2 (n, 2), γ (n, 3), and ln|s| (n,) if there is no field."""
 
     omega: Array
     gamma: Array
@@ -50,7 +50,7 @@ class CloudFrame:
 
 
 def clouds_at(columns: Columns, t: float) -> list[CloudFrame]:
-    """The clouds of the columns of a `CloudPlane` at a time: cubic curves between frames, whose slopes are known."""
+    """Return the clouds of a `CloudPlane` at time t, by cubic Hermite interpolation between frames."""
     found = []
     for k in (0, 1):
         if len(columns.get(f"frames{k}", ())):
@@ -73,7 +73,7 @@ def _cloud(columns: Columns, k: int, t: float) -> CloudFrame:
 
 
 def _velocities(at: Array, signs: Array | None, body: Any) -> Array:
-    """ω1, ω2 (2, n), from these or, with signs of s, from (ω, ξ) and ln|s|, s = I13ω1 + I23ω2."""
+    """Return ω1, ω2 (2, n): the rows of `at`, or with signs of s from (ω, ξ) and ln|s|, s = I13ω1 + I23ω2."""
     if signs is None:
         return at
     J = float(np.hypot(body[2], body[3]))
@@ -83,7 +83,7 @@ def _velocities(at: Array, signs: Array | None, body: Any) -> Array:
 
 
 def _slopes(at: Array, signs: Array | None, body: Any) -> Array:
-    """Of a frame (5, n): ω̇ = s Î⁻¹(−ω2, ω1) by `eq29`, or Îω̇ = (b3γ2, −b3γ1), and γ̇ = γ × ω."""
+    """Return the derivative of a frame (5, n): ω̇ = s Î⁻¹(−ω2, ω1) by `eq29`, or Îω̇ = (b3γ2, −b3γ1); γ̇ = γ × ω."""
     I11, I22, I13, I23, D, b3 = body
     w1, w2 = _velocities(at[:2], signs, body)
     g1, g2, g3 = at[2:]
@@ -99,7 +99,7 @@ def _slopes(at: Array, signs: Array | None, body: Any) -> Array:
 
 
 def density_at(columns: Columns, t: float) -> tuple[Array, Array]:
-    """|s| and the share of the points of the first cloud per unit of it, in bins that are even in ln|s|."""
+    """Return |s| and the density of the first cloud per unit of |s|, in bins of equal width in ln|s|."""
     clouds = clouds_at(columns, t)
     if not clouds or clouds[0].log_s is None:
         return np.empty(0), np.empty(0)

@@ -1,4 +1,4 @@
-"""A state as a Jupyter notebook: its link, the code that computes it, and a plot."""
+"""Export a state as a Jupyter notebook with its link, the code that computes it, and a plot."""
 
 from __future__ import annotations
 
@@ -14,9 +14,10 @@ __all__ = ["PROGRAMS", "notebook"]
 
 
 def notebook(address: Address) -> str:
-    """The notebook as JSON, nbformat 4.5.
+    """Return the notebook as JSON in the format nbformat 4.5.
 
-    The format is a few lines of JSON, https://nbformat.readthedocs.io/en/latest/format_description.html: no library.
+    The format is simple enough to write without a library, see
+    https://nbformat.readthedocs.io/en/latest/format_description.html.
     """
     said = (
         f"# {address.scene.title}\n\n{address.scene.summary}\n\nThe state: `?{address.link}`\n\n"
@@ -52,4 +53,4 @@ def _cell(number: int, kind: str, source: str) -> dict[str, Any]:
 
 
 PROGRAMS: Mapping[str, Callable[[Address], str]] = {"py": code, "ipynb": notebook}
-"""What computes a picture, by format."""
+"""Generators of code that computes a picture, by format."""

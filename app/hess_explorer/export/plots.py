@@ -1,4 +1,4 @@
-"""Plots as figures: their HoloViews elements, drawn by Matplotlib, and over them what moves."""
+"""Draw plots with Matplotlib: their HoloViews elements, and the moving points above them."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["densities", "draw_moving", "draw_still"]
 
 _OVER = 1e3
-"""The order of what moves: over all that is still."""
+"""Drawing order of moving points, above all static layers."""
 
 
 def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
@@ -45,7 +45,7 @@ def densities(shown: Shown) -> list[tuple[CloudPlane[Any], Layer[Any]]]:
 
 
 def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float, point: bool) -> None:
-    """Draw the density of a cloud at a time; point : the points that follow the orbit too."""
+    """Draw the density of a cloud at time t; point : True to include the points that follow the orbit."""
     for layer, columns in (*_clouds(shown, t), *(_points(shown, t) if point else ())):
         frame.scatter(*(columns[name] for name in layer.columns[:2]), zorder=_OVER, **on_paper(layer, colour))
 

@@ -1,4 +1,4 @@
-"""One picture of the state that a link describes, with all that it shows computed to the end."""
+"""A picture of the state that a link describes, with complete data."""
 
 from __future__ import annotations
 
@@ -19,18 +19,20 @@ __all__ = ["CLIENT_KEPT", "Address", "Shown", "address", "complete", "picture_of
 T = TypeVar("T")
 
 _ROUNDS = 100
-"""What is found may ask for more: an orbit diagram there and back comes in 40 parts, each from the one before."""
+"""Maximum number of rounds, because results may add tasks: an orbit diagram there and back takes 40."""
 CLIENT_KEPT = tuple(spec for spec in CLIENT if spec.name != "speed")
-"""What the browser keeps of a state and a file shows: the time, and how the spheres are turned."""
+"""The parameters that the browser keeps and a file uses: the time, and the view of spheres."""
 _DEFAULTS = {spec.name: spec.default for spec in CLIENT_KEPT}
 
 
 @dataclass(frozen=True)
 class Address:
-    """Which picture of which state: what a link says, put right.  Nothing is computed yet.
+    """A picture of a state that is not computed yet.
 
-    values : the parameters as they were admitted; client : time of the player and turn of the spheres, by key.
-    notes : what had to be changed in the link.
+    Attributes
+    ----------
+    values : admitted values of the parameters; client : time and view of spheres, by key; notes : corrections of the
+    link.
     """
 
     scene: Scene[Any]
@@ -41,25 +43,26 @@ class Address:
 
     @property
     def link(self) -> str:
-        """The query of the state: what follows ? in its address."""
+        """The query of the state, without "?"."""
         return encode(self.scene.name, self.values) + "".join(
             f"&{name}={value!r}" for name, value in self.looks.items()
         )
 
     @property
     def looks(self) -> dict[str, float]:
-        """Those of the time and the turn that are not as at first."""
+        """The values of time and view that differ from their defaults."""
         return {name: value for name, value in self.client.items() if value != _DEFAULTS[name]}
 
 
 @dataclass(frozen=True)
 class Shown:
-    """A picture of one state.
+    """A picture of a state, with its data.
 
-    values : the parameters as they were admitted; client : time of the player and turn of the spheres, by key.
-    columns : of all its sources, by source; axes : its axes, None for pictures that have none.
-    title, caption : what the page says over it; status : level, errors and drift of what was computed, without times.
-    notes : what had to be changed in the link, and what the page notes of the state.
+    Attributes
+    ----------
+    values : admitted values of the parameters; client : time and view of spheres, by key; columns : data by source;
+    axes : axis ranges, None for a picture without axes; title, caption : texts above the picture; status : accuracy,
+    errors and drift, without run times; notes : corrections of the link, and notes on the state.
     """
 
     scene: Scene[Any]
@@ -76,12 +79,12 @@ class Shown:
 
     @property
     def link(self) -> str:
-        """The query of the state: what follows ? in its address."""
+        """The query of the state, without "?"."""
         return Address(self.scene, self.picture, self.values, self.client).link
 
     @property
     def facts(self) -> dict[str, Any]:
-        """What every file says of itself."""
+        """The metadata that every exported file contains."""
         return {
             "link": self.link,
             "scene": self.scene.name,
@@ -96,7 +99,7 @@ class Shown:
 
     @property
     def said(self) -> str:
-        """The same in one paragraph, for files whose metadata are sentences."""
+        """The metadata as one paragraph, for formats whose metadata are text."""
         parameters = ", ".join(f"{name} = {value}" for name, value in self.values.items())
         return f"{self.facts['program']}, ?{self.link} | {parameters} | {'; '.join(self.status)}" + "".join(
             f" | {note}" for note in self.notes
@@ -104,26 +107,49 @@ class Shown:
 
 
 def shown(query: str, picture: str = "", *, lenient: bool = False) -> Shown:
-    """The picture of that name, else the first one, of the state that a query describes.
+    """Return a picture of the state that a query describes, with its data.
 
-    lenient : as in `address`.
+    Parameters
+    ----------
+    query, picture, lenient
+        As in `address`.
+
+    Returns
+    -------
+    Shown
+        The picture and its data.
 
     Raises
     ------
-    InvalidParameter : the scene has no such picture, or the query is wrong.
-    ModelError : the state cannot be computed.
+    InvalidParameter
+        If the scene has no such picture, or the query is invalid.
+    ModelError
+        If the state cannot be computed.
     """
     return show(address(query, picture, lenient=lenient))
 
 
 def address(query: str, picture: str = "", *, lenient: bool = False) -> Address:
-    """Return what a query describes.
+    """Return the picture and state that a query describes, without computing them.
 
-    lenient : whether what is wrong in the query is put right and noted; else it is refused.
+    Parameters
+    ----------
+    query : str
+        Query of the state.
+    picture : str
+        Name of the picture; the first picture by default.
+    lenient : bool
+        True to correct errors and append notes; False to raise an error.
+
+    Returns
+    -------
+    Address
+        The picture and the state.
 
     Raises
     ------
-    InvalidParameter : the scene has no such picture, or the query is wrong.
+    InvalidParameter
+        If the scene has no such picture, or the query is invalid and `lenient` is False.
     """
     known = scenes()
     link = Link(query, lenient)
@@ -137,7 +163,7 @@ def address(query: str, picture: str = "", *, lenient: bool = False) -> Address:
 
 
 def picture_of(scene: Scene[Any], name: str) -> Picture[Any]:
-    """The picture of that name, the first one without a name.  Raises `InvalidParameter`."""
+    """Return the picture of that name, by default the first one.  Raises `InvalidParameter`."""
     if name and name not in scene.pictures:
         raise InvalidParameter(
             f"The scene {scene.name} has no picture {name!r}: choose one of {', '.join(scene.pictures)}."
@@ -146,7 +172,7 @@ def picture_of(scene: Scene[Any], name: str) -> Picture[Any]:
 
 
 def show(address: Address) -> Shown:
-    """The picture, with all that it shows computed to the end.  Raises `ModelError`."""
+    """Compute a picture completely.  Raises `ModelError`."""
     scene, view = address.scene, address.picture
     state, (columns, axes, title, caption, status, said) = complete(
         scene, address.values, [view.name], lambda state: _said(view, state)
@@ -167,7 +193,7 @@ def show(address: Address) -> Shown:
 
 
 def complete(scene: Scene[Any], values: Values, pictures: Collection[str], made: Callable[[Any], T]) -> tuple[Any, T]:
-    """The state with all that these pictures ask for, and what is `made` of it.  Raises `ModelError`."""
+    """Return the state with complete data for these pictures, and made(state).  Raises `ModelError`."""
     for _ in range(_ROUNDS):
         state = scene.compute(values, pictures, False)
         found = made(state)
@@ -179,7 +205,7 @@ def complete(scene: Scene[Any], values: Values, pictures: Collection[str], made:
 
 
 def _said(view: Picture[Any], state: Any) -> tuple[Any, ...]:
-    """What a picture shows of a state, and what is said of it."""
+    """Return the columns, axes, title, caption, status and notes of a picture."""
     title, _, caption = view.said(state).partition("\n")
     axes = view.ranges(state) or view.first_axes
     columns = dict(state.drawn)

@@ -1,6 +1,6 @@
-"""An ellipsoid seen from afar, opaque or of glass: shaded by rays that meet it in closed form, with its outline.
+"""Draw an ellipsoid in orthographic projection, opaque or of glass, shaded by exact ray intersections.
 
-As `solid.js` draws it.  Vectors are those of the view: to the right, upwards, towards the eye.
+`solid.js` draws the same.  Vectors are in view coordinates: right, up, towards the viewer.
 """
 
 from __future__ import annotations
@@ -17,18 +17,18 @@ from hess_mechanics.numerics.results import Array
 __all__ = ["EVEN", "ODD", "covers", "leaves", "outline", "paint", "shaded"]
 
 EVEN, ODD = "#CBD6E2", "#9EAFC2"
-"""The tones of the octants."""
+"""Colours of the octants."""
 _AMBIENT = 0.5
 _LIGHT = np.array([-0.42, 0.62, 0.66]) / np.linalg.norm([-0.42, 0.62, 0.66])
-"""Over the left shoulder of whoever looks."""
+"""Direction of the light, from the upper left."""
 _HALFWAY = np.array([-0.23, 0.34, 0.91]) / np.linalg.norm([-0.23, 0.34, 0.91])
 _GLASS = 0.22
 
 
 def outline(axes: Array, semi: Array) -> tuple[float, float, float]:
-    """Half axes of the ellipse in which it is seen, and the angle of the first one from the right.
+    """Return the semi-axes of the projected ellipse, and the angle of the first one from the right.
 
-    axes : (3, 3), unit vectors in rows; semi : (3,), the lengths along them.
+    axes : unit vectors in rows (3, 3); semi : lengths of the semi-axes (3,).
     """
     x, y = (axes[:, :2] * semi[:, None]).T
     xx, xy, yy = x @ x, x @ y, y @ y
@@ -37,14 +37,14 @@ def outline(axes: Array, semi: Array) -> tuple[float, float, float]:
 
 
 def covers(axes: Array, semi: Array, x: float, y: float, margin: float = 0.0) -> bool:
-    """Whether it hides the place (x, y), or would, were it larger all round by the margin."""
+    """Return True if the ellipsoid, enlarged by the margin, covers the point (x, y) of the picture."""
     a, b, angle = outline(axes, semi)
     c, s = math.cos(angle), math.sin(angle)
     return math.hypot((c * x + s * y) / (a + margin), (c * y - s * x) / (b + margin)) < 1.0
 
 
 def leaves(axes: Array, semi: Array, along: Array) -> tuple[float, bool]:
-    """Where a ray from its middle leaves it, as a multiple of `along`, and whether that is on the side that is seen."""
+    """Return the multiple of `along` at which a ray from the centre leaves the ellipsoid; True if that is visible."""
     shares = axes @ along / semi
     return 1.0 / float(np.linalg.norm(shares)), float(shares / semi @ axes[:, 2]) >= 0.0
 
@@ -52,18 +52,18 @@ def leaves(axes: Array, semi: Array, along: Array) -> tuple[float, bool]:
 def shaded(
     axes: Array, semi: Array, tones: tuple[str, str], side: int, glass: bool = False
 ) -> tuple[Array, float, float]:
-    """Colours (side, side, 4) from 0 to 1, from below, and half of the width and the height that they fill.
+    """Return an RGBA image (side, side, 4) with the lowest row first, and half its width and height.
 
-    The tone changes between octants of the principal axes, so that one sees it turn.
+    The colour alternates between octants of the principal axes, which makes the rotation visible.
     """
     width, height = np.linalg.norm(axes[:, :2] * semi[:, None], axis=0)
     centres = (2.0 * np.arange(side) + 1.0) / side - 1.0
     x, y = np.meshgrid(width * centres, height * centres)
-    # In the coordinates in which it is the unit sphere a ray is start + depth × along.
+    # In coordinates that make the ellipsoid a unit sphere, a ray is start + depth × along.
     start = (x[..., None] * axes[:, 0] + y[..., None] * axes[:, 1]) / semi
     along = axes[:, 2] / semi
     a, b = along @ along, start @ along
-    # Beside the edge it goes on, so that there is something to smooth it with.
+    # Continue beyond the edge, for antialiasing.
     z = (np.sqrt(np.maximum(0.0, b * b - a * (np.sum(start * start, axis=-1) - 1.0))) - b) / a
     place = start + z[..., None] * along
     normal = (place / semi) @ axes
@@ -83,7 +83,7 @@ def shaded(
 
 
 def paint(canvas: SphereCanvas, axes: Array, semi: Array, glass: bool, side: int) -> None:
-    """On the canvas; its shades are pixels in a vector file too, its outline is a line."""
+    """Draw the ellipsoid on the canvas: its shading is rasterized in vector files, its outline is a line."""
     from matplotlib.image import AxesImage
     from matplotlib.patches import Ellipse
 

@@ -1,4 +1,4 @@
-"""What everything on a sphere is drawn with: projection, lines of its near and far half, labels beside each other."""
+"""Canvas for drawings on a sphere: projection, lines on the near and far half, labels that do not overlap."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
 __all__ = ["LOOKS", "ROOM", "Look", "SphereCanvas", "circle", "graticule", "seen"]
 
 Point = Sequence[float] | Array
-"""(3,)."""
+"""Coordinates (3,)."""
 Look = tuple[str, Any, float]
-"""Colour, dash, weight in points."""
+"""Colour, dash style, line width in points."""
 
 ROOM = 1.25
-"""Half of the side of the picture, in radii of the sphere."""
+"""Half the width of the picture, in radii of the sphere."""
 
 LOOKS: dict[str, Look] = {
     "orbit": (theme.ORBIT, "-", 1.3),
@@ -35,21 +35,21 @@ LOOKS: dict[str, Look] = {
     "axis": (theme.INK, "-", 1.5),
     "mass": (theme.POINT, "-", 1.8),
 }
-"""By the names of `Circle`, `Mark`, `Rod`, `Trail` and the tracks."""
+"""Line styles by the names that `Circle`, `Mark`, `Rod`, `Trail` and the tracks use."""
 _ANGLES = np.linspace(0.0, 2.0 * math.pi, 181)
 _ASIDE = ((0, 0), (0, -1), (0, 1), (1, 0), (-1, 0), (1, -1), (-1, -1))
-"""Where a label goes whose place is taken: below, above, to the right, to the left."""
+"""Alternative positions of a label: below, above, right, left."""
 
 
 def seen(points: Array, azimuth: float, elevation: float) -> Array:
-    """(n, 3) in the axes of the picture → to the right, upwards, towards the eye."""
+    """Return points (n, 3) in view coordinates: right, up, towards the viewer."""
     ca, sa, ce, se = math.cos(azimuth), math.sin(azimuth), math.cos(elevation), math.sin(elevation)
     turned: Array = points @ np.array([[-sa, ca, 0.0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]]).T
     return turned
 
 
 def circle(axis: Array, height: float) -> Array:
-    """The circle (γ, axis) = height on the unit sphere, (n, 3)."""
+    """Return the circle (γ, axis) = height on the unit sphere, (n, 3)."""
     axis = axis / np.linalg.norm(axis)
     across = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
     across /= np.linalg.norm(across)
@@ -61,7 +61,7 @@ def circle(axis: Array, height: float) -> Array:
 
 
 def graticule() -> Iterator[Array]:
-    """Three parallels and six meridians."""
+    """Yield three parallels and six meridians."""
     for height in (-0.5, 0.0, 0.5):
         yield circle(np.array([0.0, 0.0, 1.0]), height)
     for angle in np.arange(3) * math.pi / 3.0:
@@ -69,9 +69,9 @@ def graticule() -> Iterator[Array]:
 
 
 class SphereCanvas:
-    """A frame of Matplotlib in which a sphere of radius 1 is seen from a direction: azimuth and elevation in radians.
+    """Matplotlib axes with an orthographic view of the unit sphere from an azimuth and elevation in radians.
 
-    What is drawn later lies above what was drawn before; lengths of type are in points, all others in radii.
+    Later items are drawn above earlier ones.  Lengths of text are in points, all others in radii of the sphere.
     """
 
     def __init__(self, frame: Frame, view: tuple[float, float], colour: Colour) -> None:
@@ -80,34 +80,34 @@ class SphereCanvas:
         figure = frame.get_figure(root=True)
         assert figure is not None
         self.point = 2.0 * ROOM / (72.0 * figure.get_figwidth())
-        """Radii of the sphere in a point of type."""
+        """Size of a typographic point, in radii of the sphere."""
         self._taken: list[tuple[float, float, float]] = []
 
     def prepare(self) -> None:
-        """The place of the sphere, without axes."""
+        """Set the limits and hide the axes."""
         self.frame.set(xlim=(-ROOM, ROOM), ylim=(-ROOM, ROOM), aspect="equal")
         self.frame.set_axis_off()
 
     def start(self, order: float) -> None:
-        """What follows lies above that."""
+        """Set the drawing order of the next item."""
         self._order = order
 
     def above(self) -> float:
-        """The order of what is drawn next."""
+        """Return the drawing order of the next item, above all previous ones."""
         self._order += 0.001
         return self._order
 
     def at(self, point: Point) -> tuple[float, float, float]:
-        """A point (3,) as it is seen."""
+        """Return a point (3,) in view coordinates."""
         ((x, y, depth),) = seen(np.asarray(point, float)[None, :], *self.view)
         return float(x), float(y), float(depth)
 
     def is_near(self, point: Point) -> bool:
-        """Whether it lies on this side of the middle."""
+        """Return True if the point lies on the near half."""
         return self.at(point)[2] >= 0.0
 
     def outline(self) -> None:
-        """Of the sphere."""
+        """Draw the outline of the sphere."""
         self.frame.plot(
             np.cos(_ANGLES),
             np.sin(_ANGLES),
@@ -118,7 +118,7 @@ class SphereCanvas:
         )
 
     def stroke(self, curve: Array, look: Look, near: bool, alpha: float = 1.0, sides: Array | None = None) -> None:
-        """A curve (n, 3) where it, or the sides (n, 3), are on this half."""
+        """Draw the parts of a curve (n, 3) where it, or else `sides` (n, 3), is on the given half."""
         ink, dash, weight = look
         place, depth = seen(curve, *self.view), seen(curve if sides is None else sides, *self.view)[:, 2]
         at = np.flatnonzero((depth[1:] + depth[:-1] >= 0.0) == near)
@@ -137,7 +137,7 @@ class SphereCanvas:
                 )
 
     def line(self, start: Point, end: Point, look: Look, alpha: float = 1.0) -> None:
-        """A straight one, all of it."""
+        """Draw a straight line, including hidden parts."""
         (x0, y0, _), (x1, y1, _) = self.at(start), self.at(end)
         self.frame.plot(
             (x0, x1),
@@ -150,24 +150,24 @@ class SphereCanvas:
         )
 
     def area(self, corners: Array, **style: Any) -> None:
-        """A polygon (n, 2) in the plane of the picture."""
+        """Draw a polygon (n, 2) in the plane of the picture."""
         from matplotlib.patches import Polygon
 
-        # As an artist: a patch is first asked how far it reaches, which takes longer than to draw it.
+        # `add_artist`, because `add_patch` computes the extent first, which takes longer than drawing.
         self.frame.add_artist(Polygon(corners, zorder=self.above(), **style))
 
     def disc(self, x: float, y: float, radius: float, **style: Any) -> None:
-        """A disc of so many radii of the sphere, in the plane of the picture."""
+        """Draw a disc in the plane of the picture; radius : in radii of the sphere."""
         from matplotlib.patches import Circle
 
         self.frame.add_patch(Circle((x, y), radius, zorder=self.above(), **style))
 
     def dot(self, x: float, y: float, size: float, **style: Any) -> None:
-        """A disc of so many points across, in the plane of the picture."""
+        """Draw a disc in the plane of the picture; size : diameter in typographic points."""
         self.frame.plot([x], [y], marker="o", markersize=size, linestyle="none", zorder=self.above(), **style)
 
     def write(self, label: str, x: float, y: float, alpha: float = 1.0) -> None:
-        """In the plane of the picture: whole, also at its edge, and beside any other label."""
+        """Draw a label in the plane of the picture, completely visible and clear of other labels."""
         if not label:
             return
         from matplotlib import rcParams

@@ -1,6 +1,6 @@
-"""Spheres as figures, orthographic, from where the link looks: the Poisson sphere, and the one with the body in it.
+"""Draw spheres with Matplotlib in the orthographic view of the link: the Poisson sphere, and the body in space.
 
-What lies behind is faint, and drawn before what lies in the middle.
+The far half is faint and drawn first.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _FAINT = 0.3
 
 
 def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
-    """What no motion changes, and lies beneath what moves: the far half, and the near one where only a point moves."""
+    """Draw the static parts: the far half, and the near half if only a point moves."""
     canvas = _canvas(frame, shown, colour)
     canvas.prepare()
     _half(canvas, shown, False)
@@ -39,9 +39,9 @@ def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
 
 
 def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float, point: bool) -> None:
-    """The body or the clouds at a time, with what lies over them; point : the moving point too."""
+    """Draw the body or the clouds at time t, and what lies above them; point : True to include the moving point."""
     canvas = _canvas(frame, shown, colour)
-    # Over all that is still.
+    # Above all static parts.
     canvas.start(2.0)
     picture, columns = shown.picture, shown.columns
     if isinstance(picture, BodyInSpace):
@@ -124,7 +124,7 @@ def _mark(canvas: SphereCanvas, at: tuple[float, float, float], look: str, label
 
 
 def _point(canvas: SphereCanvas, at: list[float]) -> None:
-    """Seen on the far side too, with a dashed ring about it that says so."""
+    """Draw a point; a dashed ring marks a point on the far half."""
     x, y, depth = canvas.at(at)
     ink = canvas.colour(theme.INK)
     canvas.dot(x, y, 6.5, markerfacecolor=theme.POINT, markeredgecolor=ink, markeredgewidth=0.9)

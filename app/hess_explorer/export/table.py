@@ -1,4 +1,4 @@
-"""The data of a picture as CSV, one row for each number that is drawn, or as JSON, layer by layer."""
+"""Write the data of a picture as CSV, with one row for each point, or as JSON, by layer."""
 
 from __future__ import annotations
 
@@ -22,14 +22,15 @@ __all__ = ["Block", "as_csv", "as_json", "blocks", "names_of"]
 _FIRST = ("layer", "part", "ring")
 _GRID = ("image", "x", "y", "dw", "dh")
 Block = Mapping[str, NDArray[Any]]
-"""Columns of equal length by name, "layer" the first of them."""
+"""Columns of equal length by name; the first is "layer"."""
 
 
 def blocks(shown: Shown) -> list[Block]:
-    """The points of all layers, in double precision: "layer", and coordinates by name.
+    """Return the points of all layers in double precision.
 
-    Curves of several parts, and areas, number them in "part", and the curves that bound an area in "ring", 0 the outer
-    one; a grid has the value at the centre (x, y) of each cell.
+    A block has the column "layer" and coordinates by name.  "part" is the index of a part of a curve or an area, and
+    "ring" that of a boundary curve of an area, 0 for the outer one.  A grid has a value at the centre (x, y) of each
+    cell.
     """
     return [
         {"layer": np.full(len(next(iter(block.values()))), layer), **block}
@@ -39,13 +40,13 @@ def blocks(shown: Shown) -> list[Block]:
 
 
 def names_of(found: Sequence[Block]) -> list[str]:
-    """The names of the columns: "layer" in any case, then those that number parts, then coordinates."""
+    """Return the names of the columns: "layer", then the indices of parts, then coordinates."""
     known = dict.fromkeys(name for block in found for name in block)
     return list(dict.fromkeys(["layer", *(name for name in _FIRST if name in known), *known]))
 
 
 def as_csv(shown: Shown) -> str:
-    """A table with the facts as # comments above it; a field is empty where a layer has no such coordinate."""
+    """Return the CSV text, with the metadata as # comments; a field is empty if the layer lacks the coordinate."""
     found = blocks(shown)
     names = names_of(found)
     out = io.StringIO()
@@ -60,7 +61,7 @@ def as_csv(shown: Shown) -> str:
 
 
 def as_json(shown: Shown) -> str:
-    """The facts, the axes, and the columns of each layer by name; null stands for what is no number."""
+    """Return the JSON text: metadata, axes, and the columns of each layer; null stands for a non-finite number."""
     layers = {
         layer: {name: _plain(column) for name, column in columns.items()} for layer, columns in _layers(shown).items()
     }
@@ -68,14 +69,14 @@ def as_json(shown: Shown) -> str:
 
 
 def _layers(shown: Shown) -> Sources:
-    """The columns by layer: "plot-layer" → "layer", a track of the scene by its name; clouds at the link's time."""
+    """Return the columns by layer ("plot-layer" → "layer") or by track; clouds are at the time of the link."""
     found: Sources = {}
     own = f"{shown.picture.name}-"
     for source, columns in sorted(shown.columns.items()):
         layer = source.removeprefix(own).removeprefix("data-")
         if "frames0" in columns:
             found |= {f"{layer}-{name}": cloud for name, cloud in _clouds(columns, shown.client["t"]).items()}
-        # Only of a plot are lists columns: elsewhere they are vectors, names and the like.
+        # Lists are columns only in plots; elsewhere they are vectors or names.
         is_short = _is_list if isinstance(shown.picture, Plot) and source.startswith(own) else _never
         found[layer] = {
             name: np.array(column) if is_short(column) else column
@@ -97,7 +98,7 @@ def _never(column: Any) -> bool:
 
 
 def _clouds(columns: Columns, time: float) -> Sources:
-    """The points at the frame next to a time: u along the line of equilibria, ln|s|, the sign of s, γ; or ω and γ."""
+    """Return the points of the frame nearest to a time: u along the equilibria, ln|s|, sign of s, γ; or ω, γ."""
     frame = int(np.argmin(np.abs(columns["times"] - time)))
     at = float(columns["times"][frame])
 
@@ -127,7 +128,7 @@ def _blocks_of(columns: Columns) -> Iterator[dict[str, NDArray[Any]]]:
             yield {"x": np.tile(across, m), "y": np.repeat(up, n), "value": cells.ravel()}
     elif "xs" in columns:
         for part, (xs, ys) in enumerate(zip(columns["xs"], columns["ys"], strict=True)):
-            # An area is a list of parts, each of an outer curve and holes.
+            # An area is a list of parts, each with an outer curve and holes.
             rings = (
                 [(None, xs, ys)]
                 if isinstance(xs, np.ndarray)
@@ -142,7 +143,7 @@ def _blocks_of(columns: Columns) -> Iterator[dict[str, NDArray[Any]]]:
 
 
 def _together(columns: Columns) -> list[list[str]]:
-    """The names of columns of one length each."""
+    """Return the names of the columns, grouped by length."""
     lengths: dict[int, list[str]] = {}
     for name, column in columns.items():
         if _is_column(column):
@@ -155,7 +156,7 @@ def _is_column(column: Any) -> bool:
 
 
 def _besides(shown: Shown) -> dict[str, Any]:
-    """What of the columns is no table: circles, marks, axes of a body."""
+    """Return the data that are not tabular: circles, marks, axes of a body."""
     return {
         f"{layer}.{name}": _plain(column)
         for layer, columns in _layers(shown).items()

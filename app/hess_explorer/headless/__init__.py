@@ -1,1 +1,1 @@
-"""A headless browser: screenshots."""
+"""Screenshots of the page with a headless browser."""

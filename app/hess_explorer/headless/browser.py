@@ -1,4 +1,4 @@
-"""A headless Chromium: found, started, and waited for until the page is ready."""
+"""Find and start a headless Chromium, and wait until the page is ready."""
 
 from __future__ import annotations
 
@@ -17,24 +17,39 @@ __all__ = ["BrowserError", "find_browser", "is_root", "launched", "wait_ready"]
 VARIABLE = "HESS_EXPLORER_BROWSER"
 _COMMANDS = ("chromium", "chromium-headless-shell", "google-chrome")
 _POLLING_MS = 10
-# No third-party requests by the browser itself.  Most are Playwright's defaults; here they are a promise.
+# Prevent third-party requests by the browser itself, independently of Playwright's defaults.
 _QUIET = ("--disable-background-networking", "--disable-component-update", "--disable-domain-reliability", "--no-pings")
 
 
 class BrowserError(RuntimeError):
-    """No usable browser; the message tells the user what to do."""
+    """There is no usable browser; the message tells the user what to do."""
 
 
 def find_browser(playwright_own: str) -> str | None:
-    """Path of a Chromium: from the environment variable, on PATH, or Playwright's own; None if there is none.
+    """Return the path of a Chromium, or None.
 
-    Raises `BrowserError` if the environment variable names a file that is not there.
+    The search order is the environment variable `VARIABLE`, the commands on PATH, Playwright's own browser.
+
+    Parameters
+    ----------
+    playwright_own : str
+        Path of Playwright's own browser, which may not exist.
+
+    Returns
+    -------
+    str or None
+        Path of the program.
+
+    Raises
+    ------
+    BrowserError
+        If the environment variable names a program that does not exist.
     """
     chosen = os.environ.get(VARIABLE)
     if chosen:
         path = shutil.which(chosen)
         if path is None:
-            raise BrowserError(f"{VARIABLE} names {chosen!r}, which is not a program: correct it or remove it.")
+            raise BrowserError(f"{VARIABLE} names {chosen!r}, which is not a program: correct or unset it.")
         return path
     for command in _COMMANDS:
         path = shutil.which(command)
@@ -50,7 +65,7 @@ def is_root() -> bool:
 
 @contextmanager
 def launched() -> Iterator[Browser]:
-    """A running headless browser; Raises `BrowserError`."""
+    """Yield a running headless browser.  Raises `BrowserError`."""
     try:
         from playwright.sync_api import sync_playwright
     except ImportError as error:
@@ -59,7 +74,7 @@ def launched() -> Iterator[Browser]:
         path = find_browser(playwright.chromium.executable_path)
         if path is None:
             raise BrowserError(
-                f"No Chromium was found: install one (`playwright install chromium`) or name it in {VARIABLE}."
+                f"No Chromium was found: run `playwright install chromium`, or set {VARIABLE} to its path."
             )
         # Chromium refuses to run as root with its sandbox.
         browser = _launch(playwright.chromium, path, sandbox=not is_root())
@@ -76,22 +91,22 @@ def _launch(chromium: BrowserType, path: str, *, sandbox: bool) -> Browser:
         return chromium.launch(executable_path=path, args=_QUIET, chromium_sandbox=sandbox)
     except Error as error:
         if sandbox and "sandbox" in error.message.lower():
-            # Some containers and kernels forbid user namespaces.  The page is our own, from this machine.
+            # Some containers and kernels forbid user namespaces.  The page is local and trusted.
             return _launch(chromium, path, sandbox=False)
         why = error.message.splitlines()[0]
-        raise BrowserError(f"{path} did not start ({why}); choose another in {VARIABLE}.") from error
+        raise BrowserError(f"{path} did not start ({why}): set {VARIABLE} to another browser.") from error
 
 
 def wait_ready(page: Page, after: int = -1, seconds: float = 120) -> None:
-    """Wait until the page has drawn a state with a number above `after`.
+    """Wait until the page has drawn a state whose number exceeds `after`.
 
-    The page keeps both on its root element: data-ready="true" when everything asked for is drawn, data-state
-    counts the states drawn.  Raises Playwright's TimeoutError.
+    The root element of the page has data-ready="true" when all requested data are drawn, and data-state, the number
+    of states drawn so far.  Raises Playwright's TimeoutError after `seconds`.
     """
     page.wait_for_function(
         "after => { const d = document.documentElement.dataset;"
         " return d.ready === 'true' && Number(d.state ?? 0) > after; }",
-        # Asked with every frame, as is usual, the browser would make frames for as long as the server computes.
+        # Polling on animation frames, the default, would make the browser render while the server computes.
         arg=after,
         timeout=1000 * seconds,
         polling=_POLLING_MS,

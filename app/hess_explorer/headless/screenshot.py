@@ -1,4 +1,4 @@
-"""The page served by a separate process, and screenshots of it."""
+"""Serve the page from a separate process and take screenshots of it."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ __all__ = ["ServerError", "free_port", "screenshot", "server_process", "wait_ali
 _PROGRAM = ("-m", "hess_explorer")
 _START_SECONDS = 60
 _LOAD_SECONDS = 120
-"""A first start compiles while the page loads, and a busy machine takes its time for that."""
+"""Timeout of the first page load, during which the server may have to compile."""
 
 
 class ServerError(RuntimeError):
-    """The server or the page did not get ready; the message says why."""
+    """The server or the page did not become ready; the message gives the reason."""
 
 
 def free_port() -> int:
-    """One of this machine that nobody listens to."""
+    """Return a TCP port of this machine that is not in use."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port: int = probe.getsockname()[1]
@@ -35,12 +35,12 @@ def free_port() -> int:
 
 
 def wait_alive(process: subprocess.Popen[bytes], port: int, log: Path) -> None:
-    """Wait until the server of this process answers.  Raises `ServerError` with the last line of its log."""
+    """Wait until the server of a process responds.  Raises `ServerError` with the last line of its log."""
     deadline = time.monotonic() + _START_SECONDS
     while not is_alive("127.0.0.1", port):
         if process.poll() is not None or time.monotonic() > deadline:
             said = log.read_text(errors="replace").strip().splitlines()
-            raise ServerError(f"The server did not start ({said[-1] if said else 'silent'}).")
+            raise ServerError(f"The server did not start ({said[-1] if said else 'its log is empty'}).")
         time.sleep(0.1)
 
 
@@ -48,13 +48,25 @@ def wait_alive(process: subprocess.Popen[bytes], port: int, log: Path) -> None:
 def server_process(
     log: Path, program: Sequence[str] = _PROGRAM, options: Sequence[str] = ()
 ) -> Iterator[tuple[subprocess.Popen[bytes], str]]:
-    """`hess-explorer serve` in a separate process on a free port: the process and its base URL.  Raises `ServerError`.
+    """Run `hess-explorer serve` in a separate process on a free port; yield the process and its base URL.
 
-    log : file for all its output; program : arguments of Python that start the command line; options : of `serve`.
+    Parameters
+    ----------
+    log : Path
+        File for the output of the process.
+    program : sequence of str
+        Arguments of Python that start the command line.
+    options : sequence of str
+        Further options of `serve`.
+
+    Raises
+    ------
+    ServerError
+        If the server does not respond in time.
     """
     port = free_port()
     command = [sys.executable, *program, "serve", "--port", str(port), "--no-browser", *options]
-    # `-m` looks in the current folder first: start in this package, where nothing can shadow it.
+    # `-m` searches the current folder first, so start in this package, where no other module shadows it.
     with (
         log.open("wb") as out,
         subprocess.Popen(
@@ -73,8 +85,30 @@ def server_process(
 
 
 def screenshot(query: str, size: tuple[int, int], *, dark: bool = False) -> bytes:
-    """The page in the state of this (encoded) query, as PNG.  Raises `ServerError`, `BrowserError`."""
-    # The browser first: a missing one is reported without waiting for the server.
+    """Return a screenshot of the page as PNG.
+
+    Parameters
+    ----------
+    query : str
+        Query of the state, URL-encoded.
+    size : tuple of int
+        Width and height of the viewport in pixels.
+    dark : bool
+        True for the dark theme.
+
+    Returns
+    -------
+    bytes
+        The PNG file.
+
+    Raises
+    ------
+    ServerError
+        If the server does not start.
+    BrowserError
+        If there is no browser, or the page cannot be drawn.
+    """
+    # The browser first, so that a missing browser is reported without waiting for the server.
     with launched() as browser, tempfile.TemporaryDirectory() as folder:
         from playwright.sync_api import Error
 

@@ -1,1 +1,1 @@
-"""What `import hess_explorer` offers: states of the explorer in Python, with their data and pictures."""
+"""Implementation of the Python interface: states with their data, drawings and notebooks."""

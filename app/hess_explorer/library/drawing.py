@@ -1,4 +1,4 @@
-"""Pictures of the explorer and results of the mechanics by HoloViews: to look at, to combine, to restyle."""
+"""Draw pictures of the explorer and results of `hess_mechanics` with HoloViews."""
 
 from __future__ import annotations
 
@@ -21,20 +21,33 @@ from hess_mechanics.numerics.labelled import Labels, Result
 __all__ = ["draw", "draw_result"]
 
 _MILLIMETRES = 71.0
-"""Two pixels of the image for one of the picture."""
+"""Size of the image, which gives two of its pixels per pixel of the figure."""
 
 
 @cache
 def _show_in_notebooks() -> None:
-    """Have notebooks show elements, once; a backend that the user has chosen stays."""
+    """Enable the display of HoloViews elements in notebooks, unless the user has chosen a backend."""
     if hv.Store.current_backend == "bokeh":
         hv.extension("bokeh", logo=False)
 
 
 def draw(shown: Shown) -> Any:
-    """A picture in the page's colours: a plot as an overlay of its layers; spheres, bodies and clouds as an image.
+    """Return a picture in the colours of the page.
 
-    Raises `InvalidParameter`: an image needs Matplotlib.
+    Parameters
+    ----------
+    shown : Shown
+        The picture and its data.
+
+    Returns
+    -------
+    holoviews.Overlay or holoviews.RGB
+        The layers of a plot; an image of spheres, bodies and clouds.
+
+    Raises
+    ------
+    InvalidParameter
+        If the image needs Matplotlib and it is not installed.
     """
     _show_in_notebooks()
     plot = shown.picture
@@ -42,14 +55,14 @@ def draw(shown: Shown) -> Any:
         return _painted(shown)
     assert shown.axes is not None
     if find_spec("matplotlib"):
-        # So that the elements have options for it, too; the backend in use stays.
+        # Load the options of the Matplotlib backend without selecting it.
         hv.renderer("matplotlib")
     return overlay(plot, shown.columns, shown.axes, plot.names(shown.state), shown.title)
 
 
 def _painted(shown: Shown) -> Any:
-    """What is solid or seen from somewhere, as the figure for paper has it, in pixels."""
-    # Matplotlib is an extra: `as_file` says so where it is missing.
+    """Return a three-dimensional picture as an image, drawn like the figure for print."""
+    # Matplotlib is optional: `as_file` raises an error that names the extra.
     file = as_file(shown, "png", _MILLIMETRES)
     from matplotlib.image import imread
 
@@ -60,10 +73,23 @@ def _painted(shown: Shown) -> Any:
 
 
 def draw_result(result: Result) -> Any:
-    """A result of the mechanics, a panel for each variable: over its coordinate, or a map over two of them.
+    """Return a plot of a result, with a panel for each variable.
 
-    Without coordinates they are points of a plane, whose first two variables are the axes.
-    Raises `InvalidParameter` where there is nothing to draw.
+    Parameters
+    ----------
+    result : Result
+        A result of `hess_mechanics`.
+
+    Returns
+    -------
+    holoviews.Path, holoviews.Image, holoviews.Points or holoviews.Layout
+        Curves over the coordinate, or a map over two coordinates; without coordinates the points of a plane whose axes
+        are the first two variables.
+
+    Raises
+    ------
+    InvalidParameter
+        If the result contains nothing to draw.
     """
     _show_in_notebooks()
     known = result.labels()
@@ -80,7 +106,7 @@ def draw_result(result: Result) -> Any:
         if len(dims) in (1, 2) and dims[-1] in axes and values.dtype.kind == "f"
     ]
     if not panels:
-        raise InvalidParameter(f"A {type(result).__name__} has no curve to draw: `to_xarray()` has its numbers.")
+        raise InvalidParameter(f"A {type(result).__name__} has no curve to draw: use `to_xarray()` for its numbers.")
     return hv.Layout(panels).cols(2) if len(panels) > 1 else panels[0]
 
 
@@ -89,7 +115,7 @@ def _axis(known: Labels, name: str) -> Any:
 
 
 def _panel(known: Labels, name: str, axes: list[str]) -> Any:
-    """One variable over its last dimension; over its last two where both have coordinates."""
+    """Return a variable over its last dimension, or over its last two if both have coordinates."""
     dims, values = known.variables[name]
     x = known.coords[dims[-1]][1]
     if len(dims) > 1 and dims[-2] in axes:

@@ -1,4 +1,4 @@
-"""A scene of the explorer in a notebook, and the state that the hand has reached there."""
+"""Embed a scene of the explorer in a notebook and read its current state."""
 
 from __future__ import annotations
 
@@ -19,16 +19,22 @@ from hess_explorer.server.shutdown import end_with_stdin
 __all__ = ["Exploration", "explore", "serve_alone"]
 
 _START_SECONDS = 120.0
-"""A first start compiles."""
+"""Timeout of the start, which compiles the first time."""
 _PAGES = 20
-"""A notebook that is open several times shows so many."""
+"""Maximum number of pages, for a notebook that is open in several windows."""
 _CHILD = "from hess_explorer.library.exploring import serve_alone; serve_alone(int(__import__('sys').argv[1]))"
 
 
 class Exploration:
-    """A page of the explorer with a server of its own, which ends with this process; made by `explore`.
+    """A page of the explorer with its own server, created by `explore`.
 
-    A notebook shows it; `url` opens it in any browser on this machine, `state` is what it shows now.
+    A notebook displays the page.  The server stops when this object is closed, garbage collected, or left as a context
+    manager, and when the Python process exits.
+
+    Attributes
+    ----------
+    url : str
+        Address of the page, for any browser on this machine.
     """
 
     def __init__(self, first: SceneState, height: int) -> None:
@@ -37,7 +43,7 @@ class Exploration:
         self._ready = threading.Event()
         port = free_port()
         self.url = f"http://127.0.0.1:{port}/{first.link}"
-        # A process of its own: what a cell computes does not keep the page waiting, nor what the page does a cell.
+        # A separate process, so that the page and the notebook's cells do not block each other.
         self._child = subprocess.Popen(
             [sys.executable, "-c", _CHILD, str(port)],
             stdin=subprocess.PIPE,
@@ -49,26 +55,26 @@ class Exploration:
         threading.Thread(target=_listen, args=(self._child, weakref.ref(self)), daemon=True).start()
         if not self._ready.wait(_START_SECONDS) or self._child.poll() is not None:
             self.close()
-            raise ServerError("The explorer did not start: try `hess-explorer serve` in a terminal, which says why.")
+            raise ServerError("The explorer did not start: run `hess-explorer serve` in a terminal to see the reason.")
 
     @property
     def state(self) -> SceneState:
-        """What the page shows now, as `from_link` gives it; the first state until it is looked at."""
+        """The state that the page shows now; the initial state until a browser has opened the page."""
         return from_link(self._reached, lenient=True)
 
     def close(self) -> None:
-        """End its server: the page stays as it is, and nothing can be changed there any more."""
+        """Stop the server.  The page stays visible but no longer responds."""
         self._end()
 
-    def told(self, word: str, text: str) -> None:
-        """Its server has said something: that it is "ready", or the query of the "state" on show."""
+    def _receive(self, word: str, text: str) -> None:
+        """Handle a message of the server: "ready", "ended", or "state" with the query of the current state."""
         if word == "state":
             self._reached = f"?{text}"
-        # Also when it has ended: who waits must not wait for longer.
+        # Set on "ended" as well, so that the constructor stops waiting.
         self._ready.set()
 
     def _repr_html_(self) -> str:
-        """The pictures with the controls that matter, and a link to the whole page."""
+        """Return the embedded page and a link to the full page."""
         here = escape(self.url)
         return (
             f'<iframe src="{here}&amp;embed=1" width="100%" height="{self._height}" style="border: 0" '
@@ -76,7 +82,7 @@ class Exploration:
         )
 
     def __enter__(self) -> Exploration:
-        """For as long as a block of code."""
+        """Return this object; the server stops at the end of the block."""
         return self
 
     def __exit__(
@@ -86,11 +92,31 @@ class Exploration:
 
 
 def explore(scene: str = "suslov-hess", /, *, height: int = 640, **parameters: Any) -> Exploration:
-    """Show a scene in a notebook on this machine, in the state of these parameters; height : in pixels.
+    """Show a scene in a notebook that runs on this machine.
 
-    `.state` of the result is the state that the hand has reached.  Raises `InvalidParameter` as `state` does, and
-    `ServerError` where no server can be started.
+    Parameters
+    ----------
+    scene : str
+        Name of the scene, as in a link.
+    height : int
+        Height of the embedded page in pixels.
+    **parameters
+        Parameters of the scene, as in `state`.
 
+    Returns
+    -------
+    Exploration
+        The page; its `state` is the state that the user has reached.
+
+    Raises
+    ------
+    InvalidParameter
+        If a name or a value is not allowed.
+    ServerError
+        If the server cannot be started.
+
+    Examples
+    --------
     >>> import hess_explorer as hess
     >>> hess.explore("suslov-hess", energy=1.2)
     Traceback (most recent call last):
@@ -100,7 +126,7 @@ def explore(scene: str = "suslov-hess", /, *, height: int = 640, **parameters: A
 
 
 def serve_alone(port: int) -> None:
-    """The server of an `Exploration`: a line of JSON, [word, text], for all that it has to say."""
+    """Run the server of an `Exploration`; it prints messages as lines of JSON [word, text]."""
 
     def tell(word: str, text: str = "") -> None:
         print(json.dumps([word, text]), flush=True)
@@ -116,11 +142,11 @@ def _listen(child: subprocess.Popen[str], of: weakref.ref[Exploration]) -> None:
     for line in child.stdout:
         exploration = of()
         if exploration is not None:
-            exploration.told(*json.loads(line))
+            exploration._receive(*json.loads(line))
         del exploration
     exploration = of()
     if exploration is not None:
-        exploration.told("ended", "")
+        exploration._receive("ended", "")
 
 
 def _end(child: subprocess.Popen[str]) -> None:

@@ -1,4 +1,4 @@
-"""A state of the explorer as an object: its parameters by name, the data of its pictures, their drawing."""
+"""A state of the explorer as an object: its parameters, and the data and drawings of its pictures."""
 
 from __future__ import annotations
 
@@ -32,8 +32,12 @@ _ENDINGS = holding("data", "figure", "film")
 
 @dataclass(frozen=True, eq=False)
 class SceneState:
-    """One state of a scene; nothing is computed until it is asked for.  Made by `state` and `from_link`.
+    """A state of a scene, created by `state` and `from_link`.
 
+    Pictures are computed on first use and kept.
+
+    Examples
+    --------
     >>> import hess_explorer as hess
     >>> state = hess.state("suslov-hess", h=1.2, f=0.3, accuracy="draft")
     >>> state.parameters["h"], state.pictures
@@ -52,26 +56,48 @@ class SceneState:
 
     @property
     def body(self) -> Any:
-        """The body of the mechanics: a `HessBody`, `SuslovBody`, `BallBody`, `HeavyBody`, …; None without one.
+        """The body, for example a `HessBody` or `SuslovBody`; None if the scene has no body.
 
-        Raises `ModelError` where there can be none.
+        Raises
+        ------
+        ModelError
+            If no body has these parameters.
         """
         return _first(self._state, ("body", "bridge", "pendulum"))
 
     @property
     def motion(self) -> Any:
-        """The motion on show: its system, start, parameters and time; None without one.  Raises `ModelError`."""
+        """The motion that the scene shows: its system, start, parameters and time; None without a motion.
+
+        Raises
+        ------
+        ModelError
+            If the motion does not exist for these parameters.
+        """
         return self._state.motion()
 
     @property
     def section(self) -> Any:
-        """The section that the scene draws, of the mechanics; None without one.  Raises `ModelError`."""
+        """The Poincaré section that the scene draws; None without a section.
+
+        Raises
+        ------
+        ModelError
+            If the section does not exist for these parameters.
+        """
         return _first(self._state, ("poincare",))
 
     @property
     def periodic(self) -> Any:
-        """The `PeriodicOrbit` on show in a section; None without one.  Raises `ModelError`.
+        """The `PeriodicOrbit` that the section shows; None without one.
 
+        Raises
+        ------
+        ModelError
+            If the state cannot be computed.
+
+        Examples
+        --------
         >>> import hess_explorer as hess
         >>> state = hess.state("quartic", Q1=0.0, Q2=0.1, periodic="period 1", accuracy="draft")
         >>> state.periodic.kind, state.periodic.period
@@ -87,17 +113,17 @@ class SceneState:
 
     @property
     def parameters(self) -> Mapping[str, Value]:
-        """All parameters by name."""
+        """The values of all parameters by name."""
         return MappingProxyType(dict(self._address.values))
 
     @property
     def link(self) -> str:
-        """The query of the state: what follows ? in its address on any server."""
+        """The query of the state, "?" included: append it to the address of any server."""
         return f"?{self._address.link}"
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was wrong in the link, and is put right."""
+        """Corrections of the link that the state was read from."""
         return self._address.notes
 
     @property
@@ -106,8 +132,25 @@ class SceneState:
         return self._address.scene.pictures
 
     def but(self, **changes: Any) -> SceneState:
-        """The same with some parameters changed.  Raises `InvalidParameter` as `state` does.
+        """Return a copy with some parameters changed.
 
+        Parameters
+        ----------
+        **changes
+            New values by name, as in `state`.
+
+        Returns
+        -------
+        SceneState
+            The changed state.
+
+        Raises
+        ------
+        InvalidParameter
+            If a name or a value is not allowed.
+
+        Examples
+        --------
         >>> import hess_explorer as hess
         >>> hess.state("suslov-hess").but(h=2.0).parameters["h"]
         2.0
@@ -115,17 +158,47 @@ class SceneState:
         return state(self.scene, **{**self.parameters, **self._address.looks, **changes})
 
     def data(self, picture: str = "") -> Table:
-        """What a picture shows, the first one without a name: the columns of its CSV.
+        """Return the data of a picture, with the columns of its CSV file.
+
+        Parameters
+        ----------
+        picture : str
+            Name of the picture; the first picture by default.
+
+        Returns
+        -------
+        Table
+            The columns in double precision.
 
         Raises
         ------
-        InvalidParameter : there is no such picture.
-        ModelError : the state cannot be computed.
+        InvalidParameter
+            If the scene has no such picture.
+        ModelError
+            If the state cannot be computed.
         """
         return columns_of(self._shown(picture))
 
     def plot(self, picture: str = "") -> Any:
-        """The picture by HoloViews, to look at, to combine and to restyle.  Raises as `data`."""
+        """Return a picture as a HoloViews object, which can be combined and restyled.
+
+        Parameters
+        ----------
+        picture : str
+            Name of the picture; the first picture by default.
+
+        Returns
+        -------
+        holoviews.Overlay or holoviews.RGB
+            The layers of a plot; an image of spheres, bodies and clouds.
+
+        Raises
+        ------
+        InvalidParameter
+            If the scene has no such picture, or if an image needs Matplotlib and it is not installed.
+        ModelError
+            If the state cannot be computed.
+        """
         from hess_explorer.library.drawing import draw
 
         return draw(self._shown(picture))
@@ -133,23 +206,65 @@ class SceneState:
     def save(
         self, file: str | Path, picture: str = "", *, width: float = 85.0, black: bool = False, seconds: float = 10.0
     ) -> Path:
-        """Write a picture as the file's ending says: csv and json, a figure as png, svg, pdf, a film as webm, mp4, gif.
+        """Write a picture to a file.
 
-        width : millimetres of a figure or film; black : black on white; seconds : of a film.
-        Raises `InvalidParameter`, `ModelError`, `OSError`.
+        Parameters
+        ----------
+        file : str or Path
+            Name of the file.  Its suffix chooses the format: csv and json for data; png, svg and pdf for a figure;
+            webm, mp4 and gif for a film.
+        picture : str
+            Name of the picture; the first picture by default.
+        width : float
+            Width of a figure or film in millimetres.
+        black : bool
+            True for black on white instead of the colours of the page.
+        seconds : float
+            Duration of a film in seconds.
+
+        Returns
+        -------
+        Path
+            The path of the file.
+
+        Raises
+        ------
+        InvalidParameter
+            If the format is unknown or the scene has no such picture.
+        ModelError
+            If the state cannot be computed.
+        OSError
+            If the file cannot be written.
         """
         path = Path(file)
         kind = path.suffix.removeprefix(".").lower()
         if kind not in _ENDINGS:
             raise InvalidParameter(
-                f"A file whose name ends in {path.suffix!r} cannot be written: choose one of .{', .'.join(_ENDINGS)}."
+                f"The file format {path.suffix!r} is not supported: choose one of .{', .'.join(_ENDINGS)}."
             )
         path.write_bytes(content(self._shown(picture), Wish(kind, width, black, seconds)))
         return path
 
     def code(self, picture: str = "") -> str:
-        """The few lines of Python that make this state, compute and draw.
+        """Return Python code that creates this state, computes its data and draws a picture.
 
+        Parameters
+        ----------
+        picture : str
+            Name of the picture; the first picture by default.
+
+        Returns
+        -------
+        str
+            A complete script.
+
+        Raises
+        ------
+        InvalidParameter
+            If the scene has no such picture.
+
+        Examples
+        --------
         >>> import hess_explorer as hess
         >>> print(hess.state("loxodrome").code("angle"))  # doctest: +ELLIPSIS
         # ...
@@ -169,7 +284,7 @@ class SceneState:
     def _shown(self, picture: str) -> Shown:
         found = self._at(picture)
         if found.picture.name not in self._known:
-            # The kernels check for overflow themselves.
+            # The kernels check their results for overflow themselves.
             with np.errstate(all="ignore"):
                 self._known[found.picture.name] = show(found)
         return self._known[found.picture.name]
@@ -190,11 +305,29 @@ class SceneState:
 
 
 def state(scene: str = "suslov-hess", /, **parameters: Any) -> SceneState:
-    """The state of a scene with these parameters, as the page names them; the others are those of a newcomer.
+    """Return the state of a scene with the given parameters.
 
-    Besides parameters: `t`, the time of clouds; `az`, `el`, from where spheres are seen.
-    Raises `InvalidParameter` for a name or a value that cannot be, which says what can.
+    Parameters
+    ----------
+    scene : str
+        Name of the scene, as in a link.
+    **parameters
+        Values by the names that a link uses; other parameters have the defaults of the page.  Besides the parameters of
+        the scene: `t`, the time of bodies and clouds; `az` and `el`, azimuth and elevation of the view of a sphere in
+        radians.
 
+    Returns
+    -------
+    SceneState
+        The state; nothing is computed yet.
+
+    Raises
+    ------
+    InvalidParameter
+        If a name or a value is not allowed; the message lists the allowed ones.
+
+    Examples
+    --------
     >>> import hess_explorer as hess
     >>> hess.state("suslov-hess", I22=1.5, h=1.2, f=0.3).parameters["I22"]
     1.5
@@ -221,10 +354,27 @@ def state(scene: str = "suslov-hess", /, **parameters: Any) -> SceneState:
 
 
 def from_link(link: str, *, lenient: bool = False) -> SceneState:
-    """The state that a link describes, or what follows ? in it.
+    """Return the state that a link describes.
 
-    lenient : whether what is wrong in it is put right, and said in `notes`.  Raises `InvalidParameter` otherwise.
+    Parameters
+    ----------
+    link : str
+        A link to the page, or its part after "?".
+    lenient : bool
+        True to correct errors in the link and list them in `notes`; False to raise an error.
 
+    Returns
+    -------
+    SceneState
+        The state; nothing is computed yet.
+
+    Raises
+    ------
+    InvalidParameter
+        If the link is invalid and `lenient` is False.
+
+    Examples
+    --------
     >>> import hess_explorer as hess
     >>> state = hess.from_link("http://localhost:5006/?scene=scattering&theta=1.0")
     >>> state.parameters["theta"]
@@ -236,14 +386,13 @@ def from_link(link: str, *, lenient: bool = False) -> SceneState:
 
 
 def _checked(spec: Spec, value: Any) -> Value:
-    """A value of a parameter.  Raises `InvalidParameter`, in the words of a link's notes."""
+    """Return the value of a parameter; raise `InvalidParameter` with the text of a link's note."""
     found: Value
     note: str | None
     if isinstance(spec, Number):
         if isinstance(value, bool) or not isinstance(value, Real):
             raise InvalidParameter(
-                f"{value!r} is not a number: {spec.name} ({spec.label}) is one from "
-                f"{spec.bounds[0]:g} to {spec.bounds[1]:g}."
+                f"{value!r} is not a number: {spec.name} ({spec.label}) must be a number {spec.range}."
             )
         if not math.isfinite(value):
             raise InvalidParameter(f"{spec.name} ({spec.label}) must be a finite number.")
@@ -252,7 +401,7 @@ def _checked(spec: Spec, value: Any) -> Value:
         try:
             pairs = [(float(x), float(y)) for x, y in value]
         except (TypeError, ValueError):
-            raise InvalidParameter(f"{spec.name} ({spec.label}) are pairs [(x, y), …].") from None
+            raise InvalidParameter(f"{spec.name} ({spec.label}) must be a list of pairs [(x, y), …].") from None
         found, note = spec.read(written(pairs))
     else:
         found, note = spec.read(as_level_name(value) if isinstance(value, Level) else str(value))
@@ -262,7 +411,7 @@ def _checked(spec: Spec, value: Any) -> Value:
 
 
 def _first(state: Any, names: tuple[str, ...]) -> Any:
-    """The first of these properties that the state of a scene has; None without one."""
+    """Return the first of these properties that the state of a scene has, or None."""
     return next(
         (
             getattr(state, name)

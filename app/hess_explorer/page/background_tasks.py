@@ -1,4 +1,4 @@
-"""The tasks that a state still lacks: computed in the background until they are stopped."""
+"""The background tasks of the state on show."""
 
 from __future__ import annotations
 
@@ -10,9 +10,11 @@ __all__ = ["BackgroundTasks"]
 
 
 class BackgroundTasks:
-    """The tasks of the state on show.
+    """Starts, stops and reports the background tasks of the state on show.
 
-    background : computes them; progress : (done, of) while some are on their way.
+    Attributes
+    ----------
+    background : computes the tasks; progress : (done, total) while tasks are running, else None.
     """
 
     def __init__(self) -> None:
@@ -24,42 +26,42 @@ class BackgroundTasks:
         self._stopped = False
 
     def stop(self) -> None:
-        """Leave it at what is drawn, until something else is wanted."""
+        """Stop the tasks and keep what is drawn, until another state is requested."""
         if self.progress is not None:
             self._stopped = True
             self.background.stop()
 
     def drop(self) -> None:
-        """Nothing of the state on show is of use."""
+        """Discard the tasks of the state on show."""
         self.progress = None
         self._next = None
         self.background.stop()
 
     def resume(self) -> None:
-        """Something else is wanted."""
+        """Allow tasks again, for another state."""
         self._stopped = False
 
     def ended(self, more: bool) -> bool:
-        """Whether nothing is computed any more; more : whether the state is the same.
+        """Return True if no task is running any more; more : True if the state is unchanged.
 
-        To be asked before the state is computed: the last task may end meanwhile.
+        Call it before the state is computed, because the last task may end during that computation.
         """
         self._left = self.background.left
         return self._left == 0 if more else self._stopped
 
     @property
     def news(self) -> bool:
-        """Return whether a task has ended since the state was computed, or none is running."""
+        """True if a task has ended since the state was computed, or no task is running."""
         return not 0 < self.background.left == self._left
 
     def follow(self, report: Report, more: bool, ended: bool) -> list[str]:
-        """What the report lacks is computed in the background from `start` on; a note where that had ended early."""
+        """Plan the tasks that the report lists; return a note if they ended early.  `start` starts them."""
         left = len(report.todo)
         if not more:
             self._followed = set()
-        # What was found may ask for more.
+        # Results may add tasks.
         fresh = [task for task in report.todo if task not in self._followed]
-        # Once stopped, a picture that comes into sight begins nothing again.
+        # After a stop, a picture that enters the viewport does not start tasks again.
         if not self._stopped and (not more or (ended and fresh and not self.background.error)):
             self._followed.update(fresh)
             self._left = len(fresh)
@@ -76,7 +78,7 @@ class BackgroundTasks:
         ]
 
     def start(self) -> None:
-        """Start the tasks, once the answer has been sent: they would hold it up while they have Python's lock."""
+        """Start the tasks after the response has been sent; they would delay it by holding the interpreter lock."""
         if self._next is not None:
             self.background.follow(self._next)
             self._next = None

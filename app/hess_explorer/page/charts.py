@@ -1,4 +1,4 @@
-"""The chart of one session: starts and stops it, and answers with the cells that are known."""
+"""The chart of one session: start it, stop it, and send its cells."""
 
 from __future__ import annotations
 
@@ -29,27 +29,27 @@ logger = logging.getLogger("hess_explorer")
 
 
 class Charts:
-    """One chart at a time, whatever scene is on show; it ends with the page."""
+    """Manages the single chart of a session; it is independent of the scene and ends with the page."""
 
     def __init__(self) -> None:
         self._id: int | None = None
         self._charting: Charting | None = None
 
     def end(self) -> None:
-        """Stop computing: the page is gone, or another chart begins."""
+        """Stop the computation, because the page has closed or another chart starts."""
         if self._charting is not None:
             self._charting.stop()
             self._charting = None
 
     def answer(self, request: ChartRequest) -> Answer:
-        """Do what a request says, and return what the page is told."""
+        """Process a request and return the response."""
         try:
             return self._answer(request)
         except ModelError as refusal:
             return Answer(chart=ChartEnded(self._id, str(refusal)))
         except Abandoned:
             raise
-        # Whatever it is, the page waits for an answer and shows no traceback; the log says all.
+        # Log any error; the page waits for a response and must not show a traceback.
         except Exception:
             logger.exception("a chart could not be started")
             return Answer(chart=ChartEnded(self._id, FAILED))
@@ -71,15 +71,15 @@ class Charts:
         return Answer()
 
     def _cells(self, known: int) -> Answer:
-        """Return the cells that have come since so many were known, and how far the chart is."""
+        """Return the cells after the first `known` ones, and the progress of the chart."""
         charting = self._charting
         if charting is None:
             return Answer(chart=ChartEnded(self._id, ""))
-        # Before the cells: what comes meanwhile is asked for once more.
+        # Read the progress before the cells: the page requests later cells once more.
         running, progress = charting.running, charting.progress
         where, values, status = charting.since(known)
         if not running and where.size == 0:
-            # The browser has it all.
+            # The browser has all cells.
             self._charting = None
         chart = charting.chart
         return Answer(
@@ -103,5 +103,5 @@ class Charts:
 
 
 def _side(side: Side) -> tuple[str, float, float, int]:
-    """Return a side as it is after it was clamped."""
+    """Return an axis of the chart after clamping."""
     return side.name, side.low, side.high, side.count

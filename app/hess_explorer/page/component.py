@@ -1,7 +1,6 @@
-"""The page's component for Panel: one ES module that builds the whole page in the browser.
+"""The Panel component of the page: one ES module that builds the whole page in the browser.
 
-Its parts are ES modules under `static/`, mounted by "page/shell.js".  They know each other only by the events of
-"page/bus.js".
+"page/shell.js" mounts its parts, the ES modules under `static/`.  They communicate only by the events of "page/bus.js".
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ __all__ = ["Explorer", "styles"]
 
 
 def styles() -> dict[str, str]:
-    """Return the style sheets of the parts by their paths; that of what is printed is fetched by itself."""
+    """Return the style sheets of the parts by path, without those for printing and for offline files."""
     return {
         f"{path.parent.name}/{path.name}": path.read_text(encoding="utf-8")
         for path in sorted(STATIC.glob("*/*.css"))
@@ -24,24 +23,24 @@ def styles() -> dict[str, str]:
 
 
 class Explorer(JSComponent):
-    """The page, from which the browser builds everything else; states come by the websocket of `Connection`."""
+    """The page as a single component; states arrive on the websocket of `Connection`."""
 
     client = param.Dict(
         default={},
-        doc="URL keys that the browser itself keeps: t, speed, az, el, large, present, "
+        doc="URL keys that the browser keeps: t, speed, az, el, large, present, "
         "embed, pictures, controls, lesson, step.",
     )
-    lesson = param.String(default="", doc="JSON: the lesson that the link names, see `description`.")
+    lesson = param.String(default="", doc="The lesson that the link names, as JSON; see `description`.")
     lessons = param.List(default=[], doc="{name, title, minutes} of each lesson.")
-    scenes = param.List(default=[], doc="{name, title, summary, picture, origin, group} of each.")
-    palettes = param.Dict(default={}, doc="Colours of a chart: of numbers, and of turns.")
+    scenes = param.List(default=[], doc="{name, title, summary, picture, origin, group} of each scene.")
+    palettes = param.Dict(default={}, doc="Colours of a chart, for numbers and for angles.")
     files = param.Dict(
         default={},
-        doc="formats: [kind, words, what it holds] of each that Export offers; width, seconds: least, most and usual.",
+        doc="formats: [kind, words, category] of each export format; width, seconds: [minimum, maximum, default].",
     )
-    sheets = param.Dict(default={}, doc="`styles()`.")
+    sheets = param.Dict(default={}, doc="The result of `styles()`.")
 
-    # Panel fetches the module from its own URL, also where a proxy serves the page under a prefix.
+    # A relative URL, which also works behind a proxy that serves the page under a prefix.
     _esm = f"""
 export const render = async (component) => {{
   const module = await import(new URL("{modules_path()}/page/shell.js", document.baseURI).href)

@@ -1,4 +1,4 @@
-"""One page: its requests wait in a queue, so that nothing is computed in the thread that serves."""
+"""The server side of one page: its requests wait in a queue, so that the event loop never computes."""
 
 from __future__ import annotations
 
@@ -16,13 +16,18 @@ __all__ = ["Connection"]
 
 
 class Connection:
-    """Answers the requests of a page one by one, beginning with the state of its query.
+    """Processes the requests of a page one by one, starting with the state of its query.
 
     Parameters
     ----------
-    query, lesson : of the page, see `opening`.
-    send : sends a frame to the page, from any thread.
-    follow : told the query of each state that the page shows.
+    query : str
+        Query of the page's URL.
+    lesson : Lesson or None
+        A lesson in addition to those of the package, see `opening`.
+    send : callable
+        Sends a frame to the page; called from any thread.
+    follow : callable or None
+        Called with the query of each state that the page shows.
     """
 
     def __init__(
@@ -35,13 +40,13 @@ class Connection:
         self._queue.put(partial(self._answer, Request(requested=0)))
 
     def receive(self, message: object) -> None:
-        """Queue the request in decoded JSON, which is not trusted."""
+        """Queue a request from decoded, untrusted JSON."""
         request = parse(message)
         if request is not None:
             self._queue.put(partial(self._answer, request))
 
     def end(self) -> None:
-        """Drop what waits, and stop what runs: the page is gone."""
+        """Drop the waiting requests and stop the running one, because the page has closed."""
         self._queue.end()
         self._charts.end()
 

@@ -1,4 +1,4 @@
-"""What the controls of a scene show: values, the ranges of sliders, the example that the values are."""
+"""Update the controls of a scene: values, slider ranges, the selected example."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from hess_explorer.scenes.framework.scene import Scene
 __all__ = ["CHOOSE", "example_of", "show_controls", "slider_limits"]
 
 CHOOSE = ""
-"""What the menu of examples says when the values are none of them."""
+"""Entry of the menu of examples when the values match no example."""
 
 
 def slider_limits(spec: Number, limits: Mapping[str, tuple[float, float, float]]) -> tuple[float, float, float]:
-    """(low, high, step) of a slider: the scene's where they depend on the state, else the parameter's own."""
+    """Return (low, high, step) of a slider: from `limits` if they depend on the state, else from the parameter."""
     return limits.get(spec.name, (*spec.softbounds, spec.step))
 
 
 def example_of(scene: Scene[Any], values: Values) -> str:
-    """The name of the example that these values are, or `CHOOSE`."""
+    """Return the name of the example that matches the values, or `CHOOSE`."""
     idle = scene.idle(values)
 
     def shown(example: Values) -> bool:
@@ -31,7 +31,7 @@ def example_of(scene: Scene[Any], values: Values) -> str:
 
 
 def show_controls(scene: Scene[Any], values: Values, wire: Wire) -> None:
-    """Bring all controls up to date."""
+    """Send the values and ranges of all controls."""
     limits, idle = scene.limits(values), scene.idle(values)
     for spec in scene.specs:
         if isinstance(spec, Number):

@@ -1,4 +1,4 @@
-"""A scene as the browser gets it, once: its empty pictures, its controls, its words."""
+"""Descriptions of scenes and lessons for the browser: empty pictures, controls and texts, sent once each."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ _one_at_a_time = threading.Lock()
 
 
 def describe(name: str) -> str:
-    """JSON of the scene of that name; the same for all sessions."""
-    # HoloViews' options are global.
+    """Return the description of a scene as JSON, which all sessions share."""
+    # The options of HoloViews are global.
     with _one_at_a_time:
         return _describe(name)
 
@@ -69,7 +69,7 @@ def _describe(name: str) -> str:
 
 
 def _handle(scene: Scene[Any]) -> dict[str, Any] | None:
-    """What a newcomer should drag: the control of a parameter, or a layer of a picture."""
+    """Return the handle that a newcomer should drag: a control, or a layer of a picture."""
     picture, _, layer = scene.handle.partition("/")
     if not layer:
         name = scene.handle or next(iter(scene.essential), "")
@@ -80,7 +80,7 @@ def _handle(scene: Scene[Any]) -> dict[str, Any] | None:
 
 
 def _chart(scene: Scene[Any], charted: Charted[Any]) -> dict[str, Any]:
-    """What can be charted: over which of its parameters, those with open controls first; for which pictures."""
+    """Return the description of a quantity that can be charted, with its parameters and pictures."""
     what = quantity(charted.quantity)
     return {
         "quantity": what.name,
@@ -96,7 +96,7 @@ def _chart(scene: Scene[Any], charted: Charted[Any]) -> dict[str, Any]:
 
 
 def _html(scene: Scene[Any]) -> str:
-    """Its words; a drawing stands in the text, where it takes the colours of the page, and asks for no file."""
+    """Return the text of a scene as HTML with inline drawings, which take the colours of the page."""
 
     def drawing(_: object, tokens: Sequence[Token], i: int, *rest: object) -> str:
         return scene.drawing(str(tokens[i].attrs["src"]))
@@ -116,7 +116,7 @@ def _control(spec: Number | Choice) -> dict[str, Any]:
 
 @cache
 def describe_lesson(lesson: Lesson) -> str:
-    """JSON of a lesson; the same for all sessions."""
+    """Return the description of a lesson as JSON, which all sessions share."""
     return json.dumps({"name": lesson.name, "title": lesson.title, "minutes": lesson.minutes, "steps": _steps(lesson)})
 
 

@@ -1,4 +1,4 @@
-"""A state as one HTML file that plays and turns without a server: the page's own modules, with the data inside."""
+"""Export a state as one HTML file that works without a server: the modules of the page with the data inside."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ from hess_explorer.scenes.framework.stage import Stage
 __all__ = ["HOME", "as_html", "bundled"]
 
 HOME = "http://localhost:5006/"
-"""Where `hess-explorer` opens the page."""
+"""Default address of the page."""
 
 _ENTRY = "page/offline.js"
 _IMPORT = re.compile(r'(?<=from )"(\.{1,2}/[\w./]+\.js)"')
 _POLICY = "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; img-src data: blob:"
-"""The browser itself refuses whatever would ask another host."""
+"""Content-Security-Policy that blocks all requests to other hosts."""
 
 _PAGE = """<!DOCTYPE html>
 <html lang="en">
@@ -69,14 +69,30 @@ _PAGE = """<!DOCTYPE html>
 
 
 def as_html(query: str, pictures: Sequence[str] = (), home: str = HOME, *, lenient: bool = False) -> tuple[str, bytes]:
-    """The name of the scene of a query, and the file of its state with these pictures, or those open at first.
+    """Return the name of the scene of a query, and the HTML file of its state.
 
-    home : the address of the explorer that the link in it leads to; lenient : as in `address`.
+    Parameters
+    ----------
+    query : str
+        Query of the state.
+    pictures : sequence of str
+        Names of the pictures; by default those that are open at first.
+    home : str
+        Address of the explorer, for the link in the file.
+    lenient : bool
+        True to correct an invalid query, as in `address`.
+
+    Returns
+    -------
+    tuple of str and bytes
+        The name of the scene and the contents of the file.
 
     Raises
     ------
-    InvalidParameter : the scene has no such picture, or the query is wrong.
-    ModelError : the state cannot be computed.
+    InvalidParameter
+        If the scene has no such picture, or the query is invalid.
+    ModelError
+        If the state cannot be computed.
     """
     found = address(query, lenient=lenient)
     scene, values, link = found.scene, found.values, found.link
@@ -95,7 +111,7 @@ def as_html(query: str, pictures: Sequence[str] = (), home: str = HOME, *, lenie
     show_controls(scene, values, wire)
     tree, block = wire.pack()
     description = json.loads(describe(scene.name))
-    # What would ask a server is not offered.
+    # Remove the interactions that need a server.
     description["handle"] = None
     description["pictures"] = [
         {**one, "folded": None, "hands": "", **({"picks": []} if "picks" in one else {})}
@@ -133,9 +149,9 @@ def as_html(query: str, pictures: Sequence[str] = (), home: str = HOME, *, lenie
 
 
 def bundled(entry: str) -> dict[str, str]:
-    """The modules that one needs, itself included, by their path: each as a URL that has the module in it.
+    """Return a module and all that it imports, by path, as data URLs for an import map.
 
-    They name each other by path, for the import map: from such a URL no other path leads anywhere.
+    Relative imports are rewritten to paths, because they cannot be resolved from a data URL.
     """
     found: dict[str, str] = {}
 
@@ -158,5 +174,5 @@ def bundled(entry: str) -> dict[str, str]:
 
 
 def _json(value: Any) -> str:
-    """JSON that may stand in a script of HTML."""
+    """Return JSON that is safe inside an HTML script element."""
     return json.dumps(value, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c")

@@ -1,4 +1,4 @@
-"""What a link opens: read twice, for the page itself and where its states are computed, with the same outcome."""
+"""Read the link of a page.  The document and the websocket both do this, with the same result."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from hess_explorer.scenes.framework.scene import Scene
 __all__ = ["THEME", "Opening", "opening", "query_of"]
 
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
-"""Of the player."""
+"""Playback speeds."""
 THEME = Choice("theme", "Theme", ("light", "dark"), "light")
 PRESENT = Choice("present", "Present mode", ("0", "1"), "0")
 EMBED = Choice("embed", "Embedding", ("0", "1"), "0")
@@ -25,11 +25,12 @@ EMBED = Choice("embed", "Embedding", ("0", "1"), "0")
 
 @dataclass(frozen=True)
 class Opening:
-    """A page as its link has it.
+    """The initial content of a page.
 
-    scene, values : shown first; notes : what had to be changed in the link; lessons : those that can be given;
-    reading : the one that is given; pictures : those in sight; client : what the browser itself keeps; dark : its
-    theme.
+    Attributes
+    ----------
+    scene, values : the initial state; notes : corrections of the link; lessons : available lessons; reading : the open
+    lesson; pictures : visible pictures; client : URL keys that the browser keeps; dark : True for the dark theme.
     """
 
     scene: Scene[Any]
@@ -43,16 +44,32 @@ class Opening:
 
 
 def query_of(arguments: Mapping[str, Iterable[bytes]]) -> str:
-    """The query of a request: of each name what was given first."""
+    """Return the query of a request, with the first value of each key."""
     pairs = ((name, next(iter(given), None)) for name, given in arguments.items())
     return urlencode([(name, first.decode("utf-8", "replace")) for name, first in pairs if first is not None])
 
 
 def opening(query: str, own: Lesson | None, *, lenient: bool = True) -> Opening:
-    """What the query of a link opens; own : a lesson besides those of the package.
+    """Return the initial content of a page.
 
-    An address that names neither a scene nor a lesson begins that one.  What is wrong in the query is put right and
-    noted, unless it is not read leniently: then `InvalidParameter` is raised.
+    Parameters
+    ----------
+    query : str
+        Query of the link.
+    own : Lesson or None
+        A lesson in addition to those of the package.  A link that names neither scene nor lesson opens it.
+    lenient : bool
+        True to correct errors and append notes; False to raise an error.
+
+    Returns
+    -------
+    Opening
+        The content of the page.
+
+    Raises
+    ------
+    InvalidParameter
+        If the query is invalid and `lenient` is False.
     """
     lessons = {own.name: own, **shipped()} if own else dict(shipped())
     link = Link(query, lenient)
@@ -61,7 +78,7 @@ def opening(query: str, own: Lesson | None, *, lenient: bool = True) -> Opening:
     most = len(reading.steps) if reading else 1
     at = int(float(link.value(Number("step", "step", "Step", 1.0, (1.0, most), 1.0, (1.0, most)))))
     if reading and "scene" not in link.given:
-        # A link to a step alone is one to its state.
+        # A link with only a step opens the state of that step.
         place = reading.steps[at - 1].at
         scene, state = scenes()[place.scene], dict(place.values)
     else:
@@ -76,9 +93,9 @@ def opening(query: str, own: Lesson | None, *, lenient: bool = True) -> Opening:
         "step": str(at) if reading else "",
     }
     dark = link.value(THEME) == "dark"
-    # What is not written into the address is empty.
+    # An empty text is left out of the URL.
     client |= {spec.name: str(link.value(spec)).strip("0") for spec in (PRESENT, EMBED)}
-    # None at all is none meant.
+    # An empty list means the default.
     parts = {spec.name: str(link.value(spec)) or spec.default for spec in _embedded(scene)}
     pictures = scene.open_pictures
     if client[EMBED.name]:
@@ -88,7 +105,7 @@ def opening(query: str, own: Lesson | None, *, lenient: bool = True) -> Opening:
 
 
 def _embedded(scene: Scene[Any]) -> tuple[Names, Names]:
-    """The pictures and the controls of a page inside another one (`embed=1`); "none": no control."""
+    """Return the parameters "pictures" and "controls" of an embedded page; "none" means no control."""
     controls = tuple(spec.name for spec in scene.specs if isinstance(spec, Number | Choice))
     return (
         Names("pictures", "Embedded pictures", scene.pictures, len(scene.pictures), ",".join(scene.open_pictures)),

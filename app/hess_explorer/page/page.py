@@ -1,6 +1,6 @@
-"""The page: Panel's for the document and its theme, with one component that holds everything.
+"""The page: a Panel page for document and theme, with one component that holds everything.
 
-Panel knows nothing of states: they come by a websocket of their own ("server/websockets.py").
+Panel does not handle states; they use a separate websocket ("server/websockets.py").
 """
 
 from __future__ import annotations
@@ -31,31 +31,31 @@ _FILES = {
     "width": [*WIDTHS, Wish.width],
     "seconds": [*SERVED_SECONDS, Wish.seconds],
 }
-# Of a chart, as of every map of numbers.
+# Colours of charts, the same as in other maps.
 _PALETTES = {"plain": [*Cividis256], "round": [*theme.TURN_MAP]}
 
-# The system's font: the fourteen files of another one would come before the first picture.
+# The system font: a web font would load fourteen files before the first picture.
 FONT = "system-ui, sans-serif"
 
 BARE: dict[str, Any] = {
     "height": "100dvh",
     "& .MuiAppBar-root, & .main .MuiToolbar-root": {"display": "none"},
 }
-"""Of Panel's page neither the bar nor the room for it: its drawers would cover a phone."""
+"""Styles that hide Panel's app bar and toolbar."""
 
 
 def page(own: Lesson | None = None) -> Any:
-    """A new page, as its URL describes it; own : a lesson besides those of the package."""
+    """Return a new page for the current request; own : a lesson in addition to those of the package."""
     try:
         return _page(_query(), own)
-    # Whatever it is, a user sees a sentence and the log the rest.
+    # Log any error; the user sees one sentence.
     except Exception:
         logger.exception("the page could not be built")
-        return pn.pane.Str("The page could not be built. Open it without the part of its address after “?”.")
+        return pn.pane.Str("The page could not be built. Remove the part of its address after “?” and try again.")
 
 
 def _query() -> str:
-    """The query of the request that opened this page."""
+    """Return the query of the request that opened this page."""
     context = pn.state.curdoc.session_context if pn.state.curdoc else None
     return query_of(getattr(getattr(context, "request", None), "arguments", None) or {})
 
@@ -83,9 +83,9 @@ def _page(query: str, own: Lesson | None) -> pmui.Page:
         busy_indicator=None,
         sx=BARE,
     )
-    # The page's own busy flag is sent with every event and makes Panel walk through all models each
-    # time (100 ms); `data-ready` says the same.  It follows Panel's global state, whose watcher would keep every page
-    # alive: a reference to what lives as long as this page takes its place, for setting a value would leave it there.
+    # Panel would send the busy flag with every event and traverse all models each time (100 ms); `data-ready` replaces
+    # it.  The flag watches Panel's global state, which would keep every page alive.  Setting a value does not remove
+    # that watcher, so first refer to a parameter that lives as long as the page.
     with edit_readonly(result):
         result.busy = explorer.param.loading
         result.busy = False
@@ -93,7 +93,7 @@ def _page(query: str, own: Lesson | None) -> pmui.Page:
 
 
 def _entry(scene: Scene[Any]) -> dict[str, str | None]:
-    """What the menu of scenes says of one."""
+    """Return the entry of a scene for the menu of scenes."""
     return {
         "name": scene.name,
         "title": scene.title,

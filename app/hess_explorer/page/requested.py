@@ -1,4 +1,4 @@
-"""The requested state: a scene and its values, as the user has asked for them."""
+"""The requested state: a scene and the values that the user has chosen."""
 
 from __future__ import annotations
 
@@ -14,16 +14,18 @@ __all__ = ["RequestedState", "linked"]
 
 
 def linked(link: Link, here: str) -> tuple[Scene[Any], dict[str, Value]]:
-    """Return the scene that a link names, else the one of the name `here`, and its values there."""
+    """Return the scene of a link, by default the scene `here`, and the values of its parameters."""
     scene = scenes()[str(link.value(Choice("scene", "Scene", tuple(scenes()), here)))]
     return scene, link.values(scene.specs)
 
 
 class RequestedState:
-    """The requested scene and values, each value within its bounds; what is possible together, the scene knows.
+    """The requested scene and values, each value within its bounds; the scene checks their combination.
 
-    notes : on the values that had to be changed, of the last change alone.
-    carried : whether the values were carried over from a scene of another motion, and may be impossible here.
+    Attributes
+    ----------
+    notes : notes on corrected values, only for the last change.
+    carried : True if the values were carried over from a scene of another motion, and so may be impossible here.
     """
 
     def __init__(self, scene: Scene[Any], values: Values, notes: list[str]) -> None:
@@ -32,7 +34,7 @@ class RequestedState:
         self._enter(scene, values, notes)
 
     def _enter(self, scene: Scene[Any], values: Values, notes: list[str]) -> None:
-        """Go to a scene; its defaults where the values say nothing."""
+        """Go to a scene; parameters without a value have their defaults."""
         if scene is not self.scene:
             self._left[self.scene.name] = self.values
         self.scene, self.notes, self.carried = scene, [*notes], False
@@ -41,7 +43,7 @@ class RequestedState:
         self._set(values)
 
     def change(self, values: Values) -> None:
-        """Set these values; a choice carries the numbers along that keep the motion continuous."""
+        """Set values; when a choice changes, also set the numbers that keep the motion continuous."""
         before = dict(self.values)
         self.notes = []
         self._set(values)
@@ -50,10 +52,10 @@ class RequestedState:
             self._set({name: value for name, value in carried.items() if name not in values})
 
     def change_scene(self, scene: Scene[Any]) -> None:
-        """Go to a scene as it was left, with what was changed in this one and means the same there."""
+        """Go to a scene as it was left, and carry over changed values of parameters with the same meaning."""
         if scene is self.scene:
             return
-        # "Speed and accuracy" of a scene is of the very same state.
+        # A scene and its "Speed and accuracy" scene share one state.
         carried = (scene.origin or scene.name) != (self.scene.origin or self.scene.name)
         values = (
             scene.taken_over(self._left.get(scene.name, scene.defaults()), self.scene, self.values)
@@ -64,14 +66,14 @@ class RequestedState:
         self.carried = carried
 
     def restore(self, query: str) -> None:
-        """Go to the state of a link, or of a step that is undone."""
+        """Go to the state of a link, or of an undo step."""
         link = Link(query)
         scene, values = linked(link, self.scene.name)
         self.go(StateLink(scene.name, values))
         self.notes = link.notes
 
     def go(self, place: StateLink) -> None:
-        """Go to this state: all of its values, whatever was chosen before."""
+        """Go to a state, with all of its values."""
         scene = scenes()[place.scene]
         if scene.name == self.scene.name:
             self.change(place.values)
@@ -79,13 +81,11 @@ class RequestedState:
             self._enter(scene, place.values, [])
 
     def start_anew(self) -> None:
-        """Go to the scene's own first state, in place of values that are impossible here."""
-        self._enter(
-            self.scene, {}, ["What was chosen before is not possible here: this is the scene's own first state."]
-        )
+        """Go to the default state of the scene, because the carried values are impossible here."""
+        self._enter(self.scene, {}, ["The previous values are not possible here: this is the scene's default state."])
 
     def _set(self, values: Values) -> None:
-        """Set values within the bounds of their parameters, and note each number that had to be changed."""
+        """Set values, clamped to the bounds of their parameters, and note each corrected number."""
         for name, value in values.items():
             match self.specs.get(name):
                 case Number() as spec:

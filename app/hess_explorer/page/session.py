@@ -1,4 +1,4 @@
-"""One user's session: the single place where a change becomes a computation and a picture."""
+"""The session of one page: turns each requested change into a computation and pictures."""
 
 from __future__ import annotations
 
@@ -33,16 +33,23 @@ FAILED = "This state could not be computed. Press Reset, and please report the l
 
 
 class Session:
-    """Requested values → admitted values → result → pictures.
+    """Computes and draws the states of a page: requested values → admitted values → result → pictures.
 
-    A change only sets what is requested.  The browser asks for the state after its last change, and not again before
-    that is painted: so nothing queues, and the newest state wins.
+    A change only updates the requested state.  The browser requests the state after its last change, and the next one
+    only when that is painted, so requests do not pile up and the newest state wins.
 
     Parameters
     ----------
-    scene, values : the state to begin with; notes : what had to be changed in the link.
-    lessons : those that can be given, by name.
-    pictures : those in sight, until the browser says which are.
+    scene : Scene
+        The initial scene.
+    values : mapping
+        Values of its parameters.
+    notes : list of str
+        Corrections of the link.
+    lessons : mapping
+        Available lessons by name.
+    pictures : collection of str, optional
+        Visible pictures, until the browser reports which are in the viewport.
     """
 
     def __init__(
@@ -57,17 +64,17 @@ class Session:
         self.wire = Wire()
         self._lessons = lessons
         self._tasks = BackgroundTasks()
-        # The browser keeps the pictures of all scenes that it has seen, and a stage knows what it has drawn on them.
+        # The browser keeps the pictures of all visited scenes; a stage records what it has drawn on them.
         self._stages: dict[str, Stage[Any]] = {}
         self._described: set[str] = set()
         self._in_sight = scene.open_pictures if pictures is None else pictures
         self._held = False
         self._number = 0
         self.values: Values = {}
-        # The scene, requested values and notes that are drawn, and the pictures with them; None: nothing of use is.
+        # Scene, requested values and notes of the drawn state, and its pictures; None if nothing valid is drawn.
         self._drawn: tuple[str, Values, list[str]] | None = None
         self._drawn_pictures: Collection[str] = ()
-        # Whether a control shows something else than it should.
+        # True if a control shows a wrong value.
         self._mistaken = False
 
     @property
@@ -88,10 +95,10 @@ class Session:
         return self._tasks.background
 
     def answer(self, request: Request) -> Answer:
-        """Carry out a request and return the answer; a request for a state is always answered with one."""
+        """Process a request and return the response; a request for a state always gets one."""
         scene = self.scene
         try:
-            # The mechanics check their results for overflow themselves: NumPy's warnings would only be noise.
+            # `hess_mechanics` checks its results for overflow itself, so NumPy's warnings would be noise.
             with np.errstate(all="ignore"):
                 self._apply(request)
                 if self.scene is not scene:
@@ -102,7 +109,7 @@ class Session:
                     self._update(request.held)
         except Abandoned:
             raise
-        # Whatever it is, no traceback and no older picture stays on the page; the log says all.
+        # Log any error, and leave neither a traceback nor an outdated picture on the page.
         except Exception:
             logger.exception("a state failed at %s", encode(self.scene.name, self.requested.values))
             self._tasks.drop()
@@ -123,16 +130,16 @@ class Session:
             self.scene.name,
             self._tasks.progress,
         )
-        # A scene that may be chosen next is described where this one was.
+        # Describe a scene that may be chosen next only if the scene did not change now.
         near = request.near if self.scene is scene else None
         return Answer(self._description(near), told, state, block)
 
     def start_tasks(self) -> None:
-        """Start the background work of the state, once the answer has been sent."""
+        """Start the background work of the state; call it after the response has been sent."""
         self._tasks.start()
 
     def _description(self, near: str | None) -> str:
-        """Return the description that the browser needs: of the scene on show, or of one near it, each once."""
+        """Return the description of the scene on show, or of the scene `near`, unless it was sent before."""
         for name in (self.scene.name, near):
             if name is not None and name not in self._described and (name == self.scene.name or name in scenes()):
                 self._described.add(name)
@@ -140,7 +147,7 @@ class Session:
         return ""
 
     def _apply(self, request: Request) -> None:
-        """Set what is requested; a click means something in the state on show."""
+        """Update the requested state; clicks refer to the state on show."""
         wanted, scene = self.requested, self.scene
         if request.restore is not None:
             wanted.restore(request.restore)
@@ -149,7 +156,7 @@ class Session:
         for preset in self.scene.presets:
             if preset.name == request.preset:
                 self._change(self.scene.example(preset))
-        # What asks for more of the same is no change, nor is what says nothing beside a step back.
+        # Empty values are no change while tasks are running (a poll), nor together with an undo step.
         if request.values or (request.values is not None and self._tasks.progress is None and request.restore is None):
             self._change(request.values)
         if request.expressions:
@@ -171,22 +178,22 @@ class Session:
 
     def _change(self, values: Values) -> None:
         self.requested.change(values)
-        # Also where the state stays but a control shows something else: it must be put right.
+        # The control must be corrected even if the state does not change.
         self._mistaken |= any(self.values.get(name) != value for name, value in values.items())
 
     def _evaluate(self, expressions: Mapping[str, str]) -> None:
-        """Set numbers typed as expressions; what is wrong with one is said at its box."""
+        """Set numbers typed as expressions; an error is shown at its input field."""
         for name, text in expressions.items():
             if isinstance(self.requested.specs.get(name), Number):
                 try:
                     self.requested.change({name: evaluate(text)})
-                    # The box shows the number, also where it was that before.
+                    # The input field must show the number, even if it is unchanged.
                     self._mistaken = True
                 except NotANumber as refusal:
                     self.wire.say(f"error-{name}", str(refusal))
 
     def _pick(self, picked: PicturePoint | PictureBox) -> None:
-        """Set the values that a click or a box chooses, or note why there are none."""
+        """Set the values that a click or a box selects, or note why it selects none."""
         try:
             chosen = (
                 self.stage.pick(picked.picture, picked.x, picked.y)
@@ -208,15 +215,15 @@ class Session:
             self.wire.say(f"hover-{point.picture}", text)
 
     def _go(self, step: StepChoice) -> None:
-        """Go to the state of a step of a lesson, or of what can be tried."""
+        """Go to the state of a step of a lesson, or of a suggestion of the scene."""
         lesson = self._lessons.get(step.lesson) or tries().get(step.lesson)
         if lesson is not None and 0 <= step.number < len(lesson.steps):
             found = lesson.steps[step.number]
             self.requested.go(found.prediction.then if step.revealed and found.prediction else found.at)
 
     def _update(self, held: bool) -> None:
-        """Draw the requested state unless it is drawn."""
-        # When a slider is let go, accuracy, axes and other controls may have to follow.
+        """Draw the requested state unless it is already drawn."""
+        # When a slider is released, accuracy, axes and other controls may have to be updated.
         released = self._held and not held
         self._held = held
         wanted = self.requested
@@ -231,7 +238,7 @@ class Session:
             self._draw(more=True)
 
     def _draw(self, more: bool = False) -> None:
-        """Draw the requested state; more : the same again, of which more may be known by now."""
+        """Draw the requested state; more : True to redraw it with new results of the background tasks."""
         wanted, ended = self.requested, self._tasks.ended(more)
         self.values, notes = wanted.values, list[str]()
         try:
@@ -240,13 +247,13 @@ class Session:
             report = self.stage.show(state, hold_axes=self._held)
         except ModelError as error:
             if wanted.carried:
-                # Whoever enters a scene meets a picture, not a refusal of what was chosen elsewhere.
+                # A scene that the user enters must not fail because of values chosen elsewhere.
                 wanted.start_anew()
                 return self._draw()
             report = self._refuse(str(error))
         wanted.carried = False
         notes = [*notes, *self._tasks.follow(report, more, ended)]
-        # Under a drag the controls wait, unless the state had to differ from what they say.
+        # During a drag the controls are not updated, unless the state differs from their values.
         if not self._held or notes:
             show_controls(self.scene, self.values, self.wire)
         self._say(report, notes)
@@ -261,6 +268,6 @@ class Session:
         self.wire.say("derived", "\n".join(report.derived))
 
     def _refuse(self, sentence: str) -> Report:
-        """Clear the pictures, and say why there is nothing to see."""
+        """Clear the pictures and show the reason."""
         self.stage.fail(sentence, hold_axes=self._held)
         return Report((), sentence, (), (), 0, "Nothing could be computed")

@@ -1,1 +1,1 @@
-"""Serving the page."""
+"""The web server of the page."""

@@ -1,4 +1,4 @@
-"""How many sessions one process serves: memory for each is what a server has least of."""
+"""Limit the number of sessions of one process, because each takes memory."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ __all__ = ["Capacity"]
 
 
 class Capacity:
-    """Counts the sessions that are there; called in the thread that serves."""
+    """Counts the open sessions; used only in the thread of the event loop."""
 
     def __init__(self, most: int) -> None:
         self.most = most
         self.there = 0
 
     def take(self) -> bool:
-        """Whether there is room for the session that is being opened; it is counted until it is gone."""
+        """Count the session that is being opened until it is destroyed; return False if the server is full."""
         if self.there >= self.most:
             return False
         self.there += 1
@@ -27,8 +27,8 @@ class Capacity:
 
     @property
     def sentence(self) -> str:
-        """For who finds none."""
+        """The message for users who find the server full."""
         return (
-            f"The explorer is full: as many pages are open as this server has room for ({self.most}). Try again in "
-            "a minute, or install the explorer on your own machine."
+            f"The explorer is full: this server can have at most {self.most} open pages. Try again in a minute, or "
+            "install the explorer on your own machine."
         )

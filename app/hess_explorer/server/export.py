@@ -1,4 +1,4 @@
-"""What a picture shows, or all of a state, as a file to take away: for the dialog *Export*."""
+"""Request handler of the *Export* dialog: a picture, or a whole state, as a file."""
 
 from __future__ import annotations
 
@@ -34,40 +34,41 @@ _SPECS = (
     Choice("progress", "Progress", ("0", "1"), "0"),
 )
 
-# One file at a time, and one film: those who look at pages come first.
+# One file and one film at a time, so that open pages have priority.
 _files = ThreadPoolExecutor(max_workers=1, thread_name_prefix="export")
 _films = ThreadPoolExecutor(max_workers=1, thread_name_prefix="film")
 _MOST, _MOST_FILMS = 20, 5
-"""So many may wait."""
+"""Maximum number of waiting requests, for files and for films."""
 _SECONDS = 10.0
-"""Of the processor for a file: nobody looks at a page that waits for it."""
+"""CPU time limit of a file in seconds."""
 
 
 class Export(RequestHandler):
-    """GET /export?<state>&picture=NAME&format=…&width=MM&black=1&seconds=S: the file, or a sentence why there is none.
+    """GET /export?<state>&picture=NAME&format=…&width=MM&black=1&seconds=S: the file, or an error message.
 
-    The formats py and ipynb are the lines of Python that compute the picture, and a notebook of them.  Of HTML several
-    pictures are named with commas between.  A film with progress=1 comes after lines that say how far it is: "queued",
-    "3/250" after the third frame, at last "file 12345", the number of bytes that follow, or "why" and a sentence.
+    The formats py and ipynb are Python code that computes the picture, as a script and as a notebook.  For HTML,
+    `picture` may be a list with commas.  With progress=1 a film is preceded by lines that report its progress:
+    "queued", "3/250" after the third of 250 frames, and finally "file 12345" with the number of bytes that follow, or
+    "why" and an error message.
     """
 
     waiting = filming = 0
 
     def initialize(self) -> None:
-        """Nobody has left yet."""
+        """Create the events that cancel the export."""
         self._left = threading.Event()
         self._film = Film()
 
     def on_connection_close(self) -> None:
-        """What nobody waits for any more is not computed to the end."""
+        """Cancel the export, because the client has gone."""
         self._left.set()
         self._film.stop()
 
     async def get(self) -> None:
-        """Answer with the file; 400 and a sentence for what cannot be computed or drawn, 503 where too many wait."""
+        """Respond with the file; with 400 and a message if it cannot be made, with 503 if too many requests wait."""
         self.set_header("X-Content-Type-Options", "nosniff")
         if len(self.request.query) > MAX_QUERY:
-            refuse(self, 400, f"The link is longer than {MAX_QUERY} characters: export from a state of fewer clicks.")
+            refuse(self, 400, f"The link is longer than {MAX_QUERY} characters: export a state with fewer points.")
             return
         given = {name: self.get_query_argument(name) for name in self.request.query_arguments}
         read, _ = decode(self.request.query, _SPECS)
@@ -75,7 +76,7 @@ class Export(RequestHandler):
         state, picture = {name: value for name, value in given.items() if name not in own}, given.get("picture", "")
         is_film = read["format"] in holding("film")
         if (Export.filming >= _MOST_FILMS) if is_film else (Export.waiting >= _MOST):
-            refuse(self, 503, "Too many files are being made at the moment: try again in a minute.")
+            refuse(self, 503, "The server is making too many files at the moment: try again in a minute.")
             return
         Export.filming += is_film
         Export.waiting += not is_film
@@ -95,7 +96,7 @@ class Export(RequestHandler):
             Export.waiting -= not is_film
 
     def _file(self, state: dict[str, str], picture: str, wish: Wish) -> tuple[str, bytes]:
-        """Name and bytes of what is asked for.  Raises `ModelError`, `Abandoned`."""
+        """Return name and contents of the file.  Raises `ModelError`, `Abandoned`."""
         if wish.kind == "html":
             home = self.request.full_url().partition("?")[0].removesuffix("export")
             with limited(self._left, _SECONDS), np.errstate(all="ignore"):
@@ -108,7 +109,7 @@ class Export(RequestHandler):
             return name, content(show(where), wish)
 
     async def _answer_film(self, state: dict[str, str], picture: str, read: dict[str, Any]) -> None:
-        """The film, after lines about it where they are asked for.  Raises `ModelError`, `Abandoned`."""
+        """Send the film, after progress lines if they are requested.  Raises `ModelError`, `Abandoned`."""
         loop, kind, lines = asyncio.get_running_loop(), str(read["format"]), read["progress"] == "1"
         words = [
             f"--state={urlencode(state)}",

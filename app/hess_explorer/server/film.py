@@ -1,4 +1,4 @@
-"""A film made in the background, by the command line in a process of its own, which yields to all pages."""
+"""Make a film in a separate low-priority process that runs `hess-explorer export`."""
 
 from __future__ import annotations
 
@@ -17,37 +17,50 @@ from hess_mechanics.errors import InvalidParameter, WorkLimit
 __all__ = ["LONGEST", "Film"]
 
 LONGEST = 300.0
-"""Seconds by the clock, after which it is given up."""
+"""Wall-clock limit of a film in seconds."""
 _LATER = 15
-"""The priority of its process, after all others."""
+"""Scheduling priority ("nice" value) of its process, below all others."""
 
 
 class Film:
-    """One film: `made` in a thread of its own, `stop` from any other."""
+    """One film.  Call `made` in a separate thread; `stop` cancels it from any thread."""
 
     def __init__(self) -> None:
         self._stopped = threading.Event()
         self._process: subprocess.Popen[str] | None = None
 
     def stop(self) -> None:
-        """Nobody waits for it any more."""
+        """Cancel the film."""
         self._stopped.set()
         if self._process is not None:
             self._process.kill()
 
     def made(self, words: Sequence[str], tell: Callable[[str], None]) -> bytes:
-        """The file that `hess-explorer export` with these words writes; tell : is told "3/250" after the third frame.
+        """Return the file that `hess-explorer export` writes.
 
-        Raises `InvalidParameter` with the sentence of the command, `WorkLimit` after `LONGEST`, `Abandoned` once
-        stopped.
+        Parameters
+        ----------
+        words : sequence of str
+            Arguments of the command.
+        tell : callable
+            Called with the progress, for example "3/250" after the third of 250 frames.
+
+        Raises
+        ------
+        InvalidParameter
+            If the command fails, with its message.
+        WorkLimit
+            After `LONGEST` seconds.
+        Abandoned
+            If the film was cancelled.
         """
-        # A killed process leaves its files behind, and its encoder may still write one: they go with this folder.
+        # A killed process leaves temporary files, and its encoder may still be writing; this folder collects them.
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
             path = Path(folder) / "film"
             command = [sys.executable, "-m", "hess_explorer", "export", *words, "--progress", "--out", str(path)]
             if self._stopped.is_set():
                 raise Abandoned
-            # `-m` looks in the current folder first: start in this package, where nothing can shadow it.
+            # `-m` searches the current folder first, so start in this package, where no other module shadows it.
             with subprocess.Popen(
                 command,
                 cwd=Path(__file__).resolve().parents[1],
@@ -71,13 +84,13 @@ class Film:
             if self._stopped.is_set():
                 raise Abandoned
             if not in_time:
-                raise WorkLimit(f"This film takes more than {LONGEST:g} s to make: choose a shorter or a smaller one.")
+                raise WorkLimit(f"This film takes more than {LONGEST:g} s to make: reduce its length or its width.")
             if not path.exists():
                 raise InvalidParameter(said.removeprefix("hess-explorer: ") or "The film could not be made.")
             return path.read_bytes()
 
     def _heard(self, process: subprocess.Popen[str], tell: Callable[[str], None]) -> str:
-        """The last line that was no progress."""
+        """Read the output of the process; return the last line that does not report progress."""
         assert process.stderr is not None
         said = ""
         for line in process.stderr:

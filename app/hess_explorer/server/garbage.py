@@ -1,8 +1,8 @@
-"""Garbage is collected when nobody waits: a full collection stops all threads, for 1.2 s where 60 pages are open.
+"""Run garbage collection when the server is idle: a full collection stops all threads, for 1.2 s with 60 open pages.
 
-Most of what a page leaves is freed at once; collections are for objects that refer to each other in circles.  What has
-survived is set aside every few seconds, so collections, Panel's own when a page has gone among them, go only through
-what has been made since.  A full one comes when pages have gone and nobody asks for anything, or after ten minutes.
+Reference counting frees most objects of a page at once; the collector is needed only for reference cycles.  Surviving
+objects are frozen every few seconds, so that collections (including Panel's own, when a page closes) only traverse
+newer objects.  A full collection runs when pages have closed and no requests arrive, or after ten minutes.
 """
 
 from __future__ import annotations
@@ -15,25 +15,25 @@ from collections.abc import Callable
 __all__ = ["GARBAGE", "Garbage"]
 
 PAUSE = 2.0
-"""Seconds."""
+"""Seconds between two collections."""
 OVERDUE = 600.0
-"""Seconds after which all is collected under any load."""
+"""Seconds after which a full collection runs under any load."""
 
 
 class Garbage:
-    """Of one process."""
+    """Schedules the garbage collections of one process."""
 
     def __init__(self) -> None:
         self._pages_gone = False
 
     def page_gone(self, context: object) -> None:
-        """A session has been destroyed: there may be circles to collect."""
+        """Record that a session was destroyed, which may leave reference cycles."""
         self._pages_gone = True
 
     def collect_when_quiet(
         self, asked: Callable[[], int], end: threading.Event, pause: float = PAUSE, overdue: float = OVERDUE
     ) -> None:
-        """Collect until `end` is set; asked() : how many results have been asked for, so nobody does where it stays."""
+        """Collect garbage periodically until `end` is set; asked : returns the number of cache lookups so far."""
         before, last = -1, time.monotonic()
         while not end.wait(pause):
             now = asked()
@@ -43,7 +43,7 @@ class Garbage:
                 gc.unfreeze()
                 gc.collect()
             else:
-                # The young alone: hardly any time.
+                # Only the young generations, which takes hardly any time.
                 gc.collect(1)
             gc.freeze()
 

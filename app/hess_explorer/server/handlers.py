@@ -1,6 +1,6 @@
-"""The handlers of Bokeh's server that the explorer replaces by its own.
+"""Replace handlers of Bokeh's server by the explorer's own.
 
-They stand in `bokeh.server.urls.per_app_patterns`, a list that Bokeh documents and Panel changes in the same way.
+The handlers are in the list `bokeh.server.urls.per_app_patterns`, which Bokeh documents and Panel changes as well.
 """
 
 from __future__ import annotations
@@ -17,19 +17,21 @@ __all__ = ["HandlerMissing", "replace_handlers"]
 
 
 class HandlerMissing(RuntimeError):
-    """A handler to replace is not there: this Panel or Bokeh is none that the explorer was tried with."""
+    """A handler was not found, because the installed version of Panel or Bokeh is not supported."""
 
 
 def replace_handlers(embedders: Sequence[str]) -> None:
-    """Serve documents with the explorer's headers and Panel's websocket with its limits, from the next server on.
+    """Install the explorer's document headers and websocket limits for servers that are created afterwards.
 
     Parameters
     ----------
-    embedders : hosts that may show parts of the page, "*" any, none at all: nobody.
+    embedders : sequence of str
+        Hosts that may embed parts of the page; "*" allows all hosts, an empty sequence none.
 
     Raises
     ------
-    HandlerMissing : Panel's own are not found, so that the page would be served without headers or limits.
+    HandlerMissing
+        If Panel's handlers are not found.
     """
     GuardedDocument.embedders = tuple(embedders) or ("'none'",)
     for theirs, ours in ((DocHandler, GuardedDocument), (WSHandler, PanelSocket)):
@@ -37,6 +39,6 @@ def replace_handlers(embedders: Sequence[str]) -> None:
         if at is None:
             raise HandlerMissing(
                 f"Bokeh's server has no {theirs.__name__} of Panel to replace, so the page would be served without its "
-                "limits and security headers: install the versions of panel and bokeh that hess-explorer asks for."
+                "limits and security headers: install the versions of panel and bokeh that hess-explorer requires."
             )
         per_app_patterns[at] = (per_app_patterns[at][0], ours)

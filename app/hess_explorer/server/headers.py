@@ -1,8 +1,8 @@
-"""What the page may do in a browser, and who may show it inside another: headers of the document.
+"""Security headers of the document: what the page may load, and which sites may embed it.
 
-Scripts run with the nonce of their answer, or from this server: what finds its way into the page as text is not run.
-Bokeh asks for more in two places.  Its `CustomJS`, with which Panel tells that the document is ready, is compiled in
-the browser (`unsafe-eval`), and its styles, as those of Material UI, stand in the elements (`unsafe-inline`).
+Scripts must come from this server or have the nonce of the response, so injected text is never executed.  Bokeh needs
+two exceptions: its `CustomJS`, with which Panel signals that the document is ready, is compiled in the browser
+(`unsafe-eval`), and its styles, like those of Material UI, are inline (`unsafe-inline`).
 """
 
 from __future__ import annotations
@@ -18,24 +18,24 @@ from hess_explorer.server.refusal import refuse
 __all__ = ["GuardedDocument", "policy"]
 
 QUERY_LIMIT = 4 * MAX_QUERY
-"""Characters of a link: the whole of it comes back with the websocket, in a header."""
+"""Maximum length of a query in characters; the websocket request repeats it in a header."""
 
 
 def policy(nonce: str, embedders: tuple[str, ...]) -> str:
-    """Return the Content-Security-Policy of an answer; embedders : who may show it."""
-    # Where any page may, also one of a file, which "*" does not mean, nothing is said.
+    """Return the Content-Security-Policy of a response; embedders : sites that may embed the page."""
+    # Without frame-ancestors any page may embed it, local files included, which "*" would exclude.
     ancestors = "" if "*" in embedders else " ".join(embedders)
     return "; ".join(
         [
             "default-src 'none'",
-            # Panel makes modules of texts, as blobs, which import those of this server.
+            # Panel loads modules from blobs, which import modules of this server.
             f"script-src 'self' blob: 'nonce-{nonce}' 'unsafe-eval'",
             "style-src 'self' 'unsafe-inline'",
             "img-src 'self' data: blob:",
             "font-src 'self' data:",
             "media-src 'self' blob:",
             "worker-src 'self' blob:",
-            # The websocket, and those modules; a page that compares states shows two of itself.
+            # The websocket and those modules.  The comparison of two states embeds the page itself twice.
             "connect-src 'self' blob:",
             "frame-src 'self'",
             "base-uri 'self'",
@@ -46,37 +46,37 @@ def policy(nonce: str, embedders: tuple[str, ...]) -> str:
 
 
 class GuardedDocument(DocHandler):
-    """The document of the page, with these headers."""
+    """Handler of the document that adds the security headers."""
 
     embedders: ClassVar[tuple[str, ...]] = ("*",)
-    """Who may show a part of the page, `embed=1`."""
+    """Sites that may embed a part of the page (`embed=1`)."""
 
-    # Before it is chosen Tornado refuses what is no method of it.
+    # A default, because Tornado may send an error before `prepare`.
     _nonce = ""
 
     async def prepare(self) -> None:
-        """Choose the nonce of this answer."""
+        """Create the nonce of the response and set the headers."""
         self._nonce = secrets.token_urlsafe(16)
-        # Before anything is made of it; what is a little too long opens the page, with a note.
+        # Reject a far too long query before it is parsed; a slightly too long one opens the page with a note.
         if len(self.request.query) > QUERY_LIMIT:
             refuse(
                 self,
                 414,
-                f"The link is longer than {QUERY_LIMIT} characters, and the explorer's own are shorter "
-                f"than {MAX_QUERY}: open the page without the part of its address after “?”.",
+                f"The link is longer than {QUERY_LIMIT} characters; links of the explorer have at most {MAX_QUERY}: "
+                "open the page without the part of its address after “?”.",
             )
             return
         await super().prepare()  # type: ignore[no-untyped-call]  # Panel declares no types
         embedded = self.get_query_argument("embed", "") == "1"
         self.set_header("Content-Security-Policy", policy(self._nonce, self.embedders if embedded else ("'self'",)))
         if not embedded:
-            # For what does not know the policy.
+            # For browsers without support of frame-ancestors.
             self.set_header("X-Frame-Options", "SAMEORIGIN")
         self.set_header("X-Content-Type-Options", "nosniff")
         self.set_header("Referrer-Policy", "same-origin")
 
     def write(self, chunk: str | bytes | dict[str, object]) -> None:
-        """The page, its scripts with the nonce; in its data there are no such tags, which are escaped there."""
+        """Write a part of the page and add the nonce to its script tags; tags in the data are escaped."""
         if isinstance(chunk, str):
             chunk = chunk.replace("<script", f'<script nonce="{self._nonce}"')
         super().write(chunk)

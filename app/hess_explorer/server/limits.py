@@ -1,7 +1,7 @@
-"""What one websocket may send, and how all of them are told that the server ends.
+"""Limit the messages of a websocket, and close all websockets when the server shuts down.
 
-A page asks for a state, and not again before that is painted.  What sends more than a page can is no page, and reads
-why it was cut off.
+A page requests the next state only after the last one is painted.  A client that sends more than a page can is
+disconnected with a reason.
 """
 
 from __future__ import annotations
@@ -14,25 +14,22 @@ from tornado.websocket import WebSocketHandler
 __all__ = ["MESSAGE_LIMIT", "OPEN_SOCKETS", "RateLimit", "say_goodbye"]
 
 MESSAGE_LIMIT = 256 * 1024
-"""Bytes of one frame: slider values and clicks are far smaller."""
+"""Maximum size of a frame in bytes; slider values and clicks are far smaller."""
 
 RATE, BURST = 150.0, 300.0
-"""Messages in a second, and at once: a page asks for as many states as its screen shows."""
+"""Messages per second and burst size; a page sends at most one request per frame of the screen."""
 
-# RFC 6455: no more than 123 bytes.
-TOO_LARGE = f"A message may have {MESSAGE_LIMIT // 1024} KB: send a smaller one."
-TOO_MANY = f"More than {RATE:.0f} messages in a second: wait for each answer before you ask again."
-ENDING = "The server ends or is started anew: open the page again in a moment."
+# RFC 6455: the reason of a close frame has at most 123 bytes.
+TOO_LARGE = f"A message may have at most {MESSAGE_LIMIT // 1024} KB: send a smaller one."
+TOO_MANY = f"More than {RATE:.0f} messages per second: wait for each response before you send again."
+ENDING = "The server is shutting down or restarting: open the page again in a moment."
 
 OPEN_SOCKETS: set[WebSocketHandler] = set()
 """All websockets of this process."""
 
 
 class RateLimit:
-    """Counts what comes in by one websocket.
-
-    frames : of which a message consists.
-    """
+    """Token bucket for the messages of one websocket; frames : number of frames per message."""
 
     def __init__(self, frames: int) -> None:
         self._frames = frames
@@ -40,7 +37,7 @@ class RateLimit:
         self._over = False
 
     def takes(self, socket: WebSocketHandler, frame: str | bytes) -> bool:
-        """Whether this frame is taken; if it is one too many or too large, the websocket is closed with a sentence."""
+        """Return True if the frame is accepted; close the websocket if the rate or the size is too high."""
         now = time.monotonic()
         self._room = min(self._frames * BURST, self._room + self._frames * RATE * (now - self._since)) - 1.0
         self._since = now
@@ -56,7 +53,7 @@ class RateLimit:
 
 
 async def say_goodbye(seconds: float) -> None:
-    """Tell all pages that the server ends, and wait so long at most until they have heard it."""
+    """Close all websockets and wait for the close handshakes, at most `seconds`."""
     for one in [*OPEN_SOCKETS]:
         one.close(1001, ENDING)
     ends = time.monotonic() + seconds

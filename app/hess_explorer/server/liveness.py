@@ -1,4 +1,4 @@
-"""Whether a server answers."""
+"""Check that a server responds."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ __all__ = ["is_alive"]
 
 
 def is_alive(host: str, port: int) -> bool:
-    """Whether an explorer answers at this address within 5 s."""
+    """Return True if an explorer responds at this address within 5 s."""
     connection = HTTPConnection(host, port, timeout=5)
     try:
         connection.request("GET", "/liveness")

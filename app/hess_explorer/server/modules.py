@@ -1,4 +1,4 @@
-"""The JavaScript modules of the page and the styles of what is printed, under a URL that changes when they do."""
+"""Serve the JavaScript modules and the style sheet for printing, under a URL that changes with their contents."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _YEAR = 365 * 24 * 3600
 
 
 class _Module(StaticFileHandler):
-    """A file that never changes at its URL: a browser asks for it once."""
+    """Handler of an immutable file, which a browser requests only once."""
 
     def get_cache_time(self, path: str, modified: datetime.datetime | None, mime_type: str) -> int:
         return _YEAR
@@ -26,5 +26,5 @@ class _Module(StaticFileHandler):
 
 
 def module_routes() -> list[tuple[str, type[_Module], dict[str, Any]]]:
-    """Routes for Tornado; nothing else of that folder can be fetched."""
+    """Return the Tornado routes of the modules; no other file of the folder is served."""
     return [(rf"/{modules_path()}/({MODULES})", _Module, {"path": str(STATIC)})]

@@ -1,4 +1,4 @@
-"""How a request over HTTP is refused: a status and a sentence."""
+"""Reject an HTTP request with a status and a message."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ __all__ = ["refuse"]
 
 
 def refuse(handler: RequestHandler, status: int, sentence: str) -> None:
-    """Answer with this status and a sentence as plain text."""
+    """Respond with an HTTP status and a plain-text message."""
     handler.set_status(status)
     handler.set_header("Content-Type", "text/plain; charset=utf-8")
     handler.finish(sentence)

@@ -1,4 +1,4 @@
-"""The web server: one process, reachable from this machine only unless told otherwise."""
+"""The web server; by default one process that listens only on this machine."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from hess_explorer.server.websockets import StateSocket
 __all__ = ["options", "serve"]
 
 BODY_LIMIT = 64 * 1024
-"""Bytes of a request's body: nothing here takes one."""
+"""Maximum size of a request body in bytes; no handler uses one."""
 
 UNUSED_SESSION_MS = 60_000
 _EVERY_ADDRESS = ("", "0.0.0.0", "::")
@@ -45,14 +45,14 @@ logger = logging.getLogger("hess_explorer")
 
 
 class Metrics(RequestHandler):
-    """GET /metrics: the counters of this process, one `name value` in a line, as Prometheus reads them."""
+    """GET /metrics: the counters of this process in the Prometheus text format."""
 
     def initialize(self, capacity: Capacity) -> None:
-        """Whose sessions are counted."""
+        """Store the counter of sessions."""
         self._capacity = capacity
 
     def get(self) -> None:
-        """Answer with the counters as they are now."""
+        """Respond with the current counters."""
         self.set_header("Content-Type", "text/plain; version=0.0.4; charset=utf-8")
         counters = {
             **CACHE.metrics(),
@@ -64,12 +64,12 @@ class Metrics(RequestHandler):
 
 
 def _is_news(record: logging.LogRecord) -> bool:
-    """False for a page that was closed while an answer was on its way: not an error."""
+    """Return False for the error of a page that closed while a response was being sent."""
     return not (record.exc_info and isinstance(record.exc_info[1], WebSocketClosedError))
 
 
 def _prepare(address: str, port: int, ready: Callable[[], None]) -> None:
-    """Prepare all scenes; call `ready` once the first is prepared and the server answers."""
+    """Prepare all scenes; call `ready` when the first scene is prepared and the server responds."""
     host = "127.0.0.1" if address in _EVERY_ADDRESS else address
 
     def first_is_ready() -> None:
@@ -81,7 +81,7 @@ def _prepare(address: str, port: int, ready: Callable[[], None]) -> None:
 
 
 def _page(lesson: Lesson | None, capacity: Capacity) -> Any:
-    """The page, with styles of this server: Panel sees to that only in the process that writes the HTML."""
+    """Return the page with the style sheets of this server, or a message if the server is full."""
     if not capacity.take():
         return pn.pane.Str(capacity.sentence)
     document = pn.state.curdoc
@@ -92,6 +92,7 @@ def _page(lesson: Lesson | None, capacity: Capacity) -> Any:
 
 
 def _own_styles(document: Document) -> None:
+    """Let the style sheets refer to this server; Panel does it only in the process that writes the HTML."""
     for root in document.roots:
         patch_model_css(root, dist_url=LOCAL_DIST)
 
@@ -105,7 +106,7 @@ def options(
     sessions: int,
     follow: Callable[[str], None] | None = None,
 ) -> dict[str, Any]:
-    """What `panel.serve` is told; the arguments are those of `serve`."""
+    """Return the options of `panel.serve`; the parameters are those of `serve`."""
     capacity = Capacity(sessions)
     return {
         "panels": {"/": lambda: _page(lesson, capacity)},
@@ -122,9 +123,9 @@ def options(
         ],
         "liveness": True,
         "verbose": False,
-        # `RateLimit` says in a sentence what a frame may have; beyond this Tornado closes the websocket with two words.
+        # Above the limit of `RateLimit`, which gives a better reason than Tornado.
         "websocket_max_message_size": 4 * MESSAGE_LIMIT,
-        # Who is slow to say what is wanted holds a connection for so many seconds.
+        # Timeouts in seconds for slow clients.
         "http_server_kwargs": {"max_body_size": BODY_LIMIT, "body_timeout": 20.0, "idle_connection_timeout": 300.0},
         "unused_session_lifetime_milliseconds": UNUSED_SESSION_MS,
         "check_unused_sessions_milliseconds": UNUSED_SESSION_MS // 4,
@@ -145,32 +146,49 @@ def serve(
     sessions: int,
     follow: Callable[[str], None] | None = None,
 ) -> NoReturn:
-    """Serve the explorer until Ctrl-C or SIGTERM, then end the process with exit code 0.
+    """Serve the explorer until Ctrl-C or SIGTERM, then end the process with exit status 0.
 
-    address : to listen on; show : open the browser; origins : HOST:PORT pairs whose pages may open a websocket,
-    besides this machine's own; ready : called from another thread when the page answers without compiling
-    first; lesson : one besides those of the package; embedders : hosts whose pages may show parts of this one, "*" any;
-    workers : processes that serve; a session stays with the one that its websocket comes to; sessions : as many as each
-    of them serves at a time; follow : told the query of every state that a page shows.
+    Parameters
+    ----------
+    port : int
+        TCP port to listen on.
+    address : str
+        Address to listen on.
+    show : bool
+        True to open the page in a browser.
+    origins : sequence of str
+        HOST:PORT of further pages that may open a websocket; this machine is always allowed.
+    ready : callable
+        Called from another thread when the page can be shown without compiling first.
+    lesson : Lesson or None
+        A lesson in addition to those of the package.
+    embedders : sequence of str
+        Hosts that may embed parts of the page; "*" allows all.
+    workers : int
+        Number of worker processes.  A session stays with the worker that accepted its websocket.
+    sessions : int
+        Maximum number of sessions per worker.
+    follow : callable or None
+        Called with the query of every state that a page shows.
     """
     logging.basicConfig(format="%(asctime)s %(name)s %(message)s")
     logger.setLevel(logging.INFO)
     logging.getLogger("asyncio").addFilter(_is_news)
-    # The thread that serves waits so long for Python's lock behind each that computes; 5 ms otherwise.
+    # Maximum wait of the event loop for the interpreter lock behind a computing thread; the default is 5 ms.
     sys.setswitchinterval(0.001)
     pn.extension()
     replace_handlers(embedders)
     together = Workers() if workers > 1 else None
-    # With several workers this comes back in each of them, and the process that began stays behind to watch over them.
+    # With several workers, `get_server` forks and returns in each worker; the parent process supervises them.
     told = options(port, address, origins, lesson, sessions=sessions, follow=follow)
     server = get_server(told.pop("panels"), start=False, show=show and workers == 1, num_procs=workers, **told)
     end_on_signals(server.io_loop)
     if together is not None:
-        # One worker says that the explorer is ready, and none outlives the process that began.
+        # Only one worker reports that the explorer is ready, and all end with the parent process.
         ready = ready if task_id() == 0 else lambda: None
         together.end_together(server.io_loop)
         CORES.shared_by(workers)
-    # Kernels are compiled while the browser loads the page.
+    # Compile kernels while the browser loads the page.
     threading.Thread(target=_prepare, args=(address, port, ready), name="warm", daemon=True).start()
     threading.Thread(
         target=GARBAGE.collect_when_quiet, args=(lambda: CACHE.asked, threading.Event()), name="garbage", daemon=True

@@ -1,4 +1,4 @@
-"""How the server ends: on Ctrl-C or SIGTERM its pages are told, and all its processes are gone within seconds."""
+"""Shut down the server on Ctrl-C or SIGTERM: notify the pages and end all processes within seconds."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from hess_explorer.server.limits import say_goodbye
 __all__ = ["Workers", "end_on_signals", "end_with_stdin", "leave"]
 
 GOODBYE = 2.0
-"""Seconds for the pages to hear of it."""
+"""Timeout for closing the websockets, in seconds."""
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
 class Workers:
-    """Ties the processes that serve to the one that began and watches over them.
+    """Stops the workers when the parent process exits.
 
-    They read from a pipe that it alone can write to: it is closed when that process is told to end, and by the system
-    when it is gone, however that came.
+    The workers watch a pipe whose write end only the parent holds.  The parent closes it on a signal, and the operating
+    system closes it when the parent exits for any reason.
     """
 
     def __init__(self) -> None:
@@ -37,16 +37,16 @@ class Workers:
             signal.signal(one, self._end)
 
     def _end(self, number: int, frame: FrameType | None) -> None:
-        # Tornado waits for the workers, and ends the process when all have ended.
+        # Tornado waits for the workers and then ends the parent process.
         if self._open:
             self._open = False
             os.close(self._write)
 
     def end_together(self, loop: IOLoop) -> None:
-        """In a worker: its loop stops when the process that began ends."""
+        """Stop the event loop of this worker when the parent process exits."""
 
         def stop(*_: object) -> None:
-            # What is closed can be read from for ever, and the loop runs once more.
+            # A closed pipe stays readable for ever, and the loop still runs once more.
             loop.remove_handler(self._read)
             loop.stop()
 
@@ -55,7 +55,7 @@ class Workers:
 
 
 def end_on_signals(loop: IOLoop) -> None:
-    """In a process that serves: from now on both signals stop its loop."""
+    """Stop the event loop on SIGINT and SIGTERM."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         loop.add_callback_from_signal(loop.stop)
@@ -65,18 +65,18 @@ def end_on_signals(loop: IOLoop) -> None:
 
 
 def end_with_stdin() -> None:
-    """End this process when its standard input is closed, as it is when the process that holds the other end is gone.
+    """End this process at the end of its standard input, which comes when the parent process exits.
 
-    To be run in a thread of its own.
+    Run it in a separate thread.
     """
-    # Not `sys.stdin`, whose lock an interpreter that ends would wait for.
+    # Not `sys.stdin`: the interpreter would wait for its lock at exit.
     while os.read(0, 4096):
         pass
     signal.raise_signal(signal.SIGTERM)
 
 
 def leave(server: Server) -> NoReturn:
-    """End this process, whose loop has stopped, with exit code 0."""
+    """End this process with exit status 0 after its event loop has stopped."""
     with suppress(Exception):
         server.stop()
     with suppress(Exception):
@@ -85,5 +85,5 @@ def leave(server: Server) -> NoReturn:
     for stream in (sys.stdout, sys.stderr):
         with suppress(OSError, ValueError):
             stream.flush()
-    # Python would wait for all that is still computed, for whom nobody waits any more.
+    # A normal exit would wait for running computations, whose results are no longer needed.
     os._exit(0)

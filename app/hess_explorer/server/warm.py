@@ -1,4 +1,4 @@
-"""Compile and load the kernels of all scenes, and build their descriptions, before a user asks for them."""
+"""Compile and load the kernels of all scenes, and build their descriptions, before they are requested."""
 
 from __future__ import annotations
 
@@ -42,10 +42,14 @@ compile_all()
 
 
 def compute(scene: Scene[Any], folded: bool = True) -> None:
-    """Compile or load the kernels of a scene by computing its default state once.
+    """Compile or load the kernels of a scene by computing its default state and one background task of each kind.
 
-    folded : also for the pictures that are folded away at first, and for charts.  Of its background work one task of
-        each kind is done.
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    folded : bool
+        True to include the pictures that are folded at first, and charts.
     """
     try:
         state = scene.compute(scene.defaults(), scene.pictures if folded else scene.open_pictures, False)
@@ -60,9 +64,12 @@ def compute(scene: Scene[Any], folded: bool = True) -> None:
 
 
 def compile_all(backwards: bool = False) -> None:
-    """Leave the kernels of all scenes on disk.
+    """Compile the kernels of all scenes into the cache on disk.
 
-    backwards : from the last scene on, beside another process that begins with the first: it takes half as long.
+    Parameters
+    ----------
+    backwards : bool
+        True to start with the last scene.  Two processes that run in opposite order take half as long.
     """
     if all_compiled():
         return
@@ -72,11 +79,11 @@ def compile_all(backwards: bool = False) -> None:
 
 
 def compile_beside() -> None:
-    """Run `compile_all` in another process of low priority, and wait for it; it ends when this process does.
+    """Run `compile_all` in a separate process of low priority and wait for it; it ends with this process.
 
-    It shares no pipe with this process: whoever waits for the end of this one's output would wait for the compiler too.
+    The process does not inherit the output pipes: a reader of this process's output would wait for the compiler too.
     """
-    # A session of its own: Ctrl-C in the terminal ends the server, which closes the compiler's standard input.
+    # A new session, so that Ctrl-C reaches only the server, which then closes the compiler's standard input.
     with subprocess.Popen(
         [sys.executable, "-c", _COMPILER], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, start_new_session=True
     ) as compiler:
@@ -84,11 +91,16 @@ def compile_beside() -> None:
 
 
 def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
-    """Prepare all scenes: the first one at once, the others while the server is idle.
+    """Prepare all scenes: the first one immediately, the others while the server is idle.
 
-    `first_is_ready` is called as soon as the page can be shown without compiling.  Compiling holds the interpreter's
-    lock, so another process compiles what is not on disk yet.  Everything made here lives as long as the process: the
-    garbage collector, off since the start, is turned on again after the first scene and told to skip these objects.
+    Compilation holds the interpreter lock, so a separate process compiles missing kernels.  All objects created here
+    live as long as the process; the garbage collector, which is off until then, is enabled after the first scene and
+    skips them.
+
+    Parameters
+    ----------
+    first_is_ready : callable
+        Called as soon as the page can be shown without compiling.
     """
     first, *others = scenes().values()
     try:
@@ -111,7 +123,7 @@ def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
 
 
 def _wait_until_quiet() -> None:
-    """Return when no result has been requested for `QUIET_SECONDS`."""
+    """Wait until no result has been requested for `QUIET_SECONDS`."""
     asked = -1
     while asked != CACHE.asked:
         asked = CACHE.asked

@@ -1,7 +1,7 @@
-"""The two websockets of a page: the explorer's own, by which it asks for states, and Panel's for the document.
+"""The two websockets of a page: the explorer's own for states, and Panel's for the document.
 
-By Panel's messages, as changes of a document, a state takes 5 ms of a core more, and computing it takes 3 to 30.
-What a page is, its own query says: it does not matter which process its websocket comes to.
+Sending a state as a change of Panel's document would take 5 ms more CPU time; computing it takes 3 to 30 ms.  The query
+of the websocket defines the whole page, so any worker can accept it.
 """
 
 from __future__ import annotations
@@ -24,54 +24,54 @@ from hess_explorer.server.limits import OPEN_SOCKETS, RateLimit
 __all__ = ["PanelSocket", "StateSocket"]
 
 FULL = "The explorer is full: try again in a minute."
-NO_JSON = "A message must be a text that is JSON."
+NO_JSON = "A message must be a text frame of JSON."
 
 
 class PanelSocket(WSHandler):
-    """Panel's websocket of a page, with a rate limit; it is told when the server ends."""
+    """Panel's websocket with a rate limit; it is closed when the server shuts down."""
 
     def open(self) -> None:
-        """Count it among the open websockets."""
-        # Of a message there are the header, the metadata and the content.
+        """Register this websocket as open."""
+        # A message consists of three frames: header, metadata and content.
         self._limit = RateLimit(frames=3)
         super().open()  # type: ignore[no-untyped-call]  # Panel declares no types
         OPEN_SOCKETS.add(self)
 
     def on_close(self) -> None:
-        """Count it no more."""
+        """Unregister this websocket."""
         OPEN_SOCKETS.discard(self)
         super().on_close()
 
     async def on_message(self, fragment: str | bytes) -> None:
-        """Take a frame, unless it is one too many or too large."""
+        """Process a frame within the limits."""
         if self._limit.takes(self, fragment):
             await super().on_message(fragment)
 
 
 class StateSocket(WebSocketHandler):
-    """The websocket by which a page asks for states; its session begins and ends with it.
+    """The websocket for states; a session starts and ends with it.
 
-    A request is a text frame, an answer a binary one, see `hess_explorer.protocol.messages`.
+    Requests are text frames and responses binary frames, see `hess_explorer.protocol.messages`.
     """
 
-    # What lies between keeps a websocket on which nothing is sent.
+    # Pings keep proxies from closing an idle websocket.
     ping_interval = 30.0
-    # Whoever is asleep may come back.
+    # A missing pong is no reason to close: a sleeping device may return.
     ping_timeout = 0.0
 
     def initialize(self, capacity: Capacity, lesson: Lesson | None, follow: Callable[[str], None] | None) -> None:
-        """Take the options of `serve`; there is room for as many websockets as pages."""
+        """Store the options of `serve`; the number of websockets has the same limit as the number of pages."""
         self._most, self._lesson, self._follow = capacity.most, lesson, follow
         self._connection: Connection | None = None
         self._sent: Future[None] | None = None
 
     def check_origin(self, origin: str) -> bool:
-        """Return whether a page of this origin may open one: those that may open Panel's."""
-        # It looks into the application and nowhere else.
+        """Return True for the origins that Panel's websocket accepts."""
+        # The method uses only the application, which both handlers share.
         return PanelSocket.check_origin(self, origin)  # type: ignore[arg-type]
 
     def open(self) -> None:
-        """Begin a session with the state of the query, if there is room."""
+        """Start a session with the state of the query, unless the server is full."""
         if sum(isinstance(one, StateSocket) for one in OPEN_SOCKETS) >= self._most:
             self.close(1013, FULL)
             return
@@ -86,10 +86,10 @@ class StateSocket(WebSocketHandler):
         )
 
     async def on_message(self, message: str | bytes) -> None:
-        """Take a request, unless it is one too many or too large."""
+        """Process a request within the limits."""
         if self._connection is None or not self._limit.takes(self, message):
             return
-        # Of who reads no answers nothing more is taken.
+        # Back pressure: wait until the client has received the last response.
         if self._sent is not None:
             with suppress(WebSocketClosedError):
                 await self._sent
@@ -101,7 +101,7 @@ class StateSocket(WebSocketHandler):
             self._connection.receive(request)
 
     def on_close(self) -> None:
-        """End the session: the page is gone."""
+        """End the session, because the page has closed."""
         OPEN_SOCKETS.discard(self)
         if self._connection is not None:
             self._connection.end()
