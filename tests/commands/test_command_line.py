@@ -331,7 +331,7 @@ def test_out_writes_a_file_and_prints_nothing(answer, capsys, tmp_path):
         (replaced(SUSLOV, "--t", "0:1"), "lo:hi:n"),
         (replaced(SUSLOV, "--t", f"0:1:{10**9}"), f"from 2 to {MAX_SAMPLES}"),
         (replaced(SUSLOV, "--t", "0," * MAX_SAMPLES + "1"), f"at most {MAX_SAMPLES}"),
-        (replaced(SUSLOV, "--t", "-1,1"), "away from 0"),
+        (replaced(SUSLOV, "--t", "-1,1"), "must be monotonic"),
         (replaced(SUSLOV, "--t", "1e9"), "shorter"),
         (replaced(SUSLOV, "--omega", "1e200,0"), "--omega: w1 = 1e+200 is not between -1000 and 1000"),
         (replaced(SUSLOV, "--omega", "x" * 5000), "x…'"),

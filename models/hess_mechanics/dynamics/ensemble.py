@@ -1,4 +1,4 @@
-"""Many orbits of one system at given times, on all cores, with error estimates."""
+"""Integrate many orbits of one system at given times, on all cores, with error estimates."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ from hess_mechanics.numerics.results import Array, Cost, Ensemble, frozen
 __all__ = ["MAX_NUMBERS", "ensemble"]
 
 MAX_NUMBERS = 20_000_000
-"""Numbers in all states at all times: 160 MB."""
+"""Largest number of floats in the result: 160 MB."""
 
 _SHARE = 64
-"""Orbits per piece of work: enough to fill the lanes, few enough for the threads to finish together."""
+"""Orbits per task: enough to fill the vector lanes, few enough for the threads to finish together."""
 
 
 def integrated(
@@ -36,9 +36,9 @@ def integrated(
     threads: int,
     too_long: str,
 ) -> tuple[Array, int]:
-    """Return the states (n, m, d) of many orbits at the times (m,), and the steps taken, on so many threads.
+    """Return the states (n, m, d) of many orbits at the times (m,), and the number of steps.
 
-    Raises `WorkLimit` with the sentence `too_long`, and `InvalidParameter`.
+    Raises `WorkLimit` with the message `too_long`, and `InvalidParameter`.
     """
     out = np.empty((len(states), times.size, states.shape[1]))
     parts = -(-len(states) // _SHARE)
@@ -61,12 +61,38 @@ def ensemble(
     level: Accuracy,
     threads: int = THREADS,
 ) -> Ensemble:
-    """The orbits from the rows of `states` (n, d), sampled at the times (m,).
+    """Return the orbits from several initial states, computed on all cores.
 
-    Errors are measured as in `solve`, orbit by orbit; orbits that miss the level's promise are recomputed with
+    Errors are measured as in `solve`, orbit by orbit.  Orbits that miss the promise of the level are recomputed with
     smaller tolerances, down to the floor of double precision.
-    Raises `InvalidParameter`, `WorkLimit`.
 
+    Parameters
+    ----------
+    body : Body
+        The body.
+    states : array_like, shape (n, d)
+        Initial states at time 0.
+    times : array_like, shape (m,)
+        Times of the result, monotonic from 0 forward or backward.
+    level : str or Level
+        Accuracy level.
+    threads : int, optional
+        Number of threads.  By default one per core, at most eight.
+
+    Returns
+    -------
+    Ensemble
+        States (n, m, d), with an error estimate for each orbit.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite, or the times are not monotonic.
+    WorkLimit
+        If an orbit needs too many steps, or the result would be too large.
+
+    Examples
+    --------
     >>> from hess_mechanics import ensemble, level, systems
     >>> suslov = systems()["suslov"]
     >>> body, state = suslov.example_motion
@@ -98,7 +124,7 @@ def ensemble(
     errors, scaled_errors = np.zeros(count), np.zeros(count)
     todo, before = np.arange(count), out
     current = level
-    # As `measured` does it, for those orbits that are left to do.
+    # As in `measured`, for the orbits that still miss the promise.
     while todo.size:
         tighter = current.tightened()
         found, steps = run(states=starts[tighter.aside][todo], level=tighter)

@@ -1,7 +1,7 @@
-"""The largest Lyapunov exponent of one orbit, from its distance to a neighbour that is brought back periodically.
+"""Largest Lyapunov exponent of an orbit, from its distance to a neighbour that is renormalised periodically.
 
-Benettin, Galgani, Strelcyn 1976.  The neighbour starts in a fixed direction that no symmetry singles out.  All
-exponents: `dynamics.spectrum`.
+The method of Benettin, Galgani and Strelcyn (1976).  The neighbour starts in a fixed direction that no symmetry singles
+out.  For all exponents see `dynamics.spectrum`.
 """
 
 from __future__ import annotations
@@ -30,16 +30,24 @@ __all__ = ["Exponent", "lyapunov_exponent"]
 
 MAX_RETURNS = 200_000
 _DISTANCE = 1e-7
-"""Distance of the neighbour, where the state is O(1): small enough to be linear, large compared with round-off."""
+"""Distance of the neighbour, in units in which the state is O(1): small enough for linear growth, large compared with
+round-off."""
 _INTERVAL = 2.0
 """Time between renormalisations, in units of 1/ν."""
 
 
 @dataclass(frozen=True)
 class Exponent(Result):
-    """The mean growth rate up to each time: times (n,), rates (n,), the last of which is the estimate.
+    """Running estimates of the largest Lyapunov exponent.
 
-    spread : range of the rates in the second half.
+    Attributes
+    ----------
+    times : ndarray, shape (n,)
+        Times at which the neighbour was renormalised.
+    rates : ndarray, shape (n,)
+        Mean growth rate up to each time; the last one is the estimate.
+    spread : float
+        Range of the rates over the second half of the time.
     """
 
     times: Array
@@ -52,7 +60,13 @@ class Exponent(Result):
         return float(self.rates[-1])
 
     def labels(self) -> Labels:
-        """The mean growth rate over the time up to which it is taken."""
+        """Return the mean growth rates, labelled with time.
+
+        Returns
+        -------
+        Labels
+            The rates over the times.
+        """
         return Labels(
             {"t": (("t",), self.times)},
             {"rate": (("t",), self.rates)},
@@ -62,17 +76,44 @@ class Exponent(Result):
 
     @property
     def is_regular(self) -> bool:
-        """Whether the mean is as small as a regular motion's, whose neighbour goes away no faster than t: ln(t)/t."""
+        """True if the rate is below 2 ln(n)/t, as for a regular motion, whose neighbours part linearly."""
         return self.value < 2.0 * math.log(max(math.e, self.times.size)) / float(self.times[-1])
 
 
 def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Accuracy = STANDARD) -> Exponent:
-    """The exponent of the orbit from `state` (d,) over the time `span` (negative: backwards), per unit of time.
+    """Return the largest Lyapunov exponent of an orbit.
 
-    level : one of the four is that of its `Plan` for exponents, as those of orbits are too coarse for a neighbour at
-        1e-7; any other level is used as it is.
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    body : Body
+        The body.
+    state : array_like, shape (d,)
+        Initial state.
+    span : float
+        Time span, in units of the problem; negative for backward in time.
+    level : str or Level, default "standard"
+        Accuracy level.  A named level means its `Plan` for exponents, with smaller tolerances than for orbits, because
+        the neighbour is only 1e-7 away.
 
+    Returns
+    -------
+    Exponent
+        The running estimates, per unit of time.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite.
+    WorkLimit
+        If the time span is too long.
+
+    References
+    ----------
+    G. Benettin, L. Galgani, J.-M. Strelcyn, Kolmogorov entropy and numerical experiments, Phys. Rev. A 14
+    (1976).
+
+    Examples
+    --------
     >>> from hess_mechanics import lyapunov_exponent, systems
     >>> suslov = systems()["suslov"]
     >>> float(lyapunov_exponent(*suslov.example_motion, 50.0).times[-1])

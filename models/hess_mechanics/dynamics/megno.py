@@ -1,10 +1,10 @@
-"""MEGNO, the mean exponential growth of nearby orbits (Cincotta and Simó 2000): regular or chaotic after a short time.
+"""MEGNO, the mean exponential growth factor of nearby orbits (Cincotta and Simó 2000), a fast indicator of chaos.
 
-    Y(t) = (2/t) ∫₀ᵗ s d ln|δ(s)|,   Ȳ(t) = (1/t) ∫₀ᵗ Y ds,   δ by the variational equations.
+    Y(t) = (2/t) ∫₀ᵗ s d ln|δ(s)|,   Ȳ(t) = (1/t) ∫₀ᵗ Y ds,   δ from the variational equations.
 
-Ȳ tends to 2 on quasi-periodic motions and to at most 2 on those that come to rest or to a cycle; on chaotic ones it
-grows as λt/2.  It is chosen before SALI because these values are the same for every system and need one neighbour, not
-two; on a section's closed curves, where neighbours have one direction only, SALI falls to 0 as on chaotic motions.
+Ȳ tends to 2 on quasi-periodic motions, to at most 2 on motions that come to rest or to a cycle, and grows as λt/2 on
+chaotic ones.  These values are the same for every system and need a single neighbour.  SALI would need two, and falls
+to 0 on the closed curves of a section, where neighbours have one direction only, as on chaotic motions.
 """
 
 from __future__ import annotations
@@ -36,22 +36,33 @@ from hess_mechanics.numerics.results import Array, Cost, Mask, frozen
 __all__ = ["CHAOTIC", "REGULAR", "Megno", "longest_span", "megno"]
 
 CHAOTIC = 3.0
-"""Ȳ beyond this is chaotic: regular motions come to 2 from either side within 0.5."""
+"""Ȳ above this is chaotic: regular motions come to 2 from either side within 0.5."""
 REGULAR = 2.5
-"""Ȳ below this is regular; between the two nothing is said."""
+"""Ȳ below this is regular; between the two limits the motion is undecided."""
 _SAMPLES = 2400
-"""Of ln|δ|; at least one per time 1/ν is needed."""
+"""Samples of ln|δ|; at least one per time 1/ν is needed."""
 _LONGEST = _SAMPLES * 100
-"""Time of an indicator at most, in units of 1/ν."""
+"""Longest time span, in units of 1/ν."""
 _LIMIT = 1e6
 _SHARE = 4
 
 
 @dataclass(frozen=True)
 class Megno(Result):
-    """Ȳ (n,) of many motions after the time t.
+    """MEGNO of several motions.
 
-    divergence, divergence_error (n,) : the mean of div ẏ over the last four fifths of the time.
+    Attributes
+    ----------
+    t : float
+        Time span.
+    values : ndarray, shape (n,)
+        Ȳ of each motion.
+    divergence, divergence_error : ndarray, shape (n,)
+        Mean of div ẏ over the last four fifths of the time, and its standard error.
+    level : str
+        Name of the accuracy level.
+    cost : Cost
+        Steps and time.
     """
 
     t: float
@@ -63,16 +74,22 @@ class Megno(Result):
 
     @property
     def chaotic(self) -> Mask:
-        """Whether neighbours part exponentially."""
+        """True for each motion whose neighbours part exponentially, shape (n,)."""
         return np.asarray(self.values > CHAOTIC)
 
     @property
     def attracted(self) -> Mask:
-        """Whether phase volume about the motion shrinks, beyond three times the error."""
+        """True for each motion about which phase volume shrinks by more than three standard errors, shape (n,)."""
         return volume_sign(self.divergence, self.divergence_error) < 0
 
     def labels(self) -> Labels:
-        """Ȳ and the divergence of each motion."""
+        """Return Ȳ and the divergence of each motion.
+
+        Returns
+        -------
+        Labels
+            The three arrays over the motions.
+        """
         return Labels(
             {},
             {
@@ -86,9 +103,9 @@ class Megno(Result):
 
 
 def longest_span(body: Body, state: Sequence[float] | Array) -> float:
-    """Return the time that the indicator of a motion next to `state` may take.
+    """Return the longest time span of MEGNO for motions next to `state`.
 
-    A third is left free, because ν of neighbouring states differs.
+    A third is left as a reserve, because ν differs between neighbouring states.
     """
     return _LONGEST / (1.5 * Problem.of(body, [state]).nu)
 
@@ -100,10 +117,40 @@ def megno(
     level: Accuracy = STANDARD,
     threads: int = THREADS,
 ) -> Megno:
-    """Ȳ of the motions from the rows of `states` (n, d) after the time `span` (negative: backwards), on all cores.
+    """Return MEGNO of several motions, computed on all cores.
 
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    body : Body
+        The body.
+    states : array_like, shape (n, d)
+        Initial states.
+    span : float
+        Time span, in units of the problem; negative for backward in time.
+    level : str or Level, default "standard"
+        Accuracy level.
+    threads : int, optional
+        Number of threads.  By default one per core, at most eight.
 
+    Returns
+    -------
+    Megno
+        Ȳ and the mean divergence of each motion.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite.
+    WorkLimit
+        If the time span is too long.
+
+    References
+    ----------
+    P. M. Cincotta, C. Simó, Simple tools to study global dynamics in non-axisymmetric galactic potentials,
+    Astron. Astrophys. Suppl. Ser. 147 (2000).
+
+    Examples
+    --------
     >>> from hess_mechanics import megno, systems
     >>> suslov = systems()["suslov"]
     >>> body, state = suslov.example_motion
@@ -119,7 +166,7 @@ def megno(
             f"An indicator takes a time of at most {_LONGEST / problem.nu:.4g} here: it is meant to be short."
         )
     count, size = problem.states.shape
-    # As many samples as keep one per 1/ν, in twelve stretches after the first fifth.
+    # At least one sample per 1/ν, in twelve stretches after the first fifth.
     samples = 60 * max(4, math.ceil(abs(span) * problem.nu / 60))
     t = span * problem.nu * np.arange(1, samples + 1) / samples
     first = samples // 5

@@ -1,4 +1,4 @@
-"""MEGNO over the cells of a section: where motions are regular, where chaotic, and where volume about them shrinks."""
+"""MEGNO over the cells of a section: regular and chaotic regions, and regions where phase volume shrinks."""
 
 from __future__ import annotations
 
@@ -21,17 +21,30 @@ from hess_mechanics.numerics.results import Array, frozen
 __all__ = ["NOWHERE", "MegnoMap", "megno_map", "require_plane", "row_of_cells", "time_of"]
 
 NOWHERE = -1
-"""The kind of a cell from whose middle no motion starts."""
+"""Kind of a cell whose centre no motion crosses."""
 _TRIED = 16
-"""Places along each side of a section at which its frequency is looked at."""
+"""Points along each side of a section at which the frequency is evaluated."""
 
 
 @dataclass(frozen=True)
 class MegnoMap(Result):
-    """Regular, chaotic, attracted: MEGNO over the cells of a section.
+    """MEGNO over the cells of a section.
 
-    x (m,), y (n,) : the middles of the cells; values (n, m) : Ȳ after the time t, NaN where no motion is;
-    kind (n, m) : 0 regular, 1 chaotic, and 2 more where volume shrinks beyond its error; −1 where no motion is.
+    Attributes
+    ----------
+    names : tuple of str
+        Names of the two coordinates.
+    x, y : ndarray, shape (m,) and (n,)
+        Centres of the cells.
+    values : ndarray, shape (n, m)
+        Ȳ after the time t; NaN where no motion crosses the section.
+    kind : ndarray of int, shape (n, m)
+        0 regular, 1 chaotic, plus 2 where phase volume shrinks by more than its error; −1 where no motion crosses the
+        section.
+    t : float
+        Time span.
+    level : str
+        Name of the accuracy level.
     """
 
     names: tuple[str, str]
@@ -43,7 +56,13 @@ class MegnoMap(Result):
     level: str
 
     def labels(self) -> Labels:
-        """MEGNO and kind over both coordinates."""
+        """Return MEGNO and kind, labelled with both coordinates.
+
+        Returns
+        -------
+        Labels
+            Both arrays over the cells.
+        """
         across, up = self.names
         return Labels(
             {up: ((up,), self.y), across: ((across,), self.x)},
@@ -56,9 +75,29 @@ class MegnoMap(Result):
 def row_of_cells(
     section: PoincareSection, window: Window, cells: tuple[int, int], row: int, t: float, level: Accuracy
 ) -> Array:
-    """Ȳ and kind, (2, m), of the motions from the middles of the cells of a row.
+    """Return Ȳ and kind, shape (2, m), of the motions from the centres of one row of cells.
 
-    cells : (m, n) across and up the window; the row is counted from below.  Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    section : PoincareSection
+        The section.
+    window : ((float, float), (float, float))
+        Corners of the window.
+    cells : (int, int)
+        Numbers (m, n) of cells across and up.
+    row : int
+        Index of the row, from below.
+    t : float
+        Time span.
+    level : str or Level
+        Accuracy level.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite.
+    WorkLimit
+        If the time span is too long.
     """
     (x0, y0), (x1, y1) = window
     m, n = cells
@@ -73,19 +112,33 @@ def row_of_cells(
 def megno_map(
     map_: ReturnMap, cells: tuple[int, int] = (16, 12), window: Window | None = None, t: float = 200.0
 ) -> MegnoMap:
-    """Return MEGNO of the motions from the cells of a section after the time t, computed on all cores.
+    """Return MEGNO over the cells of a section, computed on all cores.
 
     Parameters
     ----------
-    map_ : a `return_map` of a section with two coordinates.
-    cells : how many across and up.
-    window : its corners (x0, y0) and (x1, y1); by default all of the section.
-    t : the time of the indicator; negative for backward in time.
+    map_ : ReturnMap
+        Return map of a section with two coordinates.
+    cells : (int, int), default (16, 12)
+        Number of cells across and up.
+    window : ((float, float), (float, float)), optional
+        Corners (x0, y0) and (x1, y1) of the window.  By default the whole section.
+    t : float, default 200
+        Time span; negative for backward in time.
+
+    Returns
+    -------
+    MegnoMap
+        Ȳ and kind of each cell.
 
     Raises
     ------
-    `InvalidParameter`, `WorkLimit`.
+    InvalidParameter
+        If the section has only one coordinate, or a number is out of range.
+    WorkLimit
+        If the time span is too long.
 
+    Examples
+    --------
     >>> from hess_mechanics import QuarticBody, megno_map, return_map
     >>> found = megno_map(return_map(QuarticBody(2.0, 1.0, 1.0, 0.8), accuracy="standard"), cells=(6, 4), t=50.0)
     >>> found.values.shape, found.names
@@ -114,21 +167,20 @@ def megno_map(
 
 
 def require_plane(section: PoincareSection) -> None:
-    """Raise `InvalidParameter` where a section has only one coordinate."""
+    """Raise `InvalidParameter` if a section has only one coordinate."""
     if len(section.names) != 2:
         raise InvalidParameter(
-            f"The section of this body has the coordinate {section.names[0]} alone: there is no "
-            "plane to fill with cells."
+            f"The section of this body has the single coordinate {section.names[0]}: this needs a section with two."
         )
 
 
 def _corners(section: PoincareSection, window: Window | None) -> Window:
-    """Return the corners of a window within a section, or of the section itself.  Raises `InvalidParameter`."""
+    """Return the corners of a window, by default those of the whole section.  Raises `InvalidParameter`."""
     require_plane(section)
     names, sides = section.names, section.window
     given = tuple(zip(*sides, strict=True)) if window is None else window
     (x0, y0), (x1, y1) = (as_place(names, corner) for corner in given)
-    # An angle may begin where it likes.
+    # A window may start at any angle.
     inside = all(
         math.isfinite(turn) or (low <= a and b <= high)
         for turn, (low, high), a, b in zip(section.turns, sides, (x0, y0), (x1, y1), strict=True)
@@ -136,16 +188,16 @@ def _corners(section: PoincareSection, window: Window | None) -> Window:
     if not (x0 < x1 and y0 < y1 and inside):
         across, up = (f"{low:.6g} to {high:.6g}" for low, high in sides)
         raise InvalidParameter(
-            "A window is (x0, y0), (x1, y1) with x0 < x1, y0 < y1: here "
-            f"{names[0]} goes from {across}, {names[1]} from {up}."
+            "A window is (x0, y0), (x1, y1) with x0 < x1 and y0 < y1. "
+            f"On this section {names[0]} runs from {across}, {names[1]} from {up}."
         )
     return (x0, y0), (x1, y1)
 
 
 def time_of(section: PoincareSection, turns: float) -> float:
-    """So many times 1/ν times the slowness of the section, the median ν of places all over it.
+    """Return the time of `turns` typical turns: multiples of 1/ν times the slowness of the section.
 
-    Raises `OutsideRegion` where none of them is possible.
+    ν is the median over points all over the section.  Raises `OutsideRegion` if no motion crosses it.
     """
     (x0, x1), (y0, y1) = section.window
     x, y = np.meshgrid(centres(x0, x1, _TRIED), centres(y0, y1, _TRIED))

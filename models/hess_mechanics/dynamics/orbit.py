@@ -1,4 +1,4 @@
-"""One orbit at given times, with a measured error."""
+"""Integrate one orbit at given times, with a measured error."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ __all__ = [
 MAX_STEPS = 1_000_000
 MAX_SAMPLES = 200_000
 _SHORTEST = 1e-290
-"""Of a time span over which rates are taken: beside one of 1e-320 the round-off of a 0 leaves double range."""
+"""Shortest time span for rates: divided by a shorter one, the round-off of a zero overflows."""
 
 
 def checked_times(times: float | Sequence[float] | Array) -> Array:
-    """A copy of the times (n,), checked.  Raises `InvalidParameter`, `WorkLimit`."""
+    """Return a validated copy of the times (n,).  Raises `InvalidParameter`, `WorkLimit`."""
     try:
         t = np.array(times, dtype=float, ndmin=1)
     except (TypeError, ValueError):
@@ -45,15 +45,15 @@ def checked_times(times: float | Sequence[float] | Array) -> Array:
     if t.ndim != 1 or t.size == 0 or not np.all(np.isfinite(t)):
         raise InvalidParameter("The times must be one or more finite numbers.")
     if t.size > MAX_SAMPLES:
-        raise WorkLimit(f"{t.size} times were asked for; at most {MAX_SAMPLES} are allowed.")
+        raise WorkLimit(f"{t.size} times are too many: at most {MAX_SAMPLES} are allowed.")
     before = np.concatenate(([0.0], t[:-1]))
     if np.any(t < before) and np.any(t > before):
-        raise InvalidParameter("The times must run away from 0, all forward or all backward.")
+        raise InvalidParameter("The times must be monotonic and start at 0 or on one side of it.")
     return t
 
 
 def checked_span(span: float, what: str) -> float:
-    """The time span over which `what` is taken, checked.  Raises `InvalidParameter`."""
+    """Return the time span of the quantity `what`, validated.  Raises `InvalidParameter`."""
     if isinstance(span, Real) and not _SHORTEST <= abs(span) < math.inf:
         raise InvalidParameter(
             f"The time span of {what} must be a finite number other than 0, of {_SHORTEST:g} or "
@@ -63,19 +63,19 @@ def checked_span(span: float, what: str) -> float:
 
 
 def require_steps(steps: int, too_long: str) -> None:
-    """Raise `WorkLimit` with the sentence `too_long` where a kernel needs more steps than it was given."""
+    """Raise `WorkLimit` with the message `too_long` if a kernel ran out of steps."""
     if steps == STEP_LIMIT_REACHED:
         raise WorkLimit(too_long)
 
 
 def require_finite_states(states: Array) -> None:
-    """Raise `InvalidParameter` where a state has left double range."""
+    """Raise `InvalidParameter` if a state is not finite."""
     if not np.all(np.isfinite(states)):
         raise InvalidParameter("The motion left the range of double precision: choose less extreme parameters.")
 
 
 def require_finite_neighbours(*found: Array) -> None:
-    """Raise `WorkLimit` where what is known of an orbit's neighbours has left double range."""
+    """Raise `WorkLimit` if the variational equations have overflowed."""
     if not all(np.all(np.isfinite(one)) for one in found):
         raise WorkLimit(
             "Neighbours part beyond the range of double precision: choose a shorter time span, or less "
@@ -84,7 +84,7 @@ def require_finite_neighbours(*found: Array) -> None:
 
 
 def require_finite_rates(*rates: Array | float) -> None:
-    """Raise `InvalidParameter` where a rate per unit of time has left double range."""
+    """Raise `InvalidParameter` if a rate has overflowed."""
     if not all(np.all(np.isfinite(one)) for one in rates):
         raise InvalidParameter(
             "Rates over this time span leave the range of double precision: choose a longer one, or "
@@ -93,15 +93,29 @@ def require_finite_rates(*rates: Array | float) -> None:
 
 
 def drift_of(system: System, start: Array, states: Array, parameters: Array) -> dict[str, float]:
-    """Return the largest of `drifts_along` of each integral."""
+    """Return the largest drift of each integral along an orbit, see `drifts_along`."""
     drifts = drifts_along(system, start, states, parameters)
     return {name: float(np.max(drift, initial=0.0)) for name, drift in drifts.items()}
 
 
 def drifts_along(system: System, start: Array, states: Array, parameters: Array) -> dict[str, Array]:
-    """Return |F(y) − F(start)| for each integral F, relative to |F(start)| where that exceeds 1.
+    """Return the drift |F(y) − F(start)| of each integral F along orbits, relative to |F(start)| if that exceeds 1.
 
-    start (d,) and states (m, d) of one orbit, or (n, d) and (n, m, d) of many; the result is (m,) or (n, m).
+    Parameters
+    ----------
+    system : System
+        The equations of motion.
+    start : ndarray, shape (d,) or (n, d)
+        Initial state of one orbit or of many.
+    states : ndarray, shape (m, d) or (n, m, d)
+        States along the orbits.
+    parameters : ndarray, shape (q,)
+        Parameters of the system.
+
+    Returns
+    -------
+    dict of str to ndarray, shape (m,) or (n, m)
+        Drift of each integral, by name.
     """
     p = list(parameters)
     initial = system.integrals(list(np.moveaxis(start, -1, 0)), p)
@@ -120,28 +134,42 @@ def solve(
     accuracy: Accuracy = "precise",
     samples: int = 500,
 ) -> Orbit:
-    """Return the orbit of a body from `state` (d,), with a measured error.
+    """Return the orbit of a body from an initial state, with a measured error.
 
     Parameters
     ----------
-    body : what moves: one of the bodies of this package, or a system with values of its parameters, `System.at`.
-    state : the variables of its system at the time 0, in their order.
-    t : the times (n,) of the result, all forward or all backward from 0; or one number, the end of the time span, over
-        which `samples` times are spread evenly.
-    accuracy : a level or its name, "draft", "standard", "precise" or "reference".
+    body : Body
+        A body of this package, or a system with values of its parameters, `System.at`.
+    state : array_like, shape (d,)
+        Initial state at time 0: the variables of the body's system, in their order.
+    t : float or array_like, shape (n,)
+        Times of the result, monotonic from 0 forward or backward; or a single number, the end of the time span.
+    accuracy : str or Level, default "precise"
+        Accuracy level: "draft", "standard", "precise", "reference", or a level of your own.
+    samples : int, default 500
+        Number of evenly spaced times if `t` is a single number.
 
     Returns
     -------
-    The states at these times, with status, error estimate, drift of the integrals and cost.
+    Orbit
+        The states at these times, with status, error estimate, drift of the integrals and cost.
 
     Raises
     ------
-    `InvalidParameter` (not finite, times out of order), `WorkLimit`.
+    InvalidParameter
+        If a number is not finite, or the times are not monotonic.
+    WorkLimit
+        If the orbit needs too many steps or has too many samples.
 
-    The orbit is computed twice, the second time with a hundredth of the tolerance and from a start that is moved by a
-    few units in the last place; the difference is the error estimate.  If that exceeds the level's promise, more exact
-    runs follow, down to the floor of double precision: see `numerics.measured`.
+    Notes
+    -----
+    Taylor series of high order with adaptive steps.  The orbit is computed twice, the second time with a
+    hundredth of the tolerance and from a start that is moved by a few units in the last place; the difference gives the
+    error estimate.  If it exceeds the promise of the level, more exact runs follow, down to the floor of double
+    precision: see `numerics.measured`.
 
+    Examples
+    --------
     >>> from hess_mechanics import SuslovBody, solve, systems
     >>> found = solve(SuslovBody(2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0), (0.8, -0.4, 0.6, 0.0, 0.8), t=10.0)
     >>> found.states.shape, str(found.status), found.variables

@@ -1,4 +1,4 @@
-"""Poincaré sections: crossings of a plane or another surface by one orbit or many, with error estimates."""
+"""Poincaré sections: crossings of a plane or another surface by one orbit or many."""
 
 from __future__ import annotations
 
@@ -35,16 +35,31 @@ __all__ = [
 MAX_CROSSINGS = 100_000
 MAX_STEPS = 5_000_000
 _ROOM = 1000
-"""Crossings for which memory is allocated at first: few orbits have more."""
+"""Crossings for which memory is allocated at first; few orbits have more."""
 _PARTS = 8
 """Time intervals into which a section of many orbits is divided."""
 _SHARE = 4
-"""Orbits per piece of work."""
+"""Orbits per task of the thread pool."""
 
 
 @dataclass(frozen=True)
 class Plane:
-    """The plane normal·y = offset in state space; sense 1: crossed from below, −1: from above, 0: both ways."""
+    """The plane normal·y = offset in state space.
+
+    Parameters
+    ----------
+    normal : tuple of float, shape (d,)
+        Normal vector; its length does not matter.
+    offset : float, default 0
+        Value of normal·y on the plane.
+    sense : {1, -1, 0}, default 1
+        Crossings that count: from below (1), from above (−1), or both (0).
+
+    Raises
+    ------
+    InvalidParameter
+        If the normal is zero or not finite, or `sense` is another number.
+    """
 
     normal: tuple[float, ...]
     offset: float = 0.0
@@ -57,11 +72,44 @@ class Plane:
             raise InvalidParameter("The sense of a crossing is 1 (from below), −1 (from above) or 0 (both).")
 
     def gradient(self, state: Array) -> Array:
-        """The normal."""
+        """Return the normal.
+
+        Parameters
+        ----------
+        state : ndarray, shape (d,)
+            Any state.
+
+        Returns
+        -------
+        ndarray, shape (d,)
+            The normal, as given.
+        """
         return np.array(self.normal)
 
     def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
-        """See `Surface.scaled`; the normal has length 1.  Raises `InvalidParameter`."""
+        """Return the crossing kernel with the plane in the units of a problem.
+
+        Parameters
+        ----------
+        system : System
+            The equations of motion.
+        problem : Problem
+            The initial states and their units.
+
+        Returns
+        -------
+        cross : callable
+            Kernel that finds the crossings.
+        normal : ndarray, shape (d,)
+            Normal vector of length 1.
+        offset : float
+            Offset for this normal.
+
+        Raises
+        ------
+        InvalidParameter
+            If the normal does not have d components, or the offset is too large.
+        """
         if len(self.normal) != len(system.variables):
             raise InvalidParameter(f"The normal of the plane has {len(system.variables)} components here.")
         largest = max(map(abs, self.normal))
@@ -69,7 +117,7 @@ class Plane:
         length = float(np.linalg.norm(normal))
         offset = self.offset / largest / length
         if not math.isfinite(offset):
-            raise InvalidParameter("The offset of the plane is too large beside its normal: choose a smaller one.")
+            raise InvalidParameter("The offset of the plane is too large for its normal: choose a smaller one.")
         return system.cross, normal / length, offset
 
 
@@ -77,19 +125,19 @@ class Surface(Protocol):
     """A surface in state space."""
 
     def gradient(self, state: Array) -> Array:
-        """Of what is 0 on it, at a state (d,) of it."""
+        """Return the gradient (d,) of the function that vanishes on the surface, at a state (d,) of the surface."""
 
     @property
     def sense(self) -> int:
-        """1: crossed from below, −1: from above, 0: both ways."""
+        """Crossings that count: 1 from below, −1 from above, 0 both."""
 
     def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
-        """The kernel that finds its crossings, and normal and offset in units in which the states are O(1)."""
+        """Return the crossing kernel, the normal and the offset in units in which the states are O(1)."""
 
 
 @dataclass(frozen=True)
 class _Search:
-    """A search for crossings by the orbits from `starts` (n, d); all else in units in which the states are O(1)."""
+    """A search for crossings by the orbits from `starts` (n, d); all else is in units in which the states are O(1)."""
 
     body: Body
     starts: Array
@@ -112,18 +160,18 @@ class _Search:
         level: Level,
         crossings: int,
     ) -> _Search:
-        """Check everything.  Raises `InvalidParameter`, `WorkLimit`."""
+        """Validate the arguments and scale them.  Raises `InvalidParameter`, `WorkLimit`."""
         if not math.isfinite(end):
             raise InvalidParameter("The end of the time span must be finite.")
         if not 1 <= crossings <= MAX_CROSSINGS:
-            raise WorkLimit(f"The number of crossings lies between 1 and {MAX_CROSSINGS}.")
+            raise WorkLimit(f"The number of crossings must lie between 1 and {MAX_CROSSINGS}.")
         problem = Problem.of(body, states)
         cross, normal, offset = plane.scaled(body.system, problem)
         starts = np.array(states, float, ndmin=2)
         return cls(body, starts, problem, cross, normal, offset, plane.sense, end * problem.nu, level, crossings)
 
     def run(self, i: int, level: Level, max_steps: int, start: Array | None = None) -> tuple[tuple[Array, Array], int]:
-        """Times and states, and steps, of the crossings of orbit i, or of the orbit from `start`, at one tolerance."""
+        """Return (times, states) of the crossings of orbit i, or of the orbit from `start`, and the steps taken."""
         if start is None:
             start = (self.problem.nearby() if level.aside else self.problem).states[i]
         room, total = min(self.crossings, _ROOM), 0
@@ -151,7 +199,7 @@ class _Search:
         return (times[:found].copy(), states[:found].copy()), total
 
     def measured(self, i: int) -> SectionCrossings:
-        """The crossings of orbit i, with errors measured against a run that is more accurate and starts nearby."""
+        """Return the crossings of orbit i, with an error estimate from a more accurate run with a nearby start."""
         found = measured(self.level, lambda level, spent: self.run(i, level, MAX_STEPS - spent), self._apart)
         (times, scaled), (_, others) = found.result, found.other
         both = min(len(scaled), len(others))
@@ -172,7 +220,7 @@ class _Search:
         )
 
     def _apart(self, one: tuple[Array, Array], other: tuple[Array, Array]) -> float:
-        """The difference of two runs' crossings, ∞ where these are not the same ones."""
+        """Return the difference of the crossings of two runs, ∞ if these are not the same crossings."""
         (times, states), (other_times, others) = one, other
         both = min(len(states), len(others))
         # One crossing may differ, at the very end of the time span.
@@ -189,12 +237,42 @@ def section(
     level: Accuracy,
     crossings: int = MAX_CROSSINGS,
 ) -> SectionCrossings:
-    """The first `crossings` crossings of the plane from t = 0 to t = `end`, which may be negative.
+    """Return the crossings of a surface by one orbit.
 
+    Parameters
+    ----------
+    body : Body
+        The body.
+    state : array_like, shape (d,)
+        Initial state at time 0.
+    plane : Plane or Surface
+        The surface.
+    end : float
+        End of the time span; may be negative.
+    level : str or Level
+        Accuracy level.
+    crossings : int, default 100 000
+        Largest number of crossings.
+
+    Returns
+    -------
+    SectionCrossings
+        Times and states of the crossings, with status, error estimate and drift of the integrals.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite, or the plane does not fit the state.
+    WorkLimit
+        If the orbit needs too many steps.
+
+    Notes
+    -----
     Crossings are roots of the orbit's own Taylor polynomials.  The error is measured as in `solve`, crossing by
-    crossing; a run whose crossings are not those of the more accurate run is replaced by it.
-    Raises `InvalidParameter`, `WorkLimit`.
+    crossing; if two runs find different crossings, the more accurate one is used.
 
+    Examples
+    --------
     >>> from hess_mechanics import Plane, level, section, systems
     >>> suslov = systems()["suslov"]
     >>> found = section(*suslov.example_motion, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"), 5)
@@ -213,8 +291,41 @@ def sections(
     crossings: int = MAX_CROSSINGS,
     threads: int = THREADS,
 ) -> list[SectionCrossings]:
-    """`section` for each row of `states` (n, d), on all cores; the fastest orbit sets the unit of time for all.
+    """Return the crossings of a surface by several orbits, computed on all cores.
 
+    The fastest orbit sets the unit of time for all of them.
+
+    Parameters
+    ----------
+    body : Body
+        The body.
+    states : array_like, shape (n, d)
+        Initial states at time 0.
+    plane : Plane or Surface
+        The surface.
+    end : float
+        End of the time span; may be negative.
+    level : str or Level
+        Accuracy level.
+    crossings : int, default 100 000
+        Largest number of crossings per orbit.
+    threads : int, optional
+        Number of threads.  By default one per core, at most eight.
+
+    Returns
+    -------
+    list of SectionCrossings
+        The crossings of each orbit, as `section` returns them.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite, or the plane does not fit the states.
+    WorkLimit
+        If an orbit needs too many steps.
+
+    Examples
+    --------
     >>> from hess_mechanics import Plane, level, sections, systems
     >>> suslov = systems()["suslov"]
     >>> body, state = suslov.example_motion
@@ -234,11 +345,21 @@ def sections(
 
 @dataclass(frozen=True)
 class SectionPoints(Result):
-    """Crossings of many orbits, each computed once.
+    """Crossings of several orbits, each computed once.
 
-    states : a list of (n, d), one per orbit; drift : for each integral the largest.
-    The points lie on the plane and on their levels of the integrals.  There is no error estimate along the orbits,
-    which for chaotic motions would soon be meaningless: see `section`.
+    The points lie on the surface and on the levels of the integrals.  There is no error estimate along the orbits,
+    which would soon be meaningless for chaotic motions; `section` has one.
+
+    Attributes
+    ----------
+    states : list of ndarray, shape (n, d)
+        States at the crossings of each orbit.
+    drift : dict of str to float
+        Largest drift of each integral.
+    cost : Cost
+        Steps and time.
+    variables : tuple of str
+        Names of the variables.
     """
 
     states: list[Array]
@@ -247,7 +368,13 @@ class SectionPoints(Result):
     variables: tuple[str, ...] = ()
 
     def labels(self) -> Labels:
-        """The variables of the system at all crossings, with the number of the orbit."""
+        """Return the variables at all crossings, labelled with the number of the orbit.
+
+        Returns
+        -------
+        Labels
+            The variables over the crossings.
+        """
         orbit = np.repeat(np.arange(len(self.states)), [len(one) for one in self.states])
         points = np.concatenate([np.empty((0, len(self.variables))), *self.states])
         return Labels(
@@ -268,11 +395,43 @@ def section_points(
     threads: int = THREADS,
     most_steps: int = MAX_STEPS,
 ) -> SectionPoints:
-    """The first `crossings` crossings of the orbits from the rows of `states` (n, d), in one run, for pictures.
+    """Return the crossings of a surface by several orbits, each computed once, for pictures.
 
     An orbit that falls behind the average rate of crossings in one part of the time span ends there.
-    most_steps : per orbit.  Raises `InvalidParameter`, `WorkLimit`.
 
+    Parameters
+    ----------
+    body : Body
+        The body.
+    states : array_like, shape (n, d)
+        Initial states at time 0.
+    plane : Plane or Surface
+        The surface.
+    end : float
+        End of the time span; may be negative.
+    level : str or Level
+        Accuracy level.
+    crossings : int
+        Largest number of crossings per orbit.
+    threads : int, optional
+        Number of threads.  By default one per core, at most eight.
+    most_steps : int, default 5 000 000
+        Largest number of steps per orbit.
+
+    Returns
+    -------
+    SectionPoints
+        States at the crossings of each orbit.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite, or the plane does not fit the states.
+    WorkLimit
+        If an orbit needs too many steps.
+
+    Examples
+    --------
     >>> from hess_mechanics import Plane, level, section_points, systems
     >>> suslov = systems()["suslov"]
     >>> body, state = suslov.example_motion
@@ -304,7 +463,7 @@ def section_points(
     refused: list[WorkLimit] = []
 
     def one(orbit: int) -> None:
-        # One orbit beyond the limit refuses the whole section.
+        # A single orbit beyond the limit stops the whole section.
         if not refused:
             try:
                 found[orbit] = follow(orbit)
@@ -327,9 +486,9 @@ def section_points(
 
 
 def occupied_cells(points: Array, across: int = 32) -> int:
-    """How many of across × across equal cells hold a point: few along a curve, many in a chaotic sea.
+    """Return the number of across × across equal cells that hold a point: few on a curve, many in a chaotic sea.
 
-    points : (n, 2), angles in (−π, π] × [0, π], which the cells cover.
+    The points (n, 2) are angles in (−π, π] × [0, π], and the cells cover this rectangle.
     """
     x = np.floor((points[:, 0] + math.pi) / (2.0 * math.pi) * across).astype(int) % across
     y = np.minimum((points[:, 1] / math.pi * across).astype(int), across - 1)

@@ -1,11 +1,11 @@
-"""All Lyapunov exponents of one orbit, by its variational equations (Benettin, Galgani, Giorgilli, Strelcyn 1980).
+"""All Lyapunov exponents of one orbit, from its variational equations (Benettin, Galgani, Giorgilli, Strelcyn 1980).
 
-A frame of neighbours moves by V̇ = J V in the orbit's own Taylor steps and is made orthogonal whenever its condition
-asks for it, so no distance need be a small number and nothing is lost to round-off.  ∫ tr J dt is found on the way; the
-sum of all exponents is its mean, whatever the frame.
+A frame of tangent vectors evolves by V̇ = J V in the orbit's own Taylor steps.  It is orthonormalised whenever its
+condition requires it, so no distance has to be small and no digits are lost to round-off.  ∫ tr J dt is computed along
+with it; its mean is the sum of all exponents, whatever the frame.
 
-The first of the frame is along the motion, so it is f(y) at any time and grows as ln |f(y)|: until the motion comes to
-rest, it is not integrated.
+The first vector of the frame is along the motion.  It equals f(y) at any time and grows as ln |f(y)|, so it is not
+integrated until the motion comes to rest.
 """
 
 from __future__ import annotations
@@ -47,14 +47,14 @@ __all__ = [
 ]
 
 _PARTS = 15
-"""Stretches of time; the frame settles in the first three and is measured in the other twelve."""
+"""Stretches of time: the frame settles in the first three, and the other twelve are measured."""
 _SETTLES = 3
 _SAMPLES = 16
-"""Per stretch."""
+"""Samples per stretch."""
 LIMIT = 1e2
-"""Of the condition of the frame: what a step leaves out, most of all of f, is multiplied by it at most."""
+"""Largest condition of the frame; it multiplies the truncation error of a step at most."""
 _SLOW = 1e-2
-"""Of |f| in units in which states are O(1): what f(y) is off is divided by it."""
+"""Smallest |f| of a moving orbit, in units in which states are O(1): errors of f(y) are divided by it."""
 _ERRORS = 3.0
 _ONE_SIDED = 0.99865
 """Probability that a normal variable stays below three standard deviations."""
@@ -62,13 +62,33 @@ _ONE_SIDED = 0.99865
 
 @dataclass(frozen=True)
 class Spectrum(Result):
-    """All exponents (d,), the largest first, per unit of time.
+    """All Lyapunov exponents of one orbit.
 
-    times (n,), rates (n, d) : the mean growth up to each time, which shows how it converges.
-    values, errors (d,) : the mean over the last four fifths of the time.  An error is the standard error from 12
-        stretches, and how much the mean differs from the rate beside a growth like a power of t, which is no exponent.
-    divergence, divergence_error : the mean of tr J over the same time.
-    integrals : how many the system has; volume_kept : whether the divergence is 0 wherever the motion went.
+    Attributes
+    ----------
+    system : str
+        Name of the system.
+    level : str
+        Name of the accuracy level.
+    times : ndarray, shape (n,)
+        Times.
+    rates : ndarray, shape (n, d)
+        Mean growth rates up to each time, which show the convergence.
+    values : ndarray, shape (d,)
+        The exponents per unit of time, the largest first: means over the last four fifths of the time.
+    errors : ndarray, shape (d,)
+        Standard error from 12 stretches of time, combined with the part of the growth that is a power of t and
+        therefore no exponent.
+    divergence, divergence_error : float
+        Mean of tr J over the same time, and its error.
+    integrals : int
+        Number of first integrals of the system.
+    volume_kept : bool
+        True if the divergence was 0 all along the orbit.
+    status : Status
+        How the computation ended.
+    cost : Cost
+        Steps and time.
     """
 
     system: str
@@ -86,12 +106,12 @@ class Spectrum(Result):
 
     @property
     def error_estimate(self) -> float:
-        """The largest error of an exponent."""
+        """Largest error of an exponent."""
         return float(self.errors.max())
 
     @property
     def signs(self) -> tuple[str, ...]:
-        """ "+", "0" or "-" for each exponent: 0 is what is 0 to three times its error."""
+        """Sign of each exponent: "+", "0" or "-", where "0" means within three errors of 0."""
         return tuple(
             "0" if abs(value) <= _ERRORS * error else "+" if value > 0.0 else "-"
             for value, error in zip(self.values.tolist(), self.errors.tolist(), strict=True)
@@ -99,36 +119,36 @@ class Spectrum(Result):
 
     @property
     def zeros(self) -> int:
-        """How many are 0.  Each integral has one and the direction of the motion has one, where it does not rest."""
+        """Number of zero exponents: one per integral, and one for the direction of motion unless it is at rest."""
         return self.signs.count("0")
 
     @property
     def pairs(self) -> tuple[tuple[float, float], ...]:
-        """λ_i + λ_(d+1−i) and its error, the outermost pair first."""
+        """Sums λ_i + λ_(d+1−i) with their errors, the outermost pair first."""
         half = self.values.size // 2
         sums, errors = self.values + self.values[::-1], np.hypot(self.errors, self.errors[::-1])
         return tuple(zip(sums[:half].tolist(), errors[:half].tolist(), strict=True))
 
     @property
     def paired(self) -> bool:
-        """Whether to each exponent there is its negative, to three times the error."""
+        """True if each exponent has its negative, within three errors."""
         return all(abs(total) <= _ERRORS * error for total, error in self.pairs)
 
     @property
     def pairs_forced(self) -> bool:
-        """Whether they must be pairs: volume is kept, and all but two exponents are those of integrals and the motion.
+        """True if the exponents must form pairs: volume is kept, and at most two are not zero by necessity.
 
-        A reversor takes the exponents of an attractor to those of its repeller, with the other sign: it forces pairs
-        only where the two are one.
+        A reversor maps the exponents of an attractor to those of its repeller with the opposite sign, so it forces
+        pairs only if the two coincide.
         """
         return self.volume_kept and self.values.size - self.integrals - 1 <= 2
 
     @cached_property
     def dimension(self) -> tuple[float, float]:
-        """Kaplan and Yorke's dimension of what the motion fills, on its level of the integrals, and its error.
+        """Kaplan–Yorke dimension of the set that the motion fills, on its level of the integrals, and its error.
 
-        An exponent 0 for each integral is left out, and what is 0 to its error counts as 0.  The sum of all exponents
-        is the mean divergence, which is known better than they are.
+        One zero exponent per integral is left out, and exponents within their error of 0 count as 0.  The sum of all
+        exponents is the mean divergence, which is known more exactly.
         """
         zero = [sign == "0" for sign in self.signs]
         values, errors = np.where(zero, 0.0, self.values), np.where(zero, 0.0, self.errors)
@@ -137,7 +157,13 @@ class Spectrum(Result):
         return kaplan_yorke(values[kept], errors[kept], self.divergence, self.divergence_error)
 
     def labels(self) -> Labels:
-        """The running means over the time, the exponents with their errors."""
+        """Return the running means over time, and the exponents with their errors.
+
+        Returns
+        -------
+        Labels
+            Rates, exponents and errors.
+        """
         number = np.arange(1, self.values.size + 1)
         dimension, error = self.dimension
         return Labels(
@@ -197,7 +223,7 @@ def kaplan_yorke(
     if total >= -_ERRORS * total_error:
         return float(values.size), (abs(total) + total_error) / last if last > 0.0 else 0.0
     if last == 0.0:
-        # Volume shrinks, and along no direction is that seen: nothing is known.
+        # Volume shrinks, but no exponent is negative: nothing is known.
         return float(values.size), float(values.size)
     k = int(np.argmax(sums < 0.0)) if np.any(sums < 0.0) else values.size - 1
     if known and k == values.size - 1:
@@ -209,18 +235,18 @@ def kaplan_yorke(
 
 
 def volume_sign(divergence: Array | float, error: Array | float) -> NDArray[np.int_]:
-    """−1 where phase volume shrinks at mean divergences, 1 where it grows, 0 where neither is seen.
+    """Return −1 where phase volume shrinks, 1 where it grows, and 0 where neither is significant.
 
-    Seen is what is beyond three times its error and the round-off of a 0.
+    A mean divergence is significant beyond three times its error and the round-off of a zero.
     """
     seen = np.abs(divergence) > _ERRORS * np.asarray(error) + 1e-9
     return np.where(seen, np.sign(divergence), 0.0).astype(int)
 
 
 def batch_error(sums: Array, times: Array) -> tuple[Array, Array]:
-    """Mean rates (m,) of sums (n, m) over times (n,), and their errors, see `Spectrum`.
+    """Return the mean rates (m,) of sums (n, m) over times (n,), and their errors, see `Spectrum`.
 
-    The first sample begins the first of 12 equally long stretches, the last ends the last.
+    The first sample is the start of the first of 12 equally long stretches, the last one the end of the last.
     """
     length = float(times[-1] - times[0])
     mean = (sums[-1] - sums[0]) / length
@@ -254,19 +280,49 @@ def ensemble_mean(values: Array) -> tuple[float, float]:
 
 
 def first_frame(system: System, problem: Problem) -> tuple[Array, float]:
-    """Orthonormal columns (d, d), of no special direction but the first, which is along the motion; and its speed.
+    """Return orthonormal columns (d, d), the first one along the motion, the others in general position; and the speed.
 
-    A motion that is slow has no special direction either.
+    If the motion is slow, all columns are in general position.
     """
     size = problem.states.shape[1]
     return frame_ahead(system, problem, np.cos(1.0 + np.arange(size * size).reshape(size, size) ** 2), _SLOW)
 
 
 def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, level: Accuracy = STANDARD) -> Spectrum:
-    """All exponents of the orbit from `state` (d,) over the time `span` (negative: backwards).
+    """Return all Lyapunov exponents of an orbit.
 
-    They are those of the equations in all d variables.  Raises `InvalidParameter`, `WorkLimit`.
+    They are the exponents of the equations in all d variables.
 
+    Parameters
+    ----------
+    body : Body
+        The body.
+    state : array_like, shape (d,)
+        Initial state.
+    span : float
+        Time span, in units of the problem; negative for backward in time.
+    level : str or Level, default "standard"
+        Accuracy level.
+
+    Returns
+    -------
+    Spectrum
+        The exponents with their errors.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite.
+    WorkLimit
+        If the orbit needs too many steps.
+
+    References
+    ----------
+    G. Benettin, L. Galgani, A. Giorgilli, J.-M. Strelcyn, Lyapunov characteristic exponents for smooth dynamical
+    systems, Meccanica 15 (1980).
+
+    Examples
+    --------
     >>> from hess_mechanics import lyapunov_spectrum, systems
     >>> suslov = systems()["suslov"]
     >>> lyapunov_spectrum(*suslov.example_motion, 200.0).values.shape
@@ -302,7 +358,7 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, l
             speeds = speed * np.linalg.norm(frames[:, :, 0], axis=1)
             speed = float(speeds[-1])
             if not speeds.min() > _SLOW:
-                # From here on f is a neighbour like all others.
+                # From here on f is integrated like all other vectors.
                 ahead = False
                 states, frames, logs, traces = stretch(ahead)
         columns, lengths = np.linalg.qr(frames)

@@ -1,8 +1,7 @@
-"""What every system of equations offers, and the registry that finds them.
+"""Systems of equations of motion, and the registry of all systems.
 
-A system is one module of this package with a `SYSTEM`.  Its field and integrals are written in plain arithmetic, so
-that floats, arrays, symbols and multiple-precision numbers all pass through them; its kernels are derived from the
-field.
+A system is a module of this package with a `SYSTEM`.  Its field and integrals are plain arithmetic, so that they accept
+floats, arrays, symbols and multiple-precision numbers; its kernels are derived from the field.
 """
 
 from __future__ import annotations
@@ -33,13 +32,26 @@ __all__ = ["Body", "ParametrizedSystem", "Problem", "System", "in_units_of_time"
 
 
 _DERIVING = RLock()
-"""Threads that want the same kernel get the same one: it is compiled once."""
+"""Lock around the derivation of kernels, so that threads compile each kernel once."""
 _SEED, _CHECKS, _ROUNDING = 1, 4, 1e-9
-"""Of the check that a system scales: random parameters are drawn so many times, with some states each."""
+"""The check of scaling: seed of the random numbers, draws of parameters, and relative rounding error."""
 
 
 def in_units_of_time(first: int, velocities: int = 2) -> Callable[[Array, Array, float], tuple[Array, Array]]:
-    """`System.rescale` where y begins with so many velocities, and the parameters from `first` on are a field."""
+    """Return a `System.rescale` for a state that begins with velocities and parameters that end with a field.
+
+    Parameters
+    ----------
+    first : int
+        Index of the first parameter that belongs to the field, which scales with 1/time².
+    velocities : int, default 2
+        Number of leading variables that scale with 1/time.
+
+    Returns
+    -------
+    callable
+        The function rescale(y, p, nu).
+    """
 
     def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
         y, p = y.copy(), p.copy()
@@ -52,26 +64,48 @@ def in_units_of_time(first: int, velocities: int = 2) -> Callable[[Array, Array,
 
 @dataclass(frozen=True)
 class System:
-    """One system of differential equations ẏ = f(y, p).
+    """A system of differential equations ẏ = f(y, p).
 
-    name, title : identifier and words.
-    source, labels : the paper's equations: as numbered in print, and their labels in its LaTeX source.
-    variables, parameters : the names of the components of y and p.
-    angular_velocities : how many of the leading variables scale with 1/time, as angular velocities and momenta do; 0
-        where none does.  Names say nothing about that.
-    field(y, p), integrals(y, p) : plain arithmetic on sequences; the field is traced, see `numerics.tracing`.
-    frequency(y, p) : a bound ν on every |ω|, of y (d,) or (d, n); time is measured in 1/ν when integrating.
-    rescale(y, p, ν) : states (d,) or (d, n) and parameters in units of time 1/ν.  It divides the angular velocities by
-        ν and `unit`, leaves the other variables, and scales the parameters so that the motion stays the same.
-    example : a state and parameters to try.
-    unit(p) : what the leading variables, angular velocities or momenta, are divided by besides ν.
-    tolerance(y, p, order, asked) : the tolerance for an orbit from y, where its series needs a smaller one than was
-        asked for.  It is compiled: numbers and arrays only.
+    Parameters
+    ----------
+    name : str
+        Identifier.
+    title : str
+        Name in words.
+    source : str
+        Equation numbers in the paper.
+    labels : tuple of str
+        Labels of these equations in the paper's LaTeX source.
+    variables : tuple of str
+        Names of the d components of y.
+    parameters : tuple of str
+        Names of the q components of p.
+    angular_velocities : int
+        Number of leading variables that scale with 1/time, as angular velocities and momenta do.
+    field : callable
+        The rates field(y, p), in plain arithmetic on sequences; it is traced, see `numerics.tracing`.
+    integrals : callable
+        First integrals by name, integrals(y, p), in plain arithmetic on sequences.
+    frequency : callable
+        A bound ν of every |ω|, frequency(y, p), for y of shape (d,) or (d, n).  Orbits are integrated in units of time
+        1/ν.
+    rescale : callable
+        States and parameters in units of time 1/ν, rescale(y, p, nu), for y of shape (d,) or (d, n).  It divides the
+        leading variables by ν and `unit`, leaves the others, and scales p so that the motion stays the same.
+    example : (tuple of float, tuple of float)
+        A state and parameters to try.
+    unit : callable, optional
+        Scale unit(p) of the leading variables besides ν.  By default 1.
+    tolerance : callable, optional
+        Tolerance for an orbit from y whose series needs a smaller one, tolerance(y, p, order, asked).  It is compiled.
 
     Raises
     ------
-    WrongScaling : `rescale`, `angular_velocities` and `unit` do not fit the field; this is checked at random points.
+    WrongScaling
+        If `rescale`, `angular_velocities` and `unit` do not fit the field.  This is checked at random points.
 
+    Examples
+    --------
     >>> from hess_mechanics import System, solve
     >>> from hess_mechanics.dynamics.system import in_units_of_time
     >>> pendulum = System(  # ẇ = −k sin θ, θ̇ = w, with s = sin θ, c = cos θ
@@ -110,12 +144,12 @@ class System:
         self._check_scaling()
 
     def _check_scaling(self) -> None:
-        """Compare states and rates at random points with those that `rescale` leads to.  Raises `WrongScaling`."""
+        """Compare states and rates at random points before and after `rescale`.  Raises `WrongScaling`."""
         draw = np.random.default_rng(_SEED)
         state, parameters = (np.array(values, float) for values in self.example)
         for _ in range(_CHECKS):
-            # Near the example, where the equations are defined, but with no component left at 0; and not as many as
-            # there are variables, which a `rescale` of a single state would take for one.
+            # Near the example, where the equations are defined, with no component equal to 0; and d + 1 states, because
+            # a `rescale` for a single state would mistake d states for one.
             shape = state.size + 1, state.size
             states = state * draw.uniform(0.5, 2.0, shape) + draw.uniform(-0.5, 0.5, shape)
             p = np.where(parameters == 0.0, 1.0, parameters) * draw.uniform(0.5, 2.0, parameters.size)
@@ -133,7 +167,7 @@ class System:
     def _compare(self, y: Array, p: Array, scaled: Array, problem: Problem) -> None:
         rates = self._rates(y, p), self._rates(scaled, problem.parameters)
         if rates[0] is None or rates[1] is None:
-            return  # the trace of the field says what is wrong with it
+            return  # tracing the field reports the error
         expected = np.concatenate([y, rates[0]])
         found = np.concatenate([problem.scale * scaled, problem.scale * problem.nu * rates[1]])
         names = [*self.variables, *(f"d{name}/dt" for name in self.variables)]
@@ -148,7 +182,7 @@ class System:
                 )
 
     def _rates(self, y: Array, p: Array) -> Array | None:
-        """Return the field (d,) in floats; None where it has no d finite values."""
+        """Return the field (d,) in floats; None if it does not have d finite values."""
         try:
             with np.errstate(all="ignore"):
                 found = np.array(self.field(y.tolist(), p.tolist()), float)
@@ -158,17 +192,17 @@ class System:
 
     @cached_property
     def recursion(self) -> Recursion:
-        """The Taylor recursion of the field.  Raises `NotTraceable`."""
+        """Taylor recursion of the field.  Raises `NotTraceable`."""
         return trace(self.field, len(self.variables), len(self.parameters))
 
     @cached_property
     def orbit(self) -> Callable[..., int]:
-        """The kernel of one orbit, see `taylor_kernels.orbit_integrator`."""
+        """Kernel that integrates one orbit, see `taylor_kernels.orbit_integrator`."""
         return self._kernel("orbit", "y, p, times, order, tolerance, max_steps, out", orbit_integrator)
 
     @cached_property
     def ensemble(self) -> Callable[..., int]:
-        """The kernel of many orbits, see `batch_kernels.ensemble_integrator`."""
+        """Kernel that integrates many orbits, see `batch_kernels.ensemble_integrator`."""
         if self.recursion.is_quadratic and self.tolerance is None:
             return self._kernel("ensemble", "states, p, times, order, tolerance, max_steps, out", ensemble_integrator)
         orbit = self.orbit
@@ -178,11 +212,26 @@ class System:
 
     @cached_property
     def cross(self) -> Callable[..., tuple[int, int]]:
-        """The kernel of the crossings of a plane by one orbit, see `events_kernels.crossing_finder`."""
+        """Kernel that finds the crossings of a plane by one orbit, see `events_kernels.crossing_finder`."""
         return self.crosses("cross", PLANE)
 
     def crosses(self, task: str, surface: SurfaceKernels) -> Callable[..., tuple[int, int]]:
-        """The same of another surface, made anew by each call; task : its name among the kernels of the system."""
+        """Return a kernel that finds the crossings of a surface by one orbit.
+
+        Each call derives the kernel anew.
+
+        Parameters
+        ----------
+        task : str
+            Name of the kernel among the kernels of this system.
+        surface : SurfaceKernels
+            Compiled functions of the surface.
+
+        Returns
+        -------
+        callable
+            The kernel, see `events_kernels.crossing_finder`.
+        """
         return self._kernel(
             task,
             "y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states",
@@ -191,7 +240,7 @@ class System:
 
     @cached_property
     def doubled(self) -> Callable[..., int]:
-        """The kernel of one orbit with 31 digits, see `doubled_kernels.doubled_integrator`."""
+        """Kernel that integrates one orbit with 31 digits, see `doubled_kernels.doubled_integrator`."""
         return self._kernel(
             "doubled", "state, start, p, scale, unit, times, max_steps, out", doubled_integrator, adjusts=False
         )
@@ -203,17 +252,17 @@ class System:
 
     @cached_property
     def vary(self) -> Callable[..., int]:
-        """The kernel of one orbit and all its neighbours, see `variation_kernels.variation_integrator`."""
+        """Kernel of one orbit with its full variational equations, see `variation_kernels.variation_integrator`."""
         return self._vary("vary", len(self.variables))
 
     @cached_property
     def vary_others(self) -> Callable[..., int]:
-        """The kernel of one orbit and all its neighbours but the one ahead of it, whose way is known."""
+        """Kernel of one orbit with its variational equations, without the column along the motion."""
         return self._vary("vary_others", len(self.variables) - 1, ahead=True)
 
     @cached_property
     def vary_one(self) -> Callable[..., int]:
-        """The kernel of one orbit and one neighbour."""
+        """Kernel of one orbit with a single column of its variational equations."""
         return self._vary("vary_one", 1)
 
     def _vary(self, task: str, columns: int, ahead: bool = False) -> Callable[..., int]:
@@ -226,7 +275,7 @@ class System:
     def _kernel(
         self, task: str, arguments: str, make: Callable[[Recursion], Callable[..., Any]], adjusts: bool = True
     ) -> Callable[..., Any]:
-        """The compiled `make(recursion)`; adjusts : whether it has to ask for the tolerance of its orbit."""
+        """Return the compiled `make(recursion)`; if `adjusts`, it applies the `tolerance` of the system first."""
         with _DERIVING:
             name = f"{re.sub(r'[^0-9A-Za-z]', '_', self.name)}_{task}"
             names = {"run": make(self.recursion)}
@@ -234,7 +283,7 @@ class System:
             if adjusts and self.tolerance is not None:
                 names["adjusted"] = inner(self.tolerance)
                 passed = arguments.replace("tolerance", "adjusted(y, p, order, tolerance)")
-            # The comment tells one system's file from another's, and whoever reads it what is computed.
+            # The comment makes the file unique to this system, and documents it.
             derived = "".join(f"# {line}".rstrip() + "\n" for line in self.recursion.source.splitlines())
             source = (
                 f"# The {task} of the system {self.name!r}, derived from its field.  The Taylor recursion:\n#\n"
@@ -243,24 +292,37 @@ class System:
             return derived_kernel(name, source, self.field.__module__, **names)
 
     def at(self, parameters: Sequence[float] | Array) -> ParametrizedSystem:
-        """Return the system with these values of its parameters: a `Body`."""
+        """Return the system with values of its parameters.
+
+        Parameters
+        ----------
+        parameters : sequence of float, shape (q,)
+            Values of the parameters.
+
+        Returns
+        -------
+        ParametrizedSystem
+            A `Body`.
+        """
         return ParametrizedSystem(self, tuple(parameters))
 
     @property
     def example_motion(self) -> tuple[ParametrizedSystem, tuple[float, ...]]:
-        """The example as a body and a state, the first two arguments of `solve`, `megno`, `tube` …"""
+        """The example as a body and a state, the first two arguments of `solve`, `megno`, `tube` and others."""
         state, parameters = self.example
         return self.at(parameters), state
 
     @property
     def arguments(self) -> tuple[str, ...]:
-        """The variables by names that are easily typed, as commands and sweeps take them: ω1 is w1, γ1 is g1."""
+        """Names of the variables in ASCII, as commands and sweeps take them: w1 for ω1, g1 for γ1."""
         return tuple(name.replace("ω", "w").replace("γ", "g") for name in self.variables)
 
 
 class Body(Protocol):
-    """Anything that moves: the equations of motion and the values of their parameters.
+    """Interface of anything that moves: equations of motion and values of their parameters.
 
+    Examples
+    --------
     >>> from hess_mechanics import SuslovBody
     >>> body = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0)
     >>> body.system.title, len(body.parameters) == len(body.system.parameters)
@@ -273,16 +335,24 @@ class Body(Protocol):
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """The values of their parameters."""
+        """Values of the parameters of the equations, in their order."""
 
     def __hash__(self) -> int:
-        """Bodies do not change, so they can be parts of cache keys."""
+        """Return a hash: bodies are immutable, so they can be parts of cache keys."""
         return hash((self.system, self.parameters))
 
 
 @dataclass(frozen=True)
 class ParametrizedSystem:
-    """A system with values of its parameters, as `System.at` makes it."""
+    """A system with values of its parameters, as returned by `System.at`.
+
+    Parameters
+    ----------
+    system : System
+        The equations of motion.
+    parameters : tuple of float, shape (q,)
+        Values of the parameters.
+    """
 
     system: System
     parameters: tuple[float, ...]
@@ -290,7 +360,19 @@ class ParametrizedSystem:
 
 @cache
 def systems() -> dict[str, System]:
-    """Every module of `hess_mechanics` that defines a `SYSTEM`, by name."""
+    """Return all systems of the package.
+
+    Returns
+    -------
+    dict of str to System
+        The `SYSTEM` of every module that defines one, by name.
+
+    Examples
+    --------
+    >>> from hess_mechanics import systems
+    >>> "suslov" in systems()
+    True
+    """
     package = importlib.import_module("hess_mechanics")
     found = {}
     for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
@@ -302,10 +384,18 @@ def systems() -> dict[str, System]:
 
 @dataclass(frozen=True)
 class Problem:
-    """Initial states of a system in units in which they are O(1).
+    """Initial states of a system, in units in which they are O(1).
 
-    states : (n, d); parameters : (q,); nu : the unit of time is 1/ν; scale : (d,), what the states are
-    to be multiplied with to be in the user's units.
+    Attributes
+    ----------
+    states : ndarray, shape (n, d)
+        Initial states.
+    parameters : ndarray, shape (q,)
+        Parameters of the system.
+    nu : float
+        The unit of time is 1/ν.
+    scale : ndarray, shape (d,)
+        Factors that turn these states into the user's units.
     """
 
     states: Array
@@ -315,10 +405,10 @@ class Problem:
 
     @classmethod
     def of(cls, body: Body, states: Sequence[Sequence[float] | Array] | Array) -> Problem:
-        """Check a body and states (n, d), and scale them.  Raises `InvalidParameter`."""
+        """Validate a body and states (n, d), and scale them.  Raises `InvalidParameter`."""
         if not (isinstance(getattr(body, "system", None), System) and hasattr(body, "parameters")):
             raise InvalidParameter(
-                f"{body!r} is no body that moves: give a SuslovBody, a PlaneBody, a QuarticBody, "
+                f"{body!r} is not a body with equations of motion: give a SuslovBody, a PlaneBody, a QuarticBody, "
                 "a BallBody or a HeavyBody."
             )
         system = body.system
@@ -326,7 +416,7 @@ class Problem:
             given, p = np.array(states, float, ndmin=2), np.asarray(body.parameters, float)
         except (TypeError, ValueError):
             raise InvalidParameter(
-                f"{system.title}: a state is {len(system.variables)} numbers, "
+                f"{system.title}: a state consists of {len(system.variables)} numbers, "
                 f"{', '.join(system.variables)}; write them like 1.5 or -2e-3."
             ) from None
         for shape, names in ((given.shape[1:], system.variables), (p.shape, system.parameters)):
@@ -351,10 +441,10 @@ class Problem:
         return cls(np.ascontiguousarray(scaled.T), p, nu, scale)
 
     def nearby(self) -> Problem:
-        """Return the same problem from starts that differ by roundings, see `measured.nearby`."""
+        """Return the same problem with starts that differ by roundings, see `measured.nearby`."""
         return replace(self, states=nearby(self.states))
 
     def times(self, t: Array) -> Array:
-        """The times (m,) in units of 1/ν; ∞ where that leaves double range, which no budget of steps reaches."""
+        """Return the times (m,) in units of 1/ν; on overflow ∞, which no step limit reaches."""
         with np.errstate(over="ignore"):
             return t * self.nu

@@ -1,21 +1,20 @@
-"""An orbit's tube: intervals that contain the true states of one motion of any traced system, by balls of Arb.
+"""Tubes: intervals that are proved to contain the true states of an orbit, computed in Arb's ball arithmetic.
 
-At time t the state lies within |D⁻¹(y − c)| ≤ ρ of a centre c, D the sizes that components may have.  Let p(s) be any
-polynomials with p(0) = c, here of the centre's Taylor series; none of their digits has to be right.  For the true
-solution y of ẏ = f(y) from there e = D⁻¹(y − p) obeys
+At time t the state lies within |D⁻¹(y − c)| ≤ ρ of a centre c, where D holds the sizes of the components.  Let p(s) be
+any polynomials with p(0) = c, here the Taylor series of the centre; their digits need not be right.  For the true
+solution y of ẏ = f(y), the distance e = D⁻¹(y − p) obeys
 
     |e|˙ ≤ μ|e| + Δ,   Δ ≥ |D⁻¹(ṗ − f(p))|,   μ ≥ the largest eigenvalue of the symmetric part of D⁻¹ f′ D,
 
-so |e(s)| ≤ (ρ + Δs) max(1, e^{μs}) as long as that is less than the R for which μ was found, over the box p ± DR.  The
-defect ṗ − f(p) is computed in polynomials, to all orders; where f divides, by a polynomial and a bound of what that is
-off.  f′ comes from dual numbers, μ from Gershgorin's circles where f′ is nearly diagonal.
+so |e(s)| ≤ (ρ + Δs) max(1, e^{μs}) as long as this is less than the R for which μ was found, over the box p ± DR.  The
+defect ṗ − f(p) is computed in polynomials, to all orders; a division in f becomes a polynomial with a bound of its
+error.  f′ comes from dual numbers, μ from Gershgorin's circles where f′ is nearly diagonal.
 
-Along a motion ρ grows at that rate even where neighbours do not part.  Other methods turn boxes along (R. Lohner,
-1987); here numbers have as many digits as the growth takes away: the bits are raised until the last state is known as
-exactly as was asked for.
+ρ grows at this rate along a motion even if neighbours do not part.  Other methods rotate boxes along with the motion
+(R. Lohner, 1987); here the number of bits is raised until the last state is known to the requested accuracy.
 
-What is proved: the true solution, from exactly these doubles as start and parameters, lies in the intervals, if Arb's
-operations enclose.  Nothing is proved of a body whose numbers are measured.
+The proof holds for the true solution from exactly these doubles as start and parameters, provided that Arb's operations
+enclose.  It says nothing about a body whose parameters are measured.
 """
 
 from __future__ import annotations
@@ -44,27 +43,46 @@ __all__ = ["MOST_WORK", "WORK_PER_SECOND", "Tube", "error_bounds", "proved_error
 
 _FIRST_BITS, _MOST_BITS, _STEP_BITS = 96, 4096, 32
 WORK_PER_SECOND = 5e5
-"""Work is steps times the square of their terms, three times that where a field divides, and the terms of each time
-asked for, at all precisions together.  It is counted, so that the same tube always ends at the same time; measured:
-4.5e5 to 1.4e6 per second of one core."""
+"""Work per second: steps times the square of their terms, three times that if a field divides, plus the terms of each
+requested time, at all precisions together.  A limit on work, not on seconds, makes the end of a tube reproducible.
+Measured: 4.5e5 to 1.4e6 per second on one core."""
 MOST_WORK = 4.0 * WORK_PER_SECOND
 _TERMS = 0.5 * math.log(2.0)
-"""Of a bit: then steps are e⁻² of the radius of convergence, which is cheapest where the cost is that square."""
+"""Terms per bit.  Steps are then e⁻² of the radius of convergence, the cheapest choice if the cost is quadratic."""
 _PARTS = 2
-"""Of a step, for each of which f′ is bounded."""
+"""Parts of a step; f′ is bounded on each of them."""
 _LONGER = 1.15
-"""How much longer than the last step the next one may be: a refused step costs as much as one that is made."""
+"""Largest ratio of a step to the one before: a rejected step costs as much as an accepted one."""
 _TRIED = 8
 _GUARD_BITS, _LOW_BITS = 32, 64
 
 
 @dataclass(frozen=True)
 class Tube:
-    """What contains the motion at some times.
+    """Intervals that contain the true states of an orbit.
 
-    times : (n,), all that were asked for, or as many as were reached; states : for each time an interval of each
-    component; width : the largest of them, relative to the size that the component may have; complete : whether all
-    times were reached; spent : whether they would have been with more work; steps, bits, seconds : what it took.
+    Attributes
+    ----------
+    system : str
+        Name of the system.
+    times : ndarray, shape (n,)
+        The requested times that were reached.
+    states : tuple of tuple of Enclosure
+        For each time, an interval for each component.
+    width : float
+        Largest width of an interval, relative to the size of the component.
+    complete : bool
+        True if all requested times were reached.
+    steps : int
+        Number of steps.
+    bits : int
+        Working precision in bits.
+    seconds : float
+        Elapsed time.
+    variables : tuple of str
+        Names of the variables.
+    spent : bool
+        True if more work would have reached more times.
     """
 
     system: str
@@ -82,18 +100,44 @@ class Tube:
 def tube(
     body: Body, state: Sequence[float], times: Sequence[float] | Array, digits: int = 18, most_work: float = MOST_WORK
 ) -> Tube:
-    """Enclose the motion from `state` at time 0, to so many digits at all times; these doubles are taken as exact.
+    """Return intervals that are proved to contain the orbit from a state.
 
-    Where that needs more than `most_work` (some 4 s) the tube is shorter.  Raises `MissingLibrary`, `InvalidParameter`,
-    `WorkLimit` (too many times).
+    Parameters
+    ----------
+    body : Body
+        The body; its parameters are taken as exact.
+    state : sequence of float, shape (d,)
+        Initial state at time 0, taken as exact.
+    times : array_like, shape (n,)
+        Times, monotonic from 0 forward or backward.
+    digits : int, default 18
+        Accuracy of the intervals, in decimal digits, 1 to 100.
+    most_work : float, optional
+        Limit on the work, by default about 4 s.  If it does not suffice, the tube ends earlier.
 
+    Returns
+    -------
+    Tube
+        The intervals at the times that were reached.
+
+    Raises
+    ------
+    MissingLibrary
+        If python-flint is not installed.
+    InvalidParameter
+        If a number is not finite or out of range.
+    WorkLimit
+        If there are too many times.
+
+    Examples
+    --------
     >>> from hess_mechanics import systems, tube
     >>> found = tube(systems()["hess"].at((0.75, 1.0)), (0.3, 0.9, 0.6, 0.0, 0.8), [1.0])
     >>> found.complete, found.width < 1e-18
     (True, True)
     """
     if not 1 <= digits <= 100:
-        raise InvalidParameter(f"{digits} digits: choose 1 to 100.")
+        raise InvalidParameter(f"digits = {digits} is out of range: choose 1 to 100.")
     begun = time.perf_counter()
     asked = checked_times(times)
     problem, system = Problem.of(body, [state]), body.system
@@ -125,7 +169,7 @@ def tube(
 
 
 def _more_bits(walk: _Walk, digits: int, length: float, left: float) -> int:
-    """As many as the whole way will take at the rate of a walk, or as much of it as can be paid for."""
+    """Return the bits that the rest of the time needs at a walk's rate of loss, or that the work left affords."""
     gone = float(abs(walk.t))
     if walk.spent or gone == 0.0 or walk.bits >= _MOST_BITS:
         return 0
@@ -154,7 +198,7 @@ def _cost(system: System, bits: int) -> float:
 
 @cache
 def _functions(recursion: Recursion) -> dict[str, Callable[..., Any]]:
-    """The functions of the recursion's source, not compiled: for any numbers."""
+    """Return the functions of the recursion's source, not compiled, for any kind of numbers."""
     namespace: dict[str, Any] = {}
     exec(recursion.source, namespace)
     return namespace
@@ -162,7 +206,7 @@ def _functions(recursion: Recursion) -> dict[str, Callable[..., Any]]:
 
 @dataclass(frozen=True)
 class _Step:
-    """Polynomials along a step of that length, and a bound of |e| over all of it."""
+    """Polynomials along a step of the given length, and a bound of |e| over the whole step."""
 
     series: list[ArbBall]
     length: float
@@ -170,7 +214,7 @@ class _Step:
 
 
 class _Walk:
-    """The steps of one tube at one precision."""
+    """The steps of one tube at one working precision."""
 
     def __init__(self, system: System, state: list[float], parameters: list[float], scale: Array, bits: int) -> None:
         from flint import arb
@@ -186,11 +230,11 @@ class _Walk:
 
     @property
     def lost(self) -> float:
-        """Bits that the radius has lost."""
+        """Bits lost to the growth of the radius."""
         return max(0.0, self.bits + math.log2(max(2.0 * float(self.radius), 2.0 ** -min(self.bits, 1000))))
 
     def through(self, times: Array, tolerance: float, most_work: float) -> tuple[list[tuple[Enclosure, ...]], float]:
-        """The states at these times while they are as narrow as that, and the largest width."""
+        """Return the states at the times as long as they are narrower than `tolerance`, and the largest width."""
         from flint import arb
 
         found: list[tuple[Enclosure, ...]] = []
@@ -238,7 +282,7 @@ class _Walk:
         self.steps += 1
 
     def _step(self, sign: int, left: float, most_work: float) -> _Step | None:
-        """Return the next step, of the time that is left at most; None where there is none, or no work for it."""
+        """Return the next step, at most over the time that is left; None if there is none, or no work left for it."""
         from flint import arb_poly
 
         series = [
@@ -248,7 +292,7 @@ class _Walk:
         length = min(left, self._length(series), _LONGER * self.last)
         along = [arb_poly(one) for one in series]
         for _ in range(_TRIED):
-            # A step that is refused has cost as much as one that is made.
+            # A rejected step costs as much as an accepted one.
             self.work += self.cost
             try:
                 radius = self._radius(along, length, sign)
@@ -265,7 +309,7 @@ class _Walk:
         return None
 
     def _length(self, series: list[list[ArbBall]]) -> float:
-        """At which the last terms are as small as a rounding; this proves nothing, and need not."""
+        """Return the step size at which the last terms are as small as a rounding; the proof does not depend on it."""
         shortest = 1e6
         for k in (self.terms - 1, self.terms - 2):
             for one, size in zip(series, self.scale, strict=True):
@@ -275,7 +319,7 @@ class _Walk:
         return shortest
 
     def _radius(self, along: list[ArbBall], length: float, sign: int) -> ArbBall | None:
-        """A bound of |e| over a step; None for one that is too long."""
+        """Return a bound of |e| over a step; None if the step is too long."""
         from flint import arb, ctx
 
         delta = arb(length)
@@ -301,9 +345,9 @@ class _Walk:
         return most if most < R else None
 
     def _rate(self, box: list[ArbBall], sign: int) -> ArbBall | None:
-        """Return a bound of the eigenvalues of the symmetric part of ±D⁻¹ f′ D over a box; None without one.
+        """Return a bound of the eigenvalues of the symmetric part of ±D⁻¹ f′ D over a box; None if there is none.
 
-        Raises `ZeroDivisionError` where a divisor may vanish.
+        Raises `ZeroDivisionError` if a divisor may vanish.
         """
         from flint import arb, arb_mat
 
@@ -333,7 +377,7 @@ def _norm(sizes: Sequence[ArbBall]) -> ArbBall:
 def _series(
     recursion: Recursion, y: Sequence[ArbBall], parameters: Sequence[ArbBall], terms: int
 ) -> list[list[ArbBall]]:
-    """The first Taylor coefficients of each variable, by the recursion in balls."""
+    """Return the first Taylor coefficients of each variable, by the recursion in ball arithmetic."""
     from flint import arb
 
     functions, zero = _functions(recursion), arb(0)
@@ -348,7 +392,7 @@ def _series(
         middle = [sum(map(mul, series[a][1:k], series[b][k - 1 : 0 : -1]), zero) for a, b in recursion.pairs]
 
         def products(now: list[ArbBall], k: int = k, middle: list[ArbBall] = middle) -> tuple[ArbBall, ...]:
-            """Of order k, without the terms of order k that are not known yet."""
+            """Return the products of order k, without the terms of order k that are not known yet."""
             if k == 0:
                 return tuple(now[a] * now[b] if max(a, b) < len(now) else zero for a, b in recursion.pairs)
             return tuple(
@@ -371,9 +415,9 @@ def _series(
 
 
 def _errors(orbit: Orbit, found: Tube) -> list[list[tuple[Fraction, Fraction]]]:
-    """Return the bounds between which the error of each component of each sample lies."""
+    """Return bounds of the error of each component of each sample."""
     if orbit.system != found.system or not np.array_equal(orbit.times[: found.times.size], found.times):
-        raise InvalidParameter("A tube judges the orbit of the same system at the same times.")
+        raise InvalidParameter("The orbit and the tube must have the same system and the same times.")
 
     def error(value: Fraction, one: Enclosure) -> tuple[Fraction, Fraction]:
         above, below = one.high - value, value - one.low
@@ -386,16 +430,33 @@ def _errors(orbit: Orbit, found: Tube) -> list[list[tuple[Fraction, Fraction]]]:
 
 
 def error_bounds(orbit: Orbit, found: Tube) -> Array:
-    """Bounds (m, d) of the true error of each component at the times of the tube.  Raises `InvalidParameter`."""
+    """Return bounds (m, d) of the true error of each component at the times of the tube.  Raises `InvalidParameter`."""
     bounds = [[math.nextafter(float(most), math.inf) for _, most in sample] for sample in _errors(orbit, found)]
     return frozen(np.array(bounds, float).reshape(len(bounds), orbit.states.shape[1]))
 
 
 def proved_error(orbit: Orbit, found: Tube) -> tuple[float, float]:
-    """Two bounds of the largest true error of an orbit at the times of its tube.
+    """Return proved bounds of the largest true error of an orbit.
 
-    Raises `InvalidParameter`, also where the tube ends before the first of them.
+    Parameters
+    ----------
+    orbit : Orbit
+        The orbit.
+    found : Tube
+        A tube of the same motion at the same times.
 
+    Returns
+    -------
+    low, high : float
+        Lower and upper bound of the largest error of any component, at the times of the tube.
+
+    Raises
+    ------
+    InvalidParameter
+        If the orbit and the tube do not belong together, or the tube ends before its first time.
+
+    Examples
+    --------
     >>> from hess_mechanics import level, proved_error, solve, systems, tube
     >>> motion = systems()["hess"].at((0.75, 1.0)), (0.3, 0.9, 0.6, 0.0, 0.8), [0.5]
     >>> low, high = proved_error(solve(*motion, level("draft")), tube(*motion))
@@ -404,7 +465,7 @@ def proved_error(orbit: Orbit, found: Tube) -> tuple[float, float]:
     """
     bounds = [one for sample in _errors(orbit, found) for one in sample]
     if not bounds:
-        raise InvalidParameter("The tube ends before the first of its times: allow more work, or begin earlier.")
+        raise InvalidParameter("The tube ends before its first time: allow more work, or choose an earlier time.")
     return (
         math.nextafter(float(max(least for least, _ in bounds)), 0.0),
         math.nextafter(float(max(most for _, most in bounds)), math.inf),
@@ -412,10 +473,29 @@ def proved_error(orbit: Orbit, found: Tube) -> tuple[float, float]:
 
 
 def right_until(orbit: Orbit, found: Tube, error: float) -> float:
-    """The last of the times up to which every sample is certainly right to that error; 0 where the first is not.
+    """Return the time until which an orbit is proved to be right to a given error.
 
-    Raises `InvalidParameter`.
+    Parameters
+    ----------
+    orbit : Orbit
+        The orbit.
+    found : Tube
+        A tube of the same motion at the same times.
+    error : float
+        Largest error of a component.
 
+    Returns
+    -------
+    float
+        The last time up to which every sample is right; 0 if the first one is not.
+
+    Raises
+    ------
+    InvalidParameter
+        If the orbit and the tube do not belong together.
+
+    Examples
+    --------
     >>> from hess_mechanics import level, right_until, solve, systems, tube
     >>> motion = systems()["hess"].at((0.75, 1.0)), (0.3, 0.9, 0.6, 0.0, 0.8), [0.25, 0.5]
     >>> right_until(solve(*motion, level("reference")), tube(*motion), 1e-12)

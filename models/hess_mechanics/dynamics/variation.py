@@ -1,10 +1,10 @@
-"""How neighbours of an orbit move with it: ∂y(t)/∂y(0) by the variational equations, and return maps' derivatives.
+"""Variational equations: the derivative ∂y(t)/∂y(0) along an orbit, and derivatives of return maps.
 
-V̇ = J(y(t)) V with V(0) = 1, J the Jacobian of the field, found by differentiating the traced field and integrated in
-the same Taylor steps as the orbit (`numerics.variation_kernels`).  It exists for every system.
+V̇ = J(y(t)) V with V(0) = 1, where J is the Jacobian of the field.  J comes from differentiating the traced field and
+is integrated in the same Taylor steps as the orbit (`numerics.variation_kernels`), so V exists for every system.
 
-The neighbour ahead on the same orbit needs no integration: V f(y(0)) = f(y(t)).  Where the motion is not slow at its
-start, d − 1 columns across f are followed: of five variables four, which fill one vector of the processor and not two.
+The column along the motion needs no integration: V f(y(0)) = f(y(t)).  Unless the motion is slow at its start, only the
+d − 1 columns across f are integrated: for five variables four, which fill one vector register instead of two.
 """
 
 from __future__ import annotations
@@ -43,17 +43,36 @@ __all__ = [
 ]
 
 _MOVES = 0.1
-"""Of |f| in units in which states are O(1): what f(y(t)) is off is divided by it."""
+"""Smallest |f(y(0))| for the shortcut, in units in which states are O(1): errors of f(y(t)) are divided by it."""
 
 
 @dataclass(frozen=True)
 class Transition(Result):
-    """∂y(t)/∂y(0) along an orbit.
+    """The transition matrix ∂y(t)/∂y(0) along an orbit.
 
-    times : (n,); states : (n, d); matrices : (n, d, d), row i, column j: ∂y_i(t)/∂y_j(0), in the units of the states.
-    log_volume : (n,), ∫ tr J dt, which is ln det of the matrix, found apart from it.
-    error_estimate : the largest estimated error of a matrix beside its largest entry, in units in which states are
-        O(1), or of a state.
+    Attributes
+    ----------
+    system : str
+        Name of the system.
+    level : str
+        Name of the accuracy level.
+    times : ndarray, shape (n,)
+        Times.
+    states : ndarray, shape (n, d)
+        States at these times.
+    matrices : ndarray, shape (n, d, d)
+        Row i, column j: ∂y_i(t)/∂y_j(0), in the units of the states.
+    log_volume : ndarray, shape (n,)
+        ∫ tr J dt, computed independently; equals ln det of the matrix.
+    status : Status
+        How the computation ended.
+    error_estimate : float
+        Largest estimated error of a matrix relative to its largest entry, in units in which states are O(1), or of a
+        state.
+    cost : Cost
+        Steps and time.
+    variables : tuple of str
+        Names of the variables.
     """
 
     system: str
@@ -68,7 +87,13 @@ class Transition(Result):
     variables: tuple[str, ...]
 
     def labels(self) -> Labels:
-        """The matrix over t and the names of its rows and columns, the states over t."""
+        """Return the matrices, labelled with time and the names of their rows and columns.
+
+        Returns
+        -------
+        Labels
+            The derivatives over time, rows and columns.
+        """
         of, by = np.array(self.variables), np.array([f"{name}(0)" for name in self.variables])
         return Labels(
             {"t": (("t",), self.times), "of": (("of",), of), "by": (("by",), by)},
@@ -81,11 +106,35 @@ class Transition(Result):
 def transition_matrix(
     body: Body, state: Sequence[float] | Array, times: float | Sequence[float] | Array, level: Accuracy
 ) -> Transition:
-    """∂y(t)/∂y(0) of the orbit from `state` (d,) at the given times (n,), monotonic from 0, or at one time.
+    """Return the transition matrix ∂y(t)/∂y(0) along an orbit.
 
-    As in `solve`, all is computed twice, and again where the level's promise is not kept.
-    Raises `InvalidParameter`, `WorkLimit`.
+    As in `solve`, everything is computed twice, and again if the promise of the level is missed.
 
+    Parameters
+    ----------
+    body : Body
+        The body.
+    state : array_like, shape (d,)
+        Initial state.
+    times : float or array_like, shape (n,)
+        Times, monotonic from 0 forward or backward.
+    level : str or Level
+        Accuracy level.
+
+    Returns
+    -------
+    Transition
+        States and matrices at these times.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite, or the times are not monotonic.
+    WorkLimit
+        If the orbit needs too many steps, or the matrix overflows.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from hess_mechanics import level, systems, transition_matrix
     >>> suslov = systems()["suslov"]
@@ -136,9 +185,9 @@ def transition_matrix(
 def followed(
     system: System, problem: Problem, times: Array, order: int, tolerance: float, most_steps: int
 ) -> tuple[int, Array, Array, Array]:
-    """Steps, states (n, d), V (n, d, d) and ∫ tr J dt (n,) at the times (n,), all in the units of the problem.
+    """Return the steps, the states (n, d), V (n, d, d) and ∫ tr J dt (n,) at the times (n,), in units of the problem.
 
-    The number of steps is `STEP_LIMIT_REACHED` where they do not suffice.
+    The number of steps is `STEP_LIMIT_REACHED` if `most_steps` do not suffice.
     """
     basis, speed = frame_ahead(system, problem, np.eye(len(system.variables)), _MOVES)
     steps, states, frames, _, volume = neighbours(
@@ -157,9 +206,9 @@ def followed(
 
 
 def frame_ahead(system: System, problem: Problem, frame: Array, slow: float) -> tuple[Array, float]:
-    """Orthonormal columns (d, d), the first along the first motion, f(y), or against it, the others from a frame; |f|.
+    """Return d orthonormal columns, the first one along f(y) at the start, the others from `frame`; and |f|.
 
-    Where |f| is at most `slow`: only from the frame.  Raises `InvalidParameter` where it is beyond double range.
+    If |f| is at most `slow`, all columns come from the frame.  Raises `InvalidParameter` if |f| overflows.
     """
     try:
         rate = [float(x) for x in system.field(problem.states[0].tolist(), problem.parameters.tolist())]
@@ -182,11 +231,31 @@ def neighbours(
     limit: float,
     ahead: bool,
 ) -> tuple[int, Array, Array, Array, Array]:
-    """Steps, states (n, d), V (n, d, d), ln of the lengths taken from V's columns (n, d) and ∫ tr J dt (n,).
+    """Return steps, states (n, d), V (n, d, d), logarithms (n, d) of the lengths removed from V, and ∫ tr J dt (n,).
 
-    state (d,), frame (d, d), orthonormal : y and V at the time 0.  All as `variation_integrator` has them.
-    ahead : whether the first column is along f(y) or against it, not 0, and so known; it is kept as it is, and at the
-        `limit` the others are orthonormalised beside it.
+    Parameters
+    ----------
+    system : System
+        The equations of motion.
+    state : ndarray, shape (d,)
+        State y at time 0.
+    frame : ndarray, shape (d, d)
+        Orthonormal V at time 0.
+    parameters : ndarray, shape (q,)
+        Parameters of the system.
+    times : ndarray, shape (n,)
+        Times, monotonic from 0.
+    order : int
+        Order of the Taylor series.
+    tolerance : float
+        Local error of a step.
+    most_steps : int
+        Largest number of steps.
+    limit : float
+        Condition of V at which its columns are orthonormalised; ∞ for never.
+    ahead : bool
+        True if the first column is parallel to f(y), f(y) ≠ 0.  This column is known and never normalised; at the
+        `limit` the others are made orthogonal to it.
     """
     size = len(system.variables)
     known = int(ahead and size > 1)
@@ -207,7 +276,7 @@ def neighbours(
         volume,
     )
     if known:
-        # Who asked for them looks whether they are numbers.
+        # The caller checks for overflow.
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             rates = np.stack(np.broadcast_arrays(*system.field(list(states.T), parameters.tolist())), axis=1)
         at_first = float(frame[:, 0] @ system.field(state.tolist(), parameters.tolist()))
@@ -217,10 +286,10 @@ def neighbours(
 
 
 def onto_surface(matrix: Array, rate: Array, gradient: Array) -> Array:
-    """The derivative (d, d) of the first return to a surface, from that of the flow at the time of the crossing.
+    """Return the derivative (d, d) of the first return to a surface, from the derivative `matrix` of the flow.
 
-    A neighbour arrives earlier or later: (1 − f nᵀ/(n·f)) V, with f the `rate` ẏ and n the `gradient` of the surface at
-    the crossing.  Raises `InvalidParameter` where the orbit touches the surface.
+    A neighbour arrives earlier or later: (1 − f nᵀ/(n·f)) V, where f is the `rate` ẏ and n the `gradient` of the
+    surface at the crossing.  Raises `InvalidParameter` if the orbit is tangent to the surface.
     """
     across = float(gradient @ rate)
     if not abs(across) > 1e-12 * float(np.linalg.norm(gradient) * np.linalg.norm(rate)):
@@ -230,10 +299,18 @@ def onto_surface(matrix: Array, rate: Array, gradient: Array) -> Array:
 
 @dataclass(frozen=True)
 class Return:
-    """A return of an orbit to a surface: when, where, and ∂y(return)/∂y(start).
+    """A return of an orbit to a surface.
 
-    matrix : (d, d); its columns are tangent to the surface, and it takes the direction of the motion to 0.
-    transition : the derivative of the flow up to that time, with its error and cost.
+    Attributes
+    ----------
+    time : float
+        Time of the return.
+    state : ndarray, shape (d,)
+        State at the return.
+    matrix : ndarray, shape (d, d)
+        ∂y(return)/∂y(start).  Its columns are tangent to the surface, and it maps the direction of motion to 0.
+    transition : Transition
+        Derivative of the flow at that time, with its error and cost.
     """
 
     time: float
@@ -245,14 +322,41 @@ class Return:
 def return_matrix(
     body: Body, state: Sequence[float] | Array, surface: Surface, end: float, level: Accuracy, returns: int = 1
 ) -> Return | None:
-    """The return of this number to the surface before the time `end`, which may be negative; None if there is none.
+    """Return the n-th return of an orbit to a surface, with its derivative.
 
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    body : Body
+        The body.
+    state : array_like, shape (d,)
+        Initial state.
+    surface : Plane or Surface
+        The surface.
+    end : float
+        End of the time span; may be negative.
+    level : str or Level
+        Accuracy level.
+    returns : int, default 1
+        Number n of the return.
 
+    Returns
+    -------
+    Return or None
+        The return; None if the orbit does not return n times before `end`.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite, or the orbit is tangent to the surface.
+    WorkLimit
+        If the orbit needs too many steps.
+
+    Examples
+    --------
     >>> from hess_mechanics import Plane, level, return_matrix, systems
     >>> suslov = systems()["suslov"]
     >>> found = return_matrix(*suslov.example_motion, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"))
-    >>> bool(abs(found.matrix[4]).max() < 1e-9)  # where it returns to, γ3 is 0
+    >>> bool(abs(found.matrix[4]).max() < 1e-9)  # γ3 = 0 at the return
     True
     """
     crossings = section(body, state, surface, end, level, returns)

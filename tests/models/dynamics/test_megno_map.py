@@ -88,5 +88,5 @@ def test_what_cannot_be_is_refused(asked, said):
 
 
 def test_a_line_has_no_plane_to_fill():
-    with pytest.raises(InvalidParameter, match="the coordinate φ alone"):
+    with pytest.raises(InvalidParameter, match="the single coordinate φ"):
         megno_map(return_map(HessBody(1.0, 0.5, -1.0), h=1.5, f=0.6))

@@ -214,7 +214,7 @@ def test_many_digits_are_found_within_the_first_step_too(digits):
 
 def test_what_has_no_tube_is_refused():
     system = systems()["hess"]
-    for words, said in ((([0.1, -0.1],), "away from 0"), (([1.0], 0), "choose 1 to 100")):
+    for words, said in ((([0.1, -0.1],), "must be monotonic"), (([1.0], 0), "choose 1 to 100")):
         with pytest.raises(InvalidParameter, match=said):
             tube(*system.example_motion, *words)
     other = systems()["suslov"]
