@@ -1,6 +1,5 @@
 """The Chaplygin ball with Suslov's constraint, `eq29`: equations, measures, energies, the edges of all ranges."""
 
-import json
 import math
 from fractions import Fraction
 
@@ -10,7 +9,7 @@ import sympy
 
 import oracle
 from hess_explorer.__main__ import main
-from hess_mechanics import Plane, ensemble, level, section, solve, systems
+from hess_mechanics import ensemble, level, solve, systems
 from hess_mechanics.chaplygin_ball.energy_surface import (
     Strip,
     line_of_rest,
@@ -18,9 +17,8 @@ from hess_mechanics.chaplygin_ball.energy_surface import (
     omega_of_energy,
 )
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
-from hess_mechanics.dynamics.orbit import drift_of
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, OutsideRegion
-from hess_mechanics.numerics.accuracy import LEVELS, Status
+from hess_mechanics.numerics.accuracy import LEVELS
 
 # Values of an independent computation with 40 digits.
 WITHOUT_FIELD = (
@@ -301,50 +299,6 @@ def test_the_kernel_refuses_the_same(place, value, match):
         solve(SYSTEM.at(parameters), SYSTEM.example[0], [1.0], level("draft"))
 
 
-EXTREMES = {
-    "no inner ball": ((2.0, 1.0, 0.3, 0.5, 0.0), (0.3, -0.5, 1.0), (0.8, -0.4), (0.48, 0.6, 0.64)),
-    "light inner ball": ((2.0, 1.0, 0.3, 0.5, 1e-6), (0.3, -0.5, 1.0), (0.8, -0.4), (0.48, 0.6, 0.64)),
-    "heavy inner ball": ((2.0, 1.0, 0.3, 0.5, 1e6), (0.3, -0.5, 1.0), (0.8, -0.4), (0.48, 0.6, 0.64)),
-    "heavy, γ along ω": ((2.0, 1.0, 0.3, 0.5, 1e6), (0.0, 0.0, 0.0), (0.8, -0.4), (0.8944, -0.4472, 1e-3)),
-    "heavy, γ3 = 0": ((2.0, 1.0, 0.3, 0.5, 1e6), (0.3, -0.5, 1.0), (0.8, -0.4), (0.6, 0.8, 0.0)),
-    "I11 large": ((1e6, 1.0, 0.3, 0.5, 2.0), (0.3, -0.5, 1.0), (1e-3, -0.4), (0.48, 0.6, 0.64)),
-    "I11 small": ((1e-6, 1.0, 1e-3, 0.5, 2.0), (0.3, -0.5, 1.0), (0.8, -0.4), (0.48, 0.6, 0.64)),
-    "pole": ((2.0, 1.0, 0.3, 0.5, 5.0), (0.3, -0.5, 1.0), (0.8, -0.4), (0.0, 0.0, 1.0)),
-    "other pole": ((2.0, 1.0, 0.3, 0.5, 5.0), (0.3, -0.5, 1.0), (0.8, -0.4), (0.0, 0.0, -1.0)),
-    "equator": ((2.0, 1.0, 0.3, 0.5, 5.0), (0.3, -0.5, 1.0), (0.8, -0.4), (0.0, 1.0, 0.0)),
-    "next to the line": ((2.0, 1.0, 0.0, 0.5, 5.0), (0.0, 0.0, 0.0), (0.8, 1e-300), (0.6, 0.0, 0.8)),
-    "on the line": ((2.0, 1.0, 0.0, 0.5, 5.0), (0.0, 0.0, 0.0), (-0.8, 0.0), (0.6, 0.0, 0.8)),
-    "at rest": ((2.0, 1.0, 0.3, 0.5, 5.0), (0.3, -0.5, 1.0), (0.0, 0.0), (0.6, 0.0, 0.8)),
-}
-
-
-@pytest.fixture(scope="module", params=EXTREMES)
-def extreme(request):
-    """A start, parameters, ν, times forward and backward, and where the motion truly is then."""
-    tensor, b, omega, gamma = EXTREMES[request.param]
-    state, parameters = np.array([*omega, *gamma]), np.array([*tensor, *b])
-    state[2:] /= np.linalg.norm(state[2:])
-    nu = SYSTEM.frequency(state, parameters)
-    spans = [sign * np.array([0.3, 1.0]) * 20.0 / nu for sign in (1.0, -1.0)]
-    return (
-        state,
-        parameters,
-        nu,
-        [(times, oracle.orbit_in_decimals(SYSTEM, state, parameters, times, digits=34)) for times in spans],
-    )
-
-
-@pytest.mark.parametrize("name", LEVELS)
-def test_orbits_are_right_at_the_edges(extreme, name):
-    state, parameters, nu, runs = extreme
-    scale = np.array([nu, nu, 1.0, 1.0, 1.0])
-    for times, exact in runs:
-        orbit = solve(SYSTEM.at(parameters), state, times, level(name))
-        assert orbit.status in (Status.OK, Status.FLOOR)
-        error = np.max(oracle.distances(orbit.states, exact) / scale)
-        assert error <= (level(name).promise if orbit.status is Status.OK else 1e-9)
-
-
 @pytest.fixture(scope="module")
 def many():
     """States, parameters and times of many motions, and where these truly are."""
@@ -373,69 +327,7 @@ def test_error_estimates_are_safe(many, name):
     assert np.median(estimates) <= 100 * np.median(true)
 
 
-# ---- sections ---------------------------------------------------------------------------------------------------
-
-
-SECTION_BODIES = {
-    "principal axis": BallBody(2.0, 1.0, 0.0, 0.0, 1.0, 0.3, -0.5, 1.0),
-    "general": BallBody(2.0, 1.0, 0.3, 0.5, 1.0, 0.3, -0.5, 1.0),
-    "heavy inner ball": BallBody(2.0, 1.0, 0.3, 0.5, 100.0, 0.3, -0.5, 1.0),
-}
-
-
-@pytest.mark.parametrize("body", SECTION_BODIES.values(), ids=SECTION_BODIES)
-@pytest.mark.parametrize("component", [2, 3, 4])
-def test_sections_lose_and_double_nothing(body, component):
-    plane = Plane(tuple(float(i == component) for i in range(5)), 0.0, 0)
-    start = spread_states(body, 2.0, 5)[2]
-    end = 60.0 * np.sqrt(1.0 + body.D)
-    found = section(body, start, plane, end, level("precise"))
-    assert len(found.times) > 10
-    assert np.max(np.abs(found.states[:, component])) <= 1e-9
-    assert max(drift_of(SYSTEM, start, found.states, np.array(body.parameters)).values()) <= 1e-9
-    assert found.drift == drift_of(SYSTEM, start, found.states, np.array(body.parameters))
-    # Order 20: a tolerance 1e-20 times smaller makes steps a tenth as long.
-    times, states = np.empty(10_000), np.empty((10_000, 5))
-    count, steps = SYSTEM.cross(
-        start, np.array(body.parameters), np.array(plane.normal), 0.0, 0, end, 20, 1e-31, 10**6, times, states
-    )
-    assert count == len(found.times)
-    assert steps > 5 * found.cost.steps / 2
-    assert times[:count] == pytest.approx(found.times, abs=1e-6)
-
-
 # ---- the command ------------------------------------------------------------------------------------------------
-
-
-def test_the_command_prints_the_orbit(capsys):
-    body, start, states = WITH_FIELD
-    words = [
-        "orbit",
-        "ball",
-        "--I",
-        "1,1.5,0.7,1.2",
-        "--D",
-        "2",
-        "--b",
-        "0.2,-0.3,0.9",
-        "--omega",
-        "0.5,0.8",
-        "--gamma",
-        "0.3,0.5,0.8",
-        "--t",
-        "10,30",
-        "--accuracy",
-        "precise",
-        "--format",
-        "json",
-    ]
-    assert main(words) == 0
-    answer = json.loads(capsys.readouterr().out)
-    assert answer["variables"] == list(SYSTEM.variables)
-    assert np.max(np.abs(np.array(answer["y"]) - list(states.values()))) <= 1e-8
-    assert answer["is_body"] is False
-    assert body.parameters == (1.0, 1.5, 0.7, 1.2, 2.0, 0.2, -0.3, 0.9)
-    assert start[2] == pytest.approx(0.3 / np.sqrt(0.98))
 
 
 def test_the_command_refuses_in_a_sentence(capsys):

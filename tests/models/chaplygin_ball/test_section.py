@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from hess_explorer.scenes import scenes
-from hess_mechanics import level, section, sections
+from hess_mechanics import level, section
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.section import (
     EQUATOR,
@@ -125,18 +125,6 @@ def test_seeds_cover_what_the_energy_allows(h):
 
 
 # ---- points -----------------------------------------------------------------------------------------------------
-
-
-@bodies
-def test_points_of_many_orbits_are_the_crossings_of_each(body):
-    starts = seeds(body, 1.5, 9)
-    many = ball_section(body, 1.5, starts, 12, level("precise"))
-    each = sections(body, starts, EQUATOR, 200.0, level("reference"), crossings=12)
-    for points, exact in zip(many.states, each, strict=True):
-        assert len(points) == len(exact.states) == 12
-        assert np.max(np.abs(points[:5] - exact.states[:5])) <= 1e-7
-    assert max(many.drift.values()) <= 1e-9
-    assert not any(points.flags.writeable for points in many.states)
 
 
 @bodies

@@ -24,7 +24,7 @@ from hess_mechanics.euler_poisson.andoyer import (
 )
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.numerics.accuracy import PRECISE, STANDARD, Level
-from support.andoyer import GESS1, RIS, angles, crossings_by_scipy, dense, energies_at, energy, rates, start_by_hand
+from support.andoyer import GESS1, RIS, angles, crossings_by_scipy, dense, energies_at, energy, rates
 from support.thorough import sample
 
 SLANTING = HeavyBody((1.0, 1.6, 2.1), (0.3, -0.5, 0.7), 2.0)
@@ -327,16 +327,6 @@ def test_crossings_are_those_that_scipy_finds_from_the_angle(body, h, f):
     assert found >= 3
 
 
-def test_a_start_by_hand_is_the_same_and_its_first_return_too():
-    by_hand = start_by_hand(GESS1, 50.0, 5.0, 0.7, -0.3)
-    state = AndoyerSection(GESS1, 50.0, 5.0).state_at(0.7, -0.3)
-    assert state == pytest.approx(by_hand, abs=1e-11)
-    times, states = crossings_by_scipy(GESS1, by_hand, 3.0)
-    result = section(GESS1, state, AndoyerPlane(5.0), 3.0, level("precise"), 1)
-    assert result.times[0] == pytest.approx(times[0], abs=1e-8)
-    assert coordinates(result.states)[0] == pytest.approx(coordinates(states)[0], abs=1e-7)
-
-
 @every_case
 def test_points_are_on_the_plane_and_on_their_levels_at_precise(body, h, f):
     end = AndoyerSection(body, h, f).time_for(15)
@@ -370,24 +360,6 @@ def test_no_crossing_is_lost_or_doubled_against_steps_a_tenth_as_long(body, h, f
         assert one.shape == other.shape
         # Chaos multiplies errors of 10⁻⁸; a crossing more or less would be an error of 1.
         assert np.max(np.abs(one - other)) < 1e-2 * np.max(np.abs(other))
-
-
-def test_between_two_crossings_of_a_long_chaotic_orbit_there_is_no_other_one():
-    """From each crossing the orbit is followed anew, densely: only there and at the next one g is π/2 and grows."""
-    start = AndoyerSection(GESS1, 50.0, 5.0).state_at(0.0, 0.2)
-    result = section(GESS1, start, AndoyerPlane(5.0), 200.0, level("standard"), 300)
-    assert len(result.times) == 300
-    gaps = np.diff(result.times)
-    times = np.linspace(0.0, float(gaps.max()), 400)
-    for state, gap in zip(result.states[:-1], gaps, strict=True):
-        g = angles(solve(GESS1, state, times, STANDARD).states)[1]
-        cos, sin = np.cos(g), np.sin(g)
-        rising = (cos[:-1] > 0.0) & (cos[1:] <= 0.0) & (sin[:-1] > 0.0) & (times[:-1] > 1e-3 * gap)
-        passed = times[1:][rising]
-        # What comes first is the crossing that was found next.
-        assert passed.size == 0 or passed[0] >= gap - 1e-6
-        if passed.size:
-            assert passed[0] <= gap + times[1] + 1e-6
 
 
 def test_no_orbit_of_gess1_changes_the_sign_of_r_M_in_10000_crossings():
@@ -430,17 +402,6 @@ def test_points_of_a_picture_are_the_crossings_of_the_orbit_one_after_the_other(
     assert len(points) == len(exact.times) == 100
     assert np.max(np.abs(points - exact.states)) < 1e-5
     assert min(np.linalg.norm(b - a) for a, b in pairwise(points)) > 1e-4
-
-
-def test_backward_and_forward_again_the_crossings_are_the_same():
-    start = np.array(AndoyerSection(GESS1, 50.0, 5.0).state_at(0.4, 0.5))
-    back = section(GESS1, start, AndoyerPlane(5.0), -3.0, level("precise"))
-    assert len(back.times) >= 2
-    assert np.all(np.diff(back.times) < 0.0)
-    # From the last of them the others come in reverse order, and the start itself.
-    forth = section(GESS1, back.states[-1], AndoyerPlane(5.0), -float(back.times[-1]) + 1e-3, level("precise"))
-    expected = np.vstack([back.states[-2::-1], start])
-    assert forth.states == pytest.approx(expected, abs=1e-6)
 
 
 # ---- Refusals ---------------------------------------------------------------------------------------------------

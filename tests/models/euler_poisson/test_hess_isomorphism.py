@@ -9,12 +9,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from hess_mechanics import circle_map, level, solve, systems, turning_points
+from hess_mechanics import level, systems, turning_points
 from hess_mechanics.errors import InvalidParameter, NoField, WorkLimit
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, heavy_body, hess_body, share_of
 from hess_mechanics.euler_poisson.hess_manifold import FreeRun, Leak, exact_motion, growth_of, on_manifold, run_free
-from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.suslov_hess.equations import HessBody
 
 HEAVY, REDUCED, SUSLOV = (systems()[name] for name in ("euler-poisson", "hess", "suslov"))
@@ -225,30 +224,6 @@ def test_bodies_that_have_no_counterpart_are_refused(body, error, words):
 # ---- along an orbit ----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("bridge", "H", "F1"),
-    [
-        (GESS1, 50.0, 5.0),
-        (GESS1, 5.0, 0.8),
-        (GESS1, 20.0, 0.0),
-        (Bridge.of_suslov(HessBody(0.96, 0.28, -1.0)), 1.5 * 1.0, 0.5),
-        (Bridge.of_suslov(HessBody(1.0, -0.5, 2.0)), 3.0, -0.7),
-        (Bridge.of_suslov(HessBody(0.5, 1.5, -1.0)), 1.0, 0.2),
-        (Bridge.of_suslov(HessBody(2.0, 0.0, -0.3)), 1.0, 0.2),
-    ],
-)
-def test_held_on_the_manifold_euler_poisson_follows_suslov_to_round_off_over_t_50(bridge, H, F1):
-    start, _ = on_torus(bridge, H, F1)
-    run = on_manifold(bridge.heavy, start, 50.0, 4001, FLOOR)
-    other = solve(bridge.hess.suslov, bridge.to_suslov(np.array(start)), run.times, FLOOR)
-    there = bridge.hess.in_units_of_b(bridge.hess.to_reduced(other.states))
-    assert np.max(bridge.distance(run.states, there)) <= 1e-11
-    assert np.max(np.abs(run.off)) < 1e-14
-    assert max(run.drift.values()) < 1e-12
-    # And it does move.
-    assert np.ptp(there[:, 4]) > 0.5
-
-
 def test_the_held_orbit_is_the_one_of_another_method():
     start, period = on_torus(GESS1, 50.0, 5.0)
     run = on_manifold(GESS1.heavy, start, 3.0 * period, 97, FLOOR)
@@ -287,20 +262,6 @@ def test_off_the_manifold_r_M_grows_with_minus_the_integral_of_b_M2(body):
     end = solve_ivp(extended, (0.0, 3.0), [*state, 0.0], "DOP853", rtol=1e-11, atol=1e-12).y[:, -1]
     before, after = (float(y[:3] @ np.array(body.r)) for y in (state, end))
     assert after == pytest.approx(before * math.exp(end[6]), rel=1e-7)
-
-
-@pytest.mark.parametrize("name", LEVELS)
-def test_the_leak_of_figure_gess1_grows_by_the_logarithm_of_the_multiplier(name):
-    start, period = on_torus(GESS1, 50.0, 5.0)
-    run = run_free(GESS1.heavy, start, 20.0 * period, 20 * 96 + 1, level(name))
-    growth = growth_of(run, 96)
-    assert growth.periods >= 5
-    assert growth.per_period == pytest.approx(3.09107, abs=5e-5)
-    fixed = circle_map(GESS1.hess.a, *GESS1.in_units_of_b(50.0, 5.0), FLOOR).fixed_points
-    assert growth.per_period == pytest.approx(abs(fixed[0].log_multiplier), rel=2e-5)
-    # Round-off alone leads off it, whatever the accuracy.
-    assert np.max(np.abs(run.off[: 2 * 96])) < 1e-13
-    assert np.max(np.abs(run.off)) > 0.1
 
 
 def test_the_leak_of_the_loxodromic_pendulum_grows_by_2_pi_a():

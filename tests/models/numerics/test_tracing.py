@@ -100,22 +100,6 @@ def test_the_recursion_is_exact_at_every_order_in_rationals(seed):
         assert [sympy.cancel(one - other) for one, other in zip(row, expected, strict=True)] == [0] * 4
 
 
-@pytest.mark.parametrize(("field", "variables", "parameters"), FIELDS.values(), ids=FIELDS)
-def test_high_orders_agree_with_mpmath(field, variables, parameters):
-    # mpmath's own Taylor series of the solution, from a solver that shares nothing with the recursion.
-    with mpmath.workdps(30):
-        draw = np.random.default_rng(7)
-        y = [mpmath.mpf(x) for x in draw.uniform(0.3, 0.9, variables)]
-        p = [mpmath.mpf(x) for x in draw.uniform(0.5, 1.5, parameters)]
-        found = coefficients(trace(field, variables, parameters), y, p, 12, mpmath.mpf)
-        h = mpmath.mpf("0.02")
-        solution = mpmath.odefun(lambda _, x: list(field(x, p)), 0, y)(h)
-        summed = [sum(found[k, i] * h**k for k in range(13)) for i in range(variables)]
-        assert max(abs(one - other) for one, other in zip(summed, solution, strict=True)) < 1e-17
-        # One coefficient changed in its twelfth digit would be seen.
-        assert max(abs(found[8, i]) for i in range(variables)) * h**8 > 1e-25
-
-
 def test_a_constant_of_the_motion_is_taken_for_the_whole_step():
     # ẋ = −y, ẏ = x at the rate x² + y², which stays.
     def plain(y, p):

@@ -13,11 +13,9 @@ from scipy.integrate import solve_ivp
 
 from hess_mechanics import SuslovBody, solve
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
-from hess_mechanics.dynamics.section import Plane, section_points
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, PRECISE, REFERENCE, STANDARD
 from hess_mechanics.suslov.basins import groups
-from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.section import SuslovSection, divergence
 from support.suslov import divergence as divergence_of_field
 from support.suslov import energy, field, permanent_rotations
@@ -28,7 +26,6 @@ SEA = SuslovBody(1.5, 3.0, 0.4, 0.4, -0.5, -0.5, 0.7), 0.005
 STRANGE = SuslovBody(1.0, 2.5, 0.6, 0.6, -1.0, -0.5, 0.7), 0.681
 TWO = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842
 CYCLE = SuslovBody(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3), 1.743
-MIRROR = np.array([-1.0, -1.0, 1.0, 1.0, 1.0])
 WHOLE = ((-math.pi, 0.0), (math.pi, math.pi))
 
 
@@ -77,24 +74,6 @@ def test_states_are_on_the_plane_have_the_energy_and_grow_and_coordinates_bring_
     assert SuslovSection(BODY, 0.0, k).places_of(states[ok]) == pytest.approx(
         np.column_stack([psi, delta])[ok], abs=1e-7
     )
-
-
-@pytest.mark.parametrize("k", [1, 2, 3])
-def test_every_state_of_the_section_has_coordinates(k):
-    rng = np.random.default_rng(7)
-    for _ in range(100):
-        gamma = rng.normal(size=3)
-        gamma[k - 1] = 0.0
-        gamma /= np.linalg.norm(gamma)
-        state = np.array([*rng.normal(size=2), *gamma])
-        # Each crosses the plane one way or, turned round, the other.
-        state = state if field(BODY, state)[k + 1] > 0.0 else MIRROR * state
-        ((psi, delta),) = SuslovSection(BODY, 0.0, k).places_of(state[None, :])
-        assert -math.pi <= psi <= math.pi
-        assert 0.0 < delta < math.pi
-        assert SuslovSection(BODY, energy(BODY, state), k).state_at(psi, delta) == pytest.approx(
-            tuple(state), abs=1e-12
-        )
 
 
 @pytest.mark.parametrize("k", [1, 2, 3])
@@ -206,18 +185,6 @@ def test_the_first_points_are_those_of_scipy(k, forward, count):
     exact = crossings_by_scipy(body, start, k, count, 1 if forward else -1)
     # A sea: neighbours part between crossings.
     assert found == pytest.approx(exact, abs=1e-6)
-
-
-def test_backward_points_are_the_mirror_image_of_forward_ones_through_the_other_side():
-    body, E = STRANGE
-    starts = np.array(SuslovSection(body, E, 3).spread(WHOLE, 3))
-    nu = float(np.max(SYSTEM.frequency(starts.T, np.array(body.parameters))))
-    down, end = Plane(SuslovSection(BODY, 0.0, 3).surface.normal, 0.0, -1), 600.0 / nu
-    back = section_points(body, MIRROR * starts, SuslovSection(BODY, 0.0, 3).surface, -end, STANDARD, 9)
-    there = section_points(body, starts, down, end, STANDARD, 9)
-    for left, right in zip(back.states, there.states, strict=True):
-        assert len(left) == len(right) == 9
-        assert left == pytest.approx(MIRROR * right, abs=1e-13)
 
 
 def test_what_attracts_forward_are_permanent_rotations_and_their_mirror_images_attract_backward():

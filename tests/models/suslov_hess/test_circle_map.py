@@ -1,17 +1,14 @@
 """The circle map of the torus: against brute force, closed forms and its symmetries."""
 
 import cmath
-import decimal
 import math
 
-import mpmath
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
-import oracle
 from hess_mechanics import (
     circle_map,
     critical_a,
@@ -84,16 +81,6 @@ def slope(found, phases):
 # ---- Θ by brute force -------------------------------------------------------------------------------------------
 
 
-@every_torus
-def test_theta_is_where_the_orbit_of_eq01_comes_back(a, h, f):
-    found, turning = circle_map(a, h, f, REFERENCE), turning_points(h, f)
-    for phi in PHASES:
-        start = turning.state_at_lower_turn(phi)
-        end = solve(HESS.at((a, 1.0)), start, [turning.period], REFERENCE).states[0]
-        assert angle_between(math.atan2(end[0], end[1]), found.theta(phi)) < 1e-10
-        assert end[4] == pytest.approx(start[4], abs=1e-12)
-
-
 @pytest.mark.parametrize(("a", "h", "f"), TORI[:4])
 def test_theta_is_where_the_orbit_comes_back_by_scipy_alone(a, h, f):
     found, turning = circle_map(a, h, f, REFERENCE), turning_points(h, f)
@@ -122,37 +109,6 @@ def test_theta_is_where_the_orbit_comes_back_on_every_torus(torus, phi):
     # Next to the edge the lower turn itself is known to √ε only.
     edge = 1e-7 if abs(share) > 1 - 1e-6 else 0.0
     assert angle_between(math.atan2(end[0], end[1]), found.theta(phi)) < edge + 100 * lever * round_off(found)
-
-
-def angles_in_multiple_precision(a, h, f, phases, digits):
-    """Θ by a Taylor series of n̈3 = ½ p'(n3) and of the equation of φ, with |w|, cos φ and sin φ as variables."""
-    with mpmath.workdps(digits), decimal.localcontext(prec=digits):
-        n0, n1, n2 = oracle.turning_roots(mpmath.mpf(h), mpmath.mpf(f))
-        period = 2 * mpmath.sqrt(2 / (n2 - n0)) * mpmath.ellipk((n2 - n1) / (n2 - n0))
-        size = mpmath.sqrt(2 * (h + n1))
-
-        def rates(y, p):
-            n, speed, size, c, s = y
-            a, h, f = p
-            rate = -a * size * c - f / (size * size)
-            return speed, 1 - n * n - 2 * n * (h + n), speed / size, -s * rate, c * rate
-
-        start = [[n1, 0, size, mpmath.cos(phi), mpmath.sin(phi)] for phi in map(mpmath.mpf, phases)]
-        y = oracle.as_decimals([[mpmath.nstr(mpmath.mpf(x), digits) for x in row] for row in start]).T
-        p = oracle.as_decimals([[a, h, f]] * len(phases)).T
-        times = oracle.as_decimals([[mpmath.nstr(period, digits)] * len(phases)])
-        end = oracle.taylor(rates, y, p, times, round(1.15 * digits), 10.0**-digits)[0]
-    return np.arctan2(end[4].astype(float), end[3].astype(float))
-
-
-@pytest.mark.parametrize(
-    ("a", "h", "share", "digits", "phases"), [(0.8, -0.3, 0.6, 22, [0.4, 2.5]), (0.9, -1 + 1e-8, 0.5, 30, [0.4])]
-)
-def test_theta_agrees_with_multiple_precision_to_round_off(a, h, share, digits, phases):
-    # The second torus is next to the bottom, where 1 − n3 is 1e-8: nothing may be lost there.
-    f = share * f_max(h)
-    expected = angles_in_multiple_precision(a, h, f, phases, digits)
-    assert angle_between(circle_map(a, h, f, REFERENCE).theta(phases), expected) < 1e-13
 
 
 # ---- closed forms -----------------------------------------------------------------------------------------------
@@ -326,11 +282,6 @@ def test_integers_and_signed_zeros_are_the_numbers_they_are():
     assert (minus.matrix, minus.kind, minus.rotation_number) == (plus.matrix, plus.kind, plus.rotation_number)
 
 
-def test_a_circle_map_cannot_be_changed():
-    with pytest.raises(AttributeError):
-        circle_map(0.5, 1.5, 0.6, DRAFT).trace = 0.0
-
-
 @pytest.mark.parametrize("name", LEVELS)
 @settings(max_examples=examples(6))
 @given(torus=tori)
@@ -372,24 +323,6 @@ def check_rotation_number(a, h, f, iterations=20_000):
 @every_torus
 def test_the_rotation_number_is_the_mean_turn_of_the_integrated_lift(a, h, f):
     check_rotation_number(a, h, f)
-
-
-@settings(max_examples=examples(2))
-@given(tori.filter(lambda torus: 0.02 < abs(torus[2]) < 0.999))
-def test_the_rotation_number_is_the_mean_turn_on_every_torus(torus):
-    a, h, share = torus
-    check_rotation_number(a, h, share * f_max(h), iterations=2000)
-
-
-def test_the_rotation_number_is_the_mean_turn_of_one_long_orbit():
-    # Neither matrix nor lift: 2000 returns of `eq01`, the angle of w unwrapped from sample to sample.
-    a, h, f = 0.5, 0.5, 0.5
-    turning, returns = turning_points(h, f), 2000
-    times = np.linspace(0.0, returns * turning.period, 100 * returns)
-    states = solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(0.0), times, STANDARD).states
-    angle = np.unwrap(np.arctan2(states[:, 0], states[:, 1]))
-    mean = (angle[-1] - angle[0]) / (2 * math.pi * returns)
-    assert circle_map(a, h, f, REFERENCE).rotation_number == pytest.approx(mean, abs=1.0 / returns)
 
 
 @given(tori)

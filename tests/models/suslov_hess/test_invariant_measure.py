@@ -164,27 +164,6 @@ def test_in_its_angles_the_flow_is_linear(a, h, f):
         assert back[4] == pytest.approx(turning.roots[1], abs=1e-11)
 
 
-@pytest.mark.parametrize(("a", "h", "f"), [(0.5, 0.5, 0.5), (1.0, -0.5, -0.3)])
-def test_a_long_motion_is_spread_over_the_torus_as_the_density_says(a, h, f):
-    measure = invariant_measure(circle_map(a, h, f, REFERENCE))
-    turning = turning_points(h, f)
-    count, returns = 40_000, 900
-    times = np.linspace(0.0, returns * turning.period, count)
-    states = solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(0.3), times, level("precise")).states
-    s, phi = np.remainder(times / turning.period, 1.0), np.arctan2(states[:, 0], states[:, 1])
-    parts, bins = 6, 8
-    shares = np.histogram2d(s, phi, [parts, bins], [(0.0, 1.0), (-math.pi, math.pi)])[0] / count
-    fine = (np.arange(parts * 20) + 0.5) / (parts * 20) * turning.period
-    angles = -math.pi + (np.arange(bins * 40) + 0.5) / (bins * 40) * 2.0 * math.pi
-    density = on_torus(measure, fine, level("precise")).density(angles)
-    cell = (turning.period / fine.size) * (2.0 * math.pi / angles.size)
-    expected = density.reshape(parts, 20, bins, 40).sum(axis=(1, 3)) * cell
-    assert expected.sum() == pytest.approx(1.0, abs=1e-6)
-    assert shares == pytest.approx(expected, abs=3e-3 * expected.max() + 1e-3)
-    # It does depend on the time since the return.
-    assert np.max(np.ptp(expected, axis=0)) > 0.01
-
-
 @every_torus
 def test_the_unrolled_density_is_normalised_and_carried_along_by_the_flow(a, h, f):
     theta, turning = circle_map(a, h, f, REFERENCE), turning_points(h, f)

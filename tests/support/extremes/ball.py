@@ -94,7 +94,7 @@ def in_the_strip(Row, name, body, h, span, **options):
     return Row(f"ball, strip: {name}", "σ1, σ2 and E = h", error, **options)
 
 
-def rows(Row, an_orbit, symmetric, there_and_back, drift):
+def rows(Row, an_orbit, drift):
     """The rows."""
 
     def ball(name, state, parameters, times, **options):
@@ -142,9 +142,6 @@ def rows(Row, an_orbit, symmetric, there_and_back, drift):
         ball("ω = 1e-6", (0.8e-6, -0.4e-6, *GAMMA), free(2.0), [1e6, 1e8]),
         ball("t = 1e-6", START, with_field(2.0), [1e-6]),
         ball("t = 300, no field", START, free(2.0), [300.0]),
-        symmetric("time reversal, 𝒟 = 1e6", SYSTEM, START, with_field(1e6), [1.0, 20.0], (-1, -1, 1, 1, 1), -1),
-        there_and_back("𝒟 = 1e6", SYSTEM, START, with_field(1e6), 5.0),
-        there_and_back("𝒟 = 1e-6", SYSTEM, START, with_field(1e-6), 5.0),
         drift("t = 1e5, no field", SYSTEM, START, free(2.0), 1e5, floor=1e-11),
         drift("t = 3e4", SYSTEM, START, with_field(2.0), 3e4, floor=1e-11),
         drift("t = −1e3, 𝒟 = 1e6", SYSTEM, START, with_field(1e6), -1e3, floor=1e-11),

@@ -85,7 +85,7 @@ def a_state(Row, name, body, h, f, place, **options):
     return Row(f"state on g = π/2: {name}", "its integrals, 40 digits", error, **options)
 
 
-def rows(Row, symmetric, there_and_back, drift):
+def rows(Row, drift):
     """The rows."""
 
     def orbit(name, body, state, times, **options):
@@ -97,7 +97,6 @@ def rows(Row, symmetric, there_and_back, drift):
     l = 0.7
     barrier = float(hess_curve(GESS1, np.array([l]))[0])
     near = tuple(AndoyerSection(GESS1, 50.0, 5.0).state_at(l, barrier + small) for small in (1e-9, -1e-12))
-    mirror = (-1, -1, -1, 1, 1, 1)
     grows = "what rounds the start grows twenty-fold in each period of n3"
     return [
         orbit("gess1", GESS1, START, [1.0, 5.0]),
@@ -144,8 +143,6 @@ def rows(Row, symmetric, there_and_back, drift):
         a_state(Row, "f = 1e-300", GESS1, 50.0, 1e-300, (0.7, -0.3), levels=("any",)),
         a_state(Row, "x = 1", GESS1, 50.0, 5.0, (-2.0, 1.0), levels=("any",)),
         a_state(Row, "moments 1e6, 1, 1e-6", hess(1e6, 1.0, 1e-6), 50.0, 1e-3, (0.82, 0.0236), levels=("any",)),
-        symmetric("time reversal", SYSTEM, START, GESS1.parameters, [0.5, 2.0], mirror, -1),
-        there_and_back("gess1", SYSTEM, START, GESS1.parameters, 2.0),
         drift("gess1, t = 1e4", SYSTEM, near[0], GESS1.parameters, 1e4, floor=1e-9),
         drift(
             "moments 1, 1e-3, 1e-6",
