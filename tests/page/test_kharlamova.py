@@ -91,7 +91,7 @@ def test_a_click_starts_the_orbit_there(arcs, tab):
 
 def test_what_is_no_motion_says_so_and_nothing_stale_stays(point):
     point.change(point.type, "b3", "0")
-    assert point.text("status").startswith("b3 = 0: without a field γ₃ does not follow from the energy.")
+    assert point.text("status").startswith("b3 = 0: without a field the energy does not determine γ₃.")
     assert point.text("derived") == ""
     for name in point.page.evaluate(SOURCES):
         if not name.endswith("-message"):

@@ -1,6 +1,6 @@
-"""The additional integral F2 of the free Suslov problem, for every odd k (`eq834`; table in models/README.md).
+"""Additional integral F2 of the free Suslov problem, for every odd k (`eq834`; table in models/README.md).
 
-Where I13 = 0 and I11 I22 = I22² + k² I23², k odd, F2 = (γ, V(ω)) is an integral of `biz132` with γ̇ = γ × ω if
+If I13 = 0 and I11 I22 = I22² + k² I23², k odd, F2 = (γ, V(ω)) is an integral of `biz132` with γ̇ = γ × ω, provided that
 V̇ = V × ω.  With n = (k+1)/2 and
 
     V1 = Σ a_j ω1^(k−2j) ω2^(2j),  V2 = Σ b_j ω1^(k−1−2j) ω2^(2j+1),  V3 = Σ c_j ω1^(k−1−2j) ω2^(2j+1),  0 ≤ j < n,
@@ -11,9 +11,9 @@ this is an upward recursion in j, rational in I22 and I23:
     a_j − b_j = I23 ((2j+1) c_j/I22 − (k+1−2j) c_(j−1)/I11)
     a_(j+1)   = I22/(2j+2) ((k−2j) a_j/I11 − c_j/I23),
 
-which starts from b_0 = I22^n I11^(k−1), the paper's scale; a_n = 0 is the condition `eq834`.  Case 2, I23 = 0, follows
-by the permutation 1 ↔ 2, with γ3 → −γ3, I13 → −I23 and I23 → −I13, so its condition is I11 I22 = I11² + k² I13²
-(the paper prints I22² there).
+which starts from b_0 = I22^n I11^(k−1), the scale of the paper; a_n = 0 is the condition `eq834`.  Case 2, I23 = 0,
+follows from the permutation 1 ↔ 2, with γ3 → −γ3, I13 → −I23 and I23 → −I13.  Its condition is
+I11 I22 = I11² + k² I13² (the paper prints I22² there).
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def _check_order(k: int) -> None:
 
 
 def I11_of(k: int, I22: float, I23: float) -> float:
-    """I11 = I22 + k² I23²/I22 (`eq834`).  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+    """Return I11 = I22 + k² I23²/I22 (`eq834`).  Raises `InvalidParameter`, `NotPositiveDefinite`."""
     _check_order(k)
     require_finite(I22=I22, I23=I23)
     require_positive_definite(1.0, I22)
@@ -60,13 +60,13 @@ def I11_of(k: int, I22: float, I23: float) -> float:
 
 
 def I11_at(k: float, I22: float, I13: float, I23: float) -> float:
-    """I11 = I22 + k|k| (I13² + I23²)/I22: `I11_of` for any real k and both cases; less than I22 for k < 0."""
+    """Return I11 = I22 + k|k| (I13² + I23²)/I22: `I11_of` for any real k and both cases; below I22 for k < 0."""
     return I22 + k * abs(k) * (I13 * I13 + I23 * I23) / I22
 
 
 @dataclass(frozen=True)
 class Coefficients:
-    """a, b, c : n = (k+1)/2 exact coefficients each, see the module; rest : a_n, 0 if F2 is conserved."""
+    """Exact coefficients a, b, c of F2, n = (k+1)/2 of each, and `rest` = a_n, which is 0 if F2 is conserved."""
 
     k: int
     a: tuple[Fraction, ...]
@@ -77,13 +77,13 @@ class Coefficients:
 
 @lru_cache(maxsize=64)
 def coefficients(k: int, I22: Fraction | float, I23: Fraction | float) -> Coefficients:
-    """The coefficients of case 1 of `eq834`, exact for these I22 and I23 ≠ 0, with I11 from k.
+    """Return the exact coefficients of case 1 of `eq834` for these I22 and I23 ≠ 0, with I11 from k.
 
     Raises `InvalidParameter`.
     """
     _check_order(k)
     if not (I22 > 0 and I23 != 0):
-        raise InvalidParameter("F2 needs I22 > 0 and I23 other than 0: with I13 = I23 = 0 ω does not change at all.")
+        raise InvalidParameter("F2 needs I22 > 0 and I23 other than 0: with I13 = I23 = 0 ω is constant.")
     return _recursion(k, Fraction(I22), Fraction(I23))
 
 
@@ -106,11 +106,22 @@ def _recursion(k: int, I22: Fraction, I23: Fraction) -> Coefficients:
 
 @dataclass(frozen=True)
 class AdditionalIntegral:
-    """F2 = (γ, V(ω)) of one body.
+    """Additional integral F2 = (γ, V(ω)) of one body; the result of `additional_integral`.
 
-    k : its degree in ω; permuted : True for case 2 of `eq834` (I23 = 0);
-    a, b, c : (n,) the coefficients in double precision (of the permuted body in case 2);
-    inertia : the moment about ξ, I11 (in case 2 I22).
+    Attributes
+    ----------
+    k : int
+        Degree in ω.
+    permuted : bool
+        True for case 2 of `eq834` (I23 = 0).
+    a : ndarray of float, shape ((k + 1)/2,)
+        Coefficients of V1, in case 2 those of the permuted body.
+    b : ndarray of float, shape ((k + 1)/2,)
+        Coefficients of V2.
+    c : ndarray of float, shape ((k + 1)/2,)
+        Coefficients of V3.
+    inertia : float
+        Moment of inertia about ξ: I11, in case 2 I22.
     """
 
     k: int
@@ -121,7 +132,18 @@ class AdditionalIntegral:
     inertia: float
 
     def vector(self, omega: Array) -> Array:
-        """V(ω), shape (…, 3), for ω (…, 2)."""
+        """Return V(ω).
+
+        Parameters
+        ----------
+        omega : array_like of float, shape (..., 2)
+            Angular velocities (ω1, ω2).
+
+        Returns
+        -------
+        ndarray of float, shape (..., 3)
+            The vectors V.
+        """
         omega = np.asarray(omega, float)
         w1, w2 = (omega[..., 1], omega[..., 0]) if self.permuted else (omega[..., 0], omega[..., 1])
         j = np.arange(self.a.size)
@@ -131,32 +153,86 @@ class AdditionalIntegral:
         return np.stack([v2, v1, -v3] if self.permuted else [v1, v2, v3], axis=-1)
 
     def circle(self, omega: Array, level: float) -> tuple[Array, float]:
-        """The circle (n, γ) = d of all γ with F2 = level at ω (2,): the unit vector n (3,), and d."""
+        """Return the circle of all γ with F2 = level at one ω.
+
+        Parameters
+        ----------
+        omega : array_like of float, shape (2,)
+            Angular velocity (ω1, ω2).
+        level : float
+            Value of F2.
+
+        Returns
+        -------
+        n : ndarray of float, shape (3,)
+            Unit vector along the axis of the circle.
+        d : float
+            Distance of its plane from the origin: (n, γ) = d.
+        """
         V = self.vector(omega)
         length = float(np.linalg.norm(V))
         return V / length, level / length
 
     def __call__(self, omega: Array, gamma: Array) -> Array:
-        """F2, shape (…), for ω (…, 2) and γ (…, 3)."""
+        """Return F2, shape (…), for ω (…, 2) and γ (…, 3)."""
         value: Array = np.sum(self.vector(omega) * np.asarray(gamma, float), axis=-1)
         return value
 
     def at_fixed_points(self, h: float) -> tuple[float, float]:
-        """(f^+, f^−): F2 at ω^(±), γ^(±) = ±ξ with energy h (`biz138`).  They are equal; −f^± belongs to γ = ∓ξ.
+        """Return the values (f^+, f^−) of F2 at ω^(±) with γ^(±) = ±ξ.
 
-        Raises `InvalidParameter` unless h > 0.
+        Parameters
+        ----------
+        h : float
+            The energy h > 0.
+
+        Returns
+        -------
+        tuple of two floats
+            The two values, which are equal; γ = ∓ξ has −f^±.
+
+        Raises
+        ------
+        InvalidParameter
+            If h is not finite or not positive.
+
+        References
+        ----------
+        `biz138`.
+
+        Examples
+        --------
+        >>> from hess_mechanics import SuslovBody, additional_integral
+        >>> f, _ = additional_integral(1, SuslovBody(2.0, 1.0, 0.0, 0.5)).at_fixed_points(0.5)
+        >>> round(f, 6)
+        -1.118034
         """
         require_finite(h=h)
         if not h > 0.0:
             raise InvalidParameter(f"E = h = {h:g}, but without a field energy is positive: choose h > 0.")
-        # There V = ∓a_0 |ω|^k ξ for all signs of I13 and I23, as k is odd.
+        # At ω^(±) V = ∓a_0 |ω|^k ξ for all signs of I13 and I23, as k is odd.
         f = -float(self.a[0]) * math.sqrt(2.0 * h / self.inertia) ** self.k
         return f, f
 
     def cycles(self, h: float, f: float) -> tuple[float, float]:
-        """(Γ on C^+, Γ on C^−) of the two limit cycles on the torus E = h, F2 = f; they differ in sign.
+        """Return Γ = (ξ, γ) on the two limit cycles C^± of the torus E = h, F2 = f.
 
-        Raises `InvalidParameter` for |f| > |f^±|, which no motion has.
+        Parameters
+        ----------
+        h : float
+            The energy h > 0.
+        f : float
+            Value of F2, |f| ≤ |f^±|.
+
+        Returns
+        -------
+        tuple of two floats
+            Γ on C^+ and on C^−; they differ in sign.
+
+        Raises
+        ------
+        InvalidParameter
+            If no motion has this h and f.
         """
         top, _ = self.at_fixed_points(h)
         require_finite(f=f)
@@ -168,7 +244,7 @@ class AdditionalIntegral:
 
 
 def order(body: SuslovBody) -> int | None:
-    """The odd k ≤ 15 for which the body satisfies `eq834` to round-off, or None."""
+    """Return the odd k ≤ 15 for which the body satisfies `eq834` to round-off, or None."""
     I11, I22, I13, I23, *b = body.parameters
     if any(b) or (I13 == 0.0) == (I23 == 0.0):
         return None
@@ -178,36 +254,60 @@ def order(body: SuslovBody) -> int | None:
     if not 0.5 < squared < (MAX_K + 1) ** 2:
         return None
     k = 2 * int(math.sqrt(squared) // 2) + 1
-    # I11 is known to a few units in the last place; None where that is not enough to tell k.
+    # I11 is known to a few units in the last place; return None if k is ambiguous.
     blur = 2e-15 * (I11 / abs(I23)) * (I22 / abs(I23)) + 4e-15 * squared
     return k if k <= MAX_K and abs(squared - k * k) <= blur < 1e-3 else None
 
 
 def additional_integral(k: int, body: SuslovBody) -> AdditionalIntegral:
-    """F2 of degree k for a body with I13 = 0 or I23 = 0; I11 (in case 2: I22) is computed from k.
+    """Return the additional integral F2 of degree k of a body with I13 = 0 or I23 = 0.
 
-    Raises `InvalidParameter` (k even or too large, neither or both of I13, I23 zero).
+    Parameters
+    ----------
+    k : int
+        Degree in ω, odd, from 1 to 15.
+    body : SuslovBody
+        Body of which I22 and I23 are used (in case 2 I11 and I13); the other moment follows from k.
 
+    Returns
+    -------
+    AdditionalIntegral
+        The integral with its coefficients.
+
+    Raises
+    ------
+    InvalidParameter
+        If k is even or too large, both or none of I13 and I23 are 0, or a coefficient overflows.
+
+    References
+    ----------
+    `eq834`.
+
+    Examples
+    --------
     >>> from hess_mechanics import SuslovBody, additional_integral
-    >>> additional_integral(3, SuslovBody(2.0, 1.0, 0.0, 0.5)).k
-    3
+    >>> F2 = additional_integral(3, SuslovBody(3.25, 1.0, 0.0, 0.5))
+    >>> F2.k, F2.inertia
+    (3, 3.25)
+    >>> round(float(F2([0.3, 0.2], [0.6, 0.0, 0.8])), 6)
+    0.296591
     """
     permuted = body.I23 == 0.0
     if permuted == (body.I13 == 0.0):
-        raise InvalidParameter("F2 is known where one of I13, I23 is 0 and the other is not: set one of them to 0.")
+        raise InvalidParameter("F2 is known only if one of I13, I23 is 0 and the other is not: set one of them to 0.")
     I22, I23 = (body.I11, -body.I13) if permuted else (body.I22, body.I23)
     exact = coefficients(k, I22, I23)
     try:
         a, b, c = (np.array([float(x) for x in row]) for row in (exact.a, exact.b, exact.c))
     except OverflowError:
         raise InvalidParameter(
-            "The coefficients of F2 leave double range: measure the moments of inertia in other units."
+            "The coefficients of F2 exceed the range of doubles: measure the moments of inertia in other units."
         ) from None
     return AdditionalIntegral(k, permuted, a, b, c, I11_of(k, I22, I23))
 
 
 def of_body(body: SuslovBody) -> AdditionalIntegral | None:
-    """F2 of the body, or None where `eq834` does not hold."""
+    """Return F2 of the body, or None if `eq834` does not hold."""
     k = order(body)
     return None if k is None else additional_integral(k, body)
 
@@ -221,7 +321,7 @@ _FORMULAS = {
 
 
 def formula(k: int) -> str:
-    """F2 in LaTeX, case 1 of `eq834`: written out for k = 1 and 3, otherwise as a sum.  Raises `InvalidParameter`."""
+    """Return F2 in LaTeX, case 1 of `eq834`: expanded for k = 1 and 3, otherwise a sum.  Raises `InvalidParameter`."""
     _check_order(k)
     return _FORMULAS.get(
         k,

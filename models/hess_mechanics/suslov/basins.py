@@ -1,8 +1,7 @@
-"""To what the orbits of a section come: groups of their averages, and whether volume shrinks on a group's motions.
+"""Attractors of the orbits of a section: groups of their averages, and the contraction of volume in each group.
 
-Phase volume about a motion grows by exp ∫div ẏ dt.  Where the mean divergence is negative, beyond its error, the
-motions of a group are drawn to a set of no volume: an attractor.  Where it is 0 they only fill different parts of phase
-space.
+Phase volume about an orbit grows by exp ∫div ẏ dt.  If the mean divergence is negative, beyond its error, the orbits of
+a group approach a set of volume 0: an attractor.  If it is 0 they only fill different parts of phase space.
 """
 
 from __future__ import annotations
@@ -33,31 +32,31 @@ __all__ = [
 ]
 
 _NARROWEST = 1e-3
-"""Averages closer than this are the same."""
+"""Averages closer than this are equal."""
 _GAP = 0.1
-"""Of the range of all averages: the least gap between two groups."""
+"""Least gap between two groups, as a share of the range of all averages."""
 _FEWEST = 0.02
-"""Of all orbits: the smallest group; fewer belong to the nearest one."""
+"""Smallest group, as a share of all orbits; smaller ones join the nearest group."""
 _BATCHES = 12
 
 
 @dataclass(frozen=True)
 class Contraction:
-    """The mean divergence along a motion after its transient, and the standard error of that mean."""
+    """Mean divergence along an orbit after its transient, and the standard error of that mean."""
 
     mean: float
     error: float
 
     @property
     def attracts(self) -> bool:
-        """Whether the mean is negative beyond its error."""
+        """True if the mean is negative beyond its error."""
         return bool(volume_sign(self.mean, self.error) < 0)
 
 
 def contraction(body: SuslovBody, start: Sequence[float], span: float) -> Contraction:
-    """Of the motion from `start` (5,), over the later two thirds of the time `span`.  Raises as `solve`.
+    """Return the contraction along the orbit from `start` (5,), over the last two thirds of the time `span`.
 
-    The error is that of the means over 12 stretches of time, as if these were independent.
+    The error is that of the means over 12 intervals of time, treated as independent.  Raises as `solve`.
     """
     course = mean_divergence(body, start, span)
     sums = np.concatenate([[0.0], course.mean * course.times])
@@ -67,10 +66,10 @@ def contraction(body: SuslovBody, start: Sequence[float], span: float) -> Contra
 
 
 def groups(averages: Array) -> Array:
-    """The group (n,) of each orbit, 0, 1, … by rising averages (n,), where these lie in groups far apart; else all 0.
+    """Return the group (n,) of each orbit, 0, 1, … by increasing averages (n,); 0 if there are no distinct groups.
 
-    A gap between two groups is a tenth of the whole range or more, and wider than either group but for the outermost
-    tenth of it on each side; a group has a fiftieth of the orbits or more.
+    A gap between two groups is at least a tenth of the whole range, and wider than either group without the outermost
+    tenths of its orbits.  A group has at least a fiftieth of the orbits.
     """
     if averages.size == 0 or np.ptp(averages) < _NARROWEST:
         return np.zeros(averages.size)
@@ -89,20 +88,20 @@ def groups(averages: Array) -> Array:
 
 
 def middles(averages: Array, group: Array) -> list[int]:
-    """Of each group the orbit (index) whose average is the middle one."""
+    """Return the index of the orbit with the median average of each group."""
     members = [np.flatnonzero(group == one) for one in range(int(group.max(initial=-1)) + 1)]
     return [int(own[np.argsort(averages[own])[own.size // 2]]) for own in members]
 
 
 def groups_of_cells(ends: Array) -> Array:
-    """The group of each cell of `SuslovSection.ends`, of the same shape; −1 where no orbit is."""
+    """Return the group of each cell of `SuslovSection.ends`, of the same shape; −1 for cells without an orbit."""
     there, cells = np.isfinite(ends), np.full(ends.shape, -1.0)
     cells[there] = groups(ends[there])
     return cells
 
 
 def middle_cells(ends: Array, cells: Array) -> list[tuple[int, int]]:
-    """Row and column of the middle one of each group, of what `groups_of_cells` makes of these ends (n, m)."""
+    """Return row and column of the median cell of each group, from `ends` (n, m) and its `groups_of_cells`."""
     there = cells >= 0.0
     return [(row, column) for row, column in np.argwhere(there)[middles(ends[there], cells[there])].tolist()]
 
@@ -110,7 +109,7 @@ def middle_cells(ends: Array, cells: Array) -> list[tuple[int, int]]:
 def contraction_at(
     section: SuslovSection, window: Window, cells: tuple[int, int], row: int, column: int, span: float
 ) -> Contraction:
-    """`contraction` of the motion from the middle of one of the cells (m, n) across and up a window."""
+    """Return the `contraction` of the orbit from the centre of one of the cells (m, n) of a window."""
     states, _ = section.cells_of_row(window, cells, row)
     return contraction(section.body, states[column].tolist(), span)
 
@@ -123,10 +122,10 @@ def _width(part: Array) -> float:
 def count_attractors(
     section: SuslovSection, cells: tuple[int, int], crossings: int, span: float, level: Accuracy
 ) -> int:
-    """How many of the groups of a whole section attract, from the orbits of cells (m, n) across and up.
+    """Return the number of attracting groups of a whole section, from the orbits of cells (m, n).
 
-    crossings : of each orbit; span : the time over which the divergence of one motion of each group is averaged.
-    0 where no motion is possible.  Raises `InvalidParameter`, `WorkLimit`.
+    crossings : number of crossings of each orbit; span : time over which the divergence of one orbit of each group is
+    averaged.  The result is 0 if no motion is possible.  Raises `InvalidParameter`, `WorkLimit`.
     """
     window = ((-math.pi, 0.0), (math.pi, math.pi))
     ends = np.array([section.ends(window, cells, row, crossings, level=level) for row in range(cells[1])])

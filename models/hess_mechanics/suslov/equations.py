@@ -1,6 +1,6 @@
 """The Suslov problem with gravity (`Biz131`, `Biz11`).
 
-A rigid body with a fixed point, the constraint ω3 = 0 along e = e3, I12 = 0, potential (b, γ).
+A rigid body with a fixed point, the constraint ω3 = 0 along e = e3, I12 = 0, and the potential (b, γ).
 State y = (ω1, ω2, γ1, γ2, γ3), parameters p = (I11, I22, I13, I23, b1, b2, b3).
 """
 
@@ -23,8 +23,38 @@ __all__ = ["SYSTEM", "SuslovBody", "unit_vector"]
 
 @dataclass(frozen=True)
 class SuslovBody:
-    """Inertia tensor (`Biz03`) and b = −mg r.  Raises `InvalidParameter`, `NotPositiveDefinite`.
+    """Body of the Suslov problem: inertia tensor and field.
 
+    Parameters
+    ----------
+    I11 : float
+        Moment of inertia about the first axis, I11 > 0.
+    I22 : float
+        Moment of inertia about the second axis, I22 > 0.
+    I13 : float
+        Product of inertia.
+    I23 : float
+        Product of inertia.
+    b1 : float, optional
+        First component of **b** = −mg **r**, with **r** the centre of mass.
+    b2 : float, optional
+        Second component of **b**.
+    b3 : float, optional
+        Third component of **b**.
+
+    Raises
+    ------
+    InvalidParameter
+        If a parameter is not finite.
+    NotPositiveDefinite
+        If I11 ≤ 0 or I22 ≤ 0.
+
+    References
+    ----------
+    `Biz03`, `Biz131`.
+
+    Examples
+    --------
     >>> from hess_mechanics import SuslovBody
     >>> SuslovBody(2.0, 1.0, 0.3, 0.5, b3=1.0).parameters
     (2.0, 1.0, 0.3, 0.5, 0.0, 0.0, 1.0)
@@ -44,21 +74,42 @@ class SuslovBody:
 
     @property
     def system(self) -> System:
-        """Its equations of motion."""
+        """The equations of motion."""
         return SYSTEM
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """p = (I11, I22, I13, I23, b1, b2, b3)."""
+        """The parameters p = (I11, I22, I13, I23, b1, b2, b3)."""
         return astuple(self)
 
 
 def unit_vector(gamma: Sequence[float]) -> tuple[tuple[float, float, float], str | None]:
-    """γ normalised, and a note where its length was not 1.  Raises `InvalidParameter` for γ = 0.
+    """Return γ normalised to length 1, and a note if its length was not 1.
 
+    Parameters
+    ----------
+    gamma : sequence of three floats
+        Direction of the vertical.
+
+    Returns
+    -------
+    vector : tuple of three floats
+        Unit vector.
+    note : str or None
+        Sentence that names the former length; None if it was 1 to round-off.
+
+    Raises
+    ------
+    InvalidParameter
+        If γ is 0 or not finite.
+
+    Examples
+    --------
     >>> from hess_mechanics import unit_vector
     >>> unit_vector((0.6, 0.0, 0.8))
     ((0.6, 0.0, 0.8), None)
+    >>> unit_vector((0.0, 3.0, 4.0))[0]
+    (0.0, 0.6, 0.8)
     """
     length = math.hypot(*gamma)
     if not (math.isfinite(length) and length > 0):
@@ -69,7 +120,7 @@ def unit_vector(gamma: Sequence[float]) -> tuple[tuple[float, float, float], str
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    """The right-hand side of the equations of motion (`Biz131`)."""
+    """Return the right-hand side of the equations of motion (`Biz131`)."""
     w1, w2, g1, g2, g3 = y
     I11, I22, I13, I23, b1, b2, b3 = p
     s = I13 * w1 + I23 * w2
@@ -83,7 +134,7 @@ def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
 
 
 def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
-    """Energy E and F1 = γ² (`Biz11`)."""
+    """Return the energy E and F1 = γ² (`Biz11`)."""
     w1, w2, g1, g2, g3 = y
     I11, I22, _, _, b1, b2, b3 = p
     return {
@@ -93,7 +144,7 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
 
 
 def frequency(y: Array, p: Array) -> Array | float:
-    """ν = √(2(E+|b||γ|)/min(I11, I22)) of a state (5,) or many (5, n): no angular velocity of the motion exceeds it.
+    """Return ν = √(2(E+|b||γ|)/min(I11, I22)), a bound of |ω| along the motion, of states (5,) or (5, n).
 
     Raises `NotPositiveDefinite`, `InvalidParameter`.
     """
@@ -122,5 +173,5 @@ SYSTEM = System(
 
 
 def state(omega: Sequence[float], gamma: Sequence[float]) -> Array:
-    """y from ω = (ω1, ω2) and γ."""
+    """Return y from ω = (ω1, ω2) and γ."""
     return np.array([*omega, *gamma], float)

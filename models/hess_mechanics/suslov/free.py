@@ -1,20 +1,20 @@
-"""The free Suslov problem, b = 0 (`biz132`): closed-form ω(t), and γ(t) by one rotation.
+"""The free Suslov problem, b = 0 (`biz132`): ω(t) in closed form, and γ(t) from one rotation.
 
-ξ = (I23, −I13, 0)/J and η = (I13, I23, 0)/J, J² = I13² + I23²; ξ, η, e3 are right-handed.  Every ω that is not on
-the line of equilibria ω ∥ ξ passes once from the unstable to the stable point of its ellipse E = h.  With
-u = ω0 (t − t0), σ = ±1 for the two arcs (the sign of I13ω1 + I23ω2)
+ξ = (I23, −I13, 0)/J and η = (I13, I23, 0)/J, J² = I13² + I23²; ξ, η, e3 are right-handed.  The line of equilibria is
+ω ∥ ξ.  Every other ω moves once from the unstable to the stable point of its ellipse E = h.  With u = ω0 (t − t0) and
+σ = ±1 for the two arcs (the sign of I13ω1 + I23ω2)
 
     ω/ω0 = (−K tanh u + σc sech u) ξ + σκ sech u η,
     w = (I22 I13² + I11 I23²)/J²,  K = I11 I22/(J w),  κ = √(I11 I22)/J,  c = κ I13 I23 (I22 − I11)/(J² w),
     ω0 = J √(2hw)/(I11 I22),
 
-which is the paper's solution.  γ̇ = γ × ω is linear.  In the frame that has turned about ξ by
-Φ(u) = −K ln cosh u + σc gd u, the rest is a matrix ((A, −B̄), (B, Ā)) of SU(2),
+which is the solution of the paper.  γ̇ = γ × ω is linear.  In the frame that is rotated about ξ by
+Φ(u) = −K ln cosh u + σc gd u, the remaining rotation is a matrix ((A, −B̄), (B, Ā)) of SU(2),
 
     A' = −(i/2) V B,  B' = −(i/2) V̄ A,  V = σκ sech u e^{iΦ},  V' = (−iK tanh u + iσc sech u − tanh u) V.
 
-V decays on both sides of u = 0, where the integration starts, so neither starts close to the line nor long times cost
-steps or digits.  This rotation is not in the paper: see models/README.md.
+The integration starts at u = 0, and V decays on both sides of it, so that starts close to the line of equilibria and
+long times cost neither steps nor digits.  This rotation is not in the paper: see models/README.md.
 ω(t) is also the motion of the Chaplygin sleigh (I23 = 0), and of the same constraint on E(2) and SO(2,1).
 """
 
@@ -63,12 +63,12 @@ __all__ = [
 
 _MAX_STEPS = 100_000
 _MAX_SHAPE = 1e4
-"""Limit of K + κ + |c|: the work grows with it, and so does round-off."""
+"""Limit of K + κ + |c|: the work and the round-off grow with it."""
 
 
 @dataclass(frozen=True)
 class PassageConstants:
-    """The constants of a tensor that determine every passage, see the module.
+    """Constants of an inertia tensor that determine every passage of ω along its ellipse, see the module.
 
     xi, eta : (3,) unit vectors; J, w, K, kappa, c : numbers (c for the arc σ = +1).
     """
@@ -83,16 +83,16 @@ class PassageConstants:
 
     @property
     def size(self) -> float:
-        """K + κ + |c|: how fast γ can turn, per unit of u."""
+        """The bound K + κ + |c| of the rotation of γ per unit of u."""
         return self.K + self.kappa + abs(self.c)
 
     @property
     def end(self) -> float:
-        """Beyond |u| = end A and B change by less than 1e-17."""
+        """The |u| beyond which A and B change by less than 1e-17."""
         return 39.0 + math.log(max(1.0, self.kappa))
 
     def turned(self, u: Array | float, arc: int) -> Array:
-        """Φ(u) = −K ln cosh u + σc gd u, the angle about ξ of the turning frame; shape of u."""
+        """Return Φ(u) = −K ln cosh u + σc gd u, the angle about ξ of the rotating frame; shape of u."""
         return -self.K * _log_cosh(u) + arc * self.c * _gd(u)
 
 
@@ -102,24 +102,22 @@ def _log_cosh(u: Array | float) -> Array:
 
 
 def _gd(u: Array | float) -> Array:
-    """The Gudermannian function, ∫ sech u du."""
+    """Return the Gudermannian function, ∫ sech u du."""
     return 2.0 * np.arctan(np.tanh(0.5 * np.asarray(u)))
 
 
 def shape(body: SuslovBody) -> PassageConstants:
-    """K, κ, c and the directions ξ, η of a body without a field.
+    """Return K, κ, c and the directions ξ, η of a body without a field.
 
     Raises `InvalidParameter` (a field; I13 = I23 = 0), `WorkLimit` (I13, I23 too small, or I11 and I22 too different).
     """
     I11, I22, I13, I23, *b = body.parameters
     if any(b):
-        raise InvalidParameter(
-            "There is a field: the free motion and its scattering are of b = 0. Set b1 = b2 = b3 = 0."
-        )
+        raise InvalidParameter("Free motion and its scattering need a body without a field. Set b1 = b2 = b3 = 0.")
     J = math.hypot(I13, I23)
     if not J > 0.0:
         raise InvalidParameter(
-            "With I13 = I23 = 0 and no field ω does not change: there is no line of equilibria, no ξ and no "
+            "With I13 = I23 = 0 and no field ω is constant: there is no line of equilibria, no ξ and no "
             "scattering. Choose I13 or I23 other than 0."
         )
     n1, n2 = I13 / J, I23 / J
@@ -139,10 +137,12 @@ def shape(body: SuslovBody) -> PassageConstants:
 
 @dataclass(frozen=True)
 class Equilibria:
-    """The line of equilibria I13ω1 + I23ω2 = 0 on the ellipse E = h (`biz138`, its denominator corrected).
+    """Equilibria of ω with energy h, on the line I13ω1 + I23ω2 = 0 (`biz138`, with its denominator corrected).
 
-    stable, unstable : (2,) ω^(+) = −|ω|ξ and ω^(−) = +|ω|ξ, where γ turns about ξ on the circles Γ = (ξ, γ) = const,
-    the limit cycles; speed : |ω^(±)|, its angular velocity; xi : (3,); rate : ω0, at which ω leaves and arrives.
+    There γ rotates about ξ on the circles Γ = (ξ, γ) = const, the limit cycles.
+
+    stable, unstable : (2,) ω^(+) = −|ω|ξ and ω^(−) = +|ω|ξ; speed : |ω^(±)|, the angular velocity of γ; xi : (3,);
+    rate : ω0, the rate at which ω departs and arrives; h : the energy.
     """
 
     stable: Array
@@ -153,7 +153,7 @@ class Equilibria:
     h: float
 
     def gamma(self, Gamma: float, phi: float) -> tuple[float, float, float]:
-        """γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3), η = e3 × ξ."""
+        """Return γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3), η = e3 × ξ."""
         x1, x2, _ = self.xi
         across = math.sqrt(max(0.0, 1.0 - Gamma * Gamma))
         return (
@@ -164,12 +164,12 @@ class Equilibria:
 
 
 def _rate(body: SuslovBody, of: PassageConstants, r: float) -> float:
-    """ω0 for r = √(2h)."""
+    """Return ω0 for r = √(2h)."""
     return of.J / body.I11 * (r * math.sqrt(of.w) / body.I22)
 
 
 def equilibria(body: SuslovBody, h: float) -> Equilibria:
-    """The stable and the unstable point with energy h.  Raises `InvalidParameter` (h ≤ 0 too), `WorkLimit`."""
+    """Return the stable and the unstable point with energy h.  Raises `InvalidParameter` (h ≤ 0 too), `WorkLimit`."""
     of, r = shape(body), _radius(h)
     speed = r / math.sqrt(of.w)
     point = speed * of.xi[:2]
@@ -177,7 +177,7 @@ def equilibria(body: SuslovBody, h: float) -> Equilibria:
 
 
 def _radius(h: float) -> float:
-    """√(2h)."""
+    """Return √(2h)."""
     require_finite(h=h)
     if not h > 0.0:
         raise InvalidParameter(f"E = h = {h:g}, but without a field the energy of a motion is positive: choose h > 0.")
@@ -185,12 +185,12 @@ def _radius(h: float) -> float:
 
 
 def equilibria_of_unit_rate(body: SuslovBody) -> Equilibria:
-    """Those with the energy at which ω0 = 1.  Raises `InvalidParameter`, `WorkLimit`."""
+    """Return the equilibria with the energy for which ω0 = 1.  Raises `InvalidParameter`, `WorkLimit`."""
     return equilibria(body, 1.0 / equilibria(body, 1.0).rate ** 2)
 
 
 def arcs(body: SuslovBody, h: float, count: int = 91) -> tuple[Array, Array]:
-    """The two arcs of the ellipse E = h from the unstable to the stable point, σ = +1 first; (count, 2) each.
+    """Return the two arcs of the ellipse E = h from the unstable to the stable point, σ = +1 first; (count, 2) each.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
@@ -201,14 +201,14 @@ def arcs(body: SuslovBody, h: float, count: int = 91) -> tuple[Array, Array]:
 
 
 def _omega(of: PassageConstants, arc: int, tanh: Array, sech: Array) -> Array:
-    """ω/ω0; shape (m, 2)."""
+    """Return ω/ω0; shape (m, 2)."""
     along = -of.K * tanh + arc * of.c * sech
     return along[:, None] * of.xi[:2] + (arc * of.kappa) * sech[:, None] * of.eta[:2]
 
 
 @dataclass(frozen=True)
 class Passage:
-    """One motion ω(t): its tensor's `PassageConstants`, arc σ = ±1, u0 = u(0), rate ω0 and speed |ω^(±)|."""
+    """One motion ω(t): constants of its tensor, arc σ = ±1, u0 = u(0), rate ω0 and speed |ω^(±)|."""
 
     shape: PassageConstants
     arc: int
@@ -217,11 +217,11 @@ class Passage:
     speed: float
 
     def u(self, times: Array) -> Array:
-        """u at the times (m,)."""
+        """Return u at the times (m,)."""
         return self.u0 + self.rate * times
 
     def omega(self, u: Array) -> Array:
-        """ω (m, 2), closed form of `biz132`."""
+        """Return ω (m, 2) in closed form (`biz132`)."""
         return self.rate * _omega(self.shape, self.arc, np.tanh(u), _sech(u))
 
 
@@ -231,10 +231,10 @@ def _sech(u: Array) -> Array:
 
 
 def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
-    """The motion that starts with ω(0), however close to the line of equilibria.
+    """Return the motion that starts with ω(0), however close to the line of equilibria.
 
-    sinh u0 = tan β, where (cos β, sin β) is ω(0) on the ellipse E = h, seen from its middle towards σ = +1.
-    Raises `InvalidParameter` (ω = 0, or on the line of equilibria), `WorkLimit`.
+    sinh u0 = tan β, where (cos β, sin β) is ω(0) on the ellipse E = h, with the angle β from the middle of the arc σ =
+    +1. Raises `InvalidParameter` (ω = 0, or on the line of equilibria), `WorkLimit`.
     """
     of = shape(body)
     w1, w2 = (float(x) for x in omega)
@@ -242,7 +242,7 @@ def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
     r = math.hypot(math.sqrt(body.I11) * w1, math.sqrt(body.I22) * w2)
     if r == 0.0:
         raise InvalidParameter("ω = 0: the body is at rest for ever, h = 0. Choose ω1 or ω2 other than 0.")
-    # Exact, because close to the line of equilibria the two products nearly cancel.
+    # Exact arithmetic, because close to the line of equilibria the two products nearly cancel.
     s = Fraction(body.I13) * Fraction(w1) + Fraction(body.I23) * Fraction(w2)
     if s == 0:
         raise InvalidParameter(
@@ -252,10 +252,10 @@ def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
     rate = _rate(body, of, r)
     speed = r / math.sqrt(of.w)
     if not (math.isfinite(rate) and rate > 0.0 and math.isfinite(speed)):
-        raise InvalidParameter("This ω leaves the range of double precision: choose a less extreme one.")
+        raise InvalidParameter("This ω exceeds the range of double precision: choose a less extreme one.")
     n1, n2 = of.eta[:2]
     sin = (body.I22 * n1 * (w2 / r) - body.I11 * n2 * (w1 / r)) / math.sqrt(of.w)
-    # ln |cos β|, because the cosine itself may underflow.
+    # Use ln |cos β|, because the cosine itself may underflow.
     factor = math.sqrt(body.I11 / of.w) * math.sqrt(body.I22) / of.J
     log_cos = _log(abs(s)) - math.log(r) + math.log(factor)
     if log_cos > -20.0:
@@ -266,13 +266,13 @@ def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
 
 
 def _log(x: Fraction) -> float:
-    """ln x, also for x beyond the range of doubles."""
+    """Return ln x, also for x beyond the range of doubles."""
     shift = x.numerator.bit_length() - x.denominator.bit_length()
     return math.log(float(x / Fraction(2) ** shift)) + shift * math.log(2.0)
 
 
 def propagate(of: PassageConstants, arc: int, u: Array, level: Accuracy) -> tuple[Complex, Complex, int]:
-    """A and B at each u (m,), in any order, and the Taylor steps this took.  Raises `WorkLimit`."""
+    """Return A and B at each u (m,), in any order, and the number of Taylor steps.  Raises `WorkLimit`."""
     level = as_level(level)
     inside = np.clip(u, -of.end, of.end)
     start = np.array([0.0, 1.0, arc * of.kappa, 0.0, 1.0, 0.0, 0.0, 0.0])
@@ -296,9 +296,9 @@ def propagate(of: PassageConstants, arc: int, u: Array, level: Accuracy) -> tupl
 
 
 def turning(of: PassageConstants, arc: int, u: Array, level: Accuracy) -> tuple[Complex, Complex, float, int]:
-    """A and B at each u (m,), the error estimate of the rotation between any two of them, and all steps.
+    """Return A and B at each u (m,), the estimated error of the rotation between any two, and the steps.
 
-    The error is measured as in `orbit.solve`.  Raises `WorkLimit`.
+    The error is estimated as in `orbit.solve`.  Raises `WorkLimit`.
     """
 
     def run(at: Level, _: int) -> tuple[tuple[Complex, Complex], int]:
@@ -306,7 +306,7 @@ def turning(of: PassageConstants, arc: int, u: Array, level: Accuracy) -> tuple[
         return (A, B), steps
 
     def apart(one: tuple[Complex, Complex], other: tuple[Complex, Complex]) -> float:
-        # A rotation is quadratic in A and B, and both its ends have errors: a factor of 4.
+        # Factor 4: a rotation is quadratic in A and B, and both its ends have errors.
         return 4.0 * float((np.abs(one[0] - other[0]) + np.abs(one[1] - other[1])).max())
 
     found = measured(as_level(level), run, apart)
@@ -315,11 +315,11 @@ def turning(of: PassageConstants, arc: int, u: Array, level: Accuracy) -> tuple[
 
 @dataclass(frozen=True)
 class FreeRotation:
-    """The motion of every γ that shares one ω(0).
+    """Motion of every γ with the same ω(0).
 
     times : (m,); omega : (m, 2); matrices : (m, 3, 3), γ(t) = matrix · γ(0).
     limits : (2, 3), the same for Γ at t → −∞ and t → +∞: Γ^∓ = limits · γ(0).
-    error_estimate : of any component of ω and γ, absolute.
+    error_estimate : absolute error of any component of ω and γ.
     """
 
     times: Array
@@ -333,7 +333,7 @@ class FreeRotation:
 
 
 def rotation(body: SuslovBody, omega: Sequence[float], times: Sequence[float] | Array, level: Accuracy) -> FreeRotation:
-    """The rotation along the motion that starts with ω(0), at times as in `orbit.solve`.
+    """Return the rotation along the motion that starts with ω(0), at times as in `orbit.solve`.
 
     Raises `InvalidParameter` (a field, I13 = I23 = 0, ω = 0 or on the line of equilibria, times out of order),
     `WorkLimit`.
@@ -350,12 +350,12 @@ def rotation(body: SuslovBody, omega: Sequence[float], times: Sequence[float] | 
         raise InvalidParameter("This time is too long for double precision: choose a shorter one.")
     u = u0 + elapsed
     A, B, error, steps = turning(of, arc, np.concatenate([[u0, -of.end, of.end], u]), level)
-    # M(u) M(u0)^−1, then back into the frame of the body.
+    # M(u) M(u0)^−1, then the transformation to the frame of the body.
     A, B = A * A[0].conj() + B.conj() * B[0], B * A[0].conj() - A.conj() * B[0]
     before = float(of.turned(u0, arc))
     outside = -of.K * (_elapsed_size(u0, u, elapsed) + _tail(u) - _tail(u0)) + arc * of.c * (_gd(u) - _gd(u0))
     limits = _gamma_row(A[1:3], B[1:3] * np.exp(1j * before)) @ _axes(of).T
-    # The same factor in both: it cancels exactly in Γ, which contains AB, however large the angle.
+    # The factor of A and that of B cancel exactly in Γ, which contains AB, however large the angle.
     half = np.exp(-0.5j * outside)
     A, B = A[3:] * half, B[3:] * half.conj() * np.exp(1j * before)
     found = _axes(of) @ _matrices(A, B) @ _axes(of).T
@@ -384,23 +384,23 @@ def _tail(u: Array | float) -> Array:
 
 
 def _elapsed_size(u0: float, u: Array, elapsed: Array) -> Array:
-    """|u| − |u0|, without cancellation while the sign is the same."""
+    """Return |u| − |u0|, without cancellation if the signs are equal."""
     return np.where(u * np.sign(u0) >= 0.0, math.copysign(1.0, u0) * elapsed, np.abs(u) - abs(u0))
 
 
 def _axes(of: PassageConstants) -> Array:
-    """η, e3, ξ as columns."""
+    """Return η, e3, ξ as columns."""
     return np.column_stack([of.eta, [0.0, 0.0, 1.0], of.xi])
 
 
 def _gamma_row(A: Complex, B: Complex) -> Array:
-    """Γ of the image, from components along η, e3, ξ; shape (m, 3)."""
+    """Return the row of the rotation that gives Γ from the components along η, e3, ξ; shape (m, 3)."""
     AB = 2.0 * A * B
     return np.stack([-AB.real, AB.imag, np.abs(A) ** 2 - np.abs(B) ** 2], axis=-1)
 
 
 def _matrices(A: Complex, B: Complex) -> Array:
-    """((A, −B̄), (B, Ā)) as rotations of (γη, γ3, Γ): z → A²z − B̄²z̄ + 2AB̄Γ with z = γη + iγ3; shape (m, 3, 3)."""
+    """Return ((A, −B̄), (B, Ā)) as rotations of (γη, γ3, Γ): z → A²z − B̄²z̄ + 2AB̄Γ with z = γη + iγ3; shape (m, 3, 3)."""
     A2, B2, AB = A * A, B.conj() ** 2, 2.0 * A * B.conj()
     z = np.stack([A2 - B2, 1j * (A2 + B2), AB], axis=-1)
     return np.stack([z.real, z.imag, _gamma_row(A, B)], axis=1)
@@ -408,12 +408,36 @@ def _matrices(A: Complex, B: Complex) -> Array:
 
 @dataclass(frozen=True)
 class FreeMotion(Result):
-    """One motion of the free Suslov problem.
+    """Motion of the free Suslov problem; the result of `free_motion`.
 
-    times : (m,); omega : (m, 2); gamma : (m, 3); Gamma : (m,) = (ξ, γ);
-    phase : (m,) in (−π, π], of γ about ξ: γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3);
-    limits : (Γ^(−), Γ^(+)) for t → −∞ and t → +∞;
-    error_estimate : of any component of ω and γ; drift : of E, F1 and, where it exists, F2, as in `Orbit`.
+    Attributes
+    ----------
+    times : ndarray of float, shape (m,)
+        Times.
+    omega : ndarray of float, shape (m, 2)
+        Angular velocity (ω1, ω2).
+    gamma : ndarray of float, shape (m, 3)
+        Vertical γ.
+    Gamma : ndarray of float, shape (m,)
+        Γ = (ξ, γ).
+    phase : ndarray of float, shape (m,)
+        Phase φ of γ about ξ in (−π, π]: γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3).
+    limits : tuple of two floats
+        Limits of Γ for t → −∞ and t → +∞.
+    passage : Passage
+        The motion of ω in closed form.
+    level : str
+        Name of the accuracy level.
+    status : Status
+        State of the computation, see `Status`.
+    error_estimate : float
+        Estimated absolute error of any component of ω and γ.
+    drift : mapping of str to float
+        Drift of E, F1 and, if it exists, F2, as in `Orbit`.
+    cost : Cost
+        Steps and time of the computation.
+    notes : tuple of str
+        Remarks on the arguments.
     """
 
     times: Array
@@ -431,7 +455,13 @@ class FreeMotion(Result):
     notes: tuple[str, ...] = field(default=())
 
     def labels(self) -> Labels:
-        """ω, γ, Γ and the phase φ over t."""
+        """Return the motion with names, units and coordinates.
+
+        Returns
+        -------
+        Labels
+            The variables ω, γ, Γ and the phase φ over t.
+        """
         named = {
             name: (("t",), values)
             for name, values in zip(
@@ -449,14 +479,44 @@ class FreeMotion(Result):
 def free_motion(
     body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], times: Sequence[float] | Array, level: Accuracy
 ) -> FreeMotion:
-    """The motion from ω(0) (2,) and γ(0) (3,) at times as in `orbit.solve`.
+    """Return the motion of a body without a field.
 
-    γ(0) is normalised, with a note where that changed it.  Raises as `rotation`.
+    Parameters
+    ----------
+    body : SuslovBody
+        Body with b = 0 and I13 or I23 not 0.
+    omega : sequence of two floats
+        Angular velocity (ω1, ω2) at t = 0, not on the line I13ω1 + I23ω2 = 0.
+    gamma : sequence of three floats
+        Vertical γ at t = 0; it is normalised, with a note if its length was not 1.
+    times : array_like of float, shape (m,)
+        Times in order, all ≥ 0 or all ≤ 0, as in `solve`.
+    level : Level or str
+        Accuracy level or its name, see `level`.
 
-    >>> from hess_mechanics import SuslovBody, free_motion, level
+    Returns
+    -------
+    FreeMotion
+        The motion at these times, and the limits of Γ.
+
+    Raises
+    ------
+    InvalidParameter
+        If the body has a field, I13 = I23 = 0, ω is 0 or on the line of equilibria, γ is 0, or times are out of order.
+    WorkLimit
+        If γ rotates too often during the passage.
+
+    References
+    ----------
+    `biz132`, `biz138`.  The rotation of γ is not in the paper, see models/README.md.
+
+    Examples
+    --------
+    >>> from hess_mechanics import SuslovBody, free_motion
     >>> body = SuslovBody(2.0, 1.0, 0.3, 0.5)
-    >>> free_motion(body, (0.8, -0.4), (0.6, 0.0, 0.8), [0.0, 1.0], level("precise")).level
-    'precise'
+    >>> motion = free_motion(body, (0.8, -0.4), (0.6, 0.0, 0.8), [0.0, 1.0], "precise")
+    >>> motion.omega[-1].round(4)
+    array([ 0.8096, -0.3591])
     """
     level = as_level(level)
     begun = time.perf_counter()
@@ -474,7 +534,7 @@ def free_motion(
             size = max(1.0, abs(float(first)))
             drift["F2"] = float(np.max(np.abs(integral(turned.omega, vertical) - first))) / size
     if not all(math.isfinite(value) for value in drift.values()):
-        raise InvalidParameter("The energy leaves the range of double precision: choose a less extreme ω.")
+        raise InvalidParameter("The energy exceeds the range of double precision: choose a less extreme ω.")
     limits = np.clip(turned.limits @ np.array(unit), -1.0, 1.0)
     cost = Cost(turned.cost.steps, (time.perf_counter() - begun) * 1e3)
     return FreeMotion(
@@ -495,17 +555,17 @@ def free_motion(
 
 
 _PASSING = 20.0
-"""Beyond |u| = 20 the rotation of γ is uniform to 1e-8."""
+"""For |u| > 20 the rotation of γ is uniform to 1e-8."""
 
 
 def sample_times(
     body: SuslovBody, omega: Sequence[float], span: float, weights: tuple[float, float], sagitta: float, most: int
 ) -> Array:
-    """At most `most` times from 0 to `span` (not 0) at which straight lines between samples look like the curves.
+    """Return at most `most` times from 0 to `span` ≠ 0 at which the polygon through the samples looks like the curves.
 
     weights : pixels per unit of ω and of γ; sagitta : largest distance between curve and chord, in pixels, as in
-    `sampling.sample_times`, with the accelerations in closed form.  Where `most` times are too few, the uniform
-    rotation near the line of equilibria is thinned out first.  Raises as `passage`.
+    `sampling.sample_times`, with the accelerations in closed form.  If `most` times are too few, the uniform rotation
+    near the line of equilibria is sampled less densely.  Raises as `passage`.
     """
     motion = passage(body, omega)
     of, length = motion.shape, motion.rate * span
@@ -514,7 +574,7 @@ def sample_times(
     first_u, last_u = sorted((motion.u0, motion.u0 + length))
     knots = np.clip(np.linspace(-_PASSING, _PASSING, 801), first_u, last_u)
     u = np.unique(np.concatenate([[motion.u0, motion.u0 + length], knots]))
-    if u.size == 1:  # so little happens that the phase of the passage stays the same number
+    if u.size == 1:  # u changes by less than round-off
         return np.linspace(0.0, span, min(most, 17))
     tanh, sech = np.tanh(u), _sech(u)
     speed = np.linalg.norm(_omega(of, motion.arc, tanh, sech), axis=1)
@@ -546,14 +606,14 @@ def sampled_motion(
     level: Accuracy,
     most: int = MOST_SAMPLES,
 ) -> FreeMotion:
-    """The motion over `span`, at times as `sample_times` says for pictures of these weights.  Raises as `rotation`."""
+    """Return the motion over `span` at the `sample_times` for plots with these weights.  Raises as `rotation`."""
     return free_motion(body, omega, gamma, sample_times(body, omega, span, weights, SAGITTA, most), level)
 
 
 def turned_along_circle(
     body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], turn: float, level: Accuracy
 ) -> tuple[float, float, float]:
-    """γ(0) of the motion with the same ω(0) that comes from the same circle Γ^(−), turned along it by `turn` radians.
+    """Return γ(0), moved by `turn` radians along the circle of all γ(0) with the same ω(0) and the same limit Γ^(−).
 
     Raises as `rotation`.
     """

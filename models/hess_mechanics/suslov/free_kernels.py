@@ -14,7 +14,7 @@ __all__ = ["field", "integrate"]
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    """The equations of `free` in u: V = v1 + i v2, A = a1 + i a2, B = b1 + i b2.
+    """Return the right-hand side of the equations of `free` in u: V = v1 + i v2, A = a1 + i a2, B = b1 + i b2.
 
     T = tanh u, S = sech u; p = (K, σc).
     """
@@ -37,5 +37,5 @@ _orbit = orbit_integrator(trace(field, variables=8, parameters=2))
 
 @kernel
 def integrate(y, p, u, order, tolerance, max_steps, out):
-    """From u = 0 to the given u, see `orbit_integrator`."""
+    """Integrate from u = 0 to the given u, see `orbit_integrator`."""
     return _orbit(y, p, u, order, tolerance, max_steps, out)

@@ -51,18 +51,43 @@ __all__ = [
 ]
 
 MOST_SAMPLES = 6000
-"""Of an orbit, for a picture."""
+"""Largest number of samples of an orbit in a plot."""
 
 _ON_EQUATOR = 1e-12
 
 
 @dataclass(frozen=True)
 class PlaneBody:
-    """A body with I13 = I23 = 0 and b3 = 0.  Raises `InvalidParameter`, `NotPositiveDefinite`.
+    """Body of Kharlamova's case, I13 = I23 = 0 and b3 = 0.
 
+    Parameters
+    ----------
+    I11 : float
+        Moment of inertia about the first axis, I11 > 0.
+    I22 : float
+        Moment of inertia about the second axis, I22 > 0.
+    b1 : float
+        First component of **b** = −mg **r**, with **r** the centre of mass.
+    b2 : float
+        Second component of **b**.
+
+    Raises
+    ------
+    InvalidParameter
+        If a parameter is not finite.
+    NotPositiveDefinite
+        If I11 ≤ 0 or I22 ≤ 0.
+
+    References
+    ----------
+    `Biz136`.
+
+    Examples
+    --------
     >>> from hess_mechanics import PlaneBody
-    >>> PlaneBody(1.3, 0.8, 0.5, -0.2).I11
-    1.3
+    >>> body = PlaneBody(1.3, 0.8, 0.5, -0.2)
+    >>> round(body.energy((0.3, 0.2, 0.6, 0.0, 0.8)), 6)
+    0.3745
     """
 
     I11: float
@@ -76,56 +101,104 @@ class PlaneBody:
 
     @property
     def system(self) -> System:
-        """Its equations of motion."""
+        """The equations of motion."""
         return SYSTEM
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """p of the system "suslov"."""
+        """The parameters p of the system "suslov"."""
         return (self.I11, self.I22, 0.0, 0.0, self.b1, self.b2, 0.0)
 
     @property
     def acceleration(self) -> Array:
-        """a (2,), of (γ1, γ2) in the time τ."""
+        """The acceleration a (2,) of (γ1, γ2) in the time τ."""
         return np.array([-self.b1 / self.I22, -self.b2 / self.I11])
 
     @property
     def axes(self) -> tuple[float, float]:
-        """√I11, √I22: semi-axes of the elliptic domain (`Biz1360`)."""
+        """The semi-axes √I11, √I22 of the elliptic domain (`Biz1360`)."""
         return math.sqrt(self.I11), math.sqrt(self.I22)
 
     def energy(self, state: Sequence[float]) -> float:
-        """E of a state (5,)."""
+        """Return the energy E of a state.
+
+        Parameters
+        ----------
+        state : sequence of five floats
+            State (ω1, ω2, γ1, γ2, γ3).
+
+        Returns
+        -------
+        float
+            The energy.
+        """
         return float(SYSTEM.integrals(state, self.parameters)["E"])
 
     def pixels_per_unit(self, h: float) -> tuple[float, ...]:
-        """For each variable, in pictures where ω that is as large as the energy h allows fills half the width."""
+        """Return the pixels per unit of each variable in plots that fit the largest ω of the energy h.
+
+        Parameters
+        ----------
+        h : float
+            The energy.
+
+        Returns
+        -------
+        tuple of five floats
+            Pixels per unit of ω1, ω2, γ1, γ2, γ3.
+        """
         radius = 0.5 * PIXELS
         largest = 2.0 * max(h + math.hypot(self.b1, self.b2), 1e-300)
         return (radius * math.sqrt(self.I11 / largest), radius * math.sqrt(self.I22 / largest), radius, radius, radius)
 
     def place(self, u: Array) -> Array:
-        """q (m, 2) of u = (γ1, γ2), (m, 2)."""
+        """Return the point q of the plane for u = (γ1, γ2).
+
+        Parameters
+        ----------
+        u : ndarray of float, shape (m, 2)
+            Components γ1 and γ2.
+
+        Returns
+        -------
+        ndarray of float, shape (m, 2)
+            Points q = (√I11 γ2, −√I22 γ1).
+        """
         r1, r2 = self.axes
         return np.column_stack([r1 * u[:, 1], -r2 * u[:, 0]])
 
     def potential(self, q: Array) -> Array:
-        """V = b2 q1/√I11 − b1 q2/√I22 at q (..., 2) (`eqs03`; `Biz136` with its signs corrected)."""
+        """Return the potential V = b2 q1/√I11 − b1 q2/√I22.
+
+        Parameters
+        ----------
+        q : ndarray of float, shape (..., 2)
+            Points of the plane.
+
+        Returns
+        -------
+        ndarray of float, shape (...)
+            Values of V.
+
+        References
+        ----------
+        `eqs03`; `Biz136` with its signs corrected.
+        """
         r1, r2 = self.axes
         return np.asarray(self.b2 / r1 * q[..., 0] - self.b1 / r2 * q[..., 1])
 
 
 def to_plane(body: PlaneBody, states: Array) -> tuple[Array, Array]:
-    """q and p (m, 2) of the motion in the plane (`Biz136`) from states (m, 5), for either sign of γ3."""
+    """Return q and p (m, 2) of the motion in the plane (`Biz136`) from states (m, 5), for either sign of γ3."""
     r1, r2 = body.axes
     return body.place(states[:, 2:4]), np.column_stack([r1 * states[:, 0], r2 * states[:, 1]])
 
 
 def state_at(body: PlaneBody, q: Sequence[float], p: Sequence[float]) -> tuple[float, ...]:
-    """The state (5,) with γ3 ≥ 0 at q and p (2,).
+    """Return the state (5,) with γ3 ≥ 0 at q and p (2,).
 
-    Within 1e-12 of the equator it is put on it; if there ω ∥ γ to 1e-12, it is made exactly parallel, a fixed point.
-    Raises `InvalidParameter` where q is outside the elliptic domain (`Biz1360`).
+    A state within 1e-12 of the equator is moved onto it; if ω ∥ γ there to 1e-12, ω is made exactly parallel to γ,
+    which gives a fixed point. Raises `InvalidParameter` if q is outside the elliptic domain (`Biz1360`).
     """
     require_finite(q1=q[0], q2=q[1], p1=p[0], p2=p[1])
     r1, r2 = body.axes
@@ -148,20 +221,20 @@ def state_at(body: PlaneBody, q: Sequence[float], p: Sequence[float]) -> tuple[f
 
 
 def mirrored(states: Array) -> Array:
-    """γ3 → −γ3, which together with t → −t maps orbits with b3 = 0 to orbits; states (..., 5)."""
+    """Return states (..., 5) under γ3 → −γ3, which together with t → −t maps orbits with b3 = 0 to orbits."""
     image: Array = np.asarray(states, float) * np.array([1.0, 1.0, 1.0, 1.0, -1.0])
     return image
 
 
 @dataclass(frozen=True)
 class Arc:
-    """The arc of the parabola on which an orbit oscillates.
+    """Arc of the parabola on which an orbit oscillates.
 
     kind : "periodic", "asymptotic" (to a fixed point on the equator, both ways) or "fixed".
     u0, v0, a : (2,), see the module; rate : ν = max(|v0|, √|a|).
     tau : (τ₋, τ₊) where it meets the equator, with the start at τ = 0; touch : the one reached in infinite time.
     other : (τ₋, τ₊) of another orbit on the same parabola, or None; period : T, ∞ if asymptotic.
-    stable : for a fixed point, whether nearby orbits stay near; otherwise None.
+    stable : for a fixed point, True if nearby orbits stay near; otherwise None.
     """
 
     kind: str
@@ -176,45 +249,45 @@ class Arc:
     stable: bool | None
 
     def u(self, tau: Array) -> Array:
-        """(γ1, γ2) at τ (m,); shape (m, 2)."""
+        """Return (γ1, γ2) at τ (m,); shape (m, 2)."""
         t = np.asarray(tau, float)[:, None]
         u: Array = self.u0 + t * (self.v0 + 0.5 * t * self.a)
         return u
 
     def height(self, tau: Array) -> Array:
-        """|γ3| at τ (m,), 0 where the parabola is outside the domain."""
+        """Return |γ3| at τ (m,); it is 0 where the parabola is outside the domain."""
         u = self.u(tau)
         height: Array = np.sqrt(np.maximum(0.0, 1.0 - np.sum(u * u, axis=1)))
         return height
 
     @property
     def ends(self) -> tuple[float, float]:
-        """The ends in τ of all that is inside the domain, with the other orbit's arc."""
+        """The ends in τ of all arcs inside the domain, that of the other orbit included."""
         both = self.tau + (self.other or ())
         return min(both), max(both)
 
     @property
     def length(self) -> float:
-        """In τ, of what is inside the domain; of a point the time in which it would change, if it did."""
+        """The length in τ of the part inside the domain; for a fixed point the time scale 1/ν."""
         low, high = self.ends
         return (high - low) or 1.0 / (self.rate or 1.0)
 
     @property
     def crossing_speeds(self) -> list[float]:
-        """|γ̇3| = |(u, v)| where the orbit crosses the equator, at τ₋ and τ₊."""
+        """The values |γ̇3| = |(u, v)| at τ₋ and τ₊, where the orbit crosses the equator."""
         tau = np.array(self.tau)
         speeds = np.abs(np.sum(self.u(tau) * (self.v0 + tau[:, None] * self.a), axis=1))
         return [float(speed) for speed in speeds]
 
     def oval(self, ends: tuple[float, float]) -> Array:
-        """(τ, γ3), (m, 2), on γ3² = P(τ) over τ from one end to the other, both signs."""
+        """Return (τ, γ3), (m, 2), on γ3² = P(τ) over τ from one end to the other, both signs."""
         angle = np.linspace(0.0, 2.0 * math.pi, 241)
         tau = 0.5 * (ends[0] + ends[1]) + 0.5 * (ends[1] - ends[0]) * np.cos(angle)
         return np.column_stack([tau, np.copysign(self.height(tau), np.sin(angle))])
 
 
 def rescaled_time(arc: Arc, states: Array) -> Array:
-    """τ (m,) of states (m, 5) of the orbit: from u − u0 = τ (v + v0)/2 and v − v0 = a τ, both exact."""
+    """Return τ (m,) of states (m, 5) of the orbit, from the exact u − u0 = τ (v + v0)/2 and v − v0 = a τ."""
     u, v = states[:, 2:4], np.column_stack([-states[:, 1], states[:, 0]])
     if arc.rate == 0.0:
         return np.zeros(len(states))
@@ -224,13 +297,13 @@ def rescaled_time(arc: Arc, states: Array) -> Array:
 
 
 def _quartic(u0: Array, v0: Array, a: Array, height: float) -> tuple[Array, Array]:
-    """Coefficients (n, 5) of P, v0 (n, 2), in units of 1/ν, and ν (n,)."""
+    """Return the coefficients (n, 5) of P for each v0 (n, 2), in units of 1/ν, and ν (n,)."""
     rate = np.maximum(np.hypot(v0[:, 0], v0[:, 1]), math.sqrt(math.hypot(*a)))
     unit = np.where(rate > 0.0, rate, 1.0)
     v, bent = v0 / unit[:, None], a / (unit * unit)[:, None]
     slope = -2.0 * (v @ u0)
     if height == 0.0:
-        # On the equator so small a slope is round-off: the point is fixed.
+        # On the equator such a small slope is round-off, and the point is fixed.
         slope[np.abs(slope) <= 1e-15] = 0.0
     c = np.column_stack(
         [
@@ -245,7 +318,10 @@ def _quartic(u0: Array, v0: Array, a: Array, height: float) -> tuple[Array, Arra
 
 
 def _solved(u0: Array, v0: Array, a: Array, height: float) -> tuple[Array, Array, Array]:
-    """`arcs` (n, 6) in the user's time, the coefficients of P (n, 5) and ν (n,).  Raises `InvalidParameter`."""
+    """Return the rows of `arcs` (n, 6) in the user's time, the coefficients of P (n, 5) and ν (n,).
+
+    Raises `InvalidParameter`.
+    """
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         c, rate = _quartic(u0, v0, a, height)
     if not (np.all(np.isfinite(c)) and np.all(np.isfinite(rate))):
@@ -258,7 +334,7 @@ def _solved(u0: Array, v0: Array, a: Array, height: float) -> tuple[Array, Array
 
 
 def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
-    """The arc of the orbit through a state (5,).  Raises `InvalidParameter`."""
+    """Return the arc of the orbit through a state (5,).  Raises `InvalidParameter`."""
     require_finite(**dict(zip(("ω1", "ω2", "γ1", "γ2", "γ3"), map(float, state), strict=True)))
     u0, v0, a = np.array(state[2:4]), np.array([-state[1], state[0]]), body.acceleration
     rows, coefficients, rates = _solved(u0, v0[None], a, float(state[4]))
@@ -274,9 +350,9 @@ def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
 
 
 def periods(body: PlaneBody, q: Sequence[float], speed: float, directions: Array) -> Array:
-    """Periods (n,) of the orbits from q (2,) with p = speed (cos α, sin α), for directions α (n,).
+    """Return the periods (n,) of the orbits from q (2,) with p = speed (cos α, sin α), for directions α (n,).
 
-    ∞ for asymptotic orbits and where nothing moves (speed 0, no field).  Raises `InvalidParameter`.
+    ∞ for asymptotic orbits and equilibria (speed 0, no field).  Raises `InvalidParameter`.
     """
     state = state_at(body, q, (0.0, 0.0))
     r1, r2 = body.axes
@@ -286,21 +362,21 @@ def periods(body: PlaneBody, q: Sequence[float], speed: float, directions: Array
 
 
 def periods_all_round(body: PlaneBody, q: Sequence[float], speed: float) -> Array:
-    """(α, T), (n, 2), of `periods` for α from −π to π."""
+    """Return (α, T), (n, 2), of `periods` for α from −π to π."""
     directions = np.linspace(-math.pi, math.pi, 721)
     return frozen(np.column_stack([directions, periods(body, q, speed, directions)]))
 
 
 def missed(body: PlaneBody, start: Sequence[float], period: float, accuracy: Accuracy) -> float:
-    """How far from its start (5,) an orbit is after its period, in the largest of the variables."""
+    """Return the distance between the start (5,) of an orbit and its state after one period, in the maximum norm."""
     after = solve(body, start, [period], accuracy).states[0]
     return float(np.abs(after - np.array(start)).max())
 
 
 def fixed_point_kinds(body: PlaneBody, h: float, count: int = 361) -> tuple[Array, Array]:
-    """Points q (n, 2) around the boundary, and the kind (n,) of the fixed points with E = h there.
+    """Return points q (n, 2) on the boundary, and the kind (n,) of the fixed points with E = h there.
 
-    1: stable, −1: unstable, 0: the energy allows none.  States on the equator with ω ∥ γ are fixed, and nearby
+    1: stable, −1: unstable, 0: none with this energy.  States on the equator with ω ∥ γ are fixed, and near them
     τ̈ = P''τ/2, P'' = −2(|v|² + (u, a)).
     """
     angle = np.linspace(0.0, 2.0 * math.pi, count)
@@ -312,13 +388,13 @@ def fixed_point_kinds(body: PlaneBody, h: float, count: int = 361) -> tuple[Arra
 
 
 def _along_the_force(body: PlaneBody) -> tuple[Array, Array]:
-    """Unit vectors of the plane of u: b/|b|, and across it."""
+    """Return unit vectors of the plane of u: b/|b| and its normal."""
     n = np.array([body.b1, body.b2]) / math.hypot(body.b1, body.b2)
     return n, np.array([-n[1], n[0]])
 
 
 def equipotentials(body: PlaneBody, levels: Sequence[float]) -> list[Array]:
-    """Chords q (2, 2) of the ellipse on which V is that share of its largest value; none without a field."""
+    """Return chords q (2, 2) of the ellipse where V is the given share of its maximum; none without a field."""
     if body.b1 == 0.0 == body.b2:
         return []
     n, across = _along_the_force(body)
@@ -327,7 +403,7 @@ def equipotentials(body: PlaneBody, levels: Sequence[float]) -> list[Array]:
 
 
 def forbidden(body: PlaneBody, h: float) -> list[Array]:
-    """The part of the ellipse, a closed curve q (m, 2), where V is above the energy h; empty where there is none."""
+    """Return the part of the ellipse where V exceeds the energy h, as closed curves q (m, 2), or []."""
     size = math.hypot(body.b1, body.b2)
     if size == 0.0 or h >= size:
         return []
@@ -338,7 +414,7 @@ def forbidden(body: PlaneBody, h: float) -> list[Array]:
 
 
 def sampled_orbit(body: PlaneBody, start: Sequence[float], span: float, accuracy: Accuracy) -> tuple[Orbit, Array]:
-    """The orbit at times that a picture needs, and the mirror image (m, 5) of its past at the same times."""
+    """Return the orbit at the sample times of a plot, and the mirror image (m, 5) of its past at the same times."""
     weights = np.array(body.pixels_per_unit(body.energy(start)))
     times = sample_times(SYSTEM.at(np.array(body.parameters)), np.array(start), span, weights, SAGITTA, MOST_SAMPLES)
     past = solve(body, start, -times, accuracy)

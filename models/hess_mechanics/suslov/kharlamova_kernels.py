@@ -12,13 +12,13 @@ from hess_mechanics.numerics.jit import kernel, part
 __all__ = ["arcs"]
 
 _REACH = 10.0
-"""Every arc has left the disk by this τ, in units of 1/ν, in which |v0| ≤ 1, |a| ≤ 1 and one of them is 1."""
+"""The τ by which every arc has left the disk, in units of 1/ν, in which |v0| ≤ 1, |a| ≤ 1 and one of them is 1."""
 
 _LEAST = 1e-50
-"""Least |a| in those units; below it the parabola is a straight line to double precision."""
+"""Smallest |a| in those units; below it the parabola is a straight line to double precision."""
 
 _TOUCH = 1e-14
-"""Below this γ3² a least value counts as a double zero: its sign is round-off."""
+"""Largest γ3² of a minimum that counts as a double zero: its sign is round-off."""
 
 
 @part
@@ -33,7 +33,7 @@ def _slope(c, x):
 
 @part
 def _zero(c, a, b):
-    """The zero between a and b, where the values differ in sign: Newton's method, safeguarded by bisection."""
+    """Return the zero between a and b, where the values differ in sign, by Newton's method safeguarded by bisection."""
     rising = _value(c, b) > 0.0
     x = 0.5 * (a + b)
     for _ in range(200):
@@ -57,9 +57,9 @@ def _zero(c, a, b):
 
 @part
 def _zeros(c, knots, count, touching, found):
-    """The number of zeros between the knots, which include all extrema; found[i] = (zero, 1 if double).
+    """Return the number of zeros between the knots, which include all extrema; found[i] = (zero, 1 if double).
 
-    touching : a minimum of at most this size counts as one double zero.
+    touching : largest |minimum| that counts as one double zero.
     """
     n = 0
     before = _value(c, knots[0])
@@ -80,7 +80,7 @@ def _zeros(c, knots, count, touching, found):
 
 @part
 def _zeros_beyond(c, reach, knots, found):
-    """The number of zeros in (0, reach) of a quartic with c[0] ≠ 0; `found` lists them in order, see `_zeros`."""
+    """Return the number of zeros in (0, reach) of a quartic with c[0] ≠ 0; `found` lists them as in `_zeros`."""
     c1 = (c[1], 2.0 * c[2], 3.0 * c[3], 4.0 * c[4], 0.0)
     A, B, C = 3.0 * c1[3], 2.0 * c1[2], c1[1]
     knots[0] = 0.0
@@ -104,7 +104,7 @@ def _zeros_beyond(c, reach, knots, found):
 
 @part
 def _mean(x, y):
-    """The arithmetic-geometric mean."""
+    """Return the arithmetic–geometric mean."""
     for _ in range(64):
         if abs(x - y) <= 1e-15 * x:
             break
@@ -128,7 +128,7 @@ def _period(c, low, high):
 
 @kernel
 def arcs(coefficients, out):
-    """For each P, coefficients (n, 5) with P(0) ≥ 0, the zeros next to τ = 0 and the period between them.
+    """Compute for each P, coefficients (n, 5) with P(0) ≥ 0, the zeros next to τ = 0 and the period between them.
 
     out : (n, 6), τ₋, τ₊, T, side of a double zero (−1, 1; 0: none), and the zeros of another orbit (0, 0: none).
     """
@@ -153,7 +153,7 @@ def arcs(coefficients, out):
         if c0 > 0.0 or c1 > 0.0:
             high, j = right[0, 0], 1
             touch = right[0, 1] if right[0, 1] > 0.0 else touch
-        # Where the arc only touches the equator, the next one starts there.
+        # If the arc only touches the equator, the next arc starts there.
         if touch < 0.0 and n > 1:
             other_low, other_high = -left[1, 0], low
         elif touch > 0.0 and m > 1:

@@ -1,17 +1,17 @@
-"""The Suslov problem with e on a principal axis in a potential U(γ1, γ2) (`eqs03`): Kharlamova's case generalised.
+"""The Suslov problem with e on a principal axis in a potential U(γ1, γ2) (`eqs03`): a generalised Kharlamova case.
 
     U = ½(c1γ1² + c2γ2²) + λ(γ1²γ2 − γ2³/3) + μγ1²γ2².
 
 With q = (√I11 γ2, −√I22 γ1), p = (√I11 ω1, √I22 ω2) and the time τ, dτ = γ3 dt, it is a natural Hamiltonian system
-in the plane, H = ½p² + V(q), V(q) = U, inside the ellipse γ3² = 1 − γ1² − γ2² ≥ 0; at its edge the orbit goes back
+in the plane, H = ½p² + V(q), V(q) = U, inside the ellipse γ3² = 1 − γ1² − γ2² ≥ 0; at its edge the orbit reverses
 with the other sign of γ3 and dτ < 0.  Three choices, see `POTENTIALS`:
 
 - quadratic, λ = μ = 0: the variables separate, and F2 = ½(I11ω1² + c2γ2²) is an integral besides E and F1, for all I11,
   I22, c1, c2.  The paper quotes this case from V. V. Kozlov.
 - Hénon–Heiles, c1 = c2, μ = 0, and quartic, c1 = c2, λ = 0: for I11 = I22 the systems of these names, not integrable.
 
-Whatever the potential, an orbit that crosses the equator twice is periodic (`chaplygin_ball.integrable_cases`, 𝒟 = 0).
-So chaos is seen only below the energy at which motions reach the equator, the least U on γ1² + γ2² = 1.
+In every potential, an orbit that crosses the equator twice is periodic (`chaplygin_ball.integrable_cases`, 𝒟 = 0).
+So chaos occurs only below the energy at which motions reach the equator, the minimum of U on γ1² + γ2² = 1.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ _ROUND = 721
 
 @dataclass(frozen=True)
 class PotentialBody:
-    """A body with I13 = I23 = 0 and the coefficients of U.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+    """Body with I13 = I23 = 0 and the coefficients of U.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
 
     I11: float
     I22: float
@@ -68,20 +68,20 @@ class PotentialBody:
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """p = (I11, I22, c1, c2, λ, μ)."""
+        """The parameters p = (I11, I22, c1, c2, λ, μ)."""
         return astuple(self)
 
     @property
     def separates(self) -> bool:
-        """Whether F2 of the quadratic potential is an integral."""
+        """True if F2 of the quadratic potential is an integral."""
         return self.cubic == self.quartic == 0.0
 
     def potential(self, u: Array) -> Array:
-        """U at u = (γ1, γ2), (..., 2)."""
+        """Return U at u = (γ1, γ2), (..., 2)."""
         return np.asarray(potential(u[..., 0], u[..., 1], self.parameters))
 
     def gradient(self, u: Array) -> Array:
-        """∂U/∂u at u = (γ1, γ2), (..., 2); same shape."""
+        """Return ∂U/∂u at u = (γ1, γ2), (..., 2); same shape."""
         return np.stack(np.broadcast_arrays(*gradient(u[..., 0], u[..., 1], self.parameters)), axis=-1)
 
 
@@ -90,17 +90,17 @@ POTENTIALS: Mapping[str, tuple[float, float, float, float]] = {
     "Hénon–Heiles": (1.0, 1.0, 1.0, 0.0),
     "quartic": (0.2, 0.2, 0.0, 6.0),
 }
-"""c1, c2, λ, μ: one potential that is integrable, and two that are not."""
+"""Coefficients c1, c2, λ, μ of one integrable potential and two that are not integrable."""
 
 
 def potential(g1: Any, g2: Any, p: Sequence[Any]) -> Any:
-    """U(γ1, γ2)."""
+    """Return U(γ1, γ2)."""
     _, _, c1, c2, cubic, quartic = p
     return (c1 * g1**2 + c2 * g2**2) / 2 + cubic * (g1**2 * g2 - g2**3 / 3) + quartic * (g1**2 * g2**2)
 
 
 def gradient(g1: Any, g2: Any, p: Sequence[Any]) -> tuple[Any, Any]:
-    """∂U/∂γ1, ∂U/∂γ2."""
+    """Return ∂U/∂γ1, ∂U/∂γ2."""
     _, _, c1, c2, cubic, quartic = p
     both = g1 * g2
     return (
@@ -110,20 +110,23 @@ def gradient(g1: Any, g2: Any, p: Sequence[Any]) -> tuple[Any, Any]:
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    """`Biz01` with this potential: Iω̇ = γ × ∂U/∂γ without its third component, γ̇ = γ × ω."""
+    """Return the right-hand side of `Biz01` with this potential.
+
+    Iω̇ = γ × ∂U/∂γ without its third component, γ̇ = γ × ω.
+    """
     w1, w2, g1, g2, g3 = y
     U1, U2 = gradient(g1, g2, p)
     return -g3 * U2 / p[0], g3 * U1 / p[1], -g3 * w2, g3 * w1, g1 * w2 - g2 * w1
 
 
 def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
-    """Energy E and F1 = γ²."""
+    """Return the energy E and F1 = γ²."""
     w1, w2, g1, g2, g3 = y
     return {"E": (p[0] * w1**2 + p[1] * w2**2) / 2 + potential(g1, g2, p), "F1": g1**2 + g2**2 + g3**2}
 
 
 def frequency(y: Array, p: Array) -> Array | float:
-    """ν = √(2(T + 2 max|U|)/min(I11, I22)) of a state (5,) or many (5, n): no |ω| of the motion exceeds it.
+    """Return ν = √(2(T + 2 max|U|)/min(I11, I22)), a bound of |ω| along the motion, of states (5,) or (5, n).
 
     Raises `NotPositiveDefinite`, `InvalidParameter`.
     """
@@ -155,25 +158,25 @@ SYSTEM = System(
 
 
 def separable_integral(body: PotentialBody, states: Array) -> Array:
-    """F2 = ½(I11ω1² + c2γ2²) (...) of states (..., 5); an integral where the body `separates`."""
+    """Return F2 = ½(I11ω1² + c2γ2²) (...) of states (..., 5); an integral if the body `separates`."""
     return np.asarray(0.5 * (body.I11 * states[..., 0] ** 2 + body.c2 * states[..., 3] ** 2))
 
 
 def equator_energy(body: PotentialBody) -> float:
-    """The least U on the equator: motions with less energy stay on one side of it."""
+    """Return the minimum of U on the equator: motions with less energy stay on one side of it."""
     angle = np.linspace(-math.pi, math.pi, _ROUND)
     values = body.potential(np.stack([np.cos(angle), np.sin(angle)], axis=-1))
     i = int(np.argmin(values[:-1]))
-    # A parabola through the least value and its neighbours.
+    # Vertex of the parabola through the least value and its neighbours.
     before, least, after = values[i - 1 if i else -2], values[i], values[i + 1]
     curvature = before - 2.0 * least + after
     return float(least - (before - after) ** 2 / (8.0 * curvature) if curvature > 0.0 else least)
 
 
 def state_at(body: PotentialBody, E: float, g2: float, w1: float) -> tuple[float, ...]:
-    """The state (5,) with γ1 = 0 and this γ2 and ω1 at the energy E, γ3 > 0, where γ1 grows: ω2 < 0.
+    """Return the state (5,) with energy E, γ1 = 0, these γ2 and ω1, and γ3 > 0, where γ1 increases: ω2 < 0.
 
-    Raises `InvalidParameter`, `OutsideRegion` where the energy does not allow it.
+    Raises `InvalidParameter`, or `OutsideRegion` if the energy does not allow it.
     """
     require_finite(E=E, g2=g2, w1=w1)
     if not abs(g2) < 1.0:
@@ -186,7 +189,7 @@ def state_at(body: PotentialBody, E: float, g2: float, w1: float) -> tuple[float
     return (w1, -math.sqrt(left / body.I22), 0.0, g2, math.sqrt(1.0 - g2 * g2))
 
 
-# ---- for a picture ----------------------------------------------------------------------------------------------
+# ---- Plots ------------------------------------------------------------------------------------------------------
 
 MOST_SAMPLES = 6000
 _NEWTON = 4
@@ -195,11 +198,11 @@ _BISECTIONS = 32
 
 @dataclass(frozen=True)
 class PlaneMotion:
-    """One motion: its energy, and whether it closes.
+    """One motion: its energy, and whether it is periodic.
 
-    crossings : of the equator, in the time shown; period : 2(t2 − t1) of two of them in turn, None where there are
-    fewer; missed : how far from its start the motion is after it; fixed : whether nothing moves.
-    integral : by how much F2 of a quadratic potential changes along it, relative to its largest value.
+    crossings : number of crossings of the equator; period : 2(t2 − t1) of two successive ones, None if there are fewer;
+    missed : distance from the start after one period; fixed : True if the state is an equilibrium.
+    integral : range of F2 of a quadratic potential along the motion, relative to its largest value.
     """
 
     orbit: Orbit
@@ -212,7 +215,7 @@ class PlaneMotion:
 
 
 def motion_from(body: PotentialBody, start: tuple[float, ...], span: float, level: Accuracy) -> PlaneMotion:
-    """The motion from a state (5,) over the time `span`, sampled for a picture of the plane.
+    """Return the motion from a state (5,) over the time `span`, sampled for a plot of the plane.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
@@ -242,7 +245,10 @@ def motion_from(body: PotentialBody, start: tuple[float, ...], span: float, leve
 
 
 def _radius(body: PotentialBody, value: float) -> tuple[Array, Array]:
-    """Unit vectors (n, 2) all round, and how far (n,) U ≤ value along each, at most 1: U grows along them."""
+    """Return unit vectors (n, 2) in all directions, and the largest radius (n,) ≤ 1 with U ≤ value along each.
+
+    U increases along each direction.
+    """
     angle = np.linspace(0.0, 2.0 * math.pi, 241)
     along = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     low, high = np.zeros(angle.size), np.ones(angle.size)
@@ -254,7 +260,7 @@ def _radius(body: PotentialBody, value: float) -> tuple[Array, Array]:
 
 
 def level_curve(body: PotentialBody, value: float) -> list[Array]:
-    """The parts u (m, 2) of the curve U = value inside γ1² + γ2² = 1, for one of the `POTENTIALS`."""
+    """Return the parts u (m, 2) of the curve U = value inside γ1² + γ2² = 1, for one of the `POTENTIALS`."""
     along, radius = _radius(body, value)
     inside: Mask = radius < 1.0 - 1e-9
     cuts = np.flatnonzero(inside[1:] != inside[:-1]) + 1
@@ -267,7 +273,7 @@ def level_curve(body: PotentialBody, value: float) -> list[Array]:
 
 
 def forbidden(body: PotentialBody, energy: float) -> list[Array]:
-    """The part u (m, 2) of the disk, a closed curve, where U > energy, for one of the `POTENTIALS`; none: empty."""
+    """Return the part of the disk where U > energy, as closed curves u (m, 2), for one of the `POTENTIALS`."""
     along, radius = _radius(body, energy)
     if np.all(radius >= 1.0 - 1e-9):
         return []

@@ -1,10 +1,10 @@
 """The Suslov problem with e on a principal axis, I13 = I23 = 0, in conformally Hamiltonian form (`Biz135`, `Biz133`).
 
-The field is γ3 P ∇E with a Poisson structure P: Hamiltonian in the time τ, dτ = γ3 dt.  It
-keeps the standard measure (its divergence is 0), in τ the measure γ3 dω dγ.  The case b3 = 0 is `kharlamova`, the
+The vector field is γ3 P ∇E with a Poisson structure P: Hamiltonian in the time τ, dτ = γ3 dt.  It conserves the
+standard measure (its divergence is 0), in τ the measure γ3 dω dγ.  The case b3 = 0 is `kharlamova`, the
 case b1 = b2 = 0 is `quartic`; for general b the motion is chaotic, see `SuslovSection.invariant_density`.
 
-On the equator γ3 = 0 two of the brackets are infinite and τ turns round, while the motion itself passes.
+On the equator γ3 = 0 two of the brackets are infinite and τ reverses, while the motion itself is regular.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 __all__ = ["BRACKETS", "Conformal", "conformal", "divergence", "energy_gradient", "poisson_matrix"]
 
 BRACKETS = ("{ω1, γ2}", "{ω2, γ1}", "{ω1, γ3}", "{ω2, γ3}")
-"""Those that are not 0 (`Biz133`): constants, and two that are infinite on the equator."""
+"""The brackets that are not 0 (`Biz133`): two constants, and two that are infinite on the equator."""
 
 
 def poisson_matrix(y: Sequence[Any], p: Sequence[Any]) -> tuple[tuple[Any, ...], ...]:
-    """{x_i, x_j} (`Biz133`) of x = (ω1, ω2, γ1, γ2, γ3); singular on the equator γ3 = 0, of rank 4 elsewhere."""
+    """Return {x_i, x_j} (`Biz133`) of x = (ω1, ω2, γ1, γ2, γ3); singular on the equator γ3 = 0, of rank 4 elsewhere."""
     _, _, g1, g2, g3 = y
     I11, I22 = p[0], p[1]
     one = (0, 0, 0, -1 / I11, g2 / (I11 * g3))
@@ -38,23 +38,23 @@ def poisson_matrix(y: Sequence[Any], p: Sequence[Any]) -> tuple[tuple[Any, ...],
 
 
 def energy_gradient(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    """∇E, E the energy (`Biz11`)."""
+    """Return ∇E, where E is the energy (`Biz11`)."""
     return (p[0] * y[0], p[1] * y[1], p[4], p[5], p[6])
 
 
 def divergence(y: Sequence[Any], p: Sequence[Any]) -> Any:
-    """Σ ∂ẏ_i/∂y_i of the general field (`Biz131`): 0 everywhere only for I13 = I23 = 0."""
+    """Return Σ ∂ẏ_i/∂y_i of the general field (`Biz131`): it is 0 everywhere only for I13 = I23 = 0."""
     I11, I22, I13, I23 = p[:4]
     return I23 * y[0] / I22 - I13 * y[1] / I11
 
 
 @dataclass(frozen=True)
 class Conformal:
-    """A motion in its two times.
+    """One motion in the times t and τ.
 
-    orbit : at even times t; tau : τ (n,), 0 at t = 0; brackets : (n, 4), see `BRACKETS`, ±∞ on the equator;
-    tau_error : the largest estimated error of τ from its quadrature, besides that of the orbit;
-    left_over : the largest |ẋ − γ3{x, E}| off the equator, relative to the largest |ẋ|: round-off.
+    orbit : at equidistant times t; tau : τ (n,), 0 at t = 0; brackets : (n, 4), see `BRACKETS`, ±∞ on the equator;
+    tau_error : largest estimated error of τ from its quadrature, besides that of the orbit;
+    left_over : largest |ẋ − γ3{x, E}| off the equator, relative to the largest |ẋ|: round-off.
     """
 
     orbit: Orbit
@@ -65,30 +65,30 @@ class Conformal:
 
     @property
     def turns(self) -> int:
-        """How often τ turns round: crossings of the equator."""
+        """Number of reversals of τ, that is, of crossings of the equator."""
         sign = np.sign(self.orbit.states[:, 4])
         return int(np.count_nonzero(np.diff(sign[sign != 0.0])))
 
 
 _SPACING = 0.04
-"""Between two samples, in units of 1/ν: the quadrature of γ3 is then exact to some 1e-11 of the span."""
+"""Distance between two samples in units of 1/ν: the quadrature of γ3 is then exact to about 1e-11 of the span."""
 _MOST = 100_000
 
 
 def conformal(body: SuslovBody, start: Sequence[float], span: float, level: Accuracy) -> Conformal:
-    """The motion from `start` (5,) over the time `span` ≠ 0 (negative: backwards), with τ and the brackets along it.
+    """Return the motion from `start` (5,) over the time `span` ≠ 0 (negative: backwards), with τ and the brackets.
 
     Raises `InvalidParameter` unless I13 = I23 = 0, `WorkLimit`.
     """
     if body.I13 != 0.0 or body.I23 != 0.0:
-        raise InvalidParameter("The conformally Hamiltonian form is that of I13 = I23 = 0: set these to 0.")
+        raise InvalidParameter("The conformally Hamiltonian form needs I13 = I23 = 0: set these to 0.")
     if not (math.isfinite(span) and span != 0.0):
         raise InvalidParameter("The time span must be a finite number other than 0.")
     p = body.parameters
     nu = float(SYSTEM.frequency(np.array(start, float), np.array(p)))
     pairs = max(8.0, abs(span) * nu / (2.0 * _SPACING))
     if not pairs <= _MOST / 2:
-        raise WorkLimit(f"This takes more than {_MOST} samples: choose a shorter time span.")
+        raise WorkLimit(f"The motion needs more than {_MOST} samples: choose a shorter time span.")
     count = 2 * math.ceil(pairs) + 1
     orbit = solve(SYSTEM.at(p), start, np.linspace(0.0, span, count), level)
     y = orbit.states.T
@@ -106,7 +106,10 @@ def conformal(body: SuslovBody, start: Sequence[float], span: float, level: Accu
 
 
 def _integral(span: float, values: Array, rates: Array) -> Array:
-    """∫ from 0 to each of even times over `span`, by cubic Hermite interpolation of values and their rates (n,)."""
+    """Return ∫ from 0 to each of equidistant times over `span`, by cubic Hermite interpolation.
+
+    values, rates : (n,) of the integrand and of its derivative.
+    """
     h = span / (values.size - 1)
     pieces = 0.5 * h * (values[1:] + values[:-1]) + h * h / 12.0 * (rates[:-1] - rates[1:])
     return np.concatenate([[0.0], np.cumsum(pieces)])

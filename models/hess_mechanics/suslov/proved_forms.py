@@ -1,6 +1,7 @@
-"""Closed forms of the Suslov problem with proved bounds, by balls of Arb: cos χ of free motion, periods.
+"""Closed forms of the Suslov problem with proved bounds: cos χ of free motion, and periods.
 
-Numbers are exact, see `balls.exact`; the precision doubles until the enclosure has as many digits as are asked for.
+Ball arithmetic is that of Arb.  Numbers are exact, see `balls.exact`; the precision doubles until the enclosure has
+the requested number of digits.
 """
 
 from __future__ import annotations
@@ -23,16 +24,48 @@ def _positive(**moments: Fraction) -> None:
 def proved_cos_chi(
     I11: ExactNumber, I22: ExactNumber, I13: ExactNumber, I23: ExactNumber, digits: int = 30
 ) -> Enclosure:
-    """cos χ of the free problem for every tensor, see `scattering`: 2|A|² − 1,
+    """Return an enclosure of cos χ of the free problem, for any inertia tensor, see `scattering`.
 
+    Parameters
+    ----------
+    I11 : str, float or Fraction
+        Moment of inertia, I11 > 0, taken as exact.
+    I22 : str, float or Fraction
+        Moment of inertia, I22 > 0, taken as exact.
+    I13 : str, float or Fraction
+        Product of inertia, taken as exact.
+    I23 : str, float or Fraction
+        Product of inertia, taken as exact.
+    digits : int, optional
+        Number of significant decimal digits.
+
+    Returns
+    -------
+    Enclosure
+        The value 2|A|² − 1.
+
+    Raises
+    ------
+    MissingLibrary
+        If python-flint is not installed.
+    InvalidParameter
+        If I13 = I23 = 0, or a number cannot be taken as exact.
+    NotPositiveDefinite
+        If I11 ≤ 0 or I22 ≤ 0.
+    WorkLimit
+        If the enclosure needs more precision than allowed.
+
+    Notes
+    -----
     |A|² = (Re C/cosh(πK/2))² + (Im C/sinh(πK/2))², C = cos(π/2 √(κ² − (K + ic)²)).
-    Raises `MissingLibrary`, `InvalidParameter` (I13 = I23 = 0), `NotPositiveDefinite`, `WorkLimit`.
     """
     one, two, q, r = exact("I11", I11), exact("I22", I22), exact("I13", I13), exact("I23", I23)
     _positive(I11=one, I22=two)
     J2 = q * q + r * r
     if J2 == 0:
-        raise InvalidParameter("I13 = I23 = 0: there ω is constant and nothing is scattered. Choose one of them not 0.")
+        raise InvalidParameter(
+            "I13 = I23 = 0: ω is constant and there is no scattering. Choose I13 or I23 other than 0."
+        )
     w = (two * q * q + one * r * r) / J2
 
     def compute(library: Any) -> ArbBall:
@@ -57,10 +90,44 @@ def proved_period(
     gamma: tuple[ExactNumber, ExactNumber],
     digits: int = 30,
 ) -> Enclosure:
-    """The period T of an orbit of Kharlamova's case, b3 = 0, from (ω1, ω2) and (γ1, γ2) off the equator, |γ| = 1.
+    """Return an enclosure of the period T of an orbit of Kharlamova's case, b3 = 0, that starts off the equator.
 
-    T = 2πs/AGM(√((A − C + √(R₊R₋))/2), (R₊R₋)^¼), see `kharlamova`.  An orbit that is asymptotic has none.
-    Raises `MissingLibrary`, `InvalidParameter` (γ1² + γ2² ≥ 1, no motion), `NotPositiveDefinite`, `WorkLimit`.
+    Parameters
+    ----------
+    I11 : str, float or Fraction
+        Moment of inertia, I11 > 0, taken as exact.
+    I22 : str, float or Fraction
+        Moment of inertia, I22 > 0, taken as exact.
+    b1 : str, float or Fraction
+        First component of **b**, taken as exact.
+    b2 : str, float or Fraction
+        Second component of **b**, taken as exact.
+    omega : tuple of two numbers
+        Angular velocity (ω1, ω2), taken as exact.
+    gamma : tuple of two numbers
+        Components (γ1, γ2) of the unit vector γ, taken as exact, γ1² + γ2² < 1.
+    digits : int, optional
+        Number of significant decimal digits.
+
+    Returns
+    -------
+    Enclosure
+        The period.
+
+    Raises
+    ------
+    MissingLibrary
+        If python-flint is not installed.
+    InvalidParameter
+        If γ1² + γ2² ≥ 1, the body is at rest, or a number cannot be taken as exact.
+    NotPositiveDefinite
+        If I11 ≤ 0 or I22 ≤ 0.
+    WorkLimit
+        If the enclosure needs more precision than allowed.
+
+    Notes
+    -----
+    T = 2πs/AGM(√((A − C + √(R₊R₋))/2), (R₊R₋)^¼), see `kharlamova`.  An asymptotic orbit has no period.
     """
     one, two = exact("I11", I11), exact("I22", I22)
     _positive(I11=one, I22=two)
@@ -70,7 +137,7 @@ def proved_period(
     if u[0] ** 2 + u[1] ** 2 >= 1:
         raise InvalidParameter("γ1² + γ2² ≥ 1: choose a state off the equator, with γ1² + γ2² < 1.")
     if v == [0, 0] == a:
-        raise InvalidParameter("ω = 0 without a field is at rest: choose ω or b not 0.")
+        raise InvalidParameter("With ω = 0 and no field the body is at rest: choose ω or b other than 0.")
     P = [1 - _dot(u, u), -2 * _dot(u, v), -_dot(v, v) - _dot(u, a), -_dot(v, a), -_dot(a, a) / 4]
 
     def compute(library: Any) -> ArbBall:
@@ -101,18 +168,47 @@ def proved_radial_period(
     gamma: tuple[ExactNumber, ExactNumber],
     digits: int = 30,
 ) -> Enclosure:
-    """The time T in which |ω| and γ3 come back for b1 = b2 = 0, I11 = I22 = I, from ω and (γ1, γ2), γ3 > 0, |γ| = 1.
+    """Return an enclosure of the time T after which |ω| and γ3 recur, for b1 = b2 = 0 and I11 = I22 = I.
 
+    Parameters
+    ----------
+    inertia : str, float or Fraction
+        Moment of inertia I > 0, taken as exact.
+    b3 : str, float or Fraction
+        Third component of **b**, not 0, taken as exact.
+    omega : tuple of two numbers
+        Angular velocity (ω1, ω2), taken as exact.
+    gamma : tuple of two numbers
+        Components (γ1, γ2) of the unit vector γ with γ3 > 0, taken as exact.
+    digits : int, optional
+        Number of significant decimal digits.
+
+    Returns
+    -------
+    Enclosure
+        The time T.
+
+    Raises
+    ------
+    MissingLibrary
+        If python-flint is not installed.
+    InvalidParameter
+        If b3 = 0, γ1² + γ2² ≥ 1, or a number cannot be taken as exact.
+    NotPositiveDefinite
+        If I ≤ 0.
+    WorkLimit
+        If the enclosure needs more precision than allowed, as for a circular orbit.
+
+    Notes
+    -----
     With h = E and ρ = |q|², q as in `quartic`, γ3 = e − kρ, e = h/b3, k = b3/(2I), and M = (ω1γ1 + ω2γ2) I/b3,
 
         ρ̇² = 4(ρ − ρ(e − kρ)² − M²) = −4k²(ρ − ρ0)(ρ − ρ1)(ρ − ρ2),   T = π/(|k| AGM(√(ρ2 − ρ0), √(ρ1 − ρ0))).
-
-    Raises `MissingLibrary`, `InvalidParameter` (b3 = 0, no γ), `NotPositiveDefinite`, `WorkLimit` (on a circle).
     """
     own, field = exact("I", inertia), exact("b3", b3)
     _positive(I=own)
     if field == 0:
-        raise InvalidParameter("b3 = 0: without a field |ω| stays. Choose b3 other than 0.")
+        raise InvalidParameter("b3 = 0: without a field |ω| is constant. Choose b3 other than 0.")
     u, w = [exact(f"γ{i}", x) for i, x in enumerate(gamma, 1)], [exact(f"ω{i}", x) for i, x in enumerate(omega, 1)]
     if _dot(u, u) >= 1:
         raise InvalidParameter("γ1² + γ2² ≥ 1: choose a state off the equator, with γ1² + γ2² < 1.")
@@ -124,7 +220,7 @@ def proved_radial_period(
         arb = library.arb
         e = arb(rational(square)).sqrt() + rational(rise)
         slope = arb(rational(k))
-        # ρ³ + aρ² + bρ + c by thirds of an angle: with irrational coefficients no root is isolated exactly.
+        # Roots of ρ³ + aρ² + bρ + c by the trigonometric formula: irrational coefficients prevent exact isolation.
         a, b, c = -2 * e / slope, (e * e - 1) / (slope * slope), rational(M2) / (slope * slope)
         p, q = b - a * a / 3, 2 * a * a * a / 27 - a * b / 3 + c
         size = (-p / 3).sqrt()

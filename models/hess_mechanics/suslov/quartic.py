@@ -5,8 +5,8 @@ At E = h the energy gives γ3 = h/b3 − (b3/2)(q1²/I22 + q2²/I11) with q = (I
     q̇ = −p,  ṗ = ∇V(q),  V = γ3²/2,  H = p²/2 + V = 1/2:
 
 a point in a quartic potential, always at the level ½, with time reversed ({p_i, q_k} = δ_ik).  It moves where |γ3| ≤ 1:
-inside an ellipse for |h| < |b3|, between two for h > |b3|.  For I11 = I22 the potential is central, and q1 p2 − q2 p1 =
-I11(ω1γ1 + ω2γ2)/b3 is an integral.  Time is not rescaled.
+inside an ellipse for |h| < |b3|, between two ellipses for h > |b3|.  For I11 = I22 the potential is central, and
+q1 p2 − q2 p1 = I11(ω1γ1 + ω2γ2)/b3 is an integral.  Time is not rescaled.
 """
 
 from __future__ import annotations
@@ -43,24 +43,51 @@ __all__ = [
 ]
 
 _TURNS = 120.0
-"""Time allowed per crossing, in units in which ω is at most 1; few orbits take longer."""
+"""Time limit per crossing, in units in which ω is at most 1; few orbits take longer."""
 _EDGE = 1e-9
 _INSIDE = 1e-9
 _MIDDLE = 1e-100
-"""Sizes below it, in units of the region, have no direction."""
+"""Size, in units of the region, below which a point has no direction."""
 _MOST_SIZE = 1e30
-"""Largest q: numbers in pictures are single precision."""
+"""Largest q: numbers in plots are single precision."""
 
 
 @dataclass(frozen=True)
 class QuarticBody:
-    """A body with I13 = I23 = 0 and b = (0, 0, b3), at the energy h.
+    """Body with I13 = I23 = 0 and b = (0, 0, b3), at the energy h.
 
-    Raises `NoField` (b3 = 0), `OutsideRegion` (h ≤ −|b3|), `InvalidParameter`, `NotPositiveDefinite`.
+    Parameters
+    ----------
+    I11 : float
+        Moment of inertia about the first axis, I11 > 0.
+    I22 : float
+        Moment of inertia about the second axis, I22 > 0.
+    b3 : float
+        Third component of **b** = −mg **r**, with **r** the centre of mass; not 0.
+    h : float
+        The energy, h > −|b3|.
 
+    Raises
+    ------
+    NoField
+        If b3 = 0.
+    OutsideRegion
+        If h ≤ −|b3|.
+    InvalidParameter
+        If a parameter is not finite, or the region of motion too large or too small.
+    NotPositiveDefinite
+        If I11 ≤ 0 or I22 ≤ 0.
+
+    References
+    ----------
+    `eqs02`.
+
+    Examples
+    --------
     >>> from hess_mechanics import QuarticBody
-    >>> QuarticBody(1.3, 0.8, 1.0, h=2.0).b3
-    1.0
+    >>> body = QuarticBody(1.3, 0.8, 1.0, h=2.0)
+    >>> [round(axis, 4) for axis in body.axes]
+    [2.1909, 2.7928]
     """
 
     I11: float
@@ -72,7 +99,7 @@ class QuarticBody:
         require_finite(**vars(self))
         require_positive_definite(self.I11, self.I22)
         if self.b3 == 0.0:
-            raise NoField("b3 = 0: without a field γ₃ does not follow from the energy. Choose b3 other than 0.")
+            raise NoField("b3 = 0: without a field the energy does not determine γ₃. Choose b3 other than 0.")
         if not self.h > -abs(self.b3):
             raise OutsideRegion(f"No motion has the energy h = {self.h:g}: choose h above −|b3| = {-abs(self.b3):.6g}.")
         smallest, largest = sorted(self.axes)
@@ -85,39 +112,61 @@ class QuarticBody:
 
     @property
     def system(self) -> System:
-        """Its equations of motion."""
+        """The equations of motion."""
         return SYSTEM
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """p of the system "suslov"."""
+        """The parameters p of the system "suslov"."""
         return (self.I11, self.I22, 0.0, 0.0, 0.0, 0.0, self.b3)
 
     @property
     def axes(self) -> tuple[float, float]:
-        """Semi-axes of the ellipse that bounds the motion, γ3 b3 = −|b3|."""
+        """The semi-axes of the ellipse γ3 b3 = −|b3| that bounds the motion."""
         size = 2.0 * (self.h + abs(self.b3))
         return math.sqrt(size * self.I22) / abs(self.b3), math.sqrt(size * self.I11) / abs(self.b3)
 
     @property
     def hole(self) -> float:
-        """Size of the forbidden inner ellipse, in units of `axes`; 0 for h ≤ |b3|."""
+        """The size of the forbidden inner ellipse in units of `axes`; 0 for h ≤ |b3|."""
         size = abs(self.b3)
         return math.sqrt(max(0.0, self.h - size) / (self.h + size))
 
     @property
     def integrable(self) -> bool:
-        """Whether q1p2 − q2p1 is an integral."""
+        """True if q1p2 − q2p1 is an integral."""
         return self.I11 == self.I22
 
     def pixels_per_unit(self, half_width: float) -> tuple[float, ...]:
-        """For each variable, in pictures that show q within ± half_width, and γ within the unit circle; (5,)."""
+        """Return the pixels per unit of each variable in plots of |q| ≤ half_width and of the unit circle of γ.
+
+        Parameters
+        ----------
+        half_width : float
+            Largest |q| of the plot.
+
+        Returns
+        -------
+        tuple of five floats
+            Pixels per unit of ω1, ω2, γ1, γ2, γ3.
+        """
         radius = 0.5 * PIXELS
         scale = radius / (half_width * abs(self.b3))
         return (scale * self.I11, scale * self.I22, radius, radius, radius)
 
     def inside(self, q: tuple[float, float]) -> tuple[float, float]:
-        """The place where the point may be next to q: q itself, unless the energy forbids it."""
+        """Return q if the energy allows it, otherwise the nearest allowed point in the same direction.
+
+        Parameters
+        ----------
+        q : tuple of two floats
+            Point of the plane.
+
+        Returns
+        -------
+        tuple of two floats
+            Point at which |γ3| ≤ 1.
+        """
         first, second = self.axes
         x, y = q[0] / first, q[1] / second
         size, inner = math.hypot(x, y), self.hole
@@ -125,7 +174,7 @@ class QuarticBody:
             return q
         if size < _MIDDLE:
             x, y, size = 1.0, 0.0, 1.0
-        # The ring may be thin.
+        # The ring may be narrow.
         room = min(_INSIDE, 0.25 * (1.0 - inner))
         share = min(1.0 - room, max(inner + room, size)) / size
         return share * x * first, share * y * second
@@ -134,57 +183,133 @@ class QuarticBody:
     def across(self) -> int:
         """The index of the q that is 0 on the section: the one along the minor axis.
 
-        For h > |b3| a point can stay near one end of the major axis for ever, but it always crosses that axis.
+        For h > |b3| an orbit can stay near one end of the major axis forever, but it always crosses that axis.
         """
         return 0 if self.I11 > self.I22 else 1
 
     @property
     def longest(self) -> float:
-        """Half the longer axis of the ellipse, along which the section lies."""
+        """The major semi-axis of the ellipse, along which the section lies."""
         return self.axes[1 - self.across]
 
     def ellipse(self, size: float = 1.0) -> Array:
-        """The ellipse in which the point may be, a closed curve (n, 2), or one of another size."""
+        """Return the ellipse that bounds the motion, or a similar one.
+
+        Parameters
+        ----------
+        size : float, optional
+            Factor of the semi-axes.
+
+        Returns
+        -------
+        ndarray of float, shape (181, 2)
+            Points q of the closed curve.
+        """
         angle = np.linspace(0.0, 2.0 * math.pi, 181)
         return np.asarray(size * np.array(self.axes) * np.column_stack([np.cos(angle), np.sin(angle)]))
 
     def holes(self) -> list[Array]:
-        """The ellipse in which it may not be, if there is one."""
+        """Return the boundary of the forbidden inner ellipse.
+
+        Returns
+        -------
+        list of ndarray of float, shape (181, 2)
+            One closed curve, or none if h ≤ |b3|.
+        """
         return [self.ellipse(self.hole)] if self.hole > 0.0 else []
 
     def equipotentials(self, heights: Sequence[float]) -> list[Array]:
-        """Closed curves (n, 2) on which γ3 has these values."""
+        """Return the curves on which γ3 has given values.
+
+        Parameters
+        ----------
+        heights : sequence of float
+            Values of γ3.
+
+        Returns
+        -------
+        list of ndarray of float, shape (181, 2)
+            Closed curves of points q, one for each value that occurs.
+        """
         share = [(self.h - self.b3 * g3) / (self.h + abs(self.b3)) for g3 in heights]
         return [self.ellipse(math.sqrt(one)) for one in share if one > 0.0]
 
     @property
     def plane(self) -> Plane:
-        """The section q_i = 0, i = `across`, crossed while q_i grows, in terms of ω."""
+        """The section q_i = 0, i = `across`, crossed while q_i increases, in terms of ω."""
         sense = 1 if self.b3 > 0.0 else -1
         if self.across == 0:
             return Plane((0.0, 1.0, 0.0, 0.0, 0.0), sense=sense)
         return Plane((1.0, 0.0, 0.0, 0.0, 0.0), sense=-sense)
 
     def height(self, q: Array) -> Array:
-        """γ3 at q (..., 2); the potential V is γ3²/2."""
+        """Return γ3 at points of the plane; the potential is V = γ3²/2.
+
+        Parameters
+        ----------
+        q : array_like of float, shape (..., 2)
+            Points of the plane.
+
+        Returns
+        -------
+        ndarray of float, shape (...)
+            Values of γ3.
+        """
         q = np.asarray(q, float)
         return np.asarray(self.h / self.b3 - 0.5 * self.b3 * (q[..., 0] ** 2 / self.I22 + q[..., 1] ** 2 / self.I11))
 
     def to_plane(self, states: Array) -> tuple[Array, Array]:
-        """q and p (m, 2) from states (m, 5)."""
+        """Return q and p of states.
+
+        Parameters
+        ----------
+        states : ndarray of float, shape (m, 5)
+            States (ω1, ω2, γ1, γ2, γ3).
+
+        Returns
+        -------
+        q : ndarray of float, shape (m, 2)
+            Points (I22 ω2, −I11 ω1)/b3.
+        p : ndarray of float, shape (m, 2)
+            Momenta (γ1, γ2).
+        """
         q = np.column_stack([self.I22 * states[:, 1], -self.I11 * states[:, 0]]) / self.b3
         return q, states[:, 2:4].copy()
 
     def on_section(self, states: Array) -> Array:
-        """The section's coordinates (n, 2), the other q and its p, of states (n, 5)."""
+        """Return the coordinates of states on the section.
+
+        Parameters
+        ----------
+        states : ndarray of float, shape (n, 5)
+            States of the section.
+
+        Returns
+        -------
+        ndarray of float, shape (n, 2)
+            The q that is not 0 on the section, and its p.
+        """
         q, p = self.to_plane(states)
         along = 1 - self.across
         return np.column_stack([q[:, along], p[:, along]])
 
     def section_boundary(self, count: int = 181) -> Array:
-        """A closed curve (n, 2) that bounds the section, p² + γ3² = 1.
+        """Return the curve p² + γ3² = 1 that bounds the section.
 
-        With a hole it bounds the right half only; the left half is its image under q → −q.
+        Parameters
+        ----------
+        count : int, optional
+            Number of points, of one half if the curve is symmetric.
+
+        Returns
+        -------
+        ndarray of float, shape (n, 2)
+            Points (q, p) of a closed curve.
+
+        Notes
+        -----
+        For h > |b3| the section has two parts; this is the boundary of the right one.  The left part is its image under
+        q → −q.
         """
         size = abs(self.b3)
         first = math.acos(self.h / size) if self.h < size else 0.0
@@ -195,28 +320,34 @@ class QuarticBody:
         return right if first == 0.0 else np.vstack([right, right[::-1] * np.array([-1.0, 1.0])])
 
     def section_boundaries(self) -> list[Array]:
-        """The closed curves (n, 2) that bound the section: two with a hole."""
+        """Return the curves that bound the section.
+
+        Returns
+        -------
+        list of ndarray of float, shape (n, 2)
+            One closed curve, or two for h > |b3|.
+        """
         right = self.section_boundary()
         return [right, right * np.array([-1.0, 1.0])] if self.hole > 0.0 else [right]
 
 
 def visited(body: QuarticBody, points: Array, cells: int) -> int:
-    """In how many of cells² of the section's rectangle points (n, 2) of it lie."""
+    """Return the number of cells, of cells² that divide the rectangle of the section, with points (n, 2)."""
     x, y = points.T
     return occupied_cells(np.column_stack([math.pi / body.longest * x, 0.5 * math.pi * (1.0 + y)]), cells)
 
 
 def level_error(body: QuarticBody, states: Array) -> float:
-    """The largest |H − ½| of states (m, 5), H = (p² + γ3²)/2 on the level of all motions."""
+    """Return the largest |H − ½| of states (m, 5), where H = (p² + γ3²)/2 is ½ on all motions."""
     q, p = body.to_plane(states)
     H = 0.5 * (np.sum(p * p, axis=1) + body.height(q) ** 2)
     return float(np.abs(H - 0.5).max())
 
 
 def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[float, ...]:
-    """The state (5,) at q (2,) with the velocity q̇ = −p in `direction`, an angle in radians.
+    """Return the state (5,) at q (2,) with the velocity q̇ = −p in `direction`, an angle in radians.
 
-    Raises `OutsideRegion` where |γ3| > 1.
+    Raises `OutsideRegion` if |γ3| > 1.
     """
     require_finite(q1=q[0], q2=q[1], direction=direction)
     g3 = float(body.height(np.array(q)))
@@ -232,39 +363,39 @@ def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[f
 
 
 def state_on_section(body: QuarticBody, x: float, y: float) -> tuple[float, ...]:
-    """The state (5,) at (x, y) of the section, see `on_section`.  Raises `OutsideRegion`."""
+    """Return the state (5,) at (x, y) of the section, see `on_section`.  Raises `OutsideRegion`."""
     q = (x, 0.0) if body.across else (0.0, x)
     g3 = float(body.height(np.array(q)))
     left = (1.0 - g3) * (1.0 + g3) - y * y
     if left < -_EDGE:
-        raise OutsideRegion("There p² + γ₃² would exceed 1: choose a place that is not grey.")
-    # The q that is 0 grows where its p is negative.
+        raise OutsideRegion("p² + γ₃² would exceed 1 there: choose a place that is not grey.")
+    # The q that is 0 increases where its p is negative.
     other = -math.sqrt(max(0.0, left))
     velocity = (-y, -other) if body.across else (-other, -y)
     return state_at(body, q, math.atan2(velocity[1], velocity[0]))
 
 
 def start_on_section(body: QuarticBody, x: float, y: float) -> tuple[float, float, float]:
-    """q1, q2 and the direction of q̇ for `state_at` at (x, y) of the section.  Raises `OutsideRegion`."""
+    """Return q1, q2 and the direction of q̇ for `state_at` at (x, y) of the section.  Raises `OutsideRegion`."""
     (q,), (p,) = body.to_plane(np.array([state_on_section(body, x, y)]))
     return float(q[0]), float(q[1]), math.atan2(-p[1], -p[0])
 
 
 def angular_momentum(body: QuarticBody, states: Array) -> Array:
-    """q1 p2 − q2 p1 (m,) of states (m, 5): an integral for I11 = I22."""
+    """Return q1 p2 − q2 p1 (m,) of states (m, 5): an integral for I11 = I22."""
     q, p = body.to_plane(states)
     return np.asarray(q[:, 0] * p[:, 1] - q[:, 1] * p[:, 0])
 
 
 def seeds(body: QuarticBody, count: int) -> list[tuple[float, ...]]:
-    """States of the section, spread over the part that the energy allows."""
+    """Return states of the section, spread over the part that the energy allows."""
     golden = (math.sqrt(5.0) - 1.0) / 2.0
     longest = body.longest
     found = []
     for i in range(count):
         share = (i * golden) % 1.0
         inner = body.hole**2
-        # Even in q² from the hole to the edge, and in p for this q.
+        # Uniform in q² from the hole to the edge, and in p for this q.
         x = longest * math.sqrt(inner + (1.0 - inner) * (0.002 + 0.996 * (i + 0.5) / count))
         g3 = float(body.height(np.array((x, 0.0) if body.across else (0.0, x))))
         size = math.sqrt(max(0.0, (1.0 - g3) * (1.0 + g3)))
@@ -275,9 +406,9 @@ def seeds(body: QuarticBody, count: int) -> list[tuple[float, ...]]:
 def quartic_section(
     body: QuarticBody, starts: Sequence[Sequence[float]], crossings: int, level: Accuracy, most_steps: int
 ) -> SectionPoints:
-    """The first crossings of `body.plane` by each orbit, states as in `section_points`.
+    """Return the first crossings of `body.plane` by each orbit, states as in `section_points`.
 
-    most_steps : per orbit.  Raises `InvalidParameter`, `WorkLimit`.
+    most_steps : limit of steps per orbit.  Raises `InvalidParameter`, `WorkLimit`.
     """
     speed = math.sqrt(2.0 * (body.h + abs(body.b3)) / max(body.I11, body.I22))
     end = crossings * _TURNS / speed
@@ -293,13 +424,13 @@ def quartic_section(
 
 
 def spread_section(body: QuarticBody, orbits: int, crossings: int, level: Accuracy, most_steps: int) -> SectionPoints:
-    """The section of so many orbits, spread over what is possible of it: `quartic_section` from `seeds`."""
+    """Return the section of the given number of orbits, `quartic_section` from `seeds`."""
     return quartic_section(body, seeds(body, orbits), crossings, level, most_steps)
 
 
 @dataclass(frozen=True)
 class QuarticSection(PoincareSection):
-    """The section of a body at its energy, in (q, p) along the longer axis: canonical coordinates.
+    """Section of a body at its energy, in the canonical coordinates (q, p) along the major axis.
 
     Its methods raise as `QuarticBody`.
     """
@@ -312,50 +443,50 @@ class QuarticSection(PoincareSection):
 
     @property
     def window(self) -> tuple[tuple[float, float], ...]:
-        """The rectangle about it."""
+        """The rectangle that contains the section."""
         return (-self.body.longest, self.body.longest), (-1.0, 1.0)
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """Of the body."""
+        """The parameters of the body."""
         return self.body.parameters
 
     @property
     def surface(self) -> Plane:
-        """The other q = 0."""
+        """The plane on which the other q is 0."""
         return self.body.plane
 
     @property
     def slowness(self) -> float:
-        """√ of the ratio of the moments of inertia."""
+        """The square root of the ratio of the moments of inertia."""
         return math.sqrt(max(self.body.I11, self.body.I22) / min(self.body.I11, self.body.I22))
 
     @property
     def constants(self) -> Mapping[str, float]:
-        """Moments of inertia, b3 and h."""
+        """The moments of inertia, b3 and h."""
         return vars(self.body)
 
     @property
     def integrable(self) -> str:
-        """The case I11 = I22, see `QuarticBody.integrable`."""
+        """The integrable case I11 = I22 in words, see `QuarticBody.integrable`, or an empty string."""
         return "the integrable case I₁₁ = I₂₂" if self.body.integrable else ""
 
     def moved(self, name: str, value: float) -> QuarticSection:
-        """With another value of a constant."""
+        """Return the section with another value of one constant."""
         return QuarticSection(replace(self.body, **{name: value}))
 
     def states_at(self, q: Array, p: Array) -> tuple[Array, Mask]:
-        """The states (n, 5) at (q, p) (n,), and whether motions cross there (n,): p² + γ3² < 1."""
+        """Return the states (n, 5) at (q, p) (n,), and the mask (n,) of the places with motion, p² + γ3² < 1."""
         q, p = np.array(q, float, ndmin=1), np.array(p, float, ndmin=1)
         body, along, zero = self.body, 1 - self.body.across, np.zeros(q.shape)
         place, momentum = np.stack([zero, q] if along else [q, zero]), np.empty((2, q.size))
         g3 = body.height(place.T)
         left = (1.0 - g3) * (1.0 + g3) - p * p
-        # The q that is 0 grows where its p is negative.
+        # The q that is 0 increases where its p is negative.
         momentum[along], momentum[1 - along] = p, -np.sqrt(np.maximum(0.0, left))
         omega = -body.b3 * place[1] / body.I11, body.b3 * place[0] / body.I22
         return np.stack([*omega, *momentum, g3], axis=1), left > 0.0
 
     def places_of(self, states: Array) -> Array:
-        """(q, p) (n, 2) of states (n, 5) of the section."""
+        """Return (q, p) (n, 2) of states (n, 5) of the section."""
         return self.body.on_section(states)

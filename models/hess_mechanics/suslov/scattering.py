@@ -1,22 +1,21 @@
-"""The scattering (θ⁻, φ) → θ⁺ of the free Suslov problem, by one rotation (figure 4).
+"""Scattering (θ⁻, φ) → θ⁺ of the free Suslov problem, as one rotation (figure 4).
 
-Every motion leaves a circle Γ⁻ = cos θ⁻ about the unstable point and approaches a circle Γ⁺ = cos θ⁺ about the stable
-one.  With (A, B) of `free` from one end to the other
+Every motion departs from a circle Γ⁻ = cos θ⁻ about the unstable point and approaches a circle Γ⁺ = cos θ⁺ about the
+stable one.  With (A, B) of `free` from one end to the other
 
     Γ⁺ = cos χ Γ⁻ + sin χ √(1−Γ⁻²) cos(φ − φ*),   cos χ = |A|² − |B|²,  φ* = π − arg AB.
 
 The phase φ has two meanings:
- - asymptotic: the limit t → −∞ of (azimuth of γ about ξ) + Φ(u), that is the azimuth at u = 0 if only the part of ω
-   along ξ had turned γ;
+ - asymptotic: the limit t → −∞ of (azimuth of γ about ξ) + Φ(u), that is, the azimuth at u = 0 if only the component
+   of ω along ξ had rotated γ;
  - at the start: the azimuth of γ(0) about ξ, with ω(0) at a given distance from the unstable point (caption of
    `fig0111`) and θ⁻ the angle between γ(0) and ξ.  For small distances that is the same curve, shifted by Φ(u0).
 The azimuth is counted from η towards e3: γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3).  Nothing depends on h.
 
 cos χ has a closed form for every tensor.  In s = sinh u the equations have three regular singular points, ±i and ∞:
 about i the monodromy has the trace 2C, C = cos(π/2 √(κ² − (K + ic)²)), and along the half circle at ∞ it is diagonal,
-e^{±πK/2}.  Hence |A|² = (Re C/cosh(πK/2))² + (Im C/sinh(πK/2))²; for I13 = 0 or I23 = 0, where c = 0 and
-k² = κ² − K², cos χ = 2cos²(πk/2)/cosh²(πK/2) − 1.  This formula is not in the paper: see
-models/README.md.
+e^{±πK/2}.  Hence |A|² = (Re C/cosh(πK/2))² + (Im C/sinh(πK/2))².  For I13 = 0 or I23 = 0, c = 0 and k² = κ² − K²,
+and cos χ = 2cos²(πk/2)/cosh²(πK/2) − 1.  This formula is not in the paper: see models/README.md.
 """
 
 from __future__ import annotations
@@ -45,12 +44,36 @@ __all__ = ["Scattering", "cos_chi", "cos_chi_over", "scattering", "start", "thet
 
 @dataclass(frozen=True)
 class Scattering(Result):
-    """The rotation from the circles S₋ to the circles S₊ along one arc.
+    """Rotation from the circles S₋ to the circles S₊ along one arc; the result of `scattering`.
 
-    A, B : its matrix ((A, −B̄), (B, Ā)) of SU(2), in the frame turned by Φ; arc : σ = ±1;
-    distance : of the start from the unstable point, or None (asymptotic phases);
-    cos_chi, sin_chi ≥ 0, phi_star : see the module (φ* = 0 where sin χ = 0);
-    error_estimate : of Γ⁺, for any θ⁻ and φ.
+    Attributes
+    ----------
+    arc : int
+        The arc σ = ±1.
+    distance : float or None
+        Distance of the start from the unstable point, in units of |ω⁻|; None for asymptotic phases.
+    level : str
+        Name of the accuracy level.
+    A : complex
+        Element of the matrix ((A, −B̄), (B, Ā)) of SU(2), in the frame rotated by Φ.
+    B : complex
+        The other element.
+    cos_chi : float
+        Coefficient cos χ, see Notes.
+    sin_chi : float
+        Coefficient sin χ ≥ 0.
+    phi_star : float
+        Phase φ* in radians; 0 if sin χ = 0.
+    status : Status
+        State of the computation, see `Status`.
+    error_estimate : float
+        Estimated error of Γ⁺, for any θ⁻ and φ.
+    cost : Cost
+        Steps and time of the computation.
+
+    Notes
+    -----
+    cos θ⁺ = cos χ cos θ⁻ + sin χ sin θ⁻ cos(φ − φ*).
     """
 
     arc: int
@@ -66,7 +89,13 @@ class Scattering(Result):
     cost: Cost
 
     def labels(self) -> Labels:
-        """θ⁺ over θ⁻ and φ."""
+        """Return the scattering with names, units and coordinates.
+
+        Returns
+        -------
+        Labels
+            The angle θ⁺ over θ⁻ and φ.
+        """
         theta, phi = np.linspace(0.0, math.pi, 91), np.linspace(-math.pi, math.pi, 181)
         return Labels(
             {"θ⁻": (("θ⁻",), theta), "φ": (("φ",), phi)},
@@ -76,15 +105,47 @@ class Scattering(Result):
         )
 
     def theta_plus(self, theta: Array | float, phi: Array | Sequence[float] | float) -> Array:
-        """θ⁺ in [0, π]; the shape to which θ⁻ and φ broadcast."""
+        """Return the outgoing angle θ⁺.
+
+        Parameters
+        ----------
+        theta : array_like of float
+            Incoming angle θ⁻ in radians.
+        phi : array_like of float
+            Phase φ in radians; it broadcasts with theta.
+
+        Returns
+        -------
+        ndarray of float
+            Angles in [0, π], of the common shape of θ⁻ and φ.
+
+        Examples
+        --------
+        >>> from hess_mechanics import SuslovBody, scattering
+        >>> round(float(scattering(SuslovBody(4.0, 1.0, 0.0, 0.75), "precise").theta_plus(1.0, 0.5)), 6)
+        2.317184
+        """
         Gamma, y = _spherical(theta, phi)
         A, B = self.A, self.B
         image = 2.0 * A * B.conjugate() * Gamma + A * A * y - B.conjugate() ** 2 * y.conj()
-        # Not the arc cosine, which loses half the digits at 0 and π.
+        # The arc cosine would lose half the digits at 0 and π.
         return np.asarray(np.arctan2(np.abs(image), self._Gamma_plus(Gamma, y)), float)
 
     def Gamma_plus(self, theta: Array | float, phi: Array | Sequence[float] | float) -> Array:
-        """Γ⁺ = cos θ⁺ in [−1, 1]; the shape to which θ⁻ and φ broadcast."""
+        """Return Γ⁺ = cos θ⁺.
+
+        Parameters
+        ----------
+        theta : array_like of float
+            Incoming angle θ⁻ in radians.
+        phi : array_like of float
+            Phase φ in radians; it broadcasts with theta.
+
+        Returns
+        -------
+        ndarray of float
+            Values in [−1, 1], of the common shape of θ⁻ and φ.
+        """
         return np.clip(self._Gamma_plus(*_spherical(theta, phi)), -1.0, 1.0)
 
     def _Gamma_plus(self, Gamma: Array, y: Complex) -> Array:
@@ -93,15 +154,15 @@ class Scattering(Result):
 
 
 def _spherical(theta: Array | float, phi: Array | Sequence[float] | float) -> tuple[Array, Complex]:
-    """Γ = cos θ and y = sin θ e^{iφ}."""
+    """Return Γ = cos θ and y = sin θ e^{iφ}."""
     theta, phi = np.asarray(theta, float), np.asarray(phi, float)
     return np.cos(theta), np.sin(theta) * np.exp(1j * phi)
 
 
 def _u_at(of: PassageConstants, distance: float) -> float:
-    """The u < 0 at which the part of ω across ξ, ω0 κ sech u, is `distance` |ω⁻| = `distance` ω0 K.
+    """Return the u < 0 at which the component of ω across ξ, ω0 κ sech u, is `distance` |ω⁻| = `distance` ω0 K.
 
-    Raises `InvalidParameter` where ω never gets so far from the line.
+    Raises `InvalidParameter` if ω never gets that far from the line of equilibria.
     """
     require_finite(distance=distance)
     most = of.kappa / of.K
@@ -122,16 +183,46 @@ def _check_arc(arc: int) -> None:
 
 
 def scattering(body: SuslovBody, level: Accuracy, arc: int = 1, distance: float | None = None) -> Scattering:
-    """The scattering along one arc (σ, the sign of I13ω1 + I23ω2), with asymptotic phases.
+    """Return the scattering of γ along one arc of the motion of ω.
 
-    distance : if given, phases and θ⁻ are those of a start where the part of ω across ξ is `distance` |ω⁻|; for
-    I13 = 0 that is ω2(0) = ± distance |ω⁻|.  The error estimate is measured as in `orbit.solve`.
-    Raises `InvalidParameter` (a field, I13 = I23 = 0, no such arc or distance), `WorkLimit` (see `shape`).
+    Parameters
+    ----------
+    body : SuslovBody
+        Body with b = 0 and I13 or I23 not 0.
+    level : Level or str
+        Accuracy level or its name, see `level`.
+    arc : int, optional
+        Arc σ = ±1, the sign of I13ω1 + I23ω2.
+    distance : float, optional
+        Component of ω across ξ at the start, in units of |ω⁻|; for I13 = 0 this is |ω2(0)|.  Then φ and θ⁻ belong to
+        the start.  By default they are asymptotic.
 
-    >>> from hess_mechanics import SuslovBody, level, scattering
-    >>> found = scattering(SuslovBody(4.0, 1.0, 0.0, 0.75), level("precise"))
-    >>> bool(0.0 <= found.theta_plus(1.0, 0.5) <= 3.15)
-    True
+    Returns
+    -------
+    Scattering
+        The rotation and its angle χ.
+
+    Raises
+    ------
+    InvalidParameter
+        If the body has a field, I13 = I23 = 0, or the arc or the distance is impossible.
+    WorkLimit
+        If γ rotates too often during the passage.
+
+    Notes
+    -----
+    The error is estimated as in `solve`.
+
+    References
+    ----------
+    `fig0111`.  The closed form of cos χ is not in the paper, see models/README.md.
+
+    Examples
+    --------
+    >>> from hess_mechanics import SuslovBody, scattering
+    >>> found = scattering(SuslovBody(4.0, 1.0, 0.0, 0.75), "precise")
+    >>> round(found.cos_chi, 6)
+    -0.907965
     """
     level = as_level(level)
     begun = time.perf_counter()
@@ -139,7 +230,7 @@ def scattering(body: SuslovBody, level: Accuracy, arc: int = 1, distance: float 
     of = shape(body)
     first = -of.end if distance is None else _u_at(of, float(distance))
     A, B, error, steps = turning(of, arc, np.array([first, of.end]), level)
-    # M(∞) M(u0)^−1, and the azimuth at the start taken to the turning frame.
+    # M(∞) M(u0)^−1, with the azimuth at the start transformed to the rotating frame.
     before = 0.0 if distance is None else float(of.turned(first, arc))
     half = cmath.exp(0.5j * before)
     alpha = complex(A[1] * A[0].conj() + B[1].conj() * B[0]) * half
@@ -164,13 +255,13 @@ def scattering(body: SuslovBody, level: Accuracy, arc: int = 1, distance: float 
 
 
 def cos_chi(body: SuslovBody) -> float:
-    """cos χ in closed form, for every tensor; see the module.
+    """Return cos χ in closed form, for any inertia tensor; see the module.
 
     Raises `InvalidParameter` (a field, I13 = I23 = 0), `WorkLimit` (see `shape`).
     """
     of = shape(body)
     root = cmath.sqrt(of.kappa**2 - complex(of.K, of.c) ** 2)
-    # cos(π/2 root) and cosh(πK/2) without their exponential growth, which would overflow.
+    # Factor out the exponential growth of cos(π/2 root) and cosh(πK/2), which would overflow.
     angle = 0.5 * math.pi * root
     grown = abs(angle.imag)
     C_re = math.cos(angle.real) * 0.5 * (1.0 + math.exp(-2.0 * grown))
@@ -183,7 +274,10 @@ def cos_chi(body: SuslovBody) -> float:
 
 
 def cos_chi_over(low: int, high: int, I22: float, I13: float, I23: float) -> Array:
-    """(k, cos χ) in closed form for even k from low to high, I11 by `I11_at`; (m, 2), without k that give no body."""
+    """Return (k, cos χ) in closed form for equidistant k from low to high, I11 by `I11_at`; (m, 2).
+
+    Values of k without a body are left out.
+    """
     rows = []
     for one in np.linspace(low, high, 20 * (high - low) + 1).tolist():
         try:
@@ -194,7 +288,7 @@ def cos_chi_over(low: int, high: int, I22: float, I13: float, I23: float) -> Arr
 
 
 def theta_plus_grid(found: Scattering, m: int, n: int) -> Array:
-    """θ⁺ at the centres of m × n cells of −π < φ < π, 0 < θ⁻ < π; (n, m), rows of equal θ⁻."""
+    """Return θ⁺ at the centres of m × n cells of −π < φ < π, 0 < θ⁻ < π; (n, m), rows of equal θ⁻."""
     phi, theta = centres(-math.pi, math.pi, m), centres(0.0, math.pi, n)
     return frozen(found.theta_plus(theta[:, None], phi[None, :]))
 
@@ -202,10 +296,10 @@ def theta_plus_grid(found: Scattering, m: int, n: int) -> Array:
 def start(
     body: SuslovBody, h: float, theta: float, phi: float, distance: float, arc: int = 1
 ) -> tuple[tuple[float, float], tuple[float, float, float]]:
-    """ω(0), γ(0) of the orbit with energy h that starts at θ⁻ and azimuth φ, at `distance` from the unstable point.
+    """Return ω(0), γ(0) of the orbit with energy h that starts at θ⁻, azimuth φ and `distance` from the unstable point.
 
-    φ is the phase of `scattering` with that distance.  For I13 I23 ≠ 0 rounding ω to doubles limits how well the time
-    of the passage is known: below a distance of 1e-8 the phase of arrival shifts, and Γ⁺ by at most 1e-16/distance.
+    φ is the phase of `scattering` with that distance.  For I13 I23 ≠ 0 the rounding of ω to doubles limits the accuracy
+    of the time of the passage: below a distance of 1e-8 the phase of arrival shifts, and Γ⁺ by at most 1e-16/distance.
     Raises `InvalidParameter`, `WorkLimit`.
     """
     _check_arc(arc)

@@ -1,7 +1,7 @@
 """Sections γ_k = 0 of the Suslov problem with gravity at E = h, F1 = 1, in coordinates that cover them.
 
-Where γ_k grows through 0, ψ is the angle of γ in the plane of the other two axes, and δ ∈ (0, π) the angle of the
-direction u of ω = |ω|u from the direction that keeps γ_k:
+At an upward crossing of γ_k = 0, ψ is the angle of γ in the plane of the other two axes, and δ ∈ (0, π) the angle of
+the direction u of ω = |ω|u from the direction that conserves γ_k:
 
     k = 3: γ = (cos ψ, sin ψ, 0),  u = (cos(ψ+δ), sin(ψ+δ)),        as γ̇3 = γ1ω2 − γ2ω1;
     k = 1: γ = (0, cos ψ, sin ψ),  u = −sgn(sin ψ) (cos δ, sin δ),  as γ̇1 = −γ3ω2;
@@ -41,26 +41,26 @@ __all__ = [
 ]
 
 _TURNS = 40.0
-"""Time allowed per crossing, in units of 1/ν; few orbits take longer."""
+"""Time limit per crossing, in units of 1/ν; few orbits take longer."""
 _EDGE = 1e-6
 _COLUMNS = 240
 
 
 def divergence(body: SuslovBody, states: Array) -> Array:
-    """div ẏ = I23ω1/I22 − I13ω2/I11 (n,) of states (n, 5), the growth rate of phase volume."""
+    """Return div ẏ = I23ω1/I22 − I13ω2/I11 (n,) of states (n, 5), the growth rate of phase volume."""
     return frozen(np.asarray(principal_axis.divergence(list(states.T), body.parameters), float))
 
 
 @dataclass(frozen=True)
 class MeanDivergence:
-    """The mean divergence (n,) along a motion up to the times (n,)."""
+    """Mean divergence (n,) along an orbit up to the times (n,)."""
 
     times: Array
     mean: Array
 
 
 def mean_divergence(body: SuslovBody, start: Sequence[float], span: float, count: int = 4000) -> MeanDivergence:
-    """Along the motion from `start` over the time `span`, up to `count` times.  Raises as `solve`."""
+    """Return the mean divergence along the orbit from `start`, at `count` times in `span`.  Raises as `solve`."""
     times = np.linspace(0.0, span, count + 1)
     rates = divergence(body, solve(body, start, times, DRAFT).states)
     steps = 0.5 * (rates[1:] + rates[:-1]) * np.diff(times)
@@ -73,7 +73,7 @@ def _side(psi: Array) -> Array:
 
 @dataclass(frozen=True)
 class SuslovSection(PoincareSection):
-    """The section γ_k = 0 of a body at E = h, crossed while γ_k grows.  Raises `InvalidParameter`."""
+    """Section γ_k = 0 of a body at E = h, crossed while γ_k increases.  Raises `InvalidParameter`."""
 
     body: SuslovBody
     E: float
@@ -91,12 +91,12 @@ class SuslovSection(PoincareSection):
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """Of the body."""
+        """The parameters of the body."""
         return self.body.parameters
 
     @property
     def surface(self) -> Plane:
-        """γ_k = 0."""
+        """The plane γ_k = 0."""
         return Plane(tuple(float(i == self.k + 1) for i in range(5)))
 
     @property
@@ -107,7 +107,7 @@ class SuslovSection(PoincareSection):
 
     @property
     def _field(self) -> tuple[float, float]:
-        """Their components of b."""
+        """The components of b for the other two components of γ."""
         b = self.body.parameters[4:]
         first, second = self._in_plane
         return b[first], b[second]
@@ -119,7 +119,7 @@ class SuslovSection(PoincareSection):
 
     @property
     def slowness(self) -> float:
-        """√ of the ratio of the moments of inertia."""
+        """The square root of the ratio of the moments of inertia."""
         return math.sqrt(max(self.body.I11, self.body.I22) / min(self.body.I11, self.body.I22))
 
     @property
@@ -129,7 +129,10 @@ class SuslovSection(PoincareSection):
 
     @property
     def integrable(self) -> str:
-        """Kharlamova's case I13 = I23 = b3 = 0, or I13 = I23 = 0 with I11 = I22 and b along e."""
+        """The integrable case in words, or an empty string.
+
+        The cases are I13 = I23 = b3 = 0, and I13 = I23 = 0 with I11 = I22 and b along e.
+        """
         b = self.body
         if b.I13 == b.I23 == b.b3 == 0.0:
             return "Kharlamova's integrable case"
@@ -138,13 +141,13 @@ class SuslovSection(PoincareSection):
         return ""
 
     def moved(self, name: str, value: float) -> SuslovSection:
-        """With another value of a constant."""
+        """Return the section with another value of one constant."""
         if name == "E":
             return replace(self, E=value)
         return replace(self, body=replace(self.body, **{name: value}))
 
     def states_at(self, psi: Array, delta: Array) -> tuple[Array, Mask]:
-        """The states (n, 5) at (ψ, δ) (n,), and whether motions are possible there (n,)."""
+        """Return the states (n, 5) at (ψ, δ) (n,), and the mask (n,) of the places with motion."""
         body, psi, delta = self.body, np.array(psi, float, ndmin=1), np.array(delta, float, ndmin=1)
         gamma = self._gamma(psi)
         side = _side(psi)
@@ -165,7 +168,7 @@ class SuslovSection(PoincareSection):
         return gamma
 
     def state_at(self, psi: float, delta: float) -> tuple[float, ...]:
-        """The state (5,) at (ψ, δ).  Raises `InvalidParameter` where the energy is impossible."""
+        """Return the state (5,) at (ψ, δ).  Raises `InvalidParameter` if the energy does not allow it."""
         states, ok = self.states_at(np.array([psi]), np.array([delta]))
         if not ok[0]:
             raise InvalidParameter(
@@ -175,16 +178,15 @@ class SuslovSection(PoincareSection):
         return tuple(map(float, states[0]))
 
     def invariant_density(self, psi: Array, delta: Array) -> Array:
-        """σ(ψ, δ) (n,): the return map keeps σ dψ dδ where I13 = I23 = 0; 0 where the energy is impossible.
+        """Return σ(ψ, δ) (n,), 0 where the energy is impossible: for I13 = I23 = 0 σ dψ dδ is conserved.
 
-        The flow keeps dω dγ.  With ω = |ω|u and K = I11u1² + I22u2² it is dE/K times the angle of u times dγ_k dψ, and
-        the flux through γ_k = 0 has the factor γ̇_k = |ω| c sin δ: σ = √(2(E − (b, γ))) c sin δ/K^(3/2), where c = 1 for
-        k = 3 and |sin ψ| for the others.
-        Raises `InvalidParameter`.
+        The flow conserves dω dγ.  With ω = |ω|u and K = I11u1² + I22u2² this is dE/K times the differential of the
+        angle of u times dγ_k dψ, and the flux through γ_k = 0 has the factor γ̇_k = |ω| c sin δ: σ = √(2(E − (b, γ))) c
+        sin δ/K^(3/2), where c = 1 for k = 3 and |sin ψ| for the others. Raises `InvalidParameter`.
         """
         body = self.body
         if body.I13 != 0.0 or body.I23 != 0.0:
-            raise InvalidParameter("The return map keeps an area by itself only with I13 = I23 = 0: set these to 0.")
+            raise InvalidParameter("The return map conserves an area only for I13 = I23 = 0: set these to 0.")
         states, ok = self.states_at(psi, delta)
         w1, w2 = states[:, 0], states[:, 1]
         speed = np.hypot(w1, w2)
@@ -193,7 +195,7 @@ class SuslovSection(PoincareSection):
         return np.where(ok, speed**2 * growth / twice, 0.0)
 
     def places_of(self, states: Array) -> Array:
-        """(ψ, δ) (n, 2) of states (n, 5) of the section."""
+        """Return (ψ, δ) (n, 2) of states (n, 5) of the section."""
         first, second = self._in_plane
         psi = np.arctan2(states[:, 2 + second], states[:, 2 + first])
         w1, w2 = states[:, 0], states[:, 1]
@@ -207,11 +209,11 @@ class SuslovSection(PoincareSection):
         return np.column_stack([psi, delta])
 
     def possible(self, psi: Array) -> Mask:
-        """Return where the energy allows γ at ψ (n,)."""
+        """Return the mask (n,) of the angles ψ that the energy allows."""
         return np.asarray(np.array(self.body.parameters[4:]) @ self._gamma(psi) < self.E)
 
     def _arcs(self, psi0: float, psi1: float) -> list[tuple[float, float]]:
-        """The intervals of ψ0 … ψ1 where (b, γ) < E, in order."""
+        """Return the intervals of ψ0 … ψ1 where (b, γ) < E, in order."""
         (first, second), size, turn = self._field, -self.lowest_energy, 2.0 * math.pi
         if size < self.E:
             return [(psi0, psi1)]
@@ -224,9 +226,9 @@ class SuslovSection(PoincareSection):
         return [arc for arc in arcs if arc[0] < arc[1]]
 
     def spread(self, window: Window, count: int) -> tuple[tuple[float, ...], ...]:
-        """At most `count` states, spread evenly over what is possible of the window.
+        """Return at most `count` states, spread evenly over the possible part of the window.
 
-        Fewer only where nothing is possible, or the possible part holds no double.
+        There are fewer only if nothing is possible, or if the possible part contains no double.
         """
         (psi0, delta0), (psi1, delta1) = window
         arcs = self._arcs(psi0, psi1)
@@ -250,7 +252,7 @@ class SuslovSection(PoincareSection):
         threads: int = THREADS,
         most_steps: int = MAX_STEPS,
     ) -> SectionPoints:
-        """The first `crossings` crossings by each orbit, forward or backward in time, as in `section_points`.
+        """Return the first `crossings` crossings of each orbit, forward or backward in time, as in `section_points`.
 
         Raises `InvalidParameter`, `WorkLimit`.
         """
@@ -261,16 +263,16 @@ class SuslovSection(PoincareSection):
         )
 
     def somewhere(self) -> tuple[float, ...] | None:
-        """A state of it; None where no motion crosses."""
+        """Return a state of the section; None if no motion crosses it."""
         return next(iter(self.spread(((-math.pi, 0.0), (math.pi, math.pi)), 1)), None)
 
     def impossible(self, window: Window) -> Array:
-        """Cells (1, n) over the window: 1 where the energy does not allow ψ."""
+        """Return cells (1, n) over the window: 1 where the energy does not allow ψ."""
         psi = np.linspace(window[0][0], window[1][0], _COLUMNS + 1)
         return frozen(1.0 - self.possible(0.5 * (psi[1:] + psi[:-1]))[None, :].astype(float))
 
     def cells_of_row(self, window: Window, cells: tuple[int, int], row: int) -> tuple[Array, Mask]:
-        """The states (m, 5) in the middles of the cells of a row, and whether motions are possible there (m,)."""
+        """Return the states (m, 5) at the centres of the cells of a row, and the mask (m,) of those with motion."""
         (x0, y0), (x1, y1) = window
         m, n = cells
         return self.states_at(centres(x0, x1, m), np.full(m, centres(y0, y1, n)[row]))
@@ -284,9 +286,10 @@ class SuslovSection(PoincareSection):
         most_steps: int = MAX_STEPS,
         level: Accuracy = DRAFT,
     ) -> Array:
-        """The mean of ω1 over the last third of the crossings of the orbits from the cells of a row.
+        """Return the mean of ω1 over the last third of the crossings of the orbits from the cells of a row.
 
-        cells : (m, n) across and up the window; of shape (m,), ∞ where there is no orbit.  Raises `WorkLimit`.
+        cells : (m, n) cells of the window.  The result has shape (m,), with ∞ where there is no orbit.  Raises
+        `WorkLimit`.
         """
         states, ok = self.cells_of_row(window, cells, row)
         out = np.full(cells[0], np.inf)
@@ -299,7 +302,7 @@ class SuslovSection(PoincareSection):
 
 
 def require_reached(section: SuslovSection) -> None:
-    """Raise `OutsideRegion` where no motion of this energy reaches the plane."""
+    """Raise `OutsideRegion` if no motion of this energy reaches the plane."""
     if section.lowest_energy >= section.E:
         raise OutsideRegion(
             f"No motion with E = {section.E:g} reaches γ{section.k} = 0: choose E above {section.lowest_energy:.6g}."
