@@ -15,7 +15,6 @@ import pytest
 
 from hess_explorer.assets import modules_path
 from hess_explorer.headless.browser import wait_ready
-from hess_explorer.headless.screenshot import server_process
 from hess_explorer.protocol.parameters import MAX_QUERY
 from support.page import (
     DEFAULTS,
@@ -26,11 +25,7 @@ from support.page import (
     SLIDERS,
     Explorer,
 )
-from support.serving import UNWARMED
 from support.suslov_hess import assert_defaults, assert_orbit
-
-# Each module of browser tests makes its own fixtures of these.
-
 
 # --- The ready flag ----------------------------------------------------------------------------------
 
@@ -413,35 +408,6 @@ def test_what_no_control_of_the_page_would_send_does_no_harm(explorer):
     assert explorer.here()[0] == 1e6
     explorer.change(lambda: explorer.slide(h=1.5))
     assert_orbit(explorer, {**DEFAULTS, "phi0": 1.0})
-
-
-def test_a_page_whose_server_has_ended_keeps_its_pictures_and_plays_on(browser, tmp_path):
-    context = browser.new_context(viewport={"width": 1600, "height": 950}, reduced_motion="reduce")
-    page = context.new_page()
-    closed = []
-    page.on("websocket", lambda socket: socket.on("close", lambda _: closed.append(socket)))
-    names = ("data-orbit", "circle-map", "bifurcation-here", "bifurcation-boundary")
-    with server_process(tmp_path / "server.log", UNWARMED) as (_, base):
-        explorer = Explorer(page, base).open("h=0.75")
-        before = {name: explorer.data(name) for name in names}
-        captions = [explorer.caption(name) for name in PICTURES]
-        explorer.wait_url(h="0.75")
-    while not closed:
-        page.wait_for_function("new Promise((done) => requestAnimationFrame(() => done(true)))")
-    assert {name: explorer.data(name) for name in names} == before
-    assert [explorer.caption(name) for name in PICTURES] == captions
-    page.locator(".param-play").click()
-    page.wait_for_function("hess.source('data-orbit') != null")
-    page.wait_for_function("document.querySelector('html').dataset.ready === 'true'")
-    playing_from = explorer.data("omega-point")
-    page.wait_for_function("x => hess.source('omega-point').data.x[0] !== x", arg=playing_from["x"][0])
-    explorer.sphere.press("ArrowLeft")
-    page.wait_for_function("location.search.includes('az=0.687')")
-    assert explorer.turn[0] == pytest.approx(0.6 + math.pi / 36, abs=1e-4)
-    # The page asks whether the server is back, and the browser itself reports that it is not.
-    explorer.errors[:] = [error for error in explorer.errors if "ERR_CONNECTION_REFUSED" not in error]
-    explorer.assert_quiet()
-    context.close()
 
 
 # --- What the page needs of Bokeh beyond its documentation ---------------------------------------------

@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 import math
 import re
+from contextlib import ExitStack, contextmanager
 from urllib.parse import parse_qs, urlencode, urlsplit
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from playwright.sync_api import expect
 
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import server_process
@@ -22,6 +22,7 @@ from support.page import (
     DEFAULTS,
     FIRST,
     HESS,
+    PICTURES,
     STUDY,
     brought,
     flat,
@@ -485,18 +486,6 @@ def test_an_example_and_reset_set_the_state_of_the_accuracy_scene(study):
     assert (study.accuracy, study.scene) == ("standard", STUDY)
 
 
-def test_the_copied_link_leads_into_the_accuracy_scene(study):
-    study.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
-    study.change(lambda: study.slide(h=0.75))
-    study.page.locator(".param-share").click()
-    study.page.locator(".param-link").click()
-    # It says so when it is copied.
-    expect(study.page.locator(".param-link")).not_to_have_text("Copy link")
-    study.page.keyboard.press("Escape")
-    copied = parse_qs(urlsplit(study.page.evaluate("navigator.clipboard.readText()")).query)
-    assert (copied["scene"], copied["h"]) == ([STUDY], ["0.75"])
-
-
 def test_the_caption_and_the_status_say_what_is_drawn(study):
     for name in ("draft", "reference", "standard"):
         if study.accuracy != name:
@@ -574,12 +563,18 @@ suslov_hess.track = refusing(suslov_hess.track, 4)
 SENTENCE = "That would take too many steps: choose a shorter time span."
 
 
-@pytest.fixture(scope="module")
-def refusing(browser, tmp_path_factory):
-    """A page whose server refuses time spans above 100: no admissible state is refused by the mechanics themselves."""
-    log = tmp_path_factory.mktemp("refusing") / "server.log"
-    with server_process(log, ("-c", REFUSING)) as (_, base):
-        yield from one_tab(browser, base)
+@pytest.fixture
+def refusing(browser, tmp_path):
+    """(explorer, end): a page whose server refuses time spans above 100, and a function that ends the server.
+
+    The mechanics themselves refuse no admissible state.
+    """
+    log = tmp_path / "server.log"
+    with (
+        ExitStack() as server,
+        contextmanager(one_tab)(browser, server.enter_context(server_process(log, ("-c", REFUSING)))[1]) as explorer,
+    ):
+        yield explorer, server.close
     assert "Traceback" not in log.read_text()
 
 
@@ -599,7 +594,10 @@ def assert_refused(explorer, scene):
     assert explorer.ready
 
 
-def test_what_cannot_be_computed_is_said_in_both_scenes_and_nothing_of_another_state_stays(refusing):
+def test_what_cannot_be_computed_is_said_in_both_scenes_and_a_page_whose_server_has_ended_plays_on(refusing):
+    refusing, end_server = refusing
+    page, closed = refusing.page, []
+    page.on("websocket", lambda socket: socket.on("close", lambda _: closed.append(socket)))
     refusing.open()
     refusing.set_time(10.0)
     refusing.change(lambda: refusing.slide(span=150.0))
@@ -617,6 +615,21 @@ def test_what_cannot_be_computed_is_said_in_both_scenes_and_nothing_of_another_s
     refusing.change(lambda: refusing.slide(span=50.0))
     assert_drawn(refusing, HESS, {**DEFAULTS, "span": 50.0})
     assert not refusing.text("status").startswith(SENTENCE)
+    # Without its server the page keeps its pictures, plays and turns.
+    names = ("data-orbit", "circle-map", "bifurcation-here", "bifurcation-boundary")
+    before = {name: refusing.data(name) for name in names}, [refusing.caption(name) for name in PICTURES]
+    end_server()
+    while not closed:
+        wait_frames(refusing, 1)
+    assert ({name: refusing.data(name) for name in names}, [refusing.caption(name) for name in PICTURES]) == before
+    assert refusing.ready
+    point = refusing.data("omega-point")["x"][0]
+    page.locator(".param-play").click()
+    page.wait_for_function("x => hess.source('omega-point').data.x[0] !== x", arg=point)
+    refusing.sphere.press("ArrowLeft")
+    assert_turned(refusing, HOME[0] + STEP, HOME[1])
+    # The browser itself reports that the server does not answer.
+    refusing.errors[:] = [error for error in refusing.errors if "ERR_CONNECTION_REFUSED" not in error]
     refusing.assert_quiet()
 
 

@@ -77,36 +77,32 @@ class Explorer:
         return self
 
     def fresh(self, scene=HESS):
-        """The first state of a scene, at t = 0, at rest, the sphere turned back: as if opened anew, but sooner."""
+        """Bring the page to the first state of a scene, at t = 0, at rest, the sphere turned back.
+
+        The result is that of `open`, in a tenth of the time.
+        """
         page = self.page
         # Whatever a test that failed still held.
         page.mouse.up()
         self.sent.clear()
         self.received.clear()
-        page.set_viewport_size({"width": WIDE[0], "height": WIDE[1]})
+        if page.viewport_size != {"width": WIDE[0], "height": WIDE[1]}:
+            page.set_viewport_size({"width": WIDE[0], "height": WIDE[1]})
         if not page.url.startswith(self.base) or not self.ready:
             return self.open(f"scene={scene}")
         if page.locator(".param-leave-lesson").is_visible():
             page.locator(".param-leave-lesson").click()
         self.turn_theme(is_dark=False)
-        if self.playing:
-            page.locator(".param-play").click()
         if page.evaluate("document.documentElement.dataset.scene") != scene:
             # Without the menu, which offers of the scenes that look into another one only that of the scene on show.
             self.change(lambda: page.evaluate("scene => hess.tell('scene', scene)", scene))
-        if page.locator(".param-speed").is_visible():
-            page.locator(".param-speed").select_option("1")
-        page.evaluate(HOMEWARDS)
-        for unfolded in page.locator(".unfold[aria-expanded=true]").all():
-            unfolded.click()
-        page.evaluate("document.activeElement?.blur()")
+        page.evaluate(AT_REST)
         # No picture is enlarged.
         page.keyboard.press("Escape")
-        self.change(page.locator(".param-reset").click)
+        self.change(lambda: page.evaluate("hess.tell('reset')"))
         self.set_time(0.0)
-        page.evaluate("document.activeElement?.blur()")
         page.mouse.move(5, 5)
-        return self.unfold_controls()
+        return self
 
     def fold_controls(self):
         """As they are at first."""
@@ -344,14 +340,31 @@ SLIDE = f"""pairs => {{
   }}
   return document.documentElement.dataset.ready
 }}"""
+ALL = """const all = (root) => [...root.querySelectorAll("*")].flatMap((item) =>
+  [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])"""
+"""Every element of the page, those in shadow roots too."""
 # Home, pressed on what is turned: a picture turns only while it is seen.
-HOMEWARDS = """() => {
-  const all = (root) => [...root.querySelectorAll("*")].flatMap((item) =>
-    [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
+HOMEWARDS = f"""() => {{
+  {ALL}
   for (const item of all(document).filter((one) => one.matches(".gallery:not(.away) :is(canvas.sphere, canvas.solid)")))
     if (item.checkVisibility())
-      item.dispatchEvent(new KeyboardEvent("keydown", { key: "Home", bubbles: true, composed: true }))
-}"""
+      item.dispatchEvent(new KeyboardEvent("keydown", {{ key: "Home", bubbles: true, composed: true }}))
+}}"""
+# Pause, speed 1, spheres turned back, extra pictures folded, groups of controls open, nothing in focus.
+AT_REST = f"""() => {{
+  ({HOMEWARDS})()
+  {ALL}
+  for (const item of all(document)) {{
+    if (item.matches(".player[role=group][data-playing=true]")) item.querySelector(".param-play").click()
+    if (item.matches(".param-speed") && item.value !== "1") {{
+      item.value = "1"
+      item.dispatchEvent(new Event("change", {{ bubbles: true }}))
+    }}
+    if (item.matches(".unfold[aria-expanded=true]") && item.checkVisibility()) item.click()
+    if (item.matches("details.group")) item.open = true
+  }}
+  document.activeElement?.blur()
+}}"""
 # What Panel keeps of the page, and the colour of the axes of each plot in sight.
 PANEL = """Bokeh.documents.flatMap((document) => document.roots())
   .find((top) => top.data?.attributes.dark_theme !== undefined).data"""
