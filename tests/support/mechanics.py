@@ -1,6 +1,9 @@
-"""What the tests of the mechanics share: the reference values, angles, an integrator of φ."""
+"""Shared by the tests of the mechanics: reference values, equilibria, angles, returns, runs without the JIT."""
 
 import json
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +13,14 @@ from hess_mechanics import turning_points
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = json.loads((Path(__file__).parent / "reference.json").read_text())
+EQUILIBRIA = {
+    "suslov": ((0.0, 0.0, 0.0, 0.0, 1.0), (2.0, 1.0, 0.3, 0.5, 0.0, 0.0, 1.0)),
+    "ball": ((0.0, 0.0, 0.0, 0.0, 1.0), (2.0, 1.0, 0.3, 0.5, 2.0, 0.0, 0.0, 1.0)),
+    "euler-poisson": ((0.0, 0.0, 0.0, 0.0, 0.0, 1.0), (1.0, 1.6, 2.5, 0.0, 0.0, 1.0, 1.0)),
+    "hess": ((0.0, 0.0, 0.0, 0.0, 1.0), (0.75, 1.0)),
+    "plane-potential": ((0.0, 0.0, 0.0, 0.0, 1.0), (1.2, 1.0, 1.0, 0.8, 1.0, 0.5)),
+}
+"""State and parameters of an equilibrium of each system."""
 
 
 def numbers(texts):
@@ -39,3 +50,17 @@ def lifted_return(a, h, f, phases):
     start = np.concatenate(([turning.roots[1], 0.0], phases))
     run = solve_ivp(rates, (0.0, turning.period), start, method="DOP853", rtol=1e-12, atol=1e-12)
     return run.y[2:, -1]
+
+
+def without_jit(code, *arguments):
+    """Return the JSON that Python code prints in a process where Numba compiles nothing."""
+    run = subprocess.run(
+        [sys.executable, "-W", "error", "-c", code, *arguments],
+        env={**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(ROOT / "models")},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    assert run.returncode == 0, run.stderr
+    return json.loads(run.stdout)

@@ -14,6 +14,7 @@ from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit
 from hess_mechanics.numerics.batch_kernels import LANES
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
+from support.mechanics import EQUILIBRIA
 
 SYSTEMS = systems()
 every_system = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
@@ -159,15 +160,6 @@ def test_the_drift_of_an_ensemble_is_the_largest_of_its_orbits(system, name):
         # The promise is for the components; the integrals' slopes are some of their parameters and variables.
         assert drift.max() <= 10 * level(name).promise
     assert set(result.drift) == set(system.integrals(*system.example))
-
-
-EQUILIBRIA = {
-    "suslov": ((0.0, 0.0, 0.0, 0.0, 1.0), (2.0, 1.0, 0.3, 0.5, 0.0, 0.0, 1.0)),
-    "ball": ((0.0, 0.0, 0.0, 0.0, 1.0), (2.0, 1.0, 0.3, 0.5, 2.0, 0.0, 0.0, 1.0)),
-    "euler-poisson": ((0.0, 0.0, 0.0, 0.0, 0.0, 1.0), (1.0, 1.6, 2.5, 0.0, 0.0, 1.0, 1.0)),
-    "hess": ((0.0, 0.0, 0.0, 0.0, -1.0), (0.75, 1.0)),
-    "plane-potential": ((0.0, 0.0, 0.0, 0.0, 1.0), (1.2, 1.0, 1.0, 0.8, 1.0, 0.5)),
-}
 
 
 @every_system

@@ -109,17 +109,6 @@ def test_close_to_the_separatrix_the_samples_lie_where_the_orbit_bends_too(h, f,
     assert error < SAGITTA * ALMOST
 
 
-@pytest.mark.parametrize("a", [10.0, 30.0, 100.0])
-def test_with_a_large_a_the_samples_are_close_enough_too(a):
-    errors = [
-        error_of_track(HessBody(1.0, a, -1.0), h, f, phi0, 40.0)
-        for h, f in ((1.5, 0.6), (0.2, 0.5), (3.0, -1.0))
-        for phi0 in (-2.0, 0.5)
-    ]
-    assert max(samples for _, samples in errors) < MOST
-    assert max(error for error, _ in errors) < SAGITTA * ALMOST
-
-
 @settings(max_examples=examples(6))
 @given(bodies(1.0), st.floats(1.05, 4.0), st.floats(0.0, 0.5))
 def test_limit_cycles_are_their_polylines_too(body, h, share):

@@ -14,6 +14,7 @@ from scipy.optimize import brentq
 from hess_mechanics import LEVELS, Level, Plane, Status, level, section, sections, solve, systems
 from hess_mechanics.dynamics.section import MAX_CROSSINGS
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
+from support.mechanics import EQUILIBRIA
 from support.thorough import sample
 
 SYSTEMS = systems()
@@ -22,14 +23,6 @@ every_level = pytest.mark.parametrize("name", LEVELS)
 
 # Without a field and without coupling ω stays as it is and γ turns about it.
 FREE = {"suslov": (2.0, 1.0, *[0.0] * 5), "ball": (2.0, 1.0, *[0.0] * 6), "hess": (0.0, 0.0)}
-# States that stay for ever.
-EQUILIBRIA = {
-    "suslov": ((0.0, 0.0, 0.0, 0.0, 1.0), (2.0, 1.0, 0.3, 0.5, 0.0, 0.0, 1.0)),
-    "ball": ((0.0, 0.0, 0.0, 0.0, 1.0), (2.0, 1.0, 0.3, 0.5, 2.0, 0.0, 0.0, 1.0)),
-    "euler-poisson": ((0.0, 0.0, 0.0, 0.0, 0.0, 1.0), (1.0, 1.6, 2.5, 0.0, 0.0, 1.0, 1.0)),
-    "hess": ((0.0, 0.0, 0.0, 0.0, 1.0), (0.75, 1.0)),
-    "plane-potential": ((0.0, 0.0, 0.0, 0.0, 1.0), (1.2, 1.0, 1.0, 0.8, 1.0, 0.5)),
-}
 # Motions that stay in the plane where the first component is 0.
 PENDULA = {
     "suslov": ((0.0, 0.5, 0.6, 0.0, 0.8), (2.0, 1.0, 0.3, 0.0, 0.0, 0.0, 1.0)),

@@ -1,9 +1,6 @@
 """Conformance: what holds for every registered system, and the symmetries each one has."""
 
-import json
-import os
 import re
-import subprocess
 import sys
 from dataclasses import replace
 
@@ -21,7 +18,7 @@ from hess_mechanics.dynamics.system import in_units_of_time
 from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit, WrongScaling
 from hess_mechanics.numerics.accuracy import LEVELS, Level, Status
 from hess_mechanics.numerics.taylor_kernels import columns_of, compensated, workspace
-from support.mechanics import ROOT
+from support.mechanics import ROOT, without_jit
 from support.thorough import examples
 
 SYSTEMS = systems()
@@ -167,18 +164,7 @@ json.dump(results, sys.stdout)
 
 
 def test_kernels_without_the_jit_equal_the_compiled_ones_to_round_off():
-    environment = {**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(ROOT)}
-    run = subprocess.run(
-        [sys.executable, "-W", "error", "-c", WITHOUT_JIT],
-        cwd=ROOT,
-        env=environment,
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
-    assert run.returncode == 0, run.stderr
-    plain = {key: [float.fromhex(x) for x in values] for key, values in json.loads(run.stdout).items()}
+    plain = {key: [float.fromhex(x) for x in values] for key, values in without_jit(WITHOUT_JIT).items()}
     # The same statements in this process, compiled: only the check that the JIT is off must go.
     statements = re.sub(r"    assert not hasattr.*\n", "", WITHOUT_JIT)
     captured = {}

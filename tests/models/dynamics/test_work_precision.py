@@ -262,14 +262,6 @@ def test_the_methods_of_scipy_are_left_out_where_the_motion_needs_many_steps():
         assert others_take_long(*asked(motion)[:3], span) == (count > 1500)
 
 
-def test_over_the_longest_span_that_is_measured_scipy_takes_less_than_a_few_seconds():
-    motion = HESS.of(HESS.defaults()).motion()
-    span = 150.0 / unit_of(motion)
-    before = time.process_time()
-    measure_others(*asked(motion)[:3], span, 400)
-    assert time.process_time() - before < 5.0
-
-
 def test_a_method_of_scipy_asks_in_mid_run_whether_to_go_on():
     motion = HESS.of({**HESS.defaults(), "span": 40.0}).motion()
     asks = []

@@ -165,14 +165,6 @@ def test_goryachev_and_chaplygin_keep_theirs_at_f_0():
             assert np.ptp(integral) < 1e-11 if kept else np.ptp(integral) > 1e-2
 
 
-def test_hess_orbits_stay_on_their_manifold_for_a_while():
-    """The rate at which an error grows across it is log(multiplier) = 3.09 for each period of n3."""
-    gamma = np.array([0.3, 0.4, 0.866])
-    M = np.array([0.8 * 2.0, -3.0, -0.6 * 2.0])
-    states = solve(GESS1, [*M, *gamma / np.linalg.norm(gamma)], np.linspace(0.0, 3.0, 50), level("reference")).states
-    assert np.max(np.abs(0.6 * states[:, 0] + 0.8 * states[:, 2])) < 1e-10
-
-
 # ---- Refusals ---------------------------------------------------------------------------------------------------
 
 

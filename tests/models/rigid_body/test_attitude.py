@@ -7,17 +7,12 @@ from __future__ import annotations
 
 import json
 import math
-import os
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-import hess_mechanics
 from hess_mechanics import level, solve
 from hess_mechanics.chaplygin_ball import equations as chaplygin_ball
 from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, OutsideRegion
@@ -31,6 +26,7 @@ from hess_mechanics.suslov import equations as suslov
 from hess_mechanics.suslov_hess import equations as hess
 from hess_mechanics.suslov_hess.equations import WITH_ATTITUDE, HessBody
 from oracle import uncompiled
+from support.mechanics import without_jit
 
 WEIGHTS = (0.0, 0.0, *(300.0,) * 6)
 START = np.array([0.3, 0.9, 0.6, 0.0, 0.8])
@@ -161,18 +157,8 @@ print(json.dumps(ensemble(WITH_ATTITUDE.at(parameters), starts, times, level("pr
 def test_attitudes_of_many_are_those_of_each():
     starts = [[*start, *across(start[2:])] for start in (START, -START, START[[1, 0, 4, 3, 2]])]
     # Nothing else needs this kernel: it is not compiled, which would take ten seconds.
-    environment = {**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(Path(hess_mechanics.__file__).parents[1])}
-    asked = json.dumps([np.array(starts).tolist(), P, [1.0, 5.0]])
-    run = subprocess.run(
-        [sys.executable, "-W", "error", "-c", MANY, asked],
-        env=environment,
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
-    assert run.returncode == 0, run.stderr
-    for start, states in zip(starts, json.loads(run.stdout), strict=True):
+    found = without_jit(MANY, json.dumps([np.array(starts).tolist(), P, [1.0, 5.0]]))
+    for start, states in zip(starts, found, strict=True):
         exact = solve(WITH_ATTITUDE.at(P), start, [1.0, 5.0], level("precise")).states
         assert np.array(states) == pytest.approx(exact, abs=1e-9)
 

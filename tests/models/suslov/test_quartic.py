@@ -23,7 +23,6 @@ from hess_mechanics.suslov.quartic import (
     state_on_section,
     visited,
 )
-from support.mechanics import REFERENCE, numbers
 
 SUSLOV = systems()["suslov"]
 FLOOR = level("reference")
@@ -109,16 +108,6 @@ def test_an_orbit_of_the_body_is_one_of_the_point(body):
     extrapolated = found[1] + (found[1] - found[0]) / 3.0
     states = solve(body, y, [span], FLOOR).states
     assert body.to_plane(states)[0][0] == pytest.approx(extrapolated, abs=1e-9)
-
-
-def test_the_level_stays_a_half_along_the_reference_orbit():
-    row = next(row for row in REFERENCE["trajectories"] if row["name"] == "suslov principal axis, b1=b2=0")
-    I11, I22, _, _ = numbers(row["params"]["I"])
-    y0 = numbers(row["y0"])
-    body = QuarticBody(I11, I22, 1.0, float(energy(QuarticBody(I11, I22, 1.0, 0.0), y0)))
-    states = np.array([numbers(state["y"]) for state in row["states"]])
-    q, p = body.to_plane(states)
-    assert np.sum(p * p, axis=1) + body.height(q) ** 2 == pytest.approx(np.ones(len(states)), abs=1e-14)
 
 
 def test_the_angular_momentum_is_an_integral_for_equal_moments_only():

@@ -161,16 +161,6 @@ def test_what_is_proved_of_cells_holds_for_tori_in_them(zones):
         assert [count / 200 for count in seen.values()] == pytest.approx(shares, abs=0.13)
 
 
-def test_what_is_proved_of_cells_holds_to_forty_digits(zones):
-    rng = random.Random(3)
-    zone = zones["0.5"]
-    chosen = [torus for torus in tori(rng, 1.5, 60) if statement_at(zone, *torus) in ("two cycles", "no cycle")][:12]
-    maps = oracle.circle_maps.maps_by_three_orbits([("0.5", repr(h), repr(f)) for h, f in chosen], 40)
-    assert len({statement_at(zone, *torus) for torus in chosen}) == 2
-    for torus, held in zip(chosen, maps, strict=True):
-        assert (abs(2 * mpmath.re(held.A)) > 2) == (statement_at(zone, *torus) == "two cycles"), torus
-
-
 def test_the_boundary_lies_in_undecided_cells_only(zones):
     for a, zone in zones.items():
         points = [(h, f) for h, f in lock_boundary(float(a), REFERENCE)[1:-1] if h < zone.h_end and f > 0.01]
