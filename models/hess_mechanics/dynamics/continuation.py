@@ -1,12 +1,12 @@
-"""Periodic orbits continued in a parameter by pseudo-arclength, through folds, with the bifurcations on the way.
+"""Pseudo-arclength continuation of periodic orbits in a parameter, through folds, with detection of bifurcations.
 
-A branch is a curve of z = (x_0, …, x_(m−1), λ) with F = P_λ(x_i) − x_(i+1) = 0.  From a point of it one goes ahead
-along the tangent t, and Newton's method comes back to the curve in the plane across t (Keller 1977).  Between two
-points of a branch these change sign, and the place where they do is found:
+A branch is a curve of z = (x_0, …, x_(m−1), λ) with F = P_λ(x_i) − x_(i+1) = 0.  A step goes along the tangent t, and
+Newton's method returns to the curve in the plane across t (Keller 1977).  Between two points of a branch the following
+functions may change sign; the zero is then located:
 
-    fold                 t_λ, the branch turns back;
-    branch point         det (F_x F_λ; tᵀ), another branch crosses; a pitchfork where that breaks a symmetry;
-    flip                 det (M + 1), a multiplier −1: an orbit of twice the period is born;
+    fold                 t_λ: the branch turns back;
+    branch point         det (F_x F_λ; tᵀ): another branch crosses; a pitchfork if it breaks a symmetry;
+    flip                 det (M + 1): a multiplier −1, an orbit of twice the period is born;
     Neimark–Sacker       det M − 1 with a pair of complex multipliers: an invariant curve is born.
 """
 
@@ -41,28 +41,40 @@ __all__ = ["Bifurcation", "Branch", "MapFamily", "Symmetric", "continued", "gone
 _FIRST, _LONGEST, _SHORTEST = 0.01, 0.1, 1e-7
 """Steps along the branch, in units of the coordinates and of the width of the parameter's range."""
 _TURN = 0.3
-"""Radians by which the tangent may turn in one step."""
+"""Largest turn of the tangent in one step, in radians."""
 _CONSERVATIVE = 1e-6
-"""Where |det M − 1| is below this at both ends of a step, the map keeps an area, and no curve is born."""
+"""If |det M − 1| is below this at both ends of a step, the map preserves area, and no curve is born."""
 
 _SINGULAR = (NotConverged, ModelError, np.linalg.LinAlgError)
-"""What is raised where two branches cross."""
+"""Errors raised where two branches cross."""
 _SHARES, _HALVINGS = (0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95), 24
-"""Of a bracket, where it is divided, the first that can be; and how often."""
+"""Fractions at which a bracket may be divided, tried in this order; and the largest number of divisions."""
 
 MapFamily = Callable[[float], Map]
-"""λ → the map.  Raises a `ModelError` where there is none."""
+"""Function from λ to the map.  Raises a `ModelError` if there is none."""
 
 Symmetric = Callable[[Map, Array], Sequence[str]]
-"""(map, places (m, d)) → the names of the symmetries under which an orbit is its own image."""
+"""Function of the map and the points (m, d) of an orbit that returns the names of the orbit's symmetries."""
 
 
 @dataclass(frozen=True)
 class Bifurcation:
     """A point of a branch where orbits are born, merge or change their type.
 
-    kind : "fold", "flip", "Neimark–Sacker", "pitchfork", "branch point"; value : of the parameter, with its error;
-    places : (m, d); multipliers : (d,); after : the number of the point of the branch before it.
+    Attributes
+    ----------
+    kind : str
+        "fold", "flip", "Neimark–Sacker", "pitchfork" or "branch point".
+    value : float
+        Value of the parameter.
+    error : float
+        Estimated error of the value.
+    places : ndarray, shape (m, d)
+        Points of the orbit.
+    multipliers : ndarray of complex, shape (d,)
+        Multipliers of the orbit.
+    after : int
+        Index of the point of the branch before the bifurcation.
     """
 
     kind: str
@@ -77,10 +89,30 @@ class Bifurcation:
 class Branch(Result):
     """A branch of periodic orbits over a parameter.
 
-    values : (n,); places : (n, m, d); multipliers : (n, d); kinds : n words, as of a `PeriodicOrbit`; errors : (n,),
-    of the places; ended : why the branch ends.
-    heading : the direction in which it goes on from the last point, and the length of the next step; None where it
-    does not.
+    Attributes
+    ----------
+    parameter : str
+        Name of the parameter.
+    names : tuple of str
+        Names of the coordinates.
+    values : ndarray, shape (n,)
+        Values of the parameter.
+    places : ndarray, shape (n, m, d)
+        Points of each orbit.
+    multipliers : ndarray of complex, shape (n, d)
+        Multipliers of each orbit.
+    kinds : tuple of str
+        Type of each orbit, see `PeriodicOrbit`.
+    errors : ndarray, shape (n,)
+        Estimated errors of the points.
+    bifurcations : tuple of Bifurcation
+        Bifurcations along the branch.
+    ended : str
+        Reason why the branch ends.
+    level : str
+        Name of the accuracy level.
+    heading : (ndarray, float) or None
+        Tangent at the last point and length of the next step; None if the branch cannot be continued.
     """
 
     parameter: str
@@ -97,16 +129,22 @@ class Branch(Result):
 
     @property
     def period(self) -> int:
-        """Of all its orbits."""
+        """Period of all orbits."""
         return int(self.places.shape[1])
 
     @property
     def error_estimate(self) -> float:
-        """The largest error of a place."""
+        """Largest estimated error of a point."""
         return float(self.errors.max())
 
     def labels(self) -> Labels:
-        """The first place, the multipliers and the type over the points of the branch."""
+        """Return the first point, the multipliers and the type of each orbit, labelled with the parameter.
+
+        Returns
+        -------
+        Labels
+            The arrays over the points of the branch.
+        """
         along = ("point",)
         parts = {
             f"{part}{i + 1}": (along, getattr(self.multipliers[:, i], part).copy())
@@ -136,7 +174,7 @@ class Branch(Result):
 
 @dataclass(frozen=True)
 class _Point:
-    """A point of the branch: z, the map there and what Newton's method knows of it."""
+    """A point z of the branch, with the map and Newton's equations there."""
 
     z: Array
     shot: Shot
@@ -145,18 +183,18 @@ class _Point:
 
     @cached_property
     def bordered(self) -> Array:
-        """(F_x F_λ), (m d, m d + 1)."""
+        """The matrix (F_x F_λ), shape (m d, m d + 1)."""
         return np.hstack([self.shot.jacobian, self.by_parameter[:, None]])
 
     def tangent(self, like: Array) -> Array:
-        """The direction of the branch (m d + 1,), forwards as `like` is."""
+        """Return the unit tangent (m d + 1,) of the branch, oriented like `like`."""
         t = np.linalg.svd(self.bordered)[2][-1]
         return np.asarray(t if t @ like >= 0.0 else -t)
 
 
 @dataclass(frozen=True)
 class _Track:
-    """The constants of a branch: z holds the places (m, d) over √m, and λ over the width of its range."""
+    """The constants of a branch; z holds the points (m, d) divided by √m, and λ divided by the width of its range."""
 
     family: MapFamily
     parameter: str
@@ -173,7 +211,7 @@ class _Track:
 
     @property
     def root(self) -> float:
-        """√m."""
+        """Scale √m of the points."""
         return math.sqrt(self.shape[0])
 
     def at(self, value: float) -> Map:
@@ -190,15 +228,15 @@ class _Track:
         return np.append(places.ravel() / self.root, value / self.width)
 
     def point(self, z: Array, iterations: int = 0, better: bool = False) -> _Point:
-        """F and its derivatives at z.  Raises as the family."""
+        """Return F and its derivatives at z.  Raises as the family."""
         places, value = self.split(z)
         map_ = self.at(value).tightened() if better else self.at(value)
         shot = shoot(map_, places)
-        # Only Newton's steps and the tangent use this: its own error moves no orbit.
+        # Only Newton's steps and the tangent use this derivative; its error does not move the orbit.
         h = 1e-5 * self.width
         sides = [np.array([self.at(value + sign * h).image(place) for place in places]) for sign in (1.0, -1.0)]
         by_value = apart(map_.turns, *sides) / (2.0 * h)
-        # The equations are divided by √m as the places are.
+        # The equations are divided by √m, like the points.
         return _Point(z, shot, by_value.ravel() * self.width / self.root, iterations)
 
     def _step(self, point: _Point, across: Array, left: float) -> Array:
@@ -206,7 +244,7 @@ class _Track:
         return np.linalg.solve(matrix, -np.append(point.shot.left.ravel() / self.root, left))
 
     def corrected(self, guess: Array, across: Array) -> _Point:
-        """The point of the branch in the plane through `guess` across a direction.  Raises `NotConverged`."""
+        """Return the point of the branch in the plane through `guess` across a direction.  Raises `NotConverged`."""
         z, before = guess, math.inf
         for iteration in range(1, 13):
             go_on()
@@ -225,7 +263,7 @@ class _Track:
         raise NotConverged("Newton's method does not come back to the branch.")
 
     def beside(self, guess: Array, across: Array, t: Array) -> tuple[_Point, Array]:
-        """`corrected`, and the tangent there, which is close to t.  Raises `NotConverged`."""
+        """Return the `corrected` point and its tangent, which must be close to t.  Raises `NotConverged`."""
         point = self.corrected(guess, across)
         turned = point.tangent(t)
         if math.acos(min(1.0, float(turned @ t))) > _TURN:
@@ -233,13 +271,13 @@ class _Track:
         return point, turned
 
     def error(self, point: _Point, across: Array) -> float:
-        """Of the places and λ over its width, as a more accurate map has it."""
+        """Return the error of the points and of the scaled λ, by a more accurate map."""
         better = self.point(point.z, better=True)
         return SAFETY * self.root * float(np.abs(self._step(better, across, 0.0)).max()) + 1e-15
 
 
 def _signs(point: _Point, t: Array) -> dict[str, float]:
-    """What changes sign at a bifurcation, by its kind."""
+    """Return the functions that change sign at a bifurcation, by its kind."""
     values, trace, determinant = multipliers_of(point.shot.derivatives)
     found = {"fold": float(t[-1]), "branch point": float(np.linalg.det(np.vstack([point.bordered, t])))}
     if values.size == 1:
@@ -268,12 +306,42 @@ def continued(
     edge: float | None = None,
     longest: float = _LONGEST,
 ) -> Branch:
-    """The branch of an orbit of the map at λ = `start`, towards λ = `end`.
+    """Return the branch of an orbit of the map at λ = `start`, towards λ = `end`.
 
-    It ends where it leaves the range, or after so many points, or where the map ends.
-    edge : the other end of the range, beyond the start; `start` where none is given.
-    longest : of the steps along the branch, in units of the coordinates and of the width of the range.
-    Raises `InvalidParameter`, `WorkLimit`, `NotConverged`.
+    It ends where it leaves the range, after `points` points, or where the map ends.
+
+    Parameters
+    ----------
+    family : callable
+        Function from λ to the map.
+    orbit : PeriodicOrbit
+        A periodic orbit at λ = `start`.
+    parameter : str
+        Name of λ.
+    start, end : float
+        Values of λ at the start and at the end of the range.
+    points : int, default 200
+        Largest number of points.
+    symmetries : callable, optional
+        Function that returns the symmetries of an orbit.
+    edge : float, optional
+        Other end of the range, beyond `start`.  By default `start`.
+    longest : float, optional
+        Longest step along the branch, in units of the coordinates and of the width of the range.
+
+    Returns
+    -------
+    Branch
+        The branch.
+
+    Raises
+    ------
+    InvalidParameter
+        If the range is empty or not finite.
+    WorkLimit
+        If the map needs too many steps.
+    NotConverged
+        If the branch cannot be started.
     """
     edge = start if edge is None else edge
     if not (all(map(math.isfinite, (start, end, edge))) and min(edge, end) <= start <= max(edge, end) and start != end):
@@ -286,8 +354,8 @@ def continued(
         point = track.corrected(z, along)
     except NotConverged as error:
         raise NotConverged(
-            f"The branch cannot be begun at {parameter} = {start:g}: the orbit is at a bifurcation, or "
-            "one of a family at this parameter. Begin a little aside."
+            f"The branch cannot start at {parameter} = {start:g}: the orbit is at a bifurcation, or belongs to a "
+            "family at this parameter. Start at a slightly different value."
         ) from error
     return _followed(track, point, point.tangent(along), points, min(_FIRST, longest), longest)
 
@@ -301,13 +369,12 @@ def gone_on(
     symmetries: Symmetric | None = None,
     longest: float = _LONGEST,
 ) -> Branch:
-    """What follows a branch that has a `heading`, between the same ends of the range; its first point is the last one
-    of that.
+    """Return the continuation of a branch that has a `heading`, between the same ends of the range.
 
-    Raises as `continued`.
+    Its first point is the last one of `branch`.  Raises as `continued`.
     """
     if branch.heading is None:
-        raise InvalidParameter(f"This branch does not go on: {branch.ended}")
+        raise InvalidParameter(f"This branch cannot be continued: {branch.ended}")
     shape = branch.places.shape[1:]
     track = _Track(family, branch.parameter, branch.names, branch.level, (edge, end), shape, symmetries)
     along, step = branch.heading
@@ -316,7 +383,7 @@ def gone_on(
 
 
 def _followed(track: _Track, point: _Point, t: Array, points: int, step: float, longest: float) -> Branch:
-    """The branch from a point of it along t, with a first and a longest step."""
+    """Return the branch from a point along t, with a first and a longest step."""
     found = [point]
     errors = [track.error(point, t)]
     bifurcations: list[Bifurcation] = []
@@ -366,14 +433,14 @@ def _followed(track: _Track, point: _Point, t: Array, points: int, step: float, 
 
 
 def _to_edge(z: float, rate: float, low: float, high: float) -> float:
-    """How far it is along the tangent to the end of the range; 0 beyond it, ∞ along a line of the same parameter."""
+    """Return the distance along the tangent to the end of the range: 0 beyond it, ∞ if the parameter is constant."""
     if abs(rate) < 1e-12:
         return math.inf
     return max(0.0, (high - z) / rate if rate > 0.0 else (low - z) / rate)
 
 
 def _told_apart(found: Sequence[Bifurcation]) -> list[Bifurcation]:
-    """Without the fold where two branches cross at one: seen from the branch that is born in a pitchfork, it turns."""
+    """Return the bifurcations without the spurious fold at a pitchfork, where the newborn branch turns."""
     crossings = [one for one in found if one.kind in ("branch point", "pitchfork")]
     return [
         one
@@ -383,10 +450,10 @@ def _told_apart(found: Sequence[Bifurcation]) -> list[Bifurcation]:
 
 
 def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, after: int) -> Bifurcation:
-    """Where on the branch a sign changes: regula falsi (Illinois) in the distance along the tangent."""
+    """Return the bifurcation at a change of sign: regula falsi (Illinois) in the distance along the tangent."""
 
     def at(s: float) -> tuple[_Point, float]:
-        # A point whose tangent is another one belongs to a branch that crosses here.
+        # A point with a different tangent belongs to a branch that crosses here.
         point, turned = track.beside(last.z + s * t, t, t)
         return point, _signs(point, turned)[kind]
 
@@ -398,7 +465,7 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
     try:
         point, f_high = at(high)
         if f_low * f_high > 0.0:
-            # The last point of a branch was corrected in another plane.
+            # The last point of a branch was corrected in a different plane.
             high *= 1.5
             point, f_high = at(high)
         for _ in range(60):
@@ -413,14 +480,14 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
             else:
                 low, f_low = s, f
                 f_high, side = (0.5 * f_high if side < 0 else f_high), -1
-        # A better map's own zero lies where its sign function, here off by Δf, is brought back along the branch.
+        # The zero of a better map lies where its sign function, here off by Δf, vanishes along the branch.
         across = point.tangent(t)
         better = track.point(point.z + track._step(track.point(point.z, better=True), t, 0.0), better=True)
         along = abs((_signs(better, better.tangent(t))[kind] - f) * (high - low) / (f_high - f_low))
         moved = abs(better.z[-1] - point.z[-1]) + along * abs(across[-1]) + 0.5 * along * along
         off = 1.25 * float(moved) + abs(values[-1] - values[-2])
     except _SINGULAR:
-        # Where branches cross, the equations are singular: what is known is how close to it on both sides they are not.
+        # At a crossing of branches the equations are singular; the zero is bracketed by regular points.
         off, point = _closed_in(track, at, (low, high), point, t)
     places, value = track.split(point.z)
     if kind == "branch point" and track.symmetries is not None:
@@ -438,10 +505,10 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
 def _closed_in(
     track: _Track, at: Callable[[float], tuple[_Point, float]], bracket: tuple[float, float], point: _Point, t: Array
 ) -> tuple[float, _Point]:
-    """How far off λ over its width is at a zero next to which the equations are singular, and the branch there.
+    """Return the error of the scaled λ at a zero next to which the equations are singular, and the point there.
 
-    From a narrower bracket, within which λ changes no faster than at its ends; the zero by the secant.
-    at : the point and the sign at a distance along t; point : what is known of the branch there.
+    The bracket is narrowed; within it λ changes no faster than at its ends, and the secant gives the zero.  `at`
+    returns the point and the sign at a distance along t; `point` is the present estimate.
     """
     low, high = bracket
     rate = 1.0
@@ -459,14 +526,14 @@ def _closed_in(
         if f_before * f_after < 0.0:
             point = track.point(before.z + (after.z - before.z) * f_before / (f_before - f_after))
             rate = 1.25 * max(abs(float(one.tangent(t)[-1])) for one in (before, after))
-    # Of the map itself nothing more is known than its promise.
+    # The error of the map itself is only known by its promise.
     return rate * (high - low) + track.at(track.split(point.z)[1]).promise, point
 
 
 def _first_of(
     at: Callable[[float], tuple[_Point, float]], distances: Sequence[float]
 ) -> tuple[float, _Point, float] | None:
-    """The first of some distances at which the equations are not singular."""
+    """Return the first of some distances at which the equations are regular, with point and sign."""
     for s in distances:
         with suppress(*_SINGULAR):
             return s, *at(s)
@@ -474,7 +541,7 @@ def _first_of(
 
 
 def _pitchfork(map_: Map, places: Array, point: _Point, symmetries: Symmetric) -> str:
-    """ "pitchfork" where the orbit is symmetric and those of the other branch are not."""
+    """Return "pitchfork" if the orbit is symmetric and those of the other branch are not, else "branch point"."""
     own = set(symmetries(map_, places))
     if not own:
         return "branch point"

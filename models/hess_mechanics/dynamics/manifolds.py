@@ -1,15 +1,14 @@
-"""Stable and unstable manifolds of saddles of a plane map, as dense as their curvature asks, and where they cross.
+"""Stable and unstable manifolds of saddles of a plane map, with adaptive density, and their intersections.
 
-Let F be the map after the period m of the saddle (after 2m where its multiplier λ is negative), v its unstable
-direction.  The manifold begins as x_0 + σ δ v + σ² q, which F takes to σ → λσ to second order where
-(λ² − DF) q = ½ D²F(δv, δv).  With δ so small that the third order is lost in round-off, the point of parameter
-τ = k + s, 0 ≤ s < 1, is
+Let F be the map after the period m of the saddle (after 2m if its multiplier λ is negative) and v its unstable
+direction.  The manifold starts as x_0 + σ δ v + σ² q, which F maps by σ → λσ to second order if (λ² − DF) q = ½ D²F(δv,
+δv).  With δ so small that the third order is below round-off, the point with parameter τ = k + s, 0 ≤ s < 1, is
 
     W(τ) = F^k(x_0 + λ^s δ v + λ^2s q),
 
-a smooth curve with W(τ + 1) = F(W(τ)).  A piece of it whose middle lies too far from its chord, or whose chord is too
-long, is halved (Hobson 1993, with the sagitta itself in place of an angle).  What is left of the error of the first
-piece across the curve shrinks from each return to the next.  Stable manifolds are the unstable ones of P⁻¹.
+a smooth curve with W(τ + 1) = F(W(τ)).  A piece is halved if its middle is too far from its chord, or its chord is too
+long (Hobson 1993, with the sagitta in place of an angle).  The error of the first piece across the curve shrinks with
+each return.  Stable manifolds are the unstable manifolds of P⁻¹.
 """
 
 from __future__ import annotations
@@ -32,26 +31,51 @@ __all__ = ["MAX_RETURNS", "Intersection", "Manifold", "crossings_of", "grown", "
 
 MAX_RETURNS = 2_000_000
 _FIRST = 4
-"""Pieces into which one return of the curve is cut at first."""
+"""Initial number of pieces per return of the curve."""
 _CURVED = 1e-3
-"""How far from the saddle its curvature is measured: third orders and round-off cancel to a millionth."""
+"""Distance from the saddle at which the curvature is measured; third orders and round-off are a millionth there."""
 _SIZES = tuple(0.05 * 0.5**k for k in range(16))
-"""Lengths δ of the beginning of a manifold that are tried."""
+"""Lengths δ of the first piece that are tried."""
 _STANDS = 1e-3
-"""A curve that grows by less than this share of the sagitta in a whole return has come to another saddle."""
+"""A curve that grows by less than this fraction of the sagitta in a return has reached another saddle."""
 _CHECKED = 6
-"""Points that a more accurate map computes again."""
+"""Points that a more accurate map recomputes."""
 _FEET = 8
-"""Steps to the foot of a perpendicular."""
+"""Iterations for the foot of a perpendicular."""
 
 
 @dataclass(frozen=True)
 class Manifold(Result):
-    """One branch of a manifold of a saddle, from the saddle on.
+    """One branch of the stable or unstable manifold of a saddle.
 
-    stable : else unstable; side : ±1, along or against the direction; multiplier : of F, on the manifold more than 1.
-    points : (n, 2), angles continued without jumps; parameters : (n,), τ; lengths : (n,), along the curve.
-    error_estimate : of the points, across the curve; ended : why it ends.
+    Attributes
+    ----------
+    names : tuple of str
+        Names of the coordinates.
+    turns : tuple of float
+        Period of each coordinate, ∞ if it is not an angle.
+    stable : bool
+        True for the stable manifold.
+    side : int
+        1 along the direction of the saddle, −1 against it.
+    multiplier : float
+        Multiplier of F, on the manifold greater than 1.
+    points : ndarray, shape (n, 2)
+        Polyline along the branch; angles continue without jumps.
+    parameters : ndarray, shape (n,)
+        Parameter τ of each point.
+    lengths : ndarray, shape (n,)
+        Length along the curve.
+    sagitta : float
+        Largest distance between the curve and the polyline.
+    error_estimate : float
+        Estimated error of the points across the curve.
+    ended : str
+        Reason why the branch ends.
+    level : str
+        Name of the accuracy level.
+    at : callable
+        Function from τ to the point (2,), with angles in any turn.  Raises as the map.
     """
 
     names: tuple[str, ...]
@@ -67,20 +91,25 @@ class Manifold(Result):
     ended: str
     level: str
     at: Callable[[float], Array]
-    """τ → the point (2,), its angles in any turn.  Raises as the map."""
 
     @property
     def length(self) -> float:
-        """Along the curve."""
+        """Length of the branch."""
         return float(self.lengths[-1])
 
     @property
     def status(self) -> Status:
-        """OK where the points are exact to the sagitta, which is as exact as the polyline can be."""
+        """OK if the error of the points is at most the sagitta."""
         return Status.OK if self.error_estimate <= self.sagitta else Status.PROMISE_NOT_MET
 
     def labels(self) -> Labels:
-        """The points over the length along the curve."""
+        """Return the points, labelled with the length along the curve.
+
+        Returns
+        -------
+        Labels
+            The coordinates and τ over the length.
+        """
         return Labels(
             {"length": (("length",), self.lengths)},
             {
@@ -103,7 +132,7 @@ class Manifold(Result):
 
 @dataclass(frozen=True)
 class _Curve:
-    """W: F is `returns` steps of the map; x_0 `saddle`, δ v `away`, q `bend`, λ of F `multiplier`."""
+    """The curve W: F is `returns` steps of the map; x_0 is `saddle`, δ v `away`, q `bend`, and λ of F `multiplier`."""
 
     map_: Map
     saddle: Array
@@ -112,7 +141,7 @@ class _Curve:
     multiplier: float
     returns: int
     first_error: float = 0.0
-    """Of the first piece, at its end."""
+    """Error at the end of the first piece."""
 
     def at(self, tau: float) -> Array:
         count = max(0, math.floor(tau))
@@ -122,15 +151,15 @@ class _Curve:
         return np.asarray(self.saddle + sigma * self.away + sigma * sigma * self.bend)
 
     def third_order(self) -> float:
-        """How far F takes σ = 1/λ of the beginning from σ = 1 of it: what its third order leaves, and round-off."""
+        """Return the distance of F(σ = 1/λ) from the point σ = 1 of the first piece: its third order, and round-off."""
         there = self.map_.after(self._near(1.0 / self.multiplier), self.returns)
         return float(np.linalg.norm(apart(self.map_.turns, there, self._near(1.0))))
 
 
 def _begun(map_: Map, orbit: PeriodicOrbit, side: int, place: int) -> _Curve:
-    """The curve with the longest first piece that is right to what the map promises.
+    """Return the curve with the longest first piece that is right to the promise of the map.
 
-    Raises `InvalidParameter` where the orbit is no saddle.
+    Raises `InvalidParameter` if the orbit is not a saddle.
     """
     saddle = orbit.places[place % orbit.period]
     M, at = np.eye(2), saddle
@@ -155,14 +184,14 @@ def _begun(map_: Map, orbit: PeriodicOrbit, side: int, place: int) -> _Curve:
         both = [apart(map_.turns, map_.after(saddle + sign * size * v, returns), saddle) for sign in (1.0, -1.0)]
         q = np.asarray(np.linalg.solve(value * value * np.eye(2) - M, 0.5 * (both[0] + both[1])) / size**2, float)
     except ModelError:
-        # So close to an end of the section the manifold begins as a straight line.
+        # Close to the edge of the section the manifold starts as a straight line.
         pass
     curve = _Curve(map_, saddle, side * _SIZES[0] * v, _SIZES[0] ** 2 * q, value, returns)
     third = math.inf
     for size in _SIZES:
         curve = replace(curve, away=side * size * v, bend=size * size * q)
         try:
-            # δ³ times the least that was seen: in what is seen closer by there is more round-off than third order.
+            # The smallest coefficient found so far: closer to the saddle, round-off exceeds the third order.
             third = min(third, curve.third_order() / size**3)
         except ModelError:
             continue
@@ -185,18 +214,51 @@ def grown(
     most: int = 4000,
     returns: int = MAX_RETURNS,
 ) -> Manifold:
-    """The branch of a manifold of a saddle up to a length along the curve.
+    """Return a branch of a manifold of a saddle, up to a length along the curve.
 
-    place : from which of the places of the orbit; sagitta : the largest distance of the curve from its polyline;
-    longest : of its chords; most : points; returns : of the map, in all.
-    Raises `InvalidParameter`, `WorkLimit`, `NotConverged` where the map has no inverse or no image even close by.
+    Parameters
+    ----------
+    map_ : Map
+        The map.
+    orbit : PeriodicOrbit
+        The saddle.
+    length : float
+        Length of the branch.
+    stable : bool, default False
+        Return the stable manifold.
+    side : {1, -1}, default 1
+        Leave the saddle along its direction or against it.
+    place : int, default 0
+        Index of the point of the orbit from which the branch starts.
+    sagitta : float, default 1e-3
+        Largest distance between the curve and the polyline.
+    longest : float, default 0.1
+        Longest chord.
+    most : int, default 4000
+        Largest number of points.
+    returns : int, default 2 000 000
+        Largest number of evaluations of the map.
+
+    Returns
+    -------
+    Manifold
+        The branch.
+
+    Raises
+    ------
+    InvalidParameter
+        If the orbit is not a saddle, or a number is out of range.
+    WorkLimit
+        If the map needs too many steps.
+    NotConverged
+        If the map has no inverse, or no image even close to the saddle.
     """
     if not (math.isfinite(length) and length > 0.0 and sagitta > 0.0 and longest > 0.0):
-        raise InvalidParameter("The length of a manifold, its sagitta and its chords are positive numbers.")
+        raise InvalidParameter("The length of a manifold, its sagitta and its longest chord must be positive numbers.")
     if side not in (-1, 1):
-        raise InvalidParameter("A branch leaves the saddle along its direction, side 1, or against it, side -1.")
+        raise InvalidParameter("The side must be 1 (along the direction of the saddle) or -1 (against it).")
     if len(map_.turns) != 2:
-        raise InvalidParameter("Manifolds are curves in a plane: this is a map of a line.")
+        raise InvalidParameter("Manifolds need a section with two coordinates: this one has a single coordinate.")
     forwards = map_.inverse() if stable else map_
     curve = _begun(forwards, orbit, side, place)
     points, parameters, ended = _followed(curve, length, sagitta, longest, most, returns)

@@ -1,9 +1,9 @@
-"""Orbit diagrams: where an orbit of a section settles, over a parameter; hysteresis; cascades of period doublings.
+"""Orbit diagrams of a section over a parameter, with hysteresis, and cascades of period doublings.
 
-An orbit is followed from value to value, each time from where it was at the one before, so that it stays with its
-attractor as long as there is one, and the way back may be another one; or it starts anew at the same place.  The map
-backward in time shows repellers.  What a diagram shows is seen; where a period doubles is computed: there an orbit
-found by Newton's method has the multiplier −1.
+An orbit is followed from value to value, each time from its last point at the value before, so that it stays with its
+attractor as long as there is one; the way back may differ.  Alternatively it starts anew at the same point.  The map
+backward in time shows repellers.  Periods in a diagram are read from the orbit; period doublings are computed: there an
+orbit found by Newton's method has the multiplier −1.
 """
 
 from __future__ import annotations
@@ -41,22 +41,21 @@ __all__ = [
 
 MAX_VALUES, MAX_CROSSINGS = 2000, 20_000
 COMPARED = 16
-"""Places of two sets from which on they are told apart."""
+"""Smallest number of points at which two sets are compared."""
 _SAME = 1e-4
-"""Places closer than this are one of a periodic orbit: near a doubling, small errors die out slowly."""
+"""Points closer than this are the same point of a periodic orbit: near a doubling, errors decay slowly."""
 _PROMISES = 3.0
-"""Nor can those be told apart that differ by so many errors of the map: a long orbit is brought back to its integrals
-now and then, and moves by some errors then."""
+"""The same tolerance in errors of the map: a long orbit moves by some errors when it is projected to its integrals."""
 _SETTLING = 0.8
-"""An orbit whose distances from closing fall below this share from its first half to its second is on its way."""
+"""An orbit is still settling if its distance from closing falls below this fraction from one half to the next."""
 _AMPLITUDES = 0.4 * 0.4 ** np.arange(6, -1, -1)
-"""How far from a flip the orbit of twice the period is looked for, the nearest first."""
+"""Distances from a flip at which the orbit of twice the period is searched, the nearest first."""
 _NEAR = 3.0
-"""What is found farther away than so many times that is another orbit."""
+"""An orbit farther away than this multiple of the distance is a different one."""
 _AHEAD = (0.25, 0.05, 0.01)
-"""And how far beyond it, in units of the distance to where the next one is expected."""
+"""Distances beyond the flip in the parameter, in units of the distance to the next expected flip."""
 _GROWTH = 4.669
-"""Feigenbaum's δ: it only says where to look."""
+"""Feigenbaum's δ; it only guides the search."""
 _POINTS = 120
 
 
@@ -64,24 +63,40 @@ Whole = NDArray[np.int64]
 
 
 class Followed(Map, Protocol):
-    """A map whose orbits are followed at once."""
+    """A map that can return a whole orbit at once."""
 
     @property
     def volume_kept(self) -> bool:
-        """Whether it keeps a volume, and has no attractors."""
+        """True if the map preserves a volume and has no attractors."""
 
     def orbit(self, place: Array, count: int) -> Array:
-        """The next `count` places (n, d), one after the other; fewer where the motion stays away."""
+        """Return the next `count` points (n, d) of the orbit; fewer if the motion stays away."""
 
 
 @dataclass(frozen=True)
 class Diagram(Result):
-    """Where an orbit settles over a parameter.
+    """An orbit diagram: the points where an orbit settles, over a parameter.
 
-    values : (n,), in the order in which they were passed; places : n arrays (m, d), empty where the motion does not
-    come back; periods : (n,), 0 where none up to 64 is seen; settled : (n,), whether what is seen stays.
-    ends : (n, d), the last place at each value, NaN where there is none.
-    conservative : (n,), whether volume is kept: what is seen is then one orbit, which nothing attracts.
+    Attributes
+    ----------
+    parameter : str
+        Name of the parameter.
+    names : tuple of str
+        Names of the coordinates.
+    values : ndarray, shape (n,)
+        Values of the parameter, in the order in which they were visited.
+    places : tuple of ndarray, shape (m, d)
+        Points at each value; empty if the motion does not return.
+    periods : ndarray of int, shape (n,)
+        Period at each value; 0 if none up to 64 is found.
+    settled : ndarray of bool, shape (n,)
+        True if the orbit has settled.
+    ends : ndarray, shape (n, d)
+        Last point at each value; NaN if there is none.
+    conservative : ndarray of bool, shape (n,)
+        True if volume is preserved: the points are then a single orbit, which attracts nothing.
+    level : str
+        Name of the accuracy level.
     """
 
     parameter: str
@@ -95,7 +110,13 @@ class Diagram(Result):
     level: str
 
     def labels(self) -> Labels:
-        """All places, with the value of the parameter."""
+        """Return all points, labelled with the value of the parameter.
+
+        Returns
+        -------
+        Labels
+            The coordinates over the points.
+        """
         value = np.repeat(self.values, [len(one) for one in self.places])
         points = np.concatenate([np.empty((0, len(self.names))), *self.places])
         along = ("point",)
@@ -108,10 +129,10 @@ class Diagram(Result):
 
 
 def period_of(turns: Sequence[float], places: Array, promise: float = 0.0, most: int = MAX_PERIOD) -> tuple[int, bool]:
-    """The least period with which the places (n, d) of an orbit repeat, 0 where none is seen, and whether it stays so.
+    """Return the least period of the points (n, d) of an orbit, 0 if none is found, and True if the orbit has settled.
 
-    Seen is a period of which the orbit shows at least three; it is on its way to one where its halves say so.
-    promise : the error of the map that the places have; most : the longest period that is looked for.
+    A period is found if the orbit shows it at least three times.  An orbit that closes better in its second half is
+    still settling.  `promise` is the error of the points, `most` the largest period tried.
     """
     most = min(most, len(places) // 3)
     ways = np.array(
@@ -129,13 +150,13 @@ def period_of(turns: Sequence[float], places: Array, promise: float = 0.0, most:
     closed = np.flatnonzero(np.maximum(first, second) <= max(_SAME, _PROMISES * promise))
     if closed.size:
         m = int(closed[0]) + 1
-        # A multiplier near −1 makes an orbit look twice as long while it is still coming.
+        # A multiplier near −1 makes an orbit look twice as long while it is still settling.
         return (
             (m, True)
             if all(second[k - 1] >= _SETTLING * first[k - 1] for k in range(1, m) if m % k == 0)
             else (0, False)
         )
-    # All of them close better and better, or the one that closes best does: then the orbit comes to a periodic one.
+    # If all candidates close better over time, or the best one does, the orbit tends to a periodic one.
     ratios = second / first
     return 0, min(float(np.median(ratios)), float(ratios[second.argmin()])) >= _SETTLING
 
@@ -150,17 +171,44 @@ def diagram_over(
     follow: bool = True,
     again: Sequence[float] | Array | None = None,
 ) -> Diagram:
-    """Where the orbit from a place `start` (d,) settles at each of the values (n,), in their order.
+    """Return the orbit diagram of a family of maps.
 
-    family : value → map.  transient, kept : crossings that are left out, and shown.
-    follow : from where it was at the value before; it starts anew, from `again` or `start`, where that is impossible
-    or it did not come back there.  Raises `WorkLimit`, `InvalidParameter`.
+    Parameters
+    ----------
+    family : callable
+        Function from the value of the parameter to the map.
+    parameter : str
+        Name of the parameter.
+    values : array_like, shape (n,)
+        Values of the parameter, in the order in which they are visited.
+    start : array_like, shape (d,)
+        Point where the orbit starts.
+    transient : int, default 200
+        Crossings discarded at each value.
+    kept : int, default 64
+        Crossings kept at each value.
+    follow : bool, default True
+        Start each value from the last point of the one before; from `again` if that fails.
+    again : array_like, shape (d,), optional
+        Point where the orbit starts anew.  By default `start`.
+
+    Returns
+    -------
+    Diagram
+        The points and the period at each value.
+
+    Raises
+    ------
+    InvalidParameter
+        If the values are not finite, or too many.
+    WorkLimit
+        If there are too many crossings.
     """
     along = np.array(values, float, ndmin=1)
     if not (along.ndim == 1 and np.all(np.isfinite(along)) and 1 <= along.size <= MAX_VALUES):
-        raise InvalidParameter(f"An orbit diagram has from 1 to {MAX_VALUES} finite values of its parameter.")
+        raise InvalidParameter(f"An orbit diagram needs 1 to {MAX_VALUES} finite values of its parameter.")
     if not (kept >= 1 and transient >= 0 and transient + kept <= MAX_CROSSINGS):
-        raise WorkLimit(f"At each value at most {MAX_CROSSINGS} crossings are followed: choose fewer.")
+        raise WorkLimit(f"At most {MAX_CROSSINGS} crossings per value are allowed: choose fewer.")
     first = np.array(start, float)
     anew = first if again is None else np.array(again, float)
     place = first
@@ -245,11 +293,26 @@ def hysteresis(turns: Sequence[float], there: Diagram, back: Diagram) -> tuple[t
 
 @dataclass(frozen=True)
 class Cascade(Result):
-    """Period doublings, one after the other: where an orbit of each period has the multiplier −1.
+    """A cascade of period doublings.
 
-    values, errors : (k,), of the parameter; periods : (k,), before the doubling; places : of the orbits there.
-    ratios, ratio_errors : (k − 2,), of the distances between neighbouring doublings, which tend to Feigenbaum's δ =
-    4.6692 where a map is like one of a line; ended : why there are no more.
+    Attributes
+    ----------
+    parameter : str
+        Name of the parameter.
+    names : tuple of str
+        Names of the coordinates.
+    values : ndarray, shape (k,)
+        Values of the parameter at the doublings.
+    errors : ndarray, shape (k,)
+        Estimated errors of the values.
+    periods : ndarray of int, shape (k,)
+        Period before each doubling.
+    places : tuple of ndarray, shape (m, d)
+        Points of the orbit at each doubling.
+    ended : str
+        Reason why there are no more doublings.
+    level : str
+        Name of the accuracy level.
     """
 
     parameter: str
@@ -263,30 +326,36 @@ class Cascade(Result):
 
     @property
     def error_estimate(self) -> float:
-        """The largest error of a value."""
+        """Largest estimated error of a value."""
         return float(self.errors.max(initial=0.0))
 
     @property
     def ratios(self) -> Array:
-        """(λ_k − λ_(k−1))/(λ_(k+1) − λ_k)."""
+        """Ratios (λ_k − λ_(k−1))/(λ_(k+1) − λ_k), shape (k − 2,); near 4.6692 for maps like one of a line."""
         steps = np.diff(self.values)
         return np.asarray(steps[:-1] / steps[1:])
 
     @property
     def ratio_errors(self) -> Array:
-        """From the errors of the values."""
+        """Errors of the ratios, from the errors of the values."""
         steps, off = np.abs(np.diff(self.values)), self.errors[1:] + self.errors[:-1]
         return np.asarray(np.abs(self.ratios) * (off[:-1] / steps[:-1] + off[1:] / steps[1:]))
 
     @property
     def limit(self) -> float:
-        """Where it would come to an end if all further ratios were the last one; NaN before there is one."""
+        """Accumulation point if all further ratios equal the last one; NaN for fewer than three doublings."""
         if len(self.values) < 3:
             return math.nan
         return float(self.values[-1] + (self.values[-1] - self.values[-2]) / (self.ratios[-1] - 1.0))
 
     def labels(self) -> Labels:
-        """Periods, values and errors, with the ratio that belongs to each but the first and the last."""
+        """Return periods, values, errors and ratios, labelled with the number of the doubling.
+
+        Returns
+        -------
+        Labels
+            The arrays over the doublings.
+        """
         along = ("doubling",)
         ratio, off = np.full((2, len(self.values)), np.nan)
         if len(self.values) > 2:
@@ -307,10 +376,10 @@ class Cascade(Result):
 def cascade(
     family: Callable[[float], Map], parameter: str, orbit: PeriodicOrbit, start: float, end: float, doublings: int = 6
 ) -> Cascade:
-    """The doublings of the period of an orbit of the map at λ = `start`, towards λ = `end`.
+    """Return the period doublings of an orbit of the map at λ = `start`, towards λ = `end`.
 
-    The orbit is continued up to its flip; just beyond, Newton's method finds the one of twice the period, from the
-    direction in which it is born, and so on.  Raises as `continued` for the first one.
+    The orbit is continued up to its flip; beyond it, Newton's method finds the orbit of twice the period in the
+    direction in which it is born; and so on.  Raises as `continued` for the first branch.
     """
     found: list[Bifurcation] = []
     direction = math.copysign(1.0, end - start)
@@ -341,7 +410,7 @@ def cascade(
             ended = f"Beyond {parameter} = {flip.value:.9g} no orbit of period {2 * orbit.period} is found."
             break
         at, orbit = born
-        # Room for a first step that is no guide yet.
+        # The first step says little about the distance to the next doubling.
         far = end if len(found) == 1 else flip.value + direction * 4.0 * step
     return Cascade(
         parameter,
@@ -356,7 +425,7 @@ def cascade(
 
 
 def _doubled(family: Callable[[float], Map], flip: Bifurcation, step: float) -> tuple[float, PeriodicOrbit] | None:
-    """The orbit of twice the period beyond a flip, and the parameter: a stable one if there is."""
+    """Return the orbit of twice the period beyond a flip, and the parameter; a stable orbit if there is one."""
     twice = np.concatenate([flip.places, flip.places])
     away = np.linalg.svd(shoot(family(flip.value), twice).jacobian)[2][-1].reshape(twice.shape)
     away /= np.abs(away).max()

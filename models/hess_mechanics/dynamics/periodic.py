@@ -1,8 +1,8 @@
-"""Periodic orbits of maps of a line or a plane, by Newton's method; their multipliers, types and errors.
+"""Periodic orbits of maps of a line or a plane, by Newton's method, with multipliers, types and errors.
 
-An orbit of period m is found as all its m places at once, x_(i+1) = P(x_i) (multiple shooting): what an unstable
-orbit amplifies from one place to the next is never multiplied up.  With J the Jacobian of these equations, the error
-is J⁻¹ times what a more accurate map leaves of them.  Multipliers are the eigenvalues of M = DP(x_m−1) … DP(x_0).
+All m points of an orbit of period m are unknowns, x_(i+1) = P(x_i) (multiple shooting), so that errors are not
+amplified from one point to the next.  With the Jacobian J of these equations, the error is J⁻¹ times their residual for
+a more accurate map.  The multipliers are the eigenvalues of M = DP(x_(m−1)) … DP(x_0).
 """
 
 from __future__ import annotations
@@ -37,64 +37,64 @@ __all__ = [
 MAX_PERIOD = 64
 _ITERATIONS = 40
 _TRIED = 6
-"""Of the periods at which an orbit comes back closest, how many Newton's method tries."""
+"""Number of periods that Newton's method tries, those at which the orbit comes back closest."""
 _FOLLOWED = 8
-"""Periods for which an orbit is followed in search of where it comes back closest."""
+"""Periods for which an orbit is followed to find where it comes back closest."""
 _FAR = 1e6
 _ROUNDING = 2.3e-16
 _DIFFERENCES = 5e-12
-"""What derivatives of sections, partly by differences, may be off though two runs agree."""
+"""Error of the derivatives of sections, which come partly from differences, even if two runs agree."""
 _FAMILY = 1e-9
-"""Singular values of J below this, beside the largest or 1, are directions in which periodic orbits form a family."""
+"""Relative singular values of J below this are directions in which periodic orbits form a family."""
 
 
 class Map(Protocol):
-    """A map of a line (d = 1) or plane (d = 2) to itself.  What it has no image for raises a `ModelError`."""
+    """A map of a line (d = 1) or plane (d = 2) to itself; it raises a `ModelError` at points without an image."""
 
     @property
     def turns(self) -> tuple[float, ...]:
-        """The period of each coordinate, ∞ where it is no angle."""
+        """Period of each coordinate, ∞ if it is not an angle."""
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of the coordinates."""
+        """Names of the coordinates."""
 
     @property
     def promise(self) -> float:
-        """The error that a result is to have at most."""
+        """Largest error that a result may have."""
 
     @property
     def level(self) -> str:
-        """The name of its accuracy level."""
+        """Name of the accuracy level."""
 
     @property
     def is_floor(self) -> bool:
-        """Whether it cannot be computed more exactly."""
+        """True if the map cannot be computed more accurately."""
 
     def image(self, place: Array) -> Array:
-        """P(x) (d,)."""
+        """Return P(x), shape (d,)."""
 
     def after(self, place: Array, count: int) -> Array:
-        """P^count(x) (d,)."""
+        """Return P^count(x), shape (d,)."""
 
     def with_derivative(self, place: Array) -> tuple[Array, Array]:
-        """P(x) (d,) and DP(x) (d, d)."""
+        """Return P(x), shape (d,), and DP(x), shape (d, d)."""
 
     def inverse(self) -> Map:
-        """P⁻¹."""
+        """Return P⁻¹."""
 
     def tightened(self) -> Map:
-        """The same map, computed more exactly and with other roundings."""
+        """Return the same map, computed more accurately and with other roundings."""
 
 
 def place_units(names: Sequence[str]) -> dict[str, str]:
-    """The units of the coordinates of a section, by name; the canonical ones of the quartic potential have none."""
+    """Return the units of the coordinates of a section, by name; canonical coordinates have none."""
     units = {"l": "rad", "L/G": "1", "ψ": "rad", "δ": "rad", "φ": "rad"}
     return {name: units[name] for name in names if name in units}
 
 
 def apart(turns: Sequence[float], a: Array, b: Array) -> Array:
-    """a − b (..., d), angles by the shorter way round."""
+    """Return a − b (..., d), with differences of angles reduced to half a turn."""
     difference: Array = np.asarray(a, float) - np.asarray(b, float)
     for i, turn in enumerate(turns):
         if math.isfinite(turn):
@@ -104,7 +104,7 @@ def apart(turns: Sequence[float], a: Array, b: Array) -> Array:
 
 @dataclass(frozen=True)
 class Shot:
-    """Places (m, d), what is left of P(x_i) − x_(i+1), (m, d), and the derivatives DP(x_i), (m, d, d)."""
+    """Points (m, d), residuals P(x_i) − x_(i+1) (m, d) and derivatives DP(x_i) (m, d, d) of multiple shooting."""
 
     places: Array
     left: Array
@@ -112,7 +112,7 @@ class Shot:
 
     @property
     def jacobian(self) -> Array:
-        """J (m d, m d), of what is left by the places."""
+        """Jacobian J (m d, m d) of the residuals."""
         m, d = self.places.shape
         J = np.zeros((m, d, m, d))
         for i in range(m):
@@ -121,9 +121,9 @@ class Shot:
         return np.asarray(J.reshape(m * d, m * d))
 
     def step(self, family: float = _FAMILY) -> Array:
-        """Newton's step −J⁻¹ left (m, d); where J is singular, as in a family of orbits, the shortest one.
+        """Return Newton's step −J⁻¹ times the residuals, (m, d); if J is singular, the shortest step.
 
-        family : singular values below it, beside the largest or 1, are taken for 0.
+        Singular values below `family`, relative to the largest one or 1, count as 0.
         """
         u, values, v = np.linalg.svd(self.jacobian)
         kept = values > family * max(1.0, float(values[0]))
@@ -132,21 +132,22 @@ class Shot:
 
     @property
     def size(self) -> float:
-        """The largest component of what is left."""
+        """Largest residual."""
         return float(np.abs(self.left).max())
 
 
 def shoot(map_: Map, places: Array) -> Shot:
-    """The map at all places (m, d).  Raises as the map."""
+    """Return the map and its derivatives at all points (m, d).  Raises as the map."""
     both = [map_.with_derivative(place) for place in places]
     images = np.array([image for image, _ in both])
     return Shot(places, apart(map_.turns, images, np.roll(places, -1, axis=0)), np.array([one for _, one in both]))
 
 
 def multipliers_of(derivatives: Array) -> tuple[Complex, float, float]:
-    """The eigenvalues (d,) of the product M of the derivatives (m, d, d), the largest first, trace and determinant.
+    """Return the eigenvalues (d,) of the product M of the derivatives (m, d, d), its trace and its determinant.
 
-    The smaller one is from the product of the determinants: in M itself it is lost where the larger is large.
+    The largest eigenvalue comes first.  The smaller one comes from the product of the determinants, because M itself
+    loses it if the larger one is large.
     """
     M = np.eye(derivatives.shape[1])
     for one in derivatives:
@@ -168,7 +169,7 @@ def _eigenvalues(d: int, trace: float, determinant: float) -> Complex:
 
 
 def _multiplier_error(derivatives: Array, better: Array) -> float:
-    """How far the multipliers may be off, by the trace and determinant of a better run, and by round-off."""
+    """Return the error of the multipliers, from trace and determinant of a better run and from round-off."""
     values, trace, determinant = multipliers_of(derivatives)
     _, other_trace, other_determinant = multipliers_of(better)
     product = float(np.prod(np.linalg.norm(derivatives, axis=(1, 2))))
@@ -183,7 +184,7 @@ def _multiplier_error(derivatives: Array, better: Array) -> float:
 
 
 def kind_of(multipliers: Complex, error: float) -> str:
-    """The type of an orbit with these multipliers, of which nothing closer than the error to a border is told apart."""
+    """Return the type of an orbit with these multipliers; borders closer than the error count as reached."""
     sizes = np.abs(multipliers)
     if np.any(np.abs(multipliers - 1.0) <= error):
         return "parabolic"
@@ -204,11 +205,32 @@ def kind_of(multipliers: Complex, error: float) -> str:
 class PeriodicOrbit(Result):
     """A periodic orbit of a map.
 
-    places : (m, d), one after the other, m the least period; multipliers : (d,), the largest first;
-    kind : "saddle", "saddle with reflection" (a negative unstable multiplier), "stable" or "unstable node" or "focus",
-        "elliptic", "parabolic" (a multiplier 1: a fold, or one of a family), "parabolic with reflection" (−1).
-    error_estimate, multiplier_error : of the places and of the multipliers; condition : of Newton's equations;
-    iterations : of Newton's method; symmetric : under which symmetries of the map the orbit is its own image.
+    Attributes
+    ----------
+    names : tuple of str
+        Names of the coordinates.
+    places : ndarray, shape (m, d)
+        Points of the orbit in order, where m is the least period.
+    multipliers : ndarray of complex, shape (d,)
+        Multipliers, the largest first.
+    kind : str
+        "saddle", "saddle with reflection" (negative unstable multiplier), "stable node", "unstable node", "stable
+        focus", "unstable focus", "elliptic", "parabolic" (multiplier 1: a fold or a family) or "parabolic with
+        reflection" (−1).
+    error_estimate : float
+        Estimated error of the points.
+    multiplier_error : float
+        Estimated error of the multipliers.
+    condition : float
+        Condition number of Newton's equations.
+    iterations : int
+        Iterations of Newton's method.
+    level : str
+        Name of the accuracy level.
+    status : Status
+        How the computation ended.
+    symmetric : tuple of str
+        Symmetries of the map that take the orbit to itself.
     """
 
     names: tuple[str, ...]
@@ -225,11 +247,17 @@ class PeriodicOrbit(Result):
 
     @property
     def period(self) -> int:
-        """After how many returns it closes."""
+        """Number of returns after which the orbit closes."""
         return len(self.places)
 
     def labels(self) -> Labels:
-        """The places, one after the other."""
+        """Return the points of the orbit, with its type and multipliers.
+
+        Returns
+        -------
+        Labels
+            The coordinates over the returns.
+        """
         multipliers = {f"multiplier {i + 1}": _shown(complex(one)) for i, one in enumerate(self.multipliers)}
         return Labels(
             {"return": (("return",), np.arange(self.period))},
@@ -255,19 +283,19 @@ def _shown(value: complex) -> float | str:
 
 
 def _converged(map_: Map, places: Array) -> tuple[Shot, int]:
-    """Newton's method from places (m, d), with shorter steps where a whole one leads away.  Raises `NotConverged`."""
+    """Return the solution of Newton's method with damped steps from points (m, d).  Raises `NotConverged`."""
     try:
         shot = shoot(map_, places)
     except ModelError as error:
         raise NotConverged(f"Newton's method cannot start here: {error}") from error
     before = math.inf
-    # Where every place is periodic, J is what the map is off.
+    # If every point is periodic, J consists of the errors of the map.
     family = max(_FAMILY, map_.promise)
     for iteration in range(1, _ITERATIONS + 1):
         go_on()
         step = shot.step(family)
         length = float(np.abs(step).max())
-        # Close by, each step squares the one before, until the map's own round-off takes over.
+        # Close to the solution, steps shrink quadratically until the map's own round-off dominates.
         if length <= 1e-15 or (length <= map_.promise and length > 0.25 * before):
             return shot, iteration
         before = length
@@ -297,15 +325,36 @@ def _not_converged(m: int) -> NotConverged:
 def find_periodic(
     map_: Map, start: Sequence[float] | Array, period: int | None = None, most: int = 12, near: bool = False
 ) -> PeriodicOrbit:
-    """The periodic orbit that Newton's method finds from a place (d,), or from the places (m, d) of an orbit.
+    """Return the periodic orbit that Newton's method finds from a point (d,), or from all points (m, d) of an orbit.
 
-    period : the least one; None: of the periods up to `most` those are tried at which
-    the orbit from the place comes back closest; near : only where it begins, not from where it later comes back closer.
-    Raises `InvalidParameter`, `NotConverged`.
+    Parameters
+    ----------
+    map_ : Map
+        The map.
+    start : array_like, shape (d,) or (m, d)
+        Initial guess.
+    period : int, optional
+        Least period.  By default the periods up to `most` at which the orbit comes back closest are tried.
+    most : int, default 12
+        Largest period tried.
+    near : bool, default False
+        Search only from the start itself, not from later points of its orbit that come back closer.
+
+    Returns
+    -------
+    PeriodicOrbit
+        The orbit.
+
+    Raises
+    ------
+    InvalidParameter
+        If the start does not have finite coordinates.
+    NotConverged
+        If no orbit is found.
     """
     places = np.array(start, float, ndmin=2)
     if places.ndim != 2 or places.shape[1] != len(map_.turns) or not np.all(np.isfinite(places)):
-        raise InvalidParameter(f"A place is {len(map_.turns)} finite numbers here: {', '.join(map_.names)}.")
+        raise InvalidParameter(f"A point has {len(map_.turns)} finite coordinates here: {', '.join(map_.names)}.")
     if len(places) > 1:
         return _measured(map_, *_converged(map_, places))
     if period is not None:
@@ -323,7 +372,7 @@ def find_periodic(
 
 
 def _of_period(map_: Map, place: Array, m: int, near: bool) -> PeriodicOrbit:
-    """The orbit whose least period is m, from the place or from where its orbit later comes back closest."""
+    """Return the orbit with least period m, from the point or from where its orbit comes back closest."""
     orbit = _orbit_from(map_, place, m - 1 if near else _FOLLOWED * m + m)
     if len(orbit) < m:
         raise NotConverged(
@@ -341,8 +390,8 @@ def _of_period(map_: Map, place: Array, m: int, near: bool) -> PeriodicOrbit:
         others.add(found.period)
     if others:
         raise NotConverged(
-            f"From here Newton's method comes to orbits of period {', '.join(map(str, sorted(others)))} "
-            f"and to none of period {m}: start closer to one, or ask for such a period."
+            f"From here Newton's method finds orbits of period {', '.join(map(str, sorted(others)))} "
+            f"but none of period {m}: start closer to one, or choose another period."
         )
     raise _not_converged(m)
 
@@ -352,7 +401,7 @@ def _closeness(map_: Map, a: Array, b: Array) -> Array:
 
 
 def _orbit_from(map_: Map, place: Array, count: int) -> Array:
-    """The place and its images, fewer where it does not return so often.  Raises `NotConverged` where it never does."""
+    """Return the point and its images, as far as it returns.  Raises `NotConverged` if it never does."""
     orbit = [place]
     try:
         for _ in range(count):
@@ -367,7 +416,7 @@ def _orbit_from(map_: Map, place: Array, count: int) -> Array:
 
 
 def _least_period(map_: Map, places: Array, error: float) -> int:
-    """The least divisor of m after which the places (m, d) repeat."""
+    """Return the least divisor of m after which the points (m, d) repeat."""
     m = len(places)
     near = max(1e3 * error, 1e-7)
     return next(
@@ -378,12 +427,12 @@ def _least_period(map_: Map, places: Array, error: float) -> int:
 
 
 def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
-    """The orbit, its error measured against a more accurate map, which takes its place where a promise is broken."""
+    """Return the orbit with its error, measured with a more accurate map, which takes over on a broken promise."""
     current = map_
     shot = shoot(current, shot.places[: _least_period(current, shot.places, map_.promise)])
     while True:
         better = current.tightened()
-        # Newton's equations as the better map has them: what they leave here is what this map did not see.
+        # The residuals of Newton's equations for the better map are the error of this one.
         there = shoot(better, shot.places)
         family = max(_FAMILY, current.promise)
         step = there.step(family)
@@ -391,10 +440,10 @@ def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
         kept = values[values > family * max(1.0, float(values[0]))]
         condition = float(kept[0] / kept[-1]) if kept.size else 1.0
         size = max(1.0, float(np.abs(shot.places).max()))
-        # Relative to the smallest singular value, not the condition: 1/σ is what one unit of residual becomes.
+        # Relative to the smallest singular value, not the condition: a unit residual becomes 1/σ.
         error = SAFETY * float(np.abs(step).max()) + 4.0 * _ROUNDING * size / float(kept[-1] if kept.size else 1.0)
         if kept.size < values.size:
-            # Along a family no place is the right one: how far it is from closing is known.
+            # In a family no point is distinguished; only the residual is known.
             error = max(error, SAFETY * there.size)
         if error <= map_.promise or current.is_floor:
             break

@@ -1,15 +1,15 @@
-"""The kind of a motion on a section, and of the dynamics about it: conservative, dissipative or mixed.
+"""Classify a motion on a section, and the dynamics around it: conservative, dissipative or mixed.
 
-A motion is called chaotic where two independent indicators agree and go on agreeing when the time is doubled: MEGNO,
-which follows neighbours by the variational equations, exceeds 3 and keeps growing, and the 0–1 test, which sees nothing
-but the crossings, is close to 1.  It is periodic where its crossings repeat, and quasi-periodic where they do not and
-averages along it converge as they do on a smooth curve.  Where none of this is clear the motion is followed four times
-as long, and again; what is still unclear then is undecided.
+A motion is chaotic if two independent indicators agree and still agree when the time is doubled: MEGNO, which follows
+neighbours by the variational equations, exceeds 3 and keeps growing, and the 0–1 test, which uses only the crossings,
+is close to 1.  It is periodic if its crossings repeat, and quasi-periodic if they do not and averages along it converge
+as on a smooth curve.  If none of this is clear, the motion is followed four times as long, and again; after that it is
+undecided.
 
-Dynamics are judged by the sets to which orbits come forward and backward in time, and by the mean divergence on the
-first (Gonchenko, Gonchenko, Kazakov 2020).  Both come from an ensemble of orbits.  A verdict is given only where the
-mean clears its confidence interval, most orbits have settled and all of those agree about the sets; `conservative` only
-where the field keeps a volume, which makes it a fact.
+Dynamics are classified by the sets to which orbits tend forward and backward in time, and by the mean divergence on the
+first one (Gonchenko, Gonchenko, Kazakov 2020).  Both come from an ensemble of orbits.  A verdict needs a mean beyond
+its confidence interval, settled orbits in the majority, and agreement of these about the sets; `conservative` needs a
+field that preserves a volume, which makes it a fact.
 """
 
 from __future__ import annotations
@@ -102,25 +102,25 @@ class Regime(Result):
     Attributes
     ----------
     kind : Kind
-        What the motion is.
+        Kind of the motion.
     period : int
-        Number of returns after which it repeats; 0 where it was not seen to.
+        Number of returns after which it repeats; 0 if no period was found.
     names : tuple of str
-        The coordinates of the section.
+        Names of the coordinates of the section.
     places : Array, shape (n, d)
-        The crossings that were looked at.
+        The crossings that were kept.
     t : float
-        Time of the indicator; of a motion that was not seen to return, the time waited for it.
+        Time of MEGNO; for a motion that did not return, the time limit.
     megno : float
         Ȳ after the time t, the median over the ensemble.
     k : float
-        K of the 0–1 test of the crossings; NaN where there are too few.
+        K of the 0–1 test of the crossings; NaN if there are too few.
     divergence, divergence_error : float
         Mean of div ẏ along the motion and its error, by an ensemble of orbits; three errors are a 99.7 % interval.
     volume_kept : bool
-        Whether the divergence of the field is 0 everywhere.
+        True if the divergence of the field is 0 everywhere.
     integrable : str
-        The integrable case that the body belongs to; empty where none is known.
+        Integrable case to which the body belongs; empty if none is known.
     level : str
         The accuracy level.
     """
@@ -140,17 +140,17 @@ class Regime(Result):
 
     @property
     def volume(self) -> int:
-        """−1 where phase volume about the motion shrinks beyond three errors, 1 where it grows, 0 where neither."""
+        """−1 if phase volume around the motion shrinks by more than three errors, 1 if it grows, else 0."""
         return int(volume_sign(self.divergence, self.divergence_error))
 
     @property
     def bound(self) -> float:
-        """Upper bound of |mean divergence|: its value and three errors."""
+        """Upper bound of |mean divergence|: its value plus three errors."""
         return abs(self.divergence) + 3.0 * self.divergence_error
 
     @property
     def sentence(self) -> str:
-        """The result in a sentence or two."""
+        """The result in one or two sentences."""
         if self.kind is MotionKind.NO_RETURN:
             return f"The motion was not seen to return to the section within t = {self.t:.4g}."
         kind = f"periodic, period {self.period}" if self.kind is MotionKind.PERIODIC else self.kind.words
@@ -166,7 +166,13 @@ class Regime(Result):
         return f"{kind[0].upper()}{kind[1:]}{case}; |mean divergence| < {self.bound:.1g}."
 
     def labels(self) -> Labels:
-        """The places, and what was found of them."""
+        """Return the crossings, with the kind and the numbers that decided it.
+
+        Returns
+        -------
+        Labels
+            The coordinates over the crossings.
+        """
         return Labels(
             {},
             components(self.names, self.places, "crossing"),
@@ -201,7 +207,7 @@ class _Evidence:
 
     @property
     def grows(self) -> bool:
-        """True if neighbours part exponentially, and go on doing so when the time is doubled."""
+        """True if neighbours part exponentially, and still do when the time is doubled."""
         return min(self.early, self.late) > CHAOTIC and self.late > _GROWS * self.early
 
     @property
@@ -210,7 +216,7 @@ class _Evidence:
         return self.late < max(REGULAR, self.early)
 
     def kind(self, integrable: bool) -> MotionKind:
-        """The kind of the motion, as far as this tells."""
+        """Return the kind of the motion that this evidence shows."""
         if self.grows and self.k > _CHAOTIC_SERIES and not integrable:
             return MotionKind.CHAOTIC
         if not (self.bounded or integrable):
@@ -227,39 +233,40 @@ class _Evidence:
 def regime(
     map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300, kept: int = 200, t: float = 200.0
 ) -> Regime:
-    """Return the kind of the motion from a place of a section.
+    """Classify the motion from a point of a section.
 
     Parameters
     ----------
     map_ : ReturnMap
-        The return map of the section.
+        Return map of the section.
     start : array_like, shape (d,)
-        The place where the motion starts.
+        Point where the motion starts.
     transient : int, default 300
-        Crossings that are left out, 0 to 20 000.
+        Crossings discarded, 0 to 20 000.
     kept : int, default 200
-        Crossings that are looked at, 1 to 20 000; up to 64 times as many where they do not decide, 20 000 at
-        most.
+        Crossings kept, 1 to 20 000.  Up to 64 times as many are used if they do not decide, at most 20 000.
     t : float, default 200
-        Time of the indicator, at least that of 30 returns; up to 64 times as long where it does not decide.
+        Time of MEGNO, at least 30 returns.  Up to 64 times as long if it does not decide.
 
     Returns
     -------
     Regime
-        Its kind, with the numbers that decided it.
+        The kind of the motion, with the numbers that decided it.
 
     Raises
     ------
     InvalidParameter
-        For counts or times out of range.
+        If a number is out of range.
     OutsideRegion
-        Where no motion crosses at the place.
+        If no motion crosses the section at the point.
     WorkLimit
-        Where this takes more steps than one request may.
+        If the orbit needs too many steps.
 
+    Examples
+    --------
     >>> from hess_mechanics import HessBody, regime, return_map
     >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
-    >>> regime(P, (0.3,), t=100.0).kind.words  # it comes to the stable limit cycle
+    >>> regime(P, (0.3,), t=100.0).kind.words  # it tends to the stable limit cycle
     'fixed point'
     """
     transient, kept = as_whole("transient", transient, 0, _MOST_CROSSINGS), as_whole("kept", kept, 1, _MOST_CROSSINGS)
@@ -351,7 +358,7 @@ def _evidence(map_: ReturnMap, places: Array, span: float) -> _Evidence:
 
 
 def _ensemble(map_: ReturnMap, places: Array) -> Array:
-    """Places (m, d) of orbits that started next to different places (n, d) of one, many crossings later."""
+    """Return the end points (m, d) of orbits that started next to different points (n, d) of an orbit."""
     found, count = [], min(len(places), _INDEPENDENT)
     for i in range(_MEMBERS):
         start = places[i * len(places) // _MEMBERS]
@@ -370,7 +377,7 @@ def _indicated(map_: ReturnMap, places: Array, t: float) -> Megno:
 
 
 def _series(turns: Sequence[float], places: Array) -> Array:
-    """Bounded functions along an orbit (n, m): cos and sin of angles, other coordinates in units of their range."""
+    """Return bounded functions along an orbit (n, m): cos and sin of angles, other coordinates over their range."""
     away = places - places.mean(axis=0)
     size = max(float(np.ptp(away, axis=0).max()), 1e-300)
     return np.column_stack(
@@ -387,9 +394,9 @@ def _series(turns: Sequence[float], places: Array) -> Array:
 
 
 def _has_a_curve(map_: ReturnMap, place: Array, t: float) -> bool:
-    """True if one more exponent is 0 than those of the integrals and of the direction of motion.
+    """True if one more exponent is 0 than the integrals and the direction of motion require.
 
-    An attracting invariant curve has it; an attracting periodic orbit, however long, has not.
+    An attracting invariant curve has such an exponent; an attracting periodic orbit, however long, does not.
     """
     found = lyapunov_spectrum(map_.section, map_.state_at(place), -t if map_.backward else t, map_.accuracy)
     return found.zeros >= found.integrals + 2
@@ -397,16 +404,16 @@ def _has_a_curve(map_: ReturnMap, place: Array, t: float) -> bool:
 
 @dataclass(frozen=True)
 class Dynamics(Result):
-    """To what orbits come forward and backward in time, how far apart that is, and whether volume shrinks.
+    """Attractor and repeller of the orbits from a point, their distance, and the change of volume.
 
     Attributes
     ----------
     motion : Regime
-        The kind of the motion forward in time, and the mean divergence that is judged.
-    attractor, repeller : Array, shape (n, d) and (m, d)
-        The crossings of the first orbit, in the order in which they are passed.
+        Kind of the motion forward in time, with the mean divergence.
+    attractor, repeller : ndarray, shape (n, d) and (m, d)
+        Crossings of the first orbit, in order of time.
     comparisons : tuple of Apart
-        How far apart the two sets are, for each orbit of the ensemble.
+        Distance between the two sets, for each orbit of the ensemble.
     """
 
     motion: Regime
@@ -416,12 +423,12 @@ class Dynamics(Result):
 
     @property
     def settled(self) -> tuple[Apart, ...]:
-        """The comparisons of orbits that have come to their sets; all, where none has."""
+        """Comparisons of the orbits that have settled; all comparisons if there is no such orbit."""
         return tuple(one for one in self.comparisons if one.settled) or self.comparisons
 
     @property
     def distance(self) -> float:
-        """Between the sets, the mean over the orbits that have settled."""
+        """Distance between the sets, the mean over the settled orbits."""
         return float(np.mean([one.distance for one in self.settled]))
 
     @property
@@ -431,12 +438,12 @@ class Dynamics(Result):
 
     @property
     def shared(self) -> float:
-        """Share of the places of one set that lie at the other, the mean over the orbits that have settled."""
+        """Fraction of the points of one set that lie at the other, the mean over the settled orbits."""
         return float(np.mean([one.shared for one in self.settled]))
 
     @property
     def verdict(self) -> str:
-        """ "conservative", "dissipative", "mixed" or "not told apart"."""
+        """The verdict: "conservative", "dissipative", "mixed" or "not told apart"."""
         if self.motion.volume_kept:
             return "conservative"
         if sum(one.settled for one in self.comparisons) >= _ENOUGH and self.motion.volume < 0:
@@ -448,7 +455,7 @@ class Dynamics(Result):
 
     @property
     def sentence(self) -> str:
-        """The verdict with what it rests on."""
+        """The verdict with its evidence."""
         if self.motion.volume_kept:
             return "Conservative: the field keeps the volume."
         if self.verdict == "not told apart":
@@ -459,7 +466,13 @@ class Dynamics(Result):
         )
 
     def labels(self) -> Labels:
-        """The places of both sets, and what was found of them."""
+        """Return the points of both sets, with the verdict.
+
+        Returns
+        -------
+        Labels
+            The coordinates over the points.
+        """
         which = np.repeat(["attractor", "repeller"], [len(self.attractor), len(self.repeller)])
         points = np.concatenate([self.attractor, self.repeller])
         along, names = ("crossing",), self.motion.names
@@ -482,28 +495,39 @@ class Dynamics(Result):
 def dynamics_of(
     map_: ReturnMap, start: Sequence[float] | Array, transient: int = 500, kept: int = 2000, t: float = 1000.0
 ) -> Dynamics:
-    """Return to what the orbits from a place come forward and backward in time, and how far apart that is.
+    """Classify the dynamics around the orbits from a point: conservative, dissipative or mixed.
 
     Parameters
     ----------
     map_ : ReturnMap
-        The return map of the section.
+        Return map of the section.
     start : array_like, shape (d,)
-        The place where the orbits start, 1e-8 from each other.
-    transient, kept : int
-        Crossings left out, 0 to 20 000, and looked at, 8 to 20 000, of each orbit.
-    t : float
-        The time over which the divergence of each orbit is averaged.
+        Point where the orbits start, 1e-8 from each other.
+    transient : int, default 500
+        Crossings discarded of each orbit, 0 to 20 000.
+    kept : int, default 2000
+        Crossings kept of each orbit, 8 to 20 000.
+    t : float, default 1000
+        Time over which the divergence of each orbit is averaged.
+
+    Returns
+    -------
+    Dynamics
+        The verdict, with the two sets and their distance.
 
     Raises
     ------
     InvalidParameter
-        For counts or times out of range.
+        If a number is out of range.
     NoReturn
-        Where the motion does not come back so often.
-    OutsideRegion, WorkLimit
-        As `regime`.
+        If the motion does not return often enough.
+    OutsideRegion
+        If no motion crosses the section at the point.
+    WorkLimit
+        If an orbit needs too many steps.
 
+    Examples
+    --------
     >>> from hess_mechanics import HessBody, dynamics_of, return_map
     >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
     >>> dynamics_of(P, (0.3,), transient=60, kept=64, t=100.0).verdict  # a stable cycle, and an unstable one
@@ -514,7 +538,7 @@ def dynamics_of(
 
 
 def compared(map_: ReturnMap, motion: Regime, start: Sequence[float] | Array, transient: int, kept: int) -> Dynamics:
-    """Return the same for a motion whose kind is known already."""
+    """Return the same for a motion whose kind is already known."""
     origin = np.array(start, float)
     pairs: list[tuple[Array, Array]] = []
     for i in range(_MEMBERS):

@@ -1,13 +1,13 @@
-"""The return map of a section in its own coordinates, with its derivative by the variational equations.
+"""Return maps of sections in their own coordinates, with derivatives from the variational equations.
 
-A section of a system at fixed values of its integrals has one or two coordinates x, a state Y(x) at each, and x(Y)
-back.  The map is P(x) = x(Y′), Y′ the next crossing by the orbit from Y(x).  With V the transition matrix up to there,
-f the field and n the gradient of the surface at Y′,
+A section of a system at fixed values of its integrals has one or two coordinates x, a state Y(x) at each point, and an
+inverse x(Y).  The map is P(x) = x(Y′), where Y′ is the next crossing of the orbit from Y(x).  With the transition
+matrix V up to this crossing, the field f and the gradient n of the surface at Y′,
 
     DP = ∂x/∂Y (1 − f nᵀ/(n·f)) V ∂Y/∂x.
 
-∂Y/∂x lies in the levels of the integrals, which V keeps.  It and ∂x/∂Y are of closed formulas and are found by
-differences of sixth order, exact to some 1e-13.
+∂Y/∂x is tangent to the levels of the integrals, which V preserves.  It and ∂x/∂Y are derivatives of closed formulas and
+are computed by differences of sixth order, accurate to about 1e-13.
 """
 
 from __future__ import annotations
@@ -34,18 +34,18 @@ from hess_mechanics.numerics.results import Array, Mask
 __all__ = ["PoincareSection", "ReturnMap"]
 
 _LONGEST = 400.0
-"""Time allowed for a return in Newton's method, which tries many places: in units of 1/ν times the slowness of the
+"""Time limit for a return in Newton's method, which tries many points; in units of 1/ν times the slowness of the
 section."""
 _WAIT = 2000.0
-"""Time for which one motion is followed in search of its next crossing, in the same units."""
+"""Time limit for the next crossing of a single orbit, in the same units."""
 _PIECE = 50
-"""Crossings that are followed at once."""
+"""Crossings per call of the kernel."""
 _STEP = 2e-3
 _SHIFTS = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])
 _WEIGHTS = np.array([-1.0, 9.0, -45.0, 45.0, -9.0, 1.0]) / 60.0
-"""Of the differences of sixth order."""
+"""Weights of the differences of sixth order."""
 _AGREE = 1e-14
-"""To what differences with a step and a quarter of it agree, times the step: that is their round-off."""
+"""Round-off of the differences times the step: differences with a step and with a quarter of it agree to this."""
 _TRIED = 100
 _TOO_LONG = f"This return needs more than {MAX_STEPS} steps: choose another place, or a cheaper level."
 _AT_ONCE = 1e-8
@@ -56,56 +56,66 @@ class PoincareSection(Body, Protocol):
     """A section of a system at fixed values of its integrals, in coordinates that cover it."""
 
     def __hash__(self) -> int:
-        """Return a hash: sections are values, by which results are cached."""
+        """Return a hash: sections are values and serve as cache keys."""
         return object.__hash__(self)
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the coordinates."""
+        """Names of the coordinates."""
 
     @property
     def turns(self) -> tuple[float, ...]:
-        """The period of each coordinate, ∞ where it is no angle."""
+        """Period of each coordinate, ∞ if it is not an angle."""
 
     @property
     def window(self) -> tuple[tuple[float, float], ...]:
-        """From where to where each coordinate goes."""
+        """Range of each coordinate."""
 
     @property
     def surface(self) -> Surface:
-        """What is crossed."""
+        """The surface in state space."""
 
     @property
     def slowness(self) -> float:
-        """How much longer than 1/ν a motion with this tensor may take for a turn."""
+        """Factor by which a turn may take longer than 1/ν for this inertia tensor."""
 
     @property
     def constants(self) -> Mapping[str, float]:
-        """What may be changed: parameters and values of the integrals, by name."""
+        """Parameters and values of the integrals that can be changed, by name."""
 
     @property
     def integrable(self) -> str:
-        """The name of the integrable case that this is, exactly; empty where none is known."""
+        """Name of the integrable case to which the body exactly belongs; empty if none is known."""
         return ""
 
     def moved(self, name: str, value: float) -> PoincareSection:
-        """The same section with another value of a constant.  Raises a `ModelError` where there is none."""
+        """Return the section at another value of a constant.  Raises a `ModelError` if there is none."""
 
     @property
     def states_at(self) -> Callable[..., tuple[Array, Mask]]:
-        """The states (n, d) at coordinates (n,) each, and whether motions cross there (n,)."""
+        """Function of coordinates (n,) that returns states (n, d) and a mask (n,) of the points that motions cross."""
 
     def places_of(self, states: Array) -> Array:
-        """The coordinates (n, k) of states (n, d)."""
+        """Return the coordinates (n, k) of states (n, d)."""
 
     def is_on(self, states: Array) -> Mask:
-        """Whether states (n, d) of the surface belong to this sheet (n,): all do, unless it has others."""
+        """Return a mask (n,) of the states (n, d) on this sheet; all of them if there is a single sheet."""
         return np.ones(len(states), bool)
 
 
 @dataclass(frozen=True)
 class ReturnMap:
-    """The return map of a section, see `periodic.Map`; forward in time, or backward."""
+    """The return map of a Poincaré section, as `return_map` returns it.
+
+    Parameters
+    ----------
+    section : PoincareSection
+        The section.
+    accuracy : Level
+        Accuracy level.
+    backward : bool, default False
+        Map backward in time instead of forward.
+    """
 
     section: PoincareSection
     accuracy: Level
@@ -113,44 +123,90 @@ class ReturnMap:
 
     @property
     def turns(self) -> tuple[float, ...]:
-        """The period of each coordinate, ∞ where it is no angle."""
+        """Period of each coordinate, ∞ if it is not an angle."""
         return self.section.turns
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of the coordinates."""
+        """Names of the coordinates."""
         return self.section.names
 
     @property
     def promise(self) -> float:
-        """Of the accuracy level."""
+        """Largest error that the accuracy level promises."""
         return self.accuracy.promise
 
     @property
     def level(self) -> str:
-        """The name of the accuracy level."""
+        """Name of the accuracy level."""
         return self.accuracy.name
 
     @property
     def is_floor(self) -> bool:
-        """Whether the level is the last one."""
+        """True at the last accuracy level."""
         return self.accuracy.is_floor
 
     def tightened(self) -> ReturnMap:
-        """The same map with a hundredth of the tolerance, from starts that differ by roundings."""
+        """Return the same map with a hundredth of the tolerance and starts that differ by roundings.
+
+        Returns
+        -------
+        ReturnMap
+            The more accurate map.
+        """
         return replace(self, accuracy=self.accuracy.tightened())
 
     def inverse(self) -> ReturnMap:
-        """The map backwards in time."""
+        """Return the inverse map, backward in time.
+
+        Returns
+        -------
+        ReturnMap
+            The inverse.
+        """
         return replace(self, backward=not self.backward)
 
     def moved(self, name: str, value: float) -> ReturnMap:
-        """The same map at another value of a constant of the section.  Raises `InvalidParameter`."""
+        """Return the map at another value of a constant of the section.
+
+        Parameters
+        ----------
+        name : str
+            Name of the constant, one of `section.constants`.
+        value : float
+            New value.
+
+        Returns
+        -------
+        ReturnMap
+            The map at this value.
+
+        Raises
+        ------
+        InvalidParameter
+            If there is no such constant.
+        """
         self.constant(name)
         return replace(self, section=self.section.moved(name, value))
 
     def constant(self, name: str) -> float:
-        """A constant of the section.  Raises `InvalidParameter`, which lists them."""
+        """Return the value of a constant of the section.
+
+        Parameters
+        ----------
+        name : str
+            Name of the constant.
+
+        Returns
+        -------
+        float
+            Its value.
+
+        Raises
+        ------
+        InvalidParameter
+            If there is no such constant; the message lists all of them.
+        """
         if name not in self.section.constants:
             raise InvalidParameter(
                 f"There is no {name} here to change: choose one of {', '.join(self.section.constants)}."
@@ -158,7 +214,23 @@ class ReturnMap:
         return self.section.constants[name]
 
     def state_at(self, place: Array) -> Array:
-        """The state (d,) at a place of the section.  Raises `OutsideRegion`."""
+        """Return the state at a point of the section.
+
+        Parameters
+        ----------
+        place : array_like, shape (k,)
+            Coordinates of the point.
+
+        Returns
+        -------
+        ndarray, shape (d,)
+            The state.
+
+        Raises
+        ------
+        OutsideRegion
+            If no motion crosses the section at the point.
+        """
         states, there = self.section.states_at(*(np.array([x]) for x in place))
         if not there[0]:
             where = ", ".join(f"{name} = {x:.6g}" for name, x in zip(self.names, place, strict=True))
@@ -166,22 +238,81 @@ class ReturnMap:
         return np.asarray(states[0])
 
     def image(self, place: Array) -> Array:
-        """The next crossing (k,).  Raises `NoReturn`, `OutsideRegion`, `WorkLimit`."""
+        """Return the image of a point: the next crossing.
+
+        Parameters
+        ----------
+        place : array_like, shape (k,)
+            Coordinates of the point.
+
+        Returns
+        -------
+        ndarray, shape (k,)
+            Coordinates of the image.
+
+        Raises
+        ------
+        NoReturn
+            If the orbit does not return within the time limit.
+        OutsideRegion
+            If no motion crosses the section at the point.
+        WorkLimit
+            If the return needs too many steps.
+        """
         return self.after(place, 1)
 
     def after(self, place: Array, count: int) -> Array:
-        """The crossing (k,) after so many returns, one after the other.  Raises as `image`."""
+        """Return the image of a point after several returns.
+
+        Parameters
+        ----------
+        place : array_like, shape (k,)
+            Coordinates of the point.
+        count : int
+            Number of returns.
+
+        Returns
+        -------
+        ndarray, shape (k,)
+            Coordinates of the image.
+
+        Raises
+        ------
+        NoReturn
+            If the orbit does not return within the time limit.
+        OutsideRegion
+            If no motion crosses the section at the point.
+        WorkLimit
+            If the returns need too many steps.
+        """
         if count == 0:
             return np.asarray(place, float)
         problem, _, state = self._crossing(self.state_at(place), count, _LONGEST)
         return np.asarray(self.section.places_of((state * problem.scale)[None])[0])
 
     def orbit(self, place: Array, count: int) -> Array:
-        """The next `count` crossings (n, k) of this sheet, one after the other; fewer where none is seen for `wait`.
+        """Return the next crossings of the orbit from a point.
 
-        The orbit is brought back to its levels of the integrals after every 50 of them, so it may be as long as one
-        likes.  A slow motion is followed as long as each stretch of the time `wait` has a crossing.
-        Raises `OutsideRegion`, `WorkLimit`.
+        The orbit is projected back to the levels of the integrals after every 50 crossings, so it can have any length.
+
+        Parameters
+        ----------
+        place : array_like, shape (k,)
+            Coordinates of the point.
+        count : int
+            Number of crossings.
+
+        Returns
+        -------
+        ndarray, shape (n, k)
+            Coordinates of the crossings on this sheet; n < `count` if no crossing is found for the time `wait`.
+
+        Raises
+        ------
+        OutsideRegion
+            If no motion crosses the section at the point.
+        WorkLimit
+            If the crossings need too many steps.
         """
         section = self.section
         parts = [np.empty((0, len(self.turns)))]
@@ -202,25 +333,82 @@ class ReturnMap:
             parts.append(np.asarray(section.places_of(states[on])))
             if not on.size:
                 break
-            # Where the last crossings are on another sheet, they are passed once more.
+            # If the last crossings are on another sheet, the next call repeats them.
             left -= int(on[-1]) + 1
             place = parts[-1][-1]
         return np.concatenate(parts)
 
     def wait(self, place: Array) -> float:
-        """The time for which `orbit` looks for the next crossing from a place.  Raises `OutsideRegion`."""
+        """Return the time limit of `orbit` for the next crossing from a point.
+
+        Parameters
+        ----------
+        place : array_like, shape (k,)
+            Coordinates of the point.
+
+        Returns
+        -------
+        float
+            Time, in units of the problem.
+
+        Raises
+        ------
+        OutsideRegion
+            If no motion crosses the section at the point.
+        """
         return _WAIT * self.section.slowness / Problem.of(self.section, [self.state_at(place)]).nu
 
     def time_of(self, place: Array, count: int = 1) -> float:
-        """The time that so many returns from a place take, each of which may take as long as `wait`.
+        """Return the time that several returns from a point take.
 
-        Raises as `image`.
+        Parameters
+        ----------
+        place : array_like, shape (k,)
+            Coordinates of the point.
+        count : int, default 1
+            Number of returns.
+
+        Returns
+        -------
+        float
+            Time, in units of the problem.
+
+        Raises
+        ------
+        NoReturn
+            If a return takes longer than `wait`.
+        OutsideRegion
+            If no motion crosses the section at the point.
+        WorkLimit
+            If the returns need too many steps.
         """
         problem, time, _ = self._crossing(self.state_at(place), count, _WAIT)
         return time / problem.nu
 
     def with_derivative(self, place: Array) -> tuple[Array, Array]:
-        """The next crossing (k,), and DP there (k, k).  Raises as `image`."""
+        """Return the image of a point and the derivative of the map there.
+
+        Parameters
+        ----------
+        place : array_like, shape (k,)
+            Coordinates of the point.
+
+        Returns
+        -------
+        image : ndarray, shape (k,)
+            Coordinates of the image.
+        derivative : ndarray, shape (k, k)
+            DP at the point.
+
+        Raises
+        ------
+        NoReturn
+            If the orbit does not return within the time limit.
+        OutsideRegion
+            If no motion crosses the section at the point.
+        WorkLimit
+            If the return needs too many steps.
+        """
         start = self.state_at(place)
         problem, time, scaled = self._crossing(start, 1, _LONGEST)
         system = self.section.system
@@ -241,7 +429,7 @@ class ReturnMap:
         return problem.nearby() if self.accuracy.aside else problem
 
     def _crossed(self, problem: Problem, wanted: int, longest: float) -> tuple[int, Array, Array]:
-        """Return how many of so many crossings are found in this time, and times and states, in the problem's units."""
+        """Return the number of crossings within a time limit, with times and states in the problem's units."""
         section, accuracy = self.section, self.accuracy
         cross, normal, offset = section.surface.scaled(section.system, problem)
         end = longest * section.slowness * (-1.0 if self.backward else 1.0)
@@ -262,12 +450,12 @@ class ReturnMap:
         return found, times, states
 
     def _crossing(self, start: Array, count: int, longest: float) -> tuple[Problem, float, Array]:
-        """The problem in its own units, time and state (d,) of the crossing of this number from a state."""
+        """Return the scaled problem, and the time and the state (d,) of the crossing with this number."""
         go_on()
         problem, wanted = self._problem(start), count
         while True:
             found, times, states = self._crossed(problem, wanted, longest * count)
-            # A start that round-off puts a little before a curved surface crosses it at once.
+            # Round-off may put the start a little before a curved surface, which it then crosses at once.
             if not (found and wanted == count and abs(times[0]) < _AT_ONCE):
                 break
             wanted += 1
@@ -283,7 +471,7 @@ class ReturnMap:
         return problem, float(times[-1]), states[-1]
 
     def _tangents(self, place: Array) -> Array:
-        """∂Y/∂x (k, d).  Raises `OutsideRegion` at the very edge of the section."""
+        """Return ∂Y/∂x (k, d).  Raises `OutsideRegion` at the very edge of the section."""
         k = len(place)
         step = _STEP
         while True:
@@ -301,7 +489,7 @@ class ReturnMap:
                 raise OutsideRegion("This place is too close to the edge of the section: choose another one.")
 
     def _in_plane(self, state: Array, place: Array, away: Array) -> Array:
-        """∂x/∂Y at a state along directions (k, d); column j is that of direction j."""
+        """Return ∂x/∂Y at a state along directions (k, d); column j belongs to direction j."""
         # In units of the state: its components differ in size.
         unit = max(1.0, float(np.abs(state).max()))
         sizes = np.maximum(np.linalg.norm(away, axis=1), 1e-300)
@@ -312,9 +500,10 @@ class ReturnMap:
 
     @cached_property
     def volume_kept(self) -> bool:
-        """Whether the divergence of the field is 0 everywhere: then nothing attracts where motions are bounded.
+        """True if the divergence of the field is 0 everywhere, so that nothing attracts where motions are bounded.
 
-        It is found by differences at a few states in general position, which are exact for fields of such low degree.
+        It is computed by differences at a few states in general position, which are exact for fields of such low
+        degree.
         """
         system, p = self.section.system, list(self.section.parameters)
         d = len(system.variables)
@@ -328,7 +517,7 @@ class ReturnMap:
 
     @cached_property
     def mirrors(self) -> tuple[Mirror, ...]:
-        """The changes of sign of variables that map the motions, forward or backward in time, and this section."""
+        """Sign changes of variables that map this section to itself and motions to motions, possibly reversed."""
         return tuple(
             one
             for one in sign_symmetries(self.section.system, self.section.parameters)
@@ -336,7 +525,25 @@ class ReturnMap:
         )
 
     def mirrored(self, mirror: Mirror, place: Array) -> Array | None:
-        """The image (k,) of a place; None where it is not on the section."""
+        """Return the mirror image of a point.
+
+        Parameters
+        ----------
+        mirror : Mirror
+            Sign change of variables.
+        place : array_like, shape (k,)
+            Coordinates of the point.
+
+        Returns
+        -------
+        ndarray, shape (k,), or None
+            Coordinates of the mirror image; None if it is not on the section.
+
+        Raises
+        ------
+        OutsideRegion
+            If no motion crosses the section at the point.
+        """
         state = mirror.signs * self.state_at(place)
         image = np.asarray(self.section.places_of(state[None])[0])
         states, there = self.section.states_at(*(np.array([x]) for x in image))
@@ -344,7 +551,7 @@ class ReturnMap:
         return image if there[0] and float(np.abs(states[0] - state).max()) < 1e-9 * size else None
 
     def _mirrored(self, mirror: Mirror) -> Array | None:
-        """The image of the first place of a few where motions cross."""
+        """Return the mirror image of the first of a few points that motions cross."""
         for shares in evenly(_TRIED - 1).T:
             place = np.array(
                 [low + share * (high - low) for share, (low, high) in zip(shares, self.section.window, strict=False)]
@@ -356,7 +563,18 @@ class ReturnMap:
         return None
 
     def symmetries_of(self, places: Array) -> Sequence[str]:
-        """The names of the mirrors under which an orbit with these places (m, k) is its own image."""
+        """Return the symmetries of an orbit.
+
+        Parameters
+        ----------
+        places : ndarray, shape (m, k)
+            Points of the orbit.
+
+        Returns
+        -------
+        tuple of str
+            Names of the `mirrors` that map the orbit to itself.
+        """
         found = []
         for mirror in self.mirrors:
             images = [self.mirrored(mirror, place) for place in places]

@@ -1,8 +1,8 @@
-"""Accuracy levels: four names, and what each of them means for each kind of computation.
+"""Accuracy levels: four names, and their meaning for each kind of computation.
 
-A Taylor series pays for digits by its order, so one orbit costs about the same at every level: `reference` takes at
-most two or three times as long as `draft`.  `draft` is cheaper where it also computes less, as fewer crossings, a
-shorter time or a coarser grid.
+A Taylor series gains digits by its order, so an orbit costs about the same at every level: `reference` takes at most
+two or three times as long as `draft`.  `draft` is cheaper where it also computes less: fewer crossings, a shorter time
+or a coarser grid.
 """
 
 from __future__ import annotations
@@ -32,7 +32,11 @@ __all__ = [
 
 
 class Status(StrEnum):
-    """How a computation ended."""
+    """How a computation ended.
+
+    `OK`: the error estimate is within the promise of the level.  `FLOOR`: it is not, at the floor of double precision.
+    `PROMISE_NOT_MET`: it is not, at any other level.
+    """
 
     OK = "ok"
     FLOOR = "double-precision floor"
@@ -41,16 +45,21 @@ class Status(StrEnum):
 
 @dataclass(frozen=True)
 class Level:
-    """One accuracy level.
+    """An accuracy level.
 
     Parameters
     ----------
-    name : what the user chooses.
-    promise : the largest global error of a result, in units in which the state is O(1).
-        For `reference` it is nominal: that level goes to the floor of double precision, which depends on the motion.
-    tolerance : local error of one Taylor step, first attempt.
-    order : of the Taylor series.
-    aside : whether motions start a few units in the last place beside their start, see `measured.nearby`.
+    name : str
+        Name of the level.
+    promise : float
+        Largest global error of a result, in units in which the state is O(1).  For `reference` it is nominal: this
+        level goes down to the floor of double precision, which depends on the motion.
+    tolerance : float
+        Local error of a Taylor step in the first run.
+    order : int
+        Order of the Taylor series.
+    aside : bool, default False
+        Start a few units in the last place beside the given state, see `measured.nearby`.
     """
 
     name: str
@@ -61,20 +70,36 @@ class Level:
 
     @property
     def is_floor(self) -> bool:
-        """True for the last level, whose error is round-off and not truncation."""
+        """True for the last level, whose error is round-off instead of truncation."""
         return self.tolerance <= FLOOR_TOLERANCE
 
     def status(self, error: float) -> Status:
-        """Return the status of a result with this error estimate, in the units of the promise."""
+        """Return the status of a result with a given error.
+
+        Parameters
+        ----------
+        error : float
+            Estimated error, in the units of the promise.
+
+        Returns
+        -------
+        Status
+            The status.
+        """
         if error <= self.promise:
             return Status.OK
         return Status.FLOOR if self.is_floor else Status.PROMISE_NOT_MET
 
     def tightened(self) -> Level:
-        """The same level with a hundredth of the tolerance, against which its error is measured.
+        """Return the same level with a hundredth of the tolerance, to measure the error of this one.
 
-        The order differs too, so that a motion that fits into one step is not compared with itself, and so does the
-        start, so that two runs do not make the same roundings.
+        The order differs too, so that a motion that fits into one step is not compared with itself; and so does the
+        start, so that the two runs do not make the same roundings.
+
+        Returns
+        -------
+        Level
+            The more accurate level.
         """
         if self.is_floor:
             return Level(self.name, self.promise, self.tolerance / 30.0, self.order - 3, not self.aside)
@@ -95,12 +120,29 @@ LEVELS: dict[str, Level] = {each.name: each for each in (DRAFT, STANDARD, PRECIS
 
 
 Accuracy = Level | str
-"""What callers may give for an accuracy: a level, or the name of one; `numerics.arguments.as_level` reads it."""
+"""An accuracy as an argument: a level or its name; `numerics.arguments.as_level` converts it."""
 
 
 def level(name: str) -> Level:
-    """The level of this name.  Raises `InvalidParameter`, which lists the names.
+    """Return the accuracy level with a given name.
 
+    Parameters
+    ----------
+    name : {"draft", "standard", "precise", "reference"}
+        Name of the level.
+
+    Returns
+    -------
+    Level
+        The level.
+
+    Raises
+    ------
+    InvalidParameter
+        If there is no such level; the message lists the names.
+
+    Examples
+    --------
     >>> from hess_mechanics import level
     >>> level("standard").promise
     1e-06
@@ -112,7 +154,7 @@ def level(name: str) -> Level:
 
 
 def cheapest(error: float) -> Level:
-    """The first level that promises this error or less; the last one if none does."""
+    """Return the first level that promises this error or less; the last one if none does."""
     return next((each for each in LEVELS.values() if each.promise <= error), REFERENCE)
 
 
@@ -120,32 +162,32 @@ def cheapest(error: float) -> Level:
 
 
 class Computation(StrEnum):
-    """The kinds of computation, each with its own meaning of the levels and of the promise of a `Plan`."""
+    """Kinds of computation; each one has its own meaning of the levels and of the promise of a `Plan`."""
 
     ORBIT = "orbit"
-    """Promised is the error where the state is O(1)."""
+    """Promise: the error, in units in which the state is O(1)."""
     SECTION = "section"
-    """Promised are the crossings right to half a pixel where neighbours part e-fold from one to the next."""
+    """Promise: the number of crossings right to half a pixel if neighbours part e-fold from one to the next."""
     ROTATION = "rotation number"
-    """Promised is the error of the rotation number of a closed curve, in turns."""
+    """Promise: the error of the rotation number of a closed curve, in turns."""
     GRID = "grid"
-    """Promised is the error of ρ where |trace| is not within 1e-2 of 2, in turns."""
+    """Promise: the error of ρ, in turns, if |trace| is not within 1e-2 of 2."""
     LINE = "line"
-    """Promised is the same as of a grid."""
+    """Promise: as for a grid."""
     COLOURS = "colours"
-    """Promised is the same as of a grid; 256 colours tell 4e-3 apart."""
+    """Promise: as for a grid; 256 colours resolve 4e-3."""
     MAP = "map"
-    """Promised is the error of θ⁺, in radians."""
+    """Promise: the error of θ⁺, in radians."""
     CURVE = "curve"
-    """Promised is the distance from the curve, in pixels, for |a| ≤ 1."""
+    """Promise: the distance from the curve, in pixels, for |a| ≤ 1."""
     BASINS = "basins"
-    """Promised is the share of the cells that twice as many along each side change, where the boundary is a curve."""
+    """Promise: the fraction of cells that change on a grid twice as fine, if the boundary is a curve."""
     INDICATOR = "indicator"
-    """Promised is the same as of basins."""
+    """Promise: as for basins."""
     EXPONENT = "exponent"
-    """Promised is the error of λ beside the fastest angular velocity ν, for a time of 2000/ν."""
+    """Promise: the error of λ relative to the fastest angular velocity ν, for a time of 2000/ν."""
     CLOUD = "cloud"
-    """Promised is the error of ln|s|, of γ, and of ω beside its largest size."""
+    """Promise: the error of ln|s|, of γ, and of ω relative to its largest size."""
 
 
 _CROSSED = Level("draft", 1e-3, 1e-6, 12)
@@ -153,15 +195,19 @@ _CROSSED = Level("draft", 1e-3, 1e-6, 12)
 
 @dataclass(frozen=True)
 class Plan:
-    """What a level means for a kind of computation.
+    """Meaning of an accuracy level for one kind of computation.
 
     Parameters
     ----------
-    level : order and tolerance of the Taylor steps, under the name of the level.
-    promise : see `Computation`.
-    share : of the crossings, of the turns, of the time, of the points asked for, the part that is computed.
-    cells : cells along each side of a grid, as a multiple of those at `standard`; phases of a map, orbits on a line,
-        tori on one.
+    level : Level
+        Order and tolerance of the Taylor steps, under the name of the level.
+    promise : float
+        Promise, see `Computation`.
+    share : float, default 1
+        Fraction of the requested crossings, turns, time or points that is computed.
+    cells : float, default 1
+        Number of cells along each side of a grid relative to `standard`; likewise phases of a map, orbits or tori on a
+        line.
     """
 
     level: Level
@@ -170,20 +216,20 @@ class Plan:
     cells: float = 1.0
 
     def part(self, count: float, least: int = 1) -> int:
-        """How many of `count` crossings or points are computed: at least `least`, if so many are asked for."""
+        """Return the number of crossings or points to compute out of `count`, at least min(`count`, `least`)."""
         return max(min(int(count), least), round(self.share * count))
 
     def side(self, count: int) -> int:
-        """The cells along a side that has `count` where `cells` is 1."""
+        """Return the number of cells along a side that has `count` cells at `standard`."""
         return max(1, round(self.cells * count))
 
     def grid(self, sides: tuple[int, int]) -> tuple[int, int]:
-        """The cells (m, n) of a grid that has `sides` where `cells` is 1."""
+        """Return the numbers (m, n) of cells of a grid that has `sides` cells at `standard`."""
         return self.side(sides[0]), self.side(sides[1])
 
 
 def _plans(*rows: Plan) -> dict[str, Plan]:
-    """The plans by the names of their levels."""
+    """Return the plans by the names of their levels."""
     return {row.level.name: row for row in rows}
 
 
@@ -205,7 +251,7 @@ PLANS: Mapping[Computation, Mapping[str, Plan]] = {
         Plan(_CROSSED, 1e-3, 0.3, 0.5), *(Plan(each, 1e-4) for each in (STANDARD, PRECISE, REFERENCE))
     ),
     Computation.GRID: _plans(Plan(DRAFT, 1e-3, cells=0.5), *_OF_A_MAP),
-    # Turns of a perturbed map take the time, whatever the accuracy of the map.
+    # The turns of a perturbed map dominate the time, whatever the accuracy of the map.
     Computation.LINE: _plans(Plan(DRAFT, 1e-3, 0.15, 0.2), *_OF_A_MAP),
     Computation.COLOURS: _plans(
         Plan(DRAFT, 1e-3, cells=0.5),
@@ -217,10 +263,10 @@ PLANS: Mapping[Computation, Mapping[str, Plan]] = {
     Computation.CURVE: _plans(
         Plan(DRAFT, 0.75, cells=0.5), Plan(STANDARD, 0.25), Plan(PRECISE, 0.25), Plan(REFERENCE, 0.1, cells=2.0)
     ),
-    # To which attractor an orbit comes, and whether it is chaotic, needs no digits: more cells tell more.
+    # The attractor of an orbit, or its chaos, needs few digits; more cells show more.
     Computation.BASINS: _CELLS,
     Computation.INDICATOR: _CELLS,
-    # The neighbour is 1e-7 away, and steps must be exact beside that; the time decides how well λ is known.
+    # The neighbour is 1e-7 away, so steps must be much more accurate; the time limits the accuracy of λ.
     Computation.EXPONENT: _plans(
         Plan(replace(DRAFT, tolerance=1e-10, order=16), 0.05, share=0.2),
         Plan(replace(STANDARD, tolerance=1e-14, order=24), 0.02),
@@ -234,7 +280,7 @@ PLANS: Mapping[Computation, Mapping[str, Plan]] = {
 
 
 def plan(kind: Computation, accuracy: Accuracy) -> Plan:
-    """What a level means for a kind of computation, all of it at a level that is none of the four.
+    """Return the meaning of a level for a kind of computation; a level that is not one of the four is used as it is.
 
     Raises `InvalidParameter`.
     """

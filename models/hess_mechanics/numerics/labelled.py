@@ -1,4 +1,4 @@
-"""Results that know the names, units and coordinates of their numbers: for pandas, xarray, a plot and a notebook."""
+"""Results with the names, units and coordinates of their numbers, for pandas, xarray, plots and notebooks."""
 
 from __future__ import annotations
 
@@ -21,17 +21,24 @@ Named = Mapping[str, tuple[tuple[str, ...], NDArray[Any]]]
 
 
 def components(names: Iterable[str], values: NDArray[Any], *dims: str) -> Named:
-    """Return the components along the last axis of an array by their names, for `Labels`."""
+    """Return the components along the last axis of an array, by name, for `Labels`."""
     return {name: (dims, values[..., i]) for i, name in enumerate(names)}
 
 
 @dataclass(frozen=True)
 class Labels:
-    """What the numbers of a result are.
+    """Names, units and coordinates of the numbers of a result.
 
-    coords, variables : arrays by name, with the names of their dimensions; a coordinate of the name of a dimension
-        belongs to that dimension.
-    units : by name, "T" standing for the unit of time; facts : numbers and words of the whole result.
+    Attributes
+    ----------
+    coords : dict
+        Coordinates by name, each with the names of its dimensions.  A coordinate named like a dimension belongs to it.
+    variables : dict
+        Arrays by name, each with the names of its dimensions.
+    units : dict of str to str
+        Units by name; "T" stands for the unit of time.
+    facts : dict
+        Numbers and words about the whole result.
     """
 
     coords: Named
@@ -41,14 +48,25 @@ class Labels:
 
 
 class Result(ABC):
-    """A result that can be handed on and drawn; the libraries for that are imported only then."""
+    """Base class of results that can be converted and drawn; the libraries for this are imported only when needed."""
 
     @abstractmethod
     def labels(self) -> Labels:
-        """The names, units and coordinates of its numbers."""
+        """Return the names, units and coordinates of the numbers."""
 
     def to_xarray(self) -> Any:
-        """An `xarray.Dataset`, units in the `attrs` of its arrays.  Raises `InvalidParameter` without xarray."""
+        """Return the result as an `xarray.Dataset`, with units in the `attrs` of its arrays.
+
+        Returns
+        -------
+        xarray.Dataset
+            The arrays with their coordinates.
+
+        Raises
+        ------
+        InvalidParameter
+            If xarray is not installed.
+        """
         known = self.labels()
 
         def arrays(named: Named) -> dict[str, Any]:
@@ -60,35 +78,53 @@ class Result(ABC):
         return _needed("xarray").Dataset(arrays(known.variables), arrays(known.coords), dict(known.facts))
 
     def to_pandas(self) -> Any:
-        """A `pandas.DataFrame`, one row for each number of a kind, whose `attrs` are the facts.
+        """Return the result as a `pandas.DataFrame`, with the facts in its `attrs`.
 
-        Raises `InvalidParameter` without pandas.
+        Returns
+        -------
+        pandas.DataFrame
+            One row per point, with the coordinates as columns.
+
+        Raises
+        ------
+        InvalidParameter
+            If pandas is not installed.
         """
         known = self.labels()
         both = {**known.coords, **known.variables}
-        # Rows run as the numbers of the variables do.
+        # Rows are in the order of the variables' own dimensions.
         dims = tuple(
             dict.fromkeys(name for names, _ in [*known.variables.values(), *known.coords.values()] for name in names)
         )
         sides = {name: size for names, values in both.values() for name, size in zip(names, values.shape, strict=True)}
         grid = dict(zip(dims, np.indices([sides[name] for name in dims]), strict=True))
         columns = {name: values[tuple(grid[one].ravel() for one in names)] for name, (names, values) in both.items()}
-        # A dimension without a coordinate of its own is counted, where there are several.
+        # If there are several dimensions, one without a coordinate gets an index.
         counted = {name: index.ravel() for name, index in grid.items() if name not in both and len(dims) > 1}
         frame = _needed("pandas").DataFrame({**counted, **columns})
         frame.attrs.update(known.facts)
         return frame
 
     def plot(self) -> Any:
-        """Return a HoloViews object: variables over a coordinate, over two, or points of a plane.
+        """Return the result as a HoloViews object: variables over one coordinate or two, or points of a plane.
 
-        Needs the package `hess_explorer` beside this one.  Raises `InvalidParameter` where there is nothing to draw.
+        Needs the package `hess_explorer` in addition to this one.
+
+        Returns
+        -------
+        holoviews.core.Dimensioned
+            The picture.
+
+        Raises
+        ------
+        InvalidParameter
+            If there is nothing to draw.
         """
-        # By name, as pandas finds what plots: the mechanics know no user interface.
+        # By name, like the plotting backends of pandas: this package does not depend on a user interface.
         return importlib.import_module("hess_explorer.library.drawing").draw_result(self)
 
     def _repr_html_(self) -> str:
-        """A table of the facts, and of the arrays with their units, for notebooks."""
+        """Return a table of the facts, and of the arrays with their units, for notebooks."""
         known = self.labels()
         facts = "".join(
             f"<tr><th>{escape(str(name))}</th><td>{escape(_short(value))}</td></tr>"

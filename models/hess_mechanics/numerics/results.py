@@ -1,4 +1,4 @@
-"""Results of computations: frozen, with read-only arrays, an error estimate and the cost."""
+"""Result types: frozen, with read-only arrays, an error estimate and the cost."""
 
 from __future__ import annotations
 
@@ -34,26 +34,34 @@ _Item = TypeVar("_Item", bound=np.generic)
 
 
 def frozen(array: NDArray[_Item]) -> NDArray[_Item]:
-    """The same array, read-only: results are cached and shared between sessions."""
+    """Return the same array, made read-only, because results are cached and shared between sessions."""
     array.setflags(write=False)
     return array
 
 
 @dataclass(frozen=True)
 class Cost:
-    """Taylor steps of all runs together, and wall-clock milliseconds."""
+    """Cost of a computation.
+
+    Attributes
+    ----------
+    steps : int
+        Taylor steps of all runs together.
+    wall_ms : float
+        Wall-clock time in milliseconds.
+    """
 
     steps: int
     wall_ms: float
 
 
 def unit_of(variable: str) -> str:
-    """The unit of a variable of a system, T the unit of time and I that of moments of inertia."""
+    """Return the unit of a variable of a system, with T the unit of time and I that of moments of inertia."""
     return {"ω": "rad/T", "w": "rad/T", "M": "I/T"}.get(variable[0], "1")
 
 
 def facts_of(result: Any) -> dict[str, Any]:
-    """What every result says of its runs: level, status, error estimate, drifts where it has them, steps."""
+    """Return the facts common to all results: level, status, error estimate, drifts if there are any, and steps."""
     return {
         "level": result.level,
         "status": str(result.status),
@@ -65,15 +73,32 @@ def facts_of(result: Any) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Sampled(Result):
-    """States of a motion at some times.
+    """States of a motion at several times, the base of orbits, ensembles and section crossings.
 
-    times : (n,); states : (n, d), in the order of the system's `variables`.
-    error_estimate : largest estimated error of any component at any sample, absolute.
-    drift : for each integral, max |F(t) − F(0)|, relative to |F(0)| where that exceeds 1; variables : names.
+    Attributes
+    ----------
+    system : str
+        Name of the system.
+    level : str
+        Name of the accuracy level.
+    times : ndarray, shape (n,)
+        Times.
+    states : ndarray, shape (n, d)
+        States, in the order of `variables`.
+    status : Status
+        How the computation ended.
+    error_estimate : float
+        Largest estimated error of any component at any time.
+    drift : dict of str to float
+        max |F(t) − F(0)| of each integral F, relative to |F(0)| if that exceeds 1.
+    cost : Cost
+        Steps and time.
+    variables : tuple of str
+        Names of the variables.
     """
 
     dims: ClassVar[tuple[str, ...]] = ("t",)
-    """Dimensions of the states; the times run along the last of them."""
+    """Names of the dimensions of the states; the last one is that of the times."""
 
     system: str
     level: str
@@ -86,7 +111,13 @@ class Sampled(Result):
     variables: tuple[str, ...]
 
     def labels(self) -> Labels:
-        """The variables of the system over the dimensions."""
+        """Return the variables of the system, labelled with time.
+
+        Returns
+        -------
+        Labels
+            The variables over the times.
+        """
         return Labels(
             {"t": (self.dims[-1:], self.times)},
             components(self.variables, self.states, *self.dims),
@@ -97,15 +128,57 @@ class Sampled(Result):
 
 @dataclass(frozen=True)
 class Orbit(Sampled):
-    """A trajectory sampled at given times."""
+    """A trajectory, sampled at given times.
+
+    Attributes
+    ----------
+    system : str
+        Name of the system.
+    level : str
+        Name of the accuracy level.
+    times : ndarray, shape (n,)
+        Times.
+    states : ndarray, shape (n, d)
+        States, in the order of `variables`.
+    status : Status
+        How the computation ended.
+    error_estimate : float
+        Largest estimated error of any component at any time.
+    drift : dict of str to float
+        max |F(t) − F(0)| of each integral F, relative to |F(0)| if that exceeds 1.
+    cost : Cost
+        Steps and time.
+    variables : tuple of str
+        Names of the variables.
+    """
 
 
 @dataclass(frozen=True)
 class Ensemble(Sampled):
-    """Many trajectories sampled at the same times.
+    """Several trajectories, sampled at the same times.
 
-    times : (m,); states : (n, m, d); drift : the largest over all orbits.
-    errors : (n,), largest estimated error of each orbit.
+    Attributes
+    ----------
+    system : str
+        Name of the system.
+    level : str
+        Name of the accuracy level.
+    times : ndarray, shape (m,)
+        Times.
+    states : ndarray, shape (n, m, d)
+        States of the n orbits, in the order of `variables`.
+    status : Status
+        How the computation ended, for the least accurate orbit.
+    error_estimate : float
+        Largest estimated error of any component at any time of any orbit.
+    drift : dict of str to float
+        Largest drift of each integral over all orbits, see `Orbit`.
+    cost : Cost
+        Steps and time.
+    variables : tuple of str
+        Names of the variables.
+    errors : ndarray, shape (n,)
+        Largest estimated error of each orbit.
     """
 
     dims = ("orbit", "t")
@@ -115,6 +188,28 @@ class Ensemble(Sampled):
 
 @dataclass(frozen=True)
 class SectionCrossings(Sampled):
-    """Crossings of a surface by one orbit."""
+    """Crossings of a surface by one orbit.
+
+    Attributes
+    ----------
+    system : str
+        Name of the system.
+    level : str
+        Name of the accuracy level.
+    times : ndarray, shape (n,)
+        Times of the crossings.
+    states : ndarray, shape (n, d)
+        States at the crossings, in the order of `variables`.
+    status : Status
+        How the computation ended.
+    error_estimate : float
+        Largest estimated error of any component at any crossing.
+    drift : dict of str to float
+        max |F(t) − F(0)| of each integral F, relative to |F(0)| if that exceeds 1.
+    cost : Cost
+        Steps and time.
+    variables : tuple of str
+        Names of the variables.
+    """
 
     dims = ("crossing",)

@@ -58,7 +58,7 @@ def test_a_branch_comes_in_parts_and_goes_on_past_where_it_began():
     assert (fold.kind, abs(fold.value - 0.8) <= fold.error) == ("fold", True)
     assert values[-1] == pytest.approx(-0.5, abs=1e-12)
     assert phi[-1] == pytest.approx(math.pi + math.asin(0.625), abs=1e-12)
-    with pytest.raises(InvalidParameter, match=r"does not go on: At λ = -0\.5"):
+    with pytest.raises(InvalidParameter, match=r"cannot be continued: At λ = -0\.5"):
         gone_on(arnold, parts[-1], 1.0, -0.5)
     with pytest.raises(InvalidParameter, match="runs from"):
         branch(arnold, 0.1, (0.3,), 1.0, edge=0.5)
@@ -122,5 +122,5 @@ def test_what_it_says_over_its_points():
 def test_what_cannot_be_continued_is_refused():
     with pytest.raises(InvalidParameter, match="two different finite"):
         branch(arnold, 0.1, (0.3,), 0.1)
-    with pytest.raises(NotConverged, match="Begin a little aside"):
+    with pytest.raises(NotConverged, match="Start at a slightly different value"):
         continued(arnold, find_periodic(arnold(0.1), (0.3,), 1), "λ", 0.9, 1.0)

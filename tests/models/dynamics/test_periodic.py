@@ -66,7 +66,7 @@ def test_near_looks_from_the_place_alone():
     m, place = henon(0.95), (0.3, 0.05)
     found = find_periodic(m, place, 4)
     assert found.period == 4
-    with pytest.raises(NotConverged, match="period 1 and to none of period 4"):
+    with pytest.raises(NotConverged, match="period 1 but none of period 4"):
         find_periodic(m, place, 4, near=True)
     again = find_periodic(m, found.places[0] + 1e-3, 4, near=True)
     assert np.abs(again.places - found.places).max() < 1e-12
@@ -94,5 +94,5 @@ def test_what_is_not_there_is_refused_with_what_to_do():
         find_periodic(henon(0.1), (0.6, 0.2), 2)
     with pytest.raises(NotConverged, match="start closer"):
         find_periodic(arnold(1.5), (0.3,), 1)
-    with pytest.raises(InvalidParameter, match="2 finite numbers here: x, y"):
+    with pytest.raises(InvalidParameter, match="2 finite coordinates here: x, y"):
         find_periodic(henon(0.1), (0.6, math.nan))
