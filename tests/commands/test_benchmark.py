@@ -44,6 +44,7 @@ from hess_explorer.commands import bench as bench_of_the_wheel
 from hess_explorer.scenes import scenes
 from hess_mechanics import LEVELS, circle_map, level, solve, systems
 from support import thorough
+from support.command_line import typed
 from support.mechanics import ROOT
 from support.processes import interruptible
 
@@ -502,7 +503,7 @@ def test_without_the_sources_the_command_says_what_to_do(monkeypatch, tmp_path, 
 
 def test_the_trade_of_a_scene_is_measured_and_printed(capsys):
     """The errors are those of SciPy's orbit; times are only what they are."""
-    assert main(["bench", "--trade", "--quick", "--scenes", "kharlamova", "--format", "json"]) == 0
+    assert main(typed("bench --trade --quick --scenes kharlamova --format json")) == 0
     said = capsys.readouterr()
     assert said.err.splitlines() == ["kharlamova: orbit …"]
     data = json.loads(said.out)
@@ -530,7 +531,7 @@ def test_the_trade_of_a_scene_is_measured_and_printed(capsys):
 
 
 def test_the_trade_is_a_table_for_people(capsys):
-    assert main(["bench", "--trade", "--quick", "--scenes", "kharlamova"]) == 0
+    assert main(typed("bench --trade --quick --scenes kharlamova")) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[0].startswith("| scene | computation | draft | standard | precise | reference | ratio |")
     assert re.match(r"\| kharlamova \| orbit \| [\d.]+ ms, 0\.\d+ \|", lines[2])

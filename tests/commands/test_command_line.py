@@ -33,62 +33,20 @@ from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.suslov.equations import unit_vector
 from support.andoyer import GESS1, crossings_by_scipy, start_by_hand
-from support.command_line import replaced, run, strict_json, table, without_patience
+from support.command_line import replaced, run, strict_json, table, typed, without_patience
 from support.kernels import copy_kernels
 from support.mechanics import ROOT
 from support.processes import interruptible
 
-CIRCLE_MAP = ["circle-map", "--h", "1.5", "--f", "0.6", "--a", "0.5", "--phi", "0,1,2", "--accuracy", "reference"]
-SUSLOV = [
-    "orbit",
-    "suslov",
-    "--I",
-    "2,1,0.3,0.5",
-    "--b",
-    "0.3,-0.5,1",
-    "--omega",
-    "0.8,-0.4",
-    "--gamma",
-    "0.3,0.2,0.93",
-    "--t",
-    "10,50",
-    "--accuracy",
-    "reference",
-]
-HESS = [
-    "orbit",
-    "hess",
-    "--a",
-    "0.5",
-    "--b",
-    "1",
-    "--omega",
-    "0.7,1.1",
-    "--gamma",
-    "0.2,0.5,0.7",
-    "--t",
-    "10,50",
-    "--accuracy",
-    "reference",
-]
-HEAVY = [
-    "orbit",
-    "euler-poisson",
-    "--A",
-    "1,1.6,2.6666666666666667",
-    "--r",
-    "3,0,4",
-    "--mu",
-    "1.995",
-    "--M",
-    "1.3,-2.0,0.7",
-    "--gamma",
-    "0.3000066002178079863075,0.40000880029041064841,0.8660190526287390538076",
-    "--t",
-    "5,20",
-    "--accuracy",
-    "reference",
-]
+CIRCLE_MAP = typed("circle-map --h 1.5 --f 0.6 --a 0.5 --phi 0,1,2 --accuracy reference")
+SUSLOV = typed(
+    "orbit suslov --I 2,1,0.3,0.5 --b 0.3,-0.5,1 --omega 0.8,-0.4 --gamma 0.3,0.2,0.93 --t 10,50 --accuracy reference"
+)
+HESS = typed("orbit hess --a 0.5 --b 1 --omega 0.7,1.1 --gamma 0.2,0.5,0.7 --t 10,50 --accuracy reference")
+HEAVY = typed(
+    "orbit euler-poisson --A 1,1.6,2.6666666666666667 --r 3,0,4 --mu 1.995 --M 1.3,-2.0,0.7 "
+    "--gamma 0.3000066002178079863075,0.40000880029041064841,0.8660190526287390538076 --t 5,20 --accuracy reference"
+)
 
 # 40-digit Taylor series, rounded to double.
 THETA = [-1.846842405836762766371, -1.713101969292905477533, 2.57889487639795195168]
@@ -313,7 +271,7 @@ def test_out_writes_a_file_and_prints_nothing(answer, capsys, tmp_path):
         (replaced(CIRCLE_MAP, "--h", "-1"), "Choose h > −1"),
         (replaced(CIRCLE_MAP, "--h", "-7"), "Choose h > −1"),
         (replaced(CIRCLE_MAP, "--f", "9"), "choose |f| ≤ 1.81"),
-        (["circle-map", "--h", "1", "--f", "0", "--a", "0.5"], "separatrix"),
+        (typed("circle-map --h 1 --f 0 --a 0.5"), "separatrix"),
         (replaced(CIRCLE_MAP, "--a", "1e7"), "--a: a = 1e+07 is not between -1000 and 1000"),
         (replaced(CIRCLE_MAP, "--accuracy", "best"), "draft, standard, precise, reference"),
         (replaced(CIRCLE_MAP, "--phi", f"0:1:{MAX_SAMPLES + 1}"), f"from 2 to {MAX_SAMPLES}"),
@@ -547,7 +505,7 @@ def test_without_a_browser_the_server_goes_on(served, free_port, monkeypatch, ca
 
 def test_basins_of_a_body_beyond_double_range_end(refusal):
     """No piece of a step was ever clear of roots: it took for ever."""
-    words = ["--b=0.3,-0.5,1", "--E", "0.68", "--k", "2", "--cells", "8,6", "--accuracy", "draft"]
+    words = typed("--b=0.3,-0.5,1 --E 0.68 --k 2 --cells 8,6 --accuracy draft")
     assert "I13 = 4.4e+90 is not between -1000 and 1000" in refusal("basins", "--I", "1.5,1.07,4.4e+90,0", *words)
     assert (
         basins(
@@ -622,7 +580,7 @@ def test_shot_without_a_browser(refusal, monkeypatch, tmp_path):
 
 
 def test_export(capsys, refusal, tmp_path):
-    state = ["export", "--state", "h=1.2&f=0.3&accuracy=draft", "--picture", "circle"]
+    state = typed("export --state h=1.2&f=0.3&accuracy=draft --picture circle")
     main(state)
     facts, header, rows = table(capsys.readouterr().out)
     assert (facts["scene"], facts["parameters"]["h"], header[:2]) == ("suslov-hess", 1.2, ["layer", "part"])
@@ -654,40 +612,13 @@ def test_a_server_that_does_not_start_says_why(monkeypatch, tmp_path):
 # Sections
 
 
-HEAVY_SECTION = [
-    "section",
-    "euler-poisson",
-    "--A",
-    "1,1.6,2.6666666666666665",
-    "--r",
-    "3,0,4",
-    "--mu",
-    "1.995",
-    "--h",
-    "50",
-    "--f",
-    "5",
-    "--start",
-    "0.7,-0.3",
-    "--crossings",
-    "3",
-]
-SUSLOV_SECTION = [
-    "section",
-    "suslov",
-    "--I",
-    "2,1,0.3,0.5",
-    "--b",
-    "0.3,-0.5,1",
-    "--omega",
-    "0.8,-0.4",
-    "--gamma",
-    "0.6,0,0.8",
-    "--plane",
-    "0,0,0,1,0",
-    "--t",
-    "20",
-]
+HEAVY_SECTION = typed(
+    "section euler-poisson --A 1,1.6,2.6666666666666665 --r 3,0,4 --mu 1.995 "
+    "--h 50 --f 5 --start 0.7,-0.3 --crossings 3"
+)
+SUSLOV_SECTION = typed(
+    "section suslov --I 2,1,0.3,0.5 --b 0.3,-0.5,1 --omega 0.8,-0.4 --gamma 0.6,0,0.8 --plane 0,0,0,1,0 --t 20"
+)
 
 
 def test_section_of_a_heavy_body(answer):

@@ -9,12 +9,12 @@ import pytest
 
 from hess_explorer.__main__ import main
 from hess_mechanics import circle_map, level, turning_points
-from support.command_line import replaced, table
+from support.command_line import replaced, table, typed
 
 REFERENCE = level("reference")
-TORUS = ["--a", "0.5", "--h", "1.5", "--f", "0.6", "--at", "0.3"]
+TORUS = typed("--a 0.5 --h 1.5 --f 0.6 --at 0.3")
 DIAGRAM = ["orbit-diagram", "hess", *TORUS, "--over", "h=1.3:1.7:5", "--transient", "60", "--crossings", "16"]
-SUSLOV = ["--I", "1,2.11,0.6,0.6", "--b=-1,-0.5,0.7", "--E", "0.681", "--at", "0.83,1.89"]
+SUSLOV = typed("--I 1,2.11,0.6,0.6 --b=-1,-0.5,0.7 --E 0.681 --at 0.83,1.89")
 
 
 def test_over_tori_an_orbit_comes_to_the_stable_limit_cycle_and_backward_to_the_other(answer, capsys):

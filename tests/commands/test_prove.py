@@ -10,6 +10,7 @@ import pytest
 
 from check_certificate import verify
 from hess_explorer.__main__ import main
+from support.command_line import typed
 
 TORUS = ("--a", "-0.5", "--h", "1.5", "--f", "1.7")
 
@@ -41,7 +42,7 @@ def test_the_example_of_the_help_proves(example, answer):
 
 
 def test_undecided_is_said_with_the_bits(capsys):
-    assert main(["prove", "--a", "0", "--h", "2", "--f", "0", "--bits", "64"]) == 0
+    assert main(typed("prove --a 0 --h 2 --f 0 --bits 64")) == 0
     assert capsys.readouterr().out.startswith("Undecided at 64 bits: whether the torus h = 2, f = 0 for a = 0 has")
 
 

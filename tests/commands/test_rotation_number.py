@@ -12,39 +12,12 @@ from hess_explorer.__main__ import main
 from hess_explorer.commands import CommandError
 from hess_explorer.commands.output import Answer, write
 from hess_mechanics import BallBody, ModelError, SuslovBody, f_max, lyapunov_exponent
-from support.command_line import replaced, strict_json, table
+from support.command_line import replaced, strict_json, table, typed
 from support.rotation_number import iterated
 
-ROTATION = ["rotation-number", "--a", "0.5", "--h", "-0.5,0.5,1.5", "--f", "-0.3,0.6"]
-LYAPUNOV = [
-    "lyapunov",
-    "suslov",
-    "--I",
-    "1.5,3,0.4,0.4",
-    "--b=-0.5,-0.5,0.7",
-    "--omega",
-    "0.4,0.6",
-    "--gamma",
-    "0.6,0,0.8",
-    "--t",
-    "200",
-]
-HEAVY = [
-    "lyapunov",
-    "euler-poisson",
-    "--A",
-    "1,1.6,2.1",
-    "--r",
-    "0,0,1",
-    "--mu",
-    "0",
-    "--M",
-    "1.3,-2,0.7",
-    "--gamma",
-    "0.3,0.4,0.87",
-    "--t",
-    "400",
-]
+ROTATION = typed("rotation-number --a 0.5 --h -0.5,0.5,1.5 --f -0.3,0.6")
+LYAPUNOV = typed("lyapunov suslov --I 1.5,3,0.4,0.4 --b=-0.5,-0.5,0.7 --omega 0.4,0.6 --gamma 0.6,0,0.8 --t 200")
+HEAVY = typed("lyapunov euler-poisson --A 1,1.6,2.1 --r 0,0,1 --mu 0 --M 1.3,-2,0.7 --gamma 0.3,0.4,0.87 --t 400")
 
 
 def test_rotation_numbers_are_those_of_iteration(answer):
@@ -152,20 +125,9 @@ def test_a_free_body_about_a_fixed_point_has_no_exponent(answer):
 
 
 def test_all_exponents_with_errors_signs_and_a_dimension(answer, capsys):
-    words = [
-        "lyapunov",
-        "suslov",
-        "--I",
-        "1.7,3,0.3,0.1",
-        "--b=-2,-2.1,2.6",
-        "--omega",
-        "0.8,1.3",
-        "--gamma",
-        "0.6,0,0.8",
-        "--t",
-        "1500",
-        "--spectrum",
-    ]
+    words = typed(
+        "lyapunov suslov --I 1.7,3,0.3,0.1 --b=-2,-2.1,2.6 --omega 0.8,1.3 --gamma 0.6,0,0.8 --t 1500 --spectrum"
+    )
     found = answer(*words)
     assert found["signs"] == ["+", "0", "0", "0", "-"]
     assert found["sum"] == pytest.approx(found["divergence"], abs=1e-7)
@@ -190,7 +152,7 @@ def test_all_exponents_with_errors_signs_and_a_dimension(answer, capsys):
         (replaced(ROTATION, "--h", "0:1:1"), "whole number from 2"),
         (replaced(ROTATION, "--f", "x"), "is not a number"),
         (replaced(ROTATION, "--f", "nan"), "is not a finite number"),
-        (["rotation-number", "--a", "0:1:300", "--h", "0:1:300", "--f", "0:1:300"], "27000000 tori; at most 1000000"),
+        (typed("rotation-number --a 0:1:300 --h 0:1:300 --f 0:1:300"), "27000000 tori; at most 1000000"),
         ([*ROTATION, "--out", "/nowhere/at/all"], "choose another file"),
         ([*ROTATION, "--accuracy", "sloppy"], "choose one of draft"),
         (replaced(LYAPUNOV, "--t", "0"), "other than 0"),
@@ -211,12 +173,12 @@ def test_what_is_wrong_is_one_sentence(refusal, words, said):
     [
         (
             BallBody(1.0, 4.0, 1.37e179, 0.0, 2.0, 0.3, 0.0, 1.0),
-            ["ball", "--I", "1,4,1.37e+179,0", "--D", "2", "--b", "0.3,0,1", "--t", "500"],
+            typed("ball --I 1,4,1.37e+179,0 --D 2 --b 0.3,0,1 --t 500"),
             500.0,
         ),
         (
             SuslovBody(1.0, 2.5, 0.6, 8.23e230, -1.0, -0.5, 0.7),
-            ["suslov", "--I", "1,2.5,0.6,8.23e+230", "--b=-1,-0.5,0.7", "--t", "2000", "--format", "csv"],
+            typed("suslov --I 1,2.5,0.6,8.23e+230 --b=-1,-0.5,0.7 --t 2000 --format csv"),
             2000.0,
         ),
     ],

@@ -14,12 +14,12 @@ from hess_explorer.sweep import read
 from hess_mechanics import systems
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.numerics.accuracy import PLANS, Computation
-from support.command_line import replaced, table
+from support.command_line import replaced, table, typed
 from support.mechanics import ROOT
 from support.processes import interruptible
 
-SWEEP = ["sweep", "rotation-number", "--over", "h=-0.5,1,1.5", "--over", "f=0:0.6:2", "--set", "a=0.5"]
-CYCLES = ["sweep", "limit-cycles", "--over", "h=0.2,1.5", "--set", "f=0.6", "--set", "a=0.5"]
+SWEEP = typed("sweep rotation-number --over h=-0.5,1,1.5 --over f=0:0.6:2 --set a=0.5")
+CYCLES = typed("sweep limit-cycles --over h=0.2,1.5 --set f=0.6 --set a=0.5")
 
 
 def test_the_table_is_that_of_the_command_rotation_number(answer):

@@ -13,6 +13,7 @@ from hess_explorer.scenes import scenes
 from hess_mechanics import LEVELS
 from hess_mechanics.dynamics.trade import LevelCost
 from hess_mechanics.numerics.accuracy import Computation
+from support.command_line import typed
 from support.mechanics import ROOT
 
 
@@ -28,7 +29,7 @@ def test_a_computation_that_no_state_shows_is_said_and_the_others_stay(monkeypat
     scene = scenes()["kharlamova"]
     hidden = replace(scene.trials[0], kind=Computation.SECTION, shown=lambda state: False)
     monkeypatch.setattr(type(scene), "trials", (hidden, *scene.trials))
-    assert main(["bench", "--trade", "--quick", "--scenes", "kharlamova"]) == 2
+    assert main(typed("bench --trade --quick --scenes kharlamova")) == 2
     said = capsys.readouterr()
     lines = said.out.splitlines()
     assert lines[2].startswith("| kharlamova | section | – | – | – | – | – | – | No example of the scene kharlamova")

@@ -11,6 +11,7 @@ from hess_explorer.page.opening import opening
 from hess_explorer.protocol.parameters import CLIENT, PAGE_KEYS, Choice, Link, Names, Number, Places, encode, refusal
 from hess_explorer.scenes import scenes
 from hess_mechanics.errors import InvalidParameter
+from support.command_line import typed
 
 WRONG = {
     "scene=nope": "'scene=nope' cannot be used: Scene must be one of suslov-hess, ",
@@ -64,16 +65,9 @@ def test_a_shot_of_a_wrong_state_is_refused_before_a_browser_is_started(state, t
 def test_leniently_it_is_put_right_and_noted(capsys):
     assert (
         main(
-            [
-                "export",
-                "--state",
-                "scene=nope&h=abc&hh=1.2&f=1e9&accuracy=draft",
-                "--lenient",
-                "--picture",
-                "circle",
-                "--format",
-                "json",
-            ]
+            typed(
+                "export --state scene=nope&h=abc&hh=1.2&f=1e9&accuracy=draft --lenient --picture circle --format json"
+            )
         )
         == 0
     )

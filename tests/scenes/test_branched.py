@@ -15,7 +15,6 @@ from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes import scenes
 from hess_mechanics import circle_map, level
 from hess_mechanics.dynamics.periodic import apart
-from hess_mechanics.euler_poisson.andoyer import hess_curve
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from support.ball import derivative, returned
@@ -134,25 +133,6 @@ def moebius(h, f):
     """Its circle map."""
     bridge = Bridge.of_heavy(HEAVY)
     return circle_map(bridge.hess.a, *bridge.in_units_of_b(h, f), level("reference"))
-
-
-def test_the_two_cycles_of_the_hess_case_meet_where_the_moebius_matrix_has_the_trace_two():
-    view = shown("euler-poisson")
-    ((value, error),) = ((value, error) for kind, value, error in marks(view) if kind in ("fold", "branch point"))
-    exact = brentq(lambda h: abs(moebius(h, 1.0).trace) - 2.0, value - 0.01, value + 0.01, xtol=1e-13)
-    assert abs(value - exact) <= error + 1e-8
-    assert error < 1e-6
-    found = points_of(view)
-    assert min(h for h, _, _ in found) >= exact - error
-    signs = set()
-    for h, there, multipliers in found[::8]:
-        # On the Hess curve: the one cycle before the turn, the other behind it.
-        assert there[0, 1] == pytest.approx(float(hess_curve(HEAVY, there[:1, 0])[0]), abs=1e-6)
-        larger = max(one.multiplier for one in moebius(h, 1.0).fixed_points)
-        if h > exact + 0.01:
-            assert np.abs(multipliers - (larger, 1.0 / larger)).max() < 1e-8 * larger
-            signs.add(np.sign(there[0, 0] - np.median([p[0, 0] for _, p, _ in found])))
-    assert signs == {-1.0, 1.0}
 
 
 def test_an_orbit_of_the_ball_doubles_where_another_integrator_finds_the_multiplier_minus_one():

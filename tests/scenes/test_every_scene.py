@@ -390,14 +390,6 @@ def test_going_back_draws_the_same_pictures_again(scene):
 
 
 @every_scene
-def test_the_same_state_again_is_drawn_the_same(scene):
-    board, _ = shown(scene, scene.defaults())
-    before = contents(board.sources), board.ranges, board.captions
-    shown(scene, scene.defaults(), board)
-    assert (contents(board.sources), board.ranges, board.captions) == before
-
-
-@every_scene
 def test_a_stage_that_fails_shows_the_sentence_and_nothing_of_another_state(scene):
     board, _ = shown(scene, scene.defaults())
     before = contents(board.sources)

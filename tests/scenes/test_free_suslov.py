@@ -253,16 +253,6 @@ def test_all_four_signs_have_a_portrait():
     }
 
 
-def test_figure_2_is_that_of_the_caption():
-    values = {**FREE.defaults(), **FREE.presets[0].values}
-    assert tensor_of(values) == pytest.approx((2.44, 1.0, 0.0, 0.5))
-    assert (values["w1"], values["w2"]) == (2.0, 1e-4)
-    # γ(0) = (0.5, 0.26, 0.83), normalised.
-    gamma = np.array([0.5, 0.26, 0.83])
-    found = gamma_at(values, math.acos(values["Gamma"]), values["phi"])
-    assert found == pytest.approx(gamma / np.linalg.norm(gamma), abs=5e-5)
-
-
 STARTS = {"I₁₃ = 0": ((-0.44, 0.28, 0.85), (-0.44, 0.72, 0.53)), "d": ((-0.88, -0.48, 0.0), (-0.49, 0.26, 0.88))}
 """γ(0) of both orbits in the caption of figure 3, as printed."""
 READ = np.array([0.1, 0.0, 0.0])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import shlex
 import subprocess
 import sys
 
@@ -17,6 +18,11 @@ def no_constant(name):
 
 def strict_json(text):
     return json.loads(text, parse_constant=no_constant)
+
+
+def typed(line):
+    """The words of a command line, as a shell passes them."""
+    return shlex.split(line)
 
 
 def run(*words):
