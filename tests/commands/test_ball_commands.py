@@ -234,7 +234,7 @@ def test_csv_and_json_say_the_same(answer, capsys, words):
         (replaced(BASINS, "--cells", "0,4"), "write them like 40,30"),
         (replaced(BASINS, "--cells", "1000,1000"), "at most 100000 together"),
         (replaced(BASINS, "--cells", "2.5,4"), "two whole numbers"),
-        ([*BASINS, "--window", "1,0,0,1"], "choose such angles"),
+        ([*BASINS, "--window", "1,0,0,1"], "The window needs ψ0 < ψ1"),
         (replaced(BASINS, "--crossings", "10"), "from 100 to 10000"),
         ([*BASINS, "--accuracy", "best"], "draft, standard, precise, reference"),
     ],
