@@ -14,6 +14,7 @@ import re
 import sys
 import tomllib
 from collections.abc import Iterator
+from enum import Enum
 from pathlib import Path
 from types import FunctionType
 from typing import Any
@@ -35,12 +36,10 @@ class Documented(Validator):  # type: ignore[misc]  # numpydoc has no types
         super().__init__(get_doc_object(self._load_obj(obj_name)))
 
     @property
-    def source_file_def_line(self) -> None:
-        """None: some methods have no `def` of their own, and no comment in the code turns off a check."""
-
-    @property
     def parameter_mismatches(self) -> list[Any]:
         """Errors in the names or the order of the parameters or fields."""
+        if inspect.isclass(self.obj) and (issubclass(self.obj, Enum) or getattr(self.obj, "_is_protocol", False)):
+            return []  # users do not call these
         if not inspect.isclass(self.obj) or not self.doc["Attributes"]:
             return list(super().parameter_mismatches)
         missing = set(self.signature_parameters) - set(self._doc_parameters(["Parameters", "Attributes"]))
@@ -60,7 +59,12 @@ def public_names() -> Iterator[str]:
                 yield f"{package.__name__}.{name}"
             for base in getattr(found, "__mro__", ()):
                 for member, value in vars(base).items() if base.__module__.startswith(PACKAGES) else ():
-                    if not member.startswith("_") and isinstance(value, MEMBERS) and id(value) not in seen:
+                    is_field = getattr(value, "__name__", "") == "<lambda>"  # the default of a field
+                    if (
+                        not (member.startswith("_") or is_field)
+                        and isinstance(value, MEMBERS)
+                        and id(value) not in seen
+                    ):
                         seen.add(id(value))
                         yield f"{package.__name__}.{name}.{member}"
 

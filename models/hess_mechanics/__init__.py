@@ -1,12 +1,13 @@
 """Mechanics of the Suslov problem, its Hess case, the Chaplygin ball and the Euler–Poisson equations.
 
+The most used names can be imported from this package.  Each subject has a module of its own, such as `suslov.quartic`;
+models/README.md lists them with the paper's equations.  `hess-explorer docs` opens the documentation of all of them.
+
+Examples
+--------
 >>> from hess_mechanics import circle_map, level
 >>> circle_map(a=0.5, h=1.5, f=0.6, level=level("reference")).kind
 'hyperbolic'
-
-What is used most can be imported from here; subjects have modules of their own, such as `suslov.quartic`.
-`hess-explorer docs` opens the pages of all of it, with search.
-models/README.md lists them with the paper's equations.
 """
 
 from hess_mechanics.chaplygin_ball.energy_surface import Strip
@@ -76,14 +77,14 @@ from hess_mechanics.suslov_hess.mode_locking import (
 from hess_mechanics.suslov_hess.proof import Proof, prove
 
 __all__ = [  # noqa: RUF022 (by subject)
-    # For one kind of body
+    # Computations for one kind of body
     "basins",
     "Basins",
     "cloud",
     "period",
     "rotation_numbers",
     "rotation_along_line",
-    # By the return map of a section
+    # Return maps of sections
     "return_map",
     "ReturnMap",
     "section_orbits",

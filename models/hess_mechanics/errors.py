@@ -1,47 +1,47 @@
-"""Errors of the mechanics: the type says what is wrong, the message what to change."""
+"""Errors of the mechanics: the type names the problem, and the message says what to change."""
 
 from __future__ import annotations
 
 
 class ModelError(ValueError):
-    """A request that cannot be answered; the message is written for the user."""
+    """Base class of errors in a request; the message is written for the user."""
 
 
 class InvalidParameter(ModelError):
-    """A value that is not finite, or lies outside the domain of the equations."""
+    """A value that is not finite or lies outside the domain of the equations."""
 
 
 class WrongScaling(ModelError):
-    """A system of equations that does not scale with the unit of time as its description says."""
+    """A system of equations whose `rescale` does not fit its field."""
 
 
 class NotPositiveDefinite(ModelError):
-    """Moments of inertia whose kinetic energy is not positive: I11 and I22 must be."""
+    """Moments of inertia with a kinetic energy that is not positive: I11 and I22 must be positive."""
 
 
 class OutsideRegion(ModelError):
-    """Values of (h, f) that no motion has: h ≤ −1, or beyond the bifurcation curve (`Geq3`)."""
+    """Values of (h, f) without a motion: h ≤ −1, or beyond the bifurcation curve (`Geq3`)."""
 
 
 class Separatrix(ModelError):
-    """f = 0, h = 1 (`Geq4`): the motion tends to the upper equilibrium and never returns."""
+    """The separatrix f = 0, h = 1 (`Geq4`), on which the motion tends to the upper equilibrium and never returns."""
 
 
 class NoField(ModelError):
-    """No field: h and f, which are measured in units of b, are undefined."""
+    """No field, so that h and f in units of b are undefined."""
 
 
 class WorkLimit(ModelError):
-    """A request that takes more steps than one request may."""
+    """A request that needs more steps than allowed."""
 
 
 class NoReturn(ModelError):
-    """A motion that does not come back to its section in the time it is given."""
+    """A motion that does not return to its section within the time limit."""
 
 
 class NotConverged(ModelError):
-    """An iteration, like Newton's, that finds nothing from where it was started."""
+    """An iteration, such as Newton's method, that does not converge from its start."""
 
 
 class MissingLibrary(ModelError):
-    """A request that needs a library which is not installed; the message says what to install."""
+    """A request that needs a library that is not installed; the message says what to install."""

@@ -1,11 +1,11 @@
-"""The parameters of the bodies and motions: name, symbol, unit, bounds and meaning of each, stated once.
+"""Parameters of the bodies and motions: name, symbol, unit, bounds and meaning of each one, in one table.
 
-Sliders, links, command lines, sweeps and Python signatures all read this table.  Where one letter stands for different
-quantities, as h does, each has a constant of its own.  A scene may choose another default, slider range or wording;
-bounds of its own need a reason beside them.
+Sliders, links, command lines, sweeps and Python signatures all read this table.  A letter that stands for several
+quantities, such as h, has one constant for each.  A scene may choose another default, slider range or wording; bounds
+of its own need a comment with the reason.
 
-Not the library param: its parameters belong to mutable classes, these are hashable values, and the mechanics import
-no library of the page.
+The library param is not used here: its parameters belong to mutable classes, while these are hashable values, and the
+mechanics import no library of the page.
 """
 
 from __future__ import annotations
@@ -19,28 +19,39 @@ from hess_mechanics.errors import InvalidParameter
 
 Group = Literal["Body", "State", "Computation"]
 GROUPS: tuple[Group, ...] = get_args(Group)
-"""What a parameter belongs to: the body, the motion, or how it is computed."""
+"""Groups of parameters: those of the body, of the motion, and of the computation."""
 
 
 @dataclass(frozen=True)
 class Parameter:
-    """One parameter, for every place where it can be set.
+    """A parameter, for every place where it can be set.
 
     Parameters
     ----------
-    name : its name in links, options and Python.
-    symbol : how formulas and pictures write it.
-    label : a title of a few words.
-    default : the value where nothing else is given.
-    softbounds : the usual range, which a slider covers.
-    step : the step of that slider.
-    bounds : the smallest and the largest value allowed.
-    doc : its meaning, in a sentence.
-    group : what it belongs to.
-    unit : "1" for a number in the units of the problem.
-    means : what tells it from others with the same label.  A scene takes a value over from another scene only where
-        both mean the same.
-    whole : whether it is a whole number.
+    name : str
+        Name in links, options and Python.
+    symbol : str
+        Symbol in formulas and pictures.
+    label : str
+        Title of a few words.
+    default : float
+        Default value.
+    softbounds : (float, float)
+        Usual range, which a slider covers.
+    step : float
+        Step of the slider.
+    bounds : (float, float)
+        Smallest and largest value allowed.
+    doc : str, optional
+        Meaning, in a sentence.
+    group : {"Body", "State", "Computation"}, default "State"
+        Group to which the parameter belongs.
+    unit : str, default "1"
+        Unit; "1" for a number in the units of the problem.
+    means : str, optional
+        Distinguishes parameters with the same label.  A scene takes over a value from another scene only if both agree.
+    whole : bool, default False
+        True for integers.
     """
 
     name: str
@@ -58,16 +69,27 @@ class Parameter:
 
     @property
     def range(self) -> str:
-        """The bounds in words, as "between 0.001 and 1000"."""
+        """The bounds in words, such as "between 0.001 and 1000"."""
         low, high = self.bounds
         return f"between {low:g} and {high:g}"
 
     def check(self, value: float) -> float:
         """Return the value if it is allowed.
 
+        Parameters
+        ----------
+        value : float
+            The value.
+
+        Returns
+        -------
+        float
+            The same value.
+
         Raises
         ------
-        InvalidParameter : it is not finite, lies outside the bounds, or is not whole.
+        InvalidParameter
+            If it is not finite, outside the bounds, or not an integer where one is required.
         """
         low, high = self.bounds
         if not (low <= value <= high and (not self.whole or value == round(value))):
@@ -76,7 +98,18 @@ class Parameter:
         return value
 
     def changed(self, **changes: Any) -> Mapping[str, Any]:
-        """Return all fields by name, some of them changed."""
+        """Return all fields by name, with some of them changed.
+
+        Parameters
+        ----------
+        **changes
+            New values of fields.
+
+        Returns
+        -------
+        dict
+            The fields.
+        """
         return {**vars(self), **changes}
 
 
@@ -91,7 +124,7 @@ def _vector(
     doc: str,
     group: Group = "State",
 ) -> tuple[Parameter, ...]:
-    """Return the components of a vector, which differ in name, symbol and default only."""
+    """Return the components of a vector, which differ only in name, symbol and default."""
     return tuple(
         Parameter(name, symbol, label.format(symbol=symbol), default, softbounds, step, bounds, doc, group)
         for name, symbol, default in zip(names.split(), symbols.split(), defaults, strict=True)
@@ -100,7 +133,7 @@ def _vector(
 
 _TURN = (-3.14, 3.14)
 _ANGLES = (-1e3, 1e3)
-"""Of angles, which mean the same after each turn."""
+"""Bounds of angles, which are periodic."""
 
 # ---- a body with Suslov's constraint, in the axes in which I12 = 0 --------------------------------------------------
 
@@ -205,7 +238,7 @@ H_HESS = Parameter(
     means=_UNITS_OF_B,
 )
 H_PLANE = replace(H_HESS, bounds=(-1e6, 1e6))
-"""h of sweeps and commands, which say themselves that no motion has h ≤ −1."""
+"""h for sweeps and commands, which report h ≤ −1 themselves."""
 F_HESS = Parameter(
     "f",
     "f",

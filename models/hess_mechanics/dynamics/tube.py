@@ -447,8 +447,10 @@ def proved_error(orbit: Orbit, found: Tube) -> tuple[float, float]:
 
     Returns
     -------
-    low, high : float
-        Lower and upper bound of the largest error of any component, at the times of the tube.
+    low : float
+        Lower bound of the largest error of any component, at the times of the tube.
+    high : float
+        Upper bound of the same error.
 
     Raises
     ------

@@ -32,7 +32,7 @@ __all__ = [
 
 
 class Status(StrEnum):
-    """How a computation ended.
+    """Outcome of a computation.
 
     `OK`: the error estimate is within the promise of the level.  `FLOOR`: it is not, at the floor of double precision.
     `PROMISE_NOT_MET`: it is not, at any other level.

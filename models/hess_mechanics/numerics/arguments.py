@@ -1,4 +1,4 @@
-"""What is given by hand, checked: numbers, whole numbers, pairs and places; what is wrong is said in a sentence."""
+"""Validation of arguments: numbers, integers, pairs and points.  All functions raise `InvalidParameter`."""
 
 from __future__ import annotations
 
@@ -16,27 +16,27 @@ _MOST_CELLS = 100_000
 
 
 def as_a(kind: type[T], body: object) -> T:
-    """What was given, if it is of this kind.  Raises `InvalidParameter`, as all of these."""
+    """Return the argument if it is an instance of `kind`."""
     if not isinstance(body, kind):
-        raise InvalidParameter(f"{body!r} is no {kind.__name__}: give the body as hess_mechanics.{kind.__name__}(…).")
+        raise InvalidParameter(f"{body!r} is not a {kind.__name__}: give a hess_mechanics.{kind.__name__}(…).")
     return body
 
 
 def as_level(accuracy: Accuracy) -> Level:
-    """A level, given as it is or by its name."""
+    """Return an accuracy level, given as it is or by its name."""
     return accuracy if isinstance(accuracy, Level) else level(accuracy)
 
 
 def as_level_name(accuracy: Accuracy) -> str:
-    """The name of one of the four levels, given by it or as the level itself."""
+    """Return the name of one of the four levels, given by name or as the level itself."""
     found = as_level(accuracy)
     if LEVELS.get(found.name) != found:
-        raise InvalidParameter(f"Only a level that has a name can be kept here: choose one of {', '.join(LEVELS)}.")
+        raise InvalidParameter(f"Only a named level is possible here: choose one of {', '.join(LEVELS)}.")
     return found.name
 
 
 def as_number(name: str, value: Any) -> float:
-    """A finite number."""
+    """Return a finite number as a float."""
     if isinstance(value, bool) or not isinstance(value, Real):
         raise InvalidParameter(f"{name} = {value!r} is not a number; write it like 1.5 or -2e-3.")
     if not math.isfinite(value):
@@ -45,37 +45,39 @@ def as_number(name: str, value: Any) -> float:
 
 
 def as_whole(name: str, value: Any, low: int, high: int) -> int:
-    """A whole number between these."""
+    """Return an integer between `low` and `high`."""
     if isinstance(value, bool) or not isinstance(value, Integral) or not low <= int(value) <= high:
         raise InvalidParameter(f"{name} = {value!r} is not a whole number from {low} to {high}.")
     return int(value)
 
 
 def as_cells(cells: Any) -> tuple[int, int]:
-    """How many cells a window has across and up."""
+    """Return the numbers of cells of a window, across and up."""
     m, n = (as_whole("cells", side, 1, _MOST_CELLS) for side in cells)
     if m * n > _MOST_CELLS:
-        raise InvalidParameter(f"These are {m * n} cells; at most {_MOST_CELLS} are allowed: choose fewer.")
+        raise InvalidParameter(f"{m * n} cells are too many: at most {_MOST_CELLS} are allowed.")
     return m, n
 
 
 def as_pairs(name: str, places: Any) -> list[tuple[float, float]]:
-    """Places of a plane."""
+    """Return points of a plane as pairs of floats."""
     try:
         return [(as_number(name, x), as_number(name, y)) for x, y in places]
     except InvalidParameter:
         raise
     except (TypeError, ValueError):
         raise InvalidParameter(
-            f"{name} = {places!r} are no places; write them like [(0.0, 0.5), (1.0, 0.2)]."
+            f"{name} = {places!r} is not a list of points; write them like [(0.0, 0.5), (1.0, 0.2)]."
         ) from None
 
 
 def as_place(names: tuple[str, ...], place: Any) -> tuple[float, ...]:
-    """A place with one number for each of these coordinates."""
+    """Return a point with one float for each of the named coordinates."""
     try:
         return tuple(as_number(name, x) for name, x in zip(names, place, strict=True))
     except InvalidParameter:
         raise
     except (TypeError, ValueError):
-        raise InvalidParameter(f"{place!r} is no place here: give {len(names)} numbers, {', '.join(names)}.") from None
+        raise InvalidParameter(
+            f"{place!r} is not a point here: give {len(names)} numbers, {', '.join(names)}."
+        ) from None

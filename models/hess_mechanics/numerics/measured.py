@@ -1,10 +1,9 @@
-"""How every error estimate is formed: two runs of one computation that share as little as possible.
+"""Error estimates from two runs of a computation that share as little as possible.
 
-A run is compared with a second one that has a hundredth of the tolerance and starts a few units in the last place
-aside.  Without the second difference both runs would make the same roundings wherever the motion is slow: at rest next
-to an unstable equilibrium they compute the same small, wrong rates from the same numbers and leave it side by side, so
-that their difference stays small while both are wrong altogether.  A start that is moved by roundings parts from the
-other one as fast as anything can, and shows what roundings become.
+The second run has a hundredth of the tolerance and starts a few units in the last place away.  With equal starts, both
+runs would make the same roundings wherever the motion is slow: near an unstable equilibrium they would compute the same
+small, wrong rates and leave it side by side, so that their difference stayed small while both were wrong.  A start that
+is moved by roundings diverges as fast as anything can, and shows the effect of roundings.
 """
 
 from __future__ import annotations
@@ -27,29 +26,29 @@ __all__ = ["SAFETY", "Measured", "measured", "nearby", "safety_of"]
 R = TypeVar("R")
 
 SAFETY = 1.25
-"""By how much an estimate exceeds the difference of two runs: the second one errs too."""
+"""Ratio of an error estimate to the difference of two runs, because the second one has an error too."""
 
 _FARTHEST = 3.0 * 2.0**-52
 _GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 
 
 def nearby(values: Array) -> Array:
-    """Return numbers that differ from these by roundings, up to three units in the last place.
+    """Return numbers that differ from the given ones by roundings, up to three units in the last place.
 
-    Each is moved in proportion to its size, as roundings do: a 0 stays 0, and a start 1e-300 off an invariant plane
-    stays as close to it, so that nothing is moved that the computation keeps exactly.  The shares follow the golden
-    ratio: those of neighbouring components differ by at least 0.38 of the whole range, so that a vector is turned as
-    well as stretched.  Stretching alone, or moving all components alike, is a stable or neutral direction of many
-    equilibria; shares as uneven as these are next to such a subspace of few systems only.
+    Each number moves in proportion to its size, like a rounding: 0 stays 0, and a start 1e-300 away from an invariant
+    plane stays as close to it.  The fractions follow the golden ratio, and those of neighbouring components differ by
+    at least 0.38 of the range, so that a vector is rotated as well as stretched.  Stretching alone is a stable or
+    neutral direction of many equilibria.
 
     Parameters
     ----------
-    values : (..., d); states, or the data of another computation.
+    values : ndarray, shape (..., d)
+        States, or other data of a computation.
 
     Returns
     -------
-    Array
-        (..., d); the same for the same values.
+    ndarray, shape (..., d)
+        The moved numbers; the function is deterministic.
     """
     return np.asarray(values * _factors(values.shape[-1]))
 
@@ -62,10 +61,22 @@ def _factors(count: int) -> Array:
 
 @dataclass(frozen=True)
 class Measured(Generic[R]):
-    """A result from the start that was asked for, and how exact it is.
+    """A result from the given start, with its error.
 
-    other : the run it was compared with; error : the estimate; safety : by how much that exceeds their difference;
-    status : of the error at the level that was asked for; cost : of all runs.
+    Attributes
+    ----------
+    result : object
+        The result.
+    other : object
+        Result of the run with which it was compared.
+    error : float
+        Error estimate.
+    safety : float
+        Ratio of the error estimate to the difference of the runs.
+    status : Status
+        Status of the error at the requested level.
+    cost : Cost
+        Steps and time of all runs.
     """
 
     result: R
@@ -77,32 +88,35 @@ class Measured(Generic[R]):
 
 
 def safety_of(off: Array, before: Array) -> Array:
-    """Return by what to multiply differences (n,) of two runs for estimates of their errors.
+    """Return the factors (n,) that turn differences of two runs into error estimates.
 
-    Where a truncation error happens to be what the other start makes, the difference says nothing: an estimate is no
-    less than a hundredth of the one `before` (n,), at a hundred times the tolerance; 0 where there was none.
+    The difference `off` (n,) says nothing if the other start happens to cancel the truncation error.  So an estimate is
+    at least a hundredth of the estimate `before` (n,), at a hundred times the tolerance; that is 0 if there was none.
     """
     return np.maximum(SAFETY, before / (100.0 * np.maximum(off, 1e-300)))
 
 
 def measured(level: Level, run: Callable[[Level, int], tuple[R, int]], apart: Callable[[R, R], float]) -> Measured[R]:
-    """Return a computation with its error estimate, within the promise of the level where double precision allows that.
+    """Return a computation with its error estimate, within the promise of the level if double precision allows it.
 
-    The first run is compared with one that is more exact and starts nearby.  Where they are too far apart, the next one
-    is more exact again, and so on down to the floor of double precision; every second run has the start itself, and the
-    last of these is the result.  A new run is needed for each new tolerance only.
+    The first run is compared with a more accurate one from a nearby start.  If they differ too much, a still more
+    accurate run follows, and so on down to the floor of double precision.  Every second run has the given start, and
+    the last one of these is the result.  Each new tolerance needs a single new run.
 
     Parameters
     ----------
-    level : order and tolerance of the first run, and the error that is promised.
-    run(level, steps) : computes the result at a level, from a start `nearby` where that is `aside`, and counts its
-        steps; steps : those of all runs before.
-    apart : the difference of two results, in the units of the promise.
+    level : Level
+        Order and tolerance of the first run, and the promised error.
+    run : callable
+        Function run(level, steps) that returns the result at a level, from a start `nearby` if `level.aside`, and the
+        number of steps; `steps` is the number of steps of all runs before.
+    apart : callable
+        Difference of two results, in the units of the promise.
 
     Returns
     -------
     Measured
-        Its error is an estimate for the less exact of the two runs, so for the result too.
+        The result; its error estimate holds for the less accurate of the two runs.
     """
     begun = time.perf_counter()
     current, error = level, 0.0

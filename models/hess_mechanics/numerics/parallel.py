@@ -1,4 +1,4 @@
-"""Work shared between threads; kernels release the global interpreter lock."""
+"""Thread pool for kernels, which release the global interpreter lock."""
 
 from __future__ import annotations
 
@@ -18,10 +18,9 @@ _pool = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="kernel")
 
 
 def share(work: Callable[[int], None], count: int, threads: int = THREADS, at_once: int = 1) -> None:
-    """Run work(0), …, work(count − 1) on the pool, or in order if `threads` is 1; the first error is raised.
+    """Run work(0), …, work(count − 1) on the thread pool, or in order if `threads` is 1, and raise the first error.
 
-    at_once : how many one thread takes at a time.
-    Before each of them it ends where who asked does not want to wait any longer: see `patience`.
+    A thread takes `at_once` items at a time.  Before each item the request may be cancelled: see `patience`.
     """
 
     def some(first: int, after: int) -> None:
@@ -40,5 +39,5 @@ def share(work: Callable[[int], None], count: int, threads: int = THREADS, at_on
         finally:
             worked(time.thread_time() - begun)
 
-    # Each part in a context of its own, as two threads cannot be in one.
+    # Each part has its own context, because two threads cannot enter the same one.
     list(_pool.map(lambda both: both[0].run(part, both[1]), [(copy_context(), i) for i in range(0, count, at_once)]))

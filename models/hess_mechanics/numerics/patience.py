@@ -1,4 +1,4 @@
-"""How long who asked is ready to wait: long computations ask between their parts whether to go on."""
+"""Cancellation and CPU budget of a request: long computations call `go_on` between their parts."""
 
 from __future__ import annotations
 
@@ -13,8 +13,11 @@ _asked: ContextVar[tuple[Callable[[], None], Callable[[float], None]] | None] = 
 
 @contextmanager
 def limited_by(check: Callable[[], None], spend: Callable[[float], None]) -> Iterator[None]:
-    """What is computed inside calls check() between its parts, which may raise, and tells spend(seconds) what other
-    threads have worked for it."""
+    """Run the body of the `with` statement under a limit.
+
+    Computations inside call check() between their parts, which may raise, and report the CPU time of other threads to
+    spend(seconds).
+    """
     token = _asked.set((check, spend))
     try:
         yield
@@ -23,14 +26,14 @@ def limited_by(check: Callable[[], None], spend: Callable[[float], None]) -> Ite
 
 
 def go_on() -> None:
-    """Raise what the one who asked raises, where that one does not want to wait any longer."""
+    """Raise the error of the request's check, if the request has been cancelled or has used up its budget."""
     asked = _asked.get()
     if asked is not None:
         asked[0]()
 
 
 def worked(seconds: float) -> None:
-    """Another thread has worked for so long, in seconds of the processor, for the one who asked."""
+    """Charge CPU seconds of a helper thread to the request."""
     asked = _asked.get()
     if asked is not None:
         asked[1](seconds)
