@@ -269,9 +269,9 @@ BAD_TIMES = [
     pytest.param([[1.0, 2.0]], InvalidParameter, "one or more finite numbers", id="a table"),
     pytest.param([np.nan], InvalidParameter, "finite", id="nan"),
     pytest.param([1.0, np.inf], InvalidParameter, "finite", id="inf"),
-    pytest.param([2.0, 1.0], InvalidParameter, "all forward or all backward", id="out of order"),
-    pytest.param([-2.0, -3.0, -1.0], InvalidParameter, "all forward or all backward", id="back and forth"),
-    pytest.param([-1.0, 1.0], InvalidParameter, "all forward or all backward", id="both sides of 0"),
+    pytest.param([2.0, 1.0], InvalidParameter, "monotonic and start at 0", id="out of order"),
+    pytest.param([-2.0, -3.0, -1.0], InvalidParameter, "monotonic and start at 0", id="back and forth"),
+    pytest.param([-1.0, 1.0], InvalidParameter, "monotonic and start at 0", id="both sides of 0"),
     pytest.param(np.zeros(MAX_SAMPLES + 1), WorkLimit, f"at most {MAX_SAMPLES}", id="too many samples"),
 ]
 

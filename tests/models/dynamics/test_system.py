@@ -361,9 +361,9 @@ BAD_TIMES = [
     pytest.param([[1.0, 2.0]], InvalidParameter, "one or more finite numbers", id="a table"),
     pytest.param([np.nan], InvalidParameter, "finite", id="nan"),
     pytest.param([1.0, np.inf], InvalidParameter, "finite", id="inf"),
-    pytest.param([2.0, 1.0], InvalidParameter, "all forward or all backward", id="backwards"),
-    pytest.param([-1.0, 1.0], InvalidParameter, "all forward or all backward", id="both sides of 0"),
-    pytest.param([1e308, -1e308], InvalidParameter, "all forward or all backward", id="beyond double range apart"),
+    pytest.param([2.0, 1.0], InvalidParameter, "monotonic and start at 0", id="backwards"),
+    pytest.param([-1.0, 1.0], InvalidParameter, "monotonic and start at 0", id="both sides of 0"),
+    pytest.param([1e308, -1e308], InvalidParameter, "monotonic and start at 0", id="beyond double range apart"),
     pytest.param([1e9], WorkLimit, "choose a shorter time span", id="a long span"),
     pytest.param([-1e308], WorkLimit, "choose a shorter time span", id="an absurd span"),
     pytest.param(np.zeros(MAX_SAMPLES + 1), WorkLimit, "at most 200000", id="too many samples"),
@@ -372,7 +372,8 @@ BAD_TIMES = [
 
 @every_system
 @pytest.mark.parametrize(("times", "error", "words"), BAD_TIMES)
-def test_times_that_cannot_be_computed_raise_a_sentence(system, times, error, words):
+def test_times_that_cannot_be_computed_raise_a_sentence(system, times, error, words, monkeypatch):
+    monkeypatch.setattr("hess_mechanics.dynamics.orbit.MAX_STEPS", 10_000)
     assert issubclass(error, ModelError)
     with pytest.raises(error, match=words):
         solve(*system.example_motion, times, level("draft"))
