@@ -1,7 +1,7 @@
-"""How far apart two sets of places of a section are, with what is known of it from the sets themselves.
+"""Distance between two sets of points of a section, with an error estimated from the sets themselves.
 
-The distance is that of Hausdorff with a quantile for the maximum: the least ε such that 95 of 100 places of either set
-have one of the other within ε.  A set of finitely many places stands for a closed one; how well, its two halves tell.
+The distance is Hausdorff's with a quantile in place of the maximum: the least ε such that 95 of 100 points of either
+set have a point of the other within ε.  A finite set stands for a closed one; its two halves show how well.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ __all__ = ["Apart", "distance", "how_far_apart", "nearest"]
 
 _QUANTILE = 0.95
 _RESOLVED = 1e-6
-"""Places closer than this are the same."""
+"""Points closer than this are equal."""
 _SETTLED = 0.2
 _LEAST = 8
 _BATCHES = 4
 
 
 def nearest(turns: Sequence[float], a: Array, b: Array) -> Array:
-    """From each of the places `a` (n, d) the distance to the nearest of `b` (m, d), (n,); angles go round."""
+    """Return the distances (n,) from points `a` (n, d) to the nearest points of `b` (m, d), with periodic angles."""
     from scipy.spatial import cKDTree  # imported here because it takes 0.2 s
 
     box = np.array([turn if math.isfinite(turn) else 0.0 for turn in turns])
@@ -44,20 +44,28 @@ def nearest(turns: Sequence[float], a: Array, b: Array) -> Array:
 
 
 def distance(turns: Sequence[float], a: Array, b: Array) -> float:
-    """Between sets of places (n, d) and (m, d), see the module."""
+    """Return the distance between sets of points (n, d) and (m, d), see the module."""
     return float(max(np.quantile(nearest(turns, a, b), _QUANTILE), np.quantile(nearest(turns, b, a), _QUANTILE)))
 
 
 @dataclass(frozen=True)
 class Apart:
-    """How far apart two sets of places are.
+    """Distance between two sets of points.
 
-    distance, error : the error is the largest difference from the distance of the quarters of the sets.
-    grain : the distance between the two halves of one set, the larger of the two; less than this cannot be told.
-    shared : the share of the places of either set, the smaller one, that lie as close to the other set as halves of
-        one set lie to each other.
-    settled : whether halves of one set are closer to each other than a fifth of its size: else the orbit that passed
-        it was still on its way, or too short.
+    Attributes
+    ----------
+    distance : float
+        The distance.
+    error : float
+        Largest difference between the distance of quarters of the sets and the distance.
+    grain : float
+        Distance between the two halves of one set, the larger of the two; smaller distances are not resolved.
+    shared : float
+        Fraction of the points of one set that are as close to the other set as the halves of one set are to each other,
+        the smaller of the two.
+    settled : bool
+        True if the halves of each set are closer to each other than a fifth of its size.  Otherwise the orbit was too
+        short or had not settled.
     """
 
     distance: float
@@ -68,14 +76,14 @@ class Apart:
 
     @property
     def apart(self) -> bool:
-        """Whether no place of one is close to the other set, in so far as the grain tells."""
+        """True if no point of one set is close to the other set, as far as the grain resolves this."""
         return self.settled and self.shared < 0.005 and self.distance > self.grain + self.error
 
 
 def how_far_apart(turns: Sequence[float], a: Array, b: Array) -> Apart:
-    """Of two sets of places (n, d) and (m, d), each in the order in which an orbit passed them.
+    """Return the distance between two sets of points (n, d) and (m, d), each in the order of an orbit.
 
-    Raises `InvalidParameter` where one has fewer than 8 places.
+    Raises `InvalidParameter` if a set has fewer than 8 points.
     """
     if min(len(a), len(b)) < _LEAST:
         raise InvalidParameter(f"Two sets of places are compared from {_LEAST} places on: follow the orbits longer.")
@@ -89,7 +97,7 @@ def how_far_apart(turns: Sequence[float], a: Array, b: Array) -> Apart:
     ]
     shared = []
     for (first, second), other in zip(halves, (b, a), strict=True):
-        # As close as 95 of 100 places of one half are to the other half.
+        # As close as 95 of 100 points of one half are to the other half.
         close = max(_RESOLVED, float(np.quantile(nearest(turns, first, second), _QUANTILE)))
         own = np.concatenate([first, second])
         shared.append(float(np.mean(nearest(turns, own, other) <= close)))

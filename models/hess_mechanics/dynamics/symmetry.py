@@ -1,6 +1,6 @@
-"""Symmetries and reversors that are changes of sign: S y with f(S y) = ±S f(y), found from the field itself.
+"""Symmetries and reversors by sign changes S with f(S y) = ±S f(y), found from the field itself.
 
-With the upper sign S maps motions to motions; with the lower one, to motions run backwards: S is a reversor.
+With the upper sign, S maps motions to motions; with the lower one, to motions backward in time: S is a reversor.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _TRIED = 6
 
 @dataclass(frozen=True)
 class Mirror:
-    """A change of signs (d,) of the variables, and whether it reverses time."""
+    """A sign change (d,) of the variables; `reverses` is True for a reversor."""
 
     name: str
     signs: Array
@@ -29,10 +29,12 @@ class Mirror:
 
 
 def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror, ...]:
-    """All changes of sign that map the motions of a system to motions, forward or backward in time.
+    """Return all sign changes that map the motions of a system to motions, forward or backward in time.
 
-    They are tried on a few states in general position, which leaves nothing to chance for a field of such low degree.
+    They are tested on a few states in general position, which is conclusive for a field of such low degree.
 
+    Examples
+    --------
     >>> from hess_mechanics import systems
     >>> from hess_mechanics.dynamics.symmetry import sign_symmetries
     >>> suslov = systems()["suslov"]

@@ -1,9 +1,8 @@
-"""How kernels are compiled: one decorator, and a cache that cannot go stale.
+"""Compilation of kernels: one decorator, and a cache that is never stale.
 
-Numba looks only at the file of the compiled function when it decides whether its cache is still valid.  Our kernels are
-assembled from several files, so the cache folder of a kernel is named by a hash of its own subpackage, of those it
-imports, and of `numerics` and `dynamics`: whatever changes, the old cache is simply not looked at.  Comments and
-docstrings do not count.
+Numba validates its cache by the file of the compiled function alone.  These kernels are assembled from several files,
+so the cache folder of a kernel is named by a hash of its subpackage, of the subpackages it imports, and of `numerics`
+and `dynamics`: after any change, the old cache is simply not used.  Comments and docstrings do not count.
 """
 
 from __future__ import annotations
@@ -58,14 +57,14 @@ _FOR_ALL = {"numerics", "dynamics"}
 
 
 def _is_own(folder: Path) -> bool:
-    """Whether it is a folder of this user, now closed to all others."""
+    """Return True if the folder belongs to this user, and close it to all others."""
     found = folder.lstat()
     if not stat.S_ISDIR(found.st_mode):
         return False
     if hasattr(os, "getuid"):
         if found.st_uid != os.getuid():
             return False
-        # What others may have put there before is not trusted either.
+        # Others may have written files there before.
         if found.st_mode & 0o022:
             return False
         if found.st_mode & 0o055:
@@ -74,9 +73,9 @@ def _is_own(folder: Path) -> bool:
 
 
 def _usable(folder: Path) -> bool:
-    """Whether compiled kernels can be kept in this folder, which is made where it is missing.
+    """Return True if compiled kernels can be kept in this folder, which is created if missing.
 
-    They are machine code that is run: a folder that belongs to somebody else, or that others may write to, is not used.
+    They are machine code that is run, so a folder that belongs to someone else, or is writable by others, is not used.
     """
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
@@ -90,7 +89,7 @@ def _usable(folder: Path) -> bool:
 
 
 def _cache_folder() -> Path | None:
-    """The first folder for compiled kernels that can be used, or None (then they are compiled in each process)."""
+    """Return the first usable folder for compiled kernels; None if there is none (each process then compiles them)."""
     chosen = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME")
     for base in filter(None, (chosen, "~/.cache")):
         try:
@@ -99,7 +98,7 @@ def _cache_folder() -> Path | None:
             continue
         if _usable(folder):
             return folder
-    # In a folder that all users share, under a name that nobody can guess and take first.
+    # In a folder shared by all users, under a name that nobody can guess and claim first.
     shared = Path(tempfile.gettempdir())
     try:
         earlier = sorted(shared.glob("hess-explorer-*"))
@@ -109,14 +108,14 @@ def _cache_folder() -> Path | None:
 
 
 CACHE_FOLDER = _cache_folder()
-"""A folder of this user and nobody else, or None."""
+"""A folder that only this user can access, or None."""
 
 
 # ---- hashes -----------------------------------------------------------------------------------------------------
 
 
 def _read(path: Path) -> tuple[str, list[str]]:
-    """The hash of a file without comments and docstrings, and the parts of the package that it imports."""
+    """Return the hash of a file without comments and docstrings, and the parts of the package that it imports."""
     tree = ast.parse(path.read_bytes())
     imported = set()
     for node in ast.walk(tree):
@@ -129,15 +128,15 @@ def _read(path: Path) -> tuple[str, list[str]]:
 
 
 def _is_text(line: Any) -> bool:
-    """Whether a statement is a docstring."""
+    """Return True for a docstring."""
     return isinstance(line, ast.Expr) and isinstance(line.value, ast.Constant) and isinstance(line.value.value, str)
 
 
 @cache
 def _sources() -> dict[str, tuple[str, list[str]]]:
-    """`_read` of every file of the package, by its path there.
+    """Return `_read` of every file of the package, by its path.
 
-    Reading takes a third of a second: the answers are kept, and a file is read again when its time or size differs.
+    Reading takes a third of a second, so the results are stored; a file is read again if its time or size has changed.
     """
     memory = (
         None
@@ -165,7 +164,7 @@ def _sources() -> dict[str, tuple[str, list[str]]]:
 
 
 def _write(path: Path, text: str) -> None:
-    """Write a file of the cache folder at once, so that no other process reads half of it."""
+    """Write a file of the cache folder atomically, so that no other process reads a part of it."""
     half = None
     try:
         with tempfile.NamedTemporaryFile("w", dir=path.parent, encoding="utf-8", delete=False) as file:
@@ -173,7 +172,7 @@ def _write(path: Path, text: str) -> None:
             file.write(text)
         half.replace(path)
     except OSError:
-        # Without it only more work is done.
+        # The file only saves work.
         if half is not None:
             with suppress(OSError):
                 half.unlink()
@@ -181,7 +180,7 @@ def _write(path: Path, text: str) -> None:
 
 @cache
 def source_hash(part: str | None = None) -> str:
-    """The hash of what kernels of this part of the package are made of; None: of any part."""
+    """Return the hash of the sources of the kernels in a part of the package; None for the whole package."""
     sources = _sources()
     wanted, waiting = set(), [part, *_FOR_ALL] if part is not None else [name.split("/")[0] for name in sources]
     while waiting:
@@ -197,19 +196,19 @@ def source_hash(part: str | None = None) -> str:
 
 
 def _part_of(name: str) -> str:
-    """The name "suslov" of "suslov/equations.py", "errors" of "errors.py"."""
+    """Return the part of the package that has a file: "suslov" for "suslov/equations.py", "errors" for "errors.py"."""
     return name.split("/", 1)[0].removesuffix(".py")
 
 
 # ---- compilation ------------------------------------------------------------------------------------------------
 
 
-# Numba leaves LLVM's packing of straight-line arithmetic into vectors off; here it is worth a quarter of the time.
+# Numba disables LLVM's SLP vectorizer; here it saves a quarter of the time.
 _CONFIG.SLP_VECTORIZE = 1
 
 
 class _Clock(event.Listener):  # type: ignore[misc]  # numba has no types
-    """How long each thread has held the lock under which Numba compiles kernels and reads compiled ones."""
+    """Time for which each thread has held Numba's compiler lock, to compile kernels or to load them."""
 
     def __init__(self) -> None:
         self.of = threading.local()
@@ -230,12 +229,12 @@ event.register("numba:compiler_lock", _CLOCK)
 
 
 def seconds_compiling() -> float:
-    """For how long this thread has compiled kernels, or read compiled ones from disk, since it began."""
+    """Return the time that this thread has spent on compiling kernels or loading them from disk, in seconds."""
     return float(getattr(_CLOCK.of, "seconds", 0.0))
 
 
 def _folder_for(module: str) -> Path | None:
-    """Where the kernels of a module are kept."""
+    """Return the cache folder of the kernels of a module."""
     if CACHE_FOLDER is None:
         return None
     package, _, inside = module.partition(".")
@@ -243,11 +242,11 @@ def _folder_for(module: str) -> Path | None:
 
 
 def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compile an entry point: machine code is kept on disk and the GIL is released."""
+    """Compile an entry point; its machine code is cached on disk, and it releases the GIL."""
     folder = _folder_for(function.__module__)
     if folder is None:
         return _compiled(function, _OPTIONS)
-    # Numba asks for the folder when it is told to cache, here and now.
+    # Numba reads the folder at this moment.
     before, _CONFIG.CACHE_DIR = _CONFIG.CACHE_DIR, str(folder)
     try:
         return keep(_compiled(function, _OPTIONS), folder)
@@ -256,10 +255,10 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def derived_kernel(name: str, source: str, module: str, **names: Any) -> Callable[..., Any]:
-    """`kernel` of the function of this name in derived source, which may call what `names` holds.
+    """Return the `kernel` of the function `name` in derived source, which may call the functions in `names`.
 
-    module : the importable module whose kernel it is.  Numba caches only what stands in a file: the source is written
-    to the cache folder, under a name of its own for each text.
+    `module` is the importable module to which the kernel belongs.  Numba caches only functions in files, so the source
+    is written to the cache folder, under a name that contains its hash.
     """
     folder = _folder_for(module)
     file, kept = f"{name}.py", False
@@ -274,12 +273,12 @@ def derived_kernel(name: str, source: str, module: str, **names: Any) -> Callabl
             kept = _holds(path, source)
     namespace: dict[str, Any] = {"__name__": module, **names}
     exec(compile(source, file, "exec"), namespace)
-    # Where the file could not be written there is nothing to cache.
+    # Without the file there is nothing to cache.
     return kernel(namespace[name]) if kept else _compiled(namespace[name], _OPTIONS)
 
 
 def _holds(path: Path, text: str) -> bool:
-    """Whether a file is there and holds just that."""
+    """Return True if a file exists and has exactly this text."""
     try:
         return path.read_text(encoding="utf-8") == text
     except (OSError, ValueError):
@@ -287,20 +286,20 @@ def _holds(path: Path, text: str) -> bool:
 
 
 def inner(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compile a building block; its machine code is kept as part of the kernels that call it."""
+    """Compile a building block; its machine code is part of the kernels that call it."""
     return _compiled(function, _INLINED)
 
 
 def part(function: Callable[..., Any]) -> Callable[..., Any]:
-    """As `inner`, for closures and generated functions, which only kernels call.
+    """Compile a closure or generated function like `inner`; only kernels may call it.
 
-    It has no entry for Python, where a call would end the process, and is compiled a tenth sooner for that.
+    It has no entry point for Python, where a call would crash the process, and compiles a tenth faster.
     """
     return _compiled(function, _ONLY_INLINED)
 
 
 def as_written(function: Callable[..., Any]) -> Callable[..., Any]:
-    """As `inner`, for arithmetic whose roundings are what counts: nothing is fused."""
+    """Compile like `inner`, without fused operations, for arithmetic that depends on its roundings."""
     return _compiled(function, {**_INLINED, "fastmath": False})
 
 

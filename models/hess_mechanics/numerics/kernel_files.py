@@ -1,8 +1,7 @@
-"""Compiled kernels on disk: what of them cannot be read or written is compiled anew, and costs time and nothing else.
+"""Kernel cache on disk that never fails: a file that cannot be read or written only costs a compilation.
 
-Numba takes for granted that its files are whole and that the disk has room.  A computer that lost its power leaves
-files cut short, a full disk takes none, and of two processes that write at once the index of one may name a file of the
-other.
+Numba assumes that its files are complete and that the disk has room.  A power failure truncates files, a full disk
+takes none, and if two processes write at once, the index of one may name a file of the other.
 """
 
 from __future__ import annotations
@@ -19,29 +18,29 @@ __all__ = ["KernelFiles", "keep"]
 
 
 class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
-    """Numba's cache of one kernel, which never fails."""
+    """Numba's cache of one kernel, without errors."""
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """The kernel for these types of arguments; None where there is none that can be read."""
+        """Return the kernel for these argument types; None if there is none that can be read."""
         try:
             found = super().load_overload(sig, target_context)
-        # What is read is unpickled: half a file may raise anything.
+        # Unpickling a truncated file may raise any error.
         except Exception:
-            # Else the index would stay as it is, and nothing could be added to it.
+            # Otherwise the index would stay broken, and nothing could be added to it.
             with suppress(OSError):
                 self.flush()
             return None
-        # Called with other types than it was compiled for, it would read wherever they happen to lead.
+        # A kernel compiled for other types would access arbitrary memory.
         if found is not None and tuple(found.signature.args) != tuple(sigutils.normalize_signature(sig)[0]):
             return None
         return found
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        """Keep a kernel, where there is room."""
+        """Store a kernel, if there is room."""
         try:
             super().save_overload(sig, data)
         except OSError:
-            # What the index names and was not written is compiled again, and so written once there is room.
+            # A kernel that is in the index but not on disk is compiled again, and stored once there is room.
             return
         except Exception:
             # The index of this kernel cannot be read.
@@ -50,19 +49,19 @@ class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
 
 
 def keep(dispatcher: Any, folder: Path) -> Callable[..., Any]:
-    """The kernel, its machine code kept below this folder, for which Numba's `CACHE_DIR` has to be set.
+    """Return the kernel with its machine code cached below this folder; Numba's `CACHE_DIR` must be set to it.
 
-    The attribute is what `njit(cache=True)` sets: Numba has no public way to choose another class.
+    The attribute is the one that `njit(cache=True)` sets: Numba has no public way to choose another cache class.
     """
     if not hasattr(dispatcher, "py_func"):
-        # NUMBA_DISABLE_JIT: it is the function itself.
+        # With NUMBA_DISABLE_JIT, this is the function itself.
         return dispatcher  # type: ignore[no-any-return]
     try:
         files = KernelFiles(dispatcher.py_func)
     except (OSError, RuntimeError):
-        # No place that can be written: it is compiled in each process.
+        # No writable folder: each process compiles the kernel.
         return dispatcher  # type: ignore[no-any-return]
-    # Where that folder cannot be written Numba looks for others, which may be stale or somebody else's.
+    # If that folder is not writable, Numba uses others, which may be stale or belong to someone else.
     if Path(files.cache_path).is_relative_to(folder):
         dispatcher._cache = files
     return dispatcher  # type: ignore[no-any-return]
