@@ -163,7 +163,7 @@ def test_free_motions_periods_and_tori_hand_on_their_arrays():
         (lambda: hm.solve(SUSLOV, STATE, 5.0, accuracy=[]), "choose one of draft, standard, precise, reference"),
         (lambda: hm.solve(SUSLOV, STATE, 5.0, samples=1.5), "is not a whole number from 2 to 200000"),
         (lambda: hm.SuslovBody("2", 1.0, 0.3, 0.5), "I11 = '2' is not a number"),
-        (lambda: hm.HeavyBody((1.0, 2.0), (1.0, 0.0, 0.0), 1.0), "a = (1.0, 2.0) are not three numbers"),
+        (lambda: hm.HeavyBody((1.0, 2.0), (1.0, 0.0, 0.0), 1.0), "a = (1.0, 2.0) is not a tuple of three numbers"),
         (
             lambda: hm.lyapunov_exponent("body", (1.0,), 3.0),
             "'body' is not a body with equations of motion: give a SuslovBody",

@@ -1,6 +1,6 @@
 """The Chaplygin ball with Suslov's constraint at a given energy, E = h (`eq30`; figures 9 and 10).
 
-Without a field the surface E = h, F1 = 1 lies over a strip of the (ω1, ω2) plane, between the ellipses
+Without a field the surface E = h, F1 = 1 projects onto a strip of the (ω1, ω2) plane, between the ellipses
 
     σ1: 2h = I11 ω1² + I22 ω2²,   σ2: 2h = (I11+𝒟) ω1² + (I22+𝒟) ω2²
 
@@ -27,7 +27,7 @@ _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
 
 
 def line_of_rest(body: BallBody) -> tuple[Array, Array]:
-    """ξ = (I23, −I13)/|…| and η = (I13, I23)/|…|, each (2,): the line along ξ, and across it.
+    """Return ξ = (I23, −I13)/|…| and η = (I13, I23)/|…|, each (2,): the directions along and across the line.
 
     Raises `InvalidParameter` for I13 = I23 = 0, where without a field every ω is constant.
     """
@@ -40,7 +40,31 @@ def line_of_rest(body: BallBody) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class Strip:
-    """The strip of a ball without a field at the energy h > 0.  Raises `InvalidParameter`."""
+    """Strip of the (ω1, ω2) plane in which a ball without a field moves at the energy h.
+
+    Parameters
+    ----------
+    body : BallBody
+        Ball with b = 0.
+    h : float
+        The energy, h > 0.
+
+    Raises
+    ------
+    InvalidParameter
+        If the ball has a field, or h is not positive.
+
+    References
+    ----------
+    `eq30`, figure 9.
+
+    Examples
+    --------
+    >>> from hess_mechanics import BallBody, Strip
+    >>> strip = Strip(BallBody(2.0, 1.0, 0.3, 0.5, D=1.0), 1.0)
+    >>> strip.outer.round(4), strip.inner.round(4)
+    (array([1.    , 1.4142]), array([0.8165, 1.    ]))
+    """
 
     body: BallBody
     h: float
@@ -48,23 +72,23 @@ class Strip:
     def __post_init__(self) -> None:
         require_finite(h=self.h)
         if any(self.body.parameters[5:]):
-            raise InvalidParameter("The strip between two ellipses is that of b = 0: set b1 = b2 = b3 = 0.")
+            raise InvalidParameter("The strip between two ellipses needs a ball without a field: set b1 = b2 = b3 = 0.")
         if not self.h > 0.0:
             raise InvalidParameter(f"h = {self.h:g}: without a field the energy is positive, choose h > 0.")
 
     @property
     def xi(self) -> Array:
-        """ξ (3,), along the line on which ω is constant.  Raises `InvalidParameter`."""
+        """The unit vector ξ (3,) along the line on which ω is constant.  Raises `InvalidParameter`."""
         return np.append(line_of_rest(self.body)[0], 0.0)
 
     @property
     def outer(self) -> Array:
-        """The semi-axes of σ1 along ω1 and ω2, (2,)."""
+        """The semi-axes (2,) of σ1 along ω1 and ω2."""
         return self._axes(0.0)
 
     @property
     def inner(self) -> Array:
-        """Those of σ2."""
+        """The semi-axes (2,) of σ2 along ω1 and ω2."""
         return self._axes(self.body.D)
 
     def _axes(self, added: float) -> Array:
@@ -75,15 +99,48 @@ class Strip:
         return np.stack([np.cos(angles), np.sin(angles)], axis=-1) * axes
 
     def sigma1(self, angles: Sequence[float] | Array) -> Array:
-        """Points (n, 2) of the outer ellipse σ1, (√(2h/I11) cos α, √(2h/I22) sin α), for the angles α (n,)."""
+        """Return points of the outer ellipse σ1.
+
+        Parameters
+        ----------
+        angles : array_like of float, shape (n,)
+            Parameters α of the points, in radians.
+
+        Returns
+        -------
+        ndarray of float, shape (n, 2)
+            Points (√(2h/I11) cos α, √(2h/I22) sin α).
+        """
         return self._ellipse(angles, self.outer)
 
     def sigma2(self, angles: Sequence[float] | Array) -> Array:
-        """Points (n, 2) of the inner ellipse σ2: `sigma1` with I + 𝒟."""
+        """Return points of the inner ellipse σ2.
+
+        Parameters
+        ----------
+        angles : array_like of float, shape (n,)
+            Parameters α of the points, in radians.
+
+        Returns
+        -------
+        ndarray of float, shape (n, 2)
+            Points as for `sigma1`, with I + 𝒟 in place of I.
+        """
         return self._ellipse(angles, self.inner)
 
     def spread(self, count: int) -> Array:
-        """States (count, 5) with E = h, their ω spread evenly over the strip."""
+        """Return states with E = h whose ω are spread evenly over the strip.
+
+        Parameters
+        ----------
+        count : int
+            Number of states.
+
+        Returns
+        -------
+        ndarray of float, shape (count, 5)
+            States (ω1, ω2, γ1, γ2, γ3).
+        """
         states = np.empty((count, 5))
         for i in range(count):
             angle, turn = 2.0 * math.pi * _GOLDEN * (i + 0.5), 2.0 * math.pi * math.sqrt(2.0) * i
@@ -97,7 +154,7 @@ class Strip:
 
     @property
     def unstable(self) -> Array:
-        """N^u in the (ω1, ω2) plane: its ends on σ2 and on σ1, shape (2, 2).  Raises `InvalidParameter`."""
+        """The ends of N^u on σ2 and on σ1 in the (ω1, ω2) plane, shape (2, 2).  Raises `InvalidParameter`."""
         xi, _ = line_of_rest(self.body)
         moment = self.body.I11 * xi[0] ** 2 + self.body.I22 * xi[1] ** 2
         ends: Array = np.sqrt(2.0 * self.h / np.array([[moment + self.body.D], [moment]])) * xi
@@ -105,19 +162,19 @@ class Strip:
 
     @property
     def stable(self) -> Array:
-        """N^s: see `unstable`."""
+        """The ends of N^s on σ2 and on σ1, see `unstable`."""
         return -self.unstable
 
 
 def lowest_energy(body: BallBody) -> float:
-    """−|b|, the minimum of E over states with F1 = 1: the ball at rest, its centre of mass at the bottom."""
+    """Return −|b|, the minimum of E over states with F1 = 1: the ball at rest, its centre of mass at the bottom."""
     return -math.hypot(body.b1, body.b2, body.b3)
 
 
 def omega_of_energy(
     body: BallBody, direction: Sequence[float], gamma: Sequence[float], h: float
 ) -> tuple[float, float]:
-    """(ω1, ω2) along `direction` (2,) with E = h at this γ (3,).
+    """Return (ω1, ω2) along `direction` (2,) with E = h at this γ (3,).
 
     Raises `OutsideRegion` for h < (b, γ), `InvalidParameter` for a direction that is 0 or not finite.
     """

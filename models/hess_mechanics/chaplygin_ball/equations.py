@@ -1,7 +1,7 @@
 """The Chaplygin ball with Suslov's constraint (`eq29`, `eq30`).
 
 A body with the constraint ω3 = 0 along e = e3 and I12 = 0, whose spherical cavity rolls on a ball with a fixed centre,
-potential (b, γ).  State y = (ω1, ω2, γ1, γ2, γ3), parameters p = (I11, I22, I13, I23, 𝒟, b1, b2, b3).
+in the potential (b, γ).  State y = (ω1, ω2, γ1, γ2, γ3), parameters p = (I11, I22, I13, I23, 𝒟, b1, b2, b3).
 For 𝒟 = 0 this is `Biz131`.
 
 The inverse of Î is written without a difference of large terms, for all 𝒟 ≥ 0.  With J_i = I_ii + 𝒟γ² and γ' = (γ1, γ2)
@@ -35,10 +35,40 @@ __all__ = ["SYSTEM", "BallBody"]
 
 @dataclass(frozen=True)
 class BallBody:
-    """Inertia tensor of the body, 𝒟 = (R/R_s)² I_s of the ball inside it, and b.
+    """Chaplygin ball with Suslov's constraint.
 
-    Raises `InvalidParameter` (not finite, 𝒟 < 0), `NotPositiveDefinite`.
+    Parameters
+    ----------
+    I11 : float
+        Moment of inertia of the body about the first axis, I11 > 0.
+    I22 : float
+        Moment of inertia about the second axis, I22 > 0.
+    I13 : float
+        Product of inertia.
+    I23 : float
+        Product of inertia.
+    D : float
+        The constant 𝒟 = (R/R_s)² I_s of the inner ball, 𝒟 ≥ 0.
+    b1 : float, optional
+        First component of **b** = −mg **r**, with **r** the centre of mass.
+    b2 : float, optional
+        Second component of **b**.
+    b3 : float, optional
+        Third component of **b**.
 
+    Raises
+    ------
+    InvalidParameter
+        If a parameter is not finite, or 𝒟 < 0.
+    NotPositiveDefinite
+        If I11 ≤ 0 or I22 ≤ 0.
+
+    References
+    ----------
+    `eq29`, `eq30`.
+
+    Examples
+    --------
     >>> from hess_mechanics import BallBody
     >>> BallBody(2.0, 1.0, 0.3, 0.5, D=1.0).parameters
     (2.0, 1.0, 0.3, 0.5, 1.0, 0.0, 0.0, 0.0)
@@ -60,12 +90,12 @@ class BallBody:
 
     @property
     def system(self) -> System:
-        """Its equations of motion."""
+        """The equations of motion."""
         return SYSTEM
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """p = (I11, I22, I13, I23, 𝒟, b1, b2, b3)."""
+        """The parameters p = (I11, I22, I13, I23, 𝒟, b1, b2, b3)."""
         return astuple(self)
 
 
@@ -75,7 +105,7 @@ def _require_not_negative(D: float) -> None:
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    """The right-hand side of `eq29`, solved for ω̇."""
+    """Return the right-hand side of `eq29`, solved for ω̇."""
     w1, w2, g1, g2, g3 = y
     I11, I22, I13, I23, D, b1, b2, b3 = p
     s = I13 * w1 + I23 * w2
@@ -84,11 +114,11 @@ def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
 
 
 def inverse_times(F: Sequence[Any], gamma: Sequence[Any], I11: Any, I22: Any, D: Any) -> tuple[Any, Any]:
-    """Î⁻¹F for F of two components, see the module's docstring."""
+    """Return Î⁻¹F for F of two components, see the docstring of the module."""
     g1, g2, g3 = gamma
     square = constant(g1**2 + g2**2 + g3**2)
     J1, J2 = I11 + D * square, I22 + D * square
-    # det Î/(J1 J2) by parts: det Î itself may leave the range of double precision.
+    # det Î/(J1 J2) term by term: det Î itself may exceed the range of double precision.
     u1, u2, v1, v2 = I11 / J1, I22 / J2, D / J1, D / J2
     d = u1 * u2 + u1 * v2 * g1**2 + u2 * v1 * g2**2 + (u1 * v2 + u2 * v1 + v1 * v2 * square) * g3**2
     f1, f2 = F[0] / J1, F[1] / J2
@@ -97,21 +127,21 @@ def inverse_times(F: Sequence[Any], gamma: Sequence[Any], I11: Any, I22: Any, D:
 
 
 def determinant(gamma: Sequence[Any], p: Sequence[Any]) -> Any:
-    """det Î of `eq29`, multiplied out."""
+    """Return det Î of `eq29`, expanded."""
     g1, g2, g3 = gamma
     I11, I22, D = p[0], p[1], p[4]
     return I11 * I22 + D * (I11 * (g1**2 + g3**2) + I22 * (g2**2 + g3**2) + D * g3**2 * (g1**2 + g2**2 + g3**2))
 
 
 def kinetic_energy(y: Sequence[Any] | Array, p: Sequence[Any] | Array) -> Any:
-    """½(Îω, ω) of `eq30`, as a sum of squares."""
+    """Return ½(Îω, ω) of `eq30`, as a sum of squares."""
     w1, w2, g1, g2, g3 = y
     I11, I22, D = p[0], p[1], p[4]
     return (I11 * w1**2 + I22 * w2**2 + D * ((g1 * w2 - g2 * w1) ** 2 + g3**2 * (w1**2 + w2**2))) / 2
 
 
 def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
-    """Energy E and F1 = γ² (`eq30`)."""
+    """Return the energy E and F1 = γ² (`eq30`)."""
     _, _, g1, g2, g3 = y
     b1, b2, b3 = p[5:]
     return {
@@ -121,7 +151,7 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
 
 
 def frequency(y: Array, p: Array) -> Array | float:
-    """ν = √(2(E+|b||γ|)/min(I11, I22)) of a state (5,) or many (5, n): no angular velocity of the motion exceeds it.
+    """Return ν = √(2(E+|b||γ|)/min(I11, I22)), a bound of |ω| along the motion, of states (5,) or (5, n).
 
     Raises `NotPositiveDefinite`, `InvalidParameter`.
     """
@@ -137,16 +167,16 @@ def frequency(y: Array, p: Array) -> Array | float:
 
 
 _CLOSE = 1e-11
-"""A distance from the line, in units of |ω|, of which a run with the usual steps cannot say when it is left."""
+"""Distance from the line, in units of |ω|, below which steps of the usual size do not resolve the departure."""
 _SHARE = 0.2
-"""Steps are this part of the time in which the series of a motion close to the line converges."""
+"""Step size close to the line, as a share of the radius of convergence of the series in time."""
 
 
 def tolerance(y: Array, p: Array, order: int, asked: float) -> float:
-    """The tolerance for a start y (5,) that without a field is close to the line I13ω1 + I23ω2 = 0, but not on it.
+    """Return the tolerance for a start y (5,) close to, but not on, the line I13ω1 + I23ω2 = 0 without a field.
 
-    Beside γ its distance from the line is nothing, and the steps would be too long for it: the series of 1/d has no
-    part in them.  When it leaves depends on all digits of that distance.
+    The distance from the line is tiny beside γ, so that the step control ignores it and the series of 1/d: the steps
+    would be too long.  The time of departure depends on all digits of that distance.
     """
     I11, I22, I13, I23, D = p[0], p[1], p[2], p[3], p[4]
     size, speed = math.hypot(I13, I23), math.hypot(y[0], y[1])
@@ -156,7 +186,7 @@ def tolerance(y: Array, p: Array, order: int, asked: float) -> float:
     smallest = min(I11, I22)
     added = D * (y[2] * y[2] + y[3] * y[3] + y[4] * y[4])
     turn = _SHARE * min(math.sqrt(smallest / (smallest + added)), smallest / size)
-    # γ turns uniformly, with coefficients 1/k!.
+    # γ rotates uniformly, with Taylor coefficients 1/k!.
     term = 1.0
     for k in range(order):
         term *= turn / (k + 1.0)

@@ -4,15 +4,15 @@ Then `eq29` is Îω̇ = (γ × ∂U/∂γ)_(1,2), γ̇ = γ × ω, with Î as in
 
 1. U = U(γ1, γ2), so b3 = 0: every orbit that crosses the equator γ3 = 0 twice is periodic.
    Proof.  The torque (−γ3 ∂U/∂γ2, γ3 ∂U/∂γ1), γ̇1 = −γ3ω2 and γ̇2 = γ3ω1 are odd in γ3, and γ̇3 = γ1ω2 − γ2ω1 is even.
-   So with y(t) also R y(−t) is a motion, R the reflection γ3 → −γ3 (a reversor).  Let y cross the equator at t0 and t1.
-   R keeps y(t0) and y(t1), and the motion through a state is unique: y(t) = R y(2t0 − t) = R y(2t1 − t).  Hence
-   y(t + 2(t1 − t0)) = y(t), and the return to the section γ3 = 0 is the identity wherever there is one.  ∎
-   Not all orbits do cross it twice: some touch it or tend to fixed points, as `suslov.kharlamova` shows for 𝒟 = 0.
+   So if y(t) is a motion, R y(−t) is one too, where R is the reflection γ3 → −γ3 (a reversor).  Let y cross the equator
+   at t0 and t1.  R fixes y(t0) and y(t1), and the motion through a state is unique: y(t) = R y(2t0 − t) = R y(2t1 − t).
+   Hence y(t + 2(t1 − t0)) = y(t), and the return to the section γ3 = 0 is the identity wherever it exists.  ∎
+   Some orbits do not cross it twice: they touch it or tend to fixed points, as `suslov.kharlamova` shows for 𝒟 = 0.
 
 2. I11 = I22 and U = U(γ3), so b ∥ e3: F2 = ω1γ1 + ω2γ2 is an integral besides E and F1.
    Proof.  The torque U'(γ3) (γ2, −γ1) is normal to γ' = (γ1, γ2), so Î = (I11 + 𝒟γ²) E − 𝒟γ'γ'ᵀ maps ω̇ ∥ torque to a
    multiple of it, and (ω̇, γ') = 0; and (ω, γ̇') = −γ3ω1ω2 + γ3ω2ω1 = 0.  ∎
-   With the standard measure, which I13 = I23 = 0 keep, the system is integrable by the Euler–Jacobi theorem.
+   The standard measure is conserved for I13 = I23 = 0, so the system is integrable by the Euler–Jacobi theorem.
 """
 
 from __future__ import annotations
@@ -36,32 +36,29 @@ __all__ = ["Period", "area_integral", "has_area_integral", "is_reversible", "per
 
 _EITHER_WAY = Plane((0.0, 0.0, 0.0, 0.0, 1.0), sense=0)
 _TOUCHES = 1e-9
-"""Below this |γ̇3|/ν a crossing is round-off: the orbit rests on the equator, or touches it."""
+"""Largest |γ̇3|/ν of a crossing that is round-off: the orbit rests on the equator, or touches it."""
 _TURNS = 300.0
-"""Time in which two crossings are looked for, in units of the slowest turn of a ball with this energy."""
+"""Time limit for two crossings, in units of the slowest rotation of a ball with this energy."""
 
 
 def is_reversible(body: BallBody) -> bool:
-    """Whether the reflection γ3 → −γ3 reverses the motions: I13 = I23 = 0 and b3 = 0."""
+    """Return True if the reflection γ3 → −γ3 reverses the motions: I13 = I23 = 0 and b3 = 0."""
     return body.I13 == body.I23 == body.b3 == 0.0
 
 
 def has_area_integral(body: BallBody) -> bool:
-    """Whether F2 = ω1γ1 + ω2γ2 is an integral by symmetry: I13 = I23 = 0, I11 = I22 and b ∥ e3."""
+    """Return True if F2 = ω1γ1 + ω2γ2 is an integral by symmetry: I13 = I23 = 0, I11 = I22 and b ∥ e3."""
     return body.I13 == body.I23 == body.b1 == body.b2 == 0.0 and body.I11 == body.I22
 
 
 def area_integral(states: Array) -> Array:
-    """F2 = ω1γ1 + ω2γ2 (...) of states (..., 5)."""
+    """Return F2 = ω1γ1 + ω2γ2 (...) of states (..., 5)."""
     return np.asarray(states[..., 0] * states[..., 2] + states[..., 1] * states[..., 3])
 
 
 @dataclass(frozen=True)
 class Period(Result):
-    """The period of one orbit, and how exact it is.
-
-    crossings : the first two times at which it crosses the equator.
-    """
+    """Period of one orbit and its error; `crossings` are the first two times at which it crosses the equator."""
 
     value: float
     crossings: tuple[float, float]
@@ -71,25 +68,56 @@ class Period(Result):
     cost: Cost
 
     def labels(self) -> Labels:
-        """The times of both crossings."""
+        """Return the times of both crossings with names and units."""
         return Labels(
             {}, {"t": (("crossing",), np.array(self.crossings))}, {"t": "T"}, {"period": self.value, **facts_of(self)}
         )
 
 
 def period(body: BallBody, state: Sequence[float], accuracy: Accuracy = "precise") -> Period:
-    """Return the period of the orbit from `state` (5,): twice the time between its first two crossings of the equator.
+    """Return the period of an orbit of the reversible ball, I13 = I23 = 0 and b3 = 0.
 
-    The error is the difference from a second run with a hundredth of the tolerance, from a start `nearby`.
-    Raises `InvalidParameter` unless the body `is_reversible` and the orbit crosses the equator twice, `WorkLimit`.
+    Parameters
+    ----------
+    body : BallBody
+        Ball with I13 = I23 = 0 and b3 = 0.
+    state : sequence of five floats
+        Initial state (ω1, ω2, γ1, γ2, γ3).
+    accuracy : Level or str, optional
+        Accuracy level or its name, see `level`.
 
+    Returns
+    -------
+    Period
+        The period in `value`, its error in `error_estimate`, and the first two times of `crossings` of the equator.
+
+    Raises
+    ------
+    InvalidParameter
+        If the body is not reversible, or the orbit does not cross the equator γ3 = 0 twice.
+    WorkLimit
+        If the orbit needs too many steps.
+
+    Notes
+    -----
+    The period is twice the time between the first two crossings of the equator, see
+    `hess_mechanics.chaplygin_ball.integrable_cases`.  The error is the difference from a second run with a hundredth of
+    the tolerance, from a start `nearby`.
+
+    References
+    ----------
+    `eq29`.  The theorem is not in the paper.
+
+    Examples
+    --------
     >>> from hess_mechanics import BallBody, period
-    >>> period(BallBody(1.3, 0.8, 0.0, 0.0, 0.0, 0.5, -0.2, 0.0), (1.0, -0.5, 0.0, 0.6, 0.8)).value > 0
-    True
+    >>> body = BallBody(1.3, 0.8, 0.0, 0.0, 0.0, 0.5, -0.2, 0.0)
+    >>> round(period(body, (1.0, -0.5, 0.0, 0.6, 0.8)).value, 6)
+    4.872249
     """
     level = as_level(accuracy)
     if not is_reversible(as_a(BallBody, body)):
-        raise InvalidParameter("Orbits close only with I13 = I23 = 0 and b3 = 0: set these to 0.")
+        raise InvalidParameter("Orbits are periodic only for I13 = I23 = 0 and b3 = 0: set these to 0.")
     p, given = np.array(body.parameters), np.array(state, float)
     moment = max(body.I11, body.I22) + body.D
     least = min(body.I11, body.I22)

@@ -42,28 +42,28 @@ from hess_mechanics.rigid_body.inertia import require_finite
 __all__ = ["Cloud", "carried", "divergence", "frame_times", "histogram", "occupation", "patch", "shell"]
 
 _CLOSEST = 1e-300
-"""Least |s|: below it doubles lose digits."""
+"""Smallest |s|: below it doubles lose digits."""
 _CHECKED, _CLOSE, _FEWEST_CLOSE = 16, 64, 4
-"""One point in 16 is computed twice, for the error estimate; and one in 64, but at least 4, of those closest to s = 0,
-whose s begins so small that a step's error is large beside it."""
+"""One point in 16 is computed twice, for the error estimate; so is one in 64, but at least 4, of those closest to
+s = 0, whose s is so small at the start that the error of a step is large beside it."""
 _MOST_NUMBERS = 1_500_000
-"""Numbers in all frames: 6 MB in single precision."""
+"""Largest number of values in all frames: 6 MB in single precision."""
 _LEAST_FRAMES = 9
 _TURN, _CHANGE = 0.9, 0.55
 """Change of γ, in radians, and of ln|s| between two frames: cubic interpolation is then accurate to a pixel."""
 _MOST_STEPS, _LEAST_STEPS = 6_000_000, 100
-"""Steps of all points together, some seconds; and at least allowed for one point."""
+"""Limit on the steps of all points together, a few seconds; and smallest limit for one point."""
 _SPARSE = 1.5
-"""Frame spacing may grow by this factor within two pixels."""
+"""Factor by which the frame spacing may grow with an error below two pixels."""
 
 
 @dataclass(frozen=True)
 class Cloud(Result):
-    """n phase points at m times, without a field.
+    """Cloud of n phase points at m times, without a field.
 
     times : (m,); along : (n, m), x = (ω, ξ); log_s : (n, m), ln|s|; signs : (n,), the sign of s, which is constant;
     gamma : (n, m, 3).
-    error_estimate : the largest estimated error of x/ν, ln|s| and γ, ν a bound on |ω|.
+    error_estimate : largest estimated error of x/ν, ln|s| and γ, with ν a bound of |ω|.
     """
 
     body: BallBody
@@ -79,18 +79,18 @@ class Cloud(Result):
 
     @cached_property
     def omega(self) -> Array:
-        """(ω1, ω2), shape (n, m, 2)."""
+        """Angular velocity (ω1, ω2), shape (n, m, 2)."""
         J, n1, n2 = _axes(self.body)
         across = self.signs[:, None] * np.exp(self.log_s) / J
         return frozen(np.stack([n2 * self.along + n1 * across, n2 * across - n1 * self.along], axis=-1))
 
     @cached_property
     def divergence(self) -> Array:
-        """div v at every point, (n, m)."""
+        """Divergence div v at every point, (n, m)."""
         return frozen(divergence(self.body, self.omega, self.gamma))
 
     def labels(self) -> Labels:
-        """ω, γ and ln|s| of each point over t."""
+        """Return ω, γ and ln|s| of each point over t, with names, units and coordinates."""
         dims = ("point", "t")
         named = {
             "ω1": self.omega[..., 0],
@@ -107,7 +107,7 @@ class Cloud(Result):
 
     @property
     def log_growth(self) -> Array:
-        """ln s(t)/s(0), (n, m): logarithm of the growth of small volumes; minus that of the density."""
+        """The logarithm of the growth of small volumes, ln s(t)/s(0), (n, m); that of the density is its negative."""
         return self.log_s - self.log_s[:, :1]
 
     @property
@@ -118,18 +118,18 @@ class Cloud(Result):
 
 
 def _axes(body: BallBody) -> tuple[float, float, float]:
-    """J, I13/J, I23/J."""
+    """Return J, I13/J, I23/J."""
     J = math.hypot(body.I13, body.I23)
     if not J > 0.0:
         raise InvalidParameter(
-            "With I13 = I23 = 0 and no field ω does not change, and 1/|I13ω1 + I23ω2| has no meaning. "
+            "With I13 = I23 = 0 and no field ω is constant, and 1/|I13ω1 + I23ω2| has no meaning. "
             "Choose I13 or I23 other than 0."
         )
     return J, body.I13 / J, body.I23 / J
 
 
 def _tensor(body: BallBody, gamma: Array) -> tuple[Array, Array, Array, Array]:
-    """Î11, Î12, Î22 and det Î of `eq29`, for γ (..., 3) of length 1."""
+    """Return Î11, Î12, Î22 and det Î of `eq29`, for γ (..., 3) of length 1."""
     g1, g2, g3 = np.moveaxis(gamma, -1, 0)
     I11, I22, D = body.I11, body.I22, body.D
     det = I11 * I22 + D * (I11 * (1.0 - g2**2) + I22 * (1.0 - g1**2) + D * g3**2)
@@ -137,7 +137,7 @@ def _tensor(body: BallBody, gamma: Array) -> tuple[Array, Array, Array, Array]:
 
 
 def divergence(body: BallBody, omega: Array, gamma: Array) -> Array:
-    """div v = (I13, I23) Î⁻¹ (−ω2, ω1), also with a field; ω (..., 2), γ (..., 3) of length 1, result (...)."""
+    """Return div v = (I13, I23) Î⁻¹ (−ω2, ω1), also with a field; ω (..., 2), γ (..., 3) of length 1, result (...)."""
     A11, A12, A22, det = _tensor(body, gamma)
     w1, w2 = omega[..., 0], omega[..., 1]
     return np.asarray((body.I23 * (A11 * w1 + A12 * w2) - body.I13 * (A22 * w2 + A12 * w1)) / det, float)
@@ -154,7 +154,7 @@ def _require_cloud(h: float, spread: float, count: int) -> None:
 
 
 def shell(body: BallBody, h: float, spread: float, count: int) -> Array:
-    """States (count, 5) spread evenly over the phase volume h(1 − spread) < E < h(1 + spread), F1 = 1, for b = 0.
+    """Return states (count, 5) uniform in the phase volume h(1 − spread) < E < h(1 + spread), F1 = 1, for b = 0.
 
     The volume dω1 dω2 dA(γ) is dE dθ dA/√det Î with ω = √(2E) Î^(−1/2) (cos θ, sin θ), so γ is accepted with a
     probability ∝ 1/√det Î.  Every call returns the same points.  Raises `InvalidParameter`.
@@ -178,7 +178,7 @@ def shell(body: BallBody, h: float, spread: float, count: int) -> Array:
 
 
 def patch(body: BallBody, h: float, angle: float, spread: float, count: int) -> Array:
-    """States (count, 5) spread evenly over a disc of ω and a cap of γ about e3.
+    """Return states (count, 5) uniform in a disc of ω and a cap of γ about e3.
 
     The centre of the disc is at `angle` in the (ω1, ω2) plane and has the energy h with γ = e3; the radius of the disc
     is `spread` times |ω| there, that of the cap `spread` radians.  Every call returns the same points.
@@ -203,11 +203,11 @@ def _twice_energy(body: BallBody, states: Array) -> float:
 
 
 def frame_times(body: BallBody, states: Array, span: float, field: float = 0.0) -> Array:
-    """Even times from 0 to `span`, both included, for the frames of a cloud from `states` (n, 5).
+    """Return equidistant times from 0 to `span`, both included, for the frames of a cloud from `states` (n, 5).
 
     The error of cubic interpolation of γ over a time Δ is |d⁴γ/dt⁴| Δ⁴/384, about r|ω|⁴Δ⁴/384 with r = sin(γ, ω), for
     which 2E ≥ (min(I11, I22) + 𝒟r²) ω².  ω changes at the rate div v.  field : |b| of a second cloud from the same
-    points.  Raises `InvalidParameter`, and `WorkLimit` where the frames allowed are too few.
+    points.  Raises `InvalidParameter`, and `WorkLimit` if more frames are needed than allowed.
     """
     twice, least = _twice_energy(body, states) + 4.0 * abs(field), min(body.I11, body.I22)
     r = min(1.0, math.sqrt(least / (3.0 * body.D))) if body.D else 1.0
@@ -238,23 +238,23 @@ def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) ->
         "points.",
     )
     if not np.all(np.abs(out[..., 1]) > _CLOSEST):
-        raise WorkLimit("The cloud comes closer to N than double precision can say: choose a shorter time span.")
+        raise WorkLimit("The cloud comes closer to N than double precision can resolve: choose a shorter time span.")
     out[..., 1] = np.log(np.abs(out[..., 1]))
     return out, steps
 
 
 def carried(body: BallBody, states: Array, times: Array, level: Accuracy) -> Cloud:
-    """The cloud of the phase points `states` (n, 5) at `times` (m,), all ≥ 0 or all ≤ 0, with b = 0.
+    """Return the cloud of the phase points `states` (n, 5) at `times` (m,), all ≥ 0 or all ≤ 0, with b = 0.
 
-    The error of every sixteenth point, and of those that start closest to s = 0, is measured by a second run with a
-    hundredth of the tolerance from a start `nearby`; if it exceeds the level's promise all points are recomputed with
-    that tolerance, down to the floor of double precision.
-    Raises `InvalidParameter` (a field; I13 = I23 = 0; a point with s = 0), `WorkLimit`.
+    The error of every sixteenth point, and of those that start closest to s = 0, is estimated by a second run with a
+    hundredth of the tolerance from a start `nearby`.  If it exceeds the promise of the level all points are recomputed
+    with that tolerance, down to the floor of double precision. Raises `InvalidParameter` (a field; I13 = I23 = 0; a
+    point with s = 0), `WorkLimit`.
     """
     level = as_level(level)
     start = time.perf_counter()
     if any(body.parameters[5:]):
-        raise InvalidParameter("1/|I13ω1 + I23ω2| is the density of b = 0: set b1 = b2 = b3 = 0.")
+        raise InvalidParameter("1/|I13ω1 + I23ω2| is an invariant density only without a field: set b1 = b2 = b3 = 0.")
     J, n1, n2 = _axes(body)
     t = checked_times(times)
     nu = math.sqrt(_twice_energy(body, states) / min(body.I11, body.I22)) or 1.0  # a bound on every |ω|
@@ -303,11 +303,11 @@ def _shares(log_s: Array, edges: Array) -> Array:
 
 
 def histogram(cloud: Cloud, frame: int, edges: Array) -> Array:
-    """Density (k,) of points per unit of ln|s| in one frame, between even edges (k + 1,) of ln|s|."""
+    """Return the density (k,) of points per unit of ln|s| in one frame, between equidistant edges (k + 1,) of ln|s|."""
     return _shares(cloud.log_s[:, frame], edges)
 
 
 def occupation(cloud: Cloud, edges: Array) -> Array:
-    """The time average of `histogram`: the share of time that the cloud spends per unit of ln|s|, (k,)."""
+    """Return the time average of `histogram`, the share of time that the cloud spends per unit of ln|s|, (k,)."""
     before, after = cloud.log_s[:, :-1, None], cloud.log_s[:, 1:, None]
     return _shares(before + (after - before) * ((np.arange(_PARTS) + 0.5) / _PARTS), edges)

@@ -1,9 +1,9 @@
-"""What becomes of a cloud of phase points: its density over |s|, and what small volumes about its points grow by.
+"""Evolution of a cloud of phase points: its density over |s|, and the growth of small volumes about its points.
 
-With I13 = I23 = 0 and a field volume is kept: a second cloud from the same points shows the difference.
+With I13 = I23 = 0 and a field volume is conserved: a second cloud from the same points shows the difference.
 
-Where a density vanishes (proposition 1): an invariant density times an integral of motion is one too.  With 𝒟 = 0 and
-F2 that is |F2|/|s|, 0 on F2 = 0, which therefore no motion crosses.
+An invariant density times an integral of motion is an invariant density too (proposition 1).  With 𝒟 = 0 and F2 that
+is |F2|/|s|, which vanishes on F2 = 0: no motion crosses that surface.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ from hess_mechanics.suslov.equations import SuslovBody
 __all__ = ["BIN", "SMALLEST", "CloudHistory", "Clouds", "Density", "clouds", "course", "density", "sides"]
 
 BIN = 0.25
-"""Of ln|s|."""
+"""Width of a bin of ln|s|."""
 SMALLEST = math.log(1e-30)
-"""ln|s| of what is counted: a smaller |s| has no place in single precision."""
+"""Smallest ln|s| that is counted: a smaller |s| cannot be plotted in single precision."""
 
 
 @dataclass(frozen=True)
 class CloudHistory:
-    """Mean, least and largest at each time, (3, m): of div v and of ln s(t)/s(0); volume: (m,), see `Cloud`."""
+    """Mean, minimum and maximum at each time, (3, m), of div v and of ln s(t)/s(0); volume: (m,), see `Cloud`."""
 
     divergence: Array
     log_growth: Array
@@ -42,7 +42,7 @@ class CloudHistory:
 class Density:
     """Shares of the points per unit of ln|s|, in the bins about `log_s`: at the start, at the end, mean over the time.
 
-    height : the mean where all points pass.
+    height : the mean in bins that all points pass.
     """
 
     log_s: Array
@@ -53,15 +53,15 @@ class Density:
 
     @property
     def passed_by_most(self) -> tuple[float, float]:
-        """|s| after a quarter of the way (of ln|s|), passed by most points, and the mean there."""
+        """The |s| at the upper quarter of the range of ln|s|, which most points pass, and the mean there."""
         i = 3 * self.log_s.size // 4
         return math.exp(float(self.log_s[i])), float(self.mean[i])
 
 
 def sides(cloud: Cloud) -> tuple[int, int, int] | None:
-    """How many points have F2 > 0 and F2 < 0 at the first time, and how many of them another sign at a later one.
+    """Return how many points start with F2 > 0 and with F2 < 0, and how many of them change the sign later.
 
-    Points whose F2 is 0 to round-off are on neither side.  None where no F2 is known: 𝒟 ≠ 0, or no odd k.
+    Points whose F2 is 0 to round-off are not counted.  None if no F2 is known: 𝒟 ≠ 0, or no odd k.
     """
     body = cloud.body
     integral = of_body(SuslovBody(body.I11, body.I22, body.I13, body.I23)) if body.D == 0.0 else None
@@ -76,7 +76,7 @@ def sides(cloud: Cloud) -> tuple[int, int, int] | None:
 
 @dataclass(frozen=True)
 class Clouds:
-    """A cloud and what becomes of it, see `sides`; `other`: the one on a principal axis."""
+    """A cloud and its evolution, see `sides`; `other` is the cloud of the body on a principal axis."""
 
     cloud: Cloud
     course: CloudHistory
@@ -94,7 +94,7 @@ class Clouds:
 
 
 def course(cloud: Cloud) -> CloudHistory:
-    """Along all of its times."""
+    """Return the history of a cloud at all of its times."""
 
     def of(values: Array) -> Array:
         return frozen(np.stack([values.mean(axis=0), values.min(axis=0), values.max(axis=0)]))
@@ -103,11 +103,11 @@ def course(cloud: Cloud) -> CloudHistory:
 
 
 def density(cloud: Cloud) -> Density:
-    """In bins of `BIN` from the smallest |s|, but not below `SMALLEST`, to the largest."""
+    """Return the density in bins of width `BIN` from the smallest |s|, but not below `SMALLEST`, to the largest."""
     low = max(SMALLEST, float(cloud.log_s.min()))
     first = math.floor(low / BIN)
     edges = BIN * np.arange(first, max(first + 1, math.floor(float(cloud.log_s.max()) / BIN) + 1) + 1, dtype=float)
-    # What each point spends per unit of ln|s| in the end, where ln|s| falls at an even rate.
+    # The time that each point spends per unit of ln|s| in the end, where ln|s| decreases at a constant rate.
     late = 3 * cloud.times.size // 4
     rate = np.abs(cloud.log_s[:, -1] - cloud.log_s[:, late]) / abs(cloud.times[-1] - cloud.times[late])
     return Density(
@@ -129,7 +129,7 @@ def clouds(
     field: float | None,
     level: Accuracy,
 ) -> Clouds:
-    """`count` points of a `patch` at an angle, or of a `shell`; times reach to `span`, which may be negative.
+    """Return clouds of `count` points of a `patch` at an angle, or of a `shell`, up to `span`, which may be negative.
 
     field : b3, in which half of them move with I13 = I23 = 0; None for no second cloud.
     Raises `InvalidParameter`, `WorkLimit`.

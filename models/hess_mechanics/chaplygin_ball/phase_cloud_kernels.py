@@ -1,7 +1,7 @@
 # mypy: allow-untyped-defs
 """Kernel of `phase_cloud`: the motion of the ball without a field in x = (ω, ξ), y = (ω, η) and γ.
 
-The equations are derived in `phase_cloud`; Î is inverted as in `chaplygin_ball.equations`.
+`phase_cloud` derives the equations; Î is inverted as in `chaplygin_ball.equations`.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ __all__ = ["field", "integrate"]
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    """The equations of `phase_cloud`; y = (x, y, γ), p = (I11, I22, J, I13/J, I23/J, 𝒟)."""
+    """Return the right-hand side of `phase_cloud`; y = (x, y, γ), p = (I11, I22, J, I13/J, I23/J, 𝒟)."""
     x, across, g1, g2, g3 = y
     I11, I22, J, n1, n2, D = p
     w1, w2 = n2 * x + n1 * across, n2 * across - n1 * x
@@ -38,5 +38,5 @@ _ensemble = one_by_one(orbit_integrator(trace(field, variables=5, parameters=6))
 
 @kernel
 def integrate(states, p, times, order, tolerance, max_steps, out):
-    """Many motions (x, y, γ), see `ensemble_integrator`; p = (I11, I22, J, I13/J, I23/J, 𝒟)."""
+    """Integrate many motions (x, y, γ), see `ensemble_integrator`; p = (I11, I22, J, I13/J, I23/J, 𝒟)."""
     return _ensemble(states, p, times, order, tolerance, max_steps, out)

@@ -1,12 +1,12 @@
-"""The scattering θ⁻ → θ⁺ of the Chaplygin ball with Suslov's constraint, without a field (`eq29`, b = 0).
+"""Scattering θ⁻ → θ⁺ of the Chaplygin ball with Suslov's constraint, without a field (`eq29`, b = 0).
 
-On N^u and N^s ω = ±uξ is constant and γ turns about ξ on a circle, cos θ = (γ, ξ).  Transversally the motion leaves
-N^u and approaches N^s at the rate, with J = √(I13² + I23²) and I_ξ = I11 ξ1² + I22 ξ2²,
+On N^u and N^s ω = ±uξ is constant and γ rotates about ξ on a circle, cos θ = (γ, ξ).  In the transversal direction the
+motion departs from N^u and approaches N^s at the rate, with J = √(I13² + I23²) and I_ξ = I11 ξ1² + I22 ξ2²,
 
     λ = J √(2h (I_ξ + 𝒟 sin²θ)) / det Î,   u = √(2h / (I_ξ + 𝒟 sin²θ)).
 
-A motion with ω = u(ξ + δη) + … has left its circle by a term of first order in δ, found by integrating back along N^u,
-where φ decreases at the rate u.  With μ(φ) = λ/u and
+A motion with ω = u(ξ + δη) + … has departed from its circle by a term of first order in δ, found by integrating back
+along N^u, where φ decreases at the rate u.  With μ(φ) = λ/u and
 
     H(φ) = ∫_0^∞ exp(iφ + is − ∫_0^s μ(φ + s') ds') ds
 
@@ -39,18 +39,33 @@ __all__ = ["BallScattering", "all_phases", "ball_scattering", "free_theta_plus",
 MOST_STEPS = 20_000_000
 _MOST_SWING = 300.0
 _MOST_TURN = 0.3
-"""Angle from the circle beyond which the first order in the distance is not used."""
+"""Largest angle from the circle up to which the first order in the distance is used."""
 _TINY = 1e-280
-"""Replaces a rate whose inverse would overflow."""
+"""Lower bound of a rate, whose inverse would otherwise overflow."""
 _STEPS = 2.0
 """Taylor steps of both runs per time 1/ν, at a tolerance of 1e-9 and the order of `REFERENCE`."""
 
 
 @dataclass(frozen=True)
 class BallScattering(Result):
-    """The circles θ⁺ that motions from the circle θ⁻ of N^u approach.
+    """Circles θ⁺ that motions from the circle θ⁻ of N^u approach; the result of `ball_scattering`.
 
-    phis : (n,), phases of γ at the start; theta_plus : (n,), in [0, π]; errors : (n,), their error estimates.
+    Attributes
+    ----------
+    theta_minus : float
+        Angle θ⁻ of the initial circle in radians.
+    phis : ndarray of float, shape (n,)
+        Phases φ of γ at the start in radians.
+    theta_plus : ndarray of float, shape (n,)
+        Angles θ⁺ in [0, π].
+    errors : ndarray of float, shape (n,)
+        Estimated errors of θ⁺ in radians.
+    level : str
+        Name of the accuracy level.
+    status : Status
+        State of the computation, see `Status`.
+    cost : Cost
+        Steps and time of the computation.
     """
 
     theta_minus: float
@@ -62,7 +77,13 @@ class BallScattering(Result):
     cost: Cost
 
     def labels(self) -> Labels:
-        """θ⁺ and its error over φ."""
+        """Return the scattering with names, units and coordinates.
+
+        Returns
+        -------
+        Labels
+            The angle θ⁺ and its error over φ.
+        """
         return Labels(
             {"φ": (("φ",), self.phis)},
             {"θ⁺": (("φ",), self.theta_plus), "error": (("φ",), self.errors)},
@@ -72,23 +93,34 @@ class BallScattering(Result):
 
     @property
     def curve(self) -> Array:
-        """(φ, θ⁺) in rows (n, 2)."""
+        """The points (φ, θ⁺) in rows (n, 2)."""
         return np.column_stack([self.phis, self.theta_plus])
 
     def at(self, phi: float) -> float:
-        """θ⁺ at a phase, between those that are known."""
+        """Return θ⁺ at a phase by linear interpolation.
+
+        Parameters
+        ----------
+        phi : float
+            Phase φ in radians, between the first and the last of `phis`.
+
+        Returns
+        -------
+        float
+            The angle θ⁺ in radians.
+        """
         return float(np.interp(phi, self.phis, self.theta_plus))
 
 
 def _phases(body: BallBody) -> Array:
-    """Even phases, enough to resolve the peak of λ at γ3 = 0, which is √(I/(I+𝒟)) wide."""
+    """Return equidistant phases that resolve the peak of λ at γ3 = 0, of width √(I/(I+𝒟))."""
     width = 1.0 / math.sqrt(1.0 + body.D / min(body.I11, body.I22))
     count = 2 ** math.ceil(math.log2(min(64.0 / width, 8192.0)))
     return np.linspace(0.0, 2.0 * math.pi, count, endpoint=False)
 
 
 def _circle(body: BallBody, theta: Array | float, phi: Array) -> Array:
-    """γ = cos θ ξ + sin θ (cos φ η + sin φ e3), shape (..., 3)."""
+    """Return γ = cos θ ξ + sin θ (cos φ η + sin φ e3), shape (..., 3)."""
     xi, eta = line_of_rest(body)
     across = np.sin(theta) * np.cos(phi)
     return np.stack(
@@ -98,26 +130,26 @@ def _circle(body: BallBody, theta: Array | float, phi: Array) -> Array:
 
 
 def _moment(body: BallBody, theta: Array | float) -> Array:
-    """(ξ, Îξ) on the circles θ."""
+    """Return (ξ, Îξ) on the circles θ."""
     xi, _ = line_of_rest(body)
     return np.asarray(body.I11 * xi[0] ** 2 + body.I22 * xi[1] ** 2 + body.D * np.sin(theta) ** 2, float)
 
 
 def _growth(body: BallBody, theta: Array, phi: Array) -> Array:
-    """μ = λ/u on the circles θ (m,) at the phases φ (n,), shape (m, n)."""
+    """Return μ = λ/u on the circles θ (m,) at the phases φ (n,), shape (m, n)."""
     gamma = list(np.moveaxis(_circle(body, theta[:, None], phi), -1, 0))
     growth: Array = math.hypot(body.I13, body.I23) * _moment(body, theta)[:, None] / determinant(gamma, body.parameters)
     return np.maximum(growth, _TINY, out=growth)
 
 
 def _lag(body: BallBody, theta: float, phis: Array) -> Complex | None:
-    """H (n,) of the phases φ (n,); None where e^∫μ overflows."""
+    """Return H (n,) at the phases φ (n,); None if e^∫μ overflows."""
     grid = _phases(body)
     growth = np.fft.fft(_growth(body, np.array([theta]), grid)[0]) / grid.size
     order = np.fft.fftfreq(grid.size, 1.0 / grid.size)
     mean = growth[0].real
     wave = np.divide(growth, 1j * order, out=np.zeros_like(growth), where=order != 0.0)
-    # ∫(μ − mean) is periodic; what is left to integrate is a periodic function times e^(−mean s).
+    # ∫(μ − mean) is periodic; it remains to integrate a periodic function times e^(−mean s).
     swing = np.fft.ifft(wave * grid.size).real
     if np.ptp(swing) > _MOST_SWING:
         return None
@@ -127,10 +159,10 @@ def _lag(body: BallBody, theta: float, phis: Array) -> Complex | None:
 
 
 def starts(strip: Strip, theta: float, phis: Array, distance: float) -> tuple[Array, Array]:
-    """States (n, 5) of motions that come from the circle θ of N^u, with phases φ (n,) and ω along ξ + distance·η.
+    """Return states (n, 5) of motions from the circle θ of N^u, at phases φ (n,), and their errors (n,).
 
-    Also their errors (n,), in radians: how far θ may be from the circles that they come from.  γ is at φ on the circle
-    up to a term of the order of `distance`, which the module derives.
+    ω is along ξ + distance·η.  γ is at φ on the circle up to a term of the order of `distance`, see the module.  The
+    errors bound, in radians, how far θ is from the circles from which the motions come.
     """
     body = strip.body
     xi, eta = line_of_rest(body)
@@ -149,13 +181,13 @@ def starts(strip: Strip, theta: float, phis: Array, distance: float) -> tuple[Ar
 
 
 def start(body: BallBody, h: float, theta: float, phi: float, distance: float) -> tuple[float, ...]:
-    """One of the `starts`: the state (5,) with the phase φ and E = h.  Raises `InvalidParameter`."""
+    """Return one of the `starts`, the state (5,) with the phase φ and E = h.  Raises `InvalidParameter`."""
     states, _ = starts(Strip(body, h), theta, np.array([phi]), distance)
     return tuple(map(float, states[0]))
 
 
 def free_theta_plus(body: BallBody, theta: float, distance: float, phis: tuple[float, ...]) -> Array:
-    """θ⁺ (n,) of the free Suslov problem with the same tensor, 𝒟 = 0, at these phases.
+    """Return θ⁺ (n,) of the free Suslov problem with the same tensor, 𝒟 = 0, at these phases.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
@@ -164,7 +196,7 @@ def free_theta_plus(body: BallBody, theta: float, distance: float, phis: tuple[f
 
 
 def _speed_and_rate(strip: Strip, theta: Array) -> tuple[Array, Array]:
-    """u and the mean of λ over one turn, each (m,), on the circles θ (m,)."""
+    """Return u and the mean of λ over one turn, each (m,), on the circles θ (m,)."""
     speeds = np.sqrt(2.0 * strip.h / _moment(strip.body, theta))
     return speeds, speeds * np.mean(_growth(strip.body, theta, _phases(strip.body)), axis=1)
 
@@ -178,18 +210,53 @@ def ball_scattering(
     level: Accuracy,
     most_steps: float = MOST_STEPS,
 ) -> BallScattering:
-    """θ⁺ for each phase φ of γ(0) ≈ cos θ⁻ ξ + sin θ⁻ (cos φ η + sin φ e3), η = e3 × ξ; see `starts`.
+    """Return the circles that motions from one circle of N^u approach, over the phase at the start.
 
-    The motion starts with ω along ξ + distance·η and E = h, and is followed until γ has settled on a circle of N^s.
-    distance : of either sign, for the two sides of N^u, 1e-10 ≤ |distance| ≤ 0.1.  Another distance shifts the curve
-    θ⁺(φ) along φ, by the turns γ makes in between, up to an error of order `distance`², which the estimates include.
-    most_steps : limit for the steps, which are estimated beforehand.
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    body : BallBody
+        Ball with b = 0 and I13 or I23 not 0.
+    theta_minus : float
+        Angle θ⁻ between γ and ξ on the initial circle in radians, 0 ≤ θ⁻ ≤ π.
+    phis : array_like of float, shape (n,)
+        Phases φ in radians: γ(0) ≈ cos θ⁻ ξ + sin θ⁻ (cos φ η + sin φ e3), η = e3 × ξ.
+    h : float
+        The energy, h > 0.
+    distance : float
+        Distance of the start from N^u: ω(0) is along ξ + distance·η.  Its sign selects the side; 1e-10 ≤ |distance| ≤
+        0.1.
+    level : Level or str
+        Accuracy level or its name, see `level`.
+    most_steps : float, optional
+        Limit on the steps, which are estimated beforehand.
 
-    >>> from hess_mechanics import BallBody, ball_scattering, level
+    Returns
+    -------
+    BallScattering
+        The angles θ⁺ and their errors.
+
+    Raises
+    ------
+    InvalidParameter
+        If an argument is out of range, the ball has a field, or I13 = I23 = 0.
+    WorkLimit
+        If the motion needs more than `most_steps` steps.
+
+    Notes
+    -----
+    The motion is followed until γ has settled on a circle of N^s.  Another distance shifts the curve θ⁺(φ) along φ, by
+    the rotation of γ in between, up to an error of order `distance`², which the estimates include.
+
+    References
+    ----------
+    `eq29`, figure 10.
+
+    Examples
+    --------
+    >>> from hess_mechanics import BallBody, ball_scattering
     >>> body = BallBody(3.56, 1.0, 0.0, 0.8, 1.0)
-    >>> ball_scattering(body, 1.0, [0.0, 1.0], 1.0, 1e-6, level("standard")).theta_plus.shape
-    (2,)
+    >>> ball_scattering(body, 1.0, [0.0, 1.0], 1.0, 1e-6, "standard").theta_plus.round(4)
+    array([2.0347, 2.1257])
     """
     level = as_level(level)
     start = time.perf_counter()
@@ -206,9 +273,9 @@ def ball_scattering(
 
     states, before = starts(strip, theta_minus, phis, distance)
     _, rates = _speed_and_rate(strip, np.array([theta_minus, *np.linspace(0.0, math.pi, 33)]))
-    # It leaves N^u at the rate of θ⁻ and approaches N^s at that of the slowest circle; the factors cover the middle.
+    # Departure from N^u at the rate of θ⁻, approach to N^s at that of the slowest circle; the factors cover the middle.
     span = math.log(4.0 / abs(distance)) / rates[0] + math.log(40.0 / level.promise) / rates.min()
-    # Steps must resolve the small distance too, which decides when γ leaves; half the promise is for other errors.
+    # Steps must resolve the small distance, which determines the departure; half the promise is for other errors.
     tight = Level(
         level.name, 0.5 * level.promise, max(0.01 * abs(distance) * level.promise, REFERENCE.tolerance), REFERENCE.order
     )
@@ -216,7 +283,7 @@ def ball_scattering(
     steps = _STEPS * (1e-9 / tight.tolerance) ** (1.0 / tight.order) * (nu + rates.max()) * span * phis.size
     if steps > most_steps:
         raise WorkLimit(
-            f"γ settles on its circle so slowly that θ⁺ takes some {steps:.0e} steps: choose larger I13 or "
+            f"γ settles on its circle so slowly that θ⁺ takes about {steps:.0e} steps: choose larger I13 or "
             "I23, or a smaller 𝒟."
         )
     found = ensemble(body, states, [span], tight)
@@ -242,7 +309,7 @@ def ball_scattering(
 def all_phases(
     body: BallBody, theta_minus: float, count: int, distance: float, level: Accuracy, most_steps: float
 ) -> BallScattering:
-    """`ball_scattering` at so many even phases from −π to π; θ⁺ does not depend on the energy.
+    """Return `ball_scattering` at `count` equidistant phases from −π to π; θ⁺ does not depend on the energy.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """

@@ -1,6 +1,6 @@
-"""The section γ3 = 0 of the Chaplygin ball with Suslov's constraint at E = h, F1 = 1, in coordinates that cover it.
+"""Section γ3 = 0 of the Chaplygin ball with Suslov's constraint at E = h, F1 = 1, in coordinates that cover it.
 
-Where γ3 grows through 0, γ = (cos ψ, sin ψ, 0) and ω is at an angle δ ∈ (0, π) from it:
+At an upward crossing of γ3 = 0, γ = (cos ψ, sin ψ, 0) and ω is at an angle δ ∈ (0, π) from it:
 ω = |ω| (cos(ψ+δ), sin(ψ+δ)), as γ̇3 = |ω| sin δ.  The energy gives |ω| wherever h > (b, γ).
 """
 
@@ -45,30 +45,30 @@ _EDGE = 1e-3
 _SAMPLES = 129
 _COLUMNS = 240
 _TURNS = 30.0
-"""Time allowed per crossing, in units of 1/ν; few orbits take longer."""
+"""Time limit per crossing, in units of 1/ν; few orbits take longer."""
 
 
 def state_at(body: BallBody, h: float, psi: float, delta: float) -> tuple[float, ...]:
-    """The state (5,) of the section at (ψ, δ).  Raises `InvalidParameter`, `OutsideRegion` (h below (b, γ))."""
+    """Return the state (5,) of the section at (ψ, δ).  Raises `InvalidParameter`, `OutsideRegion` (h below (b, γ))."""
     require_finite(psi=psi, delta=delta)
     if not 0.0 < delta < math.pi:
-        raise InvalidParameter(f"δ = {delta:g}: on this section, where γ3 grows, it lies between 0 and π.")
+        raise InvalidParameter(f"δ = {delta:g}: on this section, where γ3 increases, choose δ between 0 and π.")
     gamma = (math.cos(psi), math.sin(psi), 0.0)
     omega = omega_of_energy(body, (math.cos(psi + delta), math.sin(psi + delta)), gamma, h)
     return (*omega, *gamma)
 
 
 def coordinates(states: Array) -> Array:
-    """(ψ, δ) (n, 2) of states (n, 5) of the section."""
+    """Return (ψ, δ) (n, 2) of states (n, 5) of the section."""
     psi = np.arctan2(states[:, 3], states[:, 2])
     delta = np.arctan2(states[:, 1], states[:, 0]) - psi
     return np.column_stack([psi, np.abs(np.arctan2(np.sin(delta), np.cos(delta)))])
 
 
 def forbidden_band(body: BallBody, h: float) -> tuple[float, float] | None:
-    """(middle, half width) of the band of ψ that h forbids, (b, γ) > h; None where every ψ is possible.
+    """Return (middle, half width) of the band of ψ that h forbids, (b, γ) > h; None if every ψ is possible.
 
-    Raises `InvalidParameter` where none is.
+    Raises `InvalidParameter` if no ψ is possible.
     """
     size = math.hypot(body.b1, body.b2)
     if h <= -size:
@@ -81,7 +81,7 @@ def forbidden_band(body: BallBody, h: float) -> tuple[float, float] | None:
 
 
 def outside_band(band: tuple[float, float], psi: float) -> float:
-    """The possible ψ in [−π, π] next to this one: itself, unless it lies in a `forbidden_band` or at its edge."""
+    """Return the possible ψ in [−π, π] next to this one, which is changed only in or next to a `forbidden_band`."""
     middle, half = band
     away = math.remainder(psi - middle, 2.0 * math.pi)
     if abs(away) >= half + _EDGE:
@@ -91,7 +91,7 @@ def outside_band(band: tuple[float, float], psi: float) -> float:
 
 
 def seeds(body: BallBody, h: float, count: int) -> list[tuple[float, ...]]:
-    """States of the section, spread evenly over the possible (ψ, cos δ).  Raises `InvalidParameter`."""
+    """Return states of the section, spread evenly over the possible (ψ, cos δ).  Raises `InvalidParameter`."""
     band = forbidden_band(body, h)
     middle, forbidden = (0.0, 0.0) if band is None else band
     golden = (math.sqrt(5.0) - 1.0) / 2.0
@@ -111,9 +111,9 @@ def ball_section(
     level: Accuracy,
     most_steps: int = MAX_STEPS,
 ) -> SectionPoints:
-    """The first `crossings` crossings of each orbit from `starts`, on all cores, as in `section_points`.
+    """Return the first `crossings` crossings of each orbit from `starts`, on all cores, as in `section_points`.
 
-    most_steps : per orbit.  Raises `InvalidParameter`, `WorkLimit`.
+    most_steps : limit of steps per orbit.  Raises `InvalidParameter`, `WorkLimit`.
     """
     speed = math.sqrt(2.0 * (h + math.hypot(*body.parameters[5:])) / min(body.I11, body.I22))
     end = crossings * _TURNS * math.sqrt(1.0 + body.D / min(body.I11, body.I22)) / speed
@@ -129,19 +129,19 @@ def ball_section(
 def spread_section(
     body: BallBody, h: float, orbits: int, crossings: int, level: Accuracy, most_steps: int
 ) -> SectionPoints:
-    """The section of so many orbits, spread over what is possible of it: `ball_section` from `seeds`."""
+    """Return the section of the given number of orbits, `ball_section` from `seeds`."""
     return ball_section(body, h, seeds(body, h, orbits), crossings, level, most_steps)
 
 
 def fastest(body: BallBody, start: tuple[float, ...], span: float) -> float:
-    """The largest |ω| along the orbit from a state (5,), as far as a few samples show it.  Raises as `solve`."""
+    """Return the largest |ω| of a few samples along the orbit from a state (5,).  Raises as `solve`."""
     coarse = solve(body, start, np.linspace(0.0, span, _SAMPLES), DRAFT)
     return float(np.hypot(*coarse.states[:, :2].T).max())
 
 
 @dataclass(frozen=True)
 class BallSection(PoincareSection):
-    """The section γ3 = 0 of a ball at the energy h.  Its methods raise `InvalidParameter`."""
+    """Section γ3 = 0 of a ball at the energy h.  Its methods raise `InvalidParameter`."""
 
     body: BallBody
     h: float
@@ -154,12 +154,12 @@ class BallSection(PoincareSection):
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """Of the body."""
+        """The parameters of the body."""
         return self.body.parameters
 
     @property
     def slowness(self) -> float:
-        """√ of the ratio of the largest moment of inertia with 𝒟 to the least without."""
+        """The square root of the ratio of the largest moment of inertia with 𝒟 to the smallest without."""
         return math.sqrt((max(self.body.I11, self.body.I22) + self.body.D) / min(self.body.I11, self.body.I22))
 
     @property
@@ -169,19 +169,19 @@ class BallSection(PoincareSection):
 
     @property
     def integrable(self) -> str:
-        """One of the two cases of `integrable_cases`."""
+        """The case of `integrable_cases` in words, or an empty string."""
         if is_reversible(self.body):
             return "the case I₁₃ = I₂₃ = b₃ = 0, whose orbits are closed"
         return "the integrable case I₁₁ = I₂₂, b along e₃" if has_area_integral(self.body) else ""
 
     def moved(self, name: str, value: float) -> BallSection:
-        """With another value of a constant."""
+        """Return the section with another value of one constant."""
         if name == "h":
             return replace(self, h=value)
         return replace(self, body=replace(self.body, **{name: value}))
 
     def states_at(self, psi: Array, delta: Array) -> tuple[Array, Mask]:
-        """The states (n, 5) at (ψ, δ) (n,), and whether motions are possible there (n,)."""
+        """Return the states (n, 5) at (ψ, δ) (n,), and the mask (n,) of the places with motion."""
         states, there = np.full((len(psi), 5), np.nan), np.zeros(len(psi), bool)
         for i, place in enumerate(zip(psi, delta, strict=True)):
             with suppress(ModelError):
@@ -189,17 +189,17 @@ class BallSection(PoincareSection):
         return states, there
 
     def places_of(self, states: Array) -> Array:
-        """(ψ, δ) (n, 2) of states (n, 5) of the section."""
+        """Return (ψ, δ) (n, 2) of states (n, 5) of the section."""
         return coordinates(states)
 
     def somewhere(self) -> tuple[float, ...] | None:
-        """A state of it; None where no motion crosses."""
+        """Return a state of the section; None if no motion crosses it."""
         with suppress(ModelError):
             return seeds(self.body, self.h, 1)[0]
         return None
 
     def impossible(self, window: Window) -> Array:
-        """Cells (1, n) over the window: 1 where the energy does not allow ψ."""
+        """Return cells (1, n) over the window: 1 where the energy does not allow ψ."""
         psi = np.linspace(window[0][0], window[1][0], _COLUMNS + 1)
         psi = 0.5 * (psi[1:] + psi[:-1])
         return frozen((self.body.b1 * np.cos(psi) + self.body.b2 * np.sin(psi) >= self.h)[None, :].astype(float))

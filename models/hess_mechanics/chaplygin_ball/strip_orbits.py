@@ -1,4 +1,4 @@
-"""Orbits of the Chaplygin ball across the strip of the (ω1, ω2) plane, from N^u to N^s, as curves to be drawn."""
+"""Orbits of the Chaplygin ball across the strip of the (ω1, ω2) plane, from N^u to N^s, as curves for plots."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from hess_mechanics.numerics.results import Array, frozen
 __all__ = ["StripOrbit", "largest_distance", "strip_orbits"]
 
 StripOrbit = tuple[Array, int]
-"""ω (m, 2), a point for each pixel of a picture of the strip, and the index of the state followed both ways."""
+"""ω (m, 2), a point for each pixel of a plot of the strip, and the index of the initial state."""
 
 
 def strip_orbits(body: BallBody, count: int, level: Accuracy = DRAFT) -> tuple[StripOrbit, ...]:
-    """Orbits of E = 1 through states spread evenly over the strip, until they have all but arrived; b = 0.
+    """Return orbits of E = 1, b = 0 through states spread evenly over the strip, nearly from N^u to N^s.
 
-    Without a field the energy only sets the unit of time: those of E = h are √h times as large.
+    Without a field the energy only sets the unit of time: the ω of E = h are √h times as large.
     Raises `InvalidParameter`, `WorkLimit`.
     """
     states = Strip(body, 1.0).spread(count)
@@ -45,13 +45,13 @@ def strip_orbits(body: BallBody, count: int, level: Accuracy = DRAFT) -> tuple[S
 
 
 def largest_distance(orbits: Sequence[StripOrbit], exact: Sequence[StripOrbit]) -> float:
-    """How far points of orbits are at most from the curves of as many more exact ones."""
+    """Return the largest distance of points of orbits from the curves of the same orbits at higher accuracy."""
     return float(max(away_from(one, other).max() for (one, _), (other, _) in zip(orbits, exact, strict=True)))
 
 
 def _times(body: BallBody, speed: float) -> Array:
-    """How long to follow them; `speed`: the largest |ω|."""
-    # No slower than this they leave and arrive, from one pixel to the next one; but not too many turns of γ.
+    """Return the times at which to follow the orbits; `speed` is the largest |ω|."""
+    # `rate` is a lower bound of the rate of departure and arrival; the second bound limits the turns of γ.
     moment = 2.0 / float(np.sum(Strip(body, 1.0).unstable[1] ** 2))
     rate = math.hypot(body.I13, body.I23) * math.sqrt(2.0 * moment) / (body.I11 + body.D) / (body.I22 + body.D)
     end = min(10.0 / max(rate, 1e-290), 250.0 / speed)

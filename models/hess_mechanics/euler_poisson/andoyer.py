@@ -4,15 +4,15 @@ G = |M|, L = M3, (M, γ) = f, x = L/G, s = √(1 − x²); M = G (s sin l, s cos
 
     γ = (f/G) M/G + √(1 − f²/G²) (sin g · v − cos g · u),   v = (cos l, −sin l, 0),   u = (−x sin l, −x cos l, s).
 
-The plane g = π/2 is G²γ3 − f M3 = 0 where (γ, v) > 0; as G²γ3 − f M3 = −G² √(1 − f²/G²) s cos g, motions cross it
-upwards while g grows.  On the plane the energy is, with m = μr,
+The plane g = π/2 is G²γ3 − f M3 = 0 with (γ, v) > 0; as G²γ3 − f M3 = −G² √(1 − f²/G²) s cos g, motions cross it
+upwards while g increases.  On the plane the energy is, with m = μr,
 
     h = ½ K G² − (f/G) P − √(1 − f²/G²) Q,   K = s² (a1 sin²l + a2 cos²l) + a3 x²,
     P = s (m1 sin l + m2 cos l) + m3 x,   Q = m1 cos l − m2 sin l.
 
 For f ≠ 0 this has up to three roots G ≥ |f|: with cos α = |f|/G, h = ½ K f² (1 + tan²α) − sgn(f) P cos α − Q sin α.
-So the section is covered by up to three sheets, numbered from 0, that of the largest root, in the order of falling G.
-The third needs f P < 0 and Q < 0; where there are only two, a state is on the second exactly where ∂h/∂G < 0.
+So the section is covered by up to three sheets, numbered from 0 in the order of decreasing G.  The third sheet needs
+f P < 0 and Q < 0; if there are only two, a state is on the second exactly if ∂h/∂G < 0.
 """
 
 from __future__ import annotations
@@ -53,20 +53,74 @@ Sheets = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class AndoyerPlane:
-    """The section g = π/2, ġ > 0, of motions with (M, γ) = f."""
+    """Section g = π/2, ġ > 0, of motions with (M, γ) = f.
+
+    Parameters
+    ----------
+    f : float
+        Area integral (M, γ).
+    sense : int, optional
+        1 for upward crossings, −1 for downward crossings, 0 for both.
+
+    References
+    ----------
+    Figures 11, 13 and 14.
+
+    Examples
+    --------
+    >>> from hess_mechanics import AndoyerPlane, HeavyBody, section
+    >>> body = HeavyBody.hess((1.0, 1.5, 2.0), 3.0)
+    >>> start = (1.0, 0.5, 0.3, 0.6, 0.0, 0.8)
+    >>> found = section(body, start, AndoyerPlane(f=0.84), 20.0, "standard")
+    >>> len(found.times)
+    5
+    """
 
     f: float
     sense: int = 1
 
     def gradient(self, state: Array) -> Array:
-        """Of G²γ3 − f M3 (6,)."""
+        """Return the gradient of G²γ3 − f M3.
+
+        Parameters
+        ----------
+        state : ndarray of float, shape (6,)
+            State (M1, M2, M3, γ1, γ2, γ3).
+
+        Returns
+        -------
+        ndarray of float, shape (6,)
+            Derivatives by the components of the state.
+        """
         M, g3 = state[:3], state[5]
         return np.array([*(2.0 * g3 * M[:2]), 2.0 * g3 * M[2] - self.f, 0.0, 0.0, M @ M])
 
     def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
-        """See `section.Surface`.  Raises `InvalidParameter` for systems other than Euler–Poisson."""
+        """Return the kernel of the surface with its constants in the units of a problem, see `section.Surface`.
+
+        Parameters
+        ----------
+        system : System
+            The Euler–Poisson system.
+        problem : Problem
+            Initial states and parameters in scaled units.
+
+        Returns
+        -------
+        kernel : callable
+            Kernel that finds the crossings.
+        normal : ndarray of float, shape (1,)
+            The scaled f.
+        offset : float
+            Always 0.
+
+        Raises
+        ------
+        InvalidParameter
+            If the system is not that of the Euler–Poisson equations.
+        """
         if system is not SYSTEM:
-            raise InvalidParameter("Andoyer–Deprit variables are those of the Euler–Poisson equations.")
+            raise InvalidParameter("Andoyer–Deprit variables exist only for the Euler–Poisson equations.")
         return cross, np.array([self.f / problem.scale[0]]), 0.0
 
 
@@ -74,34 +128,34 @@ _SCAN = 64
 _ROUGH = 24
 _CELLS = (96, 64)
 _TRIED = (4, 200, 200)
-"""Places tried for each state of a sheet: where the second exists, g hardly ever grows on it."""
+"""Places tried for each state of a sheet: on the second sheet g rarely increases."""
 _TURNS = 40.0
-"""Time allowed per crossing, in units of 1/ν; few orbits take longer."""
+"""Time limit per crossing, in units of 1/ν; few orbits take longer."""
 SHEETS = 3
-"""More there cannot be: as a function of α, see the module, the energy turns round twice at most."""
+"""Largest possible number of sheets: as a function of α, see the module, the energy has at most two extrema."""
 _ORDINALS = ("largest", "second", "third")
 
 
 def coordinates(states: Array) -> Array:
-    """(l, L/G) (n, 2) of states (n, 6)."""
+    """Return (l, L/G) (n, 2) of states (n, 6)."""
     G = np.sqrt(np.sum(states[:, :3] ** 2, axis=1))
     return np.column_stack([np.arctan2(states[:, 0], states[:, 1]), states[:, 2] / np.maximum(G, 1e-300)])
 
 
 def relation(body: HeavyBody, states: Array) -> Array:
-    """r1 M1 + r3 M3 (n,) of states (n, 6); in the Hess case its sign is invariant (`g2p6f1`)."""
+    """Return r1 M1 + r3 M3 (n,) of states (n, 6); in the Hess case its sign is invariant (`g2p6f1`)."""
     return body.r[0] * states[:, 0] + body.r[2] * states[:, 2]
 
 
 def hess_curve(body: HeavyBody, l: Array) -> Array:
-    """L/G (n,) at l (n,) on the Hess manifold: r1 s sin l + r3 x = 0."""
+    """Return L/G (n,) at l (n,) on the Hess manifold: r1 s sin l + r3 x = 0."""
     r1, _, r3 = body.r
     across = r1 * np.sin(l)
     return np.asarray(-across / np.maximum(np.hypot(r3, across), 1e-300), float)
 
 
 def hess_circle(body: HeavyBody) -> Array:
-    """(l, L/G), (241, 2), of M all the way round across r: also where r lies along an axis, and l hardly changes."""
+    """Return (l, L/G), (241, 2), of all M normal to r, also for r along an axis, where l hardly changes."""
     turn = np.linspace(-math.pi, math.pi, 241)
     return coordinates(np.column_stack([body.r[2] * np.sin(turn), np.cos(turn), -body.r[0] * np.sin(turn)]))
 
@@ -127,17 +181,17 @@ class AndoyerSection(PoincareSection):
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """Of the body."""
+        """The parameters of the body."""
         return self.body.parameters
 
     @property
     def surface(self) -> AndoyerPlane:
-        """g = π/2 at this area integral."""
+        """The surface g = π/2 for this area integral."""
         return AndoyerPlane(self.f)
 
     @property
     def slowness(self) -> float:
-        """√ of the ratio of the moments of inertia."""
+        """The square root of the ratio of the moments of inertia."""
         return math.sqrt(max(self.body.a) / min(self.body.a))
 
     @property
@@ -151,7 +205,7 @@ class AndoyerSection(PoincareSection):
         return self.body.integrable_at(self.f)
 
     def moved(self, name: str, value: float) -> AndoyerSection:
-        """With another value of a constant."""
+        """Return the section with another value of one constant."""
         if name in ("h", "f"):
             return replace(self, h=value) if name == "h" else replace(self, f=value)
         p = tuple(
@@ -160,7 +214,7 @@ class AndoyerSection(PoincareSection):
         return replace(self, body=HeavyBody((p[0], p[1], p[2]), (p[3], p[4], p[5]), p[6]))
 
     def _factors(self, l: Array, x: Array) -> tuple[Array, Array, Array]:
-        """K, P, Q of the energy, see the module."""
+        """Return K, P, Q of the energy, see the module."""
         a1, a2, a3 = self.body.a
         m1, m2, m3 = (self.body.mu * r for r in self.body.r)
         s = np.sqrt(np.maximum(0.0, 1.0 - x * x))
@@ -169,7 +223,7 @@ class AndoyerSection(PoincareSection):
         return K, s * (m1 * sin + m2 * cos) + m3 * x, m1 * cos - m2 * sin
 
     def roots(self, l: Array, x: Array) -> Array:
-        """All G ≥ |f| with this energy at (l, L/G) (n,), falling; shape (n, SHEETS), NaN where fewer."""
+        """Return all G ≥ |f| with this energy at (l, L/G) (n,), decreasing; shape (n, SHEETS), filled up with NaN."""
         l, x = np.array(l, float, ndmin=1), np.array(x, float, ndmin=1)
         if not (np.all(np.isfinite(l)) and np.all(np.abs(x) <= 1.0)):
             raise InvalidParameter("On the section l is an angle and x = L/G lies between −1 and 1.")
@@ -182,7 +236,7 @@ class AndoyerSection(PoincareSection):
         return out
 
     def states_at(self, l: Array, x: Array) -> tuple[Array, Mask]:
-        """The states (n, 6) at (l, L/G) (n,), and whether motions cross this sheet there (n,)."""
+        """Return the states (n, 6) at (l, L/G) (n,), and the mask (n,) of the places where motions cross this sheet."""
         G = self.roots(l, x)[:, self.sheet]
         safe = np.where(G > 0.0, G, 1.0)
         s, c = np.sqrt(np.maximum(0.0, 1.0 - x * x)), self.f / safe
@@ -196,9 +250,9 @@ class AndoyerSection(PoincareSection):
         return y.T, (G > 0.0) & (growth > 0.0)
 
     def state_at(self, l: float, x: float) -> tuple[float, ...]:
-        """The state (6,) at (l, L/G).
+        """Return the state (6,) at (l, L/G).
 
-        Raises `InvalidParameter` where this sheet has no real G ≥ |f| of this energy, or g does not grow through π/2.
+        Raises `InvalidParameter` if this sheet has no real G ≥ |f| of this energy, or g does not increase through π/2.
         """
         place = np.array([l], float), np.array([x], float)
         where = f"At l = {l:.6g}, L/G = {x:.6g}"
@@ -215,19 +269,19 @@ class AndoyerSection(PoincareSection):
         return tuple(map(float, states[0]))
 
     def places_of(self, states: Array) -> Array:
-        """(l, L/G) (n, 2) of states (n, 6), on whichever sheet."""
+        """Return (l, L/G) (n, 2) of states (n, 6), on any sheet."""
         return coordinates(states)
 
     def sheet_of(self, states: Array) -> Sheets:
-        """On which sheet states (n, 6) are, (n,): how many roots G at their (l, L/G) are larger."""
+        """Return the sheet (n,) of each of the states (n, 6): the number of larger roots G at their (l, L/G)."""
         f, (l, x) = self.f, coordinates(states).T
         G = np.sqrt(np.sum(states[:, :3] ** 2, axis=1))
         K, P, Q = self._factors(l, x)
         ratio = f / np.maximum(G, 1e-300)
         across = np.sqrt(np.maximum(0.0, 1.0 - ratio * ratio))
         found = np.where((K * G * G + ratio * P) * across < ratio * ratio * Q, 1, 0)
-        # The third sheet rises as the first does, and falls for some larger α = arccos |f|/G: only where
-        # K f² tan α/cos²α < √(P² + Q²).
+        # On the third sheet ∂h/∂G > 0 as on the first, with ∂h/∂G < 0 for some larger α = arccos |f|/G.  This
+        # requires K f² tan α/cos²α < √(P² + Q²).
         steep = K * G**3 * across < abs(f) * np.hypot(P, Q)
         unsure = np.flatnonzero((found == 0) & (f * P < 0.0) & (Q < 0.0) & steep) if f else np.empty(0, int)
         if unsure.size:
@@ -236,18 +290,18 @@ class AndoyerSection(PoincareSection):
         return found
 
     def is_on(self, states: Array) -> Mask:
-        """Whether states (n, 6) of the section are on this sheet, (n,)."""
+        """Return the mask (n,) of the states (n, 6) of the section that are on this sheet."""
         return np.asarray(self.sheet_of(states) == self.sheet)
 
     def spread(self, window: Window, count: int) -> tuple[tuple[float, ...], ...]:
-        """At most `count` states of this sheet, spread evenly over what is possible of the window."""
+        """Return at most `count` states of this sheet, spread evenly over the possible part of the window."""
         (l0, x0), (l1, x1) = window
         shares = evenly(_TRIED[self.sheet] * count, 0.5)
         states, growing = self.states_at(l0 + (l1 - l0) * shares[0], x0 + (x1 - x0) * shares[1])
         return tuple(tuple(map(float, state)) for state in states[growing][:count])
 
     def time_for(self, crossings: int) -> float:
-        """A time in which orbits usually cross the plane `crossings` times."""
+        """Return a time in which orbits usually cross the plane `crossings` times."""
         speed = math.sqrt(2.0 * max(self.body.a) * max(self.h + self.body.strength, 1e-300))
         return crossings * _TURNS * self.slowness / speed
 
@@ -259,19 +313,19 @@ class AndoyerSection(PoincareSection):
         threads: int = THREADS,
         most_steps: int = MAX_STEPS,
     ) -> SectionPoints:
-        """The first crossings by each orbit, as in `section_points`.  Raises `InvalidParameter`, `WorkLimit`."""
+        """Return the first crossings of each orbit, as in `section_points`.  Raises `InvalidParameter`, `WorkLimit`."""
         return section_points(
             self.body, starts, self.surface, self.time_for(crossings), level, crossings, threads, most_steps
         )
 
     def possible(self, l: Array, x: Array) -> Mask:
-        """Return where some G ≥ |f| has an energy of at most h at (l, L/G) (n,), accurate enough for a picture."""
+        """Return the mask (n,) of the (l, L/G) where some G ≥ |f| has an energy of at most h, as exact as a plot."""
         least = np.empty(l.size)
         least_excess(float(self.h), float(self.f), self.body.strength, *self._factors(l, x), _ROUGH, least)
         return np.asarray(least <= 0.0)
 
     def impossible(self, window: Window) -> Array:
-        """Cells (m, n) over the window: 1 where this sheet has no motion of this energy."""
+        """Return cells (m, n) over the window: 1 where this sheet has no motion of this energy."""
         (l0, x0), (l1, x1) = window
         m, n = _CELLS
         grid = np.meshgrid(centres(l0, l1, m), centres(x0, x1, n))

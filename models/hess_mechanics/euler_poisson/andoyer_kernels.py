@@ -16,7 +16,7 @@ __all__ = ["cross", "least_excess", "roots_into"]
 
 @part
 def _along(c, normal, e, scratch):
-    """The Taylor coefficients of G²γ3 − f M3; normal[0] = f."""
+    """Store the Taylor coefficients of G²γ3 − f M3 in e; normal[0] = f."""
     for k in range(e.size):
         total = 0.0
         for m in range(k + 1):
@@ -37,7 +37,7 @@ def _height(y, normal):
 
 @part
 def _on_this_side(y, normal):
-    """g = π/2 and not −π/2."""
+    """Return True at g = π/2, False at g = −π/2."""
     return y[3] * y[1] - y[4] * y[0] > 0.0
 
 
@@ -46,32 +46,32 @@ _cross = crossing_finder(SYSTEM.recursion, SurfaceKernels(_along, _height, _on_t
 
 @kernel
 def cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states):
-    """Crossings of g = π/2 by one orbit of `hh01`, see `crossing_finder`; normal = (f,)."""
+    """Find the crossings of g = π/2 by one orbit of `hh01`, see `crossing_finder`; normal = (f,)."""
     return _cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states)
 
 
 @inner
 def _energy(G, f, K, P, Q):
-    """h at G on the plane g = π/2."""
+    """Return h at G on the plane g = π/2."""
     cos = f / G if f != 0.0 else 0.0
     return 0.5 * K * G * G - cos * P - math.sqrt(max(0.0, 1.0 - cos * cos)) * Q
 
 
 @inner
 def _largest(h, f, strength, K):
-    """Above this G the energy exceeds h, as the potential is at least −`strength`; at least |f|."""
+    """Return the G ≥ |f| above which the energy exceeds h, as the potential is at least −`strength`."""
     return max(abs(f), math.sqrt(max(0.0, 2.0 * (h + strength) / K)))
 
 
 @inner
 def _falling(top, f, share):
-    """From the largest G to |f|, in steps that grow."""
+    """Return a value of G between `top` (share 0) and |f| (share 1), with increasing steps."""
     return max(abs(f), top + (abs(f) - top) * share * share)
 
 
 @kernel
 def least_excess(h, f, strength, K, P, Q, count, out):
-    """The least energy on the plane minus h, of `count` values of G from the largest possible down to |f|."""
+    """Store the minimum of the energy on the plane minus h in out, over `count` values of G from the largest to |f|."""
     for i in range(K.size):
         top = _largest(h, f, strength, K[i])
         least = math.inf
@@ -83,21 +83,23 @@ def least_excess(h, f, strength, K, P, Q, count, out):
 
 @kernel
 def roots_into(h, f, strength, K, P, Q, count, out):
-    """All G ≥ |f| > 0 with the energy h, falling, as many as out[i] has room for, by bisection between `count` values
-    of G and half as many of α = arccos |f|/G."""
+    """Store all G ≥ |f| > 0 with the energy h in out, decreasing, as many as each row has room for.
+
+    They are found by bisection between `count` values of G and half as many of α = arccos |f|/G.
+    """
     G = np.empty(count + count // 2)
     for i in range(K.size):
         top = _largest(h, f, strength, K[i])
         for k in range(count):
             G[k] = _falling(top, f, k / (count - 1))
-        # Even steps of α besides: those of G are too long near |f|, where the energy changes as the root of G − |f|.
+        # Add equal steps of α: those of G are too long near |f|, where the energy varies as the root of G − |f|.
         steepest = math.acos(min(1.0, abs(f) / top))
         for k in range(count // 2):
             cos = math.cos(steepest * (1.0 - k / (count // 2 - 1)))
             G[count + k] = min(top, max(abs(f), abs(f) / cos)) if cos > 0.0 else top
         G.sort()
         found = 0
-        # Where round-off finds more roots than there are, those of the least G go.
+        # If round-off produces too many roots, those of the smallest G are dropped.
         above = _energy(top, f, K[i], P[i], Q[i]) - h >= -1e-12 * (abs(h) + strength)
         for k in range(G.size - 2, -1, -1):
             before = above

@@ -31,10 +31,30 @@ def _require_positive(a: Sequence[float]) -> None:
 
 @dataclass(frozen=True)
 class HeavyBody:
-    """Inverse moments A = diag(a1, a2, a3), centre of mass r, weight μ.
+    """Heavy rigid body with a fixed point, in its principal axes.
 
-    Raises `InvalidParameter`, `NotPositiveDefinite`.
+    Parameters
+    ----------
+    a : tuple of three floats
+        Inverse moments of inertia a1, a2, a3 > 0.
+    r : tuple of three floats
+        Direction or position r1, r2, r3 of the centre of mass.
+    mu : float
+        Weight μ; the potential is −μ(r, γ).
 
+    Raises
+    ------
+    InvalidParameter
+        If a parameter is not finite, a or r does not have three numbers, or the moments are too different.
+    NotPositiveDefinite
+        If a1, a2 or a3 is not positive.
+
+    References
+    ----------
+    `hh01`, `hh001`.
+
+    Examples
+    --------
     >>> from hess_mechanics import HeavyBody
     >>> HeavyBody.hess(moments=(1.0, 1.5, 2.0), strength=3.0).is_hess  # from moments and μ|r|
     True
@@ -50,16 +70,38 @@ class HeavyBody:
         names = ("a1", "a2", "a3", "r1", "r2", "r3", "μ")
         for name, value in (("a", self.a), ("r", self.r)):
             if not isinstance(value, tuple) or len(value) != 3:
-                raise InvalidParameter(f"{name} = {value!r} are not three numbers; write them like (1.0, 1.6, 2.7).")
+                raise InvalidParameter(f"{name} = {value!r} is not a tuple of three numbers: write (1.0, 1.6, 2.7).")
         require_finite(**dict(zip(names, self.parameters, strict=True)))
         _require_positive(self.a)
 
     @classmethod
     def hess(cls, moments: tuple[float, float, float], strength: float, away: float = 0.0) -> HeavyBody:
-        """The body with these moments and μ|r| = strength, |r| = 1, in the Hess case (`gess-*1`, both r1, r3 > 0).
+        """Return the body with these moments in the Hess case, or close to it.
 
-        away : the angle, in radians, by which r is turned in the (r1, r3)-plane away from that direction.
-        Raises `InvalidParameter` where I2 is not between the others.
+        Parameters
+        ----------
+        moments : tuple of three floats
+            Moments of inertia I1, I2, I3 with I2 between I1 and I3.
+        strength : float
+            The product μ|r|; |r| = 1 and r1, r3 > 0.
+        away : float, optional
+            Angle in radians by which r is rotated in the (r1, r3)-plane away from the direction of the Hess case.
+
+        Returns
+        -------
+        HeavyBody
+            The body.
+
+        Raises
+        ------
+        InvalidParameter
+            If I2 is not between I1 and I3, I1 = I3, or an argument is not finite.
+        NotPositiveDefinite
+            If a moment is not positive.
+
+        References
+        ----------
+        `gess-*1`.
         """
         require_finite(I1=moments[0], I2=moments[1], I3=moments[2], away=away)
         for i, value in enumerate(moments, 1):
@@ -76,28 +118,28 @@ class HeavyBody:
 
     @property
     def system(self) -> System:
-        """Its equations of motion."""
+        """The equations of motion."""
         return SYSTEM
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """p = (a1, a2, a3, r1, r2, r3, μ)."""
+        """The parameters p = (a1, a2, a3, r1, r2, r3, μ)."""
         return (*self.a, *self.r, self.mu)
 
     @property
     def strength(self) -> float:
-        """|μ||r|, the maximum of the potential."""
+        """The product |μ||r|, the maximum of the potential."""
         return abs(self.mu) * math.hypot(*self.r)
 
     @property
     def hess_a(self) -> float:
-        """a = √((a3 − a2)(a2 − a1))/a2, the parameter of the reduced equations (`eq01`) on the Hess manifold."""
+        """The parameter a = √((a3 − a2)(a2 − a1))/a2 of the reduced equations (`eq01`) on the Hess manifold."""
         a1, a2, a3 = self.a
         return math.sqrt(max(0.0, (a3 - a2) * (a2 - a1))) / a2
 
     @property
     def is_hess(self) -> bool:
-        """Whether the Hess condition (`gess-*1`) holds to round-off."""
+        """True if the Hess condition (`gess-*1`) holds to round-off."""
         a1, a2, a3 = self.a
         r1, r2, r3 = self.r
         if (a2 - a1) * (a3 - a2) < 0.0:
@@ -106,11 +148,28 @@ class HeavyBody:
         return r2 == 0.0 and abs(left - right) <= 1e-14 * (left + right)
 
     def integrable_at(self, f: float) -> str:
-        """Return the name of the integrable case of the motions with the area integral f; empty where there is none.
+        """Return the name of the integrable case of the motions with the area integral f.
 
-        The conditions hold for exactly these numbers: Euler's μr = 0; Lagrange's a_i = a_j, r along the third axis;
-        Kovalevskaya's a_i = a_j = a_k/2, r across it; that of Goryachev and Chaplygin a_i = a_j = a_k/4, r across it,
-        f = 0.
+        Parameters
+        ----------
+        f : float
+            Area integral (M, γ).
+
+        Returns
+        -------
+        str
+            The name; empty if no integrable case applies.
+
+        Notes
+        -----
+        The conditions must hold exactly: μr = 0 (Euler); a_i = a_j, r along the third axis (Lagrange); a_i = a_j =
+        a_k/2, r normal to it (Kovalevskaya); a_i = a_j = a_k/4, r normal to it, f = 0 (Goryachev and Chaplygin).
+
+        Examples
+        --------
+        >>> from hess_mechanics import HeavyBody
+        >>> HeavyBody((1.0, 1.0, 2.0), (1.0, 0.0, 0.0), 1.0).integrable_at(f=0.5)
+        "Kovalevskaya's integrable case"
         """
         if self.strength == 0.0:
             return "Euler's integrable case"
@@ -128,7 +187,7 @@ class HeavyBody:
 
     @property
     def check(self) -> BodyCheck:
-        """Whether the moments satisfy the triangle inequality."""
+        """The check of the triangle inequality for the moments of inertia."""
         moments = sorted(1.0 / a for a in self.a)
         if moments[2] <= (moments[0] + moments[1]) * (1 + 1e-15):
             return BodyCheck(True, None, "A rigid body: its moments satisfy the triangle inequality.")
@@ -140,7 +199,7 @@ class HeavyBody:
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    """The right-hand side of the equations of motion (`hh01`)."""
+    """Return the right-hand side of the equations of motion (`hh01`)."""
     M1, M2, M3, g1, g2, g3 = y
     a1, a2, a3, r1, r2, r3, mu = p
     return (
@@ -154,7 +213,7 @@ def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
 
 
 def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
-    """Energy H, area integral F1 = (M, γ), F2 = γ² (`hh001`)."""
+    """Return the energy H, the area integral F1 = (M, γ), and F2 = γ² (`hh001`)."""
     M1, M2, M3, g1, g2, g3 = y
     a1, a2, a3, r1, r2, r3, mu = p
     return {
@@ -165,7 +224,7 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
 
 
 def frequency(y: Array, p: Array) -> Array | float:
-    """ν = √(2 max(a) (T + 2|μ||r||γ|)) of a state (6,) or many (6, n): no angular velocity exceeds it.
+    """Return ν = √(2 max(a) (T + 2|μ||r||γ|)), a bound of |ω| along the motion, of states (6,) or (6, n).
 
     Raises `NotPositiveDefinite`, `InvalidParameter`.
     """
@@ -178,7 +237,10 @@ def frequency(y: Array, p: Array) -> Array | float:
 
 
 def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
-    """Time in units of 1/ν, moments of inertia in units of the largest: a → a/min(a), M → M min(a)/ν, …"""
+    """Return state and parameters with time in units of 1/ν and moments of inertia in units of the largest.
+
+    a → a/min(a), M → M min(a)/ν, μ → μ min(a)/ν².
+    """
     y, p = y.copy(), p.copy()
     smallest = float(p[:3].min())
     y[:3] *= smallest / nu
@@ -188,7 +250,7 @@ def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
 
 
 def momentum_unit(p: Array) -> float:
-    """1/min(a): the momentum in units of `rescale` at ν = 1."""
+    """Return 1/min(a), the unit of momentum of `rescale` at ν = 1."""
     return 1.0 / float(p[:3].min())
 
 

@@ -1,4 +1,4 @@
-"""The isomorphism of the Hess manifold of Euler–Poisson with the Suslov–Hess case.
+"""Isomorphism of the Hess manifold of the Euler–Poisson equations with the Suslov–Hess case.
 
 On r1 M1 + r3 M3 = 0 (`g2p6f1`) the Euler–Poisson equations of a body with the Hess condition (`gess-*1`) are closed.
 In the axes e2, e3' = r/|r|, e1' = e2 × e3' (`m15.9`, `m15.14`) the matrix A has a1' = a2 twice on its diagonal and b'
@@ -6,7 +6,7 @@ off it, M3' = 0 (`m15.10`), and with m = μ|r|
 
     w = (a1' M2', a1' M1'),  n = (−γ2', −γ1', γ3'),  a = b'/a1',  b = a1' m
 
-turn the equations on the manifold (`gess05`) into the reduced Suslov–Hess equations (`eq01`) without rescaling time;
+transform the equations on the manifold (`gess05`) to the reduced Suslov–Hess equations (`eq01`) without rescaling time;
 the map of the axes is a reflection.  (The paper prints other factors of n and b.)  For the Suslov body with
 I11 = 1/a1' energy and area integral are the same numbers: E = H, F2 = −F1.
 """
@@ -29,19 +29,19 @@ __all__ = ["Bridge", "heavy_body", "hess_body", "largest_area_integral", "larges
 
 
 def _tilt(body: HeavyBody) -> tuple[float, float]:
-    """(sin, cos) of the angle from Ox3 to r, in the (r1, r3)-plane.  Raises `InvalidParameter`, `NoField`."""
+    """Return (sin, cos) of the angle from Ox3 to r, in the (r1, r3)-plane.  Raises `InvalidParameter`, `NoField`."""
     if not body.is_hess:
         raise InvalidParameter(
             "This body is not in the Hess case: choose I2 between I1 and I3, r2 = 0 and r1² (a3 − a2) = r3² (a2 − a1)."
         )
     length = math.hypot(*body.r)
     if length == 0.0:
-        raise NoField("r = 0: the centre of mass is the fixed point, and gives no axis. Choose r other than 0.")
+        raise NoField("r = 0: the centre of mass is the fixed point and defines no axis. Choose r other than 0.")
     return body.r[0] / length, body.r[2] / length
 
 
 def hess_body(body: HeavyBody) -> HessBody:
-    """The Suslov body, I11 = 1/a1', whose motions are those of a heavy body on the Hess manifold.
+    """Return the Suslov body, I11 = 1/a1', with the motions of a heavy body on the Hess manifold.
 
     a = b'/a1' has the sign of r1 r3 (a1 − a3).  Raises `InvalidParameter` outside the Hess case, `NoField` (r = 0).
     """
@@ -53,16 +53,16 @@ def hess_body(body: HeavyBody) -> HessBody:
 
 
 def heavy_body(body: HessBody, share: float = 0.5) -> HeavyBody:
-    """A heavy body in the Hess case, a1' = 1/I11, whose motions on the Hess manifold are those of a Suslov body.
+    """Return a heavy body in the Hess case, a1' = 1/I11, whose motions on the Hess manifold are those of a Suslov body.
 
     It has r1, r3 ≥ 0, |r| = 1, μ = b/a1', and a1 > a3 for a > 0.  One of its moments is free, as I33 is in the
     Suslov problem: with a1 = a2 (1 − x), a3 = a2 (1 + a²/x), or a1 and a3 exchanged, it is a rigid body for
-    0 < x ≤ (1 − a²)/2; x is `share` times that bound, or times ½ where |a| ≥ 1.
+    0 < x ≤ (1 − a²)/2; x is `share` times that bound, or times ½ if |a| ≥ 1.
     Raises `InvalidParameter` for a share outside (0, 1].
     """
     require_finite(share=share)
     if not 0.0 < share <= 1.0:
-        raise InvalidParameter(f"share = {share:g} does not lie in (0, 1]: choose 0.5 for the middle.")
+        raise InvalidParameter(f"share = {share:g} is not in (0, 1]: choose 0.5 for the middle.")
     squared = body.a * body.a
     x = share * 0.5 * (1.0 - squared if squared < 1.0 else 1.0)
     moments = body.I11 / (1.0 - x), body.I11, body.I11 / (1.0 + squared / x)
@@ -70,9 +70,9 @@ def heavy_body(body: HessBody, share: float = 0.5) -> HeavyBody:
 
 
 def share_of(body: HeavyBody) -> float:
-    """The share with which `heavy_body` gives back the moments of a heavy body in the Hess case.
+    """Return the share with which `heavy_body` restores the moments of a heavy body in the Hess case.
 
-    Above 1 the body is not rigid, and there is no way back; where r1 r3 < 0 the moments I1 and I3 come back exchanged.
+    Above 1 the body is not rigid and cannot be restored; if r1 r3 < 0 the moments I1 and I3 are exchanged.
     Raises `InvalidParameter` outside the Hess case, `NoField` (r = 0).
     """
     squared = hess_body(body).a ** 2
@@ -81,9 +81,27 @@ def share_of(body: HeavyBody) -> float:
 
 @dataclass(frozen=True)
 class Bridge:
-    """A heavy body in the Hess case and the Suslov body with the same motions.
+    """Heavy body in the Hess case and the Suslov body with the same motions.
 
-    Made by `of_heavy` or `of_suslov`.  States (M, γ) are (…, 6), reduced states (w, n) (…, 5), in the same time.
+    Use `of_heavy` or `of_suslov` to construct it.  Time is the same for both bodies.
+
+    Attributes
+    ----------
+    heavy : HeavyBody
+        Body of the Euler–Poisson equations, with states (M, γ) of shape (..., 6).
+    hess : HessBody
+        Body of the Suslov–Hess case, with reduced states (w, n) of shape (..., 5).
+
+    References
+    ----------
+    `m15.9`, `m15.14`, `gess05`.
+
+    Examples
+    --------
+    >>> from hess_mechanics import Bridge, HeavyBody
+    >>> bridge = Bridge.of_heavy(HeavyBody.hess((1.0, 1.5, 2.0), 3.0))
+    >>> round(bridge.hess.a, 6), round(bridge.heavy.hess_a, 6)
+    (0.353553, 0.353553)
     """
 
     heavy: HeavyBody
@@ -91,40 +109,132 @@ class Bridge:
 
     @classmethod
     def of_heavy(cls, heavy: HeavyBody) -> Bridge:
-        """From Euler–Poisson.  Raises `InvalidParameter`, `NoField`."""
+        """Return the pair for a heavy body.
+
+        Parameters
+        ----------
+        heavy : HeavyBody
+            Body in the Hess case.
+
+        Returns
+        -------
+        Bridge
+            The pair of bodies.
+
+        Raises
+        ------
+        InvalidParameter
+            If the body is not in the Hess case.
+        NoField
+            If r = 0.
+        """
         return cls(heavy, hess_body(heavy))
 
     @classmethod
     def of_suslov(cls, hess: HessBody, share: float = 0.5) -> Bridge:
-        """From the Suslov problem; share as for `heavy_body`.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+        """Return the pair for a Suslov body.
+
+        Parameters
+        ----------
+        hess : HessBody
+            Body of the Suslov–Hess case.
+        share : float, optional
+            Choice of the free moment of the heavy body in (0, 1]; for |a| < 1 it is a rigid body.
+
+        Returns
+        -------
+        Bridge
+            The pair of bodies.
+
+        Raises
+        ------
+        InvalidParameter
+            If share is not in (0, 1].
+        NotPositiveDefinite
+            If a moment of the heavy body is not positive.
+        """
         return cls(heavy_body(hess, share), hess)
 
     def to_reduced(self, states: Array) -> Array:
-        """(M, γ) → (w, n), dropping the component M3' off the manifold."""
+        """Return the reduced states of states of the heavy body.
+
+        Parameters
+        ----------
+        states : array_like of float, shape (..., 6)
+            States (M, γ); the component M3' normal to the manifold is dropped.
+
+        Returns
+        -------
+        ndarray of float, shape (..., 5)
+            States (w, n).
+        """
         M1, M2, M3, g1, g2, g3 = np.moveaxis(np.asarray(states, float), -1, 0)
         s, c = _tilt(self.heavy)
         a = self.heavy.a[1]
         return np.stack([a * M2, a * (c * M1 - s * M3), -g2, s * g3 - c * g1, s * g1 + c * g3], axis=-1)
 
     def from_reduced(self, reduced: Array) -> Array:
-        """The inverse of `to_reduced`, on the Hess manifold."""
+        """Return the states of the heavy body on the Hess manifold; the inverse of `to_reduced`.
+
+        Parameters
+        ----------
+        reduced : array_like of float, shape (..., 5)
+            States (w, n).
+
+        Returns
+        -------
+        ndarray of float, shape (..., 6)
+            States (M, γ).
+        """
         w1, w2, n1, n2, n3 = np.moveaxis(np.asarray(reduced, float), -1, 0)
         s, c = _tilt(self.heavy)
         a = self.heavy.a[1]
         return np.stack([c * w2 / a, w1 / a, -s * w2 / a, s * n3 - c * n2, -n1, c * n3 + s * n2], axis=-1)
 
     def to_suslov(self, states: Array) -> Array:
-        """(M, γ) → (ω1, ω2, γ1, γ2, γ3) of the Suslov problem; shape (..., 5)."""
+        """Return the states of the Suslov problem of states of the heavy body.
+
+        Parameters
+        ----------
+        states : array_like of float, shape (..., 6)
+            States (M, γ).
+
+        Returns
+        -------
+        ndarray of float, shape (..., 5)
+            States (ω1, ω2, γ1, γ2, γ3).
+        """
         return self.hess.from_reduced(self.to_reduced(states))
 
     def from_suslov(self, states: Array) -> Array:
-        """The inverse of `to_suslov`."""
+        """Return the states of the heavy body on the Hess manifold; the inverse of `to_suslov`.
+
+        Parameters
+        ----------
+        states : array_like of float, shape (..., 5)
+            States (ω1, ω2, γ1, γ2, γ3) of the Suslov problem.
+
+        Returns
+        -------
+        ndarray of float, shape (..., 6)
+            States (M, γ).
+        """
         return self.from_reduced(self.hess.to_reduced(states))
 
     def distance(self, states: Array, reduced: Array) -> Array:
-        """The distance (n,) of states (M, γ) (n, 6) from reduced states (n, 5) with b = 1.
+        """Return the distance between states of the heavy body and reduced states with b = 1.
 
-        The largest difference of any component of (w, n), or |a1' M3'|, in units b = 1.
+        Parameters
+        ----------
+        states : ndarray of float, shape (n, 6)
+            States (M, γ).
+        reduced : ndarray of float, shape (n, 5)
+            States (w, n) in units b = 1.
+
+        Returns
+        -------
+        ndarray of float, shape (n,)
+            Largest difference of any component of (w, n), or |a1' M3'| if that is larger, in units b = 1.
         """
         difference = self.hess.in_units_of_b(self.to_reduced(states)) - reduced
         s, c = _tilt(self.heavy)
@@ -132,21 +242,61 @@ class Bridge:
         return np.asarray(np.maximum(np.max(np.abs(difference), axis=1), np.abs(off)), float)
 
     def in_units_of_b(self, H: float, F1: float) -> tuple[float, float]:
-        """Energy and area integral of Euler–Poisson → (h, f) in units b = 1.  Raises `NoField`."""
+        """Return (h, f) in units b = 1 for the integrals of the heavy body.
+
+        Parameters
+        ----------
+        H : float
+            Energy of the heavy body.
+        F1 : float
+            Area integral (M, γ).
+
+        Returns
+        -------
+        h : float
+            The energy, in units b = 1.
+        f : float
+            The area integral, in units b = 1.
+
+        Raises
+        ------
+        NoField
+            If b = 0.
+        """
         nu, a = self.hess.frequency_unit, self.heavy.a[1]
         return a * H / (nu * nu), 0.0 - math.copysign(a, self.hess.b) * F1 / nu
 
     def from_units_of_b(self, h: float, f: float) -> tuple[float, float]:
-        """The inverse of `in_units_of_b`: H = E and F1 = −F2 of the Suslov body."""
+        """Return the integrals of the heavy body for (h, f); the inverse of `in_units_of_b`.
+
+        Parameters
+        ----------
+        h : float
+            The energy, in units b = 1.
+        f : float
+            The area integral, in units b = 1.
+
+        Returns
+        -------
+        H : float
+            Energy of the heavy body, equal to E of the Suslov body.
+        F1 : float
+            Area integral (M, γ), equal to −F2 of the Suslov body.
+
+        Raises
+        ------
+        NoField
+            If b = 0.
+        """
         nu, a = self.hess.frequency_unit, self.heavy.a[1]
         return nu * nu * h / a, 0.0 - math.copysign(nu, self.hess.b) * f / a
 
 
 def largest_area_integral(weight: float, I2: float, h: float) -> float:
-    """The largest |(M, γ)| on the Hess manifold at the energy h of a body with μ|r| = weight."""
+    """Return the largest |(M, γ)| on the Hess manifold at the energy h of a body with μ|r| = weight."""
     return f_max(h / abs(weight)) * math.sqrt(abs(weight) * I2)
 
 
 def largest_distance(h: float) -> float:
-    """No two motions of the energy h, units b = 1, are further apart, as `Bridge.distance` measures it."""
+    """Return an upper bound of `Bridge.distance` between two motions of the energy h, in units b = 1."""
     return 4.0 * math.sqrt(2.0 * (h + 1.0)) + 4.0

@@ -1,4 +1,4 @@
-"""The Hess manifold of Euler–Poisson in numerics: how orbits leave it, how fast, and how to stay on it.
+"""The Hess manifold of the Euler–Poisson equations in numerics: how fast orbits leave it, and how to stay on it.
 
 On r1 M1 + r3 M3 = 0 (`g2p6f1`) the equations of a body with the Hess condition (`gess-*1`) are closed.  Off it
 u = (r, M)/|r| obeys u' = −b' M2 u, so close to a motion on the manifold u grows as exp(−∫a w1 dt), with a and w1 of
@@ -41,21 +41,21 @@ __all__ = [
 
 
 def exact_motion(a: float, start: tuple[float, ...], end: float, count: int) -> Orbit:
-    """The motion of `eq01` from a state (5,), units b = 1, at even times: on the manifold nothing leaks."""
+    """Return the motion of `eq01` from a state (5,), units b = 1, at equidistant times: it stays on the manifold."""
     return solve(REDUCED.at((a, 1.0)), start, np.linspace(0.0, end, count), REFERENCE)
 
 
 def _relative(body: HeavyBody, states: Array) -> Array:
-    """(r, M)/(|r| max |M|) (n,) of the states (n, 6) of one motion."""
+    """Return (r, M)/(|r| max |M|) (n,) of the states (n, 6) of one motion."""
     largest = float(np.max(np.linalg.norm(states[:, :3], axis=1)))
     return np.asarray(states[:, :3] @ np.array(body.r) / (math.hypot(*body.r) * largest or 1.0), float)
 
 
 @dataclass(frozen=True)
 class FreeRun:
-    """One orbit of the Euler–Poisson equations, computed once at one level, with the leak off the Hess manifold.
+    """Orbit of the Euler–Poisson equations, computed once at one level, with its leak off the Hess manifold.
 
-    times : (n,); states : (n, 6); off : (n,), (r, M)/(|r| max |M|); steps : taken; drift : as in `Orbit`.
+    times : (n,); states : (n, 6); off : (n,), (r, M)/(|r| max |M|); steps : number of steps; drift : as in `Orbit`.
     """
 
     level: str
@@ -67,7 +67,7 @@ class FreeRun:
 
     @cached_property
     def andoyer(self) -> Array:
-        """(l, L/G) along it, (n, 2)."""
+        """The coordinates (l, L/G) along the orbit, (n, 2)."""
         return frozen(coordinates(self.states))
 
 
@@ -86,7 +86,7 @@ def _ended(body: HeavyBody, problem: Problem, times: Array, states: Array, level
 
 
 def run_free(body: HeavyBody, start: tuple[float, ...], end: float, count: int, level: Accuracy) -> FreeRun:
-    """The Euler–Poisson orbit from a state on the Hess manifold, at `count` even times from 0 to `end`, unconstrained.
+    """Return the Euler–Poisson orbit from a state on the Hess manifold, at `count` equidistant times from 0 to `end`.
 
     It is computed once: `solve` would repeat it with smaller tolerances until the leak is that of round-off.
     Raises `InvalidParameter`, `WorkLimit`.
@@ -100,12 +100,12 @@ def run_free(body: HeavyBody, start: tuple[float, ...], end: float, count: int, 
 
 
 _BEFORE_HELD = 3.0
-"""Growth of ln |(r, M)| allowed between two projections."""
+"""Largest growth of ln |(r, M)| between two projections."""
 _HELD_SAMPLES = 32
 
 
 def on_manifold(body: HeavyBody, start: tuple[float, ...], end: float, count: int, level: Accuracy) -> FreeRun:
-    """`run_free` with M projected onto the Hess manifold so often that the leak cannot grow.
+    """Return `run_free` with M projected onto the Hess manifold so often that the leak cannot grow.
 
     This integrates the restriction to the manifold (`gess05`) in the variables and with the kernel of Euler–Poisson.
     Raises `InvalidParameter`, `WorkLimit`.
@@ -118,7 +118,7 @@ def on_manifold(body: HeavyBody, start: tuple[float, ...], end: float, count: in
     growth = body.hess_a * _fastest(body, start) * end
     pieces = math.ceil(max((count - 1) / _HELD_SAMPLES, growth / _BEFORE_HELD))
     if pieces > MAX_STEPS:
-        raise WorkLimit("The manifold is too unstable to be held over this time span: choose a shorter one.")
+        raise WorkLimit("The manifold is too unstable to stay on it over this time span: choose a shorter one.")
     edges = np.linspace(0.0, scaled[-1], pieces + 1)
     first = np.searchsorted(scaled, edges)
     out = np.empty((count, 6))
@@ -136,16 +136,17 @@ def on_manifold(body: HeavyBody, start: tuple[float, ...], end: float, count: in
 
 
 def _fastest(body: HeavyBody, start: tuple[float, ...]) -> float:
-    """A bound on |w| of the motion on the manifold from this state."""
+    """Return a bound on |w| of the motion on the manifold from this state."""
     a = body.a[1]
     return math.sqrt(a * a * (start[0] ** 2 + start[1] ** 2 + start[2] ** 2) + 4.0 * a * body.strength)
 
 
 @dataclass(frozen=True)
 class SuslovDistance:
-    """At even times the distance of Euler–Poisson, held on the manifold and left to itself, from Suslov's motion.
+    """Distance of the Euler–Poisson motion, held on the manifold and left free, from the motion of the Suslov problem.
 
-    times, held, free : (n,), units b = 1, both at reference; error : the estimate for Suslov's, in its own.
+    times, held, free : (n,), units b = 1, both at the level `reference`; error : estimate of the Suslov motion, in its
+    own units.
     """
 
     times: Array
@@ -155,7 +156,7 @@ class SuslovDistance:
 
 
 def difference(bridge: Bridge, start: tuple[float, ...], end: float, count: int) -> SuslovDistance:
-    """Along the motion from a state (5,) of `eq01` with b = 1, over a time `end` of the bodies.
+    """Return the distance along the motion from a state (5,) of `eq01` with b = 1, over a time `end` of the bodies.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
@@ -173,12 +174,12 @@ def difference(bridge: Bridge, start: tuple[float, ...], end: float, count: int)
 
 
 _STRAIGHT = (3e-14, 1e-3)
-"""Range of exponential growth of the leak: below it round-off is still added, above it growth is nonlinear."""
+"""Range of exponential growth of the leak: below it round-off still adds to it, above it growth is nonlinear."""
 
 
 @dataclass(frozen=True)
 class LeakGrowth:
-    """The growth of ln |(r, M)| per period of n3, measured over `periods` periods from the period `first` on."""
+    """Growth of ln |(r, M)| per period of n3, measured over `periods` periods from the period `first` on."""
 
     per_period: float
     first: int
@@ -187,10 +188,10 @@ class LeakGrowth:
 
 @dataclass(frozen=True)
 class Leak:
-    """A run left to itself, beside the exact motion from the same state.
+    """A free run and the exact motion from the same state.
 
-    run : in the time of the bodies; exact : of the reduced system at the same times, units b = 1;
-    samples : per period of n3.
+    run : in the time of the bodies; exact : motion of the reduced system at the same times, units b = 1;
+    samples : number per period of n3.
     """
 
     bridge: Bridge
@@ -200,24 +201,24 @@ class Leak:
 
     @cached_property
     def apart(self) -> Array:
-        """The distance (n,) from the exact motion, units b = 1."""
+        """The distance (n,) from the exact motion, in units b = 1."""
         return self.bridge.distance(self.run.states, self.exact.states)
 
     @cached_property
     def growth(self) -> LeakGrowth | None:
-        """Of (r, M), where it is seen."""
+        """The growth of (r, M); None if it is not exponential for long enough."""
         return growth_of(self.run, self.samples)
 
     @property
     def side(self) -> tuple[int, bool]:
-        """The sign of (r, M) where it is first seen, 0 where it never is, and whether it is the same ever after."""
+        """The sign of (r, M) when it becomes visible (0: never), and True if it does not change afterwards."""
         off = self.run.off[np.abs(self.run.off) > _STRAIGHT[1]]
         return (int(np.sign(off[0])), bool(np.all(off * off[0] > 0.0))) if off.size else (0, True)
 
     def straight_line(self, per_period: float, ends: tuple[float, float]) -> list[Array]:
-        """(t, lg |(r, M)|), (2, 2), of a given growth, through the middle of where it is seen; empty if nowhere.
+        """Return (t, lg |(r, M)|), (2, 2), of a given growth through the middle of the exponential part, or [].
 
-        per_period : of ln |(r, M)|; ends : the values of lg at both ends.
+        per_period : growth of ln |(r, M)|; ends : values of lg at both ends.
         """
         if self.growth is None or per_period == 0.0:
             return []
@@ -229,15 +230,15 @@ class Leak:
 
 
 def exact_growth(theta: CircleMap) -> float:
-    """The growth of ln |(r, M)| in one period of n3 on the stable cycle; 0 without cycles."""
+    """Return the growth of ln |(r, M)| in one period of n3 on the stable cycle; 0 without cycles."""
     return abs(theta.fixed_points[0].log_multiplier) if theta.fixed_points else 0.0
 
 
 def growth_of(run: FreeRun, samples: int) -> LeakGrowth | None:
-    """The growth of the leak where it is exponential; None where that lasts less than two periods.
+    """Return the growth of the leak while it is exponential; None if that lasts less than two periods.
 
-    samples : of the run per period of n3.  Least-squares fit of a straight line plus a function of that period: the
-    slope of ln |(r, M)| against the number of the period.
+    samples : number per period of n3.  The growth is the slope of ln |(r, M)| against the number of the period, in a
+    least-squares fit of a straight line plus a function of that period.
     """
     rows = (run.off.size - 1) // samples
     table = np.abs(run.off[: rows * samples].reshape(rows, samples))

@@ -1,9 +1,9 @@
-"""The separatrices of the Hess manifold: one curve in the Hess case, two that are apart off it, by how much.
+"""Split of the separatrices of the Hess manifold: one curve in the Hess case, two curves outside it.
 
-Where the torus of the Hess manifold at H = h, F1 = f has two limit cycles, both are saddles of the section: one repels
+If the torus of the Hess manifold at H = h, F1 = f has two limit cycles, both are saddles of the section: one repels
 along the manifold, the other attracts along it.  In the Hess case the unstable manifold of the one and the stable
-manifold of the other are the Hess curve x = x(l) between them.  Off it, by an angle ε of r, they pass at different
-heights x = L/G where l is half-way between the two saddles of the Hess case: their difference is the split.
+manifold of the other are the Hess curve x = x(l) between them.  If r is rotated by an angle ε, they differ in their
+heights x = L/G at the l half-way between the two saddles of the Hess case: this difference is the split.
 """
 
 from __future__ import annotations
@@ -30,16 +30,16 @@ from hess_mechanics.suslov_hess.circle_map import circle_map
 __all__ = ["HessTorus", "Saddles", "Split", "saddles", "slope_of", "split_at"]
 
 _SAGITTA, _CHORD = 3e-3, 0.3
-"""Of the manifolds, whose points are found anew where they are compared."""
+"""Resolution of the manifolds; their points are refined where they are compared."""
 _ROOM = 0.3
-"""Beyond the length of the Hess curve to where they are compared."""
+"""Length of a manifold beyond that of the Hess curve to the point of comparison."""
 _ELSEWHERE = 0.3
-"""An orbit that is farther from its saddle of the Hess case is another one."""
+"""Largest distance of an orbit from its saddle in the Hess case; beyond it the orbit is a different one."""
 
 
 @dataclass(frozen=True)
 class HessTorus:
-    """A torus of the Hess manifold: the moments of inertia, μ|r|, H = h, F1 = f."""
+    """Torus of the Hess manifold: the moments of inertia, μ|r|, H = h, F1 = f."""
 
     moments: tuple[float, float, float]
     strength: float
@@ -47,15 +47,18 @@ class HessTorus:
     f: float
 
     def map_at(self, away: float, level: Accuracy) -> ReturnMap:
-        """The return map of g = π/2 where r is turned by that angle."""
+        """Return the return map of g = π/2 with r rotated by the angle `away`."""
         level = as_level(level)
         return ReturnMap(AndoyerSection(HeavyBody.hess(self.moments, self.strength, away), self.h, self.f), level)
 
 
 @dataclass(frozen=True)
 class Saddles:
-    """In the Hess case: the places (m, 2) of the cycle that repels along the manifold, and of that which attracts along
-    it; l at their middle, the shorter way round."""
+    """The two limit cycles of a torus in the section of the Hess case.
+
+    repels, attracts : places (m, 2) of the cycle that repels along the manifold, and of the one that attracts along it;
+    l : the middle between them, the shorter way round.
+    """
 
     repels: Array
     attracts: Array
@@ -64,7 +67,7 @@ class Saddles:
 
 @dataclass(frozen=True)
 class Split:
-    """How far apart the two manifolds are at l, L/G of the unstable one minus that of the stable one, and its error."""
+    """Distance of the two manifolds at l, L/G of the unstable one minus that of the stable one, and its error."""
 
     away: float
     l: float
@@ -73,14 +76,17 @@ class Split:
 
 
 def saddles(torus: HessTorus, level: Accuracy) -> Saddles:
-    """The two limit cycles of the torus in the section.  Raises `OutsideRegion` where it has none, and as Newton."""
+    """Return the two limit cycles of the torus in the section.
+
+    Raises `OutsideRegion` if the torus has no limit cycles, and as `find_periodic`.
+    """
     body = HeavyBody.hess(torus.moments, torus.strength)
     bridge = Bridge.of_heavy(body)
     h, f = bridge.in_units_of_b(torus.h, torus.f)
     try:
         theta = circle_map(bridge.hess.a, h, f, REFERENCE)
     except OutsideRegion as reason:
-        # Its numbers are those of other units.
+        # The numbers in the original message are in other units.
         raise OutsideRegion(
             "The Hess manifold has no motion with these h and f, so no separatrices: choose a larger h "
             "or a smaller |f|."
@@ -106,7 +112,7 @@ def saddles(torus: HessTorus, level: Accuracy) -> Saddles:
 
 
 def split_at(torus: HessTorus, away: float, level: Accuracy) -> Split:
-    """How far apart the separatrices are where r is turned by that angle.  Raises as `saddles` and `grown`."""
+    """Return the split of the separatrices with r rotated by the angle `away`.  Raises as `saddles` and `grown`."""
     known, map_ = saddles(torus, level), torus.map_at(away, level)
     unstable = _towards(map_, known.repels, known.l, stable=False)
     stable = _towards(map_, known.attracts, known.l, stable=True)
@@ -114,13 +120,13 @@ def split_at(torus: HessTorus, away: float, level: Accuracy) -> Split:
         value, error = split(unstable, stable, 0, known.l)
     except NotConverged as reason:
         raise NotConverged(
-            "So far from the Hess case a separatrix ends before it is half-way to the other saddle: choose a smaller ε."
+            "A separatrix ends before it is half-way to the other saddle: choose a smaller ε, closer to the Hess case."
         ) from reason
     return Split(away, known.l, value, error)
 
 
 def _towards(map_: ReturnMap, places: Array, l: float, stable: bool) -> Manifold:
-    """The branch along the Hess manifold, from the saddle next to these places to l and beyond."""
+    """Return the branch along the Hess manifold, from the saddle next to these places to l and beyond."""
     orbit = find_periodic(map_, places if len(places) > 1 else places[0], None if len(places) > 1 else 1, near=True)
     if (
         not orbit.kind.startswith("saddle")
@@ -142,13 +148,13 @@ def _towards(map_: ReturnMap, places: Array, l: float, stable: bool) -> Manifold
     d = curve[1] - curve[0]
     side = 1 if d[int(np.argmax(np.abs(d)))] > 0.0 else -1
     found = grown(map_, orbit, length + _ROOM, stable, side, sagitta=_SAGITTA, longest=_CHORD)
-    # Its angles go on without jumps; l is that of the turn in which it begins.
+    # The angles continue without jumps; shift them to the turn of l.
     shift = (l - from_) - way
     return replace(found, points=frozen(found.points + np.array([shift, 0.0])))
 
 
 def slope_of(close: Sequence[Split]) -> tuple[float, float]:
-    """d split/dε at ε = 0 and its error, from the splits at e, −e, 2e, −2e: differences of fourth order."""
+    """Return d split/dε at ε = 0 and its error, from the splits at e, −e, 2e, −2e by fourth-order differences."""
     e = close[0].away
     first, second = ((one.value - other.value) / (one.away - other.away) for one, other in (close[:2], close[2:]))
     return (4.0 * first - second) / 3.0, abs(second - first) + sum(one.error for one in close) / abs(e)

@@ -10,8 +10,8 @@ on the sphere fixed in space with the pole e, l is the polar distance and α, up
 middle axis: its track is a loxodrome.  Two corrections to the paper: ±a13 K is the rate of ln tan(l/2)
 (`klas-gess-4`), and the constant angle θ (`klas-gess-3`) is not the nutation angle, which is l.
 
-The motion is computed by the reduced Suslov–Hess equations (`eq01`), that is, on the invariant manifold: for h > 1
-the Euler–Poisson equations leave it by a factor e^{2πa} per turn.
+The motion is computed from the reduced Suslov–Hess equations (`eq01`), that is, on the invariant manifold: for h > 1
+solutions of the Euler–Poisson equations depart from it by a factor e^{2πa} per turn.
 """
 
 from __future__ import annotations
@@ -35,20 +35,44 @@ from hess_mechanics.suslov_hess.equations import WITH_ATTITUDE
 __all__ = ["SETTLED", "LoxodromicMotion", "LoxodromicPendulum", "loxodromic_motion"]
 
 SETTLED = 20.0
-"""Time on the separatrix, in units b = 1, after which the centre of mass is e^−20 from the top: visibly at rest."""
+"""Time on the separatrix, in units b = 1, after which the centre of mass is within e^−20 of the top."""
 _MOST = 4000
 _AT_THE_POLE = 0.02
 """Distance from the pole below which the direction of the track is not measured."""
 _SHORT = 0.1
-"""Steps in longitude shorter than this share of the longest are not measured."""
+"""Smallest step in longitude that is measured, as a share of the largest."""
 
 
 @dataclass(frozen=True)
 class LoxodromicPendulum:
-    """A body in the Hess case, |r| = 1, with the energy H = h μ; h = 1 is the separatrix.
+    """Heavy body in the Hess case with area integral f = 0 at one energy.
 
-    l : angle between M and the middle axis when the centre of mass passes its lowest point.
-    Raises `OutsideRegion` (h ≤ −1), `InvalidParameter` (no field; not the Hess case; l not inside (0, π)).
+    Parameters
+    ----------
+    body : HeavyBody
+        Body in the Hess case with μ > 0, |r| = 1.
+    h : float
+        The energy H = h μ, h > −1; h = 1 is the separatrix.
+    l : float
+        Angle between M and the middle axis when the centre of mass passes its lowest point, in radians, 0 < l < π.
+
+    Raises
+    ------
+    OutsideRegion
+        If h ≤ −1.
+    InvalidParameter
+        If the body has no field or is not in the Hess case, or l is not in (0, π).
+
+    References
+    ----------
+    `eq6-14`, `klas-gess-3`, `klas-gess-4`.
+
+    Examples
+    --------
+    >>> from hess_mechanics import HeavyBody, LoxodromicPendulum
+    >>> pendulum = LoxodromicPendulum(HeavyBody.hess((1.0, 1.5, 2.0), 1.0), 0.5, 0.3)
+    >>> round(pendulum.angle, 6)
+    1.230959
     """
 
     body: HeavyBody
@@ -63,7 +87,7 @@ class LoxodromicPendulum:
             raise OutsideRegion(f"h = {self.h:.12g} is at or below the bottom: no motion. Choose h > −1.")
         if not 0.0 < self.l < math.pi:
             raise InvalidParameter(
-                f"l = {self.l:g}: there the middle axis stays at a pole, and has no track. Choose 0 < l < π."
+                f"l = {self.l:g}: the middle axis stays at a pole and has no track. Choose 0 < l < π."
             )
 
     @cached_property
@@ -73,17 +97,17 @@ class LoxodromicPendulum:
 
     @property
     def a(self) -> float:
-        """a = b'/a1' (`m15.14`), with its sign."""
+        """The parameter a = b'/a1' (`m15.14`), with its sign."""
         return self.bridge.hess.a
 
     @property
     def frequency_unit(self) -> float:
-        """√(a2 μ): in units b = 1 time is t√(a2 μ)."""
+        """The unit of frequency √(a2 μ): in units b = 1 time is t√(a2 μ)."""
         return self.bridge.hess.frequency_unit
 
     @property
     def angle(self) -> float:
-        """θ, sin θ = 1/√(1+a²) (`klas-gess-3`): the angle between the track and the plane of the circular section."""
+        """The angle θ between the track and the plane of the circular section, sin θ = 1/√(1+a²) (`klas-gess-3`)."""
         return math.atan2(1.0, abs(self.a))
 
     @property
@@ -93,7 +117,7 @@ class LoxodromicPendulum:
 
     @property
     def start(self) -> Array:
-        """The state of `WITH_ATTITUDE` with the centre of mass at its lowest point and e along M; shape (8,)."""
+        """The state (8,) of `WITH_ATTITUDE` with the centre of mass at its lowest point and e along M."""
         s, c = math.cos(self.l), math.sin(self.l)
         w = math.sqrt(2.0 * (self.h + 1.0))
         return np.array([w * s, w * c, 0.0, 0.0, 1.0, -s, -c, 0.0])
@@ -104,18 +128,53 @@ class LoxodromicPendulum:
         return self.bridge.from_reduced(np.hstack([np.zeros((3, 2)), np.eye(3)]))[:, 3:]
 
     def l_at(self, swing: Array) -> Array:
-        """l (n,) at the angles α = swing (n,) of the centre of mass, in closed form."""
+        """Return the angle l in closed form.
+
+        Parameters
+        ----------
+        swing : array_like of float, shape (n,)
+            Angles α of the centre of mass in radians.
+
+        Returns
+        -------
+        ndarray of float, shape (n,)
+            Angles l in radians.
+        """
         with np.errstate(over="ignore"):
             l: Array = 2.0 * np.arctan(math.tan(0.5 * self.l) * np.exp(self.a * np.asarray(swing)))
         return l
 
     def middle_axis_at(self, swing: Array) -> Array:
-        """The loxodrome (n, 3): the middle axis in space, along (γ, e, γ × e), at the angles α = swing (n,)."""
+        """Return the loxodrome, the track of the middle axis in space.
+
+        Parameters
+        ----------
+        swing : array_like of float, shape (n,)
+            Angles α of the centre of mass in radians.
+
+        Returns
+        -------
+        ndarray of float, shape (n, 3)
+            Unit vectors along (γ, e, γ × e).
+        """
         l, alpha = self.l_at(swing), np.asarray(swing)
         return np.stack([np.sin(l) * np.sin(alpha), np.cos(l), np.sin(l) * np.cos(alpha)], axis=1)
 
     def windings(self, to_the_pole: float, turns: float) -> tuple[float, float]:
-        """The α between which the loxodrome comes as near to its poles as this, or winds so often to either side."""
+        """Return the interval of α over which to draw the loxodrome.
+
+        Parameters
+        ----------
+        to_the_pole : float
+            Smallest distance from the poles in radians.
+        turns : float
+            Largest number of windings to either side.
+
+        Returns
+        -------
+        tuple of two floats
+            First and last α in radians.
+        """
         most = 2.0 * math.pi * turns
         reach, middle = -math.log(math.tan(0.5 * to_the_pole)), math.log(math.tan(0.5 * self.l))
         if abs(self.a) * most <= reach + abs(middle):
@@ -123,17 +182,38 @@ class LoxodromicPendulum:
         return (-reach - middle) / self.a, (reach - middle) / self.a
 
     def length(self, span: float) -> float:
-        """`span` in units b = 1, at most `SETTLED` on the separatrix."""
+        """Return a time span in units b = 1, at most `SETTLED` on the separatrix.
+
+        Parameters
+        ----------
+        span : float
+            Time span in the units of the body.
+
+        Returns
+        -------
+        float
+            Time span in units b = 1.
+        """
         length = span * self.frequency_unit
         return min(length, SETTLED) if self.h == 1.0 else length
 
 
 @dataclass(frozen=True)
 class LoxodromicMotion:
-    """One motion of a loxodromic pendulum.
+    """Motion of a loxodromic pendulum; the result of `loxodromic_motion`.
 
-    times : (n,), in the body's units; attitude : its `axes` in principal axes, its orbit in units b = 1.
-    centre, middle : (n, 3), centre of mass and middle axis in space, along (γ, e, γ × e).
+    Attributes
+    ----------
+    pendulum : LoxodromicPendulum
+        The pendulum.
+    times : ndarray of float, shape (n,)
+        Times in the units of the body.
+    attitude : Attitude
+        The attitude, with axes in principal axes and the orbit in units b = 1.
+    centre : ndarray of float, shape (n, 3)
+        Direction of the centre of mass in space, along (γ, e, γ × e).
+    middle : ndarray of float, shape (n, 3)
+        Direction of the middle axis in space, along (γ, e, γ × e).
     """
 
     pendulum: LoxodromicPendulum
@@ -144,12 +224,12 @@ class LoxodromicMotion:
 
     @cached_property
     def swing(self) -> Array:
-        """α (n,): the angle of the centre of mass from its lowest point."""
+        """The angle α (n,) of the centre of mass from its lowest point, in radians."""
         return frozen(np.unwrap(np.arctan2(-self.centre[:, 2], self.centre[:, 0])))
 
     @cached_property
     def l(self) -> Array:  # noqa: E743 (the symbol of Andoyer and Deprit)
-        """l (n,): the angle between e and the middle axis."""
+        """The angle l (n,) between e and the middle axis, in radians."""
         return frozen(np.arctan2(np.hypot(self.middle[:, 0], self.middle[:, 2]), self.middle[:, 1]))
 
     @property
@@ -159,10 +239,10 @@ class LoxodromicMotion:
 
     @cached_property
     def measured(self) -> tuple[Array, Array]:
-        """Times and θ (m,) between consecutive samples, measured from the middle axis on the sphere alone.
+        """Times and angles θ (m,) between consecutive samples, measured from the middle axis on the sphere alone.
 
         A loxodrome meets all meridians, the great circles through ±e, at one angle, whose tangent between two of its
-        points is Δ longitude / Δ ln tan(l/2).  Samples near the poles and where the axis turns back are left out.
+        points is Δ longitude / Δ ln tan(l/2).  Samples near the poles and near reversals of the axis are left out.
         """
         m, l = self.middle, self.l
         longitude = np.unwrap(np.arctan2(m[:, 0], m[:, 2]))
@@ -178,14 +258,40 @@ class LoxodromicMotion:
 
 
 def loxodromic_motion(pendulum: LoxodromicPendulum, span: float, level: Accuracy) -> LoxodromicMotion:
-    """The motion over `span` of the body's time from the lowest point, sampled for pictures of `PIXELS`.
+    """Return the motion of a loxodromic pendulum from its lowest point.
 
-    Raises `InvalidParameter`, `WorkLimit`.
+    Parameters
+    ----------
+    pendulum : LoxodromicPendulum
+        The pendulum.
+    span : float
+        Time span in the units of the body.
+    level : Level or str
+        Accuracy level or its name, see `level`.
 
-    >>> from hess_mechanics import HeavyBody, LoxodromicPendulum, level, loxodromic_motion
+    Returns
+    -------
+    LoxodromicMotion
+        The motion, sampled for plots.
+
+    Raises
+    ------
+    InvalidParameter
+        If the span is not finite or is 0.
+    WorkLimit
+        If the motion needs too many samples or steps.
+
+    References
+    ----------
+    `eq6-14`, `klas-gess-3`.
+
+    Examples
+    --------
+    >>> from hess_mechanics import HeavyBody, LoxodromicPendulum, loxodromic_motion
     >>> pendulum = LoxodromicPendulum(HeavyBody.hess((1.0, 1.5, 2.0), 1.0), 0.5, 0.3)
-    >>> float(loxodromic_motion(pendulum, 4.0, level("standard")).times[-1])
-    4.0
+    >>> motion = loxodromic_motion(pendulum, 4.0, "standard")
+    >>> float(motion.times[-1]), round(float(motion.l[-1]), 5)
+    (4.0, 0.50954)
     """
     require_finite(span=span)
     radius = 0.5 * PIXELS

@@ -1,8 +1,8 @@
-"""Rotation numbers of the orbits that start on a line across the section g = π/2, where they are closed curves.
+"""Rotation numbers of the orbits that start on a line across the section g = π/2 and lie on closed curves.
 
-A closed curve that does not go round, in l or about the centre of the turns, has no rotation number: its points come
-back in that angle, and their mean turn is 0.  The same is found of an orbit that goes round so slowly that this cannot
-be told from 0.
+A closed curve that does not wind round, in l or about the centre, has no rotation number: its points return in that
+angle, and their mean rotation is 0.  An orbit that winds so slowly that it cannot be distinguished from 0 counts as one
+of these.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from hess_mechanics.numerics.results import Array
 __all__ = ["RESOLVED", "RotationProfile", "on_line", "rotation_along"]
 
 RESOLVED = 1e-4
-"""Where the rotation numbers of both halves of an orbit agree to this, it is taken for a closed curve."""
+"""Largest difference of the rotation numbers of both halves of an orbit on a closed curve."""
 _FEWEST = 20
 
 LineEnds = tuple[tuple[float, float], tuple[float, float]]
@@ -30,9 +30,9 @@ LineEnds = tuple[tuple[float, float], tuple[float, float]]
 class RotationProfile(Result):
     """Rotation numbers `rho` (n,) of orbits that start at `along` (n,) on a line, each in parts without a gap.
 
-    They lie in (−½, ½]; or, where all are within half a turn of one another, side by side, about a number that does.
-    standing : (n,), where closed curves start that do not go round, and so have none.
-    sea : (n, 2), parts of the line whose orbits are no closed curves, from one place to another.
+    They lie in (−½, ½] or, if all of them are within half a turn of one another modulo 1, in an unbroken range.
+    standing : (n,), starts of closed curves that do not wind round, and so have no rotation number.
+    sea : (n, 2), parts of the line whose orbits do not lie on closed curves, each from one place to another.
     """
 
     along: tuple[Array, ...]
@@ -41,7 +41,7 @@ class RotationProfile(Result):
     sea: Array
 
     def labels(self) -> Labels:
-        """ρ over the place on the line, with NaN where there is a gap."""
+        """Return ρ over the place on the line, with NaN in each gap."""
         gap = np.full(1, np.nan)
         along, rho = ([piece for part in parts for piece in (part, gap)][:-1] for parts in (self.along, self.rho))
         empty = [np.empty(0)]
@@ -63,7 +63,7 @@ class RotationProfile(Result):
 
     @property
     def extremum(self) -> tuple[float, float] | None:
-        """Place and number where ρ turns round between the ends of the line; None where it does not."""
+        """Place and value of an extremum of ρ inside the line; None if ρ is monotonic."""
         along, rho = self.places, self.numbers
         for i in (int(np.argmin(rho)), int(np.argmax(rho))) if rho.size else ():
             if 2 <= i <= len(rho) - 3 and min(abs(rho[i] - rho[0]), abs(rho[i] - rho[-1])) > 3 * RESOLVED:
@@ -71,7 +71,10 @@ class RotationProfile(Result):
         return None
 
     def distance(self, exact: RotationProfile) -> float:
-        """The median of the differences over the places where both know ρ; elsewhere the line crosses seas."""
+        """Return the median of the differences over the places where both profiles know ρ.
+
+        Elsewhere the line crosses chaotic seas.
+        """
         if not (self.numbers.size and exact.numbers.size):
             return 0.0
         apart = self.numbers - np.interp(self.places, exact.places, exact.numbers)
@@ -79,7 +82,7 @@ class RotationProfile(Result):
 
 
 def on_line(section: AndoyerSection, ends: LineEnds, count: int) -> tuple[tuple[float, tuple[float, ...]], ...]:
-    """Shares of the way along the line between the ends (l, L/G), at most `count`, and the states there.
+    """Return shares of the way along the line between the ends (l, L/G), at most `count`, and the states there.
 
     Raises `InvalidParameter`.
     """
@@ -99,10 +102,10 @@ def rotation_along(
     count: int,
     resolved: float = RESOLVED,
 ) -> RotationProfile:
-    """Of orbits (n, 2) that start at these shares of the way, of `count` even ones.
+    """Return the profile of orbits (n, 2) that start at these shares of the line, out of `count` equidistant ones.
 
-    about_first : turns are counted about the first end, and the place is l; else by the angle l, and it is L/G.
-    resolved : to what both halves of a closed curve agree.
+    about_first : if true, turns are counted about the first end, and the place is l; otherwise they are turns of the
+    angle l, and the place is L/G.  resolved : largest difference of both halves of an orbit on a closed curve.
     """
     centre, axis = (ends[0], 0) if about_first else (None, 1)
     found = [
@@ -117,7 +120,7 @@ def rotation_along(
 
     along, rho = (np.array(column) for column in zip(*going, strict=True)) if going else (np.empty(0), np.empty(0))
     rho = _side_by_side(rho)
-    # A gap, or the jump from ½ to −½, divides the curve.
+    # Split the curve at gaps, and at the jump from ½ to −½.
     cuts = np.flatnonzero((np.diff(along) > 1.5 / count) | (np.abs(np.diff(rho)) > 0.5)) + 1
     at_sea = np.array([share for share, _, spread in found if spread > resolved])
     coasts = np.flatnonzero(np.diff(at_sea) > 1.5 / count) + 1
@@ -131,7 +134,7 @@ def rotation_along(
 
 
 def _side_by_side(rho: Array) -> Array:
-    """Numbers (n,) up to whole turns: within half a turn of one another where they can be, else as they are."""
+    """Return the numbers (n,) shifted by integers to lie within half a turn, or unchanged if that is impossible."""
     order = np.sort(rho)
     for first in order:
         turned = first + (rho - first) % 1.0

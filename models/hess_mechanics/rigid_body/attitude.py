@@ -1,7 +1,7 @@
-"""The attitude of a body in space: a second direction fixed there, followed from the body beside the vertical.
+"""Attitude of a body in space, from a second direction fixed in space that is followed beside the vertical.
 
 Every direction fixed in space obeys the equation of the vertical, ė = e × ω.  So the field of a system whose last
-three variables are the vertical γ is called a second time with e in the place of γ, and nothing is written twice.
+three variables are the vertical γ is evaluated a second time with e in place of γ.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ __all__ = ["Attitude", "Lying", "across", "attitude", "attitude_along", "with_at
 
 
 def with_attitude(system: System) -> System:
-    """The system with e1, e2, e3 behind its own variables, the last three of which are the vertical γ.
+    """Return the system with the variables e1, e2, e3 added; its last three variables must be the vertical γ.
 
-    Among its integrals are e² = 1 and (e, γ) = 0.
+    Its integrals include e² = 1 and (e, γ) = 0.
     """
     n = len(system.variables)
 
@@ -61,16 +61,24 @@ def with_attitude(system: System) -> System:
 
 
 def across(vertical: Sequence[float] | Array) -> Array:
-    """A unit vector (3,) normal to the vertical, for the start of e where any will do."""
+    """Return a unit vector (3,) normal to the vertical, as an arbitrary start of e."""
     return _frames(np.array(vertical, float, ndmin=2))[1][:, 0]
 
 
 @dataclass(frozen=True)
 class Attitude:
-    """The attitude of a body in space along an orbit.
+    """Attitude of a body in space along an orbit.
 
-    times : (n,); axes : (n, 3, 3), in its rows the vertical γ, e and γ × e as seen from the body, orthonormal to
-    round-off; defect : how far γ and e were from that before, at the worst; orbit : the computation.
+    Attributes
+    ----------
+    times : ndarray of float, shape (n,)
+        Times.
+    axes : ndarray of float, shape (n, 3, 3)
+        The vertical γ, e and γ × e in the axes of the body, in rows, orthonormal to round-off.
+    defect : float
+        Largest deviation of γ and e from orthonormality before that correction.
+    orbit : Orbit
+        The computation.
     """
 
     times: Array
@@ -79,16 +87,16 @@ class Attitude:
     orbit: Orbit
 
     def in_space(self, vector: Sequence[float] | Array) -> Array:
-        """The components along γ, e, γ × e of a direction of the body: (3,), or one for each time (n, 3) → (n, 3)."""
+        """Return the components along γ, e, γ × e (n, 3) of a direction of the body, (3,) or (n, 3)."""
         return np.asarray(np.einsum("nij,nj->ni", self.axes, np.broadcast_to(vector, self.axes.shape[:2])))
 
 
 @dataclass(frozen=True)
 class Lying:
-    """The attitude of a body in space along an orbit, for a picture.
+    """Attitude of a body in space along an orbit, for a plot.
 
-    times : (n,); axes : (n, 3, 3), as of `Attitude`; defect : the largest angle, in radians, between a sample of γ and
-    where the steps of the quadrature take the sample before it.
+    times : (n,); axes : (n, 3, 3), as in `Attitude`; defect : largest angle, in radians, between a sample of γ and
+    the quadrature from the sample before it.
     """
 
     times: Array
@@ -96,23 +104,23 @@ class Lying:
     defect: float
 
     def every_second(self) -> Lying:
-        """With the first, every second and the last of its samples: for a picture that is looked at for a moment."""
+        """Return the first, every second and the last of the samples, for a preview."""
         kept = [*range(0, len(self.times) - 1, 2), len(self.times) - 1]
         return replace(self, times=frozen(self.times[kept]), axes=frozen(self.axes[kept]))
 
 
 TURN = 0.1
-"""The rotation, in radians, from one sample of `attitude_along` to the next, where the orbit does not turn faster."""
+"""Largest rotation, in radians, from one sample of `attitude_along` to the next, unless the orbit rotates faster."""
 MOST_TURNS = 4000
-"""Samples at the most, besides those of the orbit."""
+"""Largest number of samples, besides those of the orbit."""
 
 
 def attitude_along(times: Array, omega: Array, gamma: Array) -> Lying:
-    """The attitude along an orbit from its samples: times (n,), ω (n, 3) and |γ| = 1 (n, 3) in axes of the body.
+    """Return the attitude along an orbit from its samples: times (n,), ω (n, 3) and |γ| = 1 (n, 3) in axes of the body.
 
-    Between two samples the rotation is that of Magnus to the fourth order, the derivative of ω from its neighbours; of
-    it only the turn about γ is kept, for γ is known.  The result has a sample for every `TURN` of rotation, between
-    those of the orbit too, so that the chord of two neighbours is the rotation.
+    The rotation between two samples is that of the Magnus expansion of fourth order, with the derivative of ω from its
+    neighbours; only the turn about γ is used, because γ is known.  The result has a sample for every `TURN` of
+    rotation, also between those of the orbit, so that the chord of two neighbours approximates the rotation.
     """
     w, step = omega.T, np.diff(times)
     slope = np.gradient(w, times, axis=1) if len(times) > 2 else np.zeros_like(w)
@@ -126,7 +134,7 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Lying:
     turn = np.arctan2(np.einsum("kn,kn->n", moved_e, f[:, 1:]), np.einsum("kn,kn->n", moved_e, e[:, 1:]))
     angle = np.concatenate([[0.0], np.cumsum(turn)])
     e = np.cos(angle) * e + np.sin(angle) * f
-    # Where to sample it: as far as it has turned, in steps of TURN; something for a motion at rest too.
+    # Sample the total rotation in steps of TURN; the small term avoids a division by 0 for a body at rest.
     turned = np.concatenate([[0.0], np.cumsum(length + 1e-12)])
     at = np.linspace(0.0, turned[-1], max(2, int(min(MOST_TURNS, np.ceil(turned[-1] / TURN))) + 1))
     i = np.clip(np.searchsorted(turned, at, side="right") - 1, 0, len(step) - 1)
@@ -138,12 +146,12 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Lying:
 
 
 def _cross(u: Array, v: Array) -> Array:
-    """u × v of columns (3, n): NumPy's own takes several times as long."""
+    """Return u × v of columns (3, n); `np.cross` takes several times as long."""
     return np.stack([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
 
 
 def _frames(gamma: Array) -> tuple[Array, Array, Array]:
-    """For each γ of (n, 3) a right-handed frame with it as the first axis, (3, n) each; the two others are any."""
+    """Return for each γ of (n, 3) a right-handed frame with γ as the first axis, (3, n) each."""
     g = (gamma / np.linalg.norm(gamma, axis=1)[:, None]).T
     e = np.zeros_like(g)
     smallest, all_of = np.argmin(np.abs(g), axis=0), np.arange(g.shape[1])
@@ -154,7 +162,7 @@ def _frames(gamma: Array) -> tuple[Array, Array, Array]:
 
 
 def _turned(u: Array, v: Array, length: Array) -> Array:
-    """exp(−v×) u of columns (3, n), |v| = length (n,)."""
+    """Return exp(−v×) u of columns (3, n), |v| = length (n,)."""
     first = _cross(u, v)
     return np.asarray(u + np.sinc(length / np.pi) * first + 0.5 * np.sinc(0.5 * length / np.pi) ** 2 * _cross(first, v))
 
@@ -180,7 +188,7 @@ def attitude(
 
 
 def _orthonormal(g: Array, e: Array) -> tuple[Array, float]:
-    """γ, e and γ × e, rows of (n, 3, 3), and the largest of | |γ|−1 |, | |e|−1 |, |(e, γ)| before."""
+    """Return γ, e and γ × e, rows of (n, 3, 3), and the largest of | |γ|−1 |, | |e|−1 |, |(e, γ)| before."""
     long_g, long_e = np.linalg.norm(g, axis=1), np.linalg.norm(e, axis=1)
     defect = max(np.max(np.abs(x)) for x in (long_g - 1.0, long_e - 1.0, np.sum(g * e, axis=1)))
     g = g / long_g[:, None]

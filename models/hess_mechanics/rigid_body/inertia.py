@@ -1,7 +1,7 @@
-"""Which inertia tensors belong to a rigid body; axes with I12 = 0 and the constraint along e = e3 (`Biz03`).
+"""Checks of inertia tensors, in axes with I12 = 0 and the constraint along e = e3 (`Biz03`).
 
-I33 does not enter the Suslov problem.  A tensor belongs to a body if, for some I33, its second moments ½ tr I − I are
-not negative (for principal moments: the triangle inequality).
+I33 does not enter the Suslov problem.  A tensor belongs to a rigid body if, for some I33, its second moments ½ tr I − I
+are not negative (for principal moments: the triangle inequality).
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ __all__ = [
 ]
 
 MAX_RATIO = 1e20
-"""Of moments of inertia: beyond it the slow motion is lost in round-off, in units of the fast one."""
+"""Largest ratio of moments of inertia: beyond it round-off in units of the fast motion hides the slow one."""
 
 
 def require_finite(**values: float) -> None:
@@ -54,7 +54,17 @@ _SEARCH = {"xtol": 1e-300, "rtol": 1e-15, "maxiter": 1000}
 
 @dataclass(frozen=True)
 class BodyCheck:
-    """Whether a tensor belongs to a rigid body; `I33` is the admissible interval, None if there is none."""
+    """Result of the check whether an inertia tensor belongs to a rigid body.
+
+    Attributes
+    ----------
+    is_body : bool
+        True if some I33 makes the tensor that of a rigid body.
+    I33 : tuple of two floats or None
+        Interval of the admissible I33; None if there is none, or if I33 is given.
+    sentence : str
+        The result in words.
+    """
 
     is_body: bool
     I33: tuple[float, float] | None
@@ -62,7 +72,7 @@ class BodyCheck:
 
 
 def body_check(I33: tuple[float, float] | None) -> BodyCheck:
-    """The result in words, from the admissible interval of I33 (None: there is none)."""
+    """Return the result in words, from the admissible interval of I33 or None."""
     if I33 is None:
         return BodyCheck(
             False,
@@ -74,12 +84,42 @@ def body_check(I33: tuple[float, float] | None) -> BodyCheck:
 
 
 def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
-    """The interval of I33 for which ½ tr I − I ≥ 0.
+    """Return the interval of I33 for which an inertia tensor belongs to a rigid body.
 
-    With s = (I11+I22)/2, d = (I11−I22)/2, y = I33/2 ≥ |d| the condition is
-    g(y) = s − y − I23²/(y+d) − I13²/(y−d) ≥ 0, and g is concave, so the solution is an interval.
-    Raises `InvalidParameter`, `NotPositiveDefinite`.
+    Parameters
+    ----------
+    I11 : float
+        Moment of inertia about the first axis, I11 > 0.
+    I22 : float
+        Moment of inertia about the second axis, I22 > 0.
+    I13 : float
+        Product of inertia.
+    I23 : float
+        Product of inertia.
 
+    Returns
+    -------
+    BodyCheck
+        The interval and the result in words.
+
+    Raises
+    ------
+    InvalidParameter
+        If a parameter is not a finite number.
+    NotPositiveDefinite
+        If I11 ≤ 0 or I22 ≤ 0.
+
+    Notes
+    -----
+    The condition is ½ tr I − I ≥ 0.  With s = (I11+I22)/2, d = (I11−I22)/2, y = I33/2 ≥ |d| it is
+    g(y) = s − y − I23²/(y+d) − I13²/(y−d) ≥ 0, and g is concave, so the solutions form an interval.
+
+    References
+    ----------
+    `Biz03`.
+
+    Examples
+    --------
     >>> from hess_mechanics import check_body
     >>> check_body(2.0, 1.0, 0.0, 0.0).I33  # the triangle inequality: from 2 − 1 to 2 + 1
     (1.0, 3.0)
@@ -88,7 +128,7 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
     require_positive_definite(I11, I22)
     scale = max(I11, I22)
     s, d = (I11 + I22) / (2 * scale), (I11 - I22) / (2 * scale)
-    # Beyond 2 there is no body in any case; the bound keeps the squares in range.
+    # Beyond 2 there is no rigid body anyway; the bound keeps the squares in range.
     p, q = min(abs(I23) / scale, 2.0) ** 2, min(abs(I13) / scale, 2.0) ** 2
 
     # Imported here because it takes 0.3 s, and the Hess case has a closed form.

@@ -1,6 +1,6 @@
-"""Reversal: the moments at which a body with ω3 = 0 begins to turn the other way round about the vertical.
+"""Reversals: times at which a body with ω3 = 0 changes the sense of its rotation about the vertical.
 
-Its rate about the vertical is w = (ω, γ), as γ is of length 1; it reverses where w passes through 0.
+Its rate about the vertical is w = (ω, γ), as |γ| = 1; it reverses where w passes through 0.
 """
 
 from __future__ import annotations
@@ -23,23 +23,26 @@ __all__ = ["Reversal", "rate", "reversals"]
 
 _VARIABLES = ("ω1", "ω2", "γ1", "γ2", "γ3")
 MOST = 5000
-"""Moments of one motion."""
+"""Largest number of reversals of one motion."""
 
 
 @dataclass(frozen=True)
 class Reversal:
-    """The surface (ω, γ) = 0, crossed either way."""
+    """The surface (ω, γ) = 0, crossed in either sense."""
 
     sense: ClassVar[int] = 0
 
     def gradient(self, state: Array) -> Array:
-        """Of (ω, γ) (5,)."""
+        """Return the gradient of (ω, γ) (5,)."""
         return np.array([*state[2:4], *state[:2], 0.0])
 
     def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
-        """See `section.Surface`.  Raises `InvalidParameter` for systems with other variables."""
+        """Return the kernel of the surface, see `section.Surface`.
+
+        Raises `InvalidParameter` for systems with other variables.
+        """
         if system.variables != _VARIABLES:
-            raise InvalidParameter(f"These moments are found for systems with the variables {', '.join(_VARIABLES)}.")
+            raise InvalidParameter(f"Reversals are defined for systems with the variables {', '.join(_VARIABLES)}.")
         return _cross(system), np.zeros(1), 0.0
 
 
@@ -49,12 +52,12 @@ def _cross(system: System) -> Callable[..., Any]:
 
 
 def rate(states: Array) -> Array:
-    """(ω, γ) (n,) of states (n, 5), in rad/T."""
+    """Return (ω, γ) (n,) of states (n, 5), in rad/T."""
     return np.asarray(states[:, 0] * states[:, 2] + states[:, 1] * states[:, 3])
 
 
 def reversals(body: Body, start: Sequence[float], span: float, level: Accuracy) -> SectionCrossings:
-    """The moments from 0 to `span` at which (ω, γ) is 0, and the states there, none lost; see `section`.
+    """Return all times from 0 to `span` at which (ω, γ) is 0, and the states there; see `section`.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """

@@ -11,7 +11,7 @@ __all__ = ["NO_TURN"]
 
 @part
 def _along(c, normal, e, scratch):
-    """The Taylor coefficients of ω1γ1 + ω2γ2."""
+    """Store the Taylor coefficients of ω1γ1 + ω2γ2 in e."""
     for k in range(e.size):
         total = 0.0
         for m in range(k + 1):
@@ -30,4 +30,4 @@ def _any_side(y, normal):
 
 
 NO_TURN = SurfaceKernels(_along, _height, _any_side, curved=True)
-"""Where the body does not turn about the vertical."""
+"""The surface (ω, γ) = 0."""

@@ -145,7 +145,7 @@ class HessBody:
     def frequency_unit(self) -> float:
         """The unit of frequency √|b|: in units b = 1 time is t√|b| and angular velocity w/√|b|.  Raises `NoField`."""
         if self.b == 0.0:
-            raise NoField("b3 = 0: without a field h and f have no unit. Choose b3 ≠ 0.")
+            raise NoField("b3 = 0: without a field h and f have no unit. Choose b3 other than 0.")
         return math.sqrt(abs(self.b))
 
     def to_reduced(self, states: Array) -> Array:
