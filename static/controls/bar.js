@@ -1,4 +1,5 @@
-// The bar: the menu of scenes with the name of the one on show, and what can be done with the page.
+// @ts-check
+// The bar: the menu of scenes, the title of the scene on show, and the tools of the page.
 
 import { button, element, icon } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
@@ -12,46 +13,55 @@ import { shareDialog } from "./share.js"
 const MORE = "M5 10a2 2 0 1 0 0 4 2 2 0 0 0 0-4zm7 0a2 2 0 1 0 0 4 2 2 0 0 0 0-4zm7 0a2 2 0 1 0 0 4 2 2 0 0 0 0-4z"
 const MENU = "M4 6h16v2H4zm0 5h16v2H4zm0 5h16v2H4z"
 
-// In groups; each tells its name.  isDrawn: only where clicks and boxes are drawn;
-// without: why it is disabled where there is no such step; isNear: on a phone in the bar, the others in the menu More.
+/**
+ * A tool, which tells its name.  isDrawn: only for scenes where clicks and boxes draw something; without: why it is disabled
+ * when there is no such step; isNear: on a phone it stays in the bar, and the others are in the menu More.
+ * @typedef {{name: keyof PageEvents, title: string, icon: string, label?: string, isDrawn?: true, without?: string, isNear?: true}} Tool
+ */
+/** @type {Tool[][]} */
 const TOOLS = [
   [
-    { name: "undo", title: "Take back the last change (Ctrl+Z)", isNear: true,
+    { name: "undo", title: "Undo the last change (Ctrl+Z)", isNear: true,
       without: "nothing has been changed yet",
       icon: "M9 5 3 10l6 5v-4h5a3.5 3.5 0 0 1 0 7H8v2h6a5.5 5.5 0 0 0 0-11H9z" },
-    { name: "redo", title: "The change that was taken back (Ctrl+Shift+Z)",
-      without: "nothing has been taken back",
+    { name: "redo", title: "Redo the last change (Ctrl+Shift+Z)",
+      without: "nothing has been undone",
       icon: "M15 5l6 5-6 5v-4h-5a3.5 3.5 0 0 0 0 7h6v2h-6a5.5 5.5 0 0 1 0-11h5z" },
-    { name: "clear", title: "Without all clicks and boxes", isDrawn: true,
+    { name: "clear", title: "Remove all clicks and boxes", isDrawn: true,
       icon: "M6 4.6 12 10.6 18 4.6 19.4 6 13.4 12 19.4 18 18 19.4 12 13.4 6 19.4 4.6 18 10.6 12 4.6 6z" },
     { name: "reset", title: "Back to the first state of this scene", isNear: true,
       icon: "M12 5a7 7 0 1 1-6.7 9h2.1A5 5 0 1 0 12 7v3.5L6.5 6 12 1.5z" },
   ],
   [
-    { name: "pin", title: "Keep this state, to compare others with it",
+    { name: "pin", title: "Keep this state and compare others with it",
       icon: "M9 3h6v2l-1 1v5l3 3v2h-4v5h-2v-5H7v-2l3-3V6L9 5z" },
-    { name: "chart", title: "A quantity over two parameters, computed while you go on",
+    { name: "chart", title: "Chart a quantity over two parameters, computed in the background",
       icon: "M3 3h2v16h16v2H3zm4 2h4v4H7zm5 0h4v4h-4zm5 0h4v4h-4zM7 10h4v4H7zm5 0h4v4h-4zm0 5h4v3h-4zm5-5h4v4h-4z" },
-    { name: "share", title: "Link to all that is on the screen, QR code, parts for another page", isNear: true,
+    { name: "share", title: "Link to this page as it is, QR code, HTML to embed", isNear: true,
       icon: "M4 12a4 4 0 0 1 4-4h3v2H8a2 2 0 0 0 0 4h3v2H8a4 4 0 0 1-4-4zm5-1h6v2H9zm4-3h3a4 4 0 0 1 0 8h-3v-2h3a2 2 0 0 0 0-4h-3z" },
     { name: "export", title: "Data and figures of a picture: CSV, JSON, PNG, SVG, PDF",
       icon: "M11 3h2v8l3-3 1.4 1.4L12 14.8 6.6 9.4 8 8l3 3zM4 15h2v4h12v-4h2v6H4z" },
     { name: "print", title: "A handout: pictures, numbers, text, link and QR code (Ctrl+P)",
       icon: "M7 3h10v5H7zm-3 6h16a1 1 0 0 1 1 1v7h-4v4H7v-4H3v-7a1 1 0 0 1 1-1zm5 6v4h6v-4z" },
-    { name: "present", title: "For a lecture hall: large type and lines, few controls; and back (P)",
+    { name: "present", title: "Present mode for a lecture hall: large type and lines, few controls (P)",
       icon: "M3 4h18v2h-1v10h-7v1.6l3.4 3-1.3 1.4L12 19.6 8.9 22l-1.3-1.4 3.4-3V16H4V6H3zm3 2v8h12V6z" },
-    { name: "fullscreen", label: "Full screen", title: "Full screen, and back (F)",
+    { name: "fullscreen", label: "Full screen", title: "Full screen on or off (F)",
       icon: "M5 5h5v2H7v3H5zm9 0h5v5h-2V7h-3zM5 14h2v3h3v2H5zm12 0h2v5h-5v-2h3z" },
     { name: "theme", title: "Light or dark",
       icon: "M12 3a9 9 0 1 0 0 18 9 9 0 0 0 0-18zm0 2v14a7 7 0 0 1 0-14z" },
   ],
 ]
 
+/** @param {Tool} tool */
 function tool({ name, label = name[0].toUpperCase() + name.slice(1), title, icon: path }) {
   return button(`tool.param-${name}`, () => tell(name), { title, ariaLabel: label, innerHTML: icon(path) },
     element("span.label", label))
 }
 
+/**
+ * Render the bar.
+ * @param {Pick<PageModel, "scenes" | "files" | "palettes"> & {el: HTMLElement}} part
+ */
 export function render({ scenes, files, palettes, el }) {
   const menu = sceneMenu(scenes)
   const share = shareDialog()
@@ -61,7 +71,9 @@ export function render({ scenes, files, palettes, el }) {
   const open = button("tool.param-scenes", menu.open, { title: "Choose a scene", ariaHasPopup: "dialog", innerHTML: icon(MENU) },
     element("span", "Scenes"))
   // Name → [button, its description].
+  /** @type {Map<string, [HTMLButtonElement, Tool]>} */
   const tools = new Map(TOOLS.flat().map((one) => [one.name, [tool(one), one]]))
+  /** @param {"without" | "isDrawn"} property */
   const those = (property) => [...tools.values()].filter(([, one]) => one[property])
   const groups = TOOLS.map((group) => element("div.group", ...group.map(({ name }) => tools.get(name)[0])))
   const more = moreMenu([...tools.values()].filter(([, { isNear }]) => !isNear).map(([item]) => item), icon(MORE))
@@ -69,22 +81,24 @@ export function render({ scenes, files, palettes, el }) {
     element("div.tools", open, heading, element("span.room"), ...groups, ...more),
     menu.dialog, share.dialog, taking.dialog, chart.panel)
 
-  const press = (name, on) => { tools.get(name)[0].ariaPressed = on }
+  /** @param {string} name @param {boolean} on */
+  const press = (name, on) => { tools.get(name)[0].ariaPressed = String(on) }
   press("present", isPresenting())
+  /** @param {{undo: number, redo: number}} counts */
   const enable = (counts) => {
     for (const [item, { name, title, without }] of those("without")) {
-      item.disabled = counts[name] === 0
+      item.disabled = counts[/** @type {"undo" | "redo"} */ (name)] === 0
       item.title = item.disabled ? `Disabled: ${without}` : title
     }
   }
   enable({ undo: 0, redo: 0 })
   listen({
-    // How far a chart is whose panel may be closed.
+    // Progress of a chart whose panel may be closed.
     charting(share) {
       const [item, { title }] = tools.get("chart")
       const said = share === null ? "" : ` ${Math.floor(100 * share)} %`
       item.querySelector(".label").textContent = item.ariaLabel + said
-      item.title = share === null ? title : `The chart on its way:${said}`
+      item.title = share === null ? title : `Computing the chart:${said}`
     },
     presenting: (on) => press("present", on),
     compared: (compared) => press("pin", compared !== null),

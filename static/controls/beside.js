@@ -1,7 +1,7 @@
-// Two states side by side, each in a page of its own with its controls: what is played or turned in one is in the other.
+// @ts-check
+// Two states side by side, each in an embedded page with its own controls; time and rotation are linked ("side_by_side.js").
 //
-// Pages rather than a second drawing in this one: pictures, player and requests are there once for each page, and so each
-// half is all that a page is; what goes to and fro is small ("linked.js").
+// Each half is a page, not a second drawing in this page, so pictures, player and requests exist once per page.
 
 import { linkTo } from "../page/embedding.js"
 import { HALF } from "../page/side_by_side.js"
@@ -11,13 +11,13 @@ import { gallery } from "../pictures/gallery.js"
 import { nameOf } from "../pictures/picture.js"
 import { dialogOf, section } from "./dialog.js"
 
-// So wide a page must be to show all its pictures at once.
+// Width at which a page shows all its pictures.
 const LEAST = 804
 
-// What both halves have of this page.
+// Keys of the address that both halves take from this page.
 const SHARED = ["t", "speed", "az", "el", "theme"]
 
-// The address of a part of the page in this state: of the scene on show the pictures in sight.
+/** Return the address of an embedded page with a state and, for the scene on show, the pictures in sight. @param {string} query */
 function addressOf(query) {
   const here = new URL(linkTo())
   const url = new URL(`?${query}&embed=1`, here)
@@ -28,7 +28,7 @@ function addressOf(query) {
   return url.href
 }
 
-/** Return {dialog, open([query of A, query of B])}. */
+/** Return the dialog and the function that opens it with two states. */
 export function besideDialog() {
   const halves = ["A, pinned", "B"].map((title) => element("iframe.half", { title, name: HALF }))
   const dialog = dialogOf("Side by side", "beside", [],
@@ -40,11 +40,14 @@ export function besideDialog() {
   })
   return {
     dialog,
+    /** @param {[string, string]} queries */
     open(queries) {
       halves.forEach((half, i) => { half.src = addressOf(queries[i]) })
       dialog.showModal()
-      // With all of its pictures, but on a phone.
-      for (const half of halves) half.style.zoom = PHONE.matches ? 1 : Math.min(1, half.parentNode.clientWidth / LEAST)
+      // Scaled to show all pictures, except on a phone.
+      for (const half of halves) {
+        half.style.zoom = String(PHONE.matches ? 1 : Math.min(1, half.parentElement.clientWidth / LEAST))
+      }
     },
   }
 }

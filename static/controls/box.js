@@ -1,23 +1,26 @@
-// The text box of a number: takes exact values, and expressions, which the server evaluates.  Arrow keys step, with Shift by
-// ten steps.
+// @ts-check
+// The text box of a number.  It takes exact values, and expressions that the server evaluates; arrow keys change the value by
+// one step, with Shift by ten.
 
 import { tell } from "../page/bus.js"
 import { element } from "../page/elements.js"
 
 const TYPE = "Type an exact value or an expression such as pi/3, and press Enter."
+/** @type {Record<string, number>} */
 const STEPS = { ArrowUp: 1, ArrowDown: -1 }
 
-// With a point where the reader's language has a comma.
+// Accepts a decimal comma.
+/** @param {string} text */
 const pointed = (text) => text.trim().replace(",", ".")
 
-// A number as it is typed; NaN for a text that is none, or one for the server to read.
+/** Return the number that was typed; NaN for any other text, which the server reads. @param {string} text */
 function numberOf(text) {
   const plain = pointed(text)
   return plain === "" || !Number.isFinite(Number(plain)) ? Number.NaN : Number(plain)
 }
 
 /**
- * Return {box, put(value), show(value before, value, isIdle), refuse(sentence), rest(why or ""), forget()}.
+ * Return the box and the functions that fill, mark and disable it.
  * @param {import("./number.js").Controlled} number
  */
 export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
@@ -25,18 +28,19 @@ export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
     type: "text", inputMode: "decimal", spellcheck: false, title: `${help} ${TYPE}`, ariaLabel: `${symbol}, exact value`,
     onchange: take, oninput: () => box.setCustomValidity(""), onkeydown,
   })
-  // Whether the server is reading what was typed.
+  // Whether the server is evaluating an expression.
   let isAsked = false
 
-  const isFocused = () => box.getRootNode().activeElement === box
-  // `why`: what is wrong, "" for nothing.
+  const isFocused = () => /** @type {ShadowRoot} */ (box.getRootNode()).activeElement === box
+  /** Mark the box as invalid for a reason; "" removes the mark. @param {string} why */
   const mark = (why) => {
-    box.ariaInvalid = why !== ""
+    box.ariaInvalid = String(why !== "")
     box.setCustomValidity(why)
   }
+  /** @param {number} shown */
   const put = (shown) => {
     isAsked = false
-    box.value = shown
+    box.value = String(shown)
     box.setCustomValidity("")
     box.ariaInvalid = null
   }
@@ -51,12 +55,13 @@ export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
     mark(text === "" ? "This is not a number: type one like 1.5, 1e-8 or pi/3." : "")
     if (text === "") return void box.reportValidity()
     if (typed !== value()) change(typed)
-    // As the server will write it: from here on another text is one that is being typed.
-    box.value = typed
+    // As the server will write it; any other text is one that is being typed.
+    box.value = String(typed)
   }
 
+  /** @param {KeyboardEvent} event */
   function onkeydown(event) {
-    // While a text is typed the browser itself undoes.
+    // The browser itself undoes typing.
     if ((event.ctrlKey || event.metaKey) && box.value !== String(value())) event.stopPropagation()
     if (event.key in STEPS) {
       const typed = numberOf(box.value)
@@ -68,20 +73,27 @@ export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
 
   return {
     box, put,
-    // Of a state: those may come while a number is typed, piece by piece of a section, and leave it alone.
+    /**
+     * Show the value of a state, unless a number is being typed.
+     * @param {number} before
+     * @param {number} shown
+     * @param {boolean} isIdle
+     */
     show(before, shown, isIdle) {
       if (!isAsked && isFocused() && box.value !== String(before)) return
       isAsked = false
-      // Nobody can look along a disabled box for digits that it has no room for.
-      box.value = isIdle ? Number(shown.toPrecision(6)) : shown
+      // A disabled box cannot be scrolled: show as many digits as fit.
+      box.value = String(isIdle ? Number(shown.toPrecision(6)) : shown)
       box.ariaInvalid = null
     },
+    /** Mark an expression that the server refuses. @param {string} sentence */
     refuse(sentence) {
       if (!isAsked) return
       isAsked = false
       mark(sentence)
       if (isFocused()) box.reportValidity()
     },
+    /** Disable the box for a reason; "" enables it. @param {string} why */
     rest(why) {
       box.disabled = why !== ""
       box.title = why || `${help} ${TYPE}`

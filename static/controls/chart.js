@@ -1,5 +1,6 @@
-// The chart of a quantity over two parameters of a scene, beside the pictures: what is computed, how far it is, and what a
-// cell means.  The server computes it while the user goes on, in any scene.
+// @ts-check
+// The chart panel: a quantity over two parameters of a scene, its progress, and the reading of a cell.  The server computes
+// the chart in the background, whatever scene is on show.
 
 import { button, element } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
@@ -12,42 +13,54 @@ import { chartJob } from "./chart_job.js"
 import { sideForm } from "./chart_side.js"
 import { optionsOf, saveFile } from "./dialog.js"
 
-// Milliseconds that the mouse rests on a cell before the server is asked why it has no number.
+// Milliseconds that the pointer rests on a cell before the server is asked why it has no number.
 const REST = 250
-// About the cell of the cursor, by a key.
+// Share of each side that the plus key zooms to.
 const CLOSER = 0.5
 
+/** Return the remaining time in words. @param {number | null} seconds */
 function lasting(seconds) {
   if (seconds === null) return ""
   if (seconds < 1) return ", less than a second left"
   return seconds < 100 ? `, ${Math.ceil(seconds)} s left` : `, ${Math.ceil(seconds / 60)} min left`
 }
 
-/** Return {panel, open(), show(description of the scene on show)}. */
+/** Return the panel and the functions that open it and set its scene. @param {Palettes} palettes */
 export function chartPanel(palettes) {
+  /** @type {SceneDescription | null} */
   let scene = null
-  // Control → what it shows.
+  // Control → its value.
+  /** @type {Record<string, ControlValue>} */
   let values = {}
+  /** @type {Chart | null} */
   let chart = null
-  // Those that were zoomed into.
+  // Charts that were zoomed into.
+  /** @type {Chart[]} */
   let before = []
+  /** @type {HTMLElement | null} */
   let opener = null
+  /** @type {ReturnType<typeof setTimeout>} */
   let resting = null
 
+  /** @type {Map<HTMLElement, string>} */
   const titles = new Map()
+  /** @param {string} name @param {string} textContent @param {() => void} onclick @param {string} title */
   const press = (name, textContent, onclick, title) => {
     const item = button(`button.param-chart-${name}`, onclick, { textContent, title })
     titles.set(item, title)
     return item
   }
-  // A button that can be pressed, or says why not.
+  /** Enable a button, or disable it with a reason. @param {HTMLButtonElement} item @param {boolean} isUsable @param {string} without */
   const offerIf = (item, isUsable, without) => {
     item.disabled = !isUsable
     item.title = isUsable ? titles.get(item) : `Disabled: ${without}`
   }
+  /** @returns {{name: string, symbol?: string, range?: [number, number]}[]} */
   const numbers = () => [...scene.controls, ...scene.sides]
+  /** @param {string} name */
   const controlOf = (name) => numbers().find((one) => one.name === name)
-  const endsOf = (name) => values[name]?.slice(1, 3) ?? controlOf(name).range
+  /** @type {(name: string) => [number, number]} */
+  const endsOf = (name) => /** @type {[number, number] | undefined} */ (values[name]?.slice(1, 3)) ?? controlOf(name).range
 
   const quantity = element("select.param-quantity", { ariaLabel: "Quantity", onchange: () => offer(null) })
   const part = element("select.param-part", { ariaLabel: "Which of its numbers" })
@@ -55,11 +68,11 @@ export function chartPanel(palettes) {
   const y = sideForm("y", endsOf, () => keepApart(x, y))
   const start = press("start", "Start", () => begin(wanted()), "Compute the chart")
   const stop = press("stop", "Stop", () => job.stop(), "Leave the chart at what is computed")
-  const out = press("out", "Zoom out", zoomOut, "The chart before (minus key)")
-  const save = press("save", "Save", keep, "A file that Load shows again")
+  const out = press("out", "Zoom out", zoomOut, "The previous chart (minus key)")
+  const save = press("save", "Save", keep, "Save the chart to a file")
   const file = element("input", { type: "file", accept: ".json,application/json", hidden: true, onchange: take })
-  const load = press("load", "Load", () => file.click(), "A chart that was saved")
-  const close = press("close", "Close", hide, "The chart goes on meanwhile")
+  const load = press("load", "Load", () => file.click(), "Load a chart from a file")
+  const close = press("close", "Close", hide, "Close the panel; the chart continues")
   const bar = element("progress", { ariaLabel: "Computed", max: 1 })
   const said = element("p.why", { role: "status" })
   const about = element("output.reading", { ariaLive: "polite" })
@@ -78,37 +91,42 @@ export function chartPanel(palettes) {
 
   const described = () => scene.charts.find((one) => one.quantity === quantity.value)
 
-  // Both sides are different parameters.
+  /**
+   * Keep the parameters of both sides different.
+   * @param {ReturnType<typeof sideForm>} other
+   * @param {ReturnType<typeof sideForm>} moved
+   */
   function keepApart(other, moved) {
     if (other.name !== moved.name) return
     const next = described().over.find((name) => name !== moved.name)
     other.choose(next, ...endsOf(next))
   }
 
-  // The axes of a picture, where both are parameters of the scene: [[name, low, high], …].
+  /** Return [name, low, high] of the axes of a picture if both are parameters. @param {string} name @returns {[string, number, number][] | null} */
   function axesOf(name) {
     const plot = gallery.plot(name)?.model
     if (plot === undefined) return null
-    const found = [[plot.below[0], plot.x_range], [plot.left[0], plot.y_range]].map(([axis, range]) => [
-      numbers().find((one) => [one.name, one.symbol].includes(axis?.axis_label))?.name, range.start, range.end])
+    const found = /** @type {[BokehModel, BokehRange][]} */ ([[plot.below[0], plot.x_range], [plot.left[0], plot.y_range]])
+      .map(([axis, range]) => /** @type {[string, number, number]} */ ([
+        numbers().find((one) => [one.name, one.symbol].includes(axis?.axis_label))?.name, range.start, range.end]))
     return found.every(([one]) => described().over.includes(one)) && found[0][0] !== found[1][0] ? found : null
   }
 
-  // The sides that are in sight: the axes of this picture, else what has open controls.
+  /** Offer parameters for the sides: the axes of a picture, else the enabled controls. @param {string | null} pictureName */
   function offer(pictureName) {
     const { over, parts } = described()
     const offered = over.filter((name) => values[name]?.[4] !== true).map(controlOf).filter(Boolean)
-    part.replaceChildren(...optionsOf(parts.map((name, i) => [i, name.replaceAll("_", " ")])))
+    part.replaceChildren(...optionsOf(parts.map((name, i) => [String(i), name.replaceAll("_", " ")])))
     part.hidden = parts.length === 0
     for (const side of [x, y]) side.offer(offered)
-    offerIf(start, offered.length >= 2, "nothing of this scene can be charted over two of its numbers")
+    offerIf(start, offered.length >= 2, "this scene has no two parameters to chart over")
     if (start.disabled) return
-    const sides = axesOf(pictureName) ?? offered.slice(0, 2).map(({ name }) => [name, ...endsOf(name)])
+    const sides = axesOf(pictureName) ?? offered.slice(0, 2).map(({ name }) => /** @type {[string, number, number]} */ ([name, ...endsOf(name)]))
     x.choose(...sides[0])
     y.choose(...sides[1])
   }
 
-  // With the places that it has at first, where the link says nothing of them.
+  /** Return the query of the state, with the default places that the link leaves out. */
   function state() {
     const query = new URL(linkTo()).searchParams
     for (const { name, place } of scene.sides) {
@@ -127,25 +145,29 @@ export function chartPanel(palettes) {
     }
   }
 
-  // Another chart is on show.
+  /** Show another chart. @param {Chart} next */
   function turnTo(next) {
     chart = next
     fillForm()
     follow()
   }
 
+  /** @param {ReturnType<typeof wanted>} next */
   function begin(next) {
     if (![next.x, next.y].every(({ low, high, count }) => Number.isFinite(low) && Number.isFinite(high) && Number.isInteger(count))) {
       said.textContent = "Give numbers for from, to and cells."
       return
     }
+    /** @type {Chart} */
     const begun = { ...next, level: "", error: null, version: "", values: null, status: null, known: 0, share: 0, left: null, said: "" }
     job.start(begun)
     turnTo(begun)
   }
 
+  /** @param {ChartBox} box */
   function closer(box) {
     if (!(box.x[1] > box.x[0] && box.y[1] > box.y[0])) return
+    /** @param {ChartAxis} one @param {number[]} ends */
     const side = (one, [low, high]) => ({ ...one, low, high })
     before.push(chart)
     begin({ ...chart, x: side(chart.x, box.x), y: side(chart.y, box.y) })
@@ -157,19 +179,19 @@ export function chartPanel(palettes) {
     turnTo(before.pop())
   }
 
-  // The boxes say what is on show, where that is of this scene.
+  // The form describes the chart on show, if the chart belongs to this scene.
   function fillForm() {
     if (chart.scene !== scene.name) return
     if (quantity.value !== chart.quantity) {
       quantity.value = chart.quantity
       offer(null)
     }
-    part.value = chart.part
+    part.value = String(chart.part)
     x.choose(chart.x.name, chart.x.low, chart.x.high)
     y.choose(chart.y.name, chart.y.low, chart.y.high)
   }
 
-  // What is known of a cell; why it has no number, the server says.
+  /** Show the reading of a cell; the server explains a cell without a number. @param {Cell | null} cell */
   function read(cell) {
     clearTimeout(resting)
     const isThere = cell !== null && chart?.values != null
@@ -177,12 +199,13 @@ export function chartPanel(palettes) {
     if (isThere && isWithoutNumber(chart, cell)) resting = setTimeout(() => job.why(chart, placeOf(chart, cell)), REST)
   }
 
-  // The state of a cell, in its scene.
+  /** Show the state of a cell, in its scene. @param {Cell} cell */
   function open(cell) { tell("restore", stateOf(chart, cell)) }
 
-  const numberOf = (name) => (name.includes(":") ? numberIn(new URLSearchParams(state()), name) : values[name]?.[0])
+  /** @param {string} name */
+  const numberOf = (name) => (name.includes(":") ? numberIn(new URLSearchParams(state()), name) : Number(values[name]?.[0]))
 
-  // The ring at the state on show: broken where another parameter is not the chart's.
+  // The ring at the state on show is dashed where another parameter differs from that of the chart.
   function mark() {
     const sides = chart !== null && chart.scene === scene?.name ? [chart.x.name, chart.y.name] : []
     const own = sides.map(numberOf)
@@ -213,7 +236,7 @@ export function chartPanel(palettes) {
   }
 
   function keep() {
-    // Coordinates of places by their symbols, which files may have but for the stroke of L/G.
+    // Files are named after the symbols of coordinates, without the slash of L/G.
     const [across, up] = [chart.x, chart.y].map(({ name, symbol }) => (name.includes(":") ? symbol.replaceAll("/", "") : name))
     saveFile(new Blob([toFile(chart)], { type: "application/json" }), `${chart.scene}-${chart.quantity}-${across}-${up}.json`)
   }
@@ -237,8 +260,10 @@ export function chartPanel(palettes) {
     opener?.focus()
   }
 
-  // Enter, minus and plus are for the canvas.
+  // Enter, minus and plus act on the canvas.
+  /** @param {KeyboardEvent} event */
   function onkeydown(event) {
+    /** @type {Record<string, () => void>} */
     const onCanvas = {
       Enter: () => { if (map.cursor !== null) open(map.cursor) },
       "-": zoomOut,
@@ -261,6 +286,7 @@ export function chartPanel(palettes) {
 
   return {
     panel,
+    /** @param {SceneDescription} description */
     show(description) {
       if (scene?.name === description.name) return
       scene = description
@@ -268,12 +294,12 @@ export function chartPanel(palettes) {
       const { charts } = scene
       quantity.replaceChildren(...optionsOf(charts.map((one) => [one.quantity, `${one.symbol}  ${one.title}`])))
       form.hidden = charts.length === 0
-      offerIf(start, charts.length > 0, "nothing of this scene can be charted")
+      offerIf(start, charts.length > 0, "this scene has nothing to chart")
       mark()
     },
     open() {
       if (panel.matches(":popover-open")) return hide()
-      opener = panel.getRootNode().activeElement
+      opener = /** @type {HTMLElement} */ (/** @type {ShadowRoot} */ (panel.getRootNode()).activeElement)
       const { charts } = scene
       if (charts.length > 0 && chart?.scene !== scene.name) {
         const large = new URLSearchParams(location.search).get("large")?.split(",")[0]
@@ -282,7 +308,7 @@ export function chartPanel(palettes) {
         offer(pointed)
       }
       if (chart === null) {
-        said.textContent = charts.length > 0 ? "" : "Nothing of this scene can be charted: choose another one, or load a chart."
+        said.textContent = charts.length > 0 ? "" : "This scene has nothing to chart: choose another scene, or load a chart."
       }
       panel.showPopover()
       ;(form.hidden ? load : start).focus()

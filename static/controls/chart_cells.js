@@ -1,22 +1,36 @@
-// What a cell of a chart means: its place in numbers and words, the state it stands for, and the words on its number.
+// @ts-check
+// Cells of a chart: their parameters, the states that they stand for, and their readings.
 
-// From this status on a cell has no number, see "sweep/quantity.py".
+// Cells with this status or a higher one have no number, see "sweep/quantity.py".
 const NO_NUMBER = 10
 const DIGITS = 6
 
+/** @param {number} value */
 const short = (value) => String(Number(value.toPrecision(DIGITS))).replaceAll("-", "−")
+/** @param {ChartAxis} axis @param {number} i */
 const placeOn = ({ low, high, count }, i) => (i === count - 1 ? high : low + (high - low) / (count - 1) * i)
+/** @param {Chart} chart */
 const sidesOf = ({ x, y }) => [x, y]
 
-/** Return the numbers of the parameters in a cell, [column, row]. */
+/**
+ * Return the parameters of a cell.
+ * @param {Chart} chart
+ * @param {Cell} cell
+ */
 export const placeOf = (chart, cell) => sidesOf(chart).map((side, k) => placeOn(side, cell[k]))
 
+/** @param {Chart} chart @param {Cell} cell */
 const where = (chart, cell) => {
   const place = placeOf(chart, cell)
   return sidesOf(chart).map(({ symbol }, k) => `${symbol} = ${short(place[k])}`).join(", ")
 }
 
-/** Return the words on a cell: where it is, and why it has no number; or its number. */
+/**
+ * Return the place of a cell and its number, or the reason that it has no number.
+ * @param {Chart} chart
+ * @param {Cell} cell
+ * @param {string} why
+ */
 export function reading(chart, cell, why = "no number") {
   const at = cell[1] * chart.x.count + cell[0]
   const status = chart.status[at]
@@ -26,32 +40,51 @@ export function reading(chart, cell, why = "no number") {
   return `${where(chart, cell)}: ${said}`
 }
 
-/** Return whether a cell was computed, and has no number. */
+/**
+ * Return whether a cell was computed and has no number.
+ * @param {Chart} chart
+ * @param {Cell} cell
+ */
 export const isWithoutNumber = (chart, [column, row]) => chart.status[row * chart.x.count + column] >= NO_NUMBER
 
-// "name:coordinate" is a coordinate of the last place of a parameter, which is a list of places.
+// "name:coordinate" is a coordinate of the last place in a parameter that holds a list of places.
+/** @param {URLSearchParams} query @param {string} key @returns {(string | number)[]} */
 const lastPlace = (query, key) => query.get(key).split(";").at(-1).split(",")
 
-/** Return the number of a parameter, or of a coordinate, in a query. */
+/**
+ * Return the value of a parameter, or of a coordinate, in a query.
+ * @param {URLSearchParams} query
+ * @param {string} name
+ */
 export function numberIn(query, name) {
   const [key, coordinate] = name.split(":")
-  return Number(coordinate === undefined ? query.get(key) : lastPlace(query, key)[coordinate])
+  return Number(coordinate === undefined ? query.get(key) : lastPlace(query, key)[Number(coordinate)])
 }
 
-/** Return the query of the state that a cell stands for, in its scene; of a list of places the last one alone is left. */
+/**
+ * Return the query of the state that a cell stands for; a list of places is reduced to its last one.
+ * @param {Chart} chart
+ * @param {Cell} cell
+ */
 export function stateOf(chart, cell) {
   const query = new URLSearchParams(chart.state)
   const values = placeOf(chart, cell)
   sidesOf(chart).forEach(({ name }, k) => {
     const [key, coordinate] = name.split(":")
     const place = coordinate === undefined ? [] : lastPlace(query, key)
-    place[coordinate ?? 0] = values[k]
+    place[Number(coordinate ?? 0)] = values[k]
     query.set(key, place.join(","))
   })
   return query.toString()
 }
 
-/** Return the part of both sides that is so many times smaller, around a cell. */
+/**
+ * Return the box around a cell that covers `share` of each side.
+ * @param {Chart} chart
+ * @param {Cell} cell
+ * @param {number} share
+ * @returns {ChartBox}
+ */
 export function around(chart, cell, share) {
   const middle = placeOf(chart, cell)
   const [x, y] = sidesOf(chart).map(({ low, high }, k) => {

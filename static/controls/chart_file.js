@@ -1,27 +1,37 @@
-// A chart as a file: all that is needed to show it again, and to compute on from it.
+// @ts-check
+// A chart as a JSON file that can be shown again.
 
 import { linkTo } from "../page/embedding.js"
 
 const PROGRAM = "hess-explorer chart"
 const MOST_SIDE = 256
-const NUMBERS = "A part of this chart is missing or is no number: save it once more."
+const NUMBERS = "Part of this chart is missing or not a number: save it again."
 
+/** @typedef {Record<string, (value: any) => boolean>} Fields name → test of the value */
+/** @type {(most: number) => (value: unknown) => boolean} */
 const isText = (most) => (value) => typeof value === "string" && value.length <= most
+/** @param {number} value */
 const isCount = (value) => Number.isInteger(value) && value >= 2 && value <= MOST_SIDE
+/** @param {Fields} fields @param {any} value */
 const isWhole = (fields, value) => Object.entries(fields).every(([name, isRight]) => isRight(value[name]))
+/** @param {Fields} fields @param {any} value */
 const picked = (fields, value) => Object.fromEntries(Object.keys(fields).map((name) => [name, value[name]]))
 
-// What a file may hold, by name.
+// Fields of a file.
+/** @type {Fields} */
 const SIDE = { name: isText(40), symbol: isText(40), low: Number.isFinite, high: Number.isFinite, count: isCount }
+/** @param {ChartAxis | null} side */
 const isSide = (side) => side !== null && typeof side === "object" && isWhole(SIDE, side) && side.low < side.high
+/** @type {Fields} */
 const CHART = {
   scene: isText(200), state: isText(2000), quantity: isText(200), part: Number.isInteger, symbol: isText(200), units: isText(200),
   turn: (value) => Number.isFinite(value) && value >= 0, level: isText(200),
   error: (value) => value === null || Number.isFinite(value), version: isText(200), x: isSide, y: isSide, title: isText(200),
 }
+/** @type {Partial<Chart>} */
 const USUAL = { turn: 0, error: null, version: "" }
 
-/** Return the text of the file; numbers that are none are null, which JSON has. */
+/** Return the text of the file; NaN and infinities become null. @param {Chart} chart */
 export function toFile(chart) {
   const link = linkTo().replace(/\?.*$/, `?${chart.state}`)
   return JSON.stringify({
@@ -30,26 +40,31 @@ export function toFile(chart) {
   })
 }
 
-/** Return the chart in the text of a file: {chart}, or {why} there is none. */
+/**
+ * Return the chart in the text of a file, or {why}: the reason that there is none.
+ * @param {string} text
+ * @returns {{chart?: Chart, why?: string}}
+ */
 export function fromFile(text) {
   let found = null
   try {
     found = JSON.parse(text)
   } catch {
-    return { why: "This file is no JSON: choose one that Save has written." }
+    return { why: "This file is not JSON: choose a file that Save has written." }
   }
-  if (found?.program !== PROGRAM) return { why: "This file holds no chart: choose one that Save has written." }
+  if (found?.program !== PROGRAM) return { why: "This file is not a chart: choose a file that Save has written." }
   const chart = { ...USUAL, ...found }
   if (!isWhole(CHART, chart)) return { why: NUMBERS }
   const { x, y, values, status } = chart
+  /** @param {unknown[]} list @param {(value: any) => boolean} isRight */
   const isFull = (list, isRight) => Array.isArray(list) && list.length === x.count * y.count && list.every(isRight)
-  if (!isFull(values, (value) => value === null || Number.isFinite(value)) ||
-      !isFull(status, (one) => Number.isInteger(one) && one >= 0 && one < 256)) return { why: NUMBERS }
+  if (!isFull(values, (/** @type {number | null} */ value) => value === null || Number.isFinite(value)) ||
+      !isFull(status, (/** @type {number} */ one) => Number.isInteger(one) && one >= 0 && one < 256)) return { why: NUMBERS }
   const known = status.filter(Boolean).length
   return {
-    chart: {
+    chart: /** @type {Chart} */ ({
       ...picked(CHART, chart), x: picked(SIDE, x), y: picked(SIDE, y), said: "", left: null, known, share: known / status.length,
-      values: Float64Array.from(values, (value) => value ?? NaN), status: Uint8Array.from(status),
-    },
+      values: Float64Array.from(values, (/** @type {number | null} */ value) => value ?? NaN), status: Uint8Array.from(status),
+    }),
   }
 }

@@ -1,30 +1,37 @@
-// The request for a chart: starts it on the server, polls for new cells, stops it.  It goes on whatever is on the screen.
+// @ts-check
+// The job of a chart on the server: it is started, polled for new cells, and stopped, whatever is on the screen.
 
 import { listen, tell } from "../page/bus.js"
 
-// Milliseconds between two questions how far it is: what came meanwhile is painted at once.
+// Milliseconds between polls; the answer brings all new cells.
 const PAUSE = 200
 
+/** @param {ChartAxis} axis @returns {ChartSide} */
 const sideOf = ({ name, low, high, count }) => [name, low, high, count]
-// What the server is asked, see "sweep/chart.py".
+/** Return what the server needs of a chart, see "sweep/chart.py". @param {Chart} chart @returns {ChartAsked} */
 const asked = ({ state, quantity, part, x, y }) => ({ state, quantity, part, x: sideOf(x), y: sideOf(y) })
+/** @param {ChartRequest} what */
 const ask = (what) => tell("ask-chart", what)
 
 /**
- * Return {running: the chart that is computed or null, start(chart), stop(), why(chart, [x, y])}.
- * @param {(chart: any) => void} changed is called when cells have come, and at the end
- * @param {(sentence: string, place: [number, number]) => void} explained is told how a cell ends
+ * Return the job: the chart that is running, and the functions that start and stop it and explain a cell.
+ * @param {(chart: Chart) => void} changed is called when cells have come, and at the end
+ * @param {(sentence: string, place: [number, number]) => void} explained gets the reason that a cell has no number
  */
 export function chartJob(changed, explained) {
+  /** @type {Chart | null} */
   let chart = null
+  /** @type {ReturnType<typeof setTimeout>} */
   let timer = null
   let number = 0
 
-  // Cells that follow those which are known.
+  /** Add the cells that follow the known ones. @param {ChartAnswer} head @param {ArrayBuffer} block */
   function take({ cells, first, done, of, left, level, error, version, x, y }, block) {
     if (chart.values === null) {
-      // As they were clamped.
-      for (const [side, [, low, high, count]] of [[chart.x, x], [chart.y, y]]) Object.assign(side, { low, high, count })
+      // The server may have clamped the sides.
+      for (const [side, [, low, high, count]] of /** @type {[ChartAxis, ChartSide][]} */ ([[chart.x, x], [chart.y, y]])) {
+        Object.assign(side, { low, high, count })
+      }
       Object.assign(chart, { level, values: new Float64Array(of).fill(NaN), status: new Uint8Array(of) })
     }
     Object.assign(chart, { share: done / of, left, error, version })
@@ -39,6 +46,7 @@ export function chartJob(changed, explained) {
     chart.known += cells
   }
 
+  /** @param {string} said */
   function end(said) {
     const ended = chart
     clearTimeout(timer)
@@ -63,6 +71,7 @@ export function chartJob(changed, explained) {
 
   return {
     get running() { return chart },
+    /** @param {Chart} next */
     start(next) {
       if (chart !== null) end("Stopped.")
       number += 1
@@ -71,6 +80,7 @@ export function chartJob(changed, explained) {
       tell("charting", 0)
     },
     stop() { if (chart !== null) ask({ stop: true }) },
+    /** @param {Chart} which @param {number[]} place */
     why: (which, place) => ask({ why: asked(which), at: place }),
   }
 }

@@ -1,4 +1,5 @@
-// One side of a chart in its form: the parameter, from where to where, and how many cells.
+// @ts-check
+// One side of a chart in its form: parameter, range, and number of cells.
 
 import { element } from "../page/elements.js"
 import { optionsOf } from "./dialog.js"
@@ -8,9 +9,9 @@ const MOST_SIDE = 256
 const DIGITS = 6
 
 /**
- * Return {frame, name, offer(controls), choose(name, low, high), value()}.
- * @param {string} label "x" or "y"
- * @param {(name: string) => [number, number]} ends returns the ends of a parameter
+ * Return the form of a side.
+ * @param {"x" | "y"} label
+ * @param {(name: string) => [number, number]} ends returns the range of a parameter
  * @param {() => void} chosen is called when the user has chosen another parameter
  */
 export function sideForm(label, ends, chosen) {
@@ -21,23 +22,28 @@ export function sideForm(label, ends, chosen) {
       chosen()
     },
   })
+  /** @param {string} what @param {object} properties */
   const box = (what, properties) => element(`input.param-${label}-${what}`, {
     type: "number", ariaLabel: `${label} ${what}`, ...properties,
   })
   const [low, high] = ["from", "to"].map((what) => box(what, { step: "any" }))
   const count = box("cells", { min: 2, max: MOST_SIDE, step: 1, value: CELLS })
+  /** @param {number} from @param {number} to */
   const put = (from, to) => {
-    ;[low.value, high.value] = [from, to].map((end) => Number(end.toPrecision(DIGITS)))
+    ;[low.value, high.value] = [from, to].map((end) => String(Number(end.toPrecision(DIGITS))))
   }
   return {
     frame: element("div.side", name, element("label", "from ", low), element("label", "to ", high),
       element("label", "cells ", count)),
+    /** @param {{name: string, symbol?: string}[]} controls */
     offer(controls) { name.replaceChildren(...optionsOf(controls.map((one) => [one.name, one.symbol]))) },
     get name() { return name.value },
+    /** @param {string} wanted @param {number} from @param {number} to */
     choose(wanted, from, to) {
       name.value = wanted
       put(from, to)
     },
+    /** @returns {ChartAxis} */
     value: () => ({
       name: name.value, symbol: name.selectedOptions[0]?.textContent ?? "", low: low.valueAsNumber, high: high.valueAsNumber,
       count: count.valueAsNumber,

@@ -1,16 +1,18 @@
-// What the pinned state and the one on show differ in, in a table under the controls.
+// @ts-check
+// The table of differences between the pinned state and the state on show.
 
 import { button, element } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
 import { besideDialog } from "./beside.js"
 
-/** Return the section, hidden while no state is pinned. */
+/** Return the table's section, which is hidden while no state is pinned. */
 export function comparison() {
-  let queries = []
+  /** @type {[string, string]} */
+  let queries = ["", ""]
   let shown = ""
   const beside = besideDialog()
   const said = element("p.text", { role: "status" })
-  const flip = button("button.param-flip", () => tell("flip"), { title: "The pinned state, and back (C)" }, "A | B")
+  const flip = button("button.param-flip", () => tell("flip"), { title: "Switch between the two states (C)" }, "A | B")
   const apart = button("button.param-beside", () => beside.open(queries), { title: "Both, linked in time and rotation" },
     "Side by side")
   const unpin = button("button.param-unpin", () => tell("pin"), "Unpin")
@@ -21,7 +23,7 @@ export function comparison() {
     said, element("div.comparing", flip, apart, unpin), table, beside.dialog)
   listen({
     compared(compared) {
-      // It comes with every state.
+      // This event comes with every state.
       const text = JSON.stringify(compared)
       if (text === shown) return
       shown = text
@@ -29,8 +31,8 @@ export function comparison() {
       if (compared === null) return
       const { title, isPinnedShown, rows } = compared
       queries = compared.queries
-      said.textContent = title !== null ? `A: ${title}` : isPinnedShown ? "A, pinned, is on show" : "B is on show, A is pinned"
-      flip.ariaPressed = isPinnedShown
+      said.textContent = title !== null ? `A: ${title}` : isPinnedShown ? "A (pinned) is on show" : "B is on show, A is pinned"
+      flip.ariaPressed = String(isPinnedShown)
       table.hidden = rows.length === 0
       body.replaceChildren(...rows.map(([name, one, two]) => (
         element("tr", element("th", { scope: "row" }, name), element("td", one), element("td", two)))))

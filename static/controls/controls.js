@@ -1,7 +1,6 @@
-// The controls of the scene on show: a slider and a box for each number, a menu for each choice, one of examples.  Those
-// that are essential come first, the others are folded in groups; on a phone one of them is at hand, chosen by its symbol.
-// What the server says of all values comes by "controls": {name: [value, low, high, step,
-// whether it is disabled] or option}.
+// @ts-check
+// The controls of the scene on show: a slider and a box for each number, a menu for each choice, and a menu of examples.
+// Essential controls come first, the others in groups that unfold.  A phone shows one control at a time, chosen by its symbol.
 
 import { button, element } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
@@ -11,20 +10,25 @@ import { comparison } from "./comparison.js"
 import { optionsOf } from "./dialog.js"
 import { number } from "./number.js"
 
+/** @typedef {(value: any) => void} Show shows the value of a control */
+
+/** @param {string[]} names @returns {[string, string][]} */
 const twice = (names) => names.map((name) => [name, name])
 
 /**
- * Return [element, show(value)].
+ * Return a menu and the function that shows an option.
  * @param {string} name
  * @param {string} label
  * @param {[string, string][]} options value and text of each
  * @param {string} help
  * @param {(value: string) => void} choose
+ * @returns {[HTMLElement, Show]}
  */
 function menu(name, label, options, help, choose) {
   const select = element("select", { title: help, ariaLabel: label, onchange: () => choose(select.value) }, ...optionsOf(options))
   const frame = element(`label.menu.param-${name}`, element("span", label), select)
-  // The name of what is chosen may be longer than its place.
+  // The text of an option may be longer than the menu.
+  /** @param {string} option */
   const show = (option) => {
     select.value = option
     select.title = option === "" ? help : `${select.selectedOptions[0]?.textContent ?? option}. ${help}`
@@ -32,7 +36,11 @@ function menu(name, label, options, help, choose) {
   return [frame, show]
 }
 
-// [element, show(option)].
+/**
+ * Return the control of a choice and the function that shows its option.
+ * @param {ControlDescription} description
+ * @returns {[HTMLElement, Show]}
+ */
 function choice({ name, label, options, help }) {
   const [frame, show] = menu(name, label, twice(options), help, (option) => tell("change", { [name]: option }))
   return [element("div", frame, element("p.text.help", help)), show]
@@ -40,23 +48,30 @@ function choice({ name, label, options, help }) {
 
 const EXAMPLES = "preset"
 
+/** Render the controls. @param {{el: HTMLElement}} part */
 export function render({ el }) {
   const column = element("div.board")
   const chooser = element("div.chooser", { role: "group", ariaLabel: "Control at hand" })
   el.append(chooser, column, comparison())
+  /** @type {Record<string, Show>} */
   let shows = {}
+  /** @type {Record<string, (sentence: string) => void>} */
   let refusals = {}
-  // Groups that the user has unfolded, in every scene; the control at hand on a phone.
+  // Groups that the user has unfolded, in any scene.
   const unfolded = new Set()
+  /** @type {Map<string, HTMLElement>} */
   let items = new Map()
+  // The control that a phone shows.
   let atHand = EXAMPLES
 
+  /** @param {string} name */
   function take(name) {
     atHand = items.has(name) ? name : items.keys().next().value
     for (const [other, item] of items) item.classList.toggle("at-hand", other === atHand)
-    for (const chip of chooser.children) chip.ariaPressed = chip.dataset.name === atHand
+    for (const chip of /** @type {Iterable<HTMLElement>} */ (chooser.children)) chip.ariaPressed = String(chip.dataset.name === atHand)
   }
 
+  /** @param {string} name @param {HTMLElement[]} members */
   function groupOf(name, members) {
     const group = element(`details.group.group-${name.toLowerCase()}`,
       element("summary", name), element("div.column", ...members))
@@ -69,13 +84,15 @@ export function render({ el }) {
     return group
   }
 
+  /** @param {SceneDescription} scene */
   function build(scene) {
+    /** @param {string} name */
     const isEssential = (name) => scene.essential.includes(name)
     const [examples, showExample] = menu(EXAMPLES, "Example", [["", "Choose an example…"], ...twice(scene.presets)],
-      "States to begin with", (name) => { if (name !== "") tell("preset", name) })
+      "Examples to start from", (name) => { if (name !== "") tell("preset", name) })
     shows = { [EXAMPLES]: showExample }
     refusals = {}
-    items = new Map([[EXAMPLES, examples]])
+    items = new Map([[EXAMPLES, /** @type {HTMLElement} */ (examples)]])
     const signs = new Map([[EXAMPLES, "Example"]])
     for (const control of scene.controls) {
       const [item, show, refuse] = control.kind === "number" ? number(control) : choice(control)
@@ -85,7 +102,8 @@ export function render({ el }) {
       signs.set(control.name, control.symbol ?? control.label)
     }
     const further = scene.controls.filter(({ name }) => !isEssential(name))
-    const groups = scene.groups.map((group) => [group, further.filter((control) => control.group === group)])
+    const groups = scene.groups
+      .map((group) => /** @type {[string, ControlDescription[]]} */ ([group, further.filter((control) => control.group === group)]))
       .filter(([, members]) => members.length > 0)
     column.replaceChildren(
       element("div.column", examples, ...scene.essential.map((name) => items.get(name))),
@@ -96,26 +114,27 @@ export function render({ el }) {
     }, signs.get(name))))
     take(isEssential(atHand) ? atHand : order[0])
   }
+  /** @param {Record<string, ControlValue>} values */
   const show = (values) => {
     for (const [name, value] of Object.entries(values)) shows[name]?.(value)
   }
   PHONE.addEventListener("change", () => {
-    for (const group of column.querySelectorAll(".group")) {
+    for (const group of /** @type {NodeListOf<HTMLDetailsElement>} */ (column.querySelectorAll(".group"))) {
       group.open = PHONE.matches || unfolded.has(group.firstChild.textContent)
     }
   })
-  // Beside the thumb of the slider, where there is room.
-  sayDragMe(({ control }) => {
+  // The sign is beside the thumb of the slider, on the side with more room.
+  sayDragMe((/** @type {{control: string}} */ { control }) => {
     const item = items.get(control)
     if (!item?.checkVisibility()) return null
-    const { min, max, value } = item.querySelector(".hand")
-    const share = 100 * (value - min) / (max - min)
+    const { min, max, value } = /** @type {HTMLInputElement} */ (item.querySelector(".hand"))
+    const share = 100 * (Number(value) - Number(min)) / (Number(max) - Number(min))
     const place = share < 60 ? { left: `calc(${share}% + 1.4em)` } : { right: `calc(${100 - share}% + 1.4em)` }
     return { host: item, place: () => place }
   })
   listen({
     enter: build,
-    // "error-" and the name of a number: why its expression is refused.
+    // Key "error-" and the name of a number: the reason that its expression is refused.
     texts(texts) { for (const [key, text] of Object.entries(texts)) refusals[key]?.(text) },
     controls: show,
   })

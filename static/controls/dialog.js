@@ -1,30 +1,56 @@
-// Dialogs over the page, and what they have in common: fields to copy from, menus, files that are saved.
+// @ts-check
+// Dialogs over the page and their common parts: snippets to copy, menus, saving of files.
 
 import { button, element } from "../page/elements.js"
 
-/** Return a dialog with its title, tools and Close in its head; a click beside it closes it too. */
+/**
+ * Return a dialog with a title, tools and a Close button; a click outside closes it too.
+ * @param {string} title
+ * @param {string} classes
+ * @param {Node[]} tools
+ * @param {...Node} parts
+ * @returns {HTMLDialogElement}
+ */
 export function dialogOf(title, classes, tools, ...parts) {
-  const dialog = element(`dialog.${classes}`, {
-    ariaLabel: title, onclick: ({ target }) => { if (target === dialog) dialog.close() },
-    // Nothing of it is for the page beneath.
-    onkeydown: (event) => event.stopPropagation(),
+  const dialog = /** @type {HTMLDialogElement} */ (element(`dialog.${classes}`, {
+    ariaLabel: title, onclick: (/** @type {Event} */ { target }) => { if (target === dialog) dialog.close() },
+    // Keys in a dialog are not for the page below.
+    onkeydown: (/** @type {Event} */ event) => event.stopPropagation(),
   }, element("div.head", element("h2", title), ...tools,
-    button("button", () => dialog.close(), "Close")), ...parts)
+    button("button", () => dialog.close(), "Close")), ...parts))
   return dialog
 }
 
-/** Return a part of a dialog, with its heading. */
+/**
+ * Return a section of a dialog with a heading.
+ * @param {string} ariaLabel
+ * @param {string} heading
+ * @param {...(Node | string)} children
+ */
 export const section = (ariaLabel, heading, ...children) => (
   element("section", { ariaLabel }, element("h3", heading), ...children))
 
-/** Return a field of text that is copied. */
+/**
+ * Return a text field whose text is copied.
+ * @param {string} ariaLabel
+ * @param {number} rows
+ */
 export const snippet = (ariaLabel, rows) => (
-  element("textarea.snippet", { readOnly: true, rows, ariaLabel, onfocus: ({ target }) => target.select() }))
+  element("textarea.snippet", {
+    readOnly: true, rows, ariaLabel, onfocus: (/** @type {Event} */ { target }) => /** @type {HTMLTextAreaElement} */ (target).select(),
+  }))
 
-/** Return the options of a menu for [[value, text], …]. */
+/**
+ * Return the options of a menu.
+ * @param {(readonly [value: string, text: string, ...unused: unknown[]])[]} pairs
+ */
 export const optionsOf = (pairs) => pairs.map(([value, text]) => new Option(text, value))
 
-/** Save a file by the browser's own way. */
+/**
+ * Let the browser save a file.
+ * @param {Blob} content
+ * @param {string} name
+ */
 export function saveFile(content, name) {
   const href = URL.createObjectURL(content)
   element("a", { href, download: name }).click()

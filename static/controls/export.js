@@ -1,5 +1,6 @@
-// The dialog Export: the data, a figure or a film of one picture, or all of a state in one file, made by the server; the
-// command that makes it, and the lines of Python that compute the same.
+// @ts-check
+// The dialog Export: data, figure or film of a picture, or the whole state in one file, made by the server; the command that
+// makes the file, and the Python code that computes the same.
 
 import { button, element } from "../page/elements.js"
 import { tell } from "../page/bus.js"
@@ -9,19 +10,26 @@ import { nameOf, titleOf } from "../pictures/picture.js"
 import { dialogOf, optionsOf, saveFile, section, snippet } from "./dialog.js"
 import { filmOf } from "./film.js"
 
+/** @typedef {Record<string, string> & {picture: string, format: string}} Wanted */
+/** @typedef {{file?: Blob, why?: string}} Fetched a file, or the reason that there is none */
+
 /**
- * Return {dialog, open(), show(description of the scene on show)}.
- * @param {{formats: [string, string, string][], width: [number, number, number], seconds: [number, number, number]}} files kind, words and contents of each
- *   format; least, most and usual of the numbers
+ * Return the dialog and the functions that open it and set its scene.
+ * @param {ExportFiles} files
  */
 export function exportDialog(files) {
   const holds = Object.fromEntries(files.formats.map(([kind, , what]) => [kind, what]))
+  /** @param {string} kind */
   const isFilm = (kind) => holds[kind] === "film"
+  /** @param {string} kind */
   const isDrawn = (kind) => isFilm(kind) || holds[kind] === "figure"
+  /** @type {SceneDescription | null} */
   let scene = null
+  /** @type {AbortController | null} */
   let running = null
   const picture = element("select.param-picture", { onchange: writePython })
   const format = element("select.param-format", ...optionsOf(files.formats))
+  /** @param {string} name @param {number} step @param {[number, number, number]} limits */
   const number = (name, step, [min, max, value]) => (
     element(`input.param-${name}`, { type: "number", min, max, step, value }))
   const width = number("width", 5, files.width)
@@ -38,19 +46,20 @@ export function exportDialog(files) {
   const figure = element("div.figure",
     element("label", "Width, mm ", width), element("label", black, " Black on white"))
   const one = element("label", "Picture ", picture)
-  const film = element("div.figure", element("label", "Seconds for all of the motion ", seconds))
+  const film = element("div.figure", element("label", "Seconds for the whole motion ", seconds))
   const dialog = dialogOf("Export", "menu-of-scenes.share.export", [], element("div.parts",
-    section("File", "What a picture shows, as a file", one, element("label", "Format ", format), figure, film,
+    section("File", "A picture as a file", one, element("label", "Format ", format), figure, film,
       element("span", save, stop), frames, said),
-    section("Command", "The same at the command line", command),
+    section("Command", "The same on the command line", command),
     section("Python", "The same numbers in Python", python, element("span", copy, book))))
   dialog.addEventListener("close", () => running?.abort())
   dialog.addEventListener("input", write)
 
   const isAll = () => format.value === "html"
+  /** @param {Wanted} what */
   const fileName = ({ picture: name, format: kind }) => `${scene.name}${kind === "html" ? "" : `-${name}`}.${kind}`
 
-  // What is asked for besides the state: the width and the look are those of a figure.
+  /** Return the parameters besides the state; only figures and films have a width and a look. @returns {Wanted} */
   function wanted() {
     const drawn = isDrawn(format.value)
     return {
@@ -60,7 +69,7 @@ export function exportDialog(files) {
     }
   }
 
-  // The state as its link says it.
+  /** Return the query of the state. */
   const state = () => new URL(linkTo()).search.slice(1)
 
   function write() {
@@ -72,7 +81,7 @@ export function exportDialog(files) {
     command.value = `hess-explorer export --state '${state().replaceAll("'", "%27")}'${options} --out ${fileName(what)}`
   }
 
-  // The lines of Python, one picture after the other: the newest is the one that stays.
+  // Answers may come in any order: keep the one for the picture that is chosen.
   async function writePython() {
     const name = picture.value
     const { file, why } = await fetched({ picture: name, format: "py" })
@@ -84,12 +93,13 @@ export function exportDialog(files) {
     python.select()
     try {
       await navigator.clipboard.writeText(python.value)
-      said.textContent = "The lines of Python are copied."
+      said.textContent = "Python code copied."
     } catch {
-      said.textContent = "The browser does not allow it: copy the lines that are selected."
+      said.textContent = "The browser does not allow copying: copy the selected lines."
     }
   }
 
+  /** @param {Wanted} what @param {AbortSignal} [signal] @returns {Promise<Fetched>} */
   async function fetched(what, signal) {
     const query = new URLSearchParams({ ...what, ...(isFilm(what.format) && { progress: "1" }) })
     try {
@@ -97,26 +107,29 @@ export function exportDialog(files) {
       if (!answer.ok) return { why: await answer.text() }
       return isFilm(what.format) ? await filmOf(answer, count) : { file: await answer.blob() }
     } catch (error) {
-      return { why: error.name === "AbortError" ? "Stopped." : "The server does not answer: there is no file." }
+      return { why: /** @type {Error} */ (error).name === "AbortError" ? "Stopped." : "The server does not answer: no file was made." }
     }
   }
 
+  /** @param {number[]} frame */
   function count([done, of]) {
     Object.assign(frames, { hidden: false, max: of, value: done })
     said.textContent = `Frame ${done} of ${of}.`
   }
 
+  /** @param {boolean} is */
   function busy(is) {
     save.disabled = is
     stop.hidden = !is
     frames.hidden = true
   }
 
+  /** @param {Wanted} what */
   async function make(what) {
     const name = fileName(what)
     running = new AbortController()
     busy(true)
-    said.textContent = "Being made…"
+    said.textContent = "Working…"
     const { file, why } = await fetched(what, running.signal)
     busy(false)
     said.textContent = why ?? `${name}: ${Math.ceil(file.size / 1024)} kB.`
@@ -125,9 +138,10 @@ export function exportDialog(files) {
 
   return {
     dialog,
+    /** @param {SceneDescription} description */
     show(description) { scene = description },
     open() {
-      // Of what is on the screen, not of what the address bar has come to.
+      // The address bar may lag behind the screen.
       tell("address")
       const open = gallery.openCells()
       const before = picture.value

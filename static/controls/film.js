@@ -1,14 +1,19 @@
-// A film that comes while it is made: the answer of the server says in lines before the file how far it is.
+// @ts-check
+// A film that arrives while it is made: lines with its progress come before the file.
 
 /**
- * Return the film out of an answer, see "server/export.py": {file} or {why}.
+ * Return the film in an answer, see "server/export.py", or the reason that there is none.
  * @param {Response} answer
- * @param {(frames: number[]) => void} count is told [done, of]
+ * @param {(frames: number[]) => void} count gets [done, of]
+ * @returns {Promise<{file?: Blob, why?: string}>}
  */
 export async function filmOf(answer, count) {
   const reader = answer.body.getReader()
+  /** @type {Uint8Array<ArrayBuffer>[]} */
   const parts = []
-  let [begun, length, line] = [false, 0, []]
+  let [begun, length] = [false, 0]
+  /** @type {number[]} */
+  let line = []
   for (;;) {
     const { value, done } = await reader.read()
     if (done) break
@@ -26,5 +31,5 @@ export async function filmOf(answer, count) {
     if (begun) parts.push(value.subarray(from))
   }
   const file = new Blob(parts)
-  return begun && file.size === length ? { file } : { why: "The film broke off: there is no file." }
+  return begun && file.size === length ? { file } : { why: "The film is incomplete: no file was made." }
 }

@@ -1,14 +1,19 @@
-// The overflow menu at the end of the bar: the tools for which a phone has no room.
+// @ts-check
+// The overflow menu of the bar: on a phone it holds the tools that do not fit.
 
 import { button, element } from "../page/elements.js"
 import { PHONE } from "../page/windows.js"
 
-/** Return [button, menu], to be put at the end of the bar; `tools` are buttons that stand in the bar, each in its group. */
+/**
+ * Return the menu and its button, for the end of the bar.
+ * @param {HTMLElement[]} tools buttons in the bar
+ * @param {string} icon
+ */
 export function moreMenu(tools, icon) {
   const places = tools.map((tool) => ({ tool, mark: document.createComment("") }))
   const menu = element("div.more", {
     popover: "auto", role: "group", ariaLabel: "More tools", onclick: () => menu.hidePopover(),
-    ontoggle: ({ newState }) => { more.ariaExpanded = newState === "open" },
+    ontoggle: (/** @type {ToggleEvent} */ { newState }) => { more.ariaExpanded = String(newState === "open") },
   })
   const more = button("tool.param-more", null, {
     title: "More", ariaLabel: "More", innerHTML: icon, popoverTargetElement: menu, ariaExpanded: false,
@@ -23,7 +28,7 @@ export function moreMenu(tools, icon) {
     more.hidden = !PHONE.matches
   }
   PHONE.addEventListener("change", place)
-  // When they stand in the bar.
+  // After the tools are in the bar.
   queueMicrotask(place)
   return [more, menu]
 }

@@ -1,5 +1,6 @@
-// The control of a number: a slider, a box for exact values ("box.js"), a label that can be dragged, and a button
-// that moves the slider to and fro ("animation.js").
+// @ts-check
+// The control of a number: a slider, a box for exact values ("box.js"), a label that can be dragged, and a button that moves
+// the slider to and fro ("animation.js").
 
 import { tell } from "../page/bus.js"
 import { onDrag } from "../page/drag.js"
@@ -8,22 +9,27 @@ import { element } from "../page/elements.js"
 import { animation } from "./animation.js"
 import { exactBox } from "./box.js"
 
-const IDLE = "Disabled: under the choices made it changes nothing."
-// Of a slider without steps.
+const IDLE = "Disabled: it has no effect with the current choices."
+// Steps of a slider without a step size.
 const PARTS = 400
 
-// Pixels: so far a label is dragged from one end to the other, where steps are not longer.
+// Pixels of a drag of the label over the whole range, unless steps are longer.
 const FULL_DRAG = 400
 
-// 0.1 + 0.2 as it would be typed.
+// Rounds 0.1 + 0.2 to 0.3.
+/** @param {number} value */
 const tidy = (value) => Number(value.toPrecision(12))
 
-// Where less than this share of a slider is possible, the slider shows that part only.
+// Where less than this share of the scale is possible, the slider shows only the possible part.
 const LEAST_SHARE = 1 / 8
 
 /**
- * Return [low, high] of the slider's scale.  It is the parameter's own, whatever the others are: then the thumb of a slider
- * that nobody touches stays where it is, and what is possible is drawn on the track.
+ * Return [low, high] of the slider.  The scale is that of the parameter, so that the thumb stays in place when other parameters
+ * change; the track shows the possible part.
+ * @param {[number, number]} own
+ * @param {number} low
+ * @param {number} high
+ * @param {number} value
  */
 function scaleOf([own, end], low, high, value) {
   const [from, to] = high - low < LEAST_SHARE * (end - own) ? [low, high] : [Math.min(own, low), Math.max(end, high)]
@@ -31,26 +37,29 @@ function scaleOf([own, end], low, high, value) {
 }
 
 /**
- * What the parts of a number know of it: value() is what it shows, limits() → [low, high] what is possible, stepOf() the
- * step of an arrow; change(value) takes what was typed, nudge(value) what an arrow gives, move(value) a place within the
- * limits.
+ * A number as its parts see it: value() is the shown value, limits() the possible [low, high], stepOf() the step of an arrow
+ * key; change(value) takes a typed value, nudge(value) the result of an arrow key, move(value) a place within the limits.
  * @typedef {{name: string, symbol: string, help: string, value: () => number, limits: () => number[], stepOf: () => number,
  *   change: (value: number) => void, nudge: (value: number) => void, move: (value: number) => void}} Controlled
  */
 
 /**
- * Return [element, show([value, low, high, step, whether it is disabled]), refuse(sentence on the expression)].
- * @param {{name: string, label: string, symbol: string, help: string, range: [number, number]}} description
+ * Return the control, the function that shows a value, and the function that refuses an expression.
+ * @param {Extract<ControlDescription, {kind: "number"}>} description
+ * @returns {[HTMLElement, (value: [number, number, number, number, boolean?]) => void, (sentence: string) => void]}
  */
 export function number({ name, label, symbol, help, range }) {
+  /** @type {number | null} */
   let shown = null
   let [low, high] = range
   let track = ""
+  /** @param {number} value */
   const within = (value) => Math.min(Math.max(value, low), high)
-  // Slider and box follow, as after a drag.
+  // Slider and box follow, as in a drag.
+  /** @param {number} value */
   const take = (value) => {
     if (value === shown) return
-    slider.value = value
+    slider.value = String(value)
     exact.put(value)
     controlled.change(value)
   }
@@ -70,10 +79,11 @@ export function number({ name, label, symbol, help, range }) {
     type: "range", title: help, ariaLabel: label, ariaDescription: help,
     oninput() {
       const value = within(Number(slider.value))
-      if (value !== Number(slider.value)) slider.value = value
+      if (value !== Number(slider.value)) slider.value = String(value)
       exact.put(value)
       controlled.change(value)
     },
+    /** @param {KeyboardEvent} event */
     onkeydown(event) {
       const arrow = arrowOf(event)
       if (!event.shiftKey || arrow === undefined) return
@@ -93,6 +103,7 @@ export function number({ name, label, symbol, help, range }) {
   const moves = sway.title
   frame.append(title, pace, sway, exact.box, slider)
 
+  /** @param {boolean} idle */
   const rest = (idle) => {
     if (idle === slider.disabled) return
     const why = idle ? `${IDLE} ${help}` : ""
@@ -102,6 +113,7 @@ export function number({ name, label, symbol, help, range }) {
     title.title = slider.title = slider.ariaDescription = why || help
     sway.title = why || moves
   }
+  /** @type {(value: [number, number, number, number, boolean?]) => void} */
   const show = ([value, from, to, step, idle = false]) => {
     rest(idle)
     exact.show(shown, value, idle)

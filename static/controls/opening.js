@@ -1,6 +1,7 @@
-// Plays a scene gently when it is first shown, so that newcomers see what moves.  The first touch ends it.
+// @ts-check
+// Plays a scene slowly when it is first shown, so that newcomers see what moves; the first touch ends it.
 //
-// Not where the user prefers reduced motion, nor inside another page, nor in a lesson, which says itself what moves.
+// It does not play if the user prefers reduced motion, in an embedded page, or in a lesson.
 
 import { listen } from "../page/bus.js"
 import { isEmbedded } from "../page/embedding.js"
@@ -9,12 +10,12 @@ import { CALM } from "../page/windows.js"
 const TOUCHES = ["pointerdown", "keydown", "wheel"]
 
 /**
- * Return {enter(name): the scene is on show; rest(): the first one begins at rest}.
- * @param {{begin: () => void, end: () => void, isOwn: (event: any) => boolean}} player begin() sets it going, end() stops
- *   it; isOwn(event): it answers this touch itself
+ * Return enter(name), for a scene on show, and rest(), with which the first scene does not play.
+ * @param {{begin: () => void, end: () => void, isOwn: (event: Event) => boolean}} player begin() starts it, end() stops it,
+ *   isOwn(event) says whether it handles a touch itself
  */
 export function opening({ begin, end, isOwn }) {
-  // Scenes that have begun once.
+  // Scenes that were played.
   const begun = new Set()
   let isResting = false
   let isWaiting = false
@@ -34,6 +35,7 @@ export function opening({ begin, end, isOwn }) {
     }, { capture: true, passive: true })
   }
   return {
+    /** @param {string} name */
     enter(name) {
       end()
       isWaiting = !isResting && !begun.has(name) && !CALM.matches && !isEmbedded()

@@ -1,6 +1,6 @@
-// The player: play, pause, step, speed and the time slider.  It interpolates the moving point from the samples of the orbit
-// that the page already has, so nothing is requested while it plays.
-// Tells "time" {t, state} to whatever draws the point, and fills the sources of single points.
+// @ts-check
+// The player: play, pause, step, speed, and the time slider.  It interpolates the moving point from the samples of the orbit
+// on the page, so playing sends no requests.  It tells "time" and fills the sources of single points.
 
 import { button, element, icon, relabel } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
@@ -11,23 +11,25 @@ import { isFolded } from "../pictures/picture.js"
 import { opening } from "./opening.js"
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]
-// Seconds from the beginning of a motion to its end, at least, while nobody has touched anything.
+// Least duration of the first playing, in seconds.
 const GENTLE = 20
-// Where an arrow means something already.
+// Elements that use arrow keys themselves.
 const OWN_ARROWS = "input, button, a, summary, [role=slider]"
 const PLAY = "M8 5v14l11-7z"
 const PAUSE = "M6 5h4v14H6zm8 0h4v14h-4z"
 const BACK = "M6 6h2v12H6zm3.5 6 8.5 6V6z"
 const FORWARD = "M16 6h2v12h-2zM6 18l8.5-6L6 6z"
 
+/** @param {string} name @param {string} path @param {string} title @param {() => void} onclick */
 const transport = (name, path, title, onclick) => (
   button(`transport.param-${name}`, onclick, { innerHTML: icon(path, "1.6em"), title, ariaLabel: title }))
 
-// A button that shows a picture which is not seen at first, or folds it again.
+/** Return the button that unfolds a picture or folds it again. @param {PictureDescription} picture */
 const unfolding = ({ name, folded: label }) => button(`button.unfold.unfold-${name}`, () => tell("fold", name), {
   title: label, ariaLabel: label, ariaExpanded: !isFolded(gallery.cell(name)),
 }, `+ ${label.replace(/^Show (the )?/, "")}`)
 
+/** Render the player. @param {{el: HTMLElement}} part */
 export function render({ el }) {
   const slider = element("input.param-t", {
     type: "range", min: 0, step: "any", ariaLabel: "Time t", onchange: writeTime,
@@ -39,7 +41,7 @@ export function render({ el }) {
   const output = element("output")
   const speed = element("select.param-speed", {
     ariaLabel: "Speed", title: "Speed: units of t per second", onchange: () => announce({ speed: speed.value }),
-  }, ...SPEEDS.map((value) => new Option(`${value}×`, value)))
+  }, ...SPEEDS.map((value) => new Option(`${value}×`, String(value))))
   const back = transport("back", BACK, "Step back (←)", () => step(-1))
   const toggle = transport("play", PLAY, "Play (Space)", () => play(!playing))
   const forward = transport("forward", FORWARD, "Step forward (→)", () => step(1))
@@ -48,17 +50,23 @@ export function render({ el }) {
   const bar = element("div.player", { role: "group", ariaLabel: "Motion in time" }, ...items, folds)
   el.append(bar)
 
-  let scene = { dots: {}, angles: [], pictures: [] }
+  /** @type {Pick<SceneDescription, "dots" | "angles">} */
+  let scene = { dots: {}, angles: [] }
+  /** @type {Source | null} */
   let source = null
   let t = 0
   let playing = false
+  /** @type {number | null} */
   let last = null
-  // Of a lesson: from, to, in so many seconds.
+  // A run of a lesson.
+  /** @type {PageEvents["run"]} */
   let run = null
-  // Units of t per second while nobody has touched anything, see "opening.js"; else null.
+  // Units of t per second of the first playing, see "opening.js"; else null.
+  /** @type {number | null} */
   let gentle = null
 
   const end = () => source?.data.t?.at(-1) ?? 0
+  /** @param {ClientKeys} keys */
   const announce = (keys) => tell("url", keys)
   function writeTime() { announce({ t: t.toFixed(3) }) }
   function show() {
@@ -67,17 +75,19 @@ export function render({ el }) {
     for (const [name, [x, y]] of Object.entries(scene.dots)) {
       gallery.source(name).put(state ? { x: [state[x]], y: [state[y]] } : { x: [], y: [] })
     }
-    slider.value = t
+    slider.value = String(t)
     output.textContent = `t = ${t.toFixed(2)}`
     slider.ariaValueText = `${output.textContent} of ${end().toFixed(2)}`
     tell("time", { t, state })
   }
 
+  /** @param {number} to */
   function move(to) {
     t = Math.max(0, Math.min(end(), to))
     show()
   }
 
+  /** @param {number} now */
   function frame(now) {
     if (!playing) return
     if (last !== null) {
@@ -91,23 +101,25 @@ export function render({ el }) {
     requestAnimationFrame(frame)
   }
 
+  /** @param {boolean} on */
   function play(on) {
     playing = on
     if (!on) run = gentle = null
     last = null
     relabel(toggle, on ? PAUSE : PLAY, on ? "Pause (Space)" : "Play (Space)")
-    bar.dataset.playing = on
+    bar.dataset.playing = String(on)
     if (on) requestAnimationFrame(frame)
     else writeTime()
   }
 
+  /** @param {number} direction */
   function step(direction) {
     play(false)
     move(t + direction * end() / 200)
     writeTime()
   }
 
-  // Space plays whatever has the focus but a text box; arrows step where they mean nothing else.
+  // Space plays unless a text box has the focus; arrows step where they have no other meaning.
   document.addEventListener("keydown", (event) => {
     if (isTaken(event) || toggle.hidden) return
     const [across] = arrowOf(event) ?? [0]
@@ -118,7 +130,7 @@ export function render({ el }) {
     else step(across)
     event.preventDefault()
   })
-  // A button would be pressed when the key is let go.
+  // The browser presses a focused button when Space is released.
   document.addEventListener("keyup", (event) => {
     if (event.key === " " && !isTaken(event) && !toggle.hidden) event.preventDefault()
   })
@@ -129,12 +141,12 @@ export function render({ el }) {
       play(true)
     },
     end() { if (gentle !== null) play(false) },
-    isOwn: (event) => event.composedPath().includes(toggle) || (event.key === " " && !isTaken(event)),
+    isOwn: (event) => event.composedPath().includes(toggle) || (event instanceof KeyboardEvent && event.key === " " && !isTaken(event)),
   })
 
   const onData = () => {
-    slider.max = end()
-    // Where there is nothing to see the time waits.
+    slider.max = String(end())
+    // The time is kept while there is no motion.
     if (end() > 0 && t > end()) t = end()
     show()
   }
@@ -150,20 +162,20 @@ export function render({ el }) {
       if (playing) play(false)
       move(Number(time))
     },
-    // The player of the next scene goes on from here.
+    // The next scene starts from this time.
     scene() { if (playing) play(false) },
-    folded({ name, folded }) { folds.querySelector(`.unfold-${name}`).ariaExpanded = !folded },
+    folded({ name, folded }) { folds.querySelector(`.unfold-${name}`).ariaExpanded = String(!folded) },
     client(own) {
       t = Number(own.t)
-      // A link that names a time is one to that moment.
+      // A link with a time shows that moment.
       if (t !== 0) start.rest()
-      speed.value = SPEEDS.includes(Number(own.speed)) ? Number(own.speed) : 1
+      speed.value = String(SPEEDS.includes(Number(own.speed)) ? Number(own.speed) : 1)
     },
     enter(entered) {
       start.enter(entered.name)
       scene = entered
       source = gallery.source("data-orbit") ?? null
-      // A scene without a motion needs no time.
+      // A scene without a motion has no player.
       for (const item of items) item.hidden = source === null
       folds.replaceChildren(...entered.pictures.filter(({ folded }) => folded !== null).map(unfolding))
       source?.watch(onData)

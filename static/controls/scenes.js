@@ -1,5 +1,6 @@
-// The menu of scenes: a dialog over the page, by their pictures, in groups, with a search.  Tells "scene" of a choice,
-// and "near" of what the mouse or the keyboard rests on: its pictures are built before they are asked for.
+// @ts-check
+// The menu of scenes: a dialog with their pictures in groups, and a search.  It tells "scene" for a choice and "near" for the
+// scene under the mouse or focus, so that its pictures are built in advance.
 
 import { button, element } from "../page/elements.js"
 import { tell } from "../page/bus.js"
@@ -7,11 +8,13 @@ import { dialogOf, section } from "./dialog.js"
 
 const REST = 60
 
+/** @param {SceneTile} scene @param {boolean} isHere @param {boolean} isFirst @param {(name: string) => void} choose */
 function tileOf({ name, title, summary, picture }, isHere, isFirst, choose) {
   const words = element("span.about", ...isFirst ? [element("span.start", "start here")] : [],
     element("span.name", title), element("span.summary", summary))
+  /** @type {ReturnType<typeof setTimeout>} */
   let resting = null
-  const rest = () => { resting = setTimeout(tell, REST, "near", name) }
+  const rest = () => { resting = setTimeout(() => tell("near", name), REST) }
   const leave = () => clearTimeout(resting)
   return button(`scene.param-scene-${name}`, () => choose(name), {
     ariaPressed: isHere, dataset: { scene: name }, innerHTML: `<svg viewBox="0 0 48 32" aria-hidden="true">${picture}</svg>`,
@@ -19,7 +22,12 @@ function tileOf({ name, title, summary, picture }, isHere, isFirst, choose) {
   }, words)
 }
 
-// The tile next to this one in the direction of an arrow key.
+/**
+ * Return the tile next to another one in the direction of an arrow key.
+ * @param {HTMLElement[]} tiles
+ * @param {HTMLElement} tile
+ * @param {string} key
+ */
 function neighbour(tiles, tile, key) {
   const i = tiles.indexOf(tile)
   if (key === "ArrowRight") return tiles[i + 1]
@@ -34,16 +42,17 @@ function neighbour(tiles, tile, key) {
 }
 
 /**
- * Return {dialog, open(), show(name of the scene on show)}.
- * @param {{name: string, title: string, summary: string, picture: string, origin: string | null, group: string}[]} scenes
+ * Return the dialog and the functions that open it and set the scene on show.
+ * @param {SceneTile[]} scenes
  */
 export function sceneMenu(scenes) {
   const search = element("input.search", { type: "search", ariaLabel: "Search scenes", placeholder: "Search", oninput: filter })
   const list = element("div.scenes")
-  const none = element("p.none", { hidden: true, role: "status" }, "No scene has these words.")
+  const none = element("p.none", { hidden: true, role: "status" }, "No scene matches.")
   const dialog = dialogOf("Scenes", "menu-of-scenes", [search], list, none)
 
-  const tiles = () => [...list.querySelectorAll(".scene")].filter((tile) => tile.checkVisibility())
+  const tiles = () => /** @type {HTMLElement[]} */ ([...list.querySelectorAll(".scene")]).filter((tile) => tile.checkVisibility())
+  /** @param {string} name */
   const choose = (name) => {
     tell("scene", name)
     dialog.close()
@@ -51,8 +60,8 @@ export function sceneMenu(scenes) {
 
   function filter() {
     const words = search.value.toLowerCase().split(/\s+/).filter(Boolean)
-    for (const group of list.children) {
-      for (const tile of group.querySelectorAll(".scene")) {
+    for (const group of /** @type {Iterable<HTMLElement>} */ (list.children)) {
+      for (const tile of /** @type {NodeListOf<HTMLElement>} */ (group.querySelectorAll(".scene"))) {
         const text = `${group.ariaLabel} ${tile.textContent}`.toLowerCase()
         tile.hidden = !words.every((word) => text.includes(word))
       }
@@ -62,7 +71,8 @@ export function sceneMenu(scenes) {
   }
 
   dialog.addEventListener("keydown", (event) => {
-    const tile = event.target.closest(".scene")
+    /** @type {HTMLElement | null} */
+    const tile = /** @type {Element} */ (event.target).closest(".scene")
     if (event.target === search) {
       if (!["Enter", "ArrowDown"].includes(event.key)) return
       const [first] = tiles()
@@ -82,11 +92,14 @@ export function sceneMenu(scenes) {
       search.value = ""
       filter()
       dialog.showModal()
-      list.querySelector('[aria-pressed="true"]')?.focus()
+      /** @type {HTMLElement | null} */
+      const here = list.querySelector('[aria-pressed="true"]')
+      here?.focus()
     },
+    /** @param {string} name */
     show(name) {
       const base = scenes.find((scene) => scene.name === name)?.origin ?? name
-      // Of what looks into another scene only that of the scene on show is offered.
+      // Scenes that look into another scene are offered only with that scene.
       const offered = scenes.filter((scene) => scene.origin === null || scene.origin === base)
       list.replaceChildren(...[...new Set(offered.map(({ group }) => group))].map((group) => section(group, group,
         element("div.tiles", ...offered.filter((scene) => scene.group === group)

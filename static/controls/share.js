@@ -1,4 +1,5 @@
-// The dialog Share: the link of all that is on the screen, its QR code, and what embeds parts of the page in another one.
+// @ts-check
+// The dialog Share: the link, its QR code, and HTML that embeds parts of the page in another page.
 
 import { button, element } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
@@ -11,13 +12,22 @@ import { dialogOf, section, snippet } from "./dialog.js"
 const SAID_FOR = 2000
 const HEIGHT = 600
 
+/** @param {string} text */
 const escaped = (text) => text.replaceAll("&", "&amp;").replaceAll('"', "&quot;").replaceAll("<", "&lt;")
 
-// [A button that says when what it copies is copied, as do screen readers; say(text)].
+/**
+ * Return a button that confirms what it has copied, also to screen readers, and the function that shows the confirmation.
+ * @param {string} name
+ * @param {string} label
+ * @param {() => void} copy
+ * @returns {[HTMLElement, (text: string) => void]}
+ */
 function copyButton(name, label, copy) {
   const said = element("span.unseen", { role: "status" })
   const item = button(`button.param-${name}`, copy, label)
+  /** @type {ReturnType<typeof setTimeout>} */
   let timer = null
+  /** @param {string} text */
   const say = (text) => {
     clearTimeout(timer)
     item.textContent = said.textContent = text
@@ -29,21 +39,23 @@ function copyButton(name, label, copy) {
   return [element("span", item, said), say]
 }
 
-// A group of check boxes: {frame, put([name, words, whether it is chosen] …), chosen()}.
+/** Return a group of check boxes. @param {string} name @param {string} label @param {() => void} onchange */
 function choices(name, label, onchange) {
   const list = element("div.choices", { onchange })
   return {
     frame: element(`fieldset.embed-${name}`, element("legend", label), list),
+    /** @param {[value: string, words: string, isChecked: boolean][]} items */
     put(items) {
       list.replaceChildren(...items.map(([value, words, checked]) => element("label",
         element("input", { type: "checkbox", value, checked }), words)))
     },
-    chosen: () => [...list.querySelectorAll("input:checked")].map((box) => box.value),
+    chosen: () => /** @type {HTMLInputElement[]} */ ([...list.querySelectorAll("input:checked")]).map((box) => box.value),
   }
 }
 
-/** Return {dialog, open(), show(description of the scene on show)}. */
+/** Return the dialog and the functions that open it and set its scene. */
 export function shareDialog() {
+  /** @type {SceneDescription | null} */
   let scene = null
   const link = element("input.address", {
     type: "text", readOnly: true, ariaLabel: "Link", onfocus: () => link.select(),
@@ -62,14 +74,15 @@ export function shareDialog() {
   const [copyHtml, sayHtml] = copyButton("snippet", "Copy HTML", () => tell("copy", html.value))
   listen({ copied: ({ text, said }) => (text === null ? sayLink : sayHtml)(said) })
   const dialog = dialogOf("Share", "menu-of-scenes.share", [], element("div.parts",
-    section("Link", "All that is on the screen", link, copyLink, code, why),
-    section("Embed", "Parts of it in a page of yours", pictures.frame, controls.frame, html, copyHtml)))
+    section("Link", "The page as it is on the screen", link, copyLink, code, why),
+    section("Embed", "Parts of the page in your own page", pictures.frame, controls.frame, html, copyHtml)))
 
   return {
     dialog,
+    /** @param {SceneDescription} description */
     show(description) { scene = description },
     async open() {
-      // Of what is on the screen, not of what the address bar has come to.
+      // The address bar may lag behind the screen.
       tell("address")
       link.value = linkTo()
       pictures.put(gallery.shown.cells.map((cell, i) => [

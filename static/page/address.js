@@ -1,10 +1,16 @@
-// The address bar: the query of the state on show, what the browser itself keeps (t, speed, az, el, large, present), and the theme.
+// @ts-check
+// The address bar: the query of the state on show, the browser's own keys (t, speed, az, el, large, present), and the theme.
 
 const PAUSE = 400
 
-// query() and isDark() give the state's part and the theme; own: {key: text} of the browser.
+/**
+ * Return the functions that write the address.
+ * @param {{query: () => string, isDark: () => boolean, own: ClientKeys}} page query() returns the query of the state on show
+ */
 export function createAddress({ query, isDark, own }) {
+  /** @type {ReturnType<typeof setTimeout> | null} */
   let timer = null
+  /** @param {string} state */
   const addressOf = (state) => {
     const extra = Object.entries(own).filter(([, value]) => value !== "").map(([key, value]) => `&${key}=${encodeURIComponent(value)}`).join("")
     return `?${state}${extra}${isDark() ? "&theme=dark" : ""}`
@@ -17,12 +23,15 @@ export function createAddress({ query, isDark, own }) {
   }
   return {
     writeNow,
-    // An entry of its own for the state on show: Back leads to the state before.
+    /**
+     * Add a history entry for the state on show; Back leads to the state before.
+     * @param {string} before the query of that state
+     */
     push(before) {
       history.replaceState(null, "", addressOf(before))
       history.pushState(null, "", addressOf(query()))
     },
-    // Browsers limit how often the address may change.
+    // Browsers limit how often the address can change.
     write: () => { timer ??= setTimeout(writeNow, PAUSE) },
   }
 }

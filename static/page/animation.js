@@ -1,12 +1,18 @@
-// What a step of a lesson animates: a number of the scene, or the time of the player.
+// @ts-check
+// The animation of a lesson step: it moves a parameter of the scene, or the time of the player.
 
 import { tell } from "./bus.js"
 
 const TIME = "time"
+/** @param {number} value */
 const shown = (value) => String(Number(value.toPrecision(4))).replace("-", "−")
 
-// {name, start, end, seconds}.  Any touch of the page ends it where it is.
+/**
+ * Return an animation with its label; a touch of the page stops it.
+ * @param {AnimationDescription} description
+ */
 export function createAnimation({ name, start: from, end: to, seconds }) {
+  /** @type {number | null} */
   let running = null
 
   function stop() {
@@ -22,9 +28,10 @@ export function createAnimation({ name, start: from, end: to, seconds }) {
     document.addEventListener("pointerdown", stop, true)
     if (name === TIME) tell("run", { from, to, seconds })
     const begun = performance.now()
+    /** @param {number} now */
     const step = (now) => {
       const share = Math.min(1, (now - begun) / (1000 * seconds))
-      // The newest value wins, so that it runs as fast as states are painted.
+      // The newest value wins: the animation runs as fast as states are painted.
       if (name !== TIME) tell("change", { [name]: share === 1 ? to : from + share * (to - from) })
       if (share < 1) running = requestAnimationFrame(step)
       else stop()

@@ -1,7 +1,8 @@
-// Asks for states, fills the pictures with them, and tells when they are painted.
+// @ts-check
+// The client of the server: it requests states, fills the pictures with them, and tells when they are painted.
 //
-// <html data-ready> is "false" from a change by the user until the answer to it is on the screen; data-state counts the
-// painted states, and data-scene names the scene on show.
+// <html data-ready> is "false" from a change by the user until its state is on the screen; data-state counts the painted
+// states, and data-scene names the scene on show.
 
 import { gallery } from "../pictures/gallery.js"
 import { createAddress } from "./address.js"
@@ -19,22 +20,29 @@ import { createVisibility } from "./visibility.js"
 import { answering, openWebsocket } from "./websocket.js"
 import { handleCommands } from "./commands.js"
 
-// The next pieces are asked for after a pause as long as the last ones took: half of the time is the user's, and a
-// server that is slow is asked less often.
+// The next part of a state is requested after a pause as long as the last part took: half of the time is left to the user,
+// and a slow server is asked less often.
 const PAUSE_BETWEEN_PIECES = 80
-const LOST = "The connection to the server is lost. As soon as it answers, this page goes on in the same state."
+const LOST = "Connection to the server lost. This page continues in the same state as soon as the server answers."
 
-// model.client: what the browser itself keeps of the address: t, speed, az, el, large, present; embed, pictures, controls;
-// lesson, step.
+/**
+ * Start the client.
+ * @param {PageModel} model
+ * @param {PanelView} view
+ */
 export function startClient(model, view) {
   const root = document.documentElement
   const own = model.client
-  // Scene → its description.
+  /** @type {Map<string, SceneDescription>} */
   const descriptions = new Map()
+  /** @type {Scene | null} */
   let scene = null
+  /** @type {StateAnswer | null} */
   let state = null
+  /** @type {ReturnType<typeof setTimeout>} */
   let more = null
-  // What has been said of the scene on show.
+  // Everything the server has sent about the scene on show.
+  /** @type {{scene: SceneDescription | null, texts: Texts, controls: Record<string, ControlValue>}} */
   let latest = { scene: null, texts: {}, controls: {} }
   root.dataset.ready = "false"
   root.dataset.state = "0"
@@ -42,6 +50,7 @@ export function startClient(model, view) {
   const isPart = own.embed === "1"
   if (isPart) embed()
 
+  /** @type {ReturnType<typeof openWebsocket>} */
   let send = null
   const page = createPage(view)
   const address = createAddress({ query: () => state.query, isDark: page.isDark, own })
@@ -68,31 +77,35 @@ export function startClient(model, view) {
   listen({
     url(keys) {
       Object.assign(own, keys)
-      // The first state brings the others.
+      // The first state writes the address of earlier changes too.
       if (state !== null) address.write()
     },
     "ask-client": (hear) => hear(own),
     "ask-chart": (chart) => send({ chart }),
   })
 
-  // The plots that a state gives other axes or other data; all of them at first.
+  /**
+   * Return the plots whose axes or data change; all plots for the first state of a scene.
+   * @param {Tree} tree
+   */
   const touchedPlots = ({ ranges, sources }) => {
     if (!scene.painted) return scene.plots
     const filled = Object.keys(sources).map((name) => scene.sources.get(name)?.plots ?? new Set())
     return scene.plots.filter((plot) => plot.model.name in ranges || filled.some((some) => some.has(plot)))
   }
 
-  // Put a state into the pictures, texts and controls.
+  /** Fill pictures, texts and controls with a state. @param {StateAnswer} answer @param {ArrayBuffer} block */
   const fillAll = ({ tree, answers }, block) => {
     fill(scene, tree, block)
     Object.assign(latest.texts, tree.texts)
     Object.assign(latest.controls, tree.controls)
     tell("texts", tree.texts)
-    // A control that has been moved on since is not moved back.
+    // Controls that were moved since the request keep their values.
     tell("controls", Object.fromEntries(
       Object.entries(tree.controls).filter(([name]) => !requests.hasMoved(name, answers))))
   }
 
+  /** @param {string} name */
   const enter = (name) => {
     scene = gallery.enter(name)
     latest = { scene: descriptions.get(name), texts: {}, controls: {} }
@@ -103,12 +116,13 @@ export function startClient(model, view) {
     tell("enter", latest.scene)
   }
 
+  /** @param {StateAnswer} next @param {ArrayBuffer} block */
   const show = async (next, block) => {
     state = next
     if (scene?.name !== state.scene) enter(state.scene)
     await paint(touchedPlots(state.tree), () => fillAll(state, block))
     address.write()
-    root.dataset.state = state.number
+    root.dataset.state = String(state.number)
     requests.settled()
     history.settle()
     compare.painted()
@@ -118,19 +132,25 @@ export function startClient(model, view) {
     if (requests.isBehind(state.answers)) requests.ask()
     else {
       tell("painted")
-      // What hears that may have asked for another state.
+      // A listener may have requested another state.
       if (requests.isBehind(state.answers)) return
       if (state.progress === null) root.dataset.ready = "true"
       else more = setTimeout(requests.ask, Math.max(PAUSE_BETWEEN_PIECES, requests.took))
     }
   }
 
+  /** @param {SceneDescription} description */
   const build = async (description) => {
     if (!gallery.has(description.name)) await gallery.build(description)
   }
-  // States come one by one; the pictures of a scene that may be chosen next are built behind those on show.
+  // States are shown one after the other; the pictures of a scene that may come next are built after the state on show.
   let arriving = Promise.resolve()
-  // The newest description comes with a state of its scene, or of one that may be chosen before it.
+  /**
+   * Queue a state.  The description belongs to its scene, or to a scene that may be chosen next.
+   * @param {StateAnswer} next
+   * @param {SceneDescription | null} described
+   * @param {ArrayBuffer} block
+   */
   const onState = (next, described, block) => {
     const description = described !== null && isPart ? embedded(described, own) : described
     if (description !== null) descriptions.set(description.name, description)
@@ -139,24 +159,26 @@ export function startClient(model, view) {
       await show(next, block)
       if (description !== null) await build(description)
     }).catch((error) => {
-      // One state that cannot be shown must not keep the next ones away.
+      // A state that fails must not block the next ones.
       requests.settled()
       console.error(error)
     })
   }
 
+  /** @type {Parameters<typeof openWebsocket>[0]} */
   const onAnswer = ({ state: next = null, scene: described = null, lesson = null, chart = null }, block, cells) => {
     if (lesson !== null) tell("lesson-read", { lesson, step: null })
     if (next !== null) onState(next, described, block)
     if (chart !== null) tell("charted", { head: chart, cells })
   }
 
+  /** @param {string} why */
   const onLost = async (why) => {
     if (requests.lost) return
     requests.lose()
     tell("texts", { busy: why || LOST })
     await answering()
-    // Its own link is all that it needs; a page that has never shown anything would only come here again.
+    // The link restores the state.  A page that has never shown a state would only fail again.
     if (state === null) return
     address.writeNow()
     location.reload()
@@ -171,7 +193,7 @@ export function startClient(model, view) {
       address.write()
     })
     tell("client", own)
-    // The first state is read when the page stands, even if the user was faster and it is no longer the first.
+    // The lesson of a link begins when the page is ready.
     if (model.lesson !== "") tell("lesson-read", { lesson: JSON.parse(model.lesson), step: Number(own.step) - 1 })
     send = openWebsocket(onAnswer, onLost)
     requests.begin()

@@ -1,9 +1,14 @@
-// Commands to the page itself rather than to the state: its link, its theme, the full screen, present mode.
+// @ts-check
+// Commands that concern the page and not the state: link, theme, full screen, present mode.
 
 import { listen, tell } from "./bus.js"
 import { isPresenting, present } from "./presenting.js"
 
-// Only a page by https, or of this machine, may write to the clipboard: `instead` is said where it may not.
+/**
+ * Copy a text and return the message for the user.
+ * @param {string} text
+ * @param {string} instead the message if the browser does not allow it: only HTTPS pages and localhost may copy
+ */
 async function copy(text, instead) {
   try {
     await navigator.clipboard.writeText(text)
@@ -13,10 +18,14 @@ async function copy(text, instead) {
   }
 }
 
+/**
+ * Carry out the commands that the page tells.
+ * @param {{address: ReturnType<typeof import("./address.js").createAddress>, page: ReturnType<typeof import("./panel_page.js").createPage>}} parts
+ */
 export function handleCommands({ address, page }) {
   listen({
     async link() {
-      // The link of what is on the screen, not of what the address bar has come to.
+      // The address bar may lag behind the screen.
       address.writeNow()
       tell("copied", { text: null, said: await copy(location.href, "It is in the address bar") })
     },

@@ -1,18 +1,32 @@
-// Two states in the same pictures: the one before, while something is dragged; the one that is pinned, and how it differs.
-
+// @ts-check
+// Comparison of two states in the same pictures: the state before a drag, and a pinned state with a table of differences.
 import { gallery } from "../pictures/gallery.js"
 import { listen, tell } from "./bus.js"
 import { onKeys } from "./keys.js"
 
-const SAID_OF_THE_PAGE = new Set(["v", "scene"])
+/** @typedef {{query: string, scene: SceneDescription, derived: string}} Shown a state on show */
+/** @typedef {Shown & {ghost: ReturnType<typeof gallery.takeGhost>}} Kept a state that was kept, and its picture */
 
-// "a = b = 1" → ["a = b", "1"].
+// Keys of a query that are not compared.
+const OTHER_KEYS = new Set(["v", "scene"])
+
+/**
+ * Split a line into name and value: "a = b = 1" → ["a = b", "1"].
+ * @param {string} line
+ * @returns {[string, string]}
+ */
 function parted(line) {
   const at = line.lastIndexOf(" = ")
   return at < 0 ? [line, ""] : [line.slice(0, at), line.slice(at + 3)]
 }
 
-// [[name, of the first, of the second], …] of what differs.
+/**
+ * Return [label, first value, second value] of all entries that differ.
+ * @param {[string, string][]} first
+ * @param {[string, string][]} second
+ * @param {Map<string, string>} names name → label
+ * @returns {[string, string, string][]}
+ */
 function differences(first, second, names) {
   const one = new Map(first)
   const two = new Map(second)
@@ -20,12 +34,18 @@ function differences(first, second, names) {
     .map((key) => [names.get(key) ?? key, one.get(key) ?? "–", two.get(key) ?? "–"])
 }
 
-// now() → {query, scene, derived}: of the state on show.
+/**
+ * Return the function that is called when a state was painted.
+ * @param {() => Shown} now returns the state on show
+ */
 export function createCompare(now) {
   let isHeld = false
+  /** @type {Kept["ghost"] | null} */
   let before = null
-  // {query, scene, derived, ghost}: A, and B while A is on show.
+  // A, and B while A is on show.
+  /** @type {Kept | null} */
   let pinned = null
+  /** @type {Kept | null} */
   let other = null
 
   const isPinnedShown = () => pinned !== null && now().query === pinned.query
@@ -36,14 +56,18 @@ export function createCompare(now) {
     tell("compared", pinned && comparison())
   }
 
+  /** @returns {Compared} */
   function comparison() {
     const here = now()
     const title = here.scene.name === pinned.scene.name ? null : pinned.scene.title
     const second = isPinnedShown() && other !== null ? other : here
+    /** @type {[string, string]} */
     const queries = [pinned.query, second.query]
     if (title !== null) return { title, isPinnedShown: false, rows: [], queries }
     const names = new Map(here.scene.controls.map(({ name, symbol, label }) => [name, symbol ?? label]))
-    const values = ({ query }) => [...new URLSearchParams(query)].filter(([key]) => !SAID_OF_THE_PAGE.has(key))
+    /** @type {(state: Shown) => [string, string][]} */
+    const values = ({ query }) => [...new URLSearchParams(query)].filter(([key]) => !OTHER_KEYS.has(key))
+    /** @type {(state: Shown) => [string, string][]} */
     const lines = ({ derived }) => derived.split("\n").filter(Boolean).map(parted)
     return {
       title, isPinnedShown: isPinnedShown(), queries,
@@ -51,6 +75,7 @@ export function createCompare(now) {
     }
   }
 
+  /** @returns {Kept} */
   const keep = () => ({ ...now(), ghost: gallery.takeGhost() })
 
   function flip() {
@@ -62,7 +87,7 @@ export function createCompare(now) {
     return true
   }
 
-  // Before the first answer paints over it; the request goes first.
+  // Copies the pictures before the first answer repaints them; the request is sent first.
   const begin = () => {
     if (!isHeld || before !== null || pinned !== null) return
     before = gallery.takeGhost()
@@ -91,6 +116,6 @@ export function createCompare(now) {
   document.addEventListener("pointerdown", () => { isHeld = true }, { capture: true })
   for (const name of ["pointerup", "pointercancel"]) document.addEventListener(name, end, { capture: true })
   onKeys({ c: flip })
-  // A state is painted.
+  // A new state keeps the comparison up to date.
   return { painted: () => { if (pinned !== null) refresh() } }
 }

@@ -1,39 +1,48 @@
-// The elements that the page is made of.
+// @ts-check
+// Functions that create HTML elements.
 
 /**
- * Return an element, for instance element("p.why", { role: "status" }, "Not yet.").
- * @param {string} name the tag, and classes after points
- * @param {...(object | Node | string | number)} parts properties, if they come first, and children
+ * Return a new element, for instance element("p.why", { role: "status" }, "Not yet.").
+ * @template {string} Name
+ * @param {Name} name the tag, followed by classes
+ * @param {...(object | Node | string | number)} parts properties (if they come first) and children
+ * @returns {ElementOf<Name>}
  */
 export function element(name, ...parts) {
   const [tag, ...classes] = name.split(".")
   const item = document.createElement(tag)
   item.classList.add(...classes)
   if (parts[0]?.constructor === Object) {
-    const { dataset, ...properties } = parts.shift()
+    const { dataset, ...properties } = /** @type {{dataset?: object}} */ (parts.shift())
     Object.assign(item, properties)
     Object.assign(item.dataset, dataset)
   }
-  item.append(...parts)
-  return item
+  item.append(.../** @type {(Node | string)[]} */ (parts))
+  return /** @type {ElementOf<Name>} */ (item)
 }
 
 /**
- * Return a button.
- * @param {string} name classes with points between them; tests find it by `param-…`, which says what it is for
+ * Return a new button.
+ * @param {string} name classes; tests find the button by its class `param-…`
  * @param {((event: MouseEvent) => void) | null} onclick
  * @param {...(object | Node | string | number)} parts see `element`
+ * @returns {HTMLButtonElement}
  */
 export function button(name, onclick, ...parts) {
   return Object.assign(element(`button.${name}`, ...parts), { type: "button", onclick })
 }
 
-/** Return the HTML of an icon; its path is drawn on 24 × 24 units. */
+/** Return the HTML of an icon; the path is drawn in a box of 24 × 24 units. */
 export function icon(path = "", size = "1.4em") {
   return `<svg viewBox="0 0 24 24" width="${size}" height="${size}" aria-hidden="true"><path fill="currentColor" d="${path}"/></svg>`
 }
 
-/** Give a button another icon, tooltip and accessible name. */
+/**
+ * Change the icon, tooltip and accessible name of a button.
+ * @param {HTMLElement} item
+ * @param {string} path
+ * @param {string} title
+ */
 export function relabel(item, path, title, ariaLabel = title) {
   item.querySelector("path").setAttribute("d", path)
   Object.assign(item, { title, ariaLabel })

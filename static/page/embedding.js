@@ -1,18 +1,24 @@
-// The page inside another one (embed=1): some pictures, some controls, the player, and a link to all of it.
+// @ts-check
+// The page embedded in another one (embed=1): some pictures, some controls, the player, and a link to the whole page.
 
 import { tell } from "./bus.js"
 
 const KEYS = ["embed", "pictures", "controls"]
 const root = document.documentElement
 
+/** Return whether the page is embedded. */
 export const isEmbedded = () => root.hasAttribute("data-embed")
 
+/** Mark the page as embedded. */
 export function embed() {
   root.toggleAttribute("data-embed", true)
   tell("embedding")
 }
 
-// The address of the whole page in the state of this one, or of these parts of it.
+/**
+ * Return the address of the whole page in its state, or of an embedded page with some of its parts.
+ * @param {Record<string, string[]> | null} parts key of the address → names
+ */
 export function linkTo(parts = null) {
   const url = new URL(location.href)
   for (const key of [...KEYS, ...(parts === null ? [] : ["large", "present"])]) url.searchParams.delete(key)
@@ -22,14 +28,19 @@ export function linkTo(parts = null) {
   return url.href.replaceAll("%2C", ",")
 }
 
-// Of the description of a scene what these keys of the address name: pictures are open, controls essential; the names of
-// the other pictures are `absent`.
+/**
+ * Return the description of an embedded scene: its pictures open, its controls essential, the other pictures `absent`.
+ * @param {SceneDescription} description
+ * @param {ClientKeys} keys names of the pictures and controls that are kept
+ * @returns {SceneDescription}
+ */
 export function embedded(description, { pictures, controls }) {
+  /** @type {(names: string) => (part: {name: string}) => boolean} */
   const isIn = (names) => ({ name }) => names.split(",").includes(name)
   const kept = description.controls.filter(isIn(controls))
   const [there, absent] = [true, false].map((is) => description.pictures.filter((one) => isIn(pictures)(one) === is))
   return {
-    ...description, pictures: there.map((picture) => ({ ...picture, folded: null })), absent: absent.map(({ name }) => name),
+    ...description, pictures: there.map((picture) => ({ ...picture, folded: /** @type {null} */ (null) })), absent: absent.map(({ name }) => name),
     controls: kept, essential: kept.map(({ name }) => name), presets: [],
   }
 }

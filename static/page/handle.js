@@ -1,33 +1,44 @@
-// "drag me" beside the one handle of a scene that matters, until anything is changed: once for each scene in a browser.
+// @ts-check
+// A "drag me" sign beside the main handle of a scene until anything is changed; shown once per scene and browser.
 
 import { listen } from "./bus.js"
 import { isEmbedded } from "./embedding.js"
 import { element } from "./elements.js"
 
 const KEY = "hess-explorer-handles"
+/** @type {(keyof PageEvents)[]} */
 const CHANGES = ["change", "expression", "preset", "reset", "clear", "pick", "restore", "step", "enter"]
 
-// The names of the scenes where it was said; where nothing may be kept it is said anew in each tab.
+// Scenes whose sign was shown.  Without local storage each tab shows it once.
 const said = new Set()
 try {
   for (const name of localStorage.getItem(KEY)?.split(",") ?? []) said.add(name)
 } catch (error) {
-  console.info("Nothing can be kept in this browser.", error.message)
+  console.info("This browser stores nothing for the page.", /** @type {Error} */ (error).message)
 }
 
+/** @param {string} name */
 function remember(name) {
   said.add(name)
   try {
     localStorage.setItem(KEY, [...said].join(","))
   } catch {
-    // Nor then.
+    // Not stored.
   }
 }
 
-// of(handle of a scene), asked when that is painted → null where it is not of this part of the page, else {host, place(),
-// moved}: the words are put over the host, where place() says in CSS, and again at each signal `moved` of Bokeh's.
-export function sayDragMe(of) {
+/**
+ * Show the sign for one kind of handle.
+ *
+ * `find` gets the handle of a scene that was painted, and returns null for a handle that this part of the page does not have.
+ * Otherwise it returns the host element, the position of the sign as CSS properties, and the Bokeh signal at which the
+ * position changes.
+ * @template {Handle} Kind
+ * @param {(handle: Kind) => {host: Element, place: () => object, moved?: BokehSignal} | null} find
+ */
+export function sayDragMe(find) {
   let end = () => {}
+  /** @type {SceneDescription | null} */
   let entered = null
   for (const name of CHANGES) listen({ [name]: () => end() })
   listen({
@@ -36,7 +47,7 @@ export function sayDragMe(of) {
       if (entered === null) return
       const { name, handle } = entered
       entered = null
-      const found = handle === null || isEmbedded() || said.has(name) ? null : of(handle)
+      const found = handle === null || isEmbedded() || said.has(name) ? null : find(/** @type {Kind} */ (handle))
       if (found === null) return
       const { host, place, moved } = found
       const sign = element("span.drag-me", { ariaHidden: true }, "drag me")

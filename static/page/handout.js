@@ -1,5 +1,6 @@
-// What is printed: a handout of the state on show, with its pictures, its numbers in a table, its text, and its link as a
-// QR code, in place of the page.
+// @ts-check
+// The handout: when the page is printed, it is replaced by the pictures, numbers and text of the state, and its link with a
+// QR code.
 
 import { gallery } from "../pictures/gallery.js"
 import { shadesOf } from "../pictures/looks.js"
@@ -9,37 +10,51 @@ import { element } from "./elements.js"
 import { showSigns } from "./prose.js"
 import { qrCode } from "./qr.js"
 
-// Pixels of a picture that is printed 88 mm wide: 340 to an inch.
+// Pixels of a picture that is printed 88 mm wide, at 340 dpi.
 const SIDE = 1180
 const PLAYED = "Time t"
 
 const styles = new URL("handout.css", import.meta.url).href
 
-// [[name, value as text], …] of all controls; `values` as "controls.js" gets them.
+/**
+ * Return [label, value as text] of all enabled controls, and the time.
+ * @param {SceneDescription} scene
+ * @param {Record<string, ControlValue>} values
+ * @param {number | null} t
+ * @returns {[string, string][]}
+ */
 function numbersOf({ controls }, values, t) {
+  /** @param {ControlValue} value */
   const text = (value) => (Array.isArray(value) ? String(Number(value[0].toPrecision(12))).replace("-", "−") : value)
   return [...controls.filter(({ name }) => values[name]?.[4] !== true)
-    .map(({ name, label }) => [label, text(values[name])]), ...(t === null ? [] : [[PLAYED, t.toFixed(3)]])]
+    .map(({ name, label }) => /** @type {[string, string]} */ ([label, text(values[name])])), ...(t === null ? [] : [/** @type {[string, string]} */ ([PLAYED, t.toFixed(3)])])]
 }
 
+/** @param {ReturnType<typeof gallery.shoot>[number]} shot */
 function figureOf([title, said, canvas]) {
   return element("figure", canvas, element("figcaption", element("strong", title), ` ${said}`))
 }
 
+/** @param {SceneDescription} scene @param {string} signs */
 function legendOf({ legend }, signs) {
   const box = element("div", { innerHTML: legend })
   showSigns(box, signs)
   return box
 }
 
-// now() → {scene, texts, controls}: what has been said of the state on show.
+/**
+ * Build the handout whenever the page is printed.
+ * @param {() => {scene: SceneDescription, texts: Texts, controls: Record<string, ControlValue>}} now returns the state on show
+ */
 export function createHandout(now) {
+  /** @type {HTMLElement | null} */
   let sheet = null
   let moment = 0
 
   const link = element("link", { rel: "stylesheet", media: "print", href: styles })
   document.head.append(link)
 
+  /** @param {string} code */
   function put(code) {
     const { scene, texts, controls } = now()
     const url = linkTo()
@@ -56,7 +71,7 @@ export function createHandout(now) {
       element("div.numbers", element("table", element("tbody", ...rows)),
         element("p", [texts.derived, texts.notes].filter(Boolean).join("\n\n"))),
       element("div.words", { innerHTML: scene.words }))
-    // Legends and drawings ask for colours by name.
+    // Legends and drawings name their colours.
     for (const [name, shade] of shadesOf(false)) sheet.style.setProperty(`--${name}`, shade)
     document.body.append(sheet)
   }
@@ -74,7 +89,7 @@ export function createHandout(now) {
     event.preventDefault()
     tell("print")
   })
-  // From the browser's own menu, which waits for nobody: the link, without its code.
+  // Printing from the browser's menu cannot wait for the QR code.
   window.addEventListener("beforeprint", () => { if (sheet === null && now().scene !== null) put("") })
   window.addEventListener("afterprint", () => {
     sheet?.remove()

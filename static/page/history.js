@@ -1,24 +1,36 @@
-// What the user has done, step by step: Undo and Redo, and the browser's Back and Forward.
+// @ts-check
+// Undo and Redo, and the browser's Back and Forward.
 //
-// A step is the query of a state.  Whatever is done while a pointer or a key is held down is one step.  A step is gone
-// back to by one request, which is read as a link is.  Where a step leads to another scene or to an example, the browser
-// gets an entry of its own for Back; else its entry is written anew.
+// A step is the query of a state.  All changes while a pointer or a key is held down are one step.  Going back to a step
+// takes one request, which the server reads like a link.  A step to another scene or to an example gets a history entry of
+// the browser; any other step replaces the current entry.
 
 import { listen, tell } from "./bus.js"
 import { isTyped } from "./keys.js"
 
 const MOST = 100
+/** @type {(keyof PageEvents)[]} */
 const CHANGES = ["change", "expression", "preset", "reset", "clear", "pick", "scene"]
 
+/** @param {string} query */
 const sceneOf = (query) => new URLSearchParams(query).get("scene")
 
-// query() is that of the state on show, isSettled() whether it answers the last request; address: see "address.js".
+/**
+ * Return the function that is called when a state was painted.
+ * @param {{query: () => string, isSettled: () => boolean, address: {push: (before: string) => void}}} page query() returns the
+ *   query of the state on show, isSettled() whether that state answers the last request
+ */
 export function createHistory({ query, isSettled, address }) {
+  /** @type {string[]} */
   let past = []
+  /** @type {string[]} */
   let future = []
-  // The step on show; the one on its way; that of the browser's entry.
+  // The step on show, the requested step, and the step of the browser's entry.
+  /** @type {string | null} */
   let current = null
+  /** @type {string | null} */
   let goal = null
+  /** @type {string | null} */
   let entered = null
   let isHeld = false
   let isAnimated = false
@@ -28,13 +40,14 @@ export function createHistory({ query, isSettled, address }) {
 
   const announce = () => tell("steps", { undo: past.length, redo: future.length })
 
+  /** @param {string} step */
   function goTo(step) {
     goal = step
     tell("restore", step)
     announce()
   }
 
-  // Of what is changed and is no step yet nothing stays.
+  // Discards changes that are not a step yet.
   function undo() {
     const here = goal ?? current
     if (isSettled() ? query() !== here : isChanged) {
@@ -52,7 +65,7 @@ export function createHistory({ query, isSettled, address }) {
     goTo(future.pop())
   }
 
-  // A state has been painted, or nothing is held any more: it may be a step.
+  // Called when a state was painted or a pointer or key released: the state may be a new step.
   function settle() {
     if (isHeld || isAnimated || !isSettled()) return
     const here = query()
@@ -60,7 +73,7 @@ export function createHistory({ query, isSettled, address }) {
       past = [...past, current].slice(-MOST)
       future = []
     }
-    // By Back its entry is on show already.
+    // After Back the browser shows its entry already.
     if (entered !== null && here !== entered && !isPopped && (isExample || sceneOf(here) !== sceneOf(entered))) {
       address.push(entered)
     }

@@ -1,29 +1,45 @@
-// Who a key is for.
+// @ts-check
+// Decides which part of the page a key is for.
 
 const TEXT_BOX = "textarea, [contenteditable], input:not([type=range], [type=checkbox], [type=radio])"
 
-// Whether a key with Ctrl is for a text that is typed, or a dialog.  The box of a number says itself when it is.
+/**
+ * Return whether a key with Ctrl belongs to a text box or a dialog.  The box of a number decides for itself.
+ * @param {KeyboardEvent} event
+ */
 export function isTyped(event) {
   return event.composedPath().some((item) => item instanceof HTMLElement && item.matches(`dialog, :is(${TEXT_BOX}):not(.exact)`))
 }
 
-// act() for a key of the page, {key in lower case: act}; false where it means nothing now.
+/**
+ * Call the action of a key that belongs to the page.
+ * @param {Record<string, () => unknown>} actions key in lower case → action; it returns false if the key has no effect now
+ * @param {Document | Window} target
+ */
 export function onKeys(actions, target = document) {
-  target.addEventListener("keydown", (event) => {
+  target.addEventListener("keydown", (/** @type {Event} */ pressed) => {
+    const event = /** @type {KeyboardEvent} */ (pressed)
     const act = actions[event.key.toLowerCase()]
     if (act !== undefined && !isTaken(event) && act() !== false) event.preventDefault()
   })
 }
 
-// Whether the key is one that is typed, belongs to the browser, or to a dialog that covers the page.
+/**
+ * Return whether a key is typed, or belongs to the browser or to a dialog over the page.
+ * @param {KeyboardEvent} event
+ */
 export function isTaken(event) {
   if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return true
-  // A menu finds its options by their letters.
+  // A menu finds its options by their first letters.
   const typed = event.key.length === 1 && event.key !== " " ? `dialog, [popover], select, ${TEXT_BOX}` : `dialog, [popover], ${TEXT_BOX}`
   return event.composedPath().some((item) => item instanceof HTMLElement && item.matches(typed))
 }
 
+/** @type {Record<string, [number, number]>} */
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }
 
-/** Return where an arrow key points, as [right, up]; undefined for any other key. */
+/**
+ * Return the direction of an arrow key as [right, up]; undefined for any other key.
+ * @param {{key: string}} event
+ */
 export const arrowOf = ({ key }) => ARROWS[key]

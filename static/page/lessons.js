@@ -1,7 +1,8 @@
-// A lesson beside the pictures, step by step, and what can be tried in the scene on show.
+// @ts-check
+// A lesson beside the pictures, step by step, and suggestions to try in the scene on show.
 //
-// PageDown, which a clicker sends, does what comes next: it reveals the truth of a guess, then the answer of a question,
-// then goes on.  PageUp goes a step back.
+// PageDown (the key of a presenter) reveals the truth of a guess, then the answer of a question, then goes to the next step.
+// PageUp goes back.
 
 import { gallery } from "../pictures/gallery.js"
 import { createGuess } from "../pictures/guess.js"
@@ -13,33 +14,46 @@ import { CALM } from "./windows.js"
 
 const SECOND = 1000
 
+/** @param {string} name @param {string} innerHTML */
 const html = (name, innerHTML) => element(name, { innerHTML })
+/** @param {number} ms */
 const clock = (ms) => `${Math.floor(ms / 60000)}:${String(Math.floor(ms / SECOND) % 60).padStart(2, "0")}`
 
-// The question of a step, and its answer.
+/** Return the question of a step and its answer. @param {LessonStep} step @returns {HTMLElement[]} */
 const questionOf = ({ question, answer }) => (question === "" ? [] : [
   html("div.question", question), element("details.answer", element("summary", "Answer"), html("div", answer)),
 ])
 
+/**
+ * Render the menu of lessons, the lesson and the suggestions.
+ * @param {{index: PageModel["lessons"], el: HTMLElement}} part
+ */
 export function render({ index, el }) {
   const menu = element("details.lesson-menu")
   const panel = element("section.lesson", { hidden: true, ariaLabel: "Lesson" })
   const tries = element("section.tries", { hidden: true, ariaLabel: "Try this" })
   el.append(menu, panel, tries)
 
+  /** @type {Lesson | null} */
   let lesson = null
+  /** @type {string | null} */
   let wanted = null
   let at = 0
   let begun = 0
   // These belong to the step on show and end with it.
+  /** @type {ReturnType<typeof createGuess> | null} */
   let guess = null
+  /** @type {ReturnType<typeof createAnimation> | null} */
   let animation = null
+  /** @type {(() => void) | null} */
   let arriving = null
+  /** @type {ReturnType<typeof setInterval>} */
   let ticking = null
 
   const time = element("span.timer", { role: "timer", ariaLabel: "Time since the lesson began" })
   const tick = () => { time.textContent = `${clock(performance.now() - begun)} of ${lesson.minutes} min` }
 
+  /** @param {string} name @param {number} number @param {boolean} revealed @param {() => void} then */
   const go = (name, number, revealed, then) => {
     arriving = then
     tell("step", [name, number, revealed])
@@ -51,7 +65,7 @@ export function render({ index, el }) {
     guess = animation = arriving = null
   }
 
-  // The step as it is shown; its state is on its way, or on show already.
+  // Shows a step whose state is on show or requested.
   function showStep() {
     leaveStep()
     const step = lesson.steps[at]
@@ -78,7 +92,7 @@ export function render({ index, el }) {
           disabled: at === 0, title: at === 0 ? "Disabled: this is the first step" : "Back (Page Up)",
         }, "Back"),
         button("button.param-next-step", next, {
-          disabled: isLast, title: isLast ? "Disabled: this is the last step" : "What comes next (Page Down)",
+          disabled: isLast, title: isLast ? "Disabled: this is the last step" : "Next (Page Down)",
         }, "Next"),
         button("button.param-leave-lesson", leave, "Leave the lesson")))
     said.hidden = guess === null
@@ -86,19 +100,22 @@ export function render({ index, el }) {
     tell("url", { lesson: lesson.name, step: String(at + 1) })
   }
 
-  // The state of the step is on show.
+  /** Called when the state of the step is on show. @param {LessonStep} step */
   function arrive({ look }) {
     if (look !== "") tell("look", look)
     guess?.begin()
     if (!CALM.matches) animation?.start()
   }
 
+  /** @param {number} number */
   function turnTo(number) {
     if (number < 0 || number >= lesson.steps.length) return
     at = number
     showStep()
     go(lesson.name, at, false, () => arrive(lesson.steps[at]))
-    panel.querySelector(".title").focus({ preventScroll: true })
+    /** @type {HTMLElement} */
+    const title = panel.querySelector(".title")
+    title.focus({ preventScroll: true })
     panel.scrollIntoView({ block: "start" })
   }
 
@@ -112,12 +129,18 @@ export function render({ index, el }) {
 
   function next() {
     if (reveal()) return
+    /** @type {HTMLDetailsElement | null} */
     const answer = panel.querySelector(".answer:not([open])")
     if (answer === null) turnTo(at + 1)
     else answer.open = true
   }
 
-  // `number`: of its first step on show; a link has brought the state along.
+  /**
+   * Begin a lesson.
+   * @param {Lesson} given
+   * @param {number} number the first step
+   * @param {boolean} isHere whether a link has brought the state of that step
+   */
   function begin(given, number, isHere) {
     lesson = given
     at = Math.max(0, Math.min(number, lesson.steps.length - 1))
@@ -154,7 +177,7 @@ export function render({ index, el }) {
       tell("lesson", name)
     }, `${title} (${minutes} min)`))))))
 
-  // What can be tried in this scene, one at a time.
+  /** Show the suggestions for a scene, one at a time. @param {SceneDescription} scene */
   function showTries(scene) {
     const { name, tries: steps } = scene
     tries.replaceChildren()
@@ -163,6 +186,7 @@ export function render({ index, el }) {
     let one = 0
     const title = element("h3")
     const text = element("div.text")
+    /** @param {number} by */
     const turn = (by) => {
       one = (one + by + steps.length) % steps.length
       title.innerHTML = `Try this: ${steps[one].title}`

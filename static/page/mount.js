@@ -1,9 +1,11 @@
-// How the parts of the page are mounted.
+// @ts-check
+// Mounts the parts of the page.
 
 import { element } from "./elements.js"
 import { wear } from "./presenting.js"
 
-// Which style sheets each part has besides "page/base.css".
+// Style sheets of each part, after "page/base.css".
+/** @type {Record<string, string[]>} */
 const SHEETS = {
   bar: ["controls/dialog.css", "controls/bar.css"],
   controls: ["controls/dialog.css", "controls/controls.css"],
@@ -13,14 +15,22 @@ const SHEETS = {
 }
 
 /**
- * Return what mounts parts of the page, each in a shadow of its own, where its styles are its alone.
+ * Return a function that mounts parts of the page, each in a shadow root with its own style sheets.
  * @param {Record<string, string>} sheets path → style sheet
  */
-export const createMount = (sheets) => (name, render, properties = {}, host = element("div")) => {
-  const el = element(`div.${name}`)
-  wear(el)
-  host.attachShadow({ mode: "open" }).append(
-    ...["page/base.css", ...(SHEETS[name] ?? ["page/page.css"])].map((path) => element("style", sheets[path])), el)
-  render({ ...properties, el })
-  return host
-}
+export const createMount = (sheets) => (
+  /**
+   * Mount a part and return its host.
+   * @param {string} name
+   * @param {(properties: any) => void} render
+   * @param {object} properties
+   * @param {HTMLElement} host gets the shadow root
+   */
+  (name, render, properties = {}, host = element("div")) => {
+    const el = element(`div.${name}`)
+    wear(el)
+    host.attachShadow({ mode: "open" }).append(
+      ...["page/base.css", ...(SHEETS[name] ?? ["page/page.css"])].map((path) => element("style", sheets[path])), el)
+    render({ ...properties, el })
+    return host
+  })

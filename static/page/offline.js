@@ -1,5 +1,6 @@
-// One state in one file, without a server ("offline.py" writes it): the pictures and the player of the page, with the data
-// beside them.  What would need a server is disabled.
+// @ts-check
+// One state in one file that works without a server ("offline.py" writes it): pictures and player with their data.
+// Controls are disabled.
 
 import { render as renderPlayer } from "../controls/player.js"
 import { gallery, render as renderPictures } from "../pictures/gallery.js"
@@ -11,11 +12,16 @@ import { render as renderProse } from "./prose.js"
 import { render as renderStatus } from "./status.js"
 import { render as renderText } from "./text.js"
 
+/** @param {string} id */
 const place = (id) => document.getElementById(id)
 
-// What a control of the page shows, not to be changed here.
+/**
+ * Return a disabled control that shows a value.
+ * @param {ControlDescription} control
+ * @param {ControlValue} shown
+ */
 function controlOf({ name, label, kind }, shown) {
-  if (kind !== "number") return element("label", `${label} `, element("select", new Option(shown)))
+  if (kind !== "number" || typeof shown === "string") return element("label", `${label} `, element("select", new Option(String(shown))))
   const [value, min, max, step] = shown
   const slider = element(`input.param-${name}`, { type: "range", min, max, step: step || "any", value })
   const number = String(Number(value.toPrecision(6))).replace("-", "−")
@@ -23,6 +29,7 @@ function controlOf({ name, label, kind }, shown) {
 }
 
 async function start() {
+  /** @type {{description: SceneDescription, tree: Tree, client: ClientKeys, sheets: Record<string, string>}} */
   const { description, tree, client, sheets } = JSON.parse(place("state").textContent)
   const block = Uint8Array.from(atob(place("block").textContent), (letter) => letter.charCodeAt(0)).buffer
   listen({ "ask-client": (hear) => hear(client) })

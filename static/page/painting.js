@@ -1,11 +1,17 @@
-// Fills the pictures of a scene with a state and paints all of them at once.
+// @ts-check
+// Fills the pictures of a scene with a state and paints them together.
 
 import { tell } from "./bus.js"
 import { unpack } from "./unpack.js"
 
 const MOST = 2000
 
-// A broken picture must not hold up the page for ever.
+/**
+ * Wait for a promise, but not longer than `most` milliseconds: one broken picture must not block the page.
+ * @template Result
+ * @param {Promise<Result>} promise
+ * @param {number} most
+ */
 function within(promise, most) {
   return new Promise((resolve, reject) => {
     const timer = setTimeout(resolve, most)
@@ -13,7 +19,12 @@ function within(promise, most) {
   })
 }
 
-// Axes and data of a state, of its tree and its block, into the pictures of a scene.
+/**
+ * Set the axes and data of a scene from a state.
+ * @param {Scene} scene
+ * @param {Tree} tree
+ * @param {ArrayBuffer} block
+ */
 export function fill(scene, { ranges, sources }, block) {
   for (const [name, [x0, x1, y0, y1]] of Object.entries(ranges)) {
     const plot = scene.plots.find((one) => one.model.name === name)
@@ -26,10 +37,14 @@ export function fill(scene, { ranges, sources }, block) {
   for (const [name, columns] of unpack(sources, block)) scene.sources.get(name)?.put(columns)
 }
 
-// fillAll() puts new data into the sources, and axes into the plots; `touched`: the plots that change.
-//
-// Bokeh takes data in promises and paints in the next frame, each plot by itself.  Here the plots pause until all of
-// the data are taken, and are painted in the same task: a frame sooner, and no frame shows half of a state.
+/**
+ * Fill the pictures and paint all of them in the same task.
+ *
+ * Bokeh takes data in promises and paints each plot in the next frame.  Here the plots pause until all data are taken, then
+ * paint together: one frame sooner, and no frame shows half of a state.
+ * @param {PlotView[]} touched the plots that change
+ * @param {() => void} fillAll sets data and axes
+ */
 export async function paint(touched, fillAll) {
   for (const plot of touched) plot.pause()
   try {

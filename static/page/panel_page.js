@@ -1,17 +1,24 @@
-// What of Panel's page the client needs: its theme, and whether it stands.
+// @ts-check
+// Access to Panel's page: its theme, and whether it is ready.
 
-// `document` is Bokeh's document of the page.
+/**
+ * Return the functions that read and change Panel's page.
+ * @param {PanelView} view
+ */
 export function createPage(view) {
   const bokeh = () => view.model.document
-  const page = () => bokeh().roots().find((top) => top.data?.attributes.dark_theme !== undefined).data
+  const page = () => bokeh().roots().find((/** @type {any} */ top) => top.data?.attributes.dark_theme !== undefined).data
   const nextFrame = () => new Promise(requestAnimationFrame)
   return {
     isDark: () => page().dark_theme,
     turnTheme() { page().dark_theme = !page().dark_theme },
-    // Resolves when all that Panel shows is there.
+    /** Wait until Panel has rendered everything. */
     async standing() {
       while (bokeh() == null || !bokeh().is_idle) await nextFrame()
     },
-    onThemeChange(hear) { bokeh().on_change((event) => { if (event.attr === "dark_theme") hear() }) },
+    /** @param {() => void} hear */
+    onThemeChange(hear) {
+      bokeh().on_change((/** @type {{attr: string}} */ event) => { if (event.attr === "dark_theme") hear() })
+    },
   }
 }

@@ -1,5 +1,6 @@
-// Present mode: what a lecture hall needs to see.  Type, lines and canvases are as large as `zoom` and "shell.css" say,
-// of the controls only the essential ones stay, and a spot goes with the pointer.
+// @ts-check
+// Present mode for lecture halls: larger type, lines and canvases (`zoom`, "shell.css"), only the essential controls, and a
+// spot that follows the pointer.
 
 import { listen, tell } from "./bus.js"
 import { isEmbedded } from "./embedding.js"
@@ -7,24 +8,31 @@ import { element } from "./elements.js"
 import { onKeys } from "./keys.js"
 
 const LARGER = 2
-// Type of this size, in pixels, is read at a desk.
+// Font size in pixels at a desk.
 const DESK = 14
 const REST = 3000
 
 let isOn = false
 let type = DESK
 
+/** Return whether present mode is on. */
 export const isPresenting = () => isOn
 
-// The size of the type beside the pictures, in pixels, for `zoom`: whoever places them has looked it up.
+/**
+ * Set the font size beside the pictures, in pixels, for `zoom`.
+ * @param {number} size
+ */
 export const setType = (size) => { type = size }
 
-// How much wider than beside a desk lines, dots and what is written on canvases are: with the type of a large screen.
+/** Return the factor by which lines, dots and labels on canvases are enlarged. */
 export function zoom() {
   return Math.max(isOn ? LARGER : 1, type / DESK)
 }
 
-// The component wears the classes `presenting` and `embedded` where that is so.
+/**
+ * Keep the classes `presenting` and `embedded` of an element up to date.
+ * @param {HTMLElement} el
+ */
 export function wear(el) {
   const follow = () => {
     el.classList.toggle("presenting", isOn)
@@ -37,7 +45,10 @@ export function wear(el) {
   follow()
 }
 
-// Enter it, or leave it.
+/**
+ * Enter or leave present mode.
+ * @param {boolean} on
+ */
 export function present(on) {
   if (on === isOn) return
   isOn = on
@@ -45,9 +56,10 @@ export function present(on) {
   tell("presenting", on)
 }
 
-// A spot that follows the pointer and hides while it rests; Escape leaves present mode.
+/** Return a spot that follows the pointer and hides while it rests; Escape leaves present mode. */
 export function spot() {
   const item = element("div.spot", { ariaHidden: true })
+  /** @type {ReturnType<typeof setTimeout>} */
   let resting = null
   document.addEventListener("pointermove", ({ clientX, clientY }) => {
     if (!isOn) return
@@ -56,7 +68,7 @@ export function spot() {
     item.classList.add("moving")
     resting = setTimeout(() => item.classList.remove("moving"), REST)
   })
-  // After whatever else Escape is for: their listeners are older.
+  // Older listeners of Escape come first.
   onKeys({ escape: () => isOn && tell("present") }, window)
   return item
 }

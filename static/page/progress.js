@@ -1,11 +1,14 @@
-// How much of the state on show is computed while the rest is on its way.  Stop, or Escape, leaves it at that.
+// @ts-check
+// Progress of a state that is still being computed; Stop or Escape keeps the part that is drawn.
 
 import { listen, tell } from "./bus.js"
 import { button, element } from "./elements.js"
 
 const SHOWN_AFTER = 300
 
+/** Render the progress bar. @param {{el: HTMLElement}} part */
 export function render({ el }) {
+  /** @type {number | null} */
   let since = null
   const bar = element("progress", { ariaLabel: "Computed" })
   const stop = button("button.param-stop", () => tell("stop"), { title: "Leave it at what is drawn (Escape)" }, "Stop")

@@ -1,26 +1,37 @@
-// HTML of the scene on show, from the project's own files: its legend or its words.
+// @ts-check
+// The legend or the words of the scene on show, as HTML from the project's own files.
 
 import { listen } from "./bus.js"
 import { element } from "./elements.js"
 
-// Of the entries of a legend, show those whose numbers are there.
+/**
+ * Show the entries of a legend whose numbers are listed.
+ * @param {HTMLElement} box
+ * @param {string} signs numbers separated by commas
+ */
 export function showSigns(box, signs) {
   const there = new Set(signs.split(","))
-  for (const [i, entry] of box.querySelectorAll(".legend li").entries()) entry.hidden = !there.has(String(i))
+  for (const [i, entry] of /** @type {NodeListOf<HTMLElement>} */ (box.querySelectorAll(".legend li")).entries()) {
+    entry.hidden = !there.has(String(i))
+  }
 }
 
+/**
+ * Render the legend or the words.
+ * @param {{part: "legend" | "words", el: HTMLElement}} part
+ */
 export function render({ part, el }) {
   const item = element(`div.${part}`)
-  // A formula or a table that scrolls by itself is reached by the keyboard.
+  // Formulas and tables that scroll by themselves are reached with the keyboard.
   new ResizeObserver(() => {
-    for (const wide of item.querySelectorAll('math[display="block"], table')) {
+    for (const wide of /** @type {NodeListOf<HTMLElement>} */ (item.querySelectorAll('math[display="block"], table'))) {
       wide.tabIndex = wide.scrollWidth > wide.clientWidth ? 0 : -1
     }
   }).observe(item)
   listen({
     enter(scene) { item.innerHTML = scene[part] },
     texts({ signs }) { if (signs !== undefined) showSigns(item, signs) },
-    // A lesson has the place of the words.
+    // A lesson takes the place of the words.
     reading(on) { item.hidden = on && part === "words" },
   })
   el.append(item)

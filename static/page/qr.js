@@ -1,10 +1,17 @@
+// @ts-check
 // The QR code of a link, drawn by the server.
 
+/** @param {string} link */
 const address = (link) => new URL(`qr.svg?text=${encodeURIComponent(link)}`, document.baseURI).href
 
-// {svg, said}: the drawing, or a sentence why there is none.
+/** @param {boolean} isThere @param {string} text */
 const answer = (isThere, text) => (isThere ? { svg: text, said: "" } : { svg: "", said: text })
 
+/**
+ * Return the QR code of a link as SVG, or the message that explains why there is none.
+ * @param {string} link
+ * @returns {Promise<{svg: string, said: string}>}
+ */
 export async function qrCode(link) {
   try {
     const response = await fetch(address(link))

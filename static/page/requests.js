@@ -1,37 +1,49 @@
-// The changes since the last request, and when the next request goes.
+// @ts-check
+// Collects changes and sends requests.
 //
-// One request at a time: the next one goes when the answer to the last is painted.  So nothing queues, however fast a
-// slider is dragged, and the newest values win.
-
+// There is one request at a time: the next one is sent when the answer to the last one is painted.  So requests never queue,
+// however fast a slider is dragged, and the newest values win.
 import { listen, tell } from "./bus.js"
 
 const PATIENCE = 400
 const LONG = 5000
 
 const LATE = "Computing…"
-const COMPILING = "Computing… What is used for the first time is compiled."
+const COMPILING = "Computing… This part is compiled on first use."
 
-// send(message) takes the message to the server.  changed() is called whenever the user asks for another state.
-// hidden() gives the names of the pictures out of sight.  known(scene) says whether its description is here.
+/**
+ * Return the queue of requests.
+ * @param {{send: (message: StateRequest) => void, changed: () => void, hidden: () => string[],
+ *   known: (scene: string) => boolean}} client send(message) sends a request, changed() is called when the user wants another
+ *   state, hidden() returns the pictures out of sight, known(scene) whether the description of a scene is here
+ */
 export function createRequests({ send, changed, hidden, known }) {
   let requested = 0
+  /** @type {number | null} */
   let asked = null
   let asking = false
   let lost = false
-  // By a pointer; by an animation.
+  // Whether a pointer holds a slider, an animation moves one, and the last pointer was a finger.
   let grasped = false
   let animated = false
   let touched = false
-  // What the next request says besides.
+  // Fields of the next request.
+  /** @type {Partial<StateRequest>} */
   let pending = {}
+  // The scene on show, the scene to request next, and the scene that was chosen last.
+  /** @type {string | null} */
   let shown = null
+  /** @type {string | null} */
   let chosen = null
+  /** @type {string | null} */
   let target = null
+  /** @type {ReturnType<typeof setTimeout>} */
   let late = null
+  // When the last request was sent, and the time until its answer was painted.
   // When it was asked last, and how long the answer took to be painted.
   let sent = 0
   let took = 0
-  // Control → the request by which it was changed last.
+  // Control → number of the request that changed it last.
   const moved = new Map()
 
   const wait = () => {
@@ -44,7 +56,7 @@ export function createRequests({ send, changed, hidden, known }) {
   const ask = () => {
     if (shown === null || asked !== null || asking || lost) return
     asking = true
-    // After all that is changed in the same task.
+    // Wait for all changes of the same task.
     queueMicrotask(() => {
       asking = false
       asked = requested
@@ -64,23 +76,26 @@ export function createRequests({ send, changed, hidden, known }) {
     changed()
     ask()
   }
+  /** @param {Partial<StateRequest>} what */
   const want = (what) => {
     Object.assign(pending, what)
     request()
   }
-  // What is no change of the state.
+  // For fields that do not change the state.
+  /** @param {Partial<StateRequest>} what */
   const add = (what) => {
     Object.assign(pending, what)
     ask()
   }
   // A preset or reset discards pending changes.
+  /** @param {Partial<StateRequest>} what */
   const restart = (what) => {
     moved.set("preset", requested + 1)
     pending = {}
     want(what)
   }
 
-  // While a pointer holds a slider the axes hold still; letting go is a request of its own.
+  // The axes stay fixed while a pointer holds a slider; its release is a request of its own.
   document.addEventListener("pointerdown", (event) => {
     touched = event.pointerType === "touch"
     grasped = event.composedPath().some((item) => item instanceof Element && item.matches(".hand, .scrub"))
@@ -111,7 +126,7 @@ export function createRequests({ send, changed, hidden, known }) {
     preset: (preset) => restart({ preset }),
     reset: () => restart({ reset: true }),
     clear: () => restart({ clear: true }),
-    // The query of a state, perhaps of another scene.
+    // The state may belong to another scene.
     restore(restore) {
       chosen = target = new URLSearchParams(restore).get("scene") ?? shown
       restart({ restore })
@@ -123,7 +138,7 @@ export function createRequests({ send, changed, hidden, known }) {
     lesson: (lesson) => add({ lesson }),
     stop: () => want({ stop: true }),
     pick({ pick, drag }) {
-      // A finger that moves scrolls the page.
+      // A moving finger scrolls the page.
       if ((drag && touched) || !Array.isArray(pick) || !pick.slice(1).every(Number.isFinite)) return
       want({ picked: pick })
     },
@@ -132,7 +147,7 @@ export function createRequests({ send, changed, hidden, known }) {
     },
     near(near) { if (!known(near)) add({ near }) },
     scene(scene) {
-      // The scene chosen last, though its pictures may still be on their way.
+      // Compare with the scene chosen last, which may not be on show yet.
       if (scene === (target ?? shown)) return
       chosen = target = scene
       delete pending.restore
@@ -144,23 +159,26 @@ export function createRequests({ send, changed, hidden, known }) {
     ask,
     request,
     get lost() { return lost },
-    // The first state is on its way without being asked for.
+    // The first state comes without a request.
     begin: wait,
-    // This scene is on show; only now can anything be asked for.
+    /**
+     * Note the scene on show; requests begin with the first scene.
+     * @param {string} scene
+     */
     entered: (scene) => { shown = scene },
-    // A state was painted, or failed to be: the next request may go.
+    /** Allow the next request: a state was painted or has failed. */
     settled() {
       clearTimeout(late)
       if (asked !== null) took = performance.now() - sent
       asked = null
     },
-    // Milliseconds from the last request until its answer was painted.
+    /** Milliseconds from the last request until its answer was painted. */
     get took() { return took },
-    // Whether the user has changed something since the request with this number.
+    /** Whether the user has changed something since a request. @param {number} answers its number */
     isBehind: (answers) => answers < requested,
-    // Whether a control has been moved since the request with this number.
+    /** Whether a control was moved since a request. @param {string} control @param {number} answers */
     hasMoved: (control, answers) => moved.get(control) > answers,
-    // The connection is gone: nothing is asked for any more.
+    /** Stop sending requests: the connection is lost. */
     lose() {
       lost = true
       clearTimeout(late)

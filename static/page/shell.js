@@ -1,6 +1,7 @@
-// The frame of the page: bar, controls, pictures with the player, text; nothing scrolls but the columns beside the
-// pictures.  Where there is no room for both columns they are tabs of one; on a phone the picture stays above, the
-// control at hand below, and the text scrolls between them.
+// @ts-check
+// The frame of the page: bar, controls, pictures with the player, text.  Only the columns beside the pictures scroll.  In a
+// narrow window the columns are tabs of one column; on a phone the picture stays at the top and one control at the bottom,
+// and the text scrolls between them.
 
 import { render as renderBar } from "../controls/bar.js"
 import { render as renderControls } from "../controls/controls.js"
@@ -20,7 +21,7 @@ import { render as renderStatus } from "./status.js"
 import { render as renderText } from "./text.js"
 import { NARROW, PHONE } from "./windows.js"
 
-// The tabs of the two columns: {tab id: column}.
+/** Return the tabs of the columns. @param {Record<string, HTMLElement>} columns label → column */
 function tabsOf(columns) {
   const tabs = Object.entries(columns).map(([label, column]) => {
     const tab = button(`tab.param-tab-${label.toLowerCase()}`, () => choose(tab), { role: "tab" }, label)
@@ -28,14 +29,16 @@ function tabsOf(columns) {
     column.ariaLabel = label
     return [tab, column]
   })
+  /** @param {HTMLElement} chosen */
   const choose = (chosen) => {
     for (const [tab, column] of tabs) {
       const isChosen = tab === chosen
-      tab.ariaSelected = isChosen
+      tab.ariaSelected = String(isChosen)
       tab.tabIndex = isChosen ? 0 : -1
       column.classList.toggle("behind", !isChosen)
     }
   }
+  /** @param {KeyboardEvent} event */
   const onkeydown = (event) => {
     const [across] = arrowOf(event) ?? [0]
     if (across === 0) return
@@ -43,10 +46,10 @@ function tabsOf(columns) {
     const [next] = tabs[(here + across + tabs.length) % tabs.length]
     choose(next)
     next.focus()
-    // Elsewhere they move the time.
+    // Elsewhere arrow keys move the time.
     event.preventDefault()
   }
-  // Side by side they are no tabs.
+  // Columns side by side are not tabs.
   const follow = () => {
     for (const [, column] of tabs) column.role = NARROW.matches && !PHONE.matches ? "tabpanel" : "region"
   }
@@ -56,10 +59,10 @@ function tabsOf(columns) {
   return element("div.tabs", { role: "tablist", ariaLabel: "Beside the pictures", onkeydown }, ...tabs.map(([tab]) => tab))
 }
 
-// Of an embedded page: the way to all of it.
+/** Return the link from an embedded page to the whole page. */
 function opener() {
   const link = element("a.opener", { target: "_blank", rel: "noopener", href: "." }, "Open in Hess Explorer")
-  // The state on show when it is used.
+  // Link to the state on show when the link is used.
   for (const event of ["pointerdown", "focus", "click"]) {
     link.addEventListener(event, () => {
       tell("address")
@@ -69,7 +72,7 @@ function opener() {
   return link
 }
 
-// The sentence on what moves what: over the stage; on a phone it scrolls with the text.
+/** Show the sentence about the motion above the stage; on a phone in the text. @param {HTMLElement} stage @param {HTMLElement} reading */
 function sayWhatMoves(stage, reading) {
   const sentence = element("p.text.moves")
   const place = () => {
@@ -81,21 +84,26 @@ function sayWhatMoves(stage, reading) {
   place()
 }
 
+/** @type {HTMLElement | null} */
 let page = null
 
-// Called by Panel; another time it finds the page as it is.
+/**
+ * Render the page.  Panel may call this again: the page is built once.
+ * @param {{model: PageModel, view: PanelView, el: HTMLElement}} component
+ */
 export function render({ model, view, el }) {
   if (page !== null) return el.replaceWith(page)
   page = el
   const mount = createMount(model.sheets)
+  /** @param {string} key @param {string} [tag] */
   const text = (key, tag) => mount("text", renderText, { key, tag })
   const controls = element("section.controls.column", { id: "controls" },
     mount("controls", renderControls), text("derived", "div"))
   const reader = element("section.reader.column", { id: "text" },
     element("div.reading", mount("lessons", renderLessons, { index: model.lessons }), mount("prose", renderProse, { part: "words" })),
     element("div.signs", mount("prose", renderProse, { part: "legend" })))
-  // What scrolls is reached by keys.
-  for (const column of [controls, ...reader.children]) column.tabIndex = 0
+  // Scrolling columns are reached with the keyboard.
+  for (const column of [controls, ...reader.children]) /** @type {HTMLElement} */ (column).tabIndex = 0
   const stage = element("div.stage", mount("pictures", renderPictures), mount("player", renderPlayer))
   const { scenes, files, palettes } = model
   el.classList.add("frame")
@@ -104,7 +112,7 @@ export function render({ model, view, el }) {
       element("div.news", text("busy"), mount("progress", renderProgress))),
     tabsOf({ Controls: controls, Text: reader }), controls, stage, reader,
     element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener(), spot())
-  sayWhatMoves(stage, reader.firstChild)
+  sayWhatMoves(stage, /** @type {HTMLElement} */ (reader.firstChild))
   wear(el)
   listen({ reading: (on) => el.classList.toggle("in-lesson", on) })
   onKeys({ f: () => tell("fullscreen"), p: () => tell("present") })

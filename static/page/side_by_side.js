@@ -1,17 +1,21 @@
-// One of two pages side by side ("beside.js"): the moment that is shown in one is shown in the other, and so is the turn of
-// a body or a sphere.  Whoever asked for a page of this name is of the same origin, or hears nothing.
+// @ts-check
+// Links one of two pages side by side ("beside.js") to the other: both show the same moment, and bodies and spheres turn
+// together.  Messages go only to pages of the same origin.
 
 import { listen, tell } from "./bus.js"
 
 export const HALF = "hess-explorer-half"
-// What is told to the other page → what it does.
+// Event for the other page → event that the other page tells itself.
+/** @type {Record<string, "follow" | "turn">} */
 const HEARD = { time: "follow", turned: "turn" }
 
+/** Link this page to the other one, if it is one of two pages side by side. */
 export function joinOther() {
   if (window.name !== HALF || window.parent === window) return
-  // What is done because the other page has asked for it is not told back.
+  // A change that follows the other page is not sent back.
   let isFollowing = false
   const { origin } = location
+  /** @param {string} name @param {unknown} detail */
   const say = (name, detail) => { if (!isFollowing) window.parent.postMessage([name, detail], origin) }
   listen({
     time: ({ t }) => say("time", t),

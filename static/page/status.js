@@ -1,12 +1,15 @@
-// The status line: one sentence, and on a click all that it sums up.
+// @ts-check
+// The status line: a summary that unfolds into its details.
 
 import { listen } from "./bus.js"
 import { element } from "./elements.js"
 
+/** Render the status line. @param {{el: HTMLElement}} part */
 export function render({ el }) {
   const summary = element("span", { role: "status" })
   const details = element("div.text.details")
   const item = element("details.text.status", element("summary", summary), details)
+  /** @param {Texts} texts */
   const show = (texts) => {
     if ("summary" in texts) summary.textContent = texts.summary
     if ("status" in texts) details.textContent = texts.status

@@ -1,10 +1,16 @@
-// A piece of text that changes often: set as text, never as HTML.  A paragraph is read out when it changes.
+// @ts-check
+// A short text that changes often, set as text and never as HTML.  Screen readers announce a paragraph when it changes.
 
 import { listen } from "./bus.js"
 import { element } from "./elements.js"
 
+/**
+ * Render the text of a key.
+ * @param {{key: string, tag?: string, el: HTMLElement}} part
+ */
 export function render({ key, tag = "p", el }) {
   const item = element(`${tag}.text.${key}`, tag === "p" ? { role: "status" } : {})
+  /** @param {string} text */
   const show = (text) => {
     item.textContent = text
     item.hidden = text === ""

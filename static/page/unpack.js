@@ -1,6 +1,16 @@
-// The tree of a state and its block of single-precision numbers → columns; `wire.py` describes both.
+// @ts-check
+// Columns of a state from its tree and its block of single-precision numbers, see "protocol/wire.py".
 
+/** @typedef {{at: number, n: number, shape?: [number, number]}} Packed */
+
+/**
+ * Return [name, columns] of each source.
+ * @param {Tree["sources"]} sources
+ * @param {ArrayBuffer} block
+ * @returns {[string, Data][]}
+ */
 export function unpack(sources, block) {
+  /** @param {any} item a list, a plain value, or a `Packed` array @returns {unknown} */
   const place = (item) => {
     if (Array.isArray(item)) return item.map(place)
     if (typeof item !== "object" || item === null) return item

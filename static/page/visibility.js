@@ -1,20 +1,28 @@
-// Which pictures are out of sight or folded: those are not computed, and what comes into sight is asked for.
+// @ts-check
+// Tracks the pictures that are out of sight or folded: the server does not compute them until they appear.
 
-// appeared() is called when a picture comes into sight.
+/**
+ * Return the tracker.
+ * @param {() => void} appeared is called when a picture comes into sight
+ */
 export function createVisibility(appeared) {
+  /** @type {Set<string>} */
   const hidden = new Set()
   const observer = new IntersectionObserver((entries) => {
     let found = false
-    for (const { target, isIntersecting } of entries) {
-      const { name } = target.dataset
-      if (isIntersecting) found = hidden.delete(name) || found
+    for (const entry of entries) {
+      const { name } = /** @type {HTMLElement} */ (entry.target).dataset
+      if (entry.isIntersecting) found = hidden.delete(name) || found
       else hidden.add(name)
     }
     if (found) appeared()
   })
   return {
     hidden: () => [...hidden],
-    // The pictures of another scene, of which the server has drawn those that are not folded at first.
+    /**
+     * Watch the pictures of a scene; the server has drawn those that are not folded.
+     * @param {HTMLElement[]} cells
+     */
     watch(cells) {
       hidden.clear()
       observer.disconnect()

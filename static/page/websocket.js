@@ -1,23 +1,24 @@
-// The websocket by which states are asked for and come; "protocol/messages.py" describes the messages.
+// @ts-check
+// The websocket of requests and answers, see "protocol/messages.py".
 
 const LENGTHS = 8
-// The code with which a server that has no room closes it.
+// Close code of a server without room for another session.
 const FULL = 1013
 
-// Milliseconds between two questions whether a server is back that is gone: restarted, out of reach, or left behind while
-// the machine slept.
+// Milliseconds between attempts to reach a server that has restarted, or that was lost while the machine slept.
 const FIRST = 1000
 const LONGEST = 15000
 
 const decoder = new TextDecoder()
 
 /**
- * @param {(head: object, block: ArrayBuffer, cells: ArrayBuffer) => void} receive - hears each answer
- * @param {(why: string) => void} lost - hears that the connection is gone, and why where that is no accident
- * @returns {(message: object) => void} sends a message
+ * Open the websocket and return the function that sends messages.
+ * @param {(head: Answer, block: ArrayBuffer, cells: ArrayBuffer) => void} receive gets each answer
+ * @param {(why: string) => void} lost is called when the connection is closed, with a reason if the server gave one
+ * @returns {(message: StateRequest | {chart: ChartRequest}) => void}
  */
 export function openWebsocket(receive, lost) {
-  // The query says what is shown first; which process answers is no matter.
+  // The query names the first state; any worker can answer.
   const url = new URL(`states${location.search}`, document.baseURI)
   url.protocol = url.protocol.replace("http", "ws")
   const socket = new WebSocket(url)
@@ -32,11 +33,11 @@ export function openWebsocket(receive, lost) {
   return (message) => socket.send(JSON.stringify(message))
 }
 
-// Resolves once it answers.  A class does not come back all at once.
+/** Wait until the server answers; pauses are random, so that a class of browsers does not reconnect at once. */
 export async function answering() {
   for (let pause = FIRST; ; pause = Math.min(2 * pause, LONGEST)) {
     await new Promise((done) => setTimeout(done, pause * (0.5 + Math.random())))
-    const answer = await fetch(new URL("liveness", document.baseURI), { cache: "no-store" }).catch(() => null)
+    const answer = await fetch(new URL("liveness", document.baseURI), { cache: "no-store" }).catch(() => /** @type {null} */ (null))
     if (answer?.ok) return
   }
 }

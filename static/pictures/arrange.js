@@ -1,10 +1,25 @@
-// Layout of square pictures in a viewport: side by side, as large as the room allows.  Pure: numbers in, numbers out.
+// @ts-check
+// Layout of square pictures in a viewport, side by side and as large as the room allows.
 
-// Of the height: so large is a picture that is enlarged, if the width allows.
+/**
+ * The viewport; caption(width) is the height of the caption over a picture in a cell of that width.  `caption.title` is the
+ * height of a title alone, and `caption.wide` the largest width of a cell that is wider than its picture.
+ * @typedef {{width: number, height: number, count: number, gap: number,
+ *   caption: ((width: number) => number) & {title: number, wide: number}}} Place
+ * @typedef {{x: number, y: number, width: number, edge: number, caption: number, small: boolean}} Box
+ * @typedef {{boxes: Box[], smallest: number}} Arrangement
+ */
+
+// Share of the height that an enlarged picture takes if the width allows.
 const LARGE = 0.82
 const STEP = 2
 
-// `count` pictures of equal right in columns.
+/**
+ * Return the arrangement of equal pictures in columns.
+ * @param {Place} place
+ * @param {number} columns
+ * @returns {Arrangement}
+ */
 function grid({ width, height, count, gap, caption }, columns) {
   const rows = Math.ceil(count / columns)
   const wide = (width - gap * (columns - 1)) / columns
@@ -14,7 +29,8 @@ function grid({ width, height, count, gap, caption }, columns) {
   const left = (width - columns * cell - gap * (columns - 1)) / 2
   const row = edge + caption(wide) + gap
   const top = (height - rows * row + gap) / 2
-  // A last row of fewer stands in the middle.
+  // A last row that is not full is centred.
+  /** @param {number} i */
   const aside = (i) => (i < columns * (rows - 1) ? 0 : (rows * columns - count) / 2)
   const boxes = Array.from({ length: count }, (_, i) => ({
     x: left + ((i % columns) + aside(i)) * (cell + gap), y: top + Math.floor(i / columns) * row,
@@ -23,7 +39,15 @@ function grid({ width, height, count, gap, caption }, columns) {
   return { boxes, smallest: edge }
 }
 
-// The first `leading` pictures with edge `lead` in a row, the rest in a strip beside them or below.
+/**
+ * Return the arrangement with `leading` pictures of edge `lead` in a row, and the others in a strip beside or below it.
+ * @param {Place} place
+ * @param {number} leading
+ * @param {number} lead
+ * @param {boolean} isBeside
+ * @param {boolean} titlesOnly whether the captions of the others are cut to their titles
+ * @returns {Arrangement}
+ */
 function strip({ width, height, count, gap, caption }, leading, lead, isBeside, titlesOnly) {
   const rest = count - leading
   const over = caption(lead)
@@ -46,18 +70,26 @@ function strip({ width, height, count, gap, caption }, leading, lead, isBeside, 
       width: cell, edge, caption: above, small: titlesOnly,
     }
   })
-  return { boxes, smallest: Math.min(edge, lead), lead }
+  return { boxes, smallest: Math.min(edge, lead) }
 }
 
-// The largest edge that `leading` pictures in a row can have.
+/**
+ * Return the largest edge of `leading` pictures in a row.
+ * @param {Place} place
+ * @param {number} leading
+ */
 function largest({ width, height, gap, caption }, leading) {
   const wide = (width - gap * (leading - 1)) / leading
   return Math.floor(Math.min(wide, height - caption(Math.min(wide, height))))
 }
 
+/** @param {Arrangement} arrangement */
 const area = ({ boxes }) => boxes.reduce((sum, { edge }) => sum + edge * edge, 0) / 1000
 
-// The arrangement whose smallest picture is largest; of those, the one that fills most.
+/**
+ * Return the arrangement with the largest smallest picture; among equals, the one that fills most of the viewport.
+ * @param {Arrangement[]} arrangements
+ */
 function best(arrangements) {
   return arrangements.reduce((found, one) => {
     const larger = one.smallest - found.smallest
@@ -65,7 +97,13 @@ function best(arrangements) {
   })
 }
 
-// The first `leading` pictures from as large as can be to at least `least`, the rest beside or below.
+/**
+ * Return the arrangements in strips, with leading pictures from the largest possible edge down to `least`.
+ * @param {Place} place
+ * @param {number} leading
+ * @param {number} least
+ * @param {boolean} titlesOnly
+ */
 function strips(place, leading, least, titlesOnly) {
   const found = []
   for (let lead = largest(place, leading); lead >= least; lead -= STEP) {
@@ -74,31 +112,36 @@ function strips(place, leading, least, titlesOnly) {
   return found
 }
 
-// Nobody is enlarged.
+/**
+ * Return the best arrangement without an enlarged picture.
+ * @param {Place} place
+ */
 function even(place) {
   const grids = Array.from({ length: place.count }, (_, i) => grid(place, i + 1))
   return best(place.count > 2 ? [...grids, ...strips(place, 1, Math.floor(0.4 * largest(place, 1)) + 1, false)] : grids)
 }
 
-// The first `leading` pictures are enlarged: those of at least `LARGE` of the height that leave the rest most room.
+/**
+ * Return the best arrangement with the first `leading` pictures enlarged.
+ * @param {Place} place
+ * @param {number} leading
+ */
 function enlarged(place, leading) {
   if (leading === place.count) return grid(place, leading)
   return best(strips(place, leading, Math.min(LARGE * place.height, 0.94 * largest(place, leading)), true))
 }
 
 /**
- * Return one {x, y, width, edge, caption, small} for each picture, in their order.
- *
- * caption(width) is the height of a caption over a picture in a cell so wide; `caption.title` that of its title alone, which
- * is what stands over a small picture beside an enlarged one; `caption.wide`: a cell that is wider than its picture need be
- * no wider than this.
- * @param {{width: number, height: number, count: number, gap: number, caption: any}} place
- * @param {number[]} large the numbers of the pictures enlarged
+ * Return the box of each picture, in their order.
+ * @param {Place} place
+ * @param {number[]} large indices of the enlarged pictures
+ * @returns {Box[]}
  */
 export function arrange(place, large = []) {
   if (place.count === 0) return []
   const order = [...large, ...Array.from({ length: place.count }, (_, i) => i).filter((i) => !large.includes(i))]
   const { boxes } = large.length > 0 ? enlarged(place, large.length) : even(place)
+  /** @type {Box[]} */
   const placed = []
   order.forEach((picture, i) => { placed[picture] = boxes[i] })
   return placed

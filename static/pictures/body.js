@@ -1,15 +1,16 @@
-// A body as it lies in space: a solid ellipsoid in its principal axes, rods from its fixed point, the wheels of its
-// constraint, the trail of one of its points, curves fixed in space: a guest of "sphere.js", which turns the picture.
-// What is far of the body is painted before it, what is near after it; a rod begins where it leaves the surface.
+// @ts-check
+// A rigid body in space: a solid ellipsoid in its principal axes, rods from its fixed point, the wheels of its constraint,
+// the trail of a point, and curves fixed in space.  It is a guest of "sphere.js", which rotates the picture.  Parts behind the
+// body are painted before it and parts in front after it; a rod begins where it leaves the surface.
 //
-// Space is seen with e to x and γ downwards, as gravity is for the potential −μ(r, γ).  The source that the option
-// `attitude` names holds, along the orbit, the columns t, g1, g2, g3, e1, e2, e3: γ and e as seen from the body.  The
-// picture's own source holds, all but the curves in the coordinates of the body,
-//   axes [[x, y, z]] × 3, semi [3] and names [3]: principal axes, half the lengths of the ellipsoid along them, labels;
-//   section [x, y, z, radius]: a circular section of it, by its normal;  rods [[x, y, z, look, label]];
-//   wheels [x, y, z, ex, ey, ez]: where one touches the sphere, and e, along which it rolls; the other is opposite;
-//   trail [x, y, z, look]: the point that leaves one;  hollow: whether the body is a ball of glass on a ball inside;
-//   curves [[look, weight, xs, ys, zs]] in space, weight 0 for that of the look;  axis and label: of the arrow below.
+// In space e points along x and γ downwards, as gravity does for the potential −μ(r, γ).  The source of the option `attitude`
+// holds the columns t, g1, g2, g3, e1, e2, e3 of an orbit: γ and e in body coordinates.  The picture's own source holds, in
+// body coordinates except for the curves,
+//   axes [[x, y, z]] × 3, semi [3], names [3]: principal axes, half lengths of the ellipsoid, labels;
+//   section [x, y, z, radius]: a circular section, by its normal;  rods [[x, y, z, look, label]];
+//   wheels [x, y, z, ex, ey, ez]: contact point of a wheel with the sphere, and rolling direction e; the other is opposite;
+//   trail [x, y, z, look]: a point that leaves a trail;  hollow: whether the body is a glass ball around an inner ball;
+//   curves [[look, weight, xs, ys, zs]] in space, weight 0 for that of the look;  axis and label of the arrow below.
 
 import { drawArrow, drawBall, drawLine, drawWheel, WHEEL } from "./body_parts.js"
 import { circlePath, LOOKS } from "./looks.js"
@@ -23,9 +24,15 @@ const CAVITY = 0.62
 const INNER = 0.26
 const BALL = 9
 
-// What takes a direction of the body to space at the share s between the samples i and i + 1: γ and e orthonormal,
-// whatever the straight lines between the samples have made of them.
+/**
+ * Return the map of directions from the body to space at the share s between the samples i and i + 1; γ and e are made
+ * orthonormal after the interpolation.
+ * @param {Data} columns
+ * @param {number} i
+ * @param {number} s
+ */
 function placing(columns, i, s) {
+  /** @param {string} name */
   const read = (name) => [1, 2, 3].map((k) => {
     const column = columns[name + k]
     return column[i] + (s && s * (column[i + 1] - column[i]))
@@ -34,16 +41,24 @@ function placing(columns, i, s) {
   const raw = read("e")
   const e = unit(plus(raw, g, -dot(g, raw)))
   const f = cross(g, e)
-  return (v) => [dot(v, e), -dot(v, f), -dot(v, g)]
+  /** @type {(v: Vector) => Vector} */
+  const place = (v) => [dot(v, e), -dot(v, f), -dot(v, g)]
+  return place
 }
 
-// Fades and thins with age.
+/**
+ * Draw a trail that fades and thins with age.
+ * @param {Sheet} sheet
+ * @param {number[][]} path
+ * @param {Look} look
+ * @param {boolean} near
+ */
 function drawTrail({ ctx, stroke, use }, path, look, near) {
   use(look)
   const n = path[0].length
   const most = TRAIL / PIECES
   for (let k = 0; k < PIECES; k++) {
-    // The newest piece ends at the point itself.
+    // The newest piece ends at the point.
     const [from, to] = [Math.max(0, n - 1 - (k + 1) * most), n - 1 - k * most]
     if (to < 1) break
     const share = 1 - k / PIECES
@@ -53,10 +68,18 @@ function drawTrail({ ctx, stroke, use }, path, look, near) {
   }
 }
 
-// A circular section of the surface, where the normal of the surface points to the eye.
+/**
+ * Draw the part of a circular section whose surface normal points to the eye.
+ * @param {Sheet} sheet
+ * @param {Vector} normal
+ * @param {number} radius
+ * @param {Vector[]} axes
+ * @param {number[]} semi
+ */
 function drawSection({ use, stroke }, normal, radius, axes, semi) {
   use({ ...LOOKS.second, weight: 2.5 })
   const ring = circle(normal, 0, 192)
+  /** @type {number[][]} */
   const sides = [[], [], []]
   for (let i = 0; i < ring[0].length; i++) {
     const at = ring.map((column) => column[i])
@@ -66,21 +89,27 @@ function drawSection({ use, stroke }, normal, radius, axes, semi) {
   stroke(ring.map((column) => scaled(column, radius)), true, sides)
 }
 
-/** Return the guest that draws the body of a source, moved as another source says. */
+/**
+ * Return the guest that draws a body.
+ * @param {Source} source
+ * @param {Source} attitude
+ */
 export function bodyIn(source, attitude) {
   const solid = createSolid()
   let t = 0
 
-  // The body at t: placed once for both halves.
+  /** Return the body at the time t, placed once for both halves. @param {Sheet} sheet */
   function now({ view }) {
     const { t: times, ...columns } = attitude.data
     if (!(times?.length > 1)) return null
     const [i, s] = between(times, t)
     const place = placing(columns, i, s)
-    const { axes = [], semi = [], trail = [] } = source.data
+    const { axes = /** @type {Vector[]} */ ([]), semi = [], trail = [] } = source.data
+    /** @type {number[][]} */
     const path = [[], [], []]
     if (trail.length) {
       const tip = trail.slice(0, 3)
+      /** @param {Vector} placed */
       const add = (placed) => placed.forEach((x, k) => path[k].push(x))
       for (let j = Math.max(0, i - TRAIL); j <= i; j++) add(placing(columns, j, 0)(tip))
       add(place(tip))
@@ -89,7 +118,14 @@ export function bodyIn(source, attitude) {
     return { place, placed, seen: semi.length === 3 ? placed.map(view) : [], path }
   }
 
-  // From the surface to its end, where it leaves on this side; its end where it is.
+  /**
+   * Draw the visible part of a rod on one side.
+   * @param {Sheet} sheet
+   * @param {Vector} to
+   * @param {Look} look
+   * @param {string} label
+   * @param {boolean} near
+   */
   function drawRod(sheet, to, look, label, near) {
     const { ctx, text, at, view, isNear, write } = sheet
     const { semi = [] } = source.data
@@ -101,18 +137,21 @@ export function bodyIn(source, attitude) {
     if (isMass) drawBall(ctx, ...at(to), look.colour, BALL, text)
     const beyond = scaled(to, 1 + 0.12 / Math.hypot(...to))
     const [right, up] = view(beyond)
-    // What is half hidden cannot be read.
+    // A half-hidden label cannot be read.
     if (!label || (!near && seen.length && covers(seen, semi, right, up, 0.05))) return
     const aside = isMass ? 16 : 0
     const [x, y] = at(beyond)
     write(label, x + aside, y - aside)
   }
 
+  /** @type {ReturnType<typeof now> | null} */
   let held = null
   return {
+    /** @param {number} value */
     set t(value) { t = value },
-    // Before the far half, for all that follows.
+    /** Place the body for all the painting that follows. @param {Sheet} sheet */
     begin(sheet) { held = now(sheet) },
+    /** @param {Sheet} sheet @param {boolean} near */
     paint(sheet, near) {
       const { ctx, stroke, use, isNear } = sheet
       const { semi = [], names = [], section = [], rods = [], wheels = [], trail = [], curves = [], axis, label = "" } = source.data
@@ -123,6 +162,7 @@ export function bodyIn(source, attitude) {
         stroke(curve, near)
       }
       if (held === null) return
+      /** @type {{place: (v: Vector) => Vector, placed: Vector[], path: number[][]}} */
       const { place, placed, path } = held
       if (trail.length) drawTrail(sheet, path, LOOKS[trail[3]], near)
       ctx.globalAlpha = 1
@@ -145,7 +185,7 @@ export function bodyIn(source, attitude) {
       if (axis?.length === 3 && isNear(axis) === near) drawArrow(sheet, axis, label)
       ctx.globalAlpha = alpha
     },
-    // The body itself, between both halves.
+    /** Paint the body between the far and the near half. @param {Sheet} sheet */
     middle(sheet) {
       if (held === null || !held.seen.length) return
       const { ctx, text, dark, scale, at, use } = sheet

@@ -1,13 +1,20 @@
-// What stands out of a body: rods, the ball of its mass, wheels, and the arrow below it.
+// @ts-check
+// Parts of a body outside its surface: rods, the ball of its mass, wheels, and the arrow below.
 
 import { circlePath, LOOKS } from "./looks.js"
 import { circle, cross, plus, scaled, unit } from "./vectors.js"
 
-// The radius of a wheel, and half of its thickness.
+// Radius of a wheel and half its thickness.
 export const WHEEL = 0.15
 const THICK = 0.024
 
-/** Draw a straight line with round ends. */
+/**
+ * Draw a straight line with round ends.
+ * @param {Sheet} sheet
+ * @param {Vector} from
+ * @param {Vector} to
+ * @param {Look} look
+ */
 export function drawLine({ ctx, line, use }, from, to, look) {
   use({ colour: look.colour, weight: look.weight })
   ctx.lineCap = "round"
@@ -15,7 +22,16 @@ export function drawLine({ ctx, line, use }, from, to, look) {
   ctx.lineCap = "butt"
 }
 
-/** Draw a ball, lit from above; its colour is plain up to the share `plain` of its radius. */
+/**
+ * Draw a ball that is lit from above.
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {number} x
+ * @param {number} y
+ * @param {string} colour
+ * @param {number} radius
+ * @param {string} ink colour of the outline
+ * @param {number} plain share of the radius where shading begins
+ */
 export function drawBall(ctx, x, y, colour, radius, ink, plain = 0.62) {
   const light = ctx.createRadialGradient(x - 0.45 * radius, y - 0.5 * radius, 0, x - 0.1 * radius, y - 0.1 * radius,
     1.1 * radius)
@@ -32,13 +48,18 @@ export function drawBall(ctx, x, y, colour, radius, ink, plain = 0.62) {
   ctx.stroke()
 }
 
-/** Draw a wheel that touches the sphere at a place and rolls along a direction. */
+/**
+ * Draw a wheel.
+ * @param {Sheet} sheet
+ * @param {Vector} touching its contact point with the sphere
+ * @param {Vector} along its rolling direction
+ */
 export function drawWheel({ ctx, text, dark, depth, at, use }, touching, along) {
   const axle = unit(cross(touching, along))
   const middle = scaled(touching, 1 - WHEEL)
   const side = depth(...axle) >= 0 ? THICK : -THICK
   const [X, Y, Z] = circle(axle, 0, 40)
-  // Adds to the path the disc of a radius, aside along the axle.
+  /** Add a disc to the path. @param {number} aside offset along the axle @param {number} radius */
   const disc = (aside, radius) => {
     const centre = plus(middle, axle, aside)
     for (let i = 0; i < X.length; i++) {
@@ -48,6 +69,7 @@ export function drawWheel({ ctx, text, dark, depth, at, use }, touching, along) 
     }
     ctx.closePath()
   }
+  /** @param {string} colour @param {number[]} asides @param {number} radius */
   const fill = (colour, asides, radius) => {
     ctx.fillStyle = colour
     ctx.beginPath()
@@ -56,7 +78,7 @@ export function drawWheel({ ctx, text, dark, depth, at, use }, touching, along) 
   }
   use({ weight: 2.5 })
   ctx.lineJoin = "round"
-  // The tread is what its discs cover: one path of all of them.
+  // The tread is the union of its discs, in one path.
   fill(text, [-1, -0.6, -0.2, 0.2, 0.6], WHEEL)
   ctx.stroke()
   fill(dark ? "#C8C8C8" : "#EEE", [1], WHEEL)
@@ -64,7 +86,12 @@ export function drawWheel({ ctx, text, dark, depth, at, use }, touching, along) 
   fill(text, [1], 0.25 * WHEEL)
 }
 
-/** Draw an arrow from the sphere outwards, with the label beside its head. */
+/**
+ * Draw an arrow outwards from the sphere, with a label beside its head.
+ * @param {Sheet} sheet
+ * @param {Vector} along
+ * @param {string} label
+ */
 export function drawArrow(sheet, along, label) {
   const { ctx, text, at, write } = sheet
   const [from, to] = [scaled(along, 1.02), scaled(along, 1.15)]

@@ -1,9 +1,12 @@
-// All that this page uses of BokehJS beyond its documentation, each with its reason and what happens without it.
+// @ts-check
+// Undocumented parts of BokehJS that this page uses, with the reason and the effect if they are missing.
 
 const gestures = () => Bokeh.require?.("core/ui_gestures")?.UIGestures
+/** @param {unknown} value */
 const isMethod = (value) => typeof value === "function"
 
-// Name → whether it is there, for a plot that was built.
+// Name → test for its presence in a plot.
+/** @type {Record<string, (plot: PlotView) => boolean>} */
 const NEEDED = {
   "UIGestures.press_threshold": () => Number.isFinite(gestures()?.press_threshold),
   "GlyphRendererView.all_indices, GlyphView.set_visuals and after_visuals": (plot) => plot.computed_renderer_views
@@ -13,11 +16,18 @@ const NEEDED = {
     Object.getOwnPropertyDescriptor(window, "devicePixelRatio")?.configurable === true),
 }
 
+/**
+ * Return the names of missing parts.
+ * @param {PlotView} plot
+ */
 export const missing = (plot) => Object.keys(NEEDED).filter((name) => !NEEDED[name](plot))
 
 let isChecked = false
 
-// Says once, when the first plot is built, what is not there.
+/**
+ * Log the missing parts, once, when the first plot is built.
+ * @param {PlotView} plot
+ */
 export function checkBokeh(plot) {
   if (isChecked) return
   isChecked = true
@@ -25,17 +35,24 @@ export function checkBokeh(plot) {
   if (names.length > 0) console.error(`BokehJS ${Bokeh.version} is none that this page knows: there is no ${names.join(", no ")}.`)
 }
 
-// A pointer that rests for 0.3 s is to Bokeh a press, after which neither a tap nor a drag comes of it; whoever takes
-// aim at a point rests longer.  `press_threshold` is a static property that its types call read-only.
-// Without it: such a click must be made within 0.3 s.
+/**
+ * Make Bokeh wait long for a press.
+ *
+ * After 0.3 s Bokeh takes a resting pointer for a press, and then neither a tap nor a drag follows; users who aim at a point
+ * rest longer.  Bokeh's types call the static property `press_threshold` read-only.  If it is missing, a click must be made
+ * within 0.3 s.
+ */
 export function waitLongForPress() {
   const found = gestures()
-  // The longest that timers take.
+  // The longest delay of a timer.
   if (found) found.press_threshold = 2 ** 31 - 1
 }
 
-// The colours of glyphs that were changed in this task: Bokeh itself takes them up in a promise, too late for a print.
-// Without it: a page that is dark is printed in the colours of a dark page.
+/**
+ * Apply glyph colours that were changed in this task.  Bokeh itself applies them in a promise, too late for printing; without
+ * these methods a dark page is printed in dark colours.
+ * @param {PlotView} plot
+ */
 export function takeColours(plot) {
   for (const { glyph, model, all_indices: indices } of plot.computed_renderer_views) {
     glyph?.set_visuals?.(model.data_source, indices)
@@ -43,8 +60,13 @@ export function takeColours(plot) {
   }
 }
 
-// act() with so many pixels of a canvas for one of CSS; Bokeh asks the window for that number.
-// Without it: what is printed is as sharp as the screen, and no sharper.
+/**
+ * Call `act` with another device pixel ratio, which Bokeh reads from the window.  If it cannot be replaced, prints have the
+ * resolution of the screen.
+ * @template Result
+ * @param {number} ratio
+ * @param {() => Result} act
+ */
 export function atRatio(ratio, act) {
   const own = Object.getOwnPropertyDescriptor(window, "devicePixelRatio")
   if (!own?.configurable) return act()

@@ -1,5 +1,6 @@
-// Canvases that the page paints itself: sharp on every screen, and painted again when their data, their size or the theme
-// of the page change.  Some lie over the frame of a Bokeh plot, for what would take Bokeh too long to draw.
+// @ts-check
+// Canvases that repaint themselves when their data, their size or the theme changes.  Some lie over the frame of a Bokeh
+// plot and draw what Bokeh would draw slowly.
 
 import { listen } from "../page/bus.js"
 import { element } from "../page/elements.js"
@@ -8,7 +9,12 @@ import { INK, isDark, onDark, setDark, watchTheme } from "./looks.js"
 
 const pixelRatio = () => devicePixelRatio || 1
 
-/** Give a canvas the pixels of the screen for a size in CSS pixels.  Return its context, empty, whose unit is a CSS pixel. */
+/**
+ * Resize a canvas to the pixels of the screen, and return its empty context in CSS pixels.
+ * @param {HTMLCanvasElement} canvas
+ * @param {number} width in CSS pixels
+ * @param {number} height
+ */
 export function fit(canvas, width, height) {
   const ctx = canvas.getContext("2d")
   const ratio = pixelRatio()
@@ -20,15 +26,14 @@ export function fit(canvas, width, height) {
 }
 
 /**
- * Return a canvas that paints itself.
+ * Return a canvas that repaints itself, its size in CSS pixels, and a function that requests a repaint.
  * @param {string} className
  * @param {object} properties see `element`
- * @param {(ctx: CanvasRenderingContext2D, look: {width: number, height: number, text: string, dark: boolean}) => void} paint
- *   gets the size in CSS pixels, the colour of text, and whether the page is dark
+ * @param {(ctx: CanvasRenderingContext2D, look: CanvasLook) => void} paint
  */
 export function liveCanvas(className, properties, paint) {
   const canvas = element(`canvas.${className}`, properties)
-  // To ask for the size in each frame would lay out the page.
+    // Sizes are kept here: reading them in each frame would force a layout.
   const own = { canvas, width: 0, height: 0, request }
   let requested = false
 
@@ -49,7 +54,7 @@ export function liveCanvas(className, properties, paint) {
     requestAnimationFrame(draw)
   }
 
-  // With all the others of a state, rather than in the next frame.
+  // Paint together with the other pictures of a state.
   listen({
     paint: draw,
     presenting: request,
@@ -63,10 +68,13 @@ export function liveCanvas(className, properties, paint) {
 }
 
 /**
- * Add a square canvas to an element, as wide as that.
+ * Add a square canvas to an element, as wide as the element.
  *
- * paint(ctx, {edge, ratio, text, dark}): the unit of lengths is a CSS pixel, larger in present mode; `edge` is the side in
- * units, `ratio` the number of device pixels in a unit.  shoot(side) returns the picture for print, `side` pixels wide.
+ * Lengths are in CSS pixels, larger in present mode.  shoot(side) returns the picture for print, `side` pixels wide.
+ * @param {HTMLElement} el
+ * @param {string} className
+ * @param {object} properties
+ * @param {PaintSquare} paint
  */
 export function squareCanvas(el, className, properties, paint) {
   const own = liveCanvas(className, properties, (ctx, { width, text, dark }) => {
@@ -74,6 +82,7 @@ export function squareCanvas(el, className, properties, paint) {
     paint(ctx, { edge: width / zoom(), ratio: pixelRatio() * zoom(), text, dark })
   })
   el.append(own.canvas)
+  /** @param {number} side */
   const shoot = (side) => {
     const sheet = element("canvas", { width: side, height: side })
     const ctx = sheet.getContext("2d")
@@ -86,11 +95,10 @@ export function squareCanvas(el, className, properties, paint) {
 }
 
 /**
- * Put a canvas over a plot, which is drawn again when the axes or the size of the plot change.
- * @param {any} plot Bokeh's view of it
- * @param {Element} before the element of the plot's canvas under which it lies
- * @param {(ctx: CanvasRenderingContext2D, x: any, y: any) => void} paint gets a context that is clipped to the frame, in
- *   Bokeh's pixels, half a pixel aside as Bokeh's own, and the plot's scales
+ * Put a canvas over the frame of a plot; it is redrawn when the axes or the size of the plot change.
+ * @param {PlotView} plot
+ * @param {Element} before the element below which the canvas lies
+ * @param {PaintFrame} paint draws in Bokeh's pixels, clipped to the frame; like Bokeh, offset by half a pixel
  */
 export function frameCanvas(plot, before, paint) {
   const canvas = element("canvas")
@@ -99,10 +107,10 @@ export function frameCanvas(plot, before, paint) {
   let stale = true
   let drawn = ""
 
-  // Does nothing where neither data nor axes nor the theme have changed.
+  // Does nothing if data, axes, sizes and theme are unchanged.
   function draw() {
     const { frame: { bbox: { x0, y0, x1, y1 }, x_scale: xScale, y_scale: yScale }, bbox: { width, height } } = plot
-    // Out of sight it has no size.
+    // A plot out of sight has no size.
     if (!(x1 > x0 && y1 > y0)) return
     const { x_range: x, y_range: y } = plot.model
     const here = [x.start, x.end, y.start, y.end, x0, y0, x1, y1, width, height, devicePixelRatio, onDark(), zoom()].join()

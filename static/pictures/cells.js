@@ -1,4 +1,9 @@
-// Draws numbers on a grid as coloured cells, or, for a continuous function, interpolated in each pixel.
+// @ts-check
+// Paints a grid of numbers as coloured cells, or interpolated in each pixel.
+
+/** @typedef {{palette: string[], low: number, high: number, smooth?: boolean, cyclic?: boolean, kinds?: boolean}} Colouring */
+/** @typedef {Colouring & {source: string}} CellLayer a layer of cells, and its source */
+/** @typedef {(a: number, b: number, c: number, d: number, right: number, up: number) => number} Mix */
 
 import { element } from "../page/elements.js"
 import { bytesOf, onDark, shade } from "./looks.js"
@@ -6,20 +11,26 @@ import { bytesOf, onDark, shade } from "./looks.js"
 const UNKNOWN = "#808080"
 const MOST_PIXELS = 1200
 
-// A colour as a number: its bytes in the order of memory of all browsers' machines, alpha last.
+/** Return a colour as a 32-bit pixel: little endian, alpha last. @param {string} colour */
 function packed(colour) {
   const [red, green, blue, alpha] = bytesOf(colour)
   return ((alpha << 24) | (blue << 16) | (green << 8) | red) >>> 0
 }
 
-// A sheet of so many pixels, row 0 the highest, whose colours are those of the numbers valueAt(row from below, column).
+/**
+ * Return a canvas with the colours of numbers; row 0 is at the top.
+ * @param {number} columns
+ * @param {number} rows
+ * @param {Colouring} colouring
+ * @param {(row: number, column: number) => number} valueAt rows are counted from below
+ */
 function sheetOf(columns, rows, { palette, low, high, smooth, kinds }, valueAt) {
   const sheet = element("canvas", { width: columns, height: rows })
   const paper = sheet.getContext("2d")
   const pixels = paper.createImageData(columns, rows)
   const out = new Uint32Array(pixels.data.buffer)
   const colours = Uint32Array.from(palette, (colour) => packed(shade(colour)))
-  // Between the centres of cells nothing is drawn where one has no number.
+  // Interpolated pictures leave out places next to a cell without a number.
   const unknown = smooth || kinds ? 0 : packed(UNKNOWN)
   const last = colours.length - 1
   const scale = colours.length / (high - low)
@@ -33,7 +44,12 @@ function sheetOf(columns, rows, { palette, low, high, smooth, kinds }, valueAt) 
   return sheet
 }
 
-// Where the pixels of a row of `size` lie among the centres of `count` cells: the cell before, and the share of the next.
+/**
+ * Return, for `size` pixels along `count` cells, the cell before each pixel and the share of the next cell.
+ * @param {number} size
+ * @param {number} count
+ * @returns {[Int32Array, Float32Array]}
+ */
 function between(size, count) {
   const [cells, shares] = [new Int32Array(size), new Float32Array(size)]
   for (let i = 0; i < size; i++) {
@@ -44,7 +60,14 @@ function between(size, count) {
   return [cells, shares]
 }
 
-// mix(a, b, c, d, right, up) in each pixel: of the four centres around it, below and above, and the shares of the further ones.
+/**
+ * Return a canvas with mix(a, b, c, d, right, up) in each pixel, for the four cells around it: two below, two above.
+ * @param {Grid} grid
+ * @param {Colouring} layer
+ * @param {number} width
+ * @param {number} height
+ * @param {Mix} mix
+ */
 function resampled({ rows, columns, numbers }, layer, width, height, mix) {
   const [ys, ups] = between(height, rows)
   const [xs, rights] = between(width, columns)
@@ -55,9 +78,14 @@ function resampled({ rows, columns, numbers }, layer, width, height, mix) {
   })
 }
 
-// Interpolates; with `cyclic` the nearest way round.
+/**
+ * Return bilinear interpolation; cyclic numbers take the shorter way round.
+ * @param {Colouring} colouring
+ * @returns {Mix}
+ */
 function interpolation({ low, high, cyclic }) {
   const period = high - low
+  /** @param {number} a @param {number} b @param {number} share */
   const mix = (a, b, share) => a + share * (b - a - (cyclic ? period * Math.round((b - a) / period) : 0))
   return (a, b, c, d, right, up) => {
     const value = mix(mix(a, b, right), mix(c, d, right), up)
@@ -65,24 +93,30 @@ function interpolation({ low, high, cyclic }) {
   }
 }
 
-// Kinds, not numbers: the kind that has most of the centres around it, by their shares; so that a border between two kinds
-// runs straight between cells instead of around them.
+/**
+ * Return the kind with the largest share among the four cells around, so that borders between kinds run straight.
+ * @type {Mix}
+ */
 function majority(a, b, c, d, right, up) {
   if (a === b && a === c && a === d) return a
   const shares = [(1 - right) * (1 - up), right * (1 - up), (1 - right) * up, right * up]
   const kinds = [a, b, c, d]
+  /** @param {number} kind */
   const shareOf = (kind) => shares.reduce((sum, share, i) => (kinds[i] === kind ? sum + share : sum), 0)
   return kinds.reduce((most, kind) => (shareOf(kind) > shareOf(most) ? kind : most))
 }
 
 /**
- * Return what paints layers of cells, see `frameCanvas`.
- * @param {{source: string, palette: string[], low: number, high: number, smooth?: boolean, cyclic?: boolean, kinds?: boolean}[]} layers
- * @param {(name: string) => {data: any}} source its data hold image, x, y, dw, dh, as Bokeh's glyph "image"
+ * Return the painter of layers of cells, see `frameCanvas`.
+ * @param {CellLayer[]} layers
+ * @param {(name: string) => {data: Data}} source its data hold image, x, y, dw, dh, as for Bokeh's glyph "image"
+ * @returns {(ctx: CanvasRenderingContext2D, xScale: Scale, yScale: Scale) => void}
  */
 export function cellsPainter(layers, source) {
+  /** @type {Map<string, {cells: Grid, key: string, sheet: HTMLCanvasElement}>} */
   const sheets = new Map()
 
+  /** @param {CellLayer} layer @param {Grid} cells @param {number} width @param {number} height */
   function sheetFor(layer, cells, width, height) {
     const mix = layer.smooth ? interpolation(layer) : layer.kinds ? majority : null
     const [wide, high] = mix === null ? [cells.columns, cells.rows] : [width, height].map((side) => Math.min(MOST_PIXELS, side))

@@ -1,5 +1,6 @@
-// Draws a chart: coloured cells, axes, a colour bar, and a ring at the state on show.  The pointer and the arrow keys move
-// a cursor from cell to cell (the hit test is `cellAt`); a drag draws a box.
+// @ts-check
+// The canvas of a chart: coloured cells, axes, a colour bar, and a ring at the state on show.  The pointer and the arrow keys
+// move a cursor from cell to cell; a drag draws a box.
 
 import { onDrag } from "../page/drag.js"
 import { arrowOf } from "../page/keys.js"
@@ -10,29 +11,40 @@ import { coloursOf, filled } from "./chart_colours.js"
 import { circlePath, POINT } from "./looks.js"
 import { drawTicks, roundNumbers, tickLabels } from "./ticks.js"
 
-// In units of the type's size.
+// Margins and the width of the colour bar, in units of the font size.
 const LEFT = 4.6
 const RIGHT = 6.6
 const TOP = 0.8
 const BOTTOM = 3.6
 const BAR = 1.1
-// Pixels that a click may slip.
+// Pixels that the pointer may move during a click.
 const SLIP = 6
 const DARK = "#101010"
 
+/** @param {ChartAxis} axis */
 const stepOf = ({ low, high, count }) => (high - low) / (count - 1)
+/** @param {number} value @param {number} low @param {number} high */
 const within = (value, low, high) => Math.max(low, Math.min(high, value))
 
-// From values to a line of the canvas.
+/**
+ * Return the scale that maps values from low to low + size to pixels.
+ * @param {number} low
+ * @param {number} size
+ * @param {number} from
+ * @param {number} to
+ * @returns {Scale}
+ */
 const scaleOf = (low, size, from, to) => ({
   compute: (value) => from + (value - low) / size * (to - from), invert: (at) => low + (at - from) / (to - from) * size,
 })
 
+/** @param {number[]} ticks @param {Scale} scale @returns {[number, string][]} */
 const labelled = (ticks, scale, letters = 1e9) => {
   const labels = tickLabels(ticks, letters)
   return ticks.map((tick, i) => [scale.compute(tick), labels[i]])
 }
 
+/** @param {CanvasRenderingContext2D} ctx @param {number[]} box */
 function drawBox(ctx, [x0, y0, x1, y1]) {
   ctx.fillStyle = "rgba(255, 255, 255, 0.25)"
   ctx.fillRect(x0, y0, x1 - x0, y1 - y0)
@@ -43,31 +55,34 @@ function drawBox(ctx, [x0, y0, x1, y1]) {
 }
 
 /**
- * Return {canvas, show(chart), mark([x, y] or null, whether all else is as in the chart), cursor}.
- * @param {{plain: string[], round: string[]}} palettes `round` for numbers that differ by turns
- * @param {{pointed: (cell: number[] | null) => void, chosen: (cell: number[]) => void, boxed: (box: {x: number[], y: number[]}) => void}} handlers
- *   hear of [column, row], and of a box as [low, high] on both sides
+ * Return the canvas, its cursor, and the functions that show a chart and mark the state on show.
+ * @param {Palettes} palettes `round` is for numbers that are defined up to full turns
+ * @param {{pointed: (cell: Cell | null) => void, chosen: (cell: Cell) => void, boxed: (box: ChartBox) => void}} handlers
  */
 export function chartCanvas(palettes, handlers) {
+  /** @type {Chart | null} */
   let chart = null
+  /** @type {{at: number[], isOfChart: boolean} | null} */
   let mark = null
+  /** @type {Cell | null} */
   let cursor = null
-  /** @type {any} */
+  /** @type {number[] | null} */
   let box = null
-  // {palette, low, high, isBelow, isAbove, painter}
-  /** @type {any} */
+  /** @type {ReturnType<typeof coloursOf> & {palette: string[], painter: ReturnType<typeof cellsPainter>} | null} */
   let colours = null
   // A layer of cells, see "cells.js".
-  /** @type {any} */
+  /** @type {{image: Grid[], x: number[], y: number[], dw: number[], dh: number[]} | null} */
   let data = null
-  // {frame, xs, ys: from values to the canvas}
-  /** @type {any} */
+  // The frame of the chart, and the scales from values to pixels.
+  /** @type {{frame: {left: number, right: number, top: number, bottom: number}, xs: Scale, ys: Scale} | null} */
   let place = null
 
   const { canvas, request } = liveCanvas("map", {
     tabIndex: 0, role: "application",
     ariaLabel: "Chart: arrow keys move, Enter opens the state, plus zooms, minus goes back",
-    onpointermove: (event) => moveTo(cellAt(event)), onpointerleave: () => { if (box === null) moveTo(null) },
+    onpointermove: (/** @type {PointerEvent} */ event) => moveTo(cellAt(event)),
+    onpointerleave: () => { if (box === null) moveTo(null) },
+    /** @param {KeyboardEvent} event */
     onkeydown(event) {
       const arrow = arrowOf(event)
       if (arrow === undefined || chart?.values == null) return
@@ -91,6 +106,7 @@ export function chartCanvas(palettes, handlers) {
     colours = { ...own, painter: cellsPainter([{ source: "chart", ...own }], () => ({ data })) }
   }
 
+  /** @param {CanvasRenderingContext2D} ctx @param {CanvasLook} look */
   function paint(ctx, { width, height, text, dark }) {
     if (data === null) return
     const em = Number.parseFloat(getComputedStyle(canvas).fontSize)
@@ -101,6 +117,7 @@ export function chartCanvas(palettes, handlers) {
     colours.painter(ctx, xs, ys)
     ctx.font = `${0.9 * em}px system-ui, sans-serif`
     ctx.fillStyle = ctx.strokeStyle = text
+    /** @type {[number, number, number, number]} */
     const edges = [frame.left, frame.top, frame.right - frame.left, frame.bottom - frame.top]
     ctx.strokeRect(...edges)
     drawAxes(ctx, em)
@@ -113,12 +130,13 @@ export function chartCanvas(palettes, handlers) {
     if (box !== null) drawBox(ctx, box)
   }
 
+  /** @param {CanvasRenderingContext2D} ctx @param {number} em */
   function drawAxes(ctx, em) {
     const { x, y } = chart
     const { frame, xs, ys } = place
     const [across, up] = [(frame.right - frame.left) / em, (frame.bottom - frame.top) / em]
     drawTicks(ctx, frame,
-      // Letters: of the horizontal ones there must be room for all.
+      // All labels of the horizontal axis must fit side by side.
       labelled(roundNumbers(x.low, x.high, Math.max(2, across / 5)), xs, 1.5 * across),
       labelled(roundNumbers(y.low, y.high, Math.max(2, up / 4)), ys), { length: 0.35 * em, gap: 0.5 * em })
     ctx.textAlign = "center"
@@ -132,6 +150,7 @@ export function chartCanvas(palettes, handlers) {
     ctx.restore()
   }
 
+  /** @param {CanvasRenderingContext2D} ctx @param {number} em */
   function drawBar(ctx, em) {
     const { low, high, isBelow, isAbove, palette } = colours
     const { frame } = place
@@ -154,16 +173,17 @@ export function chartCanvas(palettes, handlers) {
     }
     ctx.textBaseline = "alphabetic"
     ctx.fillText(chart.symbol, left, frame.top + 0.9 * em)
-    // That some numbers are beyond the colours.
+    // Triangles show that some numbers lie beyond the colours.
     ctx.textAlign = "center"
     if (isAbove) ctx.fillText("▴", left + (BAR + 0.9) * em, frame.top + 1.3 * em)
     if (isBelow) ctx.fillText("▾", left + BAR * em / 2, frame.bottom + 0.9 * em)
   }
 
+  /** @param {CanvasRenderingContext2D} ctx @param {number} em @param {boolean} dark */
   function drawMark(ctx, em, dark) {
     const { xs, ys } = place
     ctx.setLineDash(mark.isOfChart ? [] : [3, 3])
-    for (const [colour, width] of [[dark ? "#000" : "#fff", 4], [dark ? POINT : DARK, 2]]) {
+    for (const [colour, width] of /** @type {[string, number][]} */ ([[dark ? "#000" : "#fff", 4], [dark ? POINT : DARK, 2]])) {
       circlePath(ctx, xs.compute(mark.at[0]), ys.compute(mark.at[1]), 0.55 * em * zoom())
       ctx.strokeStyle = colour
       ctx.lineWidth = width
@@ -172,10 +192,15 @@ export function chartCanvas(palettes, handlers) {
     ctx.setLineDash([])
   }
 
+  /** @param {CanvasRenderingContext2D} ctx */
   function drawCursor(ctx) {
     const { xs, ys } = place
-    // The ends of the cell along a side.
-    /** @returns {number[]} */
+    /**
+     * Return the ends of a cell along a side.
+     * @param {ChartAxis} side
+     * @param {number} i
+     * @param {Scale} scale
+     */
     const ends = (side, i, scale) => [i - 0.5, i + 0.5].map((at) => scale.compute(side.low + stepOf(side) * at))
     const [left, right] = ends(chart.x, cursor[0], xs)
     const [bottom, top] = ends(chart.y, cursor[1], ys)
@@ -186,20 +211,22 @@ export function chartCanvas(palettes, handlers) {
     }
   }
 
+  /** @param {MouseEvent} event */
   function cellAt({ offsetX, offsetY }) {
     if (place === null) return null
-    const cell = [[chart.x, place.xs.invert(offsetX)], [chart.y, place.ys.invert(offsetY)]]
+    const cell = /** @type {[ChartAxis, number][]} */ ([[chart.x, place.xs.invert(offsetX)], [chart.y, place.ys.invert(offsetY)]])
       .map(([side, value]) => Math.round((value - side.low) / stepOf(side)))
     return cell.every((i, k) => i >= 0 && i < [chart.x, chart.y][k].count) ? cell : null
   }
 
+  /** @param {Cell | null} cell */
   function moveTo(cell) {
     cursor = cell
     request()
     handlers.pointed(cell)
   }
 
-  // [low, high] between two places of the canvas, within a side.
+  /** Return [low, high] between two places, within a side. @param {ChartAxis} side @param {Scale} scale @param {number[]} places */
   const between = ({ low, high }, scale, places) => (
     places.map((at) => within(scale.invert(at), low, high)).sort((one, other) => one - other))
 
@@ -222,12 +249,14 @@ export function chartCanvas(palettes, handlers) {
   return {
     canvas,
     get cursor() { return cursor },
+    /** @param {Chart} next */
     show(next) {
       if (chart !== next) cursor = null
       chart = next
       renew()
       request()
     },
+    /** @param {number[] | null} at @param {boolean} isOfChart whether all other parameters are those of the chart */
     mark(at, isOfChart) {
       mark = at === null ? null : { at, isOfChart }
       request()

@@ -1,18 +1,21 @@
-// Which colours the numbers of a chart have, and what is shown where a cell is not computed yet.
+// @ts-check
+// Colours of a chart, and the display of cells that are not computed yet.
 
-// Cells along a side that come first, see "sweep/chart.py".
+// Cells along a side of the coarse pass, see "sweep/chart.py".
 const COARSE = 24
-// Of the numbers so many lie beyond each end of the colours: one that is far off would take all of them.
+// Share of the numbers beyond each end of the colours: without it one outlier would take all colours.
 const BEYOND = 0.01
 
 /**
- * Return the ends of the colours, and whether some numbers lie beyond: those of a turn, or all numbers but a few.
+ * Return the ends of the colour scale, and whether some numbers lie beyond them: one turn, or all numbers but outliers.
  * @param {{values: Float64Array, turn: number}} chart
+ * @returns {{low: number, high: number, isBelow: boolean, isAbove: boolean}}
  */
 export function coloursOf({ values, turn }) {
   if (turn > 0) return { low: -turn / 2, high: turn / 2, isBelow: false, isAbove: false }
   const sorted = values.filter(Number.isFinite).sort()
   if (sorted.length === 0) return { low: 0, high: 1, isBelow: false, isAbove: false }
+  /** @param {number} share */
   const at = (share) => sorted[Math.round(share * (sorted.length - 1))]
   const [least, most] = [at(0), at(1)]
   let [low, high] = [at(BEYOND), at(1 - BEYOND)]
@@ -25,12 +28,14 @@ export function coloursOf({ values, turn }) {
 }
 
 /**
- * Return the numbers of all cells: one that is not computed looks like the nearest one that is, but no farther away than
- * the coarse ones are.
+ * Return the numbers of all cells.  A cell that is not computed yet takes the number of a computed cell nearby, at most one
+ * coarse cell away; NaN where there is none.
+ * @param {Pick<Chart, "values" | "status"> & {x: {count: number}, y: {count: number}}} chart
  */
 export function filled({ values, status, x: { count: columns }, y: { count: rows } }) {
   let coarse = 1
   while (Math.max(rows, columns) > COARSE * coarse) coarse *= 2
+  /** @param {number} i @param {number} step @param {number} count */
   const nearest = (i, step, count) => Math.min(Math.round(i / step) * step, Math.floor((count - 1) / step) * step)
   return Float32Array.from(values, (_, own) => {
     const [row, column] = [Math.floor(own / columns), own % columns]

@@ -1,11 +1,19 @@
+// @ts-check
 // Clouds of phase points, moved between the frames that the server has sent.
 //
-// The source holds, for each of its clouds i, `frames<i>`: numbers [frame][column][point] at the even `times`, columns
-// (x, y, γ1, γ2, γ3).  Without `signs<i>` x, y are ω1, ω2, of a motion with I13 = I23 = 0 in the field b3; with them
-// they are (ω, ξ) and ln|s|, s = I13ω1 + I23ω2, without a field, and `signs<i>` the signs of s.
-// `body` = [I11, I22, I13, I23, 𝒟, b3]; `sense`: 1, or −1 where the motion is seen backward in time.
+// For each cloud i the source holds `frames<i>`: numbers [frame][column][point] at evenly spaced `times`, with the columns
+// (x, y, γ1, γ2, γ3).  Without `signs<i>`, x and y are ω1 and ω2 of a motion with I13 = I23 = 0 in the field b3.  With
+// `signs<i>`, x is (ω, ξ) and y is ln|s|, where s = I13ω1 + I23ω2, there is no field, and `signs<i>` holds the signs of s.
+// `body` = [I11, I22, I13, I23, 𝒟, b3]; `sense` is 1, or −1 if time runs backward.
 
 class Cloud {
+  /**
+   * @param {Float32Array} frames
+   * @param {Float32Array | undefined} signs
+   * @param {number[]} body
+   * @param {number[]} times
+   * @param {number} sense
+   */
   constructor(frames, signs, body, times, sense) {
     this.frames = frames
     this.signs = signs
@@ -23,17 +31,18 @@ class Cloud {
     this.g3 = column()
     this.w1 = column()
     this.w2 = column()
-    // At the moment t, and the slopes at both ends of the interval in which it lies.
+    // The columns at the time t, and their slopes at both ends of its interval.
     this.columns = [this.x, this.y, this.g1, this.g2, this.g3]
     this.slopes = [0, 1].map(() => this.columns.map(column))
     this.left = -1
+    /** @type {number | null} */
     this.t = null
-    // Of s: its largest slope, and the direction of that.
+    // The largest slope of s and its direction.
     const J = Math.hypot(body[2], body[3])
     this.axes = [J, body[2] / J, body[3] / J]
   }
 
-  // ω1 and ω2 of a point at x, y.
+  /** Return ω1 and ω2 of point i at x, y. @param {number} x @param {number} y @param {number} i */
   velocity(x, y, i) {
     if (this.signs === undefined) return [x, y]
     const [J, n1, n2] = this.axes
@@ -41,8 +50,12 @@ class Cloud {
     return [n2 * x + n1 * across, n2 * across - n1 * x]
   }
 
-  // The slopes at a frame, by `eq29`: ω̇ = s h with h = Î⁻¹(−ω2, ω1), so that d ln|s|/dt = (I13, I23)·h; or
-  // Îω̇ = (b3γ2, −b3γ1); and γ̇ = γ × ω.
+  /**
+   * Compute the slopes at a frame by `eq29`: ω̇ = s h with h = Î⁻¹(−ω2, ω1), so that d ln|s|/dt = (I13, I23)·h; or
+   * Îω̇ = (b3γ2, −b3γ1); and γ̇ = γ × ω.
+   * @param {number} frame
+   * @param {Float32Array[]} slopes
+   */
   prepare(frame, slopes) {
     const [dx, dy, d1, d2, d3] = slopes
     const { frames, count, size, signs, body } = this
@@ -65,7 +78,7 @@ class Cloud {
     }
   }
 
-  // Cubic curves between two frames, where all slopes are known.
+  /** Move the points to the time t, on cubic curves between two frames. @param {number} t */
   moveTo(t) {
     if (t === this.t) return
     this.t = t
@@ -96,12 +109,20 @@ class Cloud {
   }
 }
 
+/** @type {WeakMap<Source, {at: (t: number) => Cloud[]}>} */
 const allClouds = new WeakMap()
 
-/** Return the clouds of a source, for all pictures that draw them; `at(t)` gives them at that time, each moved once. */
+/**
+ * Return the clouds of a source; at(t) returns them at a time.  All pictures of a source share its clouds.
+ * @param {Source} source
+ */
 export function cloudsOf(source) {
   if (allClouds.has(source)) return allClouds.get(source)
-  let [data, clouds] = [null, []]
+  /** @type {Data | null} */
+  let data = null
+  /** @type {Cloud[]} */
+  let clouds = []
+  /** @param {number} t */
   const at = (t) => {
     if (data !== source.data) {
       data = source.data

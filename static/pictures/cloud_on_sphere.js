@@ -1,14 +1,20 @@
+// @ts-check
 // The clouds of phase points on the Poisson sphere, as a guest of "sphere.js".
 
 import { cloudsOf } from "./cloud.js"
 import { pointLayer } from "./point_layer.js"
 
-/** Return the guest; paint(sheet, near) draws the half of the points that is near, or far, at the time t. */
+/**
+ * Return the guest that draws clouds of points on a sphere.
+ * @param {Source} source
+ * @returns {SphereGuest}
+ */
 export function sphereClouds(source) {
   const clouds = cloudsOf(source)
   const layer = pointLayer()
   let t = 0
   return {
+    /** @param {number} value */
     set t(value) { t = value },
     paint({ ctx, edge, ratio, px, py, depth }, near) {
       layer.draw(ctx, Math.round(edge * ratio), ratio, clouds.at(t), ({ count, g1, g2, g3 }, add) => {

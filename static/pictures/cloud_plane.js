@@ -1,8 +1,9 @@
+// @ts-check
 // Clouds of phase points on the (ω1, ω2)-plane, with the line of equilibria.
 //
-// Besides the clouds ("cloud.js") its source holds `half`, the axes' ± range, `curves` [[look, xs, ys]], `points`
-// [[look, x, y]], and `bins` = [first, width, count] of ln|s|: the density over |s| at the moving time goes to the
-// source that the option `density` names.
+// Besides the clouds ("cloud.js") its source holds `half`, half the range of the axes; `curves` [[look, xs, ys]]; `points`
+// [[look, x, y]]; and `bins` = [first, width, count] of ln|s|.  The density over |s| at the current time goes to the source of
+// the option `density`.
 
 import { listen, tell } from "../page/bus.js"
 import { zoom } from "../page/presenting.js"
@@ -15,24 +16,31 @@ import { drawTicks } from "./ticks.js"
 const MARGIN = { left: 46, right: 8, top: 8, bottom: 42 }
 const SHARES = [-1, -0.5, 0, 0.5, 1]
 
-// Where the plane is in a picture of this edge, ± half along both axes.
+/**
+ * Return the frame and scales of the plane in a picture, for axes from −half to half.
+ * @param {number} edge
+ * @param {number} half
+ */
 function placing(edge, half) {
   const frame = { left: MARGIN.left, right: edge - MARGIN.right, top: MARGIN.top, bottom: edge - MARGIN.bottom }
   const [w, h] = [frame.right - frame.left, frame.bottom - frame.top]
   return {
     frame, w, h, half,
-    x: (a) => frame.left + (w * (a + half)) / (2 * half), y: (b) => frame.top + (h * (half - b)) / (2 * half),
-    // The values at a place of the picture.
+    x: (/** @type {number} */ a) => frame.left + (w * (a + half)) / (2 * half),
+    y: (/** @type {number} */ b) => frame.top + (h * (half - b)) / (2 * half),
+    /** Return the values at a place of the picture. @param {number} left @param {number} top */
     invert: (left, top) => [((left - frame.left) / w) * 2 * half - half, half - ((top - frame.top) / h) * 2 * half],
   }
 }
 
+/** @param {CanvasRenderingContext2D} ctx @param {ReturnType<typeof placing>} plane @param {string} text */
 function drawAxes(ctx, { frame, w, h, half, x, y }, text) {
   useLook(ctx, { weight: 1 }, text)
   ctx.fillStyle = text
   ctx.globalAlpha = 0.4
   ctx.strokeRect(frame.left, frame.top, w, h)
   ctx.font = "12px system-ui, sans-serif"
+  /** @param {number} share */
   const label = (share) => String(Number((share * half).toPrecision(3))).replace("-", "−")
   drawTicks(ctx, frame, SHARES.map((share) => [x(share * half), label(share)]), SHARES.map((share) => [y(share * half), label(share)]),
     { length: 5, gap: 7, alpha: 0.75, isInside: true })
@@ -48,8 +56,13 @@ function drawAxes(ctx, { frame, w, h, half, x, y }, text) {
   ctx.restore()
 }
 
-// Points per unit of |s|, in bins that are even in ln|s|.
+/**
+ * Return the density of points over |s|, in bins of equal width in ln|s|.
+ * @param {ReturnType<ReturnType<typeof cloudsOf>["at"]>[number] | undefined} cloud
+ * @param {[number, number, number]} bins
+ */
 function densityOf(cloud, bins) {
+  /** @type {[number[], number[]]} */
   const [x, y] = [[], []]
   if (cloud === undefined) return { x, y }
   const [first, wide, count] = bins
@@ -64,26 +77,35 @@ function densityOf(cloud, bins) {
   return { x, y }
 }
 
-/** Draw the plane in an element; the parameters are those of `sphere`. */
+/**
+ * Draw the plane in an element.
+ * @param {HTMLElement} el
+ * @param {PictureDescription} options
+ * @param {FindSource} source
+ * @param {() => boolean} isShown whether the scene is on show
+ */
 export function cloudPlane(el, options, source, isShown) {
   const own = source(options.name)
   const clouds = cloudsOf(own)
   const layer = pointLayer()
   let t = 0
-  // The axes stay while there are no clouds.
+  // Half the range of the axes; kept while there are no clouds.
   let range = 1
   const { canvas, request, shoot } = squareCanvas(el, "sphere.cloud", {
     role: "img", ariaLabel: "Cloud of phase points on the plane of ω₁ and ω₂",
+    /** @param {MouseEvent} event */
     onclick({ offsetX, offsetY }) {
       const picked = place(canvas.clientWidth / zoom()).invert(offsetX / zoom(), offsetY / zoom())
       tell("pick", { pick: [options.name, ...picked], drag: false })
     },
   }, paint)
+  /** @param {number} edge */
   const place = (edge) => {
     range = own.data.half ?? range
     return placing(edge, range)
   }
 
+  /** @type {PaintSquare} */
   function paint(ctx, { edge, ratio, text }) {
     const here = place(edge)
     const { frame, w, h, x, y } = here
@@ -99,7 +121,7 @@ export function cloudPlane(el, options, source, isShown) {
       ctx.stroke()
     }
     for (const [look, a, b] of points) drawMark(ctx, x(a), y(b), look, text)
-    // Over the points of rest: there all of a cloud may end.
+    // Over the equilibria, where a whole cloud may end.
     layer.draw(ctx, Math.round(edge * ratio), ratio, clouds.at(t), ({ count, w1, w2 }, add) => {
       for (let i = 0; i < count; i++) add(ratio * x(w1[i]), ratio * y(w2[i]))
     })

@@ -1,15 +1,18 @@
-// Draws thousands of dots of one colour as squares; Bokeh paints each as a circle with colours of its own.
+// @ts-check
+// Draws thousands of dots of one colour as squares; Bokeh would draw each as a circle with its own colours.
 
 import { zoom } from "../page/presenting.js"
 import { shade } from "./looks.js"
 
-// As large as a circle of Bokeh's marker "dot", whose diameter is a quarter of `size`.
+// Side of a square with the area of Bokeh's marker "dot", whose diameter is a quarter of `size`.
+/** @param {number} size */
 const sideOf = (size) => (size / 8) * Math.sqrt(Math.PI)
 
 /**
- * Return what paints layers of dots, see `frameCanvas`.
+ * Return the painter of layers of dots, see `frameCanvas`.
  * @param {{source: string, x: string, y: string, size: number, color: string, alpha: number}[]} layers x and y are columns
- * @param {(name: string) => import("./sources.js").Source} source
+ * @param {FindSource} source
+ * @returns {PaintFrame}
  */
 export function dotsPainter(layers, source) {
   return (ctx, xScale, yScale) => {

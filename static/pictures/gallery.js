@@ -1,4 +1,5 @@
-// The pictures of the scenes: each scene's are built once, then kept, and only filled with new data.
+// @ts-check
+// The pictures of the scenes.  The pictures of a scene are built once, kept, and filled with new data.
 
 import { listen } from "../page/bus.js"
 import { sayDragMe } from "../page/handle.js"
@@ -14,9 +15,11 @@ import { Source } from "./sources.js"
 import { sphere } from "./sphere.js"
 import { createStage } from "./stage.js"
 
-// Milliseconds until the last colour of a theme has come.
+// Milliseconds until a theme has changed its last colour.
 const LATE = 2000
-// Each draws a picture: {shoot(side), and where it has a ghost take(), show(…); the view of a plot}.
+// Functions that draw a picture, by its kind.
+/** @type {Record<PictureDescription["kind"], (host: HTMLElement, picture: PictureDescription, source: FindSource,
+ *   isShown: () => boolean) => Drawn | Promise<Drawn>>} */
 const KINDS = {
   sphere, cloud: cloudPlane,
   async plot(host, picture, source) {
@@ -25,41 +28,50 @@ const KINDS = {
   },
 }
 
+/** @type {Map<string, Scene>} */
 const built = new Map()
+/** @type {HTMLElement} */
 let shelf = null
+/** @type {Scene | null} */
 let shown = null
+/** @type {() => void} */
 let stand = null
+/** @type {ReturnType<typeof createStage>} */
 let stage = null
 
-// For the client; only one page has it.  `standing` resolves when there is a place for pictures.
+/** The pictures of this page.  `standing` resolves when they can be built; most functions concern the scene on show. */
 export const gallery = {
-  standing: new Promise((resolve) => { stand = resolve }),
+  standing: /** @type {Promise<void>} */ (new Promise((resolve) => { stand = resolve })),
+  /** @param {string} name */
   has: (name) => built.has(name),
-  // Of the scene on show.
+  /** @param {string} name */
   source: (name) => shown?.sources.get(name),
+  /** @param {string} name */
   cell: (name) => shown.cells.find((cell) => nameOf(cell) === name),
+  /** @param {string} name */
   plot: (name) => shown.plots.find(({ model }) => model.name === name),
   cellsInSight: () => shown.cells.filter(isInSight),
   openCells: () => shown.cells.filter((cell) => !isFolded(cell)),
   get shown() { return shown },
-  // The picture of the scene on show that was last under the mouse.
+  /** The picture that was last under the mouse. @type {string | null} */
   pointed: null,
   build, enter, takeGhost, showGhost, shoot,
 }
 
-// The colours of text and of what is less important, by this theme.
+/** Return the theme's colours of text and of secondary text. */
 function inks() {
   const style = getComputedStyle(shelf)
   return [style.color, style.getPropertyValue("--mui-palette-text-secondary") || style.color]
 }
 
+/** @param {Scene} scene */
 function colour(scene) {
   const [text, muted] = inks()
   for (const plot of scene.plots) colourPlot(plot, text, muted)
   scene.coloured = [text, muted].join()
 }
 
-// The theme turns these colours some time after its name, and not both at once.
+// The theme changes these colours one by one, some time after its name.
 function followTheme() {
   const now = inks().join()
   for (const scene of built.values()) if (scene.coloured !== now) colour(scene)
@@ -77,25 +89,27 @@ function followThemeForAWhile() {
   if (!isFollowing) step()
 }
 
-// The pictures of a scene that the server has described, not seen yet: {name, grid, cells, plots, sources, …}.
+/** Build the pictures of a scene out of sight. @param {SceneDescription} description */
 async function build(description) {
   setShades(description.shades)
   const grid = element("div.gallery")
+  /** @type {Scene} */
   const scene = { name: description.name, grid, sources: new Map(), cells: [], plots: [], ghosts: [], shots: new Map(), painted: false }
   const places = description.pictures.map((picture) => {
     const { name } = picture
     const [cell, host] = createCell(picture, stage.cornerFor(name), () => { gallery.pointed = name })
     grid.append(cell)
     scene.cells.push(cell)
-    return [host, picture]
+    return /** @type {[HTMLElement, PictureDescription]} */ ([host, picture])
   })
+  /** @type {FindSource} */
   const source = (name) => {
     if (!scene.sources.has(name)) scene.sources.set(name, new Source())
     return scene.sources.get(name)
   }
-  // The player follows the orbit's, whether or not a picture draws it.
+  // The player reads the orbit even if no picture draws it.
   for (const name of [...description.tracks, ...Object.keys(description.dots)]) source(name)
-  // In place, for its size, but not to be seen before it is filled.
+  // In place, to have its size, but hidden until it is filled.
   grid.classList.add("away")
   shelf.append(grid)
   stage.place(scene)
@@ -103,7 +117,7 @@ async function build(description) {
     KINDS[picture.kind](host, picture, source, () => shown === scene))))
   drawn.forEach((one, i) => {
     scene.shots.set(description.pictures[i].name, one.shoot)
-    if (one.take) scene.ghosts.push(one)
+    if (one.take) scene.ghosts.push(/** @type {Ghost} */ (one))
     if (one.plot) scene.plots.push(one.plot)
   })
   colour(scene)
@@ -113,28 +127,33 @@ async function build(description) {
   return scene
 }
 
-// What is painted, as a faint copy: to be shown later, beside another state.
+/** Return a copy of the pictures on show, to be shown faintly with another state. */
 function takeGhost() {
   const scene = shown
   return { scene, parts: scene.ghosts.map((ghost) => ghost.take()) }
 }
 
-// Of another scene there is nothing to be seen; null: of none.
+/** Show a copy, if it belongs to the scene on show; null removes it. @param {ReturnType<typeof takeGhost> | null} taken */
 function showGhost(taken) {
   shown.ghosts.forEach((ghost, i) => ghost.show(taken?.scene === shown ? taken.parts[i] : null))
 }
 
-// Those in sight as they are printed, so many pixels wide: [[title, caption, canvas], …].
+/**
+ * Return [title, caption, canvas] of the pictures in sight, for print.
+ * @param {number} side width in pixels
+ * @returns {[string, string, HTMLCanvasElement][]}
+ */
 function shoot(side) {
   const wasDark = onDark()
   setDark(false)
-  const shots = gallery.cellsInSight().map((cell) => [titleOf(cell), captionOf(cell), shown.shots.get(nameOf(cell))(side)])
+  const shots = gallery.cellsInSight().map((cell) => /** @type {[string, string, HTMLCanvasElement]} */ (
+    [titleOf(cell), captionOf(cell), shown.shots.get(nameOf(cell))(side)]))
   setDark(wasDark)
   colour(shown)
   return shots
 }
 
-// Show the pictures of this scene in place of those on show.
+/** Show the pictures of another scene. @param {string} name */
 function enter(name) {
   shown?.grid.classList.add("away")
   shown = built.get(name)
@@ -144,7 +163,7 @@ function enter(name) {
   return shown
 }
 
-// Beside the first of what a layer draws.
+/** Return the place beside the first point of a layer, see `sayDragMe`. @param {Extract<Handle, {picture: string}>} handle */
 function besideLayer({ picture, source, columns }) {
   const place = columns?.map((column) => gallery.source(source).data[column]?.[0])
   const cell = gallery.cell(picture)
@@ -158,6 +177,7 @@ function besideLayer({ picture, source, columns }) {
   }
 }
 
+/** Render the pictures. @param {{el: HTMLElement}} part */
 export function render({ el }) {
   shelf = element("div.shelf")
   el.append(shelf)
@@ -165,7 +185,7 @@ export function render({ el }) {
   sayDragMe(besideLayer)
   listen({
     texts(texts) { for (const cell of shown?.cells ?? []) fillTexts(cell, texts) },
-    // In the frame after a state: the browser looks up styles then in any case.
+    // In the frame after a state, when the browser computes styles anyway.
     painted: () => requestAnimationFrame(followTheme),
   })
   watchTheme(followThemeForAWhile)

@@ -1,23 +1,35 @@
-// Ghosts: faint copies of an earlier state, drawn once, and again only where axes or sizes change.
+// @ts-check
+// Ghosts: faint copies of an earlier state, redrawn only when axes or sizes change.
 
 import { element } from "../page/elements.js"
 import { frameCanvas } from "./canvas.js"
 
 export const FAINT = 0.4
 
-/** Return the canvases of a plot from the back to the front: Bokeh's layers and ours between them, but no ghost. */
+/**
+ * Return the canvases of a plot from back to front, Bokeh's and ours, without the ghost.
+ * @param {PlotView} plot
+ * @returns {HTMLCanvasElement[]}
+ */
 export function layersOf(plot) {
   const { primary, overlays } = plot.canvas_view
-  const layers = [...primary.el.parentNode.children]
+  const layers = /** @type {HTMLCanvasElement[]} */ ([...primary.el.parentNode.children])
   return layers.slice(0, layers.indexOf(overlays.el) + 1).filter((layer) => (
     layer instanceof HTMLCanvasElement && layer.width > 0 && !layer.classList.contains("ghost")))
 }
 
-/** Return the ghost of a Bokeh plot: take() copies what is on show, show(copy, or null) draws it. */
+/**
+ * Return the ghost of a Bokeh plot.
+ * @param {PlotView} plot
+ * @returns {Ghost}
+ */
 export function planeGhost(plot) {
+  /** @type {ReturnType<typeof frameCanvas> | null} */
   let canvas = null
+  /** @type {{sheet: HTMLCanvasElement, x: [number, number], y: [number, number]} | null} */
   let kept = null
 
+  /** @type {PaintFrame} */
   function paint(ctx, xScale, yScale) {
     if (kept === null) return
     const { sheet, x: [x0, x1], y: [y0, y1] } = kept
@@ -31,13 +43,13 @@ export function planeGhost(plot) {
       const { primary: { el } } = plot.canvas_view
       const { x_range: x, y_range: y } = plot.model
       const { x0, y0, x1, y1 } = plot.frame.bbox
-      // Folded, or of a window without room.
+      // A folded plot has no size, nor has a plot in a window without room.
       if (!(x1 > x0 && y1 > y0 && el.width > 0)) return null
       const ratio = el.width / plot.bbox.width
       const [width, height] = [x1 - x0, y1 - y0].map((side) => Math.ceil(ratio * side))
       const sheet = element("canvas", { width, height })
       const paper = sheet.getContext("2d")
-      // What fills the frame under Bokeh's own would hide the state on show.
+      // Layers that fill the frame below Bokeh's own would hide the state on show.
       const layers = layersOf(plot)
       for (const layer of layers.slice(layers.indexOf(el))) {
         paper.drawImage(layer, ratio * x0, ratio * y0, width, height, 0, 0, width, height)
@@ -48,7 +60,7 @@ export function planeGhost(plot) {
       if (what === kept) return
       kept = what
       if (canvas === null) {
-        // Over what is filled, under what moves.
+        // Above filled areas and below the moving layers.
         canvas = frameCanvas(plot, plot.canvas_view.overlays.el, paint)
         canvas.element.classList.add("ghost")
       }

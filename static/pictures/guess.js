@@ -1,4 +1,5 @@
-// A guess in a picture: the audience clicks where it expects something, then the truth is drawn with the distance to it.
+// @ts-check
+// A guess in a picture: the audience clicks where it expects something, then the truth and the distance to it are drawn.
 
 import { arrowOf } from "../page/keys.js"
 import { element } from "../page/elements.js"
@@ -12,16 +13,20 @@ const GUESS = "#D55E00"
 const TRUTH = "#009E73"
 const STEP = 8
 
+/** @param {number} value */
 const shown = (value) => value.toPrecision(2).replace("-", "−")
+/** @param {number[]} values */
 const mean = (values) => values.reduce((sum, one) => sum + one, 0) / values.length
+/** @param {number} value @param {number} low @param {number} high */
 const within = (value, low, high) => Math.max(low, Math.min(high, value))
 
 /**
- * The nearest to [x, y] of a polyline's points, or of places between them.
+ * Return the point of a polyline that is nearest to a place.
  * @param {number[][]} line
  * @param {number[]} place
  */
 function nearestOn(line, [x, y]) {
+  /** @type {{distance: number, place: number[] | null}} */
   let best = { distance: Infinity, place: null }
   line.forEach(([x1, y1], i) => {
     const [x0, y0] = line[Math.max(0, i - 1)]
@@ -34,18 +39,20 @@ function nearestOn(line, [x, y]) {
   return best
 }
 
+/** @param {ArrayLike<number>} xs @param {ArrayLike<number>} ys */
 const zip = (xs, ys) => Array.from(xs, (x, i) => [x, ys[i]]).filter((place) => place.every(Number.isFinite))
 
-// What the source holds, as polylines of data: points are lines of one.
+/** Return the data of the source as polylines; a point is a polyline of length one. @param {Prediction} prediction @returns {number[][][]} */
 function linesOf({ source, columns: [x, y], what }) {
   const { [x]: xs = [], [y]: ys = [] } = gallery.source(source).data
   if (what === "point") return zip(xs, ys).map((place) => [place])
-  return typeof xs[0] === "number" ? [zip(xs, ys)] : Array.from(xs, (part, i) => zip(part, ys[i]))
+  return typeof xs[0] === "number" ? [zip(xs, ys)] : Array.from(xs, (/** @type {number[]} */ part, i) => zip(part, ys[i]))
 }
 
-function drawRing(ctx, place, colour, dash) {
-  for (const [weight, style] of [[6, "white"], [3, colour]]) {
-    circlePath(ctx, ...place, RING)
+/** @param {CanvasRenderingContext2D} ctx @param {number[]} place @param {string} colour @param {number[]} dash */
+function drawRing(ctx, [x, y], colour, dash) {
+  for (const [weight, style] of /** @type {[number, string][]} */ ([[6, "white"], [3, colour]])) {
+    circlePath(ctx, x, y, RING)
     ctx.setLineDash(dash)
     ctx.lineWidth = weight
     ctx.strokeStyle = style
@@ -54,23 +61,28 @@ function drawRing(ctx, place, colour, dash) {
 }
 
 /**
- * Return what takes a guess: begin(), wait(), reveal(), end() are called in this order.
- * @param {{picture: string, source: string, columns: [string, string], what: string}} prediction
- * @param {(text: string) => void} say tells what is to be done, and how near the guess was
+ * Return the controller of a guess; begin(), wait(), reveal() and end() are called in this order.
+ * @param {Prediction} prediction
+ * @param {(text: string) => void} say shows what to do, and how near the guess was
  */
 export function createGuess(prediction, say) {
   const isCurve = prediction.what === "curve"
+  /** @type {PlotView | null} */
   let plot = null
+  /** @type {HTMLCanvasElement | null} */
   let sheet = null
-  // In data, as the truth.
+  // In data coordinates.
+  /** @type {number[][]} */
   let clicks = []
+  /** @type {number[][] | null} */
   let truth = null
 
-  const scales = () => [plot.frame.x_scale, plot.frame.y_scale]
-  const toPixels = (place) => scales().map((scale, i) => scale.compute(place[i]))
-  const toData = (place) => scales().map((scale, i) => scale.invert(place[i]))
+  /** @type {(place: number[]) => [number, number]} */
+  const toPixels = ([x, y]) => [plot.frame.x_scale.compute(x), plot.frame.y_scale.compute(y)]
+  /** @type {(place: number[]) => [number, number]} */
+  const toData = ([x, y]) => [plot.frame.x_scale.invert(x), plot.frame.y_scale.invert(y)]
 
-  // What is to be guessed is not seen.
+  /** Hide or show the truth in the picture. @param {boolean} isHidden */
   function hide(isHidden) {
     for (const renderer of plot.model.renderers) {
       if (renderer.data_source?.name === prediction.source) renderer.visible = !isHidden
@@ -95,7 +107,7 @@ export function createGuess(prediction, say) {
     }
   }
 
-  // A place of the picture, or the nearest in the frame.
+  /** Add a guess at a place of the picture, or at the nearest place in the frame. @param {number} x @param {number} y */
   function add(x, y) {
     const { x0, x1, y0, y1 } = plot.frame.bbox
     const place = toData([within(x, x0, x1), within(y, y0, y1)])
@@ -104,6 +116,7 @@ export function createGuess(prediction, say) {
     say(isCurve ? `Your curve: ${clicks.length} point${clicks.length === 1 ? "" : "s"}.` : "Your guess is set.")
   }
 
+  /** @param {KeyboardEvent} event */
   function onkeydown(event) {
     const arrow = arrowOf(event)
     if (arrow === undefined) return
@@ -116,18 +129,18 @@ export function createGuess(prediction, say) {
 
   return {
     isRevealed: false,
-    // The state of the step is on show.
+    /** Ask for a guess; the state of the step is on show. */
     begin() {
       plot = gallery.plot(prediction.picture)
       hide(true)
       sheet = element("canvas.guess", {
         tabIndex: 0, role: "application", ariaLabel: "Your guess: click, or move it with the arrow keys",
         title: isCurve ? "Click along the curve as you expect it" : "Click where you expect it", onkeydown,
-        onclick: ({ offsetX, offsetY }) => { if (!this.isRevealed) add(offsetX, offsetY) },
+        onclick: (/** @type {MouseEvent} */ { offsetX, offsetY }) => { if (!this.isRevealed) add(offsetX, offsetY) },
       })
       sheet.style.cssText = "position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; touch-action: none"
       plot.canvas_view.overlays.el.parentNode.append(sheet)
-      // Not a click or a drag of the picture.
+      // The picture itself ignores these clicks and drags.
       for (const name of ["pointerdown", "pointermove", "pointerup", "wheel"]) {
         sheet.addEventListener(name, (event) => event.stopPropagation())
       }
@@ -135,16 +148,16 @@ export function createGuess(prediction, say) {
       draw()
       say(`${sheet.title}, then reveal.`)
     },
-    // The truth is on its way: nothing is taken any more.
+    /** Take no more clicks: the revealed state was requested. */
     wait() { this.isRevealed = true },
-    // The state that is revealed is on show.
+    /** Draw the truth; the revealed state is on show. */
     reveal() {
       hide(false)
       sheet.style.pointerEvents = "none"
       const lines = linesOf(prediction).map((line) => line.map(toPixels))
       const found = clicks.map((click) => lines.map((line) => nearestOn(line, toPixels(click)))
         .reduce((best, one) => (one.distance < best.distance ? one : best), { distance: Infinity, place: null }))
-      if (found.length === 0) return say("Revealed. Nobody has guessed.")
+      if (found.length === 0) return say("Revealed. There was no guess.")
       if (found.some(({ place }) => place === null)) return say("Revealed: there is none here.")
       truth = found.map(({ place }) => toData(place))
       draw()
@@ -153,7 +166,7 @@ export function createGuess(prediction, say) {
       say(`${isCurve ? "On average" : "You were"} ${Math.round(mean(found.map(({ distance }) => distance)))} pixels away: ` +
         `${shown(off[0])} in ${x.axis_label}, ${shown(off[1])} in ${y.axis_label}.`)
     },
-    // The lesson goes on.
+    /** Remove the guess from the picture. */
     end() {
       if (plot === null) return
       hide(false)

@@ -1,16 +1,23 @@
-// Colours, dashes and weights on our own canvases.  "theme.py" describes the colours; a scene's description brings them.
+// @ts-check
+// Colours, dashes and line widths on our own canvases.  The colours come from "theme.py" with the description of a scene.
 
-// The colour of text in print.
+// Text colour in print.
 export const INK = "rgb(16, 16, 16)"
 export const POINT = "#F0E442"
 
-// Name in CSS → [on a light page, on a dark one].
+// CSS name → [colour on a light page, colour on a dark page].
+/** @type {Record<string, [string, string]>} */
 let shades = {}
-// Colour on a light page → on a dark one.
+// Colour on a light page → colour on a dark page.
+/** @type {Map<string, string>} */
 let onDarkPage = new Map()
+/** @type {boolean | null} */
 let dark = null
 
-/** Take the shades of "theme.py": {name in CSS: [on a light page, on a dark one]}. */
+/**
+ * Set the shades of "theme.py".
+ * @param {Record<string, [string, string]>} given CSS name → [colour on a light page, colour on a dark page]
+ */
 export function setShades(given) {
   shades = given
   onDarkPage = new Map(Object.values(given))
@@ -21,31 +28,47 @@ function showShades() {
   for (const [name, colour] of shadesOf(dark)) document.documentElement.style.setProperty(`--${name}`, colour)
 }
 
-/** Return whether a page is dark whose text has this colour, in CSS. */
+/**
+ * Return whether the page is dark, by its text colour.
+ * @param {string} text a CSS colour
+ */
 export function isDark(text) {
   const [red, green, blue] = text.match(/[\d.]+/g).map(Number)
   return red + green + blue > 382
 }
 
-/** Give everything that asks for colours from now on, and legends, those of a dark or a light page. */
+/**
+ * Choose the colours of a dark or a light page for everything that is drawn from now on.
+ * @param {boolean} value
+ */
 export function setDark(value) {
   if (value === dark) return
   dark = value
   showShades()
 }
 
-/** Return [name, colour] of all shades, on a dark page or a light one. */
+/**
+ * Return [name, colour] of all shades.
+ * @param {boolean} isDarkPage
+ */
 export const shadesOf = (isDarkPage) => Object.entries(shades).map(([name, pair]) => [name, pair[isDarkPage ? 1 : 0]])
 
-/** Return a colour of "theme.py", "#rrggbb" or "#rrggbbaa", as it is on this page. */
+/**
+ * Return a colour of "theme.py" as it is on this page.
+ * @param {string} colour "#rrggbb" or "#rrggbbaa"
+ */
 export function shade(colour) {
   if (!dark) return colour
   return (onDarkPage.get(colour.slice(0, 7).toUpperCase()) ?? colour.slice(0, 7)) + colour.slice(7)
 }
 
+/** Return whether the page is dark. */
 export const onDark = () => dark === true
 
-/** Call `act` whenever the theme of the page may have changed. */
+/**
+ * Call `act` whenever the theme of the page may have changed.
+ * @param {() => void} act
+ */
 export function watchTheme(act) {
   const observer = new MutationObserver(act)
   for (const item of [document.documentElement, document.body]) {
@@ -53,9 +76,12 @@ export function watchTheme(act) {
   }
 }
 
-const look = (name, weight, dash = []) => ({ get colour() { return shade(shades[name][0]) }, dash, weight })
+/** @param {string} name @param {number} weight @returns {Look} */
+const look = (name, weight, dash = /** @type {number[]} */ ([])) => (
+  { get colour() { return shade(shades[name][0]) }, dash, weight })
 
-// Without a colour: that of text.
+// Looks without a colour have that of text.
+/** @type {Record<string, Look>} */
 export const LOOKS = {
   orbit: look("orbit", 2.2),
   second: look("second", 2.2),
@@ -67,20 +93,38 @@ export const LOOKS = {
   mass: { weight: 3, colour: POINT },
 }
 
-/** Take the dash, the weight and the colour of a look; `text` is the colour of text. */
+/**
+ * Set the dash, width and colour of lines.
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {Look} look
+ * @param {string} text the colour of text
+ */
 export function useLook(ctx, { colour = null, dash = [], weight }, text) {
   ctx.setLineDash(dash)
   ctx.lineWidth = weight
   ctx.strokeStyle = colour ?? text
 }
 
-/** Begin a path with a circle. */
+/**
+ * Begin a path with a circle.
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {number} x
+ * @param {number} y
+ * @param {number} radius
+ */
 export function circlePath(ctx, x, y, radius) {
   ctx.beginPath()
   ctx.arc(x, y, radius, 0, 2 * Math.PI)
 }
 
-/** Draw a point of a phase portrait: a dot, or a ring where it is unstable. */
+/**
+ * Draw a point of a phase portrait: a dot, or a ring if it is unstable.
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {number} x
+ * @param {number} y
+ * @param {string} name the name of its look
+ * @param {string} text the colour of text
+ */
 export function drawMark(ctx, x, y, name, text) {
   circlePath(ctx, x, y, 5)
   ctx.setLineDash([])
@@ -90,9 +134,16 @@ export function drawMark(ctx, x, y, name, text) {
   ctx.stroke()
 }
 
-/** Return [red, green, blue, alpha] of "#rrggbb" or "#rrggbbaa". */
+/**
+ * Return [red, green, blue, alpha] of a colour.
+ * @param {string} colour "#rrggbb" or "#rrggbbaa"
+ */
 export const bytesOf = (colour) => [1, 3, 5, 7].map((at) => Number.parseInt(colour.slice(at, at + 2) || "ff", 16))
 
-// Of the first cloud of points, and of the second.
+// Looks of the first cloud of points and of the second.
 const CLOUDS = ["orbit", "second"]
+/**
+ * Return [red, green, blue, alpha] of a cloud of points.
+ * @param {number} i
+ */
 export const cloudColour = (i) => bytesOf(LOOKS[CLOUDS[i]].colour)

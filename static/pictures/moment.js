@@ -1,3 +1,4 @@
+// @ts-check
 // Samples of an orbit around a time, and the state between them.
 
 /**

@@ -1,19 +1,23 @@
-// Pointer events of a Bokeh plot: a click, a drag or a box chooses values; hovering asks what is under the pointer.
+// @ts-check
+// Pointer events of a Bokeh plot: clicks, drags and boxes choose values; hovering asks about the point under the pointer.
 
 import { tell } from "../page/bus.js"
 
+/** @type {Record<string, number[]>} */
 const NOTHING = { left: [], right: [], top: [], bottom: [] }
 
 /**
  * Connect the events of a plot.
- * @param {any} model Bokeh's model of it
- * @param {string[]} picks Bokeh's events that choose a point ("tap", "doubletap", "pan"); "box": a drag draws a box and
- *   chooses its corners; "hover": where the mouse is
- * @param {import("./sources.js").Source} box gets the box that is drawn
+ * @param {PlotModel} model
+ * @param {string[]} picks Bokeh events that choose a point ("tap", "doubletap", "pan"), "box" for a drag that draws a box and
+ *   chooses its corners, "hover" for the place of the mouse
+ * @param {Source} box gets the box while it is drawn
  */
 export function connectPicks(model, picks, box) {
   const { name } = model
+  /** @type {Record<string, ((event: BokehEvent) => void)[]>} */
   const callbacks = {}
+  /** @param {BokehEvent} event */
   const point = ({ x, y, event_name: event }) => tell("pick", { pick: [name, x, y], drag: event === "pan" })
   for (const pick of picks) {
     if (pick === "hover") callbacks.mousemove = [({ x, y }) => tell("hover", [name, x, y])]
@@ -23,8 +27,11 @@ export function connectPicks(model, picks, box) {
   model.setv({ js_event_callbacks: { ...model.js_event_callbacks, ...callbacks } }, { sync: false })
 }
 
+/** @param {string} name @param {Source} box @returns {Record<string, ((event: BokehEvent) => void)[]>} */
 function boxCallbacks(name, box) {
+  /** @type {{x: number, y: number} | null} */
   let start = null
+  /** @param {{x: number, y: number}} place */
   const draw = ({ x, y }) => box.put({ left: [start.x], right: [x], top: [start.y], bottom: [y] })
   return {
     panstart: [({ x, y }) => {

@@ -1,15 +1,23 @@
-// The cell of one picture: caption, corner button, the place of the picture, and a line about what is under the mouse.
+// @ts-check
+// The cell of a picture: caption, corner button, host of the picture, and a line about the place under the mouse.
 
 import { element } from "../page/elements.js"
 
-// What the mouse does in a picture.
+// Tooltips of pictures by what the mouse does there.
+/** @type {Record<string, string>} */
 const HINTS = {
   drag: "Drag or click: what you point at is chosen",
   box: "Click: what you point at is chosen. Drag a box: a closer look",
   click: "Click: what you point at is chosen",
 }
 
-/** Return [cell, host]; the picture is drawn into the host. */
+/**
+ * Return [cell, host]; the picture is drawn into the host.
+ * @param {PictureDescription} picture
+ * @param {HTMLElement} corner
+ * @param {() => void} pointed is called when the pointer enters
+ * @returns {[HTMLElement, HTMLElement]}
+ */
 export function createCell({ name, folded, hands }, corner, pointed) {
   const host = element(`div.host.hands-${hands}`, { title: HINTS[hands] ?? "" })
   const under = element("output.text.hover", { hidden: true })
@@ -18,18 +26,27 @@ export function createCell({ name, folded, hands }, corner, pointed) {
   }, element("h2.text.caption",
     element("span.title"), "\n", element("span.said")), corner, host, under)
   cell.classList.toggle("folded", folded !== null)
-  // Until it is unfolded the server does not draw it.
+  // The server draws a folded picture when it is unfolded.
   if (folded !== null) cell.dataset.late = ""
   return [cell, host]
 }
 
+/** Return the name of a picture. @param {HTMLElement} cell */
 export const nameOf = (cell) => cell.dataset.name
+/** Return the title of a picture. @param {HTMLElement} cell */
 export const titleOf = (cell) => cell.querySelector(".title").textContent
+/** Return the caption of a picture. @param {HTMLElement} cell */
 export const captionOf = (cell) => cell.querySelector(".said").textContent
+/** Return whether a picture is folded. @param {HTMLElement} cell */
 export const isFolded = (cell) => cell.classList.contains("folded")
+/** Return whether a picture is visible. @param {HTMLElement} cell */
 export const isInSight = (cell) => cell.checkVisibility()
 
-/** Put the new ones of these texts into a cell: {name: caption, hover-name: line about what is under the mouse}. */
+/**
+ * Fill the texts of a cell that have changed.
+ * @param {HTMLElement} cell
+ * @param {Texts} texts name → caption, "hover-" and name → line about the place under the mouse
+ */
 export function fillTexts(cell, texts) {
   const { [nameOf(cell)]: text, [`hover-${nameOf(cell)}`]: hover } = texts
   if (text !== undefined) {
@@ -38,6 +55,7 @@ export function fillTexts(cell, texts) {
     cell.querySelector(".said").textContent = said.join(" ")
   }
   if (hover !== undefined) {
+    /** @type {HTMLElement} */
     const under = cell.querySelector(".hover")
     under.textContent = hover
     under.hidden = hover === "" || !cell.matches(":hover")

@@ -1,4 +1,5 @@
-// A picture that Bokeh draws: axes, lines and markers, from the description that "bokeh_figure.py" makes of it.
+// @ts-check
+// A picture drawn by Bokeh from the description that "bokeh_figure.py" makes.
 
 import { listen } from "../page/bus.js"
 import { element } from "../page/elements.js"
@@ -10,13 +11,14 @@ import { dotsPainter } from "./dots.js"
 import { connectPicks } from "./picks.js"
 import { tickFormatter } from "./ticks.js"
 
-// The width of the frame in which a scene's axes have room for so many letters, in pixels.
+// Width of the frame, in pixels, for which the numbers of letters on the axes are given.
 const USUAL = 240
 const TICKS_HERE = 12
-// From afar labels must stand further apart.
+// Factor by which labels are further apart in present mode.
 const APART = 1.3
 
-// Moving layers lie on a canvas of their own, which Bokeh does not clip to the frame.
+// Moving layers lie on an overlay canvas, which Bokeh does not clip to the frame.
+/** @param {PlotView} plot */
 function clipOverlays(plot) {
   const { x0, y0, x1, y1 } = plot.frame.bbox
   const { width, height } = plot.bbox
@@ -25,14 +27,22 @@ function clipOverlays(plot) {
   if (style.clipPath !== clip) style.clipPath = clip
 }
 
-// Bokeh has a cursor of its own over the frame: here the picture says which one.
+// Bokeh sets a cursor over the frame; show that of the picture instead.
+/** @param {PlotView} plot */
 function inheritCursor(plot) {
   plot.canvas_view.overlays.el.parentNode.append(element("style", "div { cursor: inherit !important }"))
 }
 
-// Canvases for what Bokeh would draw slowly: cells under everything else, dots under the moving layers.
+// Canvases for layers that Bokeh would draw slowly: cells below everything else, dots below the moving layers.
+/** @param {PlotView} plot @param {PictureDescription} picture @param {FindSource} source */
 function addCanvases(plot, { cells, dots }, source) {
   const { primary, overlays } = plot.canvas_view
+  /**
+   * @template {{source: string}} Layer
+   * @param {Layer[]} layers
+   * @param {Element} before
+   * @param {(layers: Layer[], source: FindSource) => PaintFrame} painter
+   */
   const add = (layers, before, painter) => {
     if (layers.length === 0) return
     const canvas = frameCanvas(plot, before, painter(layers, source))
@@ -43,7 +53,8 @@ function addCanvases(plot, { cells, dots }, source) {
   add(dots, overlays.el, dotsPainter)
 }
 
-// The names of the axes, where they depend on the state.
+// Names of axes that depend on the state.
+/** @param {PlotModel} model @param {Source} names */
 function nameAxes({ below: [x], left: [y] }, names) {
   names.watch(() => {
     for (const [i, axis] of [x, y].entries()) {
@@ -56,13 +67,15 @@ function nameAxes({ below: [x], left: [y] }, names) {
 /**
  * Draw a picture in an element, and return Bokeh's view of the plot.
  * @param {HTMLElement} host
- * @param {any} picture from the description of the scene
- * @param {(name: string) => import("./sources.js").Source} source makes a new one where there is none of that name
+ * @param {PictureDescription} picture
+ * @param {FindSource} source
+ * @returns {Promise<PlotView>}
  */
 export async function buildPlot(host, picture, source) {
   waitLongForPress()
   const views = await Bokeh.embed.embed_item(picture.item, host)
-  const [plot] = views.roots
+  /** @type {PlotView} */
+  const plot = views.roots[0]
   checkBokeh(plot)
   const { model } = plot
   for (const one of model.document.all_models) {
@@ -71,7 +84,7 @@ export async function buildPlot(host, picture, source) {
   addCanvases(plot, picture, source)
   inheritCursor(plot)
   plot.repainted.connect(() => clipOverlays(plot))
-  picture.letters.forEach((letters, i) => {
+  picture.letters.forEach((/** @type {number | null} */ letters, /** @type {number} */ i) => {
     if (letters === null) return
     const [axis] = i === 0 ? model.below : model.left
     axis.formatter = tickFormatter(() => {

@@ -1,29 +1,41 @@
-// Sizes and colours of what Bokeh draws: for the type beside the pictures, for present mode, and for the page's theme.
+// @ts-check
+// Sizes and colours of Bokeh plots, for the font size beside the pictures, present mode and the theme.
 
 import { zoom } from "../page/presenting.js"
 import { isDark, setDark, shade } from "./looks.js"
 
-// Of the type of an axis: that of its ticks.
+// Font size of ticks relative to that of axis labels.
 const TICKS = 0.86
 const SIZES = ["line_width", "axis_line_width", "major_tick_line_width", "outline_line_width", "size", "text_font_size"]
 
-// What `read` finds in a model of Bokeh when that is seen for the first time, before anything is changed here.
+/**
+ * Return a function that remembers what `read` returned for a Bokeh model the first time, before it was changed here.
+ * @template Result
+ * @param {(part: BokehModel) => Result} read
+ */
 function atFirst(read) {
+  /** @type {WeakMap<BokehModel, Result>} */
   const found = new WeakMap()
+  /** @param {BokehModel} part */
   return (part) => {
     if (!found.has(part)) found.set(part, read(part))
     return found.get(part)
   }
 }
 
-// Those of columns are no numbers.
+// Sizes that are columns are left alone.
 const sizesOf = atFirst((part) => SIZES.filter((name) => part[name] != null)
   .map((name) => [name, part[name].value ?? part[name]]).filter(([, value]) => typeof value !== "object"))
 
+/** @param {number} factor @param {unknown} value */
 const times = (factor, value) => (typeof value === "number" ? factor * value
   : typeof value === "string" ? `${factor * Number.parseFloat(value)}px` : value)
 
-/** Give a plot sizes of texts for type of this size, in pixels, and lines and dots for the mode that is on. */
+/**
+ * Set the font sizes of a plot, and the sizes of lines and dots for the current mode.
+ * @param {PlotView} plot
+ * @param {number} type font size in pixels
+ */
 export function sizePlot(plot, type) {
   for (const part of plot.model.references()) {
     part.setv(Object.fromEntries(sizesOf(part).map(([name, value]) => [name, times(zoom(), value)])))
@@ -33,20 +45,26 @@ export function sizePlot(plot, type) {
   }
 }
 
+/** @param {BokehModel} glyph @param {string} name */
 const colourOf = (glyph, name) => glyph[name]?.value ?? glyph[name]
 
-// The colours of a glyph as "theme.py" has them.
+// The colours of a glyph before any change, as in "theme.py".
 const coloursOf = atFirst((glyph) => ["line_color", "fill_color"].map((name) => [name, colourOf(glyph, name)])
   .filter(([, colour]) => typeof colour === "string" && colour.startsWith("#")))
 
-// Gives a glyph the shades of its colours for this page.
+/** Give a glyph the colours of this page. @param {BokehModel} glyph */
 function shadeGlyph(glyph) {
   const changed = coloursOf(glyph).map(([name, colour]) => [name, shade(colour)])
     .filter(([name, colour]) => colourOf(glyph, name) !== colour)
   if (changed.length > 0) glyph.setv(Object.fromEntries(changed))
 }
 
-/** Give whatever Bokeh itself draws the colours of the page's theme: of text, and of what is less important. */
+/**
+ * Give a plot the colours of the theme.
+ * @param {PlotView} plot
+ * @param {string} text colour of text
+ * @param {string} muted colour of secondary text
+ */
 export function colourPlot(plot, text, muted) {
   setDark(isDark(text))
   for (const part of plot.model.references()) {

@@ -1,17 +1,16 @@
-// Thousands of points, written into the pixels of a sheet: drawing each one would take many times as long.
+// @ts-check
+// Thousands of points, written into the pixels of a canvas: drawing each one would take many times longer.
 
 import { element } from "../page/elements.js"
 import { cloudColour } from "./looks.js"
 
 /**
- * Return what draws clouds as a transparent layer, each point a small square: where many lie together it is opaque.
- *
- * draw(ctx, size, ratio, clouds, places): a picture of `size` device pixels, `ratio` of them in a unit; places(cloud, add)
- * calls add(x, y) in device pixels for each point.
+ * Return a layer that draws clouds of points as small translucent squares; where many overlap it is opaque.
  */
 export function pointLayer() {
   const sheet = element("canvas")
   const paper = sheet.getContext("2d")
+  /** @type {ImageData | null} */
   let pixels = null
 
   /** @param {number} size @param {number[]} colour */
@@ -20,17 +19,26 @@ export function pointLayer() {
       sheet.width = sheet.height = size
       pixels = paper.createImageData(size, size)
     }
-    // Bytes in the order of memory, as all browsers' machines have it: alpha last.
+    // Little-endian pixels, alpha last.
     new Uint32Array(pixels.data.buffer).fill((blue << 16) | (green << 8) | red)
   }
 
   return {
+    /**
+     * Draw clouds into a picture of `size` device pixels.
+     * @template {{count: number}} Points
+     * @param {CanvasRenderingContext2D} ctx
+     * @param {number} size
+     * @param {number} ratio device pixels per unit
+     * @param {Points[]} clouds
+     * @param {(cloud: Points, add: (x: number, y: number) => void) => void} places calls add(x, y) in device pixels for each point
+     */
     draw(ctx, size, ratio, clouds, places) {
       const side = Math.round(1.6 * ratio)
       clouds.forEach((cloud, k) => {
         begin(size, cloudColour(k))
         const { data } = pixels
-        // The fewer, the darker.
+        // Smaller clouds are darker.
         const alpha = Math.max(110, Math.min(230, 1_100_000 / cloud.count))
         places(cloud, (x, y) => {
           const [left, top] = [Math.round(x - side / 2), Math.round(y - side / 2)]
@@ -41,7 +49,7 @@ export function pointLayer() {
           }
         })
         paper.putImageData(pixels, 0, 0)
-        // Pixel by pixel, whatever the unit.
+        // Copy pixel by pixel, whatever the unit.
         ctx.save()
         ctx.setTransform(1, 0, 0, 1, 0, 0)
         ctx.drawImage(sheet, 0, 0)

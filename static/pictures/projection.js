@@ -1,42 +1,58 @@
-// How space is seen from afar (an orthographic projection), and the lines and labels that are drawn in it.
+// @ts-check
+// Orthographic projection of space, and lines and labels in it.
 
 import { useLook } from "./looks.js"
 
-// Of half the picture: the radius of the unit sphere.
+// Radius of the unit sphere, as a share of half the picture.
 export const RADIUS = 0.84
-// Where a label goes whose place is taken: below, above, to the right, to the left.
+// Places for a label, in order of preference: at its point, below, above, right, left, and diagonally.
 const ASIDE = [[0, 0], [0, 1], [0, -1], [1, 0], [-1, 0], [1, 1], [-1, 1]]
 
 /**
- * Return what everything on a sphere is drawn with: its projection, lines and labels.
+ * Return the projection of a sphere and the functions that draw lines and labels in it.
  * @param {CanvasRenderingContext2D} ctx
- * @param {{edge: number, ratio: number, text: string, dark: boolean}} look see "canvas.js"
+ * @param {SquareLook} look
  * @param {number[]} turn azimuth and elevation of the eye
  */
 export function createSheet(ctx, { edge, ratio, text, dark }, [azimuth, elevation]) {
   const [ca, sa, ce, se] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)]
   const half = edge / 2
   const scale = half * RADIUS
+  /** @param {number} x @param {number} y */
   const px = (x, y) => half + scale * (ca * y - sa * x)
+  /** @param {number} x @param {number} y @param {number} z */
   const py = (x, y, z) => half - scale * (ce * z - se * (ca * x + sa * y))
+  /** @type {(...point: Vector) => number} */
   const depth = (x, y, z) => ce * (ca * x + sa * y) + se * z
-  /** @returns {[number, number]} */
+  /** @type {(point: Vector) => [number, number]} */
   const at = ([x, y, z]) => [px(x, y), py(x, y, z)]
-  // Where a label stands already: middle and half of its width.
+  // Labels that were written: centre and half the width.
+  /** @type {number[][]} */
   const taken = []
   return {
     ctx, edge, ratio, text, dark, half, scale, px, py, depth, at,
-    // To the right, upwards, towards the eye.
+    /**
+     * Return a point in the view: to the right, upwards, towards the eye.
+     * @param {Vector} point
+     */
     view: ([x, y, z]) => [ca * y - sa * x, ce * z - se * (ca * x + sa * y), depth(x, y, z)],
+    /** @param {Vector} point */
     isNear: (point) => depth(...point) >= 0,
+    /** @param {Look} look */
     use(look) { useLook(ctx, look, text) },
+    /** @param {Vector} from @param {Vector} to */
     line(from, to) {
       ctx.beginPath()
       ctx.moveTo(...at(from))
       ctx.lineTo(...at(to))
       ctx.stroke()
     },
-    // A curve, where it is on this side.
+    /**
+     * Draw the part of a curve on one side of the sphere.
+     * @param {Columns} curve
+     * @param {boolean} near
+     * @param {Columns} normals vectors whose direction decides the side
+     */
     stroke([X, Y, Z], near, [U, V, W] = [X, Y, Z]) {
       ctx.beginPath()
       let drawing = false
@@ -50,14 +66,20 @@ export function createSheet(ctx, { edge, ratio, text, dark }, [azimuth, elevatio
       }
       ctx.stroke()
     },
-    // Whole, also at the edge of the picture, and beside any other label.
+    /**
+     * Write a label inside the picture and beside other labels.
+     * @param {string} label
+     * @param {number} x
+     * @param {number} y
+     */
     write(label, x, y) {
       if (!label) return
       const [across, down] = [ctx.measureText(label).width / 2, 8]
       const places = ASIDE.map(([a, b]) => [
         Math.min(Math.max(x + a * (across + 16), across), edge - across),
-        // A little further than needed: sums are rounded.
+        // A little more than needed, for rounding.
         Math.min(Math.max(y + b * (2 * down + 1), down), edge - down)])
+      /** @param {number[]} place */
       const free = ([left, top]) => taken.every(([other, above, wide]) => (
         Math.abs(left - other) >= across + wide + 2 || Math.abs(top - above) >= 2 * down))
       const [left, top] = places.find(free) ?? places[0]

@@ -1,4 +1,5 @@
-// Plots of Bokeh as they are printed: dark on white in both themes, sharper than on a screen.
+// @ts-check
+// Bokeh plots for print: dark on white in both themes, and sharper than on the screen.
 
 import { element } from "../page/elements.js"
 import { atRatio, takeColours } from "./bokeh_private.js"
@@ -6,6 +7,7 @@ import { layersOf } from "./ghost.js"
 import { INK } from "./looks.js"
 import { colourPlot } from "./plot_looks.js"
 
+/** @param {PlotView} plot @param {number} side @param {number} ratio */
 function composed(plot, side, ratio) {
   const { primary } = plot.canvas_view
   const { x0, y0, x1, y1 } = plot.frame.bbox
@@ -25,8 +27,10 @@ function composed(plot, side, ratio) {
 }
 
 /**
- * Return a plot with our canvases in it, `side` pixels wide.  It is painted for print and left in the colours of print:
- * all in one task, so that nobody sees it.
+ * Return a picture of a plot with our canvases, for print.  The plot is left in the colours of print; everything happens in
+ * one task, so that nothing of it is seen.
+ * @param {PlotView} plot
+ * @param {number} side width in pixels
  */
 export function shootPlot(plot, side) {
   const repaint = () => {

@@ -1,18 +1,19 @@
-// An ellipsoid seen from afar, opaque: each ray of sight meets its surface in closed form, so it hides its own back and
-// is shaded without WebGL.  Where it ends is drawn as the ellipse that it is.
+// @ts-check
+// An opaque ellipsoid under orthographic projection.  Each ray of sight meets the surface in closed form, so the ellipsoid
+// hides its own back and is shaded without WebGL; its outline is drawn as an ellipse.
 //
-// Vectors are those of the view: to the right, upwards, towards the eye; lengths are radii of the sphere around it.
+// Vectors are in the view: to the right, upwards, towards the eye.  The unit of length is the radius of the sphere around.
 
 import { element } from "../page/elements.js"
 import { dot, unit } from "./vectors.js"
 
-// Pixels of the shading on a side, at most, and pixels of the picture for each of them: shades change slowly.
+// Largest number of shading pixels on a side, and picture pixels per shading pixel: shades change slowly.
 const MOST = 128
 const COARSE = 2
-// The light comes over the left shoulder of whoever looks, and turns with them.
+// The light comes over the left shoulder of the viewer and turns with the view.
 const LIGHT = [-0.42, 0.62, 0.66]
 const HALFWAY = [-0.23, 0.34, 0.91]
-// Both tones of the octants, and how bright they are without any light.
+// The two tones of the octants, and their brightness without direct light.
 const TONES = {
   light: { even: [203, 214, 226], odd: [158, 175, 194], ambient: 0.5 },
   dark: { even: [150, 164, 182], odd: [107, 123, 144], ambient: 0.34 },
@@ -23,10 +24,10 @@ const [LIGHT_X, LIGHT_Y, LIGHT_Z] = unit(LIGHT)
 const [HALF_X, HALF_Y, HALF_Z] = unit(HALFWAY)
 
 /**
- * Return the ellipse in which an ellipsoid is seen: both halves, the angle of the first one from the right, and half of the
- * width and the height around it.
- * @param {number[][]} axes unit vectors
- * @param {number[]} semi half of its length along each axis
+ * Return the outline of an ellipsoid: the half axes of the ellipse, the angle of the longer one from the right, and half the
+ * width and height of its bounding box.
+ * @param {Vector[]} axes unit vectors of the principal axes
+ * @param {number[]} semi half lengths along them
  */
 export function outline(axes, semi) {
   let [xx, xy, yy] = [0, 0, 0]
@@ -43,14 +44,25 @@ export function outline(axes, semi) {
   }
 }
 
-/** Return whether the place (x, y) is hidden by it, or would be if it were larger all round by `margin`. */
+/**
+ * Return whether the ellipsoid, enlarged by `margin`, hides the point (x, y).
+ * @param {Vector[]} axes
+ * @param {number[]} semi
+ * @param {number} x
+ * @param {number} y
+ */
 export function covers(axes, semi, x, y, margin = 0) {
   const { halves, angle } = outline(axes, semi)
   const [c, s] = [Math.cos(angle), Math.sin(angle)]
   return Math.hypot((c * x + s * y) / (halves[0] + margin), (c * y - s * x) / (halves[1] + margin)) < 1
 }
 
-/** Return where a ray from its middle along v leaves it: as a multiple of v, and whether that is on the side that is seen. */
+/**
+ * Return the factor `at` with which a ray from the centre along v leaves the surface at v·at, and whether that side is visible.
+ * @param {Vector[]} axes
+ * @param {number[]} semi
+ * @param {Vector} v
+ */
 export function leaves(axes, semi, v) {
   let [square, towards] = [0, 0]
   for (let k = 0; k < 3; k++) {
@@ -61,21 +73,32 @@ export function leaves(axes, semi, v) {
   return { at: 1 / Math.sqrt(square), near: towards >= 0 }
 }
 
-/** Return what paints such ellipsoids; `glass`: one through which what lies behind is seen. */
+/** Return a painter of ellipsoids. */
 export function createSolid() {
   const canvas = element("canvas", { width: MOST, height: MOST })
   const shade = canvas.getContext("2d")
   const image = shade.createImageData(MOST, MOST)
 
+  /**
+   * Shade the ellipsoid on the canvas.
+   * @param {Vector[]} axes
+   * @param {number[]} semi
+   * @param {number} width
+   * @param {number} height
+   * @param {number} columns
+   * @param {number} rows
+   * @param {{even: number[], odd: number[], ambient: number}} tone
+   * @param {boolean} glass
+   */
   function cast(axes, semi, width, height, columns, rows, { even, odd, ambient }, glass) {
     const { data } = image
-    // In the coordinates in which it is the unit sphere: a ray is start + depth × along.
+    // In coordinates in which the ellipsoid is the unit sphere, a ray is start + depth × along.
     const [ux, uy, uz] = [0, 1, 2].map((i) => axes.map((axis, k) => axis[i] / semi[k]))
     const a = dot(uz, uz)
-    // Of the ellipse that is seen, its square distance a few pixels beyond its edge.
+    // The shading goes on for a few pixels beyond the outline.
     const beyond = 1 + 6 / Math.min(columns, rows)
     const outside = a * (1 - beyond * beyond)
-    // Where the tone changes it does so over a pixel and a half.
+    // A tone changes over a pixel and a half.
     const sharp = columns / (3 * width)
     const [s0, s1, s2] = semi.map((length) => length * sharp)
     const [n0, n1, n2] = axes.map((axis, k) => axis.map((x) => x / semi[k]))
@@ -87,7 +110,7 @@ export function createSolid() {
         const b = p * uz[0] + q * uz[1] + r * uz[2]
         const inside = b * b - a * (p * p + q * q + r * r - 1)
         if (inside < outside) continue
-        // Beside it the edge goes on, so that there is something to smooth it with.
+        // Shade the edge beyond the outline too, for smoothing.
         const z = (Math.sqrt(Math.max(0, inside)) - b) / a
         p += z * uz[0]
         q += z * uz[1]
@@ -113,13 +136,18 @@ export function createSolid() {
         data[i + 3] = glass ? 255 * Math.min(1, GLASS + 0.12 * share + 0.5 * rim * rim + 0.6 * shine) : 255
       }
     }
-    // Smoothing looks a pixel beyond, where a larger body was before.
+    // Smoothing reads one pixel further, where a larger body may have been.
     shade.clearRect(0, 0, MOST, MOST)
     shade.putImageData(image, 0, 0, 0, 0, columns, rows)
   }
 
   return {
-    // `axes` in the view.
+    /**
+     * Draw an ellipsoid; `glass` makes it translucent.
+     * @param {Sheet} sheet
+     * @param {Vector[]} axes in the view
+     * @param {number[]} semi
+     */
     paint({ ctx, half, scale, ratio, dark, use }, axes, semi, glass = false) {
       const { halves, angle, width, height } = outline(axes, semi)
       const [columns, rows] = [width, height].map((length) =>

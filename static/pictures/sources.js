@@ -1,25 +1,31 @@
-// Data sources of pictures: columns by name, shared by all plots and canvases that draw them.
+// @ts-check
+// Data sources: columns by name, shared by all plots and canvases that draw them.
 
-/** `data` holds the columns; `put` replaces them; `watch` calls a function when that happens. */
+/** A data source: `data` holds the columns, `put` replaces them, `watch` calls a function whenever they are replaced. */
 export class Source {
+  /** @type {Data} */
   data = {}
-  // The plots of Bokeh that draw these data.
+  /** The Bokeh plots that draw these data. @type {Set<PlotView>} */
   plots = new Set()
+  /** @type {BokehModel[]} */
   #models = []
+  /** @type {Set<() => void>} */
   #watchers = new Set()
 
-  // Feed a data source of Bokeh's too: one for each plot that draws the data.
+  /** Feed a Bokeh data source too; each plot has its own. @param {BokehModel} model @param {PlotView} plot */
   add(model, plot) {
     this.#models.push(model)
     this.plots.add(plot)
     this.data = model.data instanceof Map ? Object.fromEntries(model.data) : model.data
   }
 
+  /** @param {Data} data */
   put(data) {
     this.data = data
     for (const model of this.#models) model.setv({ data }, { sync: false })
     for (const watcher of this.#watchers) watcher()
   }
 
+  /** @param {() => void} watcher */
   watch(watcher) { this.#watchers.add(watcher) }
 }

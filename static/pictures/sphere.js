@@ -1,10 +1,11 @@
-// The Poisson sphere.  Drag, arrow keys and touch turn it; what lies on the far side is drawn first and dimmed.
+// @ts-check
+// The Poisson sphere.  Drag, arrow keys and touch rotate it; the far side is drawn first and dimmed.
 //
-// It draws the tracks of its options from their sources (columns g1, g2, g3).  Its own source, of the picture's name,
-// holds axis [3], label, circles [[axis, height, look]], marks [[γ, look, label]].  The option `clouds` names a source
-// of clouds of points ("cloud.js").  With the option `attitude`, the name of a source, it is a sphere fixed in space
-// with the body in it ("body.js"): `title` says what, and `bare` leaves of the lines only the equator.
-// The moving point is seen on the far side too, with a dashed ring about it that says so.
+// It draws the tracks in its options from their sources (columns g1, g2, g3).  Its own source, with the name of the picture,
+// holds axis [3], label, circles [[axis, height, look]], marks [[γ, look, label]].  The option `clouds` names a source of
+// clouds of points ("cloud.js").  The option `attitude` names a source and makes it a sphere fixed in space with a body inside
+// ("body.js"); `title` describes it, and `bare` keeps only the equator of the graticule.
+// On the far side the moving point has a dashed ring.
 
 import { listen, tell } from "../page/bus.js"
 import { onDrag } from "../page/drag.js"
@@ -18,15 +19,19 @@ import { createSheet, RADIUS } from "./projection.js"
 import { circle, graticule, scaled } from "./vectors.js"
 
 const STEP = Math.PI / 36
+/** @type {[number, number]} */
 const HOME = [0.6, 0.35]
+/** @type {[Vector, string][]} */
 const AXES = [[[1, 0, 0], "γ₁"], [[0, 1, 0], "γ₂"], [[0, 0, 1], "γ₃"]]
 
+/** @param {Sheet} sheet @param {Vector} axis @param {string} label @param {boolean} near */
 function drawAxis({ isNear, at, line, write }, axis, label, near) {
   if (isNear(axis) !== near) return
   line(axis, scaled(axis, 1.12))
   write(label, ...at(scaled(axis, 1.2)))
 }
 
+/** @param {Sheet} sheet @param {Vector} point */
 function drawPoint({ ctx, isNear, at, use }, point) {
   use({ weight: 1.5 })
   ctx.fillStyle = POINT
@@ -42,16 +47,18 @@ function drawPoint({ ctx, isNear, at, use }, point) {
 /**
  * Draw a sphere in an element.
  * @param {HTMLElement} el
- * @param {any} options from the description of the picture
- * @param {(name: string) => import("./sources.js").Source} source
- * @param {() => boolean} isShown whether its scene is on show
+ * @param {PictureDescription} options
+ * @param {FindSource} source
+ * @param {() => boolean} isShown whether the scene is on show
+ * @returns {Drawn}
  */
 export function sphere(el, options, source, isShown) {
   const inSpace = options.attitude !== undefined
   const { canvas, request, shoot } = squareCanvas(el, inSpace ? "solid" : "sphere", {
     tabIndex: 0, role: "application", ariaRoleDescription: "rotatable sphere",
     ariaLabel: `${options.title ?? "Poisson sphere"}: arrow keys turn it, Home turns it back`,
-    title: "Drag: it turns. So it does by arrow keys; Home turns it back",
+    title: "Drag or use the arrow keys to turn it; Home turns it back",
+    /** @param {KeyboardEvent} event */
     onkeydown(event) {
       const arrow = arrowOf(event)
       if (event.key === "Home") rotate(...HOME)
@@ -63,22 +70,26 @@ export function sphere(el, options, source, isShown) {
   }, paint)
   const lines = options.bare ? [circle([0, 0, 1], 0)] : graticule()
   let turn = HOME
+  /** @param {ClientKeys} keys */
   const beginTurn = (keys) => { turn = [Number(keys.az), Number(keys.el)] }
   const askForTurn = () => tell("ask-client", beginTurn)
   askForTurn()
+  /** @type {Vector | null} */
   let point = null
 
   const own = source(options.name)
-  // What is painted besides: {t: to be set, paint(…)}.
+  // What is drawn besides.
+  /** @type {SphereGuest | null} */
   const guest = options.clouds !== undefined ? sphereClouds(source(options.clouds))
     : inSpace ? bodyIn(own, source(options.attitude)) : null
 
-  // [[look, [xs, ys, zs]], …]
+  /** Return [look, columns] of each track. @returns {[string, Columns][]} */
   const tracks = () => Object.entries(options.tracks).map(([name, look]) => {
     const { g1, g2, g3 } = source(name).data
-    return [look, [g1, g2, g3]]
+    return /** @type {[string, Columns]} */ ([look, [g1, g2, g3]])
   }).filter(([, [g1]]) => g1?.length > 1)
 
+  /** @param {Sheet} on @param {boolean} near */
   function drawHalf(on, near) {
     const { ctx, text, stroke, use, isNear, at, write } = on
     use({ weight: 1 })
@@ -112,6 +123,7 @@ export function sphere(el, options, source, isShown) {
     }
   }
 
+  /** @type {PaintSquare} */
   function paint(ctx, look) {
     const on = createSheet(ctx, look, turn)
     guest?.begin?.(on)
@@ -128,8 +140,11 @@ export function sphere(el, options, source, isShown) {
   }
 
   // The tracks of an earlier state.
+  /** @type {ReturnType<typeof tracks> | null} */
   let kept = null
+  /** @type {ReturnType<typeof squareCanvas> | null} */
   let faint = null
+  /** @type {PaintSquare} */
   function paintGhost(ctx, look) {
     if (kept === null) return
     const on = createSheet(ctx, look, turn)
@@ -142,6 +157,7 @@ export function sphere(el, options, source, isShown) {
     }
   }
 
+  /** @param {number} azimuth @param {number} elevation */
   function rotate(azimuth, elevation) {
     const limit = Math.PI / 2
     const wrapped = Math.atan2(Math.sin(azimuth), Math.cos(azimuth))
@@ -157,7 +173,7 @@ export function sphere(el, options, source, isShown) {
     rotate(azimuth - (clientX - x) * perPixel, elevation + (clientY - y) * perPixel)
   })
 
-  // The sphere of another scene may have been turned since.
+  // The sphere of another scene may have been rotated since.
   listen({
     enter() { if (isShown()) askForTurn() },
     turn([name, ...turned]) {

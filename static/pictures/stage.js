@@ -1,7 +1,8 @@
+// @ts-check
 // Lays out the pictures of a scene in the viewport, and enlarges some of them.
 //
-// A picture is enlarged by the button in its corner or the key of its number; Shift adds a second one; Escape brings all
-// back.  On a phone one picture is seen at a time, chosen by its number below it.
+// The corner button of a picture or its number key enlarges it, with Shift a second one; Escape restores the layout.  A phone
+// shows one picture at a time, chosen by the numbers below it.
 
 import { button, element, icon, relabel } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
@@ -16,39 +17,45 @@ const MOST_LARGE = 2
 const ENLARGE = "M4 4h6v2H6v4H4zm10 0h6v6h-2V6h-4zM4 14h2v4h4v2H4zm14 0h2v6h-6v-2h4z"
 const REDUCE = "M8 4h2v6H4V8h4zm6 0h2v4h4v2h-6zM4 14h6v6H8v-4H4zm10 0h6v2h-4v4h-2z"
 
-// Heights of captions, in units of the type's size.
+// Heights of captions, in units of the font size.
 const LINE = 1.29
 const AIR = 0.3
-// Of so many letters' width is the longest caption with its title.
+// Length of the longest caption with its title, in letters.
 const LONGEST = 56
-// Of the corner, on both sides.
+// Width of the corner button, on both sides.
 const SIDES = 4.4
 const WIDEST = 34
 const MOST_LINES = 4
 const LARGE_LINES = 3
-// In cells of so few units the captions are set smaller.
+// Below this cell width, in units of the font size, captions are smaller.
 const NARROW = 26
 const SMALLER = 0.88
 
+/** @param {number} width @param {number} type */
 const isNarrow = (width, type) => width / type < NARROW && !isPresenting() && !PHONE.matches
 
-// The height of a caption over a picture in a cell so wide, see "arrange.js".
+/** Return the heights of captions for a font size, see `Place` in "arrange.js". @param {number} type */
 function captions(type) {
-  // From afar a few words are read, and the rest of the room is the picture's.
+  // From afar only a few words can be read; leave the room to the picture.
   const most = isPresenting() ? LARGE_LINES : MOST_LINES
+  /** @param {number} width */
   const own = (width) => (isNarrow(width, type) ? SMALLER * type : type)
+  /** @param {number} width */
   const needed = (width) => Math.max(2, Math.ceil(LONGEST / Math.max(1, width / own(width) - SIDES)))
+  /** @param {number} width */
   const lines = (width) => (isPresenting() && needed(width) > most ? 1 : Math.min(most, needed(width)))
+  /** @param {number} count @param {number} size */
   const high = (count, size) => Math.ceil((count * LINE + AIR) * size)
-  return Object.assign((width) => high(lines(width), own(width)), { title: high(1, type), wide: WIDEST * type })
+  return Object.assign((/** @type {number} */ width) => high(lines(width), own(width)), { title: high(1, type), wide: WIDEST * type })
 }
 
 /**
- * Return {place(scene), size(scene), cornerFor(name), enter(scene)}.
+ * Return the stage, which places the pictures of a scene.
  * @param {HTMLElement} shelf holds the pictures
- * @param {any} gallery see "gallery.js"
+ * @param {typeof import("./gallery.js").gallery} gallery
  */
 export function createStage(shelf, gallery) {
+  /** @type {string[]} */
   let large = []
   let wanted = ""
   const chips = element("div.chips", { role: "group", ariaLabel: "Picture" })
@@ -56,7 +63,8 @@ export function createStage(shelf, gallery) {
 
   const placeShown = () => { if (gallery.shown !== null) place(gallery.shown) }
 
-  // Only what changes is written: a plot whose size is set is laid out again.
+  // Write only changes: a plot is laid out again whenever its size is set.
+  /** @param {HTMLElement} cell @param {import("./arrange.js").Box} box @param {number} type */
   function put(cell, { x, y, width, edge, caption, small }, type) {
     const place = [x, y, width, edge, caption].map(Math.round).join(" ")
     cell.classList.toggle("small", small)
@@ -68,7 +76,7 @@ export function createStage(shelf, gallery) {
     }
   }
 
-  // The size of the type, also in the plots of this scene.
+  /** Update the font size, also in the plots of a scene, and return it. @param {Scene} scene */
   function size(scene) {
     const type = Number.parseFloat(getComputedStyle(shelf).fontSize)
     setType(type)
@@ -80,7 +88,7 @@ export function createStage(shelf, gallery) {
     return type
   }
 
-  // Give the pictures of a scene their places; those of another scene as it would open.
+  /** Place the pictures of a scene; a scene that is not on show is laid out as it would open. @param {Scene} scene */
   function place(scene) {
     const { clientWidth: width, clientHeight: height } = shelf
     if (width === 0) return
@@ -88,7 +96,7 @@ export function createStage(shelf, gallery) {
     const cells = scene.cells.filter((cell) => !isFolded(cell))
     const own = scene === gallery.shown ? large.map((name) => cells.findIndex((cell) => nameOf(cell) === name)) : []
     const chosen = own.filter((i) => i >= 0)
-    // From afar nothing is seen of a small one beside.
+    // In present mode small pictures beside an enlarged one are left out.
     const isAlone = isPresenting() && chosen.length > 0
     const seen = PHONE.matches ? [chosen[0] ?? 0] : isAlone ? chosen : cells.map((_, i) => i)
     const caption = captions(type)
@@ -104,14 +112,17 @@ export function createStage(shelf, gallery) {
     if (scene === gallery.shown && PHONE.matches) showChips(scene.cells, cells[seen[0]])
   }
 
+  /** @param {HTMLElement} cell @param {number} i @param {boolean} isLarge */
   function label(cell, i, isLarge) {
+    /** @type {HTMLElement} */
     const corner = cell.querySelector(".corner")
-    const title = `${isLarge ? "Beside the others again" : "Enlarge"} (${i + 1})`
+    const title = `${isLarge ? "Show all pictures" : "Enlarge"} (${i + 1})`
     if (corner.title === title) return
     relabel(corner, isLarge ? REDUCE : ENLARGE, title, `${isLarge ? "Reduce" : "Enlarge"} picture ${i + 1}`)
-    corner.ariaPressed = isLarge
+    corner.ariaPressed = String(isLarge)
   }
 
+  /** @param {HTMLElement[]} cells @param {HTMLElement} seen */
   function showChips(cells, seen) {
     chips.replaceChildren(...cells.map((cell, i) => button("chip", () => {
       if (isFolded(cell)) tell("fold", nameOf(cell))
@@ -119,13 +130,14 @@ export function createStage(shelf, gallery) {
     }, { ariaPressed: cell === seen, ariaLabel: `Picture ${i + 1}` }, i + 1)))
   }
 
+  /** @param {string[]} names */
   function enlarge(names) {
     large = names
     tell("url", { large: names.join(",") })
     placeShown()
   }
 
-  // Another one in its place, or with it; the same one again: all are equal.
+  /** Enlarge a picture instead of the others, or with them; a picture that is large becomes small. @param {string} name @param {boolean} isAdded */
   function toggle(name, isAdded) {
     if (large.includes(name)) return enlarge(large.filter((one) => one !== name))
     enlarge(isAdded ? [...large, name].slice(-MOST_LARGE) : [name])
@@ -139,14 +151,14 @@ export function createStage(shelf, gallery) {
     event.preventDefault()
     toggle(nameOf(cell), event.shiftKey)
   })
-  // After whatever else Escape is for.
+  // Other uses of Escape come first.
   onKeys({ escape: () => large.length > 0 && enlarge([]) }, window)
 
   listen({
-    // When all of the page has its new sizes.
+    // Wait until the page has its new sizes.
     presenting: () => requestAnimationFrame(placeShown),
     client(own) { wanted = own.large ?? "" },
-    // The picture that a lesson looks at.
+    // The picture of a lesson step.
     look(name) {
       if (isFolded(gallery.cell(name))) tell("fold", name)
       enlarge([name])
@@ -164,8 +176,9 @@ export function createStage(shelf, gallery) {
 
   return {
     place, size,
+    /** Return the corner button of a picture. @param {string} name */
     cornerFor: (name) => button("corner", (event) => toggle(name, event.shiftKey), { innerHTML: icon("", "1.3em") }),
-    // The scene is on show: what its link has enlarged is so at first.
+    /** Show a scene, at first with the pictures enlarged that its link names. @param {Scene} scene */
     enter(scene) {
       const names = scene.cells.map(nameOf)
       large = wanted.split(",").filter((name) => names.includes(name)).slice(0, MOST_LARGE)

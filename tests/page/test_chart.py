@@ -128,8 +128,8 @@ def test_a_chart_from_its_start_to_its_file(explorer, tmp_path):
     assert explorer.link().partition("h=")[0] == before.partition("h=")[0]
     # A file that holds something else is told, and changes nothing.
     for text, why in (
-        ("{", "is no JSON"),
-        ("[]", "holds no chart"),
+        ("{", "is not JSON"),
+        ("[]", "is not a chart"),
         (json.dumps({**file, "values": [1]}), "is missing"),
         (json.dumps({**file, "x": {**file["x"], "count": 10**9}}), "is missing"),
     ):

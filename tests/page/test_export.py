@@ -67,7 +67,7 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer):
     lines = code(address(state, "circle"))
     expect(python).to_have_value(lines)
     dialog.get_by_role("button", name="Copy Python").click()
-    expect(dialog.locator(".why")).to_have_text("The lines of Python are copied.")
+    expect(dialog.locator(".why")).to_have_text("Python code copied.")
     assert page.evaluate("navigator.clipboard.readText()") == lines
     with page.expect_download() as download:
         dialog.get_by_role("button", name="Open as notebook").click()
@@ -142,7 +142,7 @@ def test_a_film_is_made_with_progress_and_is_stopped(explorer):
     assert len(frames_of(path, 480)) == 25
     assert shown(state, "sphere").link in tags_of(path)
     heard = page.evaluate("window.heard")
-    assert heard[0] == "Being made…"
+    assert heard[0] == "Working…"
     assert "Frame 25 of 25." in heard
     assert heard[-1].startswith("suslov-hess-sphere.webm:")
     dialog.locator(".param-seconds").fill("30")

@@ -164,11 +164,11 @@ def test_a_page_that_has_lost_its_server_says_so_and_goes_on_in_the_same_state_w
     page.route("**/liveness", keep)
     websocket.cut()
     sign.wait_for(state="visible")
-    assert sign.inner_text().startswith("The connection to the server is lost.")
+    assert sign.inner_text().startswith("Connection to the server lost.")
     # What is chosen now cannot be shown, and is not said to be under way.
     explorer.slide(h=0.9)
     page.evaluate("new Promise((done) => setTimeout(done, 600))")
-    assert sign.inner_text().startswith("The connection to the server is lost.")
+    assert sign.inner_text().startswith("Connection to the server lost.")
     assert not explorer.ready
     # The pictures stay what they were, and so does the motion on them.
     assert explorer.here() == (1.5, 0.5)

@@ -173,7 +173,7 @@ def test_the_menu_obeys_the_keyboard_and_is_searched(explorer):
     assert page.evaluate(FOCUSED) == "search"
     # What is typed is for the search alone.
     keys.type("f loxo 2 ")
-    assert page.get_by_text("No scene has these words.").is_visible()
+    assert page.get_by_text("No scene matches.").is_visible()
     page.locator(".search").fill("accuracy SPEED")
     assert [tile.get_attribute("data-scene") for tile in page.locator(".scene:visible").all()] == [STUDY]
     explorer.change(keys.press, "Enter")

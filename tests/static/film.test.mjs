@@ -27,5 +27,5 @@ test("the film follows its progress, however the bytes are cut", async () => {
 
 test("a film that is refused or breaks off says why", async () => {
   assert.equal((await read("1/3\nwhy Nothing moves.\n", 4)).why, "Nothing moves.")
-  for (const text of ["1/3\n", "file 9\nfilm"]) assert.match((await read(text, 5)).why, /broke off/)
+  for (const text of ["1/3\n", "file 9\nfilm"]) assert.match((await read(text, 5)).why, /incomplete/)
 })

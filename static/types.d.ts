@@ -1,0 +1,476 @@
+// Types that several modules share.  Messages and descriptions have the field names of "protocol/messages.py" and
+// "page/description.py".
+
+/** Three coordinates in space. */
+type Vector = number[]
+/** A curve in space as three columns [xs, ys, zs]. */
+type Columns = ArrayLike<number>[]
+
+type Tag<Name extends string> = Name extends `${infer First}.${string}` ? First : Name
+/** The element that `element("p.why")` makes. */
+type ElementOf<Name extends string> =
+  Tag<Name> extends keyof HTMLElementTagNameMap ? HTMLElementTagNameMap[Tag<Name>] : HTMLElement
+
+// ---- BokehJS: the members that the page uses ----
+
+interface BokehScale {
+  compute(value: number): number
+  v_compute(values: ArrayLike<number>): ArrayLike<number>
+  invert(pixel: number): number
+}
+
+/** What a canvas over a plot or a chart needs of a scale. */
+type Scale = Pick<BokehScale, "compute" | "invert">
+
+interface BokehSignal {
+  connect(slot: () => void): void
+  disconnect(slot: () => void): void
+}
+
+/** Any model of Bokeh; its properties depend on its type. */
+interface BokehModel {
+  name: string | null
+  setv(properties: object, options?: { sync: boolean }): void
+  [property: string]: any
+}
+
+interface BokehRange extends BokehModel {
+  start: number
+  end: number
+}
+
+interface PlotModel extends BokehModel {
+  x_range: BokehRange
+  y_range: BokehRange
+  below: BokehModel[]
+  left: BokehModel[]
+  renderers: BokehModel[]
+  references(): Iterable<BokehModel>
+}
+
+interface BokehLayer { el: HTMLCanvasElement }
+
+interface RendererView {
+  glyph?: { set_visuals?(source: object, indices: object): void, after_visuals?(): void }
+  model: BokehModel
+  all_indices: object
+  ready: Promise<void>
+}
+
+/** Bokeh's view of a plot. */
+interface PlotView {
+  model: PlotModel
+  frame: { bbox: { x0: number, y0: number, x1: number, y1: number, width: number }, x_scale: BokehScale, y_scale: BokehScale }
+  bbox: { width: number, height: number }
+  canvas_view: { primary: BokehLayer, overlays: BokehLayer, resize(): void }
+  computed_renderer_views: RendererView[]
+  repainted: BokehSignal
+  is_paused: boolean
+  pause(): void
+  unpause(noReset?: boolean): void
+  paint(): void
+  invalidate_painters(): void
+  has_finished(): boolean
+}
+
+interface BokehEvent { x: number, y: number, event_name: string }
+
+declare const Bokeh: any
+
+// ---- Descriptions of scenes and lessons ----
+
+type ControlDescription = { name: string, label: string, help: string, group: string } & (
+  { kind: "number", symbol: string, range: [number, number], options?: undefined } |
+  { kind: "choice", symbol?: undefined, range?: undefined, options: string[] })
+
+/** A picture of a scene; the fields beyond these depend on its kind. */
+interface PictureDescription {
+  name: string
+  kind: "plot" | "sphere" | "cloud"
+  hands: string
+  folded: string | null
+  [option: string]: any
+}
+
+interface ChartDescription {
+  quantity: string
+  symbol: string
+  title: string
+  units: string
+  turn: number
+  parts: string[]
+  over: string[]
+  pictures: string[]
+}
+
+/** A parameter over which a chart can run; `place` is the first list of places where it is a coordinate of one. */
+interface SideDescription {
+  name: string
+  symbol: string
+  range: [number, number]
+  place?: string
+}
+
+interface AnimationDescription {
+  name: string
+  start: number
+  end: number
+  seconds: number
+}
+
+interface Prediction {
+  picture: string
+  source: string
+  columns: [string, string]
+  what: "point" | "curve"
+}
+
+interface LessonStep {
+  title: string
+  text: string
+  scene: string
+  look: string
+  question: string
+  answer: string
+  animation?: AnimationDescription
+  prediction?: Prediction
+}
+
+interface Lesson {
+  name: string
+  title: string
+  minutes: number
+  steps: LessonStep[]
+}
+
+type Handle = { control: string } | { picture: string, source: string, columns?: string[] }
+
+interface SceneDescription {
+  name: string
+  title: string
+  pictures: PictureDescription[]
+  controls: ControlDescription[]
+  essential: string[]
+  handle: Handle | null
+  moves: string
+  groups: string[]
+  drawn: boolean
+  charts: ChartDescription[]
+  sides: Required<SideDescription>[]
+  presets: string[]
+  legend: string
+  words: string
+  tries: LessonStep[]
+  tracks: string[]
+  dots: Record<string, [string, string]>
+  angles: string[]
+  shades: Record<string, [string, string]>
+  /** Pictures that an embedded page leaves out. */
+  absent?: string[]
+}
+
+// ---- Messages of the websocket ----
+
+/** [value, low, high, step, whether the control is disabled], or the option of a menu. */
+type ControlValue = [number, number, number, number, boolean?] | string
+type Texts = Record<string, string>
+type Progress = [done: number, of: number]
+
+/** A state as a tree; `sources` refers to the block of numbers, see "protocol/wire.py". */
+interface Tree {
+  sources: Record<string, Record<string, unknown>>
+  ranges: Record<string, [number, number, number, number]>
+  texts: Texts
+  controls: Record<string, ControlValue>
+}
+
+interface StateAnswer {
+  number: number
+  answers: number
+  query: string
+  tree: Tree
+  scene: string
+  progress: Progress | null
+}
+
+type ChartSide = [name: string, low: number, high: number, count: number]
+
+/** A chart as the server takes it, see `Chart.read`. */
+interface ChartAsked {
+  state: string
+  quantity: string
+  part: number
+  x: ChartSide
+  y: ChartSide
+}
+
+/** `ChartCells`, `ChartEnded` or `CellExplained` of "protocol/messages.py". */
+interface ChartAnswer {
+  id: number | null
+  running: boolean
+  said: string
+  cells: number
+  first: number
+  done: number
+  of?: number
+  left: number | null
+  level: string
+  error: number | null
+  version: string
+  x: ChartSide
+  y: ChartSide
+  at: [number, number]
+  why?: string
+}
+
+type ChartRequest =
+  { start: ChartAsked, id: number } | { more: number, id: number } | { stop: true } | { why: ChartAsked, at: number[] }
+
+/** `Answer` of "protocol/messages.py", without its blocks. */
+interface Answer {
+  state?: StateAnswer
+  scene?: SceneDescription
+  lesson?: Lesson
+  chart?: ChartAnswer
+}
+
+/** A point [picture, x, y] or a box [picture, x0, y0, x1, y1]. */
+type Picked = [picture: string, ...numbers: number[]]
+
+/** `Request` of "protocol/messages.py". */
+interface StateRequest {
+  requested: number
+  held: boolean
+  values: Record<string, number | string>
+  scene: string | null
+  hidden: string[] | null
+  expressions?: Texts
+  picked?: Picked
+  hover?: Picked
+  lesson?: string
+  step?: [lesson: string, number: number, revealed: boolean]
+  near?: string
+  preset?: string
+  restore?: string
+  reset?: true
+  clear?: true
+  stop?: true
+}
+
+// ---- The page ----
+
+/** A chart on the page: what was asked for, and the cells that have come. */
+interface Chart {
+  scene: string
+  state: string
+  quantity: string
+  part: number
+  symbol: string
+  title: string
+  units: string
+  turn: number
+  x: ChartAxis
+  y: ChartAxis
+  level: string
+  error: number | null
+  version: string
+  values: Float64Array
+  status: Uint8Array
+  known: number
+  share: number
+  left: number | null
+  said: string
+  id?: number
+}
+
+interface ChartAxis {
+  name: string
+  symbol: string
+  low: number
+  high: number
+  count: number
+}
+
+/** [column, row] of a chart. */
+type Cell = number[]
+/** [low, high] on both sides of a chart. */
+interface ChartBox { x: number[], y: number[] }
+
+/** Columns of a data source by name. */
+type Data = Record<string, any>
+type Source = import("./pictures/sources.js").Source
+type FindSource = (name: string) => Source
+
+/** Numbers on a grid, row by row. */
+interface Grid {
+  rows: number
+  columns: number
+  numbers: Float32Array
+}
+
+/** What an earlier state looks like; its form depends on the kind of the picture. */
+type GhostImage = any
+/** A faint copy of an earlier state: take() copies the state on show, show(copy or null) draws it. */
+interface Ghost {
+  take(): GhostImage
+  show(image: GhostImage): void
+}
+
+/** A picture that was drawn; shoot(side) returns it for print, `side` pixels wide. */
+interface Drawn extends Partial<Ghost> {
+  shoot(side: number): HTMLCanvasElement
+  plot?: PlotView
+}
+
+/** The pictures of a scene, built. */
+interface Scene {
+  name: string
+  grid: HTMLElement
+  sources: Map<string, Source>
+  cells: HTMLElement[]
+  plots: PlotView[]
+  ghosts: Ghost[]
+  shots: Map<string, Drawn["shoot"]>
+  /** Whether a state was painted. */
+  painted: boolean
+  /** The colours and sizes that the plots have. */
+  coloured?: string
+  sizes?: string
+}
+
+/** What a self-painted canvas knows: its side or size in its own units, device pixels per unit, colour of text, theme. */
+interface CanvasLook { width: number, height: number, text: string, dark: boolean }
+interface SquareLook { edge: number, ratio: number, text: string, dark: boolean }
+type PaintSquare = (ctx: CanvasRenderingContext2D, look: SquareLook) => void
+type PaintFrame = (ctx: CanvasRenderingContext2D, xScale: BokehScale, yScale: BokehScale) => void
+
+/** Line style; without a colour, that of text. */
+interface Look {
+  colour?: string
+  dash?: number[]
+  weight: number
+}
+
+type Sheet = ReturnType<typeof import("./pictures/projection.js").createSheet>
+
+/** A drawing on a sphere; begin, paint (far, then near half) and middle (between them) are called in this order. */
+interface SphereGuest {
+  t: number
+  begin?(sheet: Sheet): void
+  paint(sheet: Sheet, near: boolean): void
+  middle?(sheet: Sheet): void
+}
+
+/** Keys of the address that the browser itself keeps. */
+type ClientKeys = Record<string, string>
+
+/** A state as `compare.js` keeps it. */
+interface Compared {
+  title: string | null
+  isPinnedShown: boolean
+  rows: [string, string, string][]
+  queries: [string, string]
+}
+
+/** What the export dialog offers: [kind, label, content] of each format; [least, most, usual] of the numbers. */
+interface ExportFiles {
+  formats: [string, string, string][]
+  width: [number, number, number]
+  seconds: [number, number, number]
+}
+
+interface SceneTile {
+  name: string
+  title: string
+  summary: string
+  picture: string
+  origin: string | null
+  group: string
+}
+
+interface Palettes { plain: string[], round: string[] }
+
+/** The model of the page's component, see "page/component.py". */
+interface PageModel {
+  client: ClientKeys
+  lesson: string
+  lessons: { name: string, title: string, minutes: number }[]
+  scenes: SceneTile[]
+  palettes: Palettes
+  files: ExportFiles
+  sheets: Record<string, string>
+}
+
+/** Panel's view of that component. */
+interface PanelView { model: { document: any } }
+
+/** The events of "page/bus.js", by name, with their details. */
+interface PageEvents {
+  // To the client
+  change: Record<string, number | string>
+  expression: Texts
+  preset: string
+  scene: string
+  near: string
+  restore: string
+  reset: void
+  undo: void
+  redo: void
+  clear: void
+  stop: void
+  link: void
+  address: void
+  copy: string
+  theme: void
+  fullscreen: void
+  present: void
+  print: void
+  share: void
+  export: void
+  chart: void
+  pick: { pick: Picked, drag: boolean }
+  hover: Picked
+  /** Whether an animation moves a slider. */
+  animated: boolean
+  pin: void
+  flip: void
+  url: ClientKeys
+  lesson: string
+  step: [lesson: string, number: number, revealed: boolean]
+  "ask-client": (hear: ClientKeys) => void
+  "ask-chart": ChartRequest
+  // From the client
+  enter: SceneDescription
+  texts: Texts
+  controls: Record<string, ControlValue>
+  progress: Progress | null
+  client: ClientKeys
+  /** Canvases paint now, together with the plots. */
+  paint: void
+  painted: void
+  copied: { text: string | null, said: string }
+  /** How many steps can be undone and redone. */
+  steps: { undo: number, redo: number }
+  presenting: boolean
+  embedding: void
+  "lesson-read": { lesson: Lesson, step: number | null }
+  compared: Compared | null
+  charted: { head: ChartAnswer, cells: ArrayBuffer }
+  // From the player
+  time: { t: number, state: Record<string, number> | null }
+  fold: string
+  folded: { name: string, folded: boolean }
+  // From a picture and to it: [picture, azimuth, elevation]
+  turned: [string, number, number]
+  turn: [string, number, number]
+  // From the other page of two side by side
+  follow: number
+  // From a chart: the computed share of its cells
+  charting: number | null
+  // From a lesson
+  reading: boolean
+  look: string
+  run: { from: number, to: number, seconds: number } | null
+}
+
+type PageListeners = { [Name in keyof PageEvents]?: (detail: PageEvents[Name]) => unknown }
