@@ -45,9 +45,7 @@ export function besideDialog() {
       halves.forEach((half, i) => { half.src = addressOf(queries[i]) })
       dialog.showModal()
       // Scaled to show all pictures, except on a phone.
-      for (const half of halves) {
-        half.style.zoom = String(PHONE.matches ? 1 : Math.min(1, half.parentElement.clientWidth / LEAST))
-      }
+      for (const half of halves) half.style.zoom = String(PHONE.matches ? 1 : Math.min(1, half.parentElement.clientWidth / LEAST))
     },
   }
 }

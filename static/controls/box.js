@@ -5,7 +5,7 @@
 import { tell } from "../page/bus.js"
 import { element } from "../page/elements.js"
 
-const TYPE = "Type an exact value or an expression such as pi/3, and press Enter."
+const TYPE = "Type a value or an expression such as pi/3, then press Enter."
 /** @type {Record<string, number>} */
 const STEPS = { ArrowUp: 1, ArrowDown: -1 }
 

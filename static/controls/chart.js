@@ -50,7 +50,12 @@ export function chartPanel(palettes) {
     titles.set(item, title)
     return item
   }
-  /** Enable a button, or disable it with a reason. @param {HTMLButtonElement} item @param {boolean} isUsable @param {string} without */
+  /**
+   * Enable a button, or disable it with a reason.
+   * @param {HTMLButtonElement} item
+   * @param {boolean} isUsable
+   * @param {string} without
+   */
   const offerIf = (item, isUsable, without) => {
     item.disabled = !isUsable
     item.title = isUsable ? titles.get(item) : `Disabled: ${without}`
@@ -67,7 +72,7 @@ export function chartPanel(palettes) {
   const x = sideForm("x", endsOf, () => keepApart(y, x))
   const y = sideForm("y", endsOf, () => keepApart(x, y))
   const start = press("start", "Start", () => begin(wanted()), "Compute the chart")
-  const stop = press("stop", "Stop", () => job.stop(), "Leave the chart at what is computed")
+  const stop = press("stop", "Stop", () => job.stop(), "Keep the cells so far")
   const out = press("out", "Zoom out", zoomOut, "The previous chart (minus key)")
   const save = press("save", "Save", keep, "Save the chart to a file")
   const file = element("input", { type: "file", accept: ".json,application/json", hidden: true, onchange: take })
@@ -102,7 +107,11 @@ export function chartPanel(palettes) {
     other.choose(next, ...endsOf(next))
   }
 
-  /** Return [name, low, high] of the axes of a picture if both are parameters. @param {string} name @returns {[string, number, number][] | null} */
+  /**
+   * Return [name, low, high] of the axes of a picture if both are parameters.
+   * @param {string} name
+   * @returns {[string, number, number][] | null}
+   */
   function axesOf(name) {
     const plot = gallery.plot(name)?.model
     if (plot === undefined) return null
@@ -121,7 +130,8 @@ export function chartPanel(palettes) {
     for (const side of [x, y]) side.offer(offered)
     offerIf(start, offered.length >= 2, "this scene has no two parameters to chart over")
     if (start.disabled) return
-    const sides = axesOf(pictureName) ?? offered.slice(0, 2).map(({ name }) => /** @type {[string, number, number]} */ ([name, ...endsOf(name)]))
+    /** @type {[string, number, number][]} */
+    const sides = axesOf(pictureName) ?? offered.slice(0, 2).map(({ name }) => [name, ...endsOf(name)])
     x.choose(...sides[0])
     y.choose(...sides[1])
   }
@@ -308,7 +318,7 @@ export function chartPanel(palettes) {
         offer(pointed)
       }
       if (chart === null) {
-        said.textContent = charts.length > 0 ? "" : "This scene has nothing to chart: choose another scene, or load a chart."
+        said.textContent = charts.length > 0 ? "" : "This scene has nothing to chart: choose another one."
       }
       panel.showPopover()
       ;(form.hidden ? load : start).focus()

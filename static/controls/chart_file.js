@@ -50,9 +50,9 @@ export function fromFile(text) {
   try {
     found = JSON.parse(text)
   } catch {
-    return { why: "This file is not JSON: choose a file that Save has written." }
+    return { why: "This file is not JSON: choose one written by Save." }
   }
-  if (found?.program !== PROGRAM) return { why: "This file is not a chart: choose a file that Save has written." }
+  if (found?.program !== PROGRAM) return { why: "This file is not a chart: choose one written by Save." }
   const chart = { ...USUAL, ...found }
   if (!isWhole(CHART, chart)) return { why: NUMBERS }
   const { x, y, values, status } = chart

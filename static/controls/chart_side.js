@@ -30,7 +30,7 @@ export function sideForm(label, ends, chosen) {
   const count = box("cells", { min: 2, max: MOST_SIDE, step: 1, value: CELLS })
   /** @param {number} from @param {number} to */
   const put = (from, to) => {
-    ;[low.value, high.value] = [from, to].map((end) => String(Number(end.toPrecision(DIGITS))))
+    ;[low.valueAsNumber, high.valueAsNumber] = [from, to].map((end) => Number(end.toPrecision(DIGITS)))
   }
   return {
     frame: element("div.side", name, element("label", "from ", low), element("label", "to ", high),

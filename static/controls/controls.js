@@ -68,7 +68,9 @@ export function render({ el }) {
   function take(name) {
     atHand = items.has(name) ? name : items.keys().next().value
     for (const [other, item] of items) item.classList.toggle("at-hand", other === atHand)
-    for (const chip of /** @type {Iterable<HTMLElement>} */ (chooser.children)) chip.ariaPressed = String(chip.dataset.name === atHand)
+    for (const chip of /** @type {Iterable<HTMLElement>} */ (chooser.children)) {
+      chip.ariaPressed = String(chip.dataset.name === atHand)
+    }
   }
 
   /** @param {string} name @param {HTMLElement[]} members */
@@ -127,8 +129,9 @@ export function render({ el }) {
   sayDragMe((/** @type {{control: string}} */ { control }) => {
     const item = items.get(control)
     if (!item?.checkVisibility()) return null
-    const { min, max, value } = /** @type {HTMLInputElement} */ (item.querySelector(".hand"))
-    const share = 100 * (Number(value) - Number(min)) / (Number(max) - Number(min))
+    /** @type {HTMLInputElement} */
+    const { min, max, valueAsNumber: value } = item.querySelector(".hand")
+    const share = 100 * (value - Number(min)) / (Number(max) - Number(min))
     const place = share < 60 ? { left: `calc(${share}% + 1.4em)` } : { right: `calc(${100 - share}% + 1.4em)` }
     return { host: item, place: () => place }
   })

@@ -37,7 +37,7 @@ export const section = (ariaLabel, heading, ...children) => (
  */
 export const snippet = (ariaLabel, rows) => (
   element("textarea.snippet", {
-    readOnly: true, rows, ariaLabel, onfocus: (/** @type {Event} */ { target }) => /** @type {HTMLTextAreaElement} */ (target).select(),
+    readOnly: true, rows, ariaLabel, onfocus: (/** @type {{target: HTMLTextAreaElement}} */ { target }) => target.select(),
   }))
 
 /**

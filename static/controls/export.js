@@ -77,7 +77,8 @@ export function exportDialog(files) {
     one.hidden = isAll()
     film.hidden = !isFilm(format.value)
     const what = wanted()
-    const options = Object.entries(what).filter(([, value]) => value !== "").map(([name, value]) => (name === "black" ? " --black" : ` --${name} ${value}`)).join("")
+    const options = Object.entries(what).filter(([, value]) => value !== "")
+      .map(([name, value]) => (name === "black" ? " --black" : ` --${name} ${value}`)).join("")
     command.value = `hess-explorer export --state '${state().replaceAll("'", "%27")}'${options} --out ${fileName(what)}`
   }
 

@@ -9,7 +9,7 @@ import { element } from "../page/elements.js"
 import { animation } from "./animation.js"
 import { exactBox } from "./box.js"
 
-const IDLE = "Disabled: it has no effect with the current choices."
+const IDLE = "Disabled: no effect with the current choices."
 // Steps of a slider without a step size.
 const PARTS = 400
 
@@ -59,7 +59,7 @@ export function number({ name, label, symbol, help, range }) {
   /** @param {number} value */
   const take = (value) => {
     if (value === shown) return
-    slider.value = String(value)
+    slider.valueAsNumber = value
     exact.put(value)
     controlled.change(value)
   }
@@ -78,8 +78,8 @@ export function number({ name, label, symbol, help, range }) {
   const slider = element("input.hand", {
     type: "range", title: help, ariaLabel: label, ariaDescription: help,
     oninput() {
-      const value = within(Number(slider.value))
-      if (value !== Number(slider.value)) slider.value = String(value)
+      const value = within(slider.valueAsNumber)
+      if (value !== slider.valueAsNumber) slider.valueAsNumber = value
       exact.put(value)
       controlled.change(value)
     },

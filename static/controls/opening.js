@@ -11,7 +11,7 @@ const TOUCHES = ["pointerdown", "keydown", "wheel"]
 
 /**
  * Return enter(name), for a scene on show, and rest(), with which the first scene does not play.
- * @param {{begin: () => void, end: () => void, isOwn: (event: Event) => boolean}} player begin() starts it, end() stops it,
+ * @param {{begin: () => void, end: () => void, isOwn: (event: KeyboardEvent) => boolean}} player begin() starts it, end() stops it,
  *   isOwn(event) says whether it handles a touch itself
  */
 export function opening({ begin, end, isOwn }) {
@@ -31,7 +31,7 @@ export function opening({ begin, end, isOwn }) {
   for (const name of TOUCHES) {
     document.addEventListener(name, (event) => {
       isWaiting = false
-      if (!isOwn(event)) end()
+      if (!isOwn(/** @type {KeyboardEvent} */ (event))) end()
     }, { capture: true, passive: true })
   }
   return {

@@ -35,12 +35,12 @@ export function render({ el }) {
     type: "range", min: 0, step: "any", ariaLabel: "Time t", onchange: writeTime,
     oninput: () => {
       play(false)
-      move(Number(slider.value))
+      move(slider.valueAsNumber)
     },
   })
   const output = element("output")
   const speed = element("select.param-speed", {
-    ariaLabel: "Speed", title: "Speed: units of t per second", onchange: () => announce({ speed: speed.value }),
+    ariaLabel: "Speed", title: "Speed: units of t per second", onchange: () => tell("url", { speed: speed.value }),
   }, ...SPEEDS.map((value) => new Option(`${value}×`, String(value))))
   const back = transport("back", BACK, "Step back (←)", () => step(-1))
   const toggle = transport("play", PLAY, "Play (Space)", () => play(!playing))
@@ -66,16 +66,14 @@ export function render({ el }) {
   let gentle = null
 
   const end = () => source?.data.t?.at(-1) ?? 0
-  /** @param {ClientKeys} keys */
-  const announce = (keys) => tell("url", keys)
-  function writeTime() { announce({ t: t.toFixed(3) }) }
+  function writeTime() { tell("url", { t: t.toFixed(3) }) }
   function show() {
     const usable = source !== null && source.data.t?.length > 1
     const state = usable ? stateAt(source.data, scene.angles, t) : null
     for (const [name, [x, y]] of Object.entries(scene.dots)) {
       gallery.source(name).put(state ? { x: [state[x]], y: [state[y]] } : { x: [], y: [] })
     }
-    slider.value = String(t)
+    slider.valueAsNumber = t
     output.textContent = `t = ${t.toFixed(2)}`
     slider.ariaValueText = `${output.textContent} of ${end().toFixed(2)}`
     tell("time", { t, state })
@@ -141,7 +139,8 @@ export function render({ el }) {
       play(true)
     },
     end() { if (gentle !== null) play(false) },
-    isOwn: (event) => event.composedPath().includes(toggle) || (event instanceof KeyboardEvent && event.key === " " && !isTaken(event)),
+    isOwn: (event) => event.composedPath().includes(toggle)
+      || (event.key === " " && !isTaken(event)),
   })
 
   const onData = () => {

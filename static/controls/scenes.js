@@ -92,9 +92,7 @@ export function sceneMenu(scenes) {
       search.value = ""
       filter()
       dialog.showModal()
-      /** @type {HTMLElement | null} */
-      const here = list.querySelector('[aria-pressed="true"]')
-      here?.focus()
+      tiles().find((tile) => tile.ariaPressed === "true")?.focus()
     },
     /** @param {string} name */
     show(name) {

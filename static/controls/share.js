@@ -74,8 +74,8 @@ export function shareDialog() {
   const [copyHtml, sayHtml] = copyButton("snippet", "Copy HTML", () => tell("copy", html.value))
   listen({ copied: ({ text, said }) => (text === null ? sayLink : sayHtml)(said) })
   const dialog = dialogOf("Share", "menu-of-scenes.share", [], element("div.parts",
-    section("Link", "The page as it is on the screen", link, copyLink, code, why),
-    section("Embed", "Parts of the page in your own page", pictures.frame, controls.frame, html, copyHtml)))
+    section("Link", "The page on the screen", link, copyLink, code, why),
+    section("Embed", "Parts of this page in your own", pictures.frame, controls.frame, html, copyHtml)))
 
   return {
     dialog,

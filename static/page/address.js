@@ -12,7 +12,8 @@ export function createAddress({ query, isDark, own }) {
   let timer = null
   /** @param {string} state */
   const addressOf = (state) => {
-    const extra = Object.entries(own).filter(([, value]) => value !== "").map(([key, value]) => `&${key}=${encodeURIComponent(value)}`).join("")
+    const extra = Object.entries(own).filter(([, value]) => value !== "")
+      .map(([key, value]) => `&${key}=${encodeURIComponent(value)}`).join("")
     return `?${state}${extra}${isDark() ? "&theme=dark" : ""}`
   }
   const writeNow = () => {

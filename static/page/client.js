@@ -23,7 +23,7 @@ import { handleCommands } from "./commands.js"
 // The next part of a state is requested after a pause as long as the last part took: half of the time is left to the user,
 // and a slow server is asked less often.
 const PAUSE_BETWEEN_PIECES = 80
-const LOST = "Connection to the server lost. This page continues in the same state as soon as the server answers."
+const LOST = "Connection to the server lost. This page continues as soon as the server answers."
 
 /**
  * Start the client.

@@ -40,7 +40,7 @@ export function embedded(description, { pictures, controls }) {
   const kept = description.controls.filter(isIn(controls))
   const [there, absent] = [true, false].map((is) => description.pictures.filter((one) => isIn(pictures)(one) === is))
   return {
-    ...description, pictures: there.map((picture) => ({ ...picture, folded: /** @type {null} */ (null) })), absent: absent.map(({ name }) => name),
-    controls: kept, essential: kept.map(({ name }) => name), presets: [],
+    ...description, pictures: there.map((picture) => ({ ...picture, folded: /** @type {null} */ (null) })),
+    absent: absent.map(({ name }) => name), controls: kept, essential: kept.map(({ name }) => name), presets: [],
   }
 }

@@ -26,8 +26,10 @@ const styles = new URL("handout.css", import.meta.url).href
 function numbersOf({ controls }, values, t) {
   /** @param {ControlValue} value */
   const text = (value) => (Array.isArray(value) ? String(Number(value[0].toPrecision(12))).replace("-", "−") : value)
-  return [...controls.filter(({ name }) => values[name]?.[4] !== true)
-    .map(({ name, label }) => /** @type {[string, string]} */ ([label, text(values[name])])), ...(t === null ? [] : [/** @type {[string, string]} */ ([PLAYED, t.toFixed(3)])])]
+  /** @type {[string, string][]} */
+  const rows = controls.filter(({ name }) => values[name]?.[4] !== true).map(({ name, label }) => [label, text(values[name])])
+  if (t !== null) rows.push([PLAYED, t.toFixed(3)])
+  return rows
 }
 
 /** @param {ReturnType<typeof gallery.shoot>[number]} shot */

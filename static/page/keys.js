@@ -4,21 +4,28 @@
 const TEXT_BOX = "textarea, [contenteditable], input:not([type=range], [type=checkbox], [type=radio])"
 
 /**
+ * Return whether an event comes from inside an element that matches a selector.
+ * @param {Event} event
+ * @param {string} selector
+ */
+const isWithin = (event, selector) => (
+  event.composedPath().some((item) => item instanceof HTMLElement && item.matches(selector)))
+
+/**
  * Return whether a key with Ctrl belongs to a text box or a dialog.  The box of a number decides for itself.
  * @param {KeyboardEvent} event
  */
 export function isTyped(event) {
-  return event.composedPath().some((item) => item instanceof HTMLElement && item.matches(`dialog, :is(${TEXT_BOX}):not(.exact)`))
+  return isWithin(event, `dialog, :is(${TEXT_BOX}):not(.exact)`)
 }
 
 /**
  * Call the action of a key that belongs to the page.
  * @param {Record<string, () => unknown>} actions key in lower case → action; it returns false if the key has no effect now
- * @param {Document | Window} target
+ * @param {Pick<Document, "addEventListener">} target
  */
 export function onKeys(actions, target = document) {
-  target.addEventListener("keydown", (/** @type {Event} */ pressed) => {
-    const event = /** @type {KeyboardEvent} */ (pressed)
+  target.addEventListener("keydown", (event) => {
     const act = actions[event.key.toLowerCase()]
     if (act !== undefined && !isTaken(event) && act() !== false) event.preventDefault()
   })
@@ -31,8 +38,7 @@ export function onKeys(actions, target = document) {
 export function isTaken(event) {
   if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return true
   // A menu finds its options by their first letters.
-  const typed = event.key.length === 1 && event.key !== " " ? `dialog, [popover], select, ${TEXT_BOX}` : `dialog, [popover], ${TEXT_BOX}`
-  return event.composedPath().some((item) => item instanceof HTMLElement && item.matches(typed))
+  return isWithin(event, `dialog, [popover], ${event.key.length === 1 && event.key !== " " ? "select, " : ""}${TEXT_BOX}`)
 }
 
 /** @type {Record<string, [number, number]>} */

@@ -196,8 +196,8 @@ export function render({ index, el }) {
     }
     const perform = () => {
       animation?.stop()
-      animation = steps[one].animation && createAnimation(steps[one].animation)
       const step = steps[one]
+      animation = step.animation && createAnimation(step.animation)
       go(name, one, false, () => arrive(step))
     }
     const count = element("span.count")

@@ -20,8 +20,8 @@ const place = (id) => document.getElementById(id)
  * @param {ControlDescription} control
  * @param {ControlValue} shown
  */
-function controlOf({ name, label, kind }, shown) {
-  if (kind !== "number" || typeof shown === "string") return element("label", `${label} `, element("select", new Option(String(shown))))
+function controlOf({ name, label }, shown) {
+  if (typeof shown === "string") return element("label", `${label} `, element("select", new Option(shown)))
   const [value, min, max, step] = shown
   const slider = element(`input.param-${name}`, { type: "range", min, max, step: step || "any", value })
   const number = String(Number(value.toPrecision(6))).replace("-", "−")

@@ -11,7 +11,7 @@ export function render({ el }) {
   /** @type {number | null} */
   let since = null
   const bar = element("progress", { ariaLabel: "Computed" })
-  const stop = button("button.param-stop", () => tell("stop"), { title: "Leave it at what is drawn (Escape)" }, "Stop")
+  const stop = button("button.param-stop", () => tell("stop"), { title: "Keep what is drawn (Escape)" }, "Stop")
   const box = element("div.computing", { role: "status", hidden: true }, bar, stop)
   el.append(box)
   document.addEventListener("keydown", (event) => {

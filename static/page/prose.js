@@ -11,9 +11,9 @@ import { element } from "./elements.js"
  */
 export function showSigns(box, signs) {
   const there = new Set(signs.split(","))
-  for (const [i, entry] of /** @type {NodeListOf<HTMLElement>} */ (box.querySelectorAll(".legend li")).entries()) {
-    entry.hidden = !there.has(String(i))
-  }
+  /** @type {NodeListOf<HTMLElement>} */
+  const entries = box.querySelectorAll(".legend li")
+  entries.forEach((entry, i) => { entry.hidden = !there.has(String(i)) })
 }
 
 /**

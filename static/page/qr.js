@@ -17,6 +17,6 @@ export async function qrCode(link) {
     const response = await fetch(address(link))
     return answer(response.ok, await response.text())
   } catch {
-    return answer(false, "The server does not answer: there is no QR code.")
+    return answer(false, "The server does not answer: no QR code.")
   }
 }

@@ -72,7 +72,11 @@ function opener() {
   return link
 }
 
-/** Show the sentence about the motion above the stage; on a phone in the text. @param {HTMLElement} stage @param {HTMLElement} reading */
+/**
+ * Show the sentence about the motion above the stage; on a phone in the text.
+ * @param {HTMLElement} stage
+ * @param {HTMLElement} reading
+ */
 function sayWhatMoves(stage, reading) {
   const sentence = element("p.text.moves")
   const place = () => {

@@ -30,6 +30,7 @@ const BALL = 9
  * @param {Data} columns
  * @param {number} i
  * @param {number} s
+ * @returns {(v: Vector) => Vector}
  */
 function placing(columns, i, s) {
   /** @param {string} name */
@@ -41,9 +42,7 @@ function placing(columns, i, s) {
   const raw = read("e")
   const e = unit(plus(raw, g, -dot(g, raw)))
   const f = cross(g, e)
-  /** @type {(v: Vector) => Vector} */
-  const place = (v) => [dot(v, e), -dot(v, f), -dot(v, g)]
-  return place
+  return (v) => [dot(v, e), -dot(v, f), -dot(v, g)]
 }
 
 /**

@@ -183,7 +183,9 @@ export function chartCanvas(palettes, handlers) {
   function drawMark(ctx, em, dark) {
     const { xs, ys } = place
     ctx.setLineDash(mark.isOfChart ? [] : [3, 3])
-    for (const [colour, width] of /** @type {[string, number][]} */ ([[dark ? "#000" : "#fff", 4], [dark ? POINT : DARK, 2]])) {
+    /** @type {[string, number][]} */
+    const strokes = [[dark ? "#000" : "#fff", 4], [dark ? POINT : DARK, 2]]
+    for (const [colour, width] of strokes) {
       circlePath(ctx, xs.compute(mark.at[0]), ys.compute(mark.at[1]), 0.55 * em * zoom())
       ctx.strokeStyle = colour
       ctx.lineWidth = width
@@ -205,7 +207,7 @@ export function chartCanvas(palettes, handlers) {
     const [left, right] = ends(chart.x, cursor[0], xs)
     const [bottom, top] = ends(chart.y, cursor[1], ys)
     ctx.lineWidth = 1
-    for (const { colour, room } of [{ colour: "#fff", room: 2 }, { colour: DARK, room: 1 }]) {
+    for (const [colour, room] of /** @type {[string, number][]} */ ([["#fff", 2], [DARK, 1]])) {
       ctx.strokeStyle = colour
       ctx.strokeRect(left - room, top - room, right - left + 2 * room, bottom - top + 2 * room)
     }
@@ -214,9 +216,10 @@ export function chartCanvas(palettes, handlers) {
   /** @param {MouseEvent} event */
   function cellAt({ offsetX, offsetY }) {
     if (place === null) return null
-    const cell = /** @type {[ChartAxis, number][]} */ ([[chart.x, place.xs.invert(offsetX)], [chart.y, place.ys.invert(offsetY)]])
-      .map(([side, value]) => Math.round((value - side.low) / stepOf(side)))
-    return cell.every((i, k) => i >= 0 && i < [chart.x, chart.y][k].count) ? cell : null
+    const values = [place.xs.invert(offsetX), place.ys.invert(offsetY)]
+    const sides = [chart.x, chart.y]
+    const cell = sides.map((side, k) => Math.round((values[k] - side.low) / stepOf(side)))
+    return cell.every((i, k) => i >= 0 && i < sides[k].count) ? cell : null
   }
 
   /** @param {Cell | null} cell */

@@ -146,8 +146,8 @@ function showGhost(taken) {
 function shoot(side) {
   const wasDark = onDark()
   setDark(false)
-  const shots = gallery.cellsInSight().map((cell) => /** @type {[string, string, HTMLCanvasElement]} */ (
-    [titleOf(cell), captionOf(cell), shown.shots.get(nameOf(cell))(side)]))
+  /** @type {[string, string, HTMLCanvasElement][]} */
+  const shots = gallery.cellsInSight().map((cell) => [titleOf(cell), captionOf(cell), shown.shots.get(nameOf(cell))(side)])
   setDark(wasDark)
   colour(shown)
   return shots

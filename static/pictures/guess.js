@@ -42,7 +42,11 @@ function nearestOn(line, [x, y]) {
 /** @param {ArrayLike<number>} xs @param {ArrayLike<number>} ys */
 const zip = (xs, ys) => Array.from(xs, (x, i) => [x, ys[i]]).filter((place) => place.every(Number.isFinite))
 
-/** Return the data of the source as polylines; a point is a polyline of length one. @param {Prediction} prediction @returns {number[][][]} */
+/**
+ * Return the data of the source as polylines; a point is a polyline of length one.
+ * @param {Prediction} prediction
+ * @returns {number[][][]}
+ */
 function linesOf({ source, columns: [x, y], what }) {
   const { [x]: xs = [], [y]: ys = [] } = gallery.source(source).data
   if (what === "point") return zip(xs, ys).map((place) => [place])
@@ -134,8 +138,8 @@ export function createGuess(prediction, say) {
       plot = gallery.plot(prediction.picture)
       hide(true)
       sheet = element("canvas.guess", {
-        tabIndex: 0, role: "application", ariaLabel: "Your guess: click, or move it with the arrow keys",
-        title: isCurve ? "Click along the curve as you expect it" : "Click where you expect it", onkeydown,
+        tabIndex: 0, role: "application", ariaLabel: "Your guess: click or use the arrow keys",
+        title: isCurve ? "Click along the expected curve" : "Click where you expect it", onkeydown,
         onclick: (/** @type {MouseEvent} */ { offsetX, offsetY }) => { if (!this.isRevealed) add(offsetX, offsetY) },
       })
       sheet.style.cssText = "position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; touch-action: none"

@@ -76,9 +76,8 @@ export function watchTheme(act) {
   }
 }
 
-/** @param {string} name @param {number} weight @returns {Look} */
-const look = (name, weight, dash = /** @type {number[]} */ ([])) => (
-  { get colour() { return shade(shades[name][0]) }, dash, weight })
+/** @param {string} name @param {number} weight @param {number[]} dash @returns {Look} */
+const look = (name, weight, dash = []) => ({ get colour() { return shade(shades[name][0]) }, dash, weight })
 
 // Looks without a colour have that of text.
 /** @type {Record<string, Look>} */

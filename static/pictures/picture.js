@@ -6,9 +6,9 @@ import { element } from "../page/elements.js"
 // Tooltips of pictures by what the mouse does there.
 /** @type {Record<string, string>} */
 const HINTS = {
-  drag: "Drag or click: what you point at is chosen",
-  box: "Click: what you point at is chosen. Drag a box: a closer look",
-  click: "Click: what you point at is chosen",
+  drag: "Drag or click to choose values",
+  box: "Click to choose values, drag a box to zoom in",
+  click: "Click to choose values",
 }
 
 /**

@@ -73,6 +73,9 @@ export function leaves(axes, semi, v) {
   return { at: 1 / Math.sqrt(square), near: towards >= 0 }
 }
 
+/** @param {number} x */
+const clipped = (x) => Math.max(-1, Math.min(1, x))
+
 /** Return a painter of ellipsoids. */
 export function createSolid() {
   const canvas = element("canvas", { width: MOST, height: MOST })
@@ -124,8 +127,7 @@ export function createSolid() {
         shine *= shine
         shine *= shine
         shine *= shine
-        const octant = Math.max(-1, Math.min(1, p * s0)) * Math.max(-1, Math.min(1, q * s1)) *
-          Math.max(-1, Math.min(1, r * s2))
+        const octant = clipped(p * s0) * clipped(q * s1) * clipped(r * s2)
         const share = 0.5 + 0.5 * octant
         const bright = ambient + (1.08 - ambient) * lit
         const i = 4 * (row * MOST + column)

@@ -57,7 +57,7 @@ export function sphere(el, options, source, isShown) {
   const { canvas, request, shoot } = squareCanvas(el, inSpace ? "solid" : "sphere", {
     tabIndex: 0, role: "application", ariaRoleDescription: "rotatable sphere",
     ariaLabel: `${options.title ?? "Poisson sphere"}: arrow keys turn it, Home turns it back`,
-    title: "Drag or use the arrow keys to turn it; Home turns it back",
+    title: "Drag to turn; Home turns it back",
     /** @param {KeyboardEvent} event */
     onkeydown(event) {
       const arrow = arrowOf(event)
@@ -70,9 +70,7 @@ export function sphere(el, options, source, isShown) {
   }, paint)
   const lines = options.bare ? [circle([0, 0, 1], 0)] : graticule()
   let turn = HOME
-  /** @param {ClientKeys} keys */
-  const beginTurn = (keys) => { turn = [Number(keys.az), Number(keys.el)] }
-  const askForTurn = () => tell("ask-client", beginTurn)
+  const askForTurn = () => tell("ask-client", (keys) => { turn = [Number(keys.az), Number(keys.el)] })
   askForTurn()
   /** @type {Vector | null} */
   let point = null

@@ -137,7 +137,11 @@ export function createStage(shelf, gallery) {
     placeShown()
   }
 
-  /** Enlarge a picture instead of the others, or with them; a picture that is large becomes small. @param {string} name @param {boolean} isAdded */
+  /**
+   * Enlarge a picture, or restore the layout if it is large.
+   * @param {string} name
+   * @param {boolean} isAdded whether other large pictures stay large
+   */
   function toggle(name, isAdded) {
     if (large.includes(name)) return enlarge(large.filter((one) => one !== name))
     enlarge(isAdded ? [...large, name].slice(-MOST_LARGE) : [name])
