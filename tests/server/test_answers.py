@@ -37,6 +37,14 @@ def test_speed_and_accuracy_of_a_scene_is_of_its_very_state(session):
     assert (session.scene.name, session.requested.values["h"]) == ("suslov-hess-accuracy", first)
 
 
+def test_a_scene_is_found_as_it_was_left(session):
+    ask(session, scene="suslov-hess")
+    ask(session, values={"f": 0.25, "phi0": 2.0})
+    ask(session, scene="scattering")
+    ask(session, scene="suslov-hess")
+    assert (session.values["f"], session.values["phi0"]) == (0.25, 2.0)
+
+
 def test_mistakes_of_a_link_that_is_restored_are_told(session):
     answer = ask(session, restore="scene=suslov-hess&h=banana&f=0.25")
     assert session.values["f"] == 0.25
