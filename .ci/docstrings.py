@@ -40,9 +40,10 @@ class Documented(Validator):  # type: ignore[misc]  # numpydoc has no types
         """Errors in the names or the order of the parameters or fields."""
         if inspect.isclass(self.obj) and (issubclass(self.obj, Enum) or getattr(self.obj, "_is_protocol", False)):
             return []  # users do not call these
-        if not inspect.isclass(self.obj) or not self.doc["Attributes"]:
+        fields = {name for name in self.signature_parameters if not name.startswith("_")}
+        if not inspect.isclass(self.obj) or (fields and not self.doc["Attributes"]):
             return list(super().parameter_mismatches)
-        missing = set(self.signature_parameters) - set(self._doc_parameters(["Parameters", "Attributes"]))
+        missing = fields - set(self._doc_parameters(["Parameters", "Attributes"]))
         return [("PR01", f"Fields {missing} not documented")] if missing else []
 
 

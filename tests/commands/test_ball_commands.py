@@ -55,7 +55,7 @@ def test_section_of_the_ball(answer):
     assert np.array(found["y"]) == pytest.approx(exact.y_events[0][later], abs=1e-7)
     assert found["variables"] == ["ω1", "ω2", "γ1", "γ2", "γ3"]
     assert max(found["drift"].values()) < 1e-9
-    assert found["notes"] == [f"Up to t = 30 there are {len(found['t'])} of 100 crossings."]
+    assert found["notes"] == [f"There are only {len(found['t'])} of 100 crossings up to t = 30."]
     # Another plane: no longer the equator.
     other = answer(*replaced(SECTION, "--t", "40"), "--plane", "0,0,0,1,0", "--sense", "0")
     assert np.array(other["y"])[:, 3] == pytest.approx(0.0, abs=1e-12)
@@ -184,7 +184,7 @@ def test_cells_that_the_energy_forbids_are_empty(answer, capsys):
 
 def test_on_a_principal_axis_it_is_said_that_nothing_attracts(answer):
     words = replaced(replaced(replaced(BASINS, "--I", "1.5,1,0,0"), "--cells", "2,2"), "--crossings", "100")
-    assert answer(*words)["notes"] == ["With I13 = I23 = 0 phase volume is kept: nothing attracts here."]
+    assert answer(*words)["notes"] == ["With I13 = I23 = 0 phase volume is conserved: there are no attractors."]
 
 
 # ---- all of them ------------------------------------------------------------------------------------------------
@@ -221,7 +221,7 @@ def test_csv_and_json_say_the_same(answer, capsys, words):
         ([*PERIOD, "--D", "-2"], "--D: D = -2 is not between 0 and 300"),
         (
             typed("period --I 1,2 --omega 0.6,0.8 --gamma 0.6,0.8,0"),
-            "rests on the equator and has no period",
+            "rests on the equator, so it has no period",
         ),
         (typed("period --I 1,1 --D 1 --omega 0,0 --gamma 0.6,0,0.8"), "choose another start"),
         (replaced(CLOUD, "--I", "2,1,0,0"), "Choose I13 or I23 other than 0"),

@@ -496,8 +496,8 @@ def test_without_the_sources_the_command_says_what_to_do(monkeypatch, tmp_path, 
     monkeypatch.setattr(bench_of_the_wheel, "_TESTS", tmp_path)
     assert main(["bench"]) == 2
     assert capsys.readouterr().err == (
-        "hess-explorer: The benchmark is not part of the package: in the folder of the sources, pip install -e "
-        "'.[bench]' and run the command again.\n"
+        "hess-explorer: The benchmark is not part of the package: run pip install -e '.[bench]' in a source checkout "
+        "and try again.\n"
     )
 
 

@@ -481,7 +481,7 @@ def test_the_address_is_printed_only_when_the_server_is_ready(monkeypatch, free_
         assert main(["--port", str(free_port), "--no-browser"]) == 0
     finally:
         gc.enable()
-    assert said == [f"{words}\n", f"Hess Explorer runs at http://localhost:{free_port} (Ctrl-C ends it).\n"]
+    assert said == [f"{words}\n", f"Hess Explorer is running at http://localhost:{free_port} (press Ctrl-C to stop).\n"]
 
 
 def test_options_alone_mean_serve_with_a_browser(served, free_port, monkeypatch):
@@ -500,7 +500,9 @@ def test_without_a_browser_the_server_goes_on(served, free_port, monkeypatch, ca
     monkeypatch.delenv("BROWSER", raising=False)
     assert main(["--port", str(free_port)]) == 0
     assert [call["show"] for call in served] == [False]
-    assert f"no browser to open here: open http://localhost:{free_port} in one" in capsys.readouterr().out
+    assert (
+        f"No browser was found on this machine: open http://localhost:{free_port} yourself" in capsys.readouterr().out
+    )
 
 
 def test_basins_of_a_body_beyond_double_range_end(refusal):
@@ -518,7 +520,7 @@ def test_basins_of_a_body_beyond_double_range_end(refusal):
 def test_taken_port(refusal, served):
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]
-        assert f"Port {port} is taken" in refusal("serve", "--port", str(port), "--no-browser")
+        assert f"Port {port} is in use" in refusal("serve", "--port", str(port), "--no-browser")
     assert not served
 
 
@@ -540,7 +542,7 @@ def test_a_first_start_answers_at_the_address_it_prints_and_ends_silently(free_p
         ) as process,
     ):
         assert process.stdout.readline() == "Compiling, ready in about 20 s.\n"
-        assert process.stdout.readline() == f"Hess Explorer runs at {url} (Ctrl-C ends it).\n"
+        assert process.stdout.readline() == f"Hess Explorer is running at {url} (press Ctrl-C to stop).\n"
         # It ends when the answer is there; a minute is what a machine with much else to do may take.
         with urlopen(url, timeout=60) as answer:
             assert b"<title>Hess Explorer</title>" in answer.read()
@@ -603,7 +605,7 @@ def test_a_server_that_does_not_start_says_why(monkeypatch, tmp_path):
         monkeypatch.setattr(hess_explorer.headless.screenshot, "free_port", lambda: other.getsockname()[1])
         monkeypatch.setattr(hess_explorer.headless.screenshot, "is_alive", lambda host, port: False)
         with (
-            pytest.raises(hess_explorer.headless.screenshot.ServerError, match=r"did not start .*taken"),
+            pytest.raises(hess_explorer.headless.screenshot.ServerError, match=r"did not start .*in use"),
             server_process(tmp_path / "log"),
         ):
             pass
@@ -666,7 +668,7 @@ def test_section_of_the_suslov_problem(answer):
     later = run.t_events[0] > 1e-9
     assert found["t"] == pytest.approx(run.t_events[0][later].tolist(), abs=1e-9)
     assert np.array(found["y"]) == pytest.approx(run.y_events[0][later], abs=1e-8)
-    assert found["notes"] == [f"Up to t = 20 there are {len(found['t'])} of 100 crossings."]
+    assert found["notes"] == [f"There are only {len(found['t'])} of 100 crossings up to t = 20."]
     both, down = (answer(*SUSLOV_SECTION, "--sense", sense)["t"] for sense in ("0", "-1"))
     assert both == pytest.approx(sorted(found["t"] + down), abs=1e-9)
     assert len(down) >= 3

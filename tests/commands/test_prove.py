@@ -29,7 +29,7 @@ def test_the_certificate_proves_what_the_words_say(answer, capsys, tmp_path):
     assert words.startswith("Proved: the torus h = 1.5, f = 1.7 for a = -0.5 has exactly two limit cycles")
     for end in (*found["trace"], *found["multipliers"][0], *found["fixed_points"][1]):
         assert end in words
-    assert "for the equations with exactly these numbers, if the library's balls are right" in words
+    assert "for the equations with exactly these numbers, provided that the ball arithmetic of Arb is correct" in words
     path = tmp_path / "proof.json"
     assert main(["prove", *TORUS, "--format", "json", "--out", str(path)]) == 0
     again = json.loads(path.read_text())

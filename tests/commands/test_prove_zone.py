@@ -39,7 +39,7 @@ def test_cells_in_json_csv_and_words_are_the_same(answer, capsys):
     assert main([*WORDS]) == 0
     said = capsys.readouterr().out
     assert f"two limit cycles on {100 * found['areas']['two cycles'] / sum(found['areas'].values()):.2f} %" in said
-    assert "if the library's balls are right" in said
+    assert "provided that the ball arithmetic of Arb is correct" in said
 
 
 def test_it_stops_at_a_share(answer, example):

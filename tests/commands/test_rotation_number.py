@@ -195,7 +195,7 @@ def test_no_exponent_of_a_motion_beyond_double_range_is_written(refusal, body, w
 @pytest.mark.parametrize("form", ["json", "csv"])
 @pytest.mark.parametrize("column", [[1.0, math.nan], [[1.0, -math.inf], [0.0, 1.0]]])
 def test_no_column_has_a_number_that_is_none(form, column, capsys):
-    with pytest.raises(CommandError, match="rate: a number leaves the range of double precision; choose"):
+    with pytest.raises(CommandError, match="rate: a number exceeds the range of double precision; choose"):
         write(Namespace(format=form, out=None), Answer({"t": [0.0, None], "rate": column}, {}))
     assert capsys.readouterr().out == ""
 

@@ -60,7 +60,7 @@ def test_a_store_is_kept_read_back_and_refused_to_others(answer, refusal, tmp_pa
     assert (tmp_path / "rho.csv").read_text() == wanted
     assert "another sweep: it has a = 0.5, not 0.6" in refusal(*replaced(SWEEP, "--set", "a=0.6"), "--store", store)
     assert "no store of a sweep" in refusal("sweep", "--read", str(tmp_path))
-    assert "--read computes nothing" in refusal(*SWEEP, "--read", store)
+    assert "--read can be combined only with --format and --out" in refusal(*SWEEP, "--read", store)
 
 
 def test_quantities_and_their_parameters_are_listed(capsys):
@@ -162,7 +162,7 @@ def test_ctrl_c_without_a_store_writes_what_is_done(capsys, monkeypatch, tmp_pat
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["sweep"], "hess-explorer sweep --list names them"),
+        (["sweep"], "run hess-explorer sweep --list to see all of them"),
         (["sweep", "speed", "--over", "h=1"], "There is no quantity 'speed'"),
         (["sweep", "rotation-number"], "one to 3 parameters"),
         (replaced(SWEEP, "--set", "a"), "is not a parameter; write it like h=1.5"),
@@ -174,7 +174,7 @@ def test_ctrl_c_without_a_store_writes_what_is_done(capsys, monkeypatch, tmp_pat
         (replaced(SWEEP, "--over", "h=0:1"), "is not a range"),
         (replaced(SWEEP, "--over", "h=0:1:1"), "is not a whole number from 2"),
         (replaced(SWEEP, "--over", "h=inf"), "is not a finite number"),
-        (replaced(SWEEP, "--over", "h=0:1:1000000"), "give a folder for them, --store FOLDER"),
+        (replaced(SWEEP, "--over", "h=0:1:1000000"), "at most 1000000 rows: use --store FOLDER"),
         ([*replaced(SWEEP, "--over", "h=0:1:9000000"), "--store", "x"], "at most 10000000 are allowed"),
         ([*SWEEP, "--most-cells", "0"], "is not a whole number from 1"),
         ([*SWEEP, "--workers", "many"], "is not a whole number from 1"),

@@ -35,11 +35,11 @@ def test_a_tube_that_takes_too_much_work_ends_early_and_says_what_to_do(answer, 
     assert [row["t"] for row in found["tube"]] == [0.1]
     assert not found["complete"]
     assert found["notes"] == [
-        "Enclosed up to t = 0.1 of 2: 0.2 s of work are allowed. Ask for fewer digits or a "
-        "shorter time, or allow more with --seconds."
+        "Enclosed only up to t = 0.1 of 2: the work limit of 0.2 s is reached. Reduce --digits or the time, or "
+        "increase --seconds."
     ]
-    assert "None of these times is enclosed: 0.2 s of work are allowed" in refusal(*hard, "2")
-    assert "--seconds 0: choose a number above 0" in refusal(*hard, "2", "--seconds", "0")
+    assert "No time is enclosed: the work limit of 0.2 s is reached" in refusal(*hard, "2")
+    assert "--seconds 0 is not positive: choose a number above 0" in refusal(*hard, "2", "--seconds", "0")
 
 
 def test_the_example_of_the_help_works(answer, example):

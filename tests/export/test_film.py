@@ -155,7 +155,7 @@ def test_the_command_writes_films_and_pages_and_says_how_far_it_is(found, tmp_pa
     assert capsys.readouterr().err.splitlines() == [f"{i + 1}/25" for i in range(25)]
     assert len(frames_of(film, SIDE)) == 25
     assert main(words) == 2
-    assert "MP4 is no text: name a file with --out FILE." in capsys.readouterr().err
+    assert "MP4 is a binary format: name a file with --out FILE." in capsys.readouterr().err
     assert main(["export", "--state", LINK, "--picture", "omega,sphere", "--format", "html", "--out", str(page)]) == 0
     text = page.read_text(encoding="utf-8")
     assert text.startswith("<!DOCTYPE html>")

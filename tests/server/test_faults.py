@@ -108,7 +108,7 @@ def test_a_bare_machine_serves(tmp_path, read_only):
     # Python itself complains of what it does not know.
     lines = [line for line in said.splitlines() if "Invalid -W option" not in line]
     url = f"http://localhost:{port}"
-    assert lines == ["Compiling, ready in about 20 s.", f"Hess Explorer runs at {url} (Ctrl-C ends it)."]
+    assert lines == ["Compiling, ready in about 20 s.", f"Hess Explorer is running at {url} (press Ctrl-C to stop)."]
     assert not list(read_only.rglob("__pycache__"))
 
 
@@ -122,8 +122,8 @@ async def asked(base):
 def test_without_any_folder_for_kernels_the_first_line_says_what_to_do(monkeypatch):
     monkeypatch.setattr(compiled, "KEEPS_KERNELS", False)
     assert serve._first_words() == (
-        "Compiling, ready in about 20 s, and again at each start: no folder for what is compiled can be written; name "
-        "one of your own in NUMBA_CACHE_DIR."
+        "Compiling, ready in about 20 s.  Every start compiles again, because no cache folder is writable: set "
+        "NUMBA_CACHE_DIR to one."
     )
 
 

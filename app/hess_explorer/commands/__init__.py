@@ -1,7 +1,7 @@
-"""The commands of `hess-explorer`, one file per subject.
+"""The commands of `hess-explorer`, one module per command.
 
-Each file has a `COMMAND`, its description, options and function as data (`command.py`).  Only the file of the command
-that was given is imported: `--help` does not wait for the mechanics, nor `circle-map` for the web page's libraries.
+Each module defines a `COMMAND`: its description, options and function as data (`command.py`).  Only the module of the
+given command is imported, so that `--help` does not import the mechanics, nor `circle-map` the web libraries.
 """
 
 from __future__ import annotations
@@ -11,31 +11,31 @@ from collections.abc import Mapping
 __all__ = ["COMMANDS", "CommandError"]
 
 COMMANDS: Mapping[str, str] = {
-    "serve": "show the explorer in the browser (the default)",
-    "circle-map": "the circle map of a Suslov–Hess torus (h, f)",
-    "orbit": "states of one motion at given times",
-    "period": "the period of a motion with I13 = I23 = 0 and b3 = 0",
-    "periodic": "periodic orbits of a section, their branches and manifolds",
-    "section": "the points of a Poincaré section",
-    "orbit-diagram": "where an orbit of a section settles over a parameter",
-    "regime": "of what kind a motion is: periodic, quasi-periodic, chaotic",
-    "scattering": "the scattering θ⁺(φ) of the free Suslov problem",
-    "rotation-number": "the rotation number of Suslov–Hess tori over a, h, f",
-    "lyapunov": "the largest Lyapunov exponent of one motion, or all",
-    "basins": "where the orbits from the cells of a section of the Suslov problem end",
-    "cloud": "a cloud of phase points without a field, its volume and density",
-    "prove": "proves that a Suslov–Hess torus has two limit cycles, or none",
-    "prove-zone": "proves where over (h, f) tori have two limit cycles, and where none",
-    "tube": "intervals that contain one motion, as a theorem",
-    "export": "what a picture of the page shows, as CSV, JSON, PNG, SVG, PDF or a film; HTML of all",
-    "code": "the lines of Python that compute and draw what the page shows",
-    "docs": "the documentation: tutorials, a gallery, guides, the API",
-    "sweep": "a quantity over one to three parameters",
-    "shot": "a picture of the page, as PNG",
-    "bench": "speed beside other integrators, at the same measured error",
+    "serve": "open the explorer in the browser (default)",
+    "circle-map": "compute the circle map of a Suslov–Hess torus (h, f)",
+    "orbit": "compute states of one motion at given times",
+    "period": "compute the period of a motion with I13 = I23 = 0 and b3 = 0",
+    "periodic": "find periodic orbits of a section, their branches and manifolds",
+    "section": "compute the points of a Poincaré section",
+    "orbit-diagram": "compute the attractors of a section over a parameter",
+    "regime": "classify a motion: periodic, quasi-periodic or chaotic",
+    "scattering": "compute the scattering map θ⁺(φ) of the free Suslov problem",
+    "rotation-number": "compute the rotation number of Suslov–Hess tori over a, h, f",
+    "lyapunov": "compute the largest Lyapunov exponent of a motion, or the spectrum",
+    "basins": "compute basins of attraction in a section of the Suslov problem",
+    "cloud": "compute the volume and density of a cloud of phase points without a field",
+    "prove": "prove that a Suslov–Hess torus has two limit cycles, or none",
+    "prove-zone": "prove where over (h, f) tori have two limit cycles, and where none",
+    "tube": "compute proved intervals that contain one motion",
+    "export": "export a picture as CSV, JSON, PNG, SVG, PDF or a film, or the page as HTML",
+    "code": "print the Python code that computes and draws a picture of the page",
+    "docs": "build the documentation",
+    "sweep": "compute a quantity over one to three parameters",
+    "shot": "take a screenshot of the page as PNG",
+    "bench": "compare the speed with other integrators at equal measured error",
 }
-"""Name and purpose of each."""
+"""Name and purpose of each command."""
 
 
 class CommandError(Exception):
-    """A request that cannot be carried out; the message is one sentence: what is wrong and what to change."""
+    """A command cannot be carried out; the message is one sentence that names the problem and a remedy."""

@@ -1,4 +1,4 @@
-"""Types of arguments: numbers, lists of numbers, ranges of times, states."""
+"""Argument types for argparse: numbers, lists of numbers, ranges, states."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NoReturn, TypeVar
 from urllib.parse import parse_qsl, urlencode
 
 if TYPE_CHECKING:
-    # Importing the mechanics takes a second, in which `serve` has already said that it starts.
+    # Importing the mechanics takes a second, which would delay the first message of `serve`.
     from hess_mechanics.parameters import Parameter
 
 __all__ = [
@@ -32,7 +32,7 @@ _SHOWN, _MAX_STATE = 60, 2000
 
 
 def shown(text: str) -> str:
-    """The text quoted for a message: shortened, with control characters escaped."""
+    """Return the text quoted for a message, shortened and with control characters escaped."""
     return repr(text if len(text) <= _SHOWN else text[:_SHOWN] + "…")
 
 
@@ -41,7 +41,7 @@ def _refuse(text: str, why: str) -> NoReturn:
 
 
 def number(text: str) -> float:
-    """One finite number."""
+    """Return the text as a finite number."""
     try:
         value = float(text)
     except ValueError:
@@ -52,7 +52,7 @@ def number(text: str) -> float:
 
 
 def checked(of: Parameter) -> Callable[[str], float]:
-    """Return the type of a number within the bounds of a parameter."""
+    """Return the argument type of a number within the bounds of a parameter."""
     return lambda text: _within(of, number(text))
 
 
@@ -64,10 +64,9 @@ def _within(of: Parameter, value: float) -> float:
 
 
 def integer(low: int, high: int) -> Callable[[str], int]:
-    """The type of a whole number from `low` to `high`."""
+    """Return the argument type of an integer from `low` to `high`, which have at most ten digits."""
 
     def parse(text: str) -> int:
-        # No bound here has more than ten digits.
         if not (text.isascii() and text.isdigit() and len(text) <= 10 and low <= int(text) <= high):
             _refuse(text, f"is not a whole number from {low} to {high}")
         return int(text)
@@ -76,12 +75,12 @@ def integer(low: int, high: int) -> Callable[[str], int]:
 
 
 def numbers(text: str) -> tuple[float, ...]:
-    """Numbers with commas between."""
+    """Return the numbers of a comma-separated list."""
     return tuple(map(number, text.split(",")))
 
 
 def vector(of: str | Sequence[Parameter]) -> Callable[[str], tuple[float, ...]]:
-    """Return the type of a list with commas: a number for each parameter, or for each of the names ("w1,w2")."""
+    """Return the argument type of a comma-separated list with a number for each parameter or name ("w1,w2")."""
     names = of if isinstance(of, str) else ",".join(one.name for one in of)
     types = [number] * (names.count(",") + 1) if isinstance(of, str) else [checked(one) for one in of]
 
@@ -95,7 +94,7 @@ def vector(of: str | Sequence[Parameter]) -> Callable[[str], tuple[float, ...]]:
 
 
 def assigned(value: Callable[[str], T], example: str) -> Callable[[str], tuple[str, T]]:
-    """Return the type of NAME=VALUE; value : the type of what follows; example : such a text, for the message."""
+    """Return the argument type of NAME=VALUE; value : type of the value; example : for the error message."""
 
     def parse(text: str) -> tuple[str, T]:
         name, _, given = text.partition("=")
@@ -107,7 +106,7 @@ def assigned(value: Callable[[str], T], example: str) -> Callable[[str], tuple[s
 
 
 def state_of(text: str) -> str:
-    """Return the query of a link, or of what follows ? in one, encoded.  Raises `argparse.ArgumentTypeError`."""
+    """Return the encoded query of a link, which may lack the part up to "?"."""
     from hess_explorer.protocol.parameters import query_in
 
     if len(text) > _MAX_STATE:
@@ -120,7 +119,7 @@ def state_of(text: str) -> str:
 
 
 def ends(text: str, most: int) -> tuple[float, float, int]:
-    """The numbers of lo:hi:n, n at most so many."""
+    """Return the numbers of lo:hi:n, with n at most `most`."""
     parts = text.split(":")
     if len(parts) != 3:
         _refuse(text, "is not a range; write it lo:hi:n, like 0:10:101")
@@ -128,7 +127,7 @@ def ends(text: str, most: int) -> tuple[float, float, int]:
 
 
 def listed(text: str, most: int) -> list[float]:
-    """The numbers of a list with commas, at most so many."""
+    """Return the numbers of a comma-separated list, at most `most`."""
     parts = text.split(",")
     if len(parts) > most:
         _refuse(text, f"has {len(parts)} numbers; at most {most} are allowed in a list, use lo:hi:n")
@@ -136,16 +135,16 @@ def listed(text: str, most: int) -> list[float]:
 
 
 def values(text: str) -> list[float]:
-    """A comma list, or `lo:hi:n` for n evenly spaced numbers from lo to hi."""
+    """Return the numbers of a comma-separated list, or n evenly spaced numbers for lo:hi:n."""
     from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 
     if ":" not in text:
         return listed(text, MAX_SAMPLES)
     low, high, count = ends(text, MAX_SAMPLES)
-    # Weighted, not stepped: both ends are exact, and hi − lo cannot overflow.
+    # A weighted mean, so that both ends are exact and hi − lo cannot overflow.
     return [low * ((count - 1 - i) / (count - 1)) + high * (i / (count - 1)) for i in range(count)]
 
 
 def samples(of: Parameter) -> Callable[[str], list[float]]:
-    """Return the type of many values of a parameter, `values` within its bounds."""
+    """Return the argument type of many values of a parameter, within its bounds."""
     return lambda text: [_within(of, value) for value in values(text)]

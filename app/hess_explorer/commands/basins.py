@@ -1,4 +1,4 @@
-"""`hess-explorer basins`: where the orbits of the Suslov problem from the cells of a section end."""
+"""`hess-explorer basins`: basins of attraction in a section of the Suslov problem."""
 
 from __future__ import annotations
 
@@ -59,23 +59,26 @@ def _computed(options: Options) -> Answer:
 
 def _notes(kept: bool, attractors: int) -> list[str]:
     if kept:
-        return ["With I13 = I23 = 0 phase volume is kept: nothing attracts here."]
-    return [] if attractors else ["On no group is the mean divergence negative beyond its error: no attractor is seen."]
+        return ["With I13 = I23 = 0 phase volume is conserved: there are no attractors."]
+    return [] if attractors else ["No attractor: the mean divergence of no group is negative beyond its error."]
 
 
 def _cells(given: tuple[float, ...]) -> tuple[int, int]:
     m, n = given
     if not (m == int(m) >= 1 and n == int(n) >= 1 and m * n <= _MOST_CELLS):
-        raise CommandError(f"Cells are two whole numbers, at most {_MOST_CELLS} together: write them like 40,30.")
+        raise CommandError(
+            f"--cells must be two whole numbers with a product of at most {_MOST_CELLS}: write them like 40,30."
+        )
     return int(m), int(n)
 
 
 COMMAND = Command(
-    "The section γ_k = 0, γ_k growing, of the Suslov problem with gravity at the energy E, ψ the angle of γ in its "
-    "plane and δ between 0 and π that of ω from the direction that keeps γ_k.  For the orbit from the middle of each "
-    "cell: the mean of ω1 over the last third of its crossings, and the group of that mean: 0, 1, … where the means "
-    "lie far apart, else all 0.  A group is an attractor where the mean divergence on a motion of it is negative by "
-    "three times its error.  Empty or null where no motion has this energy, or the orbit stops crossing.",
+    "Compute basins of attraction in the section γ_k = 0 (upward crossings) of the Suslov problem with gravity at the "
+    "energy E.  Coordinates: ψ is the angle of γ in its plane, δ from 0 to π the angle of ω from the direction that "
+    "leaves γ_k constant.  For the orbit from the centre of each cell the output has the mean of ω1 over the last "
+    "third of its crossings, and the group of that mean: 0, 1, … if the means form separate clusters, else 0.  A group "
+    "is an attractor if the mean divergence on one of its motions is negative by three times its error.  A value is "
+    "empty or null if no motion has this energy, or if the orbit stops crossing.",
     (
         *SUSLOV,
         number(E, help="energy"),
@@ -86,8 +89,8 @@ COMMAND = Command(
             "angles in radians (default: the whole section)",
             (-math.pi, math.pi, 0.0, math.pi),
         ),
-        vector("--cells", "across,up", "cells of the window (default 40,30)", (40.0, 30.0)),
-        whole("--crossings", 100, 10_000, "of each orbit", 300),
+        vector("--cells", "across,up", "number of cells in ψ and δ (default 40,30)", (40.0, 30.0)),
+        whole("--crossings", 100, 10_000, "number of crossings of each orbit", 300),
         *OUTPUT,
     ),
     table(_computed),

@@ -1,4 +1,4 @@
-"""`hess-explorer bench`: speed beside other integrators, measured by the scripts in tests/benchmarks."""
+"""`hess-explorer bench`: compare the speed with other integrators, with the scripts in tests/benchmarks."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ __all__ = ["COMMAND"]
 _TESTS = Path(__file__).resolve().parents[3] / "tests"
 
 
-class _OfTheSources(Command):
-    """The command that stands in tests/benchmarks/bench.py."""
+class _SourceCommand(Command):
+    """The command defined in tests/benchmarks/bench.py, which only a source checkout has."""
 
     def declare(self, parser: argparse.ArgumentParser) -> None:
-        """Declare its options.  Raises `CommandError` without the sources."""
+        """Declare its options in a parser.  Raises `CommandError` without the sources."""
         if not (_TESTS / "benchmarks" / "bench.py").is_file():
             raise CommandError(
-                "The benchmark is not part of the package: in the folder of the sources, pip install -e "
-                "'.[bench]' and run the command again."
+                "The benchmark is not part of the package: run pip install -e '.[bench]' in a source checkout and try "
+                "again."
             )
         if str(_TESTS) not in sys.path:
             sys.path.append(str(_TESTS))
         import_module("benchmarks.bench").COMMAND.declare(parser)
 
 
-COMMAND = _OfTheSources()
+COMMAND = _SourceCommand()

@@ -15,7 +15,7 @@ TORUS = (
     number(F_HESS, help="area integral, |f| ≤ f_max(h)"),
     number(A_HESS, help="inertia parameter a = I23/I22"),
 )
-"""The options of a torus (h, f) at a, units b = 1."""
+"""Options of a torus (h, f) for the parameter a, in units b = 1."""
 
 
 def _computed(options: Options) -> Answer:
@@ -40,9 +40,10 @@ def _computed(options: Options) -> Answer:
 
 
 COMMAND = Command(
-    "The circle map Θ(φ) of the torus (h, f), units b = 1, on the section n3 = lower turning point, w = |w|(sin φ, cos "
-    "φ): trace, kind, rotation number, period, fixed points (the stable one first) with their multipliers, and Θ at "
-    "the given angles.  log_trace and log_multipliers give their logarithms, for numbers beyond double precision.",
+    "Compute the circle map Θ(φ) of the torus (h, f) in units b = 1, on the section at the lower turning point of n3, "
+    "with w = |w|(sin φ, cos φ).  The output has the trace, kind, rotation number, period, fixed points (the stable "
+    "one first) with their multipliers, and Θ at the given angles.  log_trace and log_multipliers are logarithms, for "
+    "numbers that exceed double precision.",
     (*TORUS, samples(CIRCLE_PHASE, "angles in radians (default: none)", []), *OUTPUT),
     table(_computed),
     "--h 1.5 --f 0.6 --a 0.5 --phi 0,1,2 --accuracy reference",

@@ -1,4 +1,4 @@
-"""`hess-explorer cloud`: a cloud of phase points without a field, and how its volume and density change."""
+"""`hess-explorer cloud`: volume and density of a cloud of phase points without a field."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ __all__ = ["COMMAND"]
 
 def _computed(options: Options) -> Answer:
     if options.t == 0.0:
-        raise CommandError("In no time a cloud does not move: choose --t other than 0.")
+        raise CommandError("--t 0: a cloud needs time to move; choose a time other than 0.")
     body = BallBody(*(*options.I, options.D))
     found = clouds(
         body, options.h, options.angle, options.spread, options.count, options.t, None, level(options.accuracy)
@@ -71,27 +71,27 @@ def _points(found: Clouds) -> Mapping[str, list[Any]]:
 _TABLES = {"course": _course, "density": _density, "points": _points}
 
 COMMAND = Command(
-    "Phase points of the Chaplygin ball with Suslov's constraint without a field (the free Suslov problem for 𝒟 = 0), "
-    "evenly spread over the states with E = h(1 ± δ), or about one state.  With s = I13ω1 + I23ω2, 1/|s| is the "
-    "density of an invariant measure: small volumes grow by s(t)/s(0).  Tables: course (t, the volume of the cloud "
-    "relative to that at t = 0, and mean, least and largest of ln s(t)/s(0)), density (shares of the points per unit "
-    "of ln|s| at the start, at the end and in the mean over the time), points (the states at the last time, and their "
-    "ln|s|).",
+    "Compute a cloud of phase points of the Chaplygin ball with Suslov's constraint without a field (the free Suslov "
+    "problem for 𝒟 = 0), spread evenly over the states with E = h(1 ± δ), or around one state.  With s = I13ω1 + "
+    "I23ω2, 1/|s| is the density of an invariant measure, so small volumes grow by s(t)/s(0).  Tables: course (time, "
+    "volume of the cloud relative to t = 0, mean, minimum and maximum of ln s(t)/s(0)), density (fraction of the "
+    "points per unit of ln|s| at the start, at the end and averaged over time), points (the states at the last time "
+    "and their ln|s|).",
     (
         FREE_TENSOR,
         INNER_BALL,
-        number(H_FREE_BALL, help="energy in the middle of the cloud, h > 0"),
+        number(H_FREE_BALL, help="energy at the centre of the cloud, h > 0"),
         option("--spread", "δ, between 0 and 1 (default 0.1)", type=any_number, default=0.1),
         number(
             CIRCLE_PHASE,
             name="--angle",
-            help="a small patch about the ω at this angle, in radians, with γ = e3; δ is "
-            "its radius (default: the whole energy shell)",
+            help="angle of ω in radians: start from a small patch around this ω with γ = e3 and radius δ (default: the "
+            "whole energy shell)",
             required=False,
         ),
-        whole("--count", 1, 100_000, "how many points", 1000),
+        whole("--count", 1, 100_000, "number of points", 1000),
         number(TIME),
-        option("--table", "what the table is (default: course)", choices=tuple(_TABLES), default="course"),
+        option("--table", "contents of the table (default: course)", choices=tuple(_TABLES), default="course"),
         *OUTPUT,
     ),
     table(_computed),

@@ -1,4 +1,4 @@
-"""`hess-explorer code`: the lines of Python that compute and draw what the page shows."""
+"""`hess-explorer code`: Python code that computes and draws a picture of the page."""
 
 from __future__ import annotations
 
@@ -20,10 +20,13 @@ def _run(options: Options) -> None:
 
 
 COMMAND = Command(
-    "Print the few lines of Python that compute and draw what a picture of the page shows in the state that a link "
-    "describes. They leave the numbers in `data`, by the names of the CSV of `hess-explorer export` and equal to them "
-    "bit for bit; or write a notebook of them.",
-    (*picture(), option("--format", "py (default) or ipynb, a notebook", choices=holding("program"), default="py")),
+    "Print the Python code that computes and draws a picture of the page in the state that a link describes, or write "
+    "it as a notebook. The code stores the numbers in `data`, with the column names of `hess-explorer export --format "
+    "csv` and the same values to the last bit.",
+    (
+        *picture(),
+        option("--format", "py (default) or ipynb, a notebook", choices=holding("program"), default="py"),
+    ),
     _run,
     "--state 'h=1.2&f=0.3' --picture circle > circle.py",
 )

@@ -35,7 +35,7 @@ Options = argparse.Namespace
 
 @dataclass(frozen=True)
 class Option:
-    """One option: its name with the dashes (without them a word that stands alone), and what argparse takes for it."""
+    """An option: its name with the dashes (a positional argument without them), and its argparse settings."""
 
     name: str
     settings: Mapping[str, Any]
@@ -43,13 +43,17 @@ class Option:
 
 @dataclass(frozen=True)
 class Command:
-    """One command.
+    """A command.
 
-    description, example : its help; example : the words after the program's name and the command's.
-    run : carries it out.  Raises `CommandError`.
-    purpose : a few words, of one of several systems.
-    systems : by name, where the next word chooses one; then the other fields are empty.
-    exclusive : names of options of which at most one may be given.
+    Attributes
+    ----------
+    description : help text.
+    options : its options.
+    run : runs the command with the parsed options; raises `CommandError`.
+    example : arguments of an example.
+    purpose : short description of a subcommand.
+    systems : subcommands by name; the other fields are then empty.
+    exclusive : names of mutually exclusive options.
     """
 
     description: str = ""
@@ -61,7 +65,7 @@ class Command:
     exclusive: Sequence[str] = ()
 
     def declare(self, parser: argparse.ArgumentParser) -> None:
-        """Declare everything in a parser."""
+        """Declare the command in a parser."""
         if self.systems:
             systems = parser.add_subparsers(required=True, metavar="SYSTEM")
             for name, one in self.systems.items():
@@ -77,7 +81,7 @@ class Command:
 
 
 def option(name: str, help: str, **settings: Any) -> Option:
-    """Return an option; settings : as of `ArgumentParser.add_argument`."""
+    """Return an option; settings : arguments of `ArgumentParser.add_argument`."""
     return Option(name, {"help": help, **settings})
 
 
@@ -91,7 +95,10 @@ def _required(default: object) -> dict[str, Any]:
 
 
 def number(of: Parameter, default: float | None = None, *, name: str = "", help: str = "", **settings: Any) -> Option:
-    """Return the option of a parameter, required unless it has a default; name, help : if not the parameter's."""
+    """Return the option of a parameter; it is required unless it has a default.
+
+    name, help : replace those of the parameter.
+    """
     said = help or of.doc
     if default is not None:
         said += f" (default {default:g})"
@@ -107,19 +114,19 @@ def number(of: Parameter, default: float | None = None, *, name: str = "", help:
 def vector(
     name: str, of: str | Sequence[Parameter], help: str, default: tuple[float, ...] | None = None, **settings: Any
 ) -> Option:
-    """Return the option of several numbers, as one list with commas: parameters, or what has these names ("w1,w2")."""
+    """Return the option of a comma-separated list of numbers; of : parameters, or names such as "w1,w2"."""
     names = of if isinstance(of, str) else ",".join(one.name for one in of)
     return option(name, help, type=arguments.vector(of), metavar=names, **{**_required(default), **settings})
 
 
 def whole(name: str, low: int, high: int, help: str, default: int | None = None) -> Option:
-    """Return the option of a whole number between these, by default this one."""
+    """Return the option of an integer from `low` to `high`."""
     said = help if default is None else f"{help} (default {default})"
     return option(name, said, type=arguments.integer(low, high), metavar="N", default=default)
 
 
 def samples(of: Parameter, help: str, default: list[float] | None = None) -> Option:
-    """Return the option of many values of a parameter: a list, or lo:hi:n."""
+    """Return the option of many values of a parameter: a list or lo:hi:n."""
     return option(
         f"--{of.name}",
         f"{help}: a number, a list 1,2,3 or lo:hi:n",
@@ -134,7 +141,7 @@ OUTPUT = (
     option("--accuracy", "draft, standard, precise (default) or reference", default="precise", metavar="LEVEL"),
     option(
         "--format",
-        "json (default): strict, all digits; csv: a table, the other results as # comments",
+        "json (default): strict JSON with all digits; csv: a table, with other results as # comments",
         choices=("json", "csv"),
         default="json",
     ),
@@ -143,22 +150,22 @@ OUTPUT = (
 STATE = (
     option(
         "--state",
-        "a link to the page, or what follows ? in it (default: its first view)",
+        "a link to the page, or its part after ? (default: the first scene)",
         type=arguments.state_of,
         default="",
         metavar="QUERY",
     ),
-    flag("--lenient", "put right what is wrong in the state, and say so in the notes, instead of refusing it"),
+    flag("--lenient", "correct errors in the state and report them in notes, instead of rejecting it"),
 )
 
 
 def picture(more: str = "") -> tuple[Option, ...]:
-    """Return the options of a state, of a picture of it and of a file; more : on several pictures."""
+    """Return the options of a state, a picture and an output file; more : help text on several pictures."""
     return (
         *STATE,
         option(
             "--picture",
-            f"the name of the picture, as in pictures=… of a link that embeds (default: the first{more})",
+            f"name of the picture, as in `pictures` of an embedding link (default: the first{more})",
             default="",
             metavar="NAME",
         ),

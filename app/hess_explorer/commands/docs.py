@@ -1,4 +1,4 @@
-"""`hess-explorer docs`: the documentation, built by Sphinx."""
+"""`hess-explorer docs`: build the documentation with Sphinx."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def _run(options: Options) -> None:
     if missing:
         raise CommandError(f"The documentation needs {', '.join(missing)}: pip install 'hess-explorer[docs]'.")
     folder = Path(options.out or tempfile.mkdtemp(prefix="hess-explorer-docs-"))
-    print("Running the tutorials takes about a minute.", file=sys.stderr)
+    print("Building the documentation takes about a minute.", file=sys.stderr)
     build = [
         sys.executable,
         "-m",
@@ -37,7 +37,7 @@ def _run(options: Options) -> None:
         str(_SOURCE),
         str(folder),
     ]
-    # Of what Sphinx prints only the end of a failure matters.
+    # Show only the end of Sphinx's output, and only on failure.
     ran = subprocess.run(build, capture_output=True, text=True, check=False)
     if ran.returncode:
         raise CommandError(f"The documentation could not be built in {str(folder)!r}: {ran.stderr.strip()[-500:]}")
@@ -48,9 +48,9 @@ def _run(options: Options) -> None:
 
 
 COMMAND = Command(
-    "Build the documentation and open it: a start, tutorials that are run, a gallery, guides, the API. It works "
-    "without a network. Needs the extra: pip install '.[docs]'.",
-    (option("--out", "build it there, and open nothing", type=Path, metavar="FOLDER"),),
+    "Build the documentation (first steps, tutorials, gallery, guides, API) and open it in the browser. The tutorials "
+    "are run during the build. Works offline. Requires: pip install 'hess-explorer[docs]'.",
+    (option("--out", "build into this folder and do not open it", type=Path, metavar="FOLDER"),),
     _run,
     "--out docs",
 )

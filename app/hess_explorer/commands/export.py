@@ -1,4 +1,4 @@
-"""`hess-explorer export`: what a picture of the page shows, as a table, a figure for paper or a film; or all of it."""
+"""`hess-explorer export`: a picture of the page as a table, figure or film, or the whole state as HTML."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _TEXTS = ("csv", "json", "svg", "html")
 
 
 def _teller(lines: bool) -> Callable[[int, int], None]:
-    """How far a film is: in lines, or in one that changes where somebody looks on."""
+    """Return a function that prints the progress of a film: as lines, or as one changing line in a terminal."""
     seen = sys.stderr.isatty()
 
     def tell(done: int, of: int) -> None:
@@ -47,39 +47,44 @@ def _picture(options: Options) -> bytes:
 
 def _run(options: Options) -> None:
     if options.out is None and options.format not in _TEXTS:
-        raise CommandError(f"{options.format.upper()} is no text: name a file with --out FILE.")
-    # A film shows its own progress.
+        raise CommandError(f"{options.format.upper()} is a binary format: name a file with --out FILE.")
+    # A film prints its own progress.
     with computing(told=options.format in holding("film")):
         data = _page(options) if options.format == "html" else _picture(options)
     show(data, options.out)
 
 
 COMMAND = Command(
-    "Compute the state that a link describes and write what one of its pictures shows: its data, every digit, as CSV "
-    "or JSON, or a square figure as PNG, SVG or PDF, with bodies and clouds at the link's time, without the moving "
-    "point, or a film of its motion as WebM, MP4 or GIF. HTML has all pictures of the state in one file that plays and "
-    "turns without a server. Every file says link, parameters, accuracy, errors and version. Figures and films need "
-    "the extra: pip install '.[export]'.",
+    "Export a picture of the state that a link describes: its data in full precision as CSV or JSON; a square figure "
+    "as PNG, SVG or PDF, with bodies and clouds at the time of the link and without the moving point; or a film of the "
+    "motion as WebM, MP4 or GIF. HTML contains several pictures of the state in one interactive file that needs no "
+    "server. Every file contains link, parameters, accuracy, errors and version. Figures and films require: pip "
+    "install 'hess-explorer[export]'.",
     (
-        *picture("; of HTML some with commas between, by default those that are open at first"),
-        option("--format", "default: csv", choices=holding("data", "figure", "film", "state"), default=Wish.kind),
+        *picture("; for HTML a list with commas, by default those open at first"),
+        option(
+            "--format",
+            "file format (default: csv)",
+            choices=holding("data", "figure", "film", "state"),
+            default=Wish.kind,
+        ),
         option(
             "--width",
-            f"of a figure, {WIDTHS} millimetres (default 85, a column of a journal); of a film "
-            f"{FILM_WIDTHS}, at 8 pixels a millimetre",
+            f"width in millimetres (default 85, a journal column): {WIDTHS} for a figure, {FILM_WIDTHS} for a film, "
+            "which has 8 pixels per millimetre",
             type=float,
             default=Wish.width,
             metavar="MM",
         ),
         option(
             "--seconds",
-            f"length of a film, of all of the motion: {SECONDS} (default 10), 25 frames a second",
+            f"duration of a film of the whole motion, {SECONDS} seconds (default 10), 25 frames per second",
             type=float,
             default=Wish.seconds,
             metavar="S",
         ),
-        flag("--black", "a figure or a film in black on white instead of the page's colours"),
-        flag("--progress", "say on standard error, a line each, how many frames of a film there are, of how many"),
+        flag("--black", "draw in black on white instead of the colours of the page"),
+        flag("--progress", "print the progress of a film to stderr, one line per frame"),
     ),
     _run,
     "--state 'h=1.2&f=0.3' --picture circle --format csv --out circle.csv",

@@ -1,4 +1,4 @@
-"""`hess-explorer lyapunov suslov|ball|euler-poisson`: the largest Lyapunov exponent of one motion, or all of them."""
+"""`hess-explorer lyapunov suslov|ball|euler-poisson`: the largest Lyapunov exponent of a motion, or its spectrum."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .output import Answer, quality, table
 __all__ = ["COMMAND"]
 
 _SHOWN = 100
-"""Running averages in the answer, evenly spread over the time."""
+"""Number of running averages in the output, evenly spread over time."""
 
 
 def _computed(name: str, options: Options) -> Answer:
@@ -38,9 +38,9 @@ def _spectrum(options: Options, body: Body, state: tuple[float, ...], notes: lis
     found = lyapunov_spectrum(body, state, options.t, level(options.accuracy))
     dimension, error = found.dimension
     forced = (
-        "Volume is kept, and all but two exponents are those of integrals and the motion: they must be pairs."
+        "Volume is conserved, and all but two exponents belong to integrals and the flow: they must form pairs."
         if found.pairs_forced
-        else "No measure that is known forces them to be pairs."
+        else "No known invariant measure forces the exponents to form pairs."
     )
     columns = [f"average {i + 1}" for i in range(found.values.size)]
     return Answer(
@@ -65,14 +65,14 @@ def _spectrum(options: Options, body: Body, state: tuple[float, ...], notes: lis
 COMMAND = Command(
     systems={
         name: Command(
-            f"Largest Lyapunov exponent of an orbit of {MOTIONS[name].title}, and its running averages, "
+            f"Compute the largest Lyapunov exponent of an orbit of {MOTIONS[name].title} and its running averages, "
             "per unit of time.",
             (
                 *MOTIONS[name].options,
-                number(TIME, help="time over which to average; negative: backward"),
+                number(TIME, help="averaging time; negative: backward in time"),
                 flag(
                     "--spectrum",
-                    "all exponents by the variational equations, with errors, the mean divergence and the "
+                    "compute all exponents from the variational equations, with errors, the mean divergence and the "
                     "Kaplan–Yorke dimension",
                 ),
                 *OUTPUT,

@@ -1,4 +1,4 @@
-"""The systems whose motions commands compute: body and start as options, and what these mean."""
+"""The systems whose motions commands compute: options for body and start, and their meaning."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ __all__ = [
 ]
 
 FREE_TENSOR = vector("--I", TENSOR, "inertia tensor (I12 = 0); I13 and I23 not both 0")
-INNER_BALL = number(D, 0.0, help="𝒟 = (R/R_s)² I_s of a ball inside, 0: none")
+INNER_BALL = number(D, 0.0, help="𝒟 = (R/R_s)² I_s of the ball inside; 0 without a ball")
 SUSLOV = (
     vector("--I", TENSOR, "inertia tensor (I12 = 0)"),
     vector("--b", FIELD, "field (default 0,0,0)", (0.0, 0.0, 0.0)),
@@ -67,37 +67,39 @@ START = (vector("--omega", OMEGA, "angular velocity at t = 0"), vector("--gamma"
 
 
 def suslov_of(options: Options) -> SuslovBody:
-    """Return the body of `SUSLOV`.  Raises a `ModelError`, as all of these."""
+    """Return the body of the options `SUSLOV`.  Raises `ModelError`."""
     return SuslovBody(*options.I, *options.b)
 
 
 def ball_of(options: Options) -> BallBody:
-    """Return the body of `BALL`."""
+    """Return the body of the options `BALL`.  Raises `ModelError`."""
     return BallBody(*(*options.I, options.D, *options.b))
 
 
 def heavy_of(options: Options) -> HeavyBody:
-    """Return the body of `HEAVY`."""
+    """Return the body of the options `HEAVY`.  Raises `ModelError`."""
     return HeavyBody(options.A, options.r, options.mu)
 
 
 def check_of(body: SuslovBody | BallBody | HeavyBody) -> BodyCheck:
-    """Return whether a rigid body can have these moments of inertia."""
+    """Return the check that a rigid body can have these moments of inertia."""
     return body.check if isinstance(body, HeavyBody) else check_body(body.I11, body.I22, body.I13, body.I23)
 
 
 def start_of(options: Options) -> tuple[tuple[float, ...], list[str]]:
-    """Return the state at t = 0, its vertical normalised, and a note where that changed it."""
+    """Return the state at t = 0 with a normalised vertical, and a note if that changed it."""
     gamma, note = unit_vector(options.gamma)
     return (*options.omega, *gamma), [note] if note else []
 
 
 @dataclass(frozen=True)
 class System:
-    """A system of equations, as commands know it.
+    """A system of equations with its command-line options.
 
-    title : what it is of; options : of the body and the start; example : values of them.
-    given : the body, and whether a rigid body can be it.
+    Attributes
+    ----------
+    title : its name in help texts; options : of body and start; example : values of the options; given : returns the
+    body, and the check that a rigid body can have its moments of inertia.
     """
 
     title: str
@@ -115,7 +117,7 @@ def _of(body: Callable[[Options], SuslovBody | BallBody | HeavyBody]) -> Callabl
 
 
 def _hess(options: Options) -> tuple[Body, BodyCheck]:
-    # (a, b) do not fix the scale of the inertia, and whether a body has it does not depend on the scale: I22 = 1.
+    # (a, b) do not determine the scale of the inertia tensor, and the check does not depend on it: take I22 = 1.
     return systems()["hess"].at((options.a, options.b)), HessBody(I22=1.0, I23=options.a, b3=0.0).check
 
 
@@ -154,4 +156,4 @@ MOTIONS: Mapping[str, System] = {
         _of(heavy_of),
     ),
 }
-"""By name."""
+"""Systems by name."""

@@ -31,7 +31,7 @@ def _computed(name: str, options: Options) -> Answer:
 COMMAND = Command(
     systems={
         name: Command(
-            f"Orbit of {of.title}.",
+            f"Compute an orbit of {of.title}.",
             (*of.options, TIMES, *OUTPUT),
             table(partial(_computed, name)),
             f"{of.example} --t 10,50",

@@ -1,4 +1,4 @@
-"""`hess-explorer orbit-diagram SYSTEM`: where an orbit of a section settles over a parameter."""
+"""`hess-explorer orbit-diagram SYSTEM`: the attractors of a section over a parameter."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def _computed(section: ReturnMap, options: Options) -> Answer:
 
 
 def _located(section: ReturnMap, there: Diagram, most: int) -> Cascade | str | None:
-    """The doublings from the first that is seen, one way or the other; why there are none; None where none is seen."""
+    """Return the period doublings from the first visible one on, an error message, or None if none is visible."""
     seen = doubling_seen([there])
     if seen is None:
         return None
@@ -88,36 +88,35 @@ def _doublings(found: Cascade | str) -> dict[str, Any]:
 
 
 def _notes(options: Options, there: Diagram, located: Cascade | str | None) -> list[str]:
-    notes = ["Volume is kept: each value shows one orbit, and nothing attracts."] if there.conservative.all() else []
+    notes = ["Volume is conserved: each value shows one orbit, not an attractor."] if there.conservative.all() else []
     if options.back and options.crossings < COMPARED:
-        notes.append(f"Whether the way back is another one is told from {COMPARED} crossings on.")
+        notes.append(f"Hysteresis is detected only with at least {COMPARED} crossings.")
     if options.doublings and located is None:
-        notes.append("No period doubles between neighbouring values here.")
+        notes.append("No period doubles between neighbouring values.")
     if isinstance(located, str):
-        notes.append(f"The doubling that is seen was not located: {located}")
+        notes.append(f"A period doubling was seen but could not be located: {located}")
     return notes
 
 
 COMMAND = command_of_sections(
-    "Where the orbit of {section} from a place {place} settles at each value of a parameter, from where it was at the "
-    "value before: its places, and the period with which they repeat, 0 where none up to 64 is seen.",
-    "where the orbit starts",
+    "Compute the orbit diagram of {section}.  The orbit starts from the point {place}; at each further value of the "
+    "parameter it continues from its last point.  The output has its points after the transient, and their period, 0 "
+    "if it exceeds 64 or does not exist.",
+    "starting point of the orbit",
     (
         option(
             "--over",
-            "the parameter and its values, in this order; or a list, NAME=1,2,3",
+            "the parameter and its values, in this order: a range, or a list NAME=1,2,3",
             type=assigned(values, "E=1:2:50"),
             required=True,
             metavar="NAME=LO:HI:N",
         ),
-        whole("--transient", 0, 20_000, "crossings left out at each value", 200),
-        whole("--crossings", 1, 20_000, "crossings shown of each value", 64),
-        flag("--anew", "start anew from --at at each value"),
-        flag("--back", "go back over the values as well, and say where that is another way (hysteresis)"),
-        flag("--backward", "backward in time as well, to repellers"),
-        whole(
-            "--doublings", 0, 6, "locate so many period doublings by Newton's method, from the first that is seen", 0
-        ),
+        whole("--transient", 0, 20_000, "number of crossings to skip at each value", 200),
+        whole("--crossings", 1, 20_000, "number of crossings to show at each value", 64),
+        flag("--anew", "restart from --at at each value"),
+        flag("--back", "traverse the values backwards as well, and report hysteresis"),
+        flag("--backward", "also integrate backward in time, to repellers"),
+        whole("--doublings", 0, 6, "number of period doublings to locate by Newton's method", 0),
     ),
     {
         "suslov": "--at 1.5,1.2 --over I13=0:0.4:9 --crossings 24",

@@ -1,4 +1,4 @@
-"""Results of commands as strict JSON, CSV or text, on standard output or in a file."""
+"""Write results of commands as strict JSON, CSV or text, to standard output or a file."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ __all__ = [
 ]
 
 LONG = 2.0
-"""Seconds after which a command says that it goes on."""
+"""Seconds after which a command reports that it is still running."""
 PATIENCE = "Still computing; Ctrl-C ends it."
 
 
@@ -49,12 +49,14 @@ Compute = Callable[[argparse.Namespace], "Answer"]
 
 @dataclass(frozen=True)
 class Answer:
-    """What a command computed.
+    """The result of a command.
 
-    series : columns of equal length, one row for each sample, None where there is no value (null, in CSV an empty
-    field), and no number that is none.
-    facts : everything else; notes : sentences.
-    columns : the heading of the table in CSV, if not the names of the series.
+    Attributes
+    ----------
+    series : columns of equal length with finite numbers; None marks a missing value (null in JSON, empty in CSV).
+    facts : all other results.
+    notes : remarks in full sentences.
+    columns : header of the CSV table, if it differs from the names of the series.
     """
 
     series: Mapping[str, Sequence[Any]]
@@ -64,7 +66,7 @@ class Answer:
 
 
 def table(compute: Compute) -> Callable[[argparse.Namespace], None]:
-    """Return the function that computes an answer and writes it in the chosen format, to the chosen place."""
+    """Return a function that computes an answer and writes it to the chosen output in the chosen format."""
 
     def run(options: argparse.Namespace) -> None:
         with computing():
@@ -75,7 +77,7 @@ def table(compute: Compute) -> Callable[[argparse.Namespace], None]:
 
 
 def text(compute: Callable[[argparse.Namespace], str]) -> Callable[[argparse.Namespace], None]:
-    """Return the function that computes a text and writes it to the chosen place."""
+    """Return a function that computes a text and writes it to the chosen output."""
 
     def run(options: argparse.Namespace) -> None:
         with computing():
@@ -87,28 +89,28 @@ def text(compute: Callable[[argparse.Namespace], str]) -> Callable[[argparse.Nam
 
 @contextmanager
 def computing(told: bool = False) -> Iterator[None]:
-    """Turn an error of the mechanics into a `CommandError`, and say on standard error when it takes long.
+    """Convert errors of the mechanics to `CommandError`, and report on stderr a computation that takes long.
 
-    told : how far it is is said already.
+    told : True if the command prints its own progress.
     """
     import numpy as np
 
     from hess_mechanics import ModelError
 
     try:
-        # The mechanics check their results for overflow themselves: NumPy's warnings would only be noise.
+        # `hess_mechanics` checks its results for overflow itself, so NumPy's warnings would be noise.
         with np.errstate(all="ignore"), nullcontext() if told else _patience():
             yield
     except ModelError as error:
         raise CommandError(str(error)) from error
     except ArithmeticError as error:
-        # Plain Python arithmetic overflows with an exception where NumPy's gives ∞.
-        raise CommandError("These numbers leave the range of double precision; choose less extreme ones.") from error
+        # Python floats raise an exception on overflow, whereas NumPy returns ∞.
+        raise CommandError("These numbers exceed the range of double precision: choose less extreme ones.") from error
 
 
 @contextmanager
 def _patience() -> Iterator[None]:
-    """Say after a while that it goes on and how it is ended; in a terminal with the seconds, and not for good."""
+    """Report after `LONG` seconds that the command is still running; in a terminal also count the seconds."""
     done, seen, begun = threading.Event(), sys.stderr.isatty(), time.monotonic()
 
     def tell() -> None:
@@ -121,7 +123,7 @@ def _patience() -> Iterator[None]:
             print(f"\r{PATIENCE} {time.monotonic() - begun:.0f} s", end="", file=sys.stderr, flush=True)
             if done.wait(1.0):
                 break
-        # Back to the first column, and clear the line.
+        # Carriage return, then clear the line.
         print("\r\x1b[K", end="", file=sys.stderr, flush=True)
 
     teller = threading.Thread(target=tell, name="patience", daemon=True)
@@ -134,7 +136,7 @@ def _patience() -> Iterator[None]:
 
 
 def quality(result: CircleMap | Cloud | Orbit | Period | Scattering | SectionCrossings | Spectrum) -> dict[str, Any]:
-    """How exact a result is and what it cost, as every command reports it."""
+    """Return the accuracy and cost of a result, which every command reports."""
     drift = getattr(result, "drift", None)
     return {
         "error_estimate": result.error_estimate,
@@ -147,18 +149,18 @@ def quality(result: CircleMap | Cloud | Orbit | Period | Scattering | SectionCro
 
 
 def columns(result: Result) -> dict[str, list[Any]]:
-    """Return the numbers of a result by their names: coordinates, then variables."""
+    """Return the columns of a result by name: coordinates, then variables."""
     known = result.labels()
     return {name: values.tolist() for name, (_, values) in {**known.coords, **known.variables}.items()}
 
 
 def whether_body(check: BodyCheck) -> dict[str, Any]:
-    """Whether a rigid body can have these moments of inertia."""
+    """Return the facts of a check that a rigid body can have these moments of inertia."""
     return {"is_body": check.is_body, "body": check.sentence}
 
 
 def _strict(value: Any) -> Any:
-    """The value (numbers, strings, lists, dicts) with None for every number that JSON cannot represent."""
+    """Return the value (numbers, strings, lists, dicts) with None in place of non-finite numbers."""
     if isinstance(value, float):
         return value if math.isfinite(value) else None
     if isinstance(value, dict):
@@ -169,29 +171,30 @@ def _strict(value: Any) -> Any:
 
 
 def _is_number(value: Any) -> bool:
-    """Whether it is finite, or no float; of a list all that is in it."""
+    """Return True if the value, or each item of a list, is not a float or is finite."""
     if isinstance(value, list):
         return all(map(_is_number, value))
     return not isinstance(value, float) or math.isfinite(value)
 
 
 def write(options: argparse.Namespace, answer: Answer) -> None:
-    """Write the answer in the chosen format, to the chosen place.
+    """Write the answer to the chosen output in the chosen format.
 
     Raises
     ------
-    CommandError : a number of a series leaves the range of double precision, or the file cannot be written.
+    CommandError
+        If a number of a series exceeds the range of double precision, or the file cannot be written.
     """
     series, facts = answer.series, answer.facts
     for name, column in series.items():
         if not all(map(_is_number, column)):
             raise CommandError(
-                f"{name}: a number leaves the range of double precision; choose less extreme parameters "
+                f"{name}: a number exceeds the range of double precision; choose less extreme parameters "
                 "or another time span."
             )
     strict = {key: _strict(value) for key, value in facts.items()}
     lost = [
-        f"{key}: null stands for a number beyond the range of double precision."
+        f"{key}: null stands for a number that exceeds the range of double precision."
         for key, value in facts.items()
         if strict[key] != value
     ]
@@ -213,12 +216,12 @@ def _json(value: Any) -> str:
 
 def _row(cells: Sequence[Any]) -> str:
     flat = [one for cell in cells for one in (cell if isinstance(cell, list) else [cell])]
-    # Words have no commas.
+    # Strings contain no commas, so they need no quotes.
     return ",".join("" if one is None else one if isinstance(one, str) else repr(one) for one in flat)
 
 
 def show(data: bytes, out: Path | None = None) -> None:
-    """Write to that file, or else to standard output, in UTF-8 whatever its encoding: names like ω1 need it."""
+    """Write data to a file, or to standard output as bytes, because names such as ω1 need UTF-8."""
     if out is not None:
         write_file(out, data)
         return
@@ -226,14 +229,14 @@ def show(data: bytes, out: Path | None = None) -> None:
         sys.stdout.buffer.write(data)
         sys.stdout.flush()
     except BrokenPipeError:
-        # The reader (`| head`) has closed the pipe; Python must not try to flush the rest at exit.
+        # The reader (such as `head`) has closed the pipe; prevent Python from flushing the rest at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def write_file(path: Path, data: bytes) -> None:
-    """Write the whole file.  Raises `CommandError`."""
+    """Write a file.  Raises `CommandError`."""
     try:
         path.write_bytes(data)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise CommandError(f"{str(path)!r} cannot be written ({reason}); choose another file.") from error
+        raise CommandError(f"Cannot write {str(path)!r} ({reason}): choose another file.") from error

@@ -22,7 +22,7 @@ def _computed(options: Options) -> Answer:
     closed = arc(PlaneBody(*options.I, *options.b), start) if options.D == 0.0 else None
     if closed is not None and closed.kind != "periodic":
         what = "rests on the equator" if closed.kind == "fixed" else "tends to a fixed point on the equator"
-        raise InvalidParameter(f"This motion {what} and has no period: choose another start.")
+        raise InvalidParameter(f"This motion {what}, so it has no period: choose another start.")
     found = period(ball, start, accuracy)
     return Answer(
         {"crossing": list(found.crossings)},
@@ -37,11 +37,11 @@ def _computed(options: Options) -> Answer:
 
 
 COMMAND = Command(
-    "With I13 = I23 = 0 and b3 = 0 the reflection γ3 → −γ3, t → −t maps motions to motions, so one that crosses the "
-    "equator γ3 = 0 twice is periodic: T is twice the time between the crossings, for the Suslov problem (𝒟 = 0; "
-    "Kharlamova's case) and for the Chaplygin ball with Suslov's constraint.  period_closed_form, for 𝒟 = 0 only: 2 "
-    "∫dτ/√P(τ) by arithmetic-geometric means, P(τ) = 1 − γ1² − γ2² a quartic in the time τ, dτ = γ3 dt.  Times are in "
-    "the units of ω and b.",
+    "Compute the period of a motion with I13 = I23 = 0 and b3 = 0, of the Suslov problem (𝒟 = 0; Kharlamova's case) or "
+    "of the Chaplygin ball with Suslov's constraint.  The reflection γ3 → −γ3, t → −t maps motions to motions, so a "
+    "motion that crosses the equator γ3 = 0 twice is periodic; its period is twice the time between the crossings.  "
+    "period_closed_form, only for 𝒟 = 0: 2 ∫dτ/√P(τ) by arithmetic-geometric means, with the quartic P(τ) = 1 − γ1² − "
+    "γ2² in the time τ, dτ = γ3 dt.  Times are in the units of ω and b.",
     (
         vector("--I", TENSOR[:2], "moments of inertia"),
         vector("--b", FIELD[:2], "field (default 0,0)", (0.0, 0.0)),

@@ -96,23 +96,23 @@ def _of_manifolds(orbit: PeriodicOrbit, curves: list[Manifold]) -> Answer:
 
 
 COMMAND = command_of_sections(
-    "A periodic orbit of {section} found by Newton's method from a place {place}, with its multipliers and type.",
-    "where the search begins",
+    "Find a periodic orbit of {section} by Newton's method from a point {place}, with its multipliers and type.",
+    "initial guess of the search",
     (
-        whole("--period", 1, 64, "returns (default: found, up to 12)"),
+        whole("--period", 1, 64, "number of returns (default: detected, up to 12)"),
         option(
             "--along",
-            "the branch of the orbit over a parameter, from its value here, through folds, with the bifurcations on it",
+            "continue the orbit in a parameter up to this value, through folds, and find bifurcations",
             type=assigned(any_number, "E=2.5"),
             metavar="NAME=TO",
         ),
         option(
             "--manifolds",
-            "both branches of the stable and of the unstable manifold of a saddle, so long",
+            "compute both branches of the stable and the unstable manifold of a saddle, up to this length",
             type=any_number,
             metavar="LENGTH",
         ),
-        whole("--points", 2, 2000, "of the branch, at most", 200),
+        whole("--points", 2, 2000, "maximum number of points of the branch", 200),
     ),
     {
         "suslov": "--at 1.5,1.2",

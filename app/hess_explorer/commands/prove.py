@@ -1,4 +1,4 @@
-"""`hess-explorer prove`: proves that a Suslov–Hess torus has two limit cycles, or none, with a certificate."""
+"""`hess-explorer prove`: prove that a Suslov–Hess torus has two limit cycles, or none, with a certificate."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ def _words(proof: Proof | EdgeProof, found: dict[str, Any]) -> Iterator[str]:
     )
     yield f"{effort}python-flint {versions['python-flint']}, FLINT {versions['flint']}"
     yield (
-        "This holds for the equations with exactly these numbers, if the library's balls are right; --format json "
-        "gives the certificate."
+        "The proof holds for the equations with exactly these numbers, provided that the ball arithmetic of Arb is "
+        "correct; --format json prints the certificate."
     )
 
 
@@ -64,13 +64,13 @@ def _interval(pair: list[str]) -> str:
 
 
 COMMAND = Command(
-    "Proves by ball arithmetic that the torus (h, f), units b = 1, has exactly two limit cycles (|trace| > 2 of its "
-    "circle map) or none (|trace| < 2): for the equations with exactly these numbers, if the balls of the library Arb "
-    "enclose what they say.  Where |trace| is too close to 2 it says “undecided”.  On the edge |f| = f_max(h), where "
-    "there is no torus but a circle of states, it proves that this has exactly two equilibria or is one periodic "
-    "orbit.  Multipliers, fixed points and rotation number are enclosed.  The JSON is a certificate: every Taylor step "
-    "with what bounds its remainder, for an independent check such as tests/check_certificate.py.  Needs the extra: "
-    "pip install 'hess-explorer[prove]'.",
+    "Prove by ball arithmetic that the torus (h, f), in units b = 1, has exactly two limit cycles (|trace| > 2 of its "
+    "circle map) or none (|trace| < 2).  The proof holds for the equations with exactly these numbers, provided that "
+    "the ball arithmetic of Arb is correct.  If |trace| is too close to 2, the result is “undecided”.  On the edge |f| "
+    "= f_max(h) the torus degenerates to a circle of states; the command proves that it contains exactly two "
+    "equilibria or is a periodic orbit.  Multipliers, fixed points and rotation number are enclosed in intervals.  The "
+    "JSON output is a certificate with every Taylor step and the bound of its remainder, for an independent check such "
+    "as tests/check_certificate.py.  Requires: pip install 'hess-explorer[prove]'.",
     (
         *(
             option(f"--{name}", f"{what}; exact: 0.1, -2e-3 or 1/3", required=True, metavar="NUMBER")
@@ -80,10 +80,10 @@ COMMAND = Command(
                 ("f", "area integral, |f| ≤ f_max(h)"),
             )
         ),
-        whole("--bits", 64, 4096, "the precision doubles from 64 bits to at most this", 512),
+        whole("--bits", 64, 4096, "maximum precision; it doubles from 64 bits until the proof succeeds", 512),
         option(
             "--format",
-            "text (default): what is proved, in words; json: the whole certificate",
+            "text (default): the statement in words; json: the complete certificate",
             choices=("text", "json"),
             default="text",
         ),

@@ -1,4 +1,4 @@
-"""`hess-explorer prove-zone`: where over (h, f) tori have two limit cycles, and where none, proved for cells."""
+"""`hess-explorer prove-zone`: prove for cells of (h, f) that their tori have two limit cycles, or none."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from .output import text
 __all__ = ["COMMAND"]
 
 _ROUND = 100
-"""Proofs between two looks at the share decided."""
+"""Number of proofs between two checks of the decided fraction of the area."""
 _MEANS = (
-    "alpha = (1 - n1^2)/(n1 + n2)^2, beta = (1 - n2^2)/(n1 + n2)^2 with n1 <= n2 between which n3 swings; "
+    "alpha = (1 - n1^2)/(n1 + n2)^2, beta = (1 - n2^2)/(n1 + n2)^2 with the turning points n1 <= n2 of n3; "
     "h = (alpha + beta - 1) s/2, f = sqrt(2 alpha beta) s^(3/2), s = 2/sqrt((1 + alpha + beta)^2 - 4 alpha beta)"
-    "; a statement is about the tori of a cell, alpha > beta or exchanged; alpha = beta is the edge: no torus"
+    "; a statement covers the tori of a cell with alpha > beta or exchanged; alpha = beta is the edge, without a torus"
 )
 
 
@@ -44,12 +44,15 @@ def _computed(options: Options) -> str:
 def _words(zone: LockZone, progress: list[dict[str, Any]]) -> Iterator[str]:
     area = region_area(zone.h_end)
     shares = {statement: 100.0 * part / area for statement, part in zone.areas.items()}
-    yield f"Proved for a = {float(zone.a):g}, of the area of possible (h, f) up to h = {zone.h_end:g}:"
+    yield f"Proved for a = {float(zone.a):g}, as fractions of the area of possible (h, f) up to h = {zone.h_end:g}:"
     yield f"exactly two limit cycles on {shares['two cycles']:.2f} %, none on {shares['no cycle']:.2f} %;"
-    yield f"undecided: {shares['undecided']:.2f} %, where the boundary is."
+    yield f"undecided: {shares['undecided']:.2f} %, along the boundary."
     for row in progress:
         yield f"after {row['cells']} proofs, {row['seconds']:.1f} s: {100.0 * row['decided']:.2f} % decided"
-    yield "This holds for the equations with exactly this a, if the library's balls are right; areas are only computed."
+    yield (
+        "The proofs hold for the equations with exactly this a, provided that the ball arithmetic of Arb is correct; "
+        "areas are computed without proof."
+    )
 
 
 def _json(zone: LockZone, progress: list[dict[str, Any]]) -> Iterator[str]:
@@ -81,28 +84,28 @@ def _csv(zone: LockZone, progress: list[dict[str, Any]]) -> Iterator[str]:
 _FORMATS = {"text": _words, "json": _json, "csv": _csv}
 
 COMMAND = Command(
-    "Proves by ball arithmetic for cells of the bifurcation diagram (h, f), units b = 1, f > 0, that every torus of a "
-    "cell has exactly two limit cycles, or none.  The largest undecided cell always comes first, so the share decided "
-    "grows, and undecided cells close in on the boundary.  A cell is a rectangle of two numbers α, β that name a torus "
-    "(the JSON says how); its ends are doubles, meant exactly.  Where a cell meets the edge |f| = f_max(h), its "
-    "statement is about its tori only: on the edge there is none.  Areas are computed, not proved.  Needs the extra: "
-    "pip install 'hess-explorer[prove]'.",
+    "Prove by ball arithmetic for cells of the bifurcation diagram (h, f), units b = 1, f > 0, that every torus of a "
+    "cell has exactly two limit cycles, or none.  The largest undecided cell is split first, so that the undecided "
+    "cells approach the boundary.  A cell is a rectangle in coordinates α, β of a torus (the JSON output defines "
+    "them), whose ends are exact doubles.  If a cell touches the edge |f| = f_max(h), its statement covers only its "
+    "tori; there are none on the edge.  Areas are computed without proof.  Requires: pip install "
+    "'hess-explorer[prove]'.",
     (
         option(
             "--a", "inertia parameter a = I23/I22, |a| ≤ 3; exact: 0.1, -2e-3 or 1/3", required=True, metavar="NUMBER"
         ),
-        number(H_PLANE, 4.0, name="--h-end", help="up to this energy h"),
-        whole("--cells", 1, 100_000, "at most so many proofs, of some 15 ms each", 400),
+        number(H_PLANE, 4.0, name="--h-end", help="largest energy h"),
+        whole("--cells", 1, 100_000, "maximum number of proofs, about 15 ms each", 400),
         option(
             "--share",
-            "stop when this share of the area is decided, looked at after each 100 proofs",
+            "stop when this fraction of the area is decided; checked after every 100 proofs",
             type=any_number,
             default=1.0,
             metavar="S",
         ),
         option(
             "--format",
-            "text (default): the shares; json: all cells and the share over time; csv: all cells",
+            "text (default): fractions of the area; json: all cells and the progress; csv: all cells",
             choices=tuple(_FORMATS),
             default="text",
         ),

@@ -1,4 +1,4 @@
-"""`hess-explorer regime SYSTEM`: of what kind a motion is, and whether dynamics are dissipative or mixed."""
+"""`hess-explorer regime SYSTEM`: classify a motion, and tell dissipative from mixed dynamics."""
 
 from __future__ import annotations
 
@@ -50,28 +50,28 @@ def _compared(both: Dynamics) -> dict[str, Any]:
 
 
 COMMAND = command_of_sections(
-    "The kind of the motion of {section} from a place {place}, after a transient: fixed point, periodic, "
-    "quasi-periodic, chaotic or undecided, by its crossings, MEGNO and the 0-1 test; and whether phase volume about it "
-    "shrinks.  With --dynamics, to what it comes forward and backward in time, and how far apart that is. All of it is "
-    "seen, with errors, not proved.",
-    "where the motion starts",
+    "Classify the motion of {section} from a point {place} after a transient: fixed point, periodic, quasi-periodic, "
+    "chaotic or undecided, from its crossings, MEGNO and the 0-1 test; and report whether phase volume around it "
+    "shrinks.  With --dynamics, compare the limit sets forward and backward in time.  The results are numerical, with "
+    "error estimates, not proved.",
+    "starting point of the motion",
     (
-        whole("--transient", 0, 20_000, "crossings left out", 300),
+        whole("--transient", 0, 20_000, "number of crossings to skip", 300),
         whole(
             "--crossings",
             8,
             20_000,
-            "crossings looked at, up to 64 times as many where they do not decide; a period "
-            "is seen of which they have three",
+            "number of crossings to analyse, up to 64 times as many if they do not decide; a period must repeat three "
+            "times to be detected",
             200,
         ),
         number(
             TIME,
             200.0,
-            help="the time over which MEGNO and the divergence are averaged; at least 30 returns, up to "
-            "64 times as long where it does not decide",
+            help="averaging time of MEGNO and the divergence; at least 30 returns, up to 64 times as long if it does "
+            "not decide",
         ),
-        flag("--dynamics", "compare what it comes to forward and backward in time"),
+        flag("--dynamics", "compare the limit sets forward and backward in time"),
     ),
     {
         "suslov": "--at 1.5,1.2",

@@ -1,4 +1,4 @@
-"""`hess-explorer rotation-number`: ρ of the Suslov–Hess torus over its parameters."""
+"""`hess-explorer rotation-number`: the rotation number of Suslov–Hess tori over their parameters."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def _computed(options: Options) -> Answer:
     accuracy = level(options.accuracy)
     count = len(options.a) * len(options.h) * len(options.f)
     if count > MAX_POINTS:
-        raise CommandError(f"These are {count} tori; at most {MAX_POINTS} are allowed: choose fewer values.")
+        raise CommandError(f"The values give {count} tori, but at most {MAX_POINTS} are allowed: choose fewer values.")
     a, h, f = (axis.ravel() for axis in np.meshgrid(options.a, options.h, options.f, indexing="ij"))
     found = values_at(a, h, f, accuracy)
     possible = found.possible.tolist()
@@ -40,9 +40,9 @@ def _computed(options: Options) -> Answer:
 
 
 COMMAND = Command(
-    "Rotation number ρ (turns per return) and |trace| of the circle map for every combination of the values of a, h "
-    "and f, units b = 1; locked: whether it has two limit cycles; possible: whether there is such a torus (else the "
-    "other three are null, in CSV empty).",
+    "Compute the rotation number ρ (turns per return) and |trace| of the circle map for every combination of values of "
+    "a, h and f, in units b = 1.  locked: true if the torus has two limit cycles; possible: true if the torus "
+    "exists, otherwise the other three values are null (empty in CSV).",
     (
         samples(A_HESS, "inertia parameter a = I23/I22"),
         samples(H_PLANE, "energy, h > -1"),

@@ -1,4 +1,4 @@
-"""`hess-explorer scattering`: to which limit circle the motions from another one go."""
+"""`hess-explorer scattering`: the scattering map of the free Suslov problem."""
 
 from __future__ import annotations
 
@@ -34,18 +34,19 @@ def _computed(options: Options) -> Answer:
 
 
 COMMAND = Command(
-    "The free Suslov problem (b = 0): every motion comes from a circle at the angle θ⁻ from ξ round the unstable "
-    "point, with a phase φ, and goes to one at the angle θ⁺ round the stable point.  cos_chi, sin_chi, phi_star: cos "
-    "θ⁺ = cos χ cos θ⁻ + sin χ sin θ⁻ cos(φ − φ*).",
+    "Compute the scattering of the free Suslov problem (b = 0).  Every motion starts asymptotically on a circle at the "
+    "angle θ⁻ from ξ around the unstable point, with a phase φ, and tends to a circle at the angle θ⁺ around the "
+    "stable point.  The results cos_chi, sin_chi and phi_star satisfy cos θ⁺ = cos χ cos θ⁻ + sin χ sin θ⁻ "
+    "cos(φ − φ*).",
     (
         FREE_TENSOR,
         number(THETA, help="θ⁻ in radians"),
         samples(CIRCLE_PHASE, "phases in radians (default: none)", []),
-        option("--arc", "the sign of I13ω1 + I23ω2 on the way (default 1)", type=int, choices=(1, -1), default=1),
+        option("--arc", "sign of I13ω1 + I23ω2 along the motion (default 1)", type=int, choices=(1, -1), default=1),
         option(
             "--distance",
-            "phases of starts where the part of ω across ξ is this times the angular velocity at the "
-            "unstable point (default: phases for t → −∞)",
+            "define phases at the point where the component of ω across ξ is this fraction of the angular velocity at "
+            "the unstable point (default: phases for t → −∞)",
             type=any_number,
         ),
         *OUTPUT,

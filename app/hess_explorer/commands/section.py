@@ -1,4 +1,4 @@
-"""`hess-explorer section euler-poisson|suslov|ball`: the crossings of a surface by one motion."""
+"""`hess-explorer section euler-poisson|suslov|ball`: the Poincaré section of one motion."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .output import Answer, quality, table, whether_body
 
 __all__ = ["COMMAND"]
 
-_COUNT = whole("--crossings", 1, MAX_CROSSINGS, "at most this many", 100)
+_COUNT = whole("--crossings", 1, MAX_CROSSINGS, "maximum number of crossings", 100)
 
 
 def _of_heavy(options: Options) -> Answer:
@@ -62,25 +62,23 @@ def _facts(result: SectionCrossings, start: tuple[float, ...], body: BodyCheck) 
 
 
 def _fewer(result: SectionCrossings, asked: int, end: float) -> list[str]:
-    """A note if the time ended before all crossings were found."""
+    """Return a note if there are fewer crossings than requested."""
     found = len(result.times)
-    return [f"Up to t = {end:.6g} there are {found} of {asked} crossings."] if found < asked else []
+    return [f"There are only {found} of {asked} crossings up to t = {end:.6g}."] if found < asked else []
 
 
 def _plane(name: str, usual: tuple[float, ...] | None, example: str) -> Command:
     of = MOTIONS[name]
     return Command(
-        "Crossings of the plane n1 ω1 + n2 ω2 + n3 γ1 + n4 γ2 + n5 γ3 = offset"
-        f"{', γ3 = 0 unless another one is given,' if usual else ''} by an orbit of {of.title}.",
+        "Compute the crossings of the plane n1 ω1 + n2 ω2 + n3 γ1 + n4 γ2 + n5 γ3 = offset"
+        f"{', by default γ3 = 0,' if usual else ''} by an orbit of {of.title}.",
         (
             *of.options,
-            vector(
-                "--plane", "n1,n2,n3,n4,n5", f"the normal of the plane{' (default 0,0,0,0,1)' if usual else ''}", usual
-            ),
+            vector("--plane", "n1,n2,n3,n4,n5", f"normal of the plane{' (default 0,0,0,0,1)' if usual else ''}", usual),
             option("--offset", "offset of the plane along its normal (default 0)", type=any_number, default=0.0),
             option(
                 "--sense",
-                "1 (default): crossed from below as time grows, -1: from above, 0: both",
+                "direction of the crossings: 1 upward (default), -1 downward, 0 both",
                 type=int,
                 choices=(-1, 0, 1),
                 default=1,
@@ -98,16 +96,16 @@ def _plane(name: str, usual: tuple[float, ...] | None, example: str) -> Command:
 COMMAND = Command(
     systems={
         "euler-poisson": Command(
-            "Points (l, x = L/G) where the angle g of a heavy rigid body grows through π/2, with the energy h and the "
-            "area integral f.",
+            "Compute the points (l, x = L/G) at which the angle g of a heavy rigid body crosses π/2 upwards, for the "
+            "energy h and the area integral f.",
             (
                 *HEAVY,
                 number(H_HEAVY, help="energy"),
                 number(F_HEAVY, help="area integral (M, γ); the section needs G ≥ |f|"),
-                vector("--start", (L, X), "the first point"),
+                vector("--start", (L, X), "first point"),
                 number(
                     TIME,
-                    help="the last time; negative: backward (default: what this many crossings usually need)",
+                    help="last time; negative: backward in time (default: enough for the number of crossings)",
                     required=False,
                 ),
                 _COUNT,

@@ -1,4 +1,4 @@
-"""The systems with a section, as options: a body, the values of its integrals, a place; and the return map of these."""
+"""Systems with a section: their options (body, integrals, a point of the section) and their return maps."""
 
 from __future__ import annotations
 
@@ -21,10 +21,13 @@ __all__ = ["command_of_sections"]
 
 @dataclass(frozen=True)
 class _System:
-    """One system.
+    """A system with a section.
 
-    purpose : a few words on it; where : its section, in words, and its place; place : as options name it.
-    options, body : its options, and their body; values : those options that fix the section; example : values of all.
+    Attributes
+    ----------
+    purpose : short description; where : its section and the coordinates of a point, in words; place : names of these
+    coordinates; options : its options; body : returns the body of the options; values : names of the options that
+    determine the section; example : values of the options.
     """
 
     purpose: str
@@ -41,7 +44,7 @@ def _quartic(options: Options) -> QuarticBody:
 
 
 def _hess(options: Options) -> HessBody:
-    # I22 = 1, and b3 such that b = 1.
+    # I22 = 1, and b3 chosen so that b = 1.
     return HessBody(1.0, options.a, -math.hypot(1.0, options.a))
 
 
@@ -61,7 +64,7 @@ _SYSTEMS: Mapping[str, _System] = {
     ),
     "quartic": _System(
         "the Suslov problem with b1 = b2 = 0, as a point in a quartic potential",
-        ("the section along the axis of the region that a point may enter", "(q, p)"),
+        ("the section along the axis of the accessible region", "(q, p)"),
         "q,p",
         (
             vector("--I", TENSOR[:2], "moments of inertia"),
@@ -91,7 +94,7 @@ _SYSTEMS: Mapping[str, _System] = {
             number(F_HEAVY, help="area integral (M, γ)"),
             option(
                 "--sheet",
-                "of the momenta G with this energy, 0 (default): the largest, 1: the second, 2: the third",
+                "branch of the momentum G at this energy: 0 (default) the largest, 1 the second, 2 the third",
                 type=int,
                 choices=(0, 1, 2),
                 default=0,
@@ -104,7 +107,7 @@ _SYSTEMS: Mapping[str, _System] = {
     "hess": _System(
         "the Suslov–Hess case, on a torus",
         (
-            "the torus (h, f) of the Suslov–Hess case, units b = 1, where n3 rises through the middle of its range,",
+            "the torus (h, f) of the Suslov–Hess case, units b = 1, at upward crossings of the midpoint of n3,",
             "φ, the angle of w",
         ),
         "phi",
@@ -124,16 +127,22 @@ def command_of_sections(
     compute: Callable[[ReturnMap, Options], Answer],
     exclusive: Sequence[str] = (),
 ) -> Command:
-    """Return a command with a choice of systems.
+    """Return a command with a subcommand for each system.
 
     Parameters
     ----------
-    what : its description, with {section} and {place}.
-    at : what the option --at means, a place of the section.
-    options : the others besides those of the system.
-    examples : by system, what follows the body in the example.
-    compute : called with the return map.
-    exclusive : names of options of which at most one may be given.
+    what : str
+        Description, with the fields {section} and {place}.
+    at : str
+        Help text of the option --at, a point of the section.
+    options : sequence of Option
+        Further options, in addition to those of the system.
+    examples : mapping
+        Arguments of the example by system, after those of the body.
+    compute : callable
+        Returns the answer for a return map and the options.
+    exclusive : sequence of str
+        Names of mutually exclusive options.
     """
 
     def run(system: _System, options: Options) -> Answer:

@@ -1,4 +1,4 @@
-"""`hess-explorer serve`: the explorer in the browser."""
+"""`hess-explorer serve`: serve the explorer and open it in the browser."""
 
 from __future__ import annotations
 
@@ -40,22 +40,22 @@ def _run(options: Options) -> None:
     lesson = _lesson(options.lesson)
     _require_free(options.address, options.port)
     if options.workers > 1 and not hasattr(os, "fork"):
-        raise CommandError("This system has no way to share a port between processes: leave --workers out.")
-    # A browser cannot open the address that stands for all interfaces.
+        raise CommandError("--workers needs an operating system with fork: run the command without it.")
+    # A browser cannot open a wildcard address.
     host = "localhost" if options.address in ("127.0.0.1", "0.0.0.0", "::") else options.address
     url = f"http://{f'[{host}]' if ':' in host else host}:{options.port}"
     show = options.browser and _has_browser()
     print(_first_words(), flush=True)
 
     def ready() -> None:
-        print(f"Hess Explorer runs at {url} (Ctrl-C ends it).", flush=True)
+        print(f"Hess Explorer is running at {url} (press Ctrl-C to stop).", flush=True)
         if options.browser and not show:
-            print(f"There is no browser to open here: open {url} in one.", flush=True)
+            print(f"No browser was found on this machine: open {url} yourself.", flush=True)
 
-    # As Ctrl-C, from the first moment on: so ends what is started by another program.
+    # Handle SIGTERM like Ctrl-C from the start, for process managers.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    # Imported objects live as long as the process: collecting garbage among them would only cost 0.25 s of the start.
-    # `hess_explorer.server.warm` turns the collector on again.
+    # Imported objects live as long as the process, so garbage collection would only delay the start by 0.25 s.
+    # `hess_explorer.server.warm` enables it again.
     gc.disable()
     with suppress(KeyboardInterrupt):
         from hess_explorer.server.handlers import HandlerMissing
@@ -79,7 +79,7 @@ def _run(options: Options) -> None:
 
 
 def _lesson(path: Path | None) -> Lesson | None:
-    """The lesson in a file.  Raises `CommandError`."""
+    """Return the lesson in a file.  Raises `CommandError`."""
     if path is None:
         return None
     from hess_explorer.lessons.lesson import LessonError
@@ -92,13 +92,13 @@ def _lesson(path: Path | None) -> Lesson | None:
 
 
 def _first_words() -> str:
-    """What is about to take time, before it does."""
+    """Return the first message, which says how long the start takes."""
     from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled
 
     if not KEEPS_KERNELS:
         return (
-            "Compiling, ready in about 20 s, and again at each start: no folder for what is compiled can be "
-            "written; name one of your own in NUMBA_CACHE_DIR."
+            "Compiling, ready in about 20 s.  Every start compiles again, because no cache folder is writable: set "
+            "NUMBA_CACHE_DIR to one."
         )
     return "Starting, ready in a few seconds." if all_compiled() else "Compiling, ready in about 20 s."
 
@@ -111,17 +111,17 @@ def _require_free(address: str, port: int) -> None:
         )[0]
         with socket.socket(family, kind, protocol) as probe:
             if os.name == "posix":
-                # As the server does: a port whose last connections are still closing counts as free.
+                # Like the server, accept a port whose last connections are still closing.
                 probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             probe.bind(target)
     except (OSError, UnicodeError) as error:
         code = getattr(error, "errno", None)
         if code == errno.EADDRINUSE:
-            why = f"Port {port} is taken by another program; choose another, like --port {port % 65535 + 1}."
+            why = f"Port {port} is in use by another program: choose another, like --port {port % 65535 + 1}."
         elif code == errno.EACCES:
-            why = f"Port {port} needs an administrator; choose one above 1023, like --port 5006."
+            why = f"Port {port} needs administrator rights: choose one above 1023, like --port 5006."
         else:
-            why = f"{shown(address)} is not an address of this machine; choose --address 127.0.0.1 or 0.0.0.0."
+            why = f"{shown(address)} is not an address of this machine: choose --address 127.0.0.1 or 0.0.0.0."
         raise CommandError(why) from error
 
 
@@ -130,7 +130,7 @@ def _has_browser() -> bool:
         found = webbrowser.get()
     except webbrowser.Error:
         return False
-    # Without a display only text browsers are found; they would hold the terminal and cannot draw the page.
+    # Without a display only text browsers are found, which block the terminal and cannot show the page.
     return type(found) is not webbrowser.GenericBrowser or "BROWSER" in os.environ
 
 
@@ -139,16 +139,16 @@ _HOSTS = {"nargs": "+", "action": "extend"}
 COMMAND = Command(
     "Serve the explorer on this machine and open it in the browser.",
     (
-        whole("--port", 1, 65535, "to listen on", 5006),
+        whole("--port", 1, 65535, "port to listen on", 5006),
         option(
             "--address",
-            "address to listen on (default 127.0.0.1, this machine only; 0.0.0.0: every network)",
+            "address to listen on (default 127.0.0.1, this machine only; 0.0.0.0 for all networks)",
             default="127.0.0.1",
         ),
         option("--no-browser", "do not open a browser", dest="browser", action="store_false"),
         option(
             "--allow-origin",
-            "host and port in the browser's address bar, if not this machine's",
+            "further hosts, with ports, by which browsers reach the page, for example behind a proxy",
             dest="origins",
             type=_origin,
             default=[],
@@ -157,18 +157,18 @@ COMMAND = Command(
         ),
         option(
             "--embed-in",
-            "whose pages may show parts of this one (embed=1): hosts like example.org or *.example.org, "
-            "or none (default: any)",
+            "hosts that may embed parts of the page (embed=1), like example.org or *.example.org; none for no host "
+            "(default: any)",
             dest="embedders",
             type=_embedder,
             metavar="HOST",
             **_HOSTS,
         ),
-        whole("--workers", 1, 64, "processes that serve; for a class about as many as there are cores", 1),
-        whole("--sessions", 1, 100_000, "pages that each of them serves at a time, 1000 for some 3 GB of memory", 1000),
+        whole("--workers", 1, 64, "number of worker processes; for a class, about the number of cores", 1),
+        whole("--sessions", 1, 100_000, "maximum number of open pages per worker; 1000 need about 3 GB", 1000),
         option(
             "--lesson",
-            "a lesson of your own, in Markdown, to begin with (see app/README.md)",
+            "Markdown file of your own lesson, which opens first (see app/README.md)",
             type=Path,
             metavar="FILE",
         ),

@@ -1,4 +1,4 @@
-"""`hess-explorer shot`: a picture of the page in a given state."""
+"""`hess-explorer shot`: take a screenshot of the page in a given state."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def _size(text: str) -> tuple[int, int]:
 
 
 def _require_right(query: str) -> None:
-    """Refuse a query that the page would put right.  Raises `CommandError`."""
+    """Raise `CommandError` for a query that the page would have to correct."""
     with computing():
         from hess_explorer.export.shown import address
         from hess_explorer.page.opening import opening
@@ -52,17 +52,17 @@ def _run(options: Options) -> None:
 
 
 COMMAND = Command(
-    "Draw the page in a headless Chromium and save it as PNG.",
+    "Take a screenshot of the page with a headless Chromium and save it as PNG.",
     (
         *STATE,
         option(
             "--size",
-            f"pixels, each side {_SIDE[0]} to {_SIDE[-1]} (default 1600x950)",
+            f"width and height in pixels, each from {_SIDE[0]} to {_SIDE[-1]} (default 1600x950)",
             type=_size,
             default=(1600, 950),
             metavar="WxH",
         ),
-        flag("--dark", "in dark colours"),
+        flag("--dark", "use the dark theme"),
         option("out", "the PNG file to write", type=Path, metavar="FILE"),
     ),
     _run,

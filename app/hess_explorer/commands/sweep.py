@@ -1,4 +1,4 @@
-"""`hess-explorer sweep`: a quantity over one to three parameters, on one core or many, stopped and gone on with."""
+"""`hess-explorer sweep`: a quantity over one to three parameters, on one core or many, resumable."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ def _workers(text: str) -> str | int:
 def _once(pairs: list[tuple[str, Any]], option: str) -> dict[str, Any]:
     found = dict(pairs)
     if len(found) < len(pairs):
-        raise CommandError(f"{option} names a parameter twice: name each once.")
+        raise CommandError(f"{option} names a parameter twice: name each only once.")
     return found
 
 
 def _run(options: Options) -> None:
-    # A sweep shows its own progress.
+    # A sweep prints its own progress.
     with computing(told=True):
         if options.list:
             show(_listed(options.quantity).encode())
@@ -53,7 +53,7 @@ def _run(options: Options) -> None:
             from hess_explorer.sweep import read
 
             if options.quantity or options.over or options.set or options.store:
-                raise CommandError("--read computes nothing: leave the other options away, but for --format and --out.")
+                raise CommandError("--read can be combined only with --format and --out: remove the other options.")
             found = read(options.read)
         else:
             found = _swept(options)
@@ -68,17 +68,16 @@ def _swept(options: Options) -> xr.Dataset:
     from hess_explorer.sweep.quantities import quantity
 
     if options.quantity is None:
-        raise CommandError("A sweep needs a quantity: hess-explorer sweep --list names them.")
+        raise CommandError("A sweep needs a quantity: run hess-explorer sweep --list to see all of them.")
     over, fixed = _once(options.over, "--over"), _once(options.set, "--set")
     what = quantity(options.quantity)
     for name in fixed:
-        # Before they become keywords of `sweep`, which has others too.
+        # Check the name before it becomes a keyword argument of `sweep`, which has others.
         what.parameter(name)
     rows = math.prod(values[2] if isinstance(values, tuple) else len(values) for values in over.values())
     if options.store is None and rows > _MOST_ROWS:
         raise CommandError(
-            f"These are {rows} cells, and a table has at most {_MOST_ROWS} rows: give a folder for "
-            "them, --store FOLDER."
+            f"The sweep has {rows} cells, but a table has at most {_MOST_ROWS} rows: use --store FOLDER."
         )
     try:
         return sweep(
@@ -92,7 +91,7 @@ def _swept(options: Options) -> xr.Dataset:
             **fixed,
         )
     except Interrupted as stopped:
-        # In a store it is kept already.
+        # A store already contains the results.
         if options.store is None:
             options.format = options.format or "json"
             _write(options, stopped.dataset, True)
@@ -114,7 +113,7 @@ def _listed(name: str | None) -> str:
 
 
 def _write(options: Options, found: xr.Dataset, table: bool) -> None:
-    """The table of a sweep, or what is said of it."""
+    """Write the table of a sweep, or only its facts."""
     from hess_explorer.sweep import Outcome
     from hess_explorer.sweep.quantities import quantity
 
@@ -145,8 +144,8 @@ def _series(what: Quantity, found: xr.Dataset) -> dict[str, list[Any]]:
     status = found.status.values
     if status.size > _MOST_ROWS:
         raise CommandError(
-            f"A table of {status.size} rows is too long; at most {_MOST_ROWS} are written: open the "
-            "store with hess_explorer.sweep.read."
+            f"The table would have {status.size} rows, but at most {_MOST_ROWS} are allowed: open the store with "
+            "hess_explorer.sweep.read."
         )
     axes = np.meshgrid(*(found[name].values for name in found.status.dims), indexing="ij")
     series: dict[str, list[Any]] = {
@@ -155,7 +154,7 @@ def _series(what: Quantity, found: xr.Dataset) -> dict[str, list[Any]]:
     values = found[what.variable].values
     columns = {what.variable: values}
     if what.parts:
-        # A chart has one of them.
+        # A chart contains only one part.
         columns = {f"{what.variable}_{part}": values[..., i] for i, part in enumerate(found.number.values.tolist())}
     if "error" in found:
         columns["error"] = found["error"].values
@@ -166,16 +165,16 @@ def _series(what: Quantity, found: xr.Dataset) -> dict[str, list[Any]]:
 
 
 COMMAND = Command(
-    "A quantity (--list names them) for every combination of the values of one to three of its parameters.  status: "
-    "how each cell ended; cells without a number have null, in CSV an empty field.  With --store every finished part "
-    "is kept in that folder, and the same command goes on where it was ended; the table is then printed with "
-    "--format.  Ctrl-C ends it, what is done is kept.  Needs the extra: pip install 'hess-explorer[sweep]'.",
+    "Compute a quantity (see --list) for every combination of the values of one to three of its parameters.  Column "
+    "status tells how each cell ended; a cell without a number is null, or empty in CSV.  With --store, finished parts "
+    "are saved in a folder, and the same command resumes an interrupted sweep; the table is printed only with "
+    "--format.  Ctrl-C stops the sweep and keeps the finished parts.  Requires: pip install 'hess-explorer[sweep]'.",
     (
-        option("quantity", "what is computed, see --list", nargs="?", metavar="QUANTITY"),
-        flag("--list", "name all quantities; with one, its parameters"),
+        option("quantity", "quantity to compute, see --list", nargs="?", metavar="QUANTITY"),
+        flag("--list", "list all quantities, or the parameters of the given quantity"),
         option(
             "--over",
-            "sweep this parameter over lo:hi:n, or a list 1,2,3; up to three times",
+            "parameter and its values: lo:hi:n or a list 1,2,3; up to three times",
             action="append",
             type=assigned(_values, "h=0:2:30"),
             default=[],
@@ -183,27 +182,29 @@ COMMAND = Command(
         ),
         option(
             "--set",
-            "a parameter that stays, if not the default",
+            "value of a fixed parameter that differs from its default",
             action="append",
             type=assigned(any_number, "h=1.5"),
             default=[],
             metavar="NAME=NUMBER",
         ),
-        option("--store", "keep what is done here (Zarr), and go on with it", type=Path, metavar="FOLDER"),
+        option(
+            "--store", "folder that saves the results (Zarr); an existing store is resumed", type=Path, metavar="FOLDER"
+        ),
         option(
             "--read",
-            "compute nothing: write the table of this store, or of a chart that the page has saved",
+            "write the table of this store, or of a chart saved by the page, without computing",
             type=Path,
             metavar="PLACE",
         ),
         option(
             "--workers",
-            "all: a process for each core; a number of processes; or the address of a Dask scheduler, "
-            "tcp://host:8786 (default: one thread)",
+            "number of processes, all for one per core, or the address of a Dask scheduler such as tcp://host:8786 "
+            "(default: one thread)",
             type=_workers,
             metavar="WHO",
         ),
-        whole("--most-cells", 1, 9_999_999_999, "how many numbers are allowed (default 10000000)"),
+        whole("--most-cells", 1, 9_999_999_999, "maximum number of values (default 10000000)"),
         OUTPUT[0],
         option("--format", OUTPUT[1].settings["help"], choices=("json", "csv")),
         OUTPUT[2],

@@ -1,4 +1,4 @@
-"""`hess-explorer tube SYSTEM`: intervals that contain one motion, and how far an orbit is certainly right."""
+"""`hess-explorer tube SYSTEM`: proved intervals that contain one motion, and the proved error of an orbit."""
 
 from __future__ import annotations
 
@@ -17,19 +17,13 @@ __all__ = ["COMMAND"]
 
 
 def _shorter(found: Tube, end: float, seconds: float) -> str:
-    """Why a tube ends before its last time, and what to do."""
-    there = (
-        f"Enclosed up to t = {found.times[-1]:g} of {end:g}" if found.times.size else "None of these times is enclosed"
-    )
+    """Return the reason why a tube ends before its last time, with a remedy."""
+    there = f"Enclosed only up to t = {found.times[-1]:g} of {end:g}" if found.times.size else "No time is enclosed"
     if found.spent:
         return (
-            f"{there}: {seconds:g} s of work are allowed. Ask for fewer digits or a shorter time, or allow more "
-            "with --seconds."
+            f"{there}: the work limit of {seconds:g} s is reached. Reduce --digits or the time, or increase --seconds."
         )
-    return (
-        f"{there}: from there on no step of it can be enclosed. Ask for fewer digits, a shorter time or less "
-        "extreme parameters."
-    )
+    return f"{there}: the next step cannot be enclosed. Reduce --digits or the time, or choose less extreme parameters."
 
 
 def _computed(options: Options) -> str:
@@ -37,7 +31,7 @@ def _computed(options: Options) -> str:
     if options.system not in known:
         raise InvalidParameter(f"There is no system {options.system[:40]!r}: choose one of {', '.join(known)}.")
     if not options.seconds > 0.0:
-        raise InvalidParameter(f"--seconds {options.seconds:g}: choose a number above 0.")
+        raise InvalidParameter(f"--seconds {options.seconds:g} is not positive: choose a number above 0.")
     system = known[options.system]
     body = system.at(options.parameters)
     found = tube(body, options.start, options.t, options.digits, options.seconds * WORK_PER_SECOND)
@@ -76,36 +70,41 @@ def _computed(options: Options) -> str:
 
 
 COMMAND = Command(
-    "Encloses one motion of any system by ball arithmetic: at each time intervals that contain the true state, if the "
-    "balls of the library Arb enclose what they say; start and parameters are taken as exactly these doubles.  Says up "
-    "to which of the times the orbit of `hess-explorer orbit` is certainly right.  Needs the extra: pip install "
-    "'hess-explorer[prove]'.",
+    "Enclose one motion of any system by ball arithmetic.  At each time the output has intervals that contain the true "
+    "state, provided that the ball arithmetic of Arb is correct; start and parameters are exact doubles.  The output "
+    "also has the proved error of the orbit that `hess-explorer orbit` computes, and the last time at which it is "
+    "right.  Requires: pip install 'hess-explorer[prove]'.",
     (
         option("system", "suslov, ball, hess, euler-poisson or plane-potential", metavar="SYSTEM"),
         option(
             "--start",
-            "the state at t = 0, in the order of the system's variables",
+            "state at t = 0, in the order of the system's variables",
             required=True,
             type=numbers,
             metavar="NUMBERS",
         ),
-        option("--parameters", "its parameters, likewise", required=True, type=numbers, metavar="NUMBERS"),
-        TIMES,
-        whole("--digits", 1, 100, "how narrow intervals are", 18),
         option(
-            "--accuracy", "of the orbit that is judged (default: standard)", choices=tuple(LEVELS), default="standard"
+            "--parameters", "parameters, in the order of the system", required=True, type=numbers, metavar="NUMBERS"
+        ),
+        TIMES,
+        whole("--digits", 1, 100, "number of digits that determines the width of the intervals", 18),
+        option(
+            "--accuracy",
+            "accuracy of the orbit to check (default: standard)",
+            choices=tuple(LEVELS),
+            default="standard",
         ),
         option(
             "--right-to",
-            "the error up to which the orbit counts as right (default: 1e-6)",
+            "largest error of an orbit that is right (default: 1e-6)",
             type=number,
             default=1e-6,
             metavar="ERROR",
         ),
         option(
             "--seconds",
-            "work allowed, in seconds of an ordinary core; it is counted, not timed, so the answer is the "
-            "same everywhere (default: 4)",
+            "work limit in seconds of an ordinary core; it is counted rather than timed, so the result does not depend "
+            "on the machine (default: 4)",
             type=number,
             default=4.0,
             metavar="S",
