@@ -232,7 +232,7 @@ def test_csv_and_json_say_the_same(answer, capsys, words):
         ([*CLOUD, "--table", "all"], "invalid choice: 'all'"),
         (replaced(BASINS, "--E", "-0.6"), "choose E above -0.583095"),
         (replaced(BASINS, "--cells", "0,4"), "write them like 40,30"),
-        (replaced(BASINS, "--cells", "1000,1000"), "at most 100000 together"),
+        (replaced(BASINS, "--cells", "1000,1000"), "a product of at most 100000"),
         (replaced(BASINS, "--cells", "2.5,4"), "two whole numbers"),
         ([*BASINS, "--window", "1,0,0,1"], "The window needs ψ0 < ψ1"),
         (replaced(BASINS, "--crossings", "10"), "from 100 to 10000"),

@@ -152,7 +152,7 @@ def test_all_exponents_with_errors_signs_and_a_dimension(answer, capsys):
         (replaced(ROTATION, "--h", "0:1:1"), "whole number from 2"),
         (replaced(ROTATION, "--f", "x"), "is not a number"),
         (replaced(ROTATION, "--f", "nan"), "is not a finite number"),
-        (typed("rotation-number --a 0:1:300 --h 0:1:300 --f 0:1:300"), "27000000 tori; at most 1000000"),
+        (typed("rotation-number --a 0:1:300 --h 0:1:300 --f 0:1:300"), "27000000 tori, but at most 1000000"),
         ([*ROTATION, "--out", "/nowhere/at/all"], "choose another file"),
         ([*ROTATION, "--accuracy", "sloppy"], "choose one of draft"),
         (replaced(LYAPUNOV, "--t", "0"), "other than 0"),

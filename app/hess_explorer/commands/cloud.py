@@ -20,7 +20,7 @@ __all__ = ["COMMAND"]
 
 def _computed(options: Options) -> Answer:
     if options.t == 0.0:
-        raise CommandError("--t 0: a cloud needs time to move; choose a time other than 0.")
+        raise CommandError("A cloud needs time to move: choose --t other than 0.")
     body = BallBody(*(*options.I, options.D))
     found = clouds(
         body, options.h, options.angle, options.spread, options.count, options.t, None, level(options.accuracy)
