@@ -1,10 +1,10 @@
-"""Sweeps: a quantity of a system over one to three parameters, on one core or a thousand, stopped and gone on with.
+"""Parameter sweeps: compute a quantity over one to three parameters, on one core or a cluster, resumable.
 
 >>> from hess_explorer.sweep import sweep
 >>> sweep("cos-chi", over={"I11": (1.0, 3.0, 5)}).cos_chi.shape
 (5,)
 
-`QUANTITIES` lists what can be swept.  Needs the extra "sweep": pip install 'hess-explorer[sweep]'.
+`QUANTITIES` lists the quantities.  Requires the extra "sweep": pip install 'hess-explorer[sweep]'.
 """
 
 from hess_explorer.sweep.errors import (

@@ -28,12 +28,12 @@ from hess_mechanics.numerics.results import Array
 __all__ = ["MOST_SIDE", "Chart", "Side", "at_first", "sides_of_places", "swept"]
 
 MOST_SIDE = 256
-"""Cells along a side: 65 536 at most."""
+"""Maximum number of cells along a side, which gives at most 65 536 cells."""
 _COARSE = 24
-"""Cells along a side that are known first."""
+"""Number of cells along a side in the first, coarse pass."""
 _SHORT = 20.0
 _AUTO = "standard"
-"""A chart of a state whose accuracy is found by measurement."""
+"""Accuracy of the chart of a state with automatic accuracy."""
 
 Indices = NDArray[np.int32]
 Ends = tuple[float, float]
@@ -53,7 +53,7 @@ class Side:
 
     @property
     def places(self) -> Array:
-        """Where the cells are, (count,); as a sweep has them."""
+        """Return the coordinates of the cells (count,), the same as in a sweep."""
         return np.linspace(self.low, self.high, self.count)
 
 
@@ -99,17 +99,17 @@ class Chart:
 
     @property
     def quantity(self) -> Quantity:
-        """What is charted."""
+        """The quantity of the chart."""
         return named(self.charted.quantity)
 
     @property
     def cells(self) -> int:
-        """How many there are."""
+        """The number of cells."""
         return self.x.count * self.y.count
 
     @property
     def level(self) -> Level:
-        """That of the state."""
+        """The accuracy of the state."""
         chosen = str(self.values.get("accuracy", _AUTO))
         return level(_AUTO if chosen == "auto" else chosen)
 
@@ -130,12 +130,12 @@ class Chart:
         return np.concatenate(parts)
 
     def compute(self, indices: Indices) -> Found:
-        """The quantity at these cells; one number for each."""
+        """Return the quantity at these cells, one number for each."""
         rows, columns = np.divmod(indices, self.x.count)
         return self.at(self.x.places[columns], self.y.places[rows])
 
     def at(self, xs: Array, ys: Array) -> Found:
-        """The quantity at places (n,), with a sentence for each that has none."""
+        """Return the quantity at points (n,), with a message for each point without a value."""
         values, errors = np.full(xs.size, np.nan), np.full(xs.size, np.nan)
         status: Outcomes = np.zeros(xs.size, np.uint8)
         why: dict[int, str] = {}
@@ -144,7 +144,7 @@ class Chart:
             try:
                 cell = _put(self.scene, self.values, {self.x.name: x, self.y.name: y})
                 asked.append((i, _arguments(self.scene, self.charted, cell)))
-            # Whatever one cell raises must not end the others.
+            # An error in one cell must not stop the others.
             except Exception as error:
                 status[i], why[i] = refused(error, {self.x.name: x, self.y.name: y})
         if asked:
@@ -160,13 +160,13 @@ class Chart:
         return Found(np.where(status < Outcome.OUTSIDE_REGION, values, np.nan), errors, status, why)
 
     def why(self, x: float, y: float) -> str:
-        """How the cell at a place ends, in a sentence; beyond the sides: the one at their end."""
+        """Return a sentence on the status of the cell at (x, y); outside the chart, of the nearest cell."""
         found = self.at(*(np.clip([place], side.low, side.high) for place, side in ((x, self.x), (y, self.y))))
         return found.why.get(0, f"{Outcome(int(found.status[0])).words}.")
 
 
 def _put(scene: Scene[Any], values: Mapping[str, Value], sides: Mapping[str, float]) -> dict[str, Value]:
-    """The values with those of some sides; of places the last one is left, as a link has it."""
+    """Return the values with those of some sides; of several points only the last is kept, as in a link."""
     found, placed = dict(values), scene.placed
     for name, value in sides.items():
         if placed is None or name not in placed.names:
@@ -179,7 +179,7 @@ def _put(scene: Scene[Any], values: Mapping[str, Value], sides: Mapping[str, flo
 
 
 def _numbers(scene: Scene[Any]) -> dict[str, tuple[str, Ends, Ends]]:
-    """What may be a side: name → symbol, ends to begin with, bounds."""
+    """Return the possible sides: symbol, initial ends and bounds, by name."""
     found = {spec.name: (spec.symbol, spec.softbounds, spec.bounds) for spec in scene.specs if isinstance(spec, Number)}
     if scene.placed is not None:
         spec = next(spec for spec in scene.specs if spec.name == scene.placed.places)
@@ -193,13 +193,13 @@ def _numbers(scene: Scene[Any]) -> dict[str, tuple[str, Ends, Ends]]:
 
 
 def _arguments(scene: Scene[Any], charted: Charted[Any], values: Mapping[str, Value]) -> Mapping[str, float]:
-    """Those of the quantity in a state, each within its bounds.  Raises `ModelError`."""
+    """Return the parameters of the quantity in a state, each within its bounds.  Raises `ModelError`."""
     found = charted.arguments(scene.of(values))
     return {one.name: one.check(found.get(one.name, one.default)) for one in named(charted.quantity).parameters}
 
 
 def sides_of_places(scene: Scene[Any]) -> list[dict[str, Any]]:
-    """The sides that have no control, for the browser: name, symbol, range, and the place where nothing is said."""
+    """Return the sides without a control, for the browser: name, symbol, range and default."""
     if scene.placed is None:
         return []
     numbers = _numbers(scene)
@@ -215,9 +215,9 @@ def sides_of_places(scene: Scene[Any]) -> list[dict[str, Any]]:
 
 
 def at_first(scene: Scene[Any]) -> Iterator[Found]:
-    """One cell of every quantity that can be charted, over a short time, in the state of a newcomer.
+    """Compute one cell of every chart of a scene, over a short time, to compile or load the kernels.
 
-    It compiles or loads what a chart needs.  Raises `ModelError`.
+    Raises `ModelError`.
     """
     values = scene.defaults()
     for charted in scene.charts:
@@ -229,7 +229,7 @@ def at_first(scene: Scene[Any]) -> Iterator[Found]:
 
 @cache
 def swept(scene: str, quantity: str) -> tuple[str, ...]:
-    """The parameters of a scene on which a quantity depends there, by trial; those with open controls first."""
+    """Return the parameters of a scene that affect a quantity, found by trial; those with open controls first."""
     found = scenes()[scene]
     charted = next(one for one in found.charts if one.quantity == quantity)
 
@@ -250,7 +250,7 @@ def swept(scene: str, quantity: str) -> tuple[str, ...]:
 
 
 def _side(scene: Scene[Any], over: tuple[str, ...], given: Any) -> Side:
-    """A side that is possible, near what is given.  Raises `InvalidParameter`."""
+    """Return the side clamped to its bounds.  Raises `InvalidParameter`."""
     match given:
         case [str(name), int() | float() as low, int() | float() as high, int(count)] if name in over:
             symbol, _, (least, most) = _numbers(scene)[name]

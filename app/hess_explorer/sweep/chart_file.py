@@ -1,4 +1,4 @@
-"""A chart that the page has saved, as a Dataset like those of sweeps."""
+"""Read a chart that the page has saved, as a Dataset like those of sweeps."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ __all__ = ["PROGRAM", "chart_of", "read_chart"]
 
 PROGRAM = "hess-explorer chart"
 _MOST_BYTES = 10_000_000
-"""Of a file; 65 536 cells take two million."""
+"""Maximum size of a file in bytes; 65 536 cells take two million."""
 
 
 def read_chart(path: Path) -> xr.Dataset:
-    """The chart in a file, its sides as coordinates, x first.  Raises `StoreError`."""
+    """Return the chart in a file, with its sides as coordinates, x first.  Raises `StoreError`."""
     try:
         if path.stat().st_size > _MOST_BYTES:
             raise ValueError
@@ -85,7 +85,10 @@ def _places(side: Any) -> Array:
 
 
 def chart_of(found: xr.Dataset) -> Chart:
-    """What computes on from such a Dataset.  Raises `InvalidParameter` where that is of another version of a scene."""
+    """Return the chart of a Dataset, to compute more cells.
+
+    Raises `InvalidParameter` if it belongs to another version of the scene.
+    """
     x, y = (
         [name, float(found[name].min()), float(found[name].max()), found.sizes[name]]
         for name in map(str, found.status.dims)

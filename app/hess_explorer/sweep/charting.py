@@ -1,4 +1,4 @@
-"""A chart on its way: computed in the background, piece by piece, in turns with all that others wait for."""
+"""Background computation of a chart in short pieces, which alternate with other work."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ __all__ = ["SECONDS", "Charting"]
 logger = logging.getLogger("hess_explorer")
 
 SECONDS = 60.0
-"""Of the processor, for one chart."""
+"""CPU time limit of a chart in seconds."""
 _PIECE = 0.2
-"""Seconds of a piece: then the others have their turn."""
+"""Target duration of a piece in seconds."""
 _MOST = 4096
-"""Cells of a piece."""
+"""Maximum number of cells of a piece."""
 
 STOPPED = "Stopped."
 USED_UP = (
@@ -35,10 +35,14 @@ FAILED = "This chart could not be computed. Please report the link."
 
 
 class Charting:
-    """One chart, from its start until it is done, stopped or has used up its time; it takes one core at a time.
+    """Computes a chart on one core until it is complete, stopped or out of time.
 
-    error : the largest estimated error so far, None where there is no estimate.
-    progress : how far it is; running : whether more is to come; said : why it ended early, empty if it did not.
+    Attributes
+    ----------
+    error : largest estimated error so far, None without an estimate.
+    progress : progress of the computation.
+    running : True while more cells are to come.
+    said : reason for an early end, otherwise empty.
     """
 
     def __init__(self, chart: Chart, seconds: float = SECONDS) -> None:
@@ -54,12 +58,12 @@ class Charting:
         run_in_steps(self._step)
 
     def stop(self) -> None:
-        """Leave it at what is known."""
+        """Stop the computation and keep the known cells."""
         self._stopped.set()
         self._end(STOPPED)
 
     def since(self, first: int) -> tuple[Indices, Array, Outcomes]:
-        """The cells known after the first ones, in the order in which they were computed: where, numbers, status."""
+        """Return indices, values and status of the known cells from `first` on, in order of computation."""
         with self._lock:
             own = self._order[min(max(first, 0), self._done) : self._done]
             return own, self._values[own], self._status[own]
@@ -73,7 +77,7 @@ class Charting:
                 self.running, self.said = False, said
 
     def _step(self) -> bool:
-        """Compute one piece; whether there are more."""
+        """Compute one piece; return True if more remain."""
         if not self.running:
             return False
         piece = self._order[self._done : self._done + self._size]
@@ -87,7 +91,7 @@ class Charting:
         except OverBudget:
             self._end(USED_UP)
             return False
-        # A worker that died silently would leave the page waiting for ever: report here, details in the log.
+        # Report any error: if the worker died silently, the page would wait for ever.
         except Exception:
             logger.exception("a chart failed: %s", self.chart)
             self._end(FAILED)

@@ -1,4 +1,4 @@
-"""Numbers of a sweep or a chart as an xarray Dataset, with names, units, coordinates and words."""
+"""Build the xarray Dataset of a sweep or a chart, with names, units and coordinates."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["PART", "described"]
 
 PART = "number"
-"""The dimension of several numbers at a cell."""
+"""Name of the dimension of quantities with several numbers per cell."""
 
 
 def described(

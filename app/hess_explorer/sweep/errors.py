@@ -1,4 +1,4 @@
-"""What ends a sweep early, each with a sentence: what is wrong, what is allowed, what to do."""
+"""Exceptions of sweeps; each message names the problem and a remedy."""
 
 from __future__ import annotations
 
@@ -13,23 +13,28 @@ __all__ = ["Interrupted", "NoValue", "OtherSweep", "StoreError", "WorkersLost"]
 
 
 class NoValue(ModelError):
-    """A cell whose motion does not have the quantity, as the period of one that never returns."""
+    """The motion of a cell has no such quantity, for example no period because it never returns."""
 
 
 class OtherSweep(ModelError):
-    """A store that holds another sweep than the one that was asked for."""
+    """The store contains a different sweep."""
 
 
 class StoreError(ModelError):
-    """A store that cannot be read or written."""
+    """The store cannot be read or written."""
 
 
 class WorkersLost(ModelError):
-    """A cluster that cannot be reached, whose workers are of another version, or die of some chunks."""
+    """A cluster cannot be reached, or its workers have another version or die on some chunks."""
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C.  `dataset` has what was computed, the status of all other cells is 0: "not computed"."""
+    """The sweep was stopped by Ctrl-C.
+
+    Attributes
+    ----------
+    dataset : the finished cells; all other cells have the status 0, "not computed".
+    """
 
     def __init__(self, said: str, dataset: xr.Dataset) -> None:
         super().__init__(said)

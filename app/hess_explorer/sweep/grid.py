@@ -1,4 +1,4 @@
-"""The cells of a sweep: axes, parameters that stay, and boxes of cells, each of which is one piece of work."""
+"""The grid of a sweep: axes, fixed parameters, and boxes of cells as units of work."""
 
 from __future__ import annotations
 
@@ -17,27 +17,27 @@ from hess_mechanics.parameters import Parameter
 __all__ = ["HARD_LIMIT", "MAX_NUMBERS", "Axis", "Box", "SweepGrid", "expanded"]
 
 MAX_NUMBERS = 10_000_000
-"""Of a sweep, unless more are allowed by name: 90 MB, in memory or on disk."""
+"""Default limit of the number of values of a sweep, which take 90 MB in memory or on disk."""
 HARD_LIMIT = 10_000_000_000
 _MOST_AXES = 3
 
 Axis = tuple[float, float, int] | Sequence[float] | Array
-"""(low, high, count), a tuple whose last is a whole number: even places, both ends included; else the values."""
+"""A tuple (low, high, count) with an integer count, for evenly spaced values with both ends; or the values."""
 
 Box = tuple[tuple[int, int], ...]
-"""Of each axis, the first index and the one behind the last."""
+"""Half-open range of indices along each axis."""
 
 
 @dataclass(frozen=True)
 class SweepGrid:
-    """The product of some axes, by name, and the value of each other parameter."""
+    """The Cartesian product of the axes, and the values of the fixed parameters."""
 
     axes: Mapping[str, Array]
     fixed: Mapping[str, float]
 
     @classmethod
     def of(cls, quantity: Quantity, over: Mapping[str, Axis], fixed: Mapping[str, float], most: int) -> SweepGrid:
-        """Check everything.  Raises `InvalidParameter`, `WorkLimit`."""
+        """Return the checked grid.  Raises `InvalidParameter`, `WorkLimit`."""
         if not 1 <= len(over) <= _MOST_AXES:
             raise InvalidParameter(f"A sweep goes over one to {_MOST_AXES} parameters, not {len(over)}.")
         both = sorted(set(over) & set(fixed))
@@ -61,20 +61,20 @@ class SweepGrid:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Cells along each axis."""
+        """The number of cells along each axis."""
         return tuple(values.size for values in self.axes.values())
 
     @property
     def cells(self) -> int:
-        """Cells altogether."""
+        """The total number of cells."""
         return math.prod(self.shape)
 
     def pieces(self, box: Box) -> dict[str, Array]:
-        """The parts of the axes that a box has, by name."""
+        """Return the parts of the axes in a box, by name."""
         return {name: values[low:high] for (name, values), (low, high) in zip(self.axes.items(), box, strict=True)}
 
     def box_of(self, cells: float) -> tuple[int, ...]:
-        """The shape of boxes of about so many cells: the longest side is halved until it has no more."""
+        """Return the shape of boxes with at most `cells` cells, by halving the longest side."""
         shape = list(self.shape)
         while math.prod(shape) > max(1.0, cells):
             longest = max(range(len(shape)), key=shape.__getitem__)
@@ -82,7 +82,7 @@ class SweepGrid:
         return tuple(shape)
 
     def boxes(self, shape: Sequence[int]) -> Iterator[Box]:
-        """All boxes of this shape, the last of each axis may be smaller."""
+        """Yield all boxes of this shape; the last one along an axis may be smaller."""
         starts = [range(0, whole, side) for whole, side in zip(self.shape, shape, strict=True)]
         for corner in product(*starts):
             yield tuple(
@@ -91,7 +91,7 @@ class SweepGrid:
 
 
 def expanded(pieces: Mapping[str, Array], fixed: Mapping[str, float]) -> CellArrays:
-    """The parameters at each cell of the product of pieces, the last one fastest."""
+    """Return the parameters at each cell of the product of the pieces; the last axis varies fastest."""
     swept = np.meshgrid(*pieces.values(), indexing="ij")
     count = swept[0].size
     return {
@@ -110,7 +110,7 @@ def _is_range(values: Axis) -> bool:
 
 
 def _count(values: Axis, name: str) -> int:
-    """How many values, before any of them is made."""
+    """Return the number of values of an axis without creating them."""
     if _is_range(values):
         count = int(values[2])
         if count < 2:
@@ -135,7 +135,7 @@ def _axis(one: Parameter, values: Axis) -> Array:
             raise InvalidParameter(f"The values of {one.name} are not all numbers.") from None
     if found.ndim != 1 or found.size == 0:
         raise InvalidParameter(f"The values of {one.name} are one or more numbers in a row.")
-    # Bounds first: of many values the least and the largest are named.
+    # Check only the smallest and the largest of many values.
     for value in (float(found.min()), float(found.max()), *(found.tolist() if one.whole else ())):
         one.check(value)
     if np.unique(found).size < found.size:

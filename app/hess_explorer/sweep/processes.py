@@ -1,8 +1,8 @@
-"""Processes of this machine that compute pieces, each one after the other; one that dies is replaced.
+"""Worker processes on this machine; a process that dies is replaced.
 
-They are programs of their own, to which pieces go by standard input, and come back by standard output.  Those of
-`multiprocessing` would import the main script again, which must be written for that; and a `ProcessPoolExecutor` ends
-with the first of its processes that dies.
+They are separate programs that receive pieces on stdin and return results on stdout.  `multiprocessing` would import
+the user's main script again, which must be written for that, and a `ProcessPoolExecutor` breaks when one of its
+processes dies.
 """
 
 from __future__ import annotations
@@ -23,15 +23,15 @@ from hess_explorer.sweep.work import Chunk, Done, compute
 __all__ = ["processes", "serve"]
 
 _DEATHS = 4
-"""Processes that may die of one piece: another one was perhaps killed."""
+"""Number of processes that may die on one piece before it is given up."""
 _PROTOCOL = 5
 _PROGRAM = "from hess_explorer.sweep.processes import serve; serve()"
 
 
 def serve() -> None:
-    """Compute what comes by standard input until it ends, as it does when who asks is gone."""
+    """Process pieces from stdin until end of file."""
     asked, told = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
-    # What is printed meanwhile does not come between.
+    # Keep other output away from the results.
     os.dup2(2, 1)
     while True:
         try:
@@ -44,7 +44,7 @@ def serve() -> None:
         except WorkersLost as error:
             found = error
         except Exception as error:
-            # As words: who asks may not be able to read it.
+            # As text, because the parent process may not be able to unpickle the exception.
             found = RuntimeError(f"{type(error).__name__}: {error}")
         try:
             pickle.dump(found, told, _PROTOCOL)
@@ -54,7 +54,7 @@ def serve() -> None:
 
 
 class _Process:
-    """One of them; begun again when it has died, until `end`."""
+    """A worker process, which is restarted when it dies, until `end`."""
 
     def __init__(self) -> None:
         self._lock, self._ended = threading.Lock(), False
@@ -64,10 +64,10 @@ class _Process:
         environment = {
             **os.environ,
             "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),
-            # One thread each, in their libraries too.
+            # One thread per process, also in libraries.
             **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1"),
         }
-        # In a session of its own Ctrl-C does not reach it.
+        # A new session, so that Ctrl-C does not reach it.
         return subprocess.Popen(
             [sys.executable, "-c", _PROGRAM],
             env=environment,
@@ -78,7 +78,7 @@ class _Process:
         )
 
     def compute(self, piece: Chunk) -> Done:
-        """One piece.  Raises `WorkersLost` where process after process dies of it."""
+        """Compute a piece.  Raises `WorkersLost` if several processes die on it."""
         for _ in range(_DEATHS):
             child = self._child
             assert child.stdin is not None and child.stdout is not None
@@ -103,7 +103,7 @@ class _Process:
             self._child = self._begun()
 
     def end(self) -> None:
-        """Whatever it computes."""
+        """Kill the process, even if it is computing."""
         with self._lock:
             self._ended = True
         _kill(self._child)
@@ -121,10 +121,7 @@ def _kill(child: subprocess.Popen[bytes]) -> None:
 
 @contextmanager
 def processes(count: int) -> Iterator[Callable[[Chunk], Future[Done]]]:
-    """A function that has a piece computed by one of so many processes, which have begun to load meanwhile.
-
-    Where it is left they are ended, whatever they compute.
-    """
+    """Yield a function that submits a piece to one of `count` processes, which are killed at the end of the block."""
     idle: queue.SimpleQueue[_Process] = queue.SimpleQueue()
     own = [_Process() for _ in range(count)]
     for one in own:
@@ -137,7 +134,7 @@ def processes(count: int) -> Iterator[Callable[[Chunk], Future[Done]]]:
         finally:
             idle.put(one)
 
-    # Each of these threads sleeps while its process computes.
+    # Each thread waits for its process.
     with ThreadPoolExecutor(count, "sweep") as waiting:
         try:
             yield lambda piece: waiting.submit(computed, piece)

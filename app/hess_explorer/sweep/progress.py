@@ -1,4 +1,4 @@
-"""How far a sweep is, and how long it still takes."""
+"""Progress and remaining time of a sweep."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["Clock", "Progress", "Report", "reporting"]
 
 @dataclass(frozen=True)
 class Progress:
-    """Cells done, those that a store had already among them, of all; seconds so far, and left (None: not known yet)."""
+    """Progress of a sweep: cells done (including those from a store), total, seconds so far, seconds left or None."""
 
     done: int
     cells: int
@@ -25,13 +25,13 @@ Report = Callable[[Progress], None]
 
 @contextmanager
 def reporting(progress: bool | Report | None, cells: int, done: int) -> Iterator[Callable[[int], None]]:
-    """A function that is told of each number of cells that are done, and tells the bar (True) or the function given."""
+    """Yield a callback for each number of finished cells, which updates a progress bar (True) or calls `progress`."""
     if progress is None or progress is False:
         yield lambda more: None
     elif progress is True:
         from tqdm.auto import tqdm
 
-        # None: not where nobody looks, as in a file.
+        # None disables the bar unless stderr is a terminal.
         with tqdm(total=cells, initial=done, unit="cell", unit_scale=True, disable=None, dynamic_ncols=True) as bar:
             yield lambda more: (bar.update(more), None)[1]
     else:
@@ -39,7 +39,7 @@ def reporting(progress: bool | Report | None, cells: int, done: int) -> Iterator
 
 
 class Clock:
-    """Called with each number of cells that are done, it tells of all of them."""
+    """Callback that adds up finished cells and reports a `Progress`."""
 
     def __init__(self, report: Report, cells: int, done: int) -> None:
         self._report, self._cells, self._done, self._before = report, cells, done, done
@@ -47,7 +47,7 @@ class Clock:
         self(0)
 
     def __call__(self, more: int) -> None:
-        """So many more cells are done."""
+        """Count `more` finished cells."""
         self._done += more
         seconds, now = time.monotonic() - self._begun, self._done - self._before
         left = seconds / now * (self._cells - self._done) if now else None

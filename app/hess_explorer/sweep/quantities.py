@@ -1,7 +1,7 @@
-"""The quantities that can be swept, as data: to add one is to add an entry, with the function that computes a cell.
+"""The quantities that can be swept, as data.  A new quantity is a new entry with a function that computes it.
 
-`one_by_one` makes of a function of one cell one of many.  Those that the mechanics compute at many places at once
-(`values_at`) are called so.
+`one_by_one` turns a function of one cell into a function of many cells.  Quantities with a vectorized function
+(`values_at`) call it directly.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ def _critical_a(level: Level, h: float, f: float) -> Cell:
 
 @lru_cache(maxsize=256)
 def _scattered(body: SuslovBody, level: Level) -> Scattering:
-    """Many cells of a sweep over angles have the same body."""
+    """Return the cached scattering of a body; many cells of a sweep over angles share it."""
     return scattering(body, level)
 
 
@@ -252,11 +252,11 @@ _TABLE: tuple[Quantity, ...] = (
 )
 
 QUANTITIES: Mapping[str, Quantity] = {one.name: one for one in _TABLE}
-"""By name."""
+"""All quantities by name."""
 
 
 def quantity(name: str) -> Quantity:
-    """The quantity of this name.  Raises `InvalidParameter`, which lists the names."""
+    """Return the quantity of this name.  Raises `InvalidParameter`, which lists the names."""
     try:
         return QUANTITIES[name]
     except (KeyError, TypeError):

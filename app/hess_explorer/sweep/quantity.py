@@ -1,4 +1,4 @@
-"""What can be swept: a quantity, its parameters, and how each cell of a sweep ended."""
+"""A quantity that can be swept, its parameters, and the status of each cell of a sweep."""
 
 from __future__ import annotations
 
@@ -42,13 +42,13 @@ __all__ = [
 logger = logging.getLogger("hess_explorer")
 
 CellArrays = Mapping[str, Array]
-"""The value of every parameter at each cell, (n,) each."""
+"""The values of each parameter at the cells (n,)."""
 
 Outcomes = NDArray[np.uint8]
 
 
 class Outcome(IntEnum):
-    """How a cell ended.  From 10 on it has no number: the value is NaN, or ∞ where it is beyond double precision."""
+    """Status of a cell.  From 10 on it has no value: NaN, or ∞ if the value exceeds double precision."""
 
     NOT_COMPUTED = 0
     OK = 1
@@ -66,7 +66,7 @@ class Outcome(IntEnum):
 
     @property
     def words(self) -> str:
-        """For people."""
+        """The status in words."""
         return _WORDS[self]
 
 
@@ -101,18 +101,18 @@ _OF_ERROR: tuple[tuple[type[Exception], Outcome], ...] = (
 
 
 def usual(of: Parameter, default: float, doc: str = "") -> Parameter:
-    """Return a parameter with another default; doc : its meaning here, if it says more."""
+    """Return a parameter with another default; doc : replaces its description."""
     return replace(of, default=default, doc=doc or of.doc)
 
 
 def whole(name: str, symbol: str, default: float, low: float, high: float, doc: str) -> Parameter:
-    """Return a parameter of the computation that is a whole number."""
+    """Return an integer parameter of the computation."""
     return Parameter(name, symbol, doc, default, (low, high), 1.0, (low, high), doc, "Computation", whole=True)
 
 
 @dataclass(frozen=True)
 class Cell:
-    """The outcome at one cell: the number or numbers, and its estimated error."""
+    """The result at one cell: its value or values, and the estimated error."""
 
     value: float | tuple[float, ...]
     error: float = math.nan
@@ -121,7 +121,7 @@ class Cell:
 
 @dataclass(frozen=True)
 class Found:
-    """The outcome at cells: values (n,) or (n, m), errors (n,), status (n,), and the sentences of those that failed."""
+    """The results at cells: values (n,) or (n, m), errors (n,), status (n,), and messages of failed cells."""
 
     values: Array
     errors: Array
@@ -134,14 +134,16 @@ Compute = Callable[[CellArrays, Level], Found]
 
 @dataclass(frozen=True)
 class Quantity:
-    """One that can be swept.
+    """A quantity that can be swept.
 
-    compute : its values at cells, each of which does not depend on the others; a `ModelError` says that at least one of
-        the cells has no value.
-    parts : the names of the numbers at one cell; none for a scalar.
-    error : what its error estimate is; empty where there is none.
-    turn : numbers that differ by it are the same, as rotation numbers by 1; 0 where all differ.
-    needed : parameters that have no usual value here and must be given.
+    Attributes
+    ----------
+    compute : returns the values at cells, which are independent of each other; it raises `ModelError` if a cell has no
+        value.
+    parts : names of the numbers at a cell, empty for a scalar.
+    error : description of the error estimate, empty without one.
+    turn : period of the values, for example 1 for rotation numbers; 0 if they are not periodic.
+    needed : names of the parameters without a default.
     """
 
     name: str
@@ -158,16 +160,16 @@ class Quantity:
 
     @property
     def variable(self) -> str:
-        """The name of its variable in a Dataset."""
+        """The name of the variable in a Dataset."""
         return self.name.replace("-", "_")
 
     @property
     def numbers(self) -> int:
-        """How many of them there are at each cell."""
+        """The number of values at each cell."""
         return max(1, len(self.parts))
 
     def parameter(self, name: str) -> Parameter:
-        """The parameter of this name.  Raises `InvalidParameter`, which lists the names."""
+        """Return the parameter of this name.  Raises `InvalidParameter`, which lists the names."""
         for one in self.parameters:
             if one.name == name:
                 return one
@@ -177,9 +179,9 @@ class Quantity:
 
 
 def refused(error: Exception, cell: Mapping[str, float]) -> tuple[Outcome, str]:
-    """How a cell ended that raised, and the sentence; what is not an error of the mechanics goes to the log.
+    """Return the status and message of a cell that raised an error; unexpected errors are logged.
 
-    Raises `Abandoned`, `OverBudget` again: these are of no cell, and end them all.
+    Raises `Abandoned` and `OverBudget` again, because they end the whole computation.
     """
     if isinstance(error, (Abandoned, OverBudget)):
         raise error
@@ -191,7 +193,7 @@ def refused(error: Exception, cell: Mapping[str, float]) -> tuple[Outcome, str]:
 
 
 def one_by_one(function: Callable[..., Cell], parts: int = 0) -> Compute:
-    """`Quantity.compute` from a function of one cell, called with the level and the parameters by name."""
+    """Return a `Quantity.compute` from a function of one cell, called with the level and the parameters by name."""
 
     def compute(cells: CellArrays, level: Level) -> Found:
         names = tuple(cells)
@@ -203,7 +205,7 @@ def one_by_one(function: Callable[..., Cell], parts: int = 0) -> Compute:
             try:
                 found = function(level, **dict(zip(names, row, strict=True)))
                 values[i], errors[i], status[i] = found.value, found.error, _OF_STATUS[found.status]
-            # Whatever one cell raises must not end the sweep of a night.
+            # An error in one cell must not stop the sweep.
             except Exception as error:
                 status[i], why[i] = refused(error, dict(zip(names, row, strict=True)))
         return Found(values, errors, status, why)
@@ -212,8 +214,8 @@ def one_by_one(function: Callable[..., Cell], parts: int = 0) -> Compute:
 
 
 def evaluate(quantity: Quantity, cells: CellArrays, level: Level) -> Found:
-    """The quantity at cells.  A cell that has no finite value says why, whatever the function made of it."""
-    # The mechanics check their results for overflow themselves.
+    """Return the quantity at cells; each cell without a finite value has a status and a message."""
+    # `hess_mechanics` checks its results for overflow itself.
     with np.errstate(all="ignore"):
         found = _evaluated(quantity, cells, level)
     finite = np.isfinite(found.values)
@@ -231,7 +233,7 @@ def _evaluated(quantity: Quantity, cells: CellArrays, level: Level) -> Found:
             outcome, said = refused(error, {name: column.item() for name, column in cells.items()})
             shape = (1, len(quantity.parts)) if quantity.parts else 1
             return Found(np.full(shape, np.nan), np.full(1, np.nan), np.full(1, outcome, np.uint8), {0: said})
-    # One cell refuses all: find it by halves.
+    # At least one cell raised an error: find it by bisection.
     middle = count // 2
     first, second = (
         _evaluated(quantity, {name: column[own] for name, column in cells.items()}, level)

@@ -1,8 +1,8 @@
-"""What a sweep gives: an xarray Dataset, collected in memory or in a Zarr store that a second run goes on with.
+"""Collect the results of a sweep in memory or in a resumable Zarr store, and return them as an xarray Dataset.
 
-Chunks of the store are the boxes of the sweep.  Of each box the numbers are written first and the status last, every
-file under another name that it loses when it is whole; so a box whose status is there is done, whenever the run ended.
-A box that cannot be read, or lacks a number that its status promises, is computed again.
+The chunks of the store are the boxes of the sweep.  For each box the values are written first and the status last, each
+file under a temporary name until it is complete.  A box with a status is therefore finished, whenever the run ended.  A
+box that cannot be read, or that lacks a value, is computed again.
 """
 
 from __future__ import annotations
@@ -34,23 +34,23 @@ _PROGRAM = "hess-explorer sweep"
 
 
 def require_libraries() -> None:
-    """Raise `MissingLibrary`, which says what to install."""
+    """Raise `MissingLibrary` unless xarray and Zarr are installed."""
     if any(find_spec(name) is None for name in ("xarray", "zarr")):
         raise MissingLibrary("Sweeps need xarray and Zarr: pip install 'hess-explorer[sweep]'.")
 
 
 class Kept(Protocol):
-    """Where finished boxes go."""
+    """Storage of finished boxes."""
 
     def write(self, box: Box, done: Done) -> None:
-        """Keep a box.  Raises `StoreError`."""
+        """Save a box.  Raises `StoreError`."""
 
     def dataset(self) -> xr.Dataset:
-        """What there is; status 0 where nothing is computed yet."""
+        """Return the results; unfinished cells have the status 0."""
 
     @property
     def said(self) -> str:
-        """Where that is, and how to go on: a sentence."""
+        """A sentence on where the results are and how to resume."""
 
 
 def _slices(box: Box) -> tuple[slice, ...]:
@@ -58,7 +58,7 @@ def _slices(box: Box) -> tuple[slice, ...]:
 
 
 def _names(what: Quantity) -> tuple[str, ...]:
-    """The arrays of a sweep in the order in which a box is written: the status last."""
+    """Return the names of the arrays in the order of writing, with the status last."""
     return what.variable, *(("error",) if what.error else ()), "status"
 
 
@@ -68,7 +68,7 @@ def _write(arrays: Mapping[str, Any], box: Box, done: Done) -> None:
 
 
 def _empty(what: Quantity, grid: SweepGrid, level: str, filled: Callable[[tuple[int, ...], Any], Any]) -> xr.Dataset:
-    """A Dataset with names, units and words, without a finished cell; filled(shape, value) : an array of any kind."""
+    """Return a Dataset without finished cells; filled(shape, value) : creates an array."""
     known = {one.name: one for one in what.parameters}
     axes = {
         name: (
@@ -106,16 +106,16 @@ class Memory:
         self._arrays = {name: self._dataset[name].values for name in _names(what)}
 
     def write(self, box: Box, done: Done) -> None:
-        """Keep a box."""
+        """Save a box."""
         _write(self._arrays, box, done)
 
     def dataset(self) -> xr.Dataset:
-        """What there is."""
+        """Return the results."""
         return self._dataset
 
 
 class Store:
-    """Finished boxes in a folder, as Zarr."""
+    """Finished boxes in a Zarr store."""
 
     def __init__(self, path: Path, what: Quantity) -> None:
         """Open the store.  Raises `StoreError`."""
@@ -131,7 +131,7 @@ class Store:
 
     @classmethod
     def create(cls, path: Path, what: Quantity, grid: SweepGrid, level: str, shape: tuple[int, ...]) -> Store:
-        """Make a store with boxes of this shape, nothing in it.  Raises `StoreError`."""
+        """Create an empty store with boxes of this shape.  Raises `StoreError`."""
         from zarr.codecs import Crc32cCodec, ZstdCodec
 
         empty = _empty(what, grid, level, lambda of, value: np.broadcast_to(value, of))
@@ -154,7 +154,7 @@ class Store:
                     dimension_names=one.dims,
                     attributes=one.attrs,
                 )
-            # Whole or not at all.
+            # Renaming makes the creation atomic.
             begun.rename(path)
         except OSError as error:
             raise StoreError(f"{str(path)!r} cannot be written ({error.strerror}); choose another folder.") from error
@@ -162,11 +162,11 @@ class Store:
 
     @property
     def said(self) -> str:
-        """Where it is."""
+        """A sentence on where the results are and how to resume."""
         return f"What is done is kept in {str(self.path)!r}: the same sweep goes on there."
 
     def require(self, grid: SweepGrid, level: str) -> None:
-        """Raise `OtherSweep` unless this is what the store was made for."""
+        """Raise `OtherSweep` if the store was created for a different sweep."""
         held = _group(self.path, "r").attrs
         wanted = {"quantity": self._what.name, "level": level, "version": version()}
         for name, value in wanted.items():
@@ -190,25 +190,25 @@ class Store:
         )
 
     def has(self, box: Box) -> bool:
-        """Whether this box is done, and can be read."""
+        """Return True if this box is finished and readable."""
         own = _slices(box)
         try:
             values, *_, status = (array[own] for array in self._arrays.values())
-        # Whatever the decoder says of a file that is not whole.
+        # The decoder raises many types of errors for an incomplete file.
         except (OSError, ValueError, RuntimeError):
             return False
         known = (status >= Outcome.OK) & (status < Outcome.OUTSIDE_REGION)
         return bool(status.all() and np.isfinite(values[known]).all())
 
     def write(self, box: Box, done: Done) -> None:
-        """Keep a box: the status last."""
+        """Save a box, with the status last."""
         try:
             _write(self._arrays, box, done)
         except OSError as error:
             raise StoreError(f"{str(self.path)!r} cannot be written ({error.strerror}).  {self.said}") from error
 
     def dataset(self) -> xr.Dataset:
-        """What there is; read at once, or where it is more than a sweep may usually have, when it is looked at."""
+        """Return the results, loaded up to `MAX_NUMBERS` values and lazily above that."""
         return read(self.path)
 
 
@@ -222,16 +222,29 @@ def _group(path: Path, mode: Any) -> Any:
 
 
 def read(path: str | Path) -> xr.Dataset:
-    """The Dataset in the store of a sweep, finished or not, or in the file of a chart that the page has saved.
+    """Return the Dataset of a saved sweep, finished or not, or of a chart that the page has saved.
 
-    It is read at once up to `MAX_NUMBERS`.  Raises `StoreError`.
+    Parameters
+    ----------
+    path : str or Path
+        Folder of the store, or file of the chart.
+
+    Returns
+    -------
+    xarray.Dataset
+        The results, loaded into memory up to `MAX_NUMBERS` values and lazily above that.
+
+    Raises
+    ------
+    StoreError
+        If there is no store or chart, or a part of it cannot be read.
     """
     require_libraries()
     import xarray as xr
 
     path = Path(path)
     if path.is_file():
-        # Charts are of scenes, which sweeps need not know.
+        # Imported here, because only charts depend on scenes.
         from hess_explorer.sweep.chart_file import read_chart
 
         return read_chart(path)
@@ -247,7 +260,7 @@ def read(path: str | Path) -> xr.Dataset:
 
 
 def opened(path: Path, what: Quantity, grid: SweepGrid, level: str) -> Store | None:
-    """The store of this sweep at a place; None where nothing is yet.  Raises `OtherSweep`, `StoreError`."""
+    """Return the store of this sweep, or None if the path does not exist.  Raises `OtherSweep`, `StoreError`."""
     if not path.exists() or (path.is_dir() and not any(path.iterdir())):
         return None
     held = _group(path, "r").attrs.get("quantity")

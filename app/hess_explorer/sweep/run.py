@@ -1,4 +1,4 @@
-"""`sweep`: a quantity over one to three parameters; `explain`: why a cell has no number."""
+"""`sweep` computes a quantity over one to three parameters; `explain` gives the status of a cell."""
 
 from __future__ import annotations
 
@@ -32,17 +32,17 @@ if TYPE_CHECKING:
 __all__ = ["explain", "seconds_of_a_piece", "sweep"]
 
 _SHORTEST, _LONGEST = 0.25, 2.0
-"""Seconds of a piece: long beside what it takes to hand out and to keep one, short enough to lose."""
+"""Duration of a piece in seconds: long compared with the overhead, short enough to lose."""
 _PIECES = 16
-"""Of each worker, so that all end together; fewer where these would be shorter than the shortest."""
+"""Pieces per worker, so that all workers finish at about the same time; fewer if they would be too short."""
 _RATE = 50.0
-"""Pieces a second that are asked of the one scheduler and the one writer, where many work for them."""
+"""Maximum number of pieces per second for the scheduler and the writer."""
 _MOST_NUMBERS = 1_000_000
-"""Of a piece: 8 MB."""
+"""Maximum number of values of a piece, which take 8 MB."""
 
 
 def seconds_of_a_piece(work: float, workers: int) -> float:
-    """How long a piece is to take, of so many seconds of work for so many workers."""
+    """Return the duration of a piece in seconds, for a total work in seconds and a number of workers."""
     least = workers / _RATE
     return min(max(_LONGEST, least), max(_SHORTEST, least, work / (_PIECES * workers)))
 
@@ -64,34 +64,60 @@ def sweep(
     stop: threading.Event | None = None,
     **fixed: float,
 ) -> xr.Dataset:
-    """A quantity over one to three of its parameters.
+    """Compute a quantity over one to three of its parameters.
 
+    Parameters
+    ----------
+    quantity : str
+        A name in `QUANTITIES`, which defines the parameters, their bounds and defaults.
+    over : mapping of str
+        The swept parameters: (low, high, count) for evenly spaced values with both ends, or a list of values.
+    level : str or Level
+        "draft", "standard", "precise" or "reference".
+    store : str or Path, optional
+        Folder of a Zarr store that saves every finished piece.  The same call resumes an interrupted sweep.
+        Simultaneous runs are safe but repeat work.
+    workers : None, "all", int or str
+        None computes in this thread; "all" starts a process per core; an integer is a number of processes; "tcp://…" is
+        the address of a Dask scheduler, whose workers need the same version of this package.
+    progress : bool or callable, optional
+        True shows a progress bar; a function is called with a `Progress`.
+    most_cells : int
+        Maximum number of values.
+    stop : threading.Event, optional
+        Stops the sweep when it is set; unfinished cells have the status 0.
+    **fixed : float
+        Values of the other parameters that differ from their defaults.
+
+    Returns
+    -------
+    xarray.Dataset
+        The values, their `status` (see `Outcome` and `explain`) and, if available, the estimated `error`.  On one kind
+        of processor the values do not depend on `store` and `workers`.
+
+    Raises
+    ------
+    InvalidParameter
+        If a name or a value is not allowed.
+    WorkLimit
+        If the sweep has too many values.
+    MissingLibrary
+        If a required library is not installed.
+    StoreError
+        If the store cannot be read or written.
+    OtherSweep
+        If the store contains a different sweep.
+    WorkersLost
+        If the workers cannot be reached or die.
+    Interrupted
+        On Ctrl-C, with the finished cells.
+
+    Examples
+    --------
     >>> from hess_explorer.sweep import sweep
     >>> found = sweep("rotation-number", over={"h": (1.2, 1.6, 3), "f": [0.1, 0.6]}, a=0.5)
     >>> found.rotation_number.dims, found.status.values.tolist()
     (('h', 'f'), [[1, 1], [1, 1], [1, 1]])
-
-    Parameters
-    ----------
-    quantity : a name in `QUANTITIES`, which has its parameters, their bounds and defaults.
-    over : for each swept parameter (low, high, count), even places with both ends, or a list of values.
-    level : "draft", "standard", "precise" or "reference", or `hess_mechanics.level` of one of these names.
-    store : a folder that keeps every finished piece (Zarr).  The same call goes on with what is there, however the run
-        before it ended.  Two runs at once do the work twice, and no harm.
-    workers : None, this thread; "all", a process for each core; a number of processes; or "tcp://…", a Dask cluster,
-        whose workers have this package.
-    progress : True for a bar; or a function, called with a `Progress`.
-    most_cells : how many numbers are allowed.
-    stop : when it is set, what is done is returned; cells that are not have the status 0.
-    fixed : the other parameters, where they are not the defaults.
-
-    Returns the values, their `status` (see `Outcome`; `explain` gives the sentence) and, where one is known, the
-    estimated `error`.  Values do not depend on `store` and `workers`: not in one bit, on one kind of processor.
-
-    Raises
-    ------
-    InvalidParameter, WorkLimit, MissingLibrary, StoreError, OtherSweep, WorkersLost;
-    Interrupted : Ctrl-C.  It has what is done, as `dataset`.
     """
     require_libraries()
     what, level = named(quantity), as_level_name(level)
@@ -147,7 +173,7 @@ def _size(box: Box) -> int:
 
 @contextmanager
 def _ctrl_c() -> Iterator[threading.Event]:
-    """An event that the first Ctrl-C sets, so that it ends no library in the middle of something; the second raises."""
+    """Yield an event that the first Ctrl-C sets instead of interrupting a library; the second one raises."""
     pressed = threading.Event()
     if threading.current_thread() is not threading.main_thread():
         yield pressed
@@ -166,17 +192,34 @@ def _ctrl_c() -> Iterator[threading.Event]:
 
 
 def explain(found: xr.Dataset, **cell: float) -> str:
-    """How the cell at these coordinates ended, in a sentence: it is computed once more.
+    """Return a sentence on the status of a cell, which is computed once more.
 
-    Raises `InvalidParameter` where the sweep has no such cell, `StoreError` where `found` is none of `sweep`.
+    Parameters
+    ----------
+    found : xarray.Dataset
+        A result of `sweep` or `read`.
+    **cell : float
+        Coordinates of the cell by name.
+
+    Returns
+    -------
+    str
+        The message of a failed cell, otherwise its status in words.
+
+    Raises
+    ------
+    InvalidParameter
+        If the coordinates do not match the sweep.
+    StoreError
+        If the Dataset is not a result of `sweep`.
     """
     if "quantity" not in found.attrs:
-        raise StoreError("This Dataset is not of a sweep: give one that `sweep` or `read` has returned.")
+        raise StoreError("This Dataset is not of a sweep: pass one that `sweep` or `read` has returned.")
     axes = tuple(map(str, found.status.dims))
     if set(cell) != set(axes):
         raise InvalidParameter(f"A cell of this sweep has coordinates {', '.join(axes)}: give each.")
     if "state" in found.attrs:
-        # Of a chart, whose cells are states of a scene.
+        # The cells of a chart are states of a scene.
         from hess_explorer.sweep.chart_file import chart_of
 
         return chart_of(found).why(*(cell[name] for name in axes))

@@ -1,4 +1,4 @@
-"""One piece of work of a sweep, as a worker gets it and gives it back; and what a cell costs, measured beforehand."""
+"""A unit of work of a sweep, its result, and the measured cost of a cell."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ __all__ = ["Chunk", "Done", "compute", "cost_of_a_cell", "version"]
 
 @cache
 def version() -> str:
-    """Of this package: numbers of two versions are not mixed."""
+    """Return the version of this package; results of different versions are not mixed."""
     try:
         return metadata.version("hess-explorer")
     except metadata.PackageNotFoundError:
@@ -31,7 +31,7 @@ def version() -> str:
 
 @dataclass(frozen=True)
 class Chunk:
-    """A box of cells: the parts of the axes, in their order, and everything else by name; a few kilobytes."""
+    """A box of cells to compute: its parts of the axes, and all other inputs; a few kilobytes."""
 
     quantity: str
     level: str
@@ -42,9 +42,9 @@ class Chunk:
 
 @dataclass(frozen=True)
 class Done:
-    """The outcome at the cells of a box, in its shape; values with one more axis where there are several at a cell.
+    """The results of a box in its shape; values have one more axis for several numbers per cell.
 
-    errors : one array, none where the quantity has no estimate.
+    errors : one array, empty without an error estimate.
     """
 
     values: Array
@@ -53,7 +53,7 @@ class Done:
 
 
 def compute(piece: Chunk) -> Done:
-    """Compute a box.  Raises `WorkersLost` where this process has another version than the one that asks."""
+    """Compute a box.  Raises `WorkersLost` if this process has another version than the caller."""
     if piece.version != version():
         raise WorkersLost(
             f"A worker has version {version()} of hess-explorer, and {piece.version} is asked for: "
@@ -70,16 +70,16 @@ def compute(piece: Chunk) -> Done:
 
 
 _LONG_ENOUGH = 0.05
-"""Seconds of a trial that say what a cell costs."""
+"""Minimum duration in seconds of a trial that measures the cost of a cell."""
 _PART = 128
-"""A trial takes no more than this part of all cells."""
+"""A trial computes at most this fraction (1/128) of all cells."""
 _PLACES = 4
 
 
 def cost_of_a_cell(what: Quantity, grid: SweepGrid, accuracy: Level) -> float:
-    """Seconds, from trials at random places that grow until they take long enough; ∞ where there are few cells.
+    """Return the cost of a cell in seconds, from trials at random cells of growing size; ∞ for few cells.
 
-    The first cell is not counted: its kernels are compiled, or loaded.
+    The first cell is not counted, because it compiles or loads kernels.
     """
     if grid.cells <= _PART // 4:
         return float("inf")
@@ -96,7 +96,7 @@ def cost_of_a_cell(what: Quantity, grid: SweepGrid, accuracy: Level) -> float:
 def _trial(
     what: Quantity, grid: SweepGrid, accuracy: Level, count: int, random: np.random.Generator
 ) -> tuple[int, float]:
-    """Cells computed, and seconds: of some boxes, as they will be computed together."""
+    """Return the number of cells and the seconds of a trial on some boxes."""
     places = min(_PLACES, count)
     shape = grid.box_of(count / places)
     cells, begun = 0, time.perf_counter()

@@ -1,7 +1,7 @@
-"""Who computes: this thread, processes of this machine, or the workers of a Dask cluster.
+"""Workers of a sweep: this thread, processes of this machine, or the workers of a Dask cluster.
 
-The last two are one code path from the pieces to what is kept.  A cluster on this machine would be one more process
-that computes nothing, and takes longer over a piece than a pipe to a process does.
+Processes and cluster share one code path.  A local cluster in place of processes would add a scheduler process and more
+overhead per piece than a pipe.
 """
 
 from __future__ import annotations
@@ -26,33 +26,33 @@ if TYPE_CHECKING:
 __all__ = ["Crew", "WorkerCount", "crew"]
 
 WorkerCount = str | int | None
-"""None: this thread; "all": a process for each core; a number of processes; the address of a Dask scheduler."""
+"""None for this thread, "all" for a process per core, a number of processes, or the address of a Dask scheduler."""
 
 Chunks = Iterable[tuple[Box, Chunk]]
 
 _WAIT = 60.0
-"""Seconds that a cluster has to answer, and a worker to appear."""
+"""Timeout in seconds for the cluster to respond with at least one worker."""
 _LOOK = 0.2
-"""Seconds after which it is asked whether to stop."""
+"""Interval in seconds for checking the stop flag."""
 _COUNT_AGAIN = 5.0
-"""Seconds after which the workers are counted again."""
+"""Interval in seconds for counting the workers."""
 _AHEAD = 3
-"""Pieces that are handed out, for each who computes: the next one is there when one is done."""
+"""Queued pieces per worker, so that no worker is idle."""
 
 
 class Crew(Protocol):
-    """Those who compute pieces."""
+    """A group of workers."""
 
     @property
     def size(self) -> int:
-        """How many at a time."""
+        """The number of workers."""
 
     def run(self, pieces: Chunks, stopped: Callable[[], bool]) -> Iterator[tuple[Box, Done]]:
-        """Each piece's outcome as it is done, in any order, until `stopped`.  Raises `WorkersLost`."""
+        """Yield the results of the pieces in any order, until `stopped`.  Raises `WorkersLost`."""
 
 
 class _Here:
-    """This thread alone."""
+    """This thread as the only worker."""
 
     size = 1
 
@@ -64,7 +64,7 @@ class _Here:
 
 
 class _Others:
-    """`count` says how many there are, `submit` has a piece computed."""
+    """Workers outside of this process; submit : queues a piece; count : returns the number of workers."""
 
     def __init__(self, submit: Callable[[Chunk], Future[Done]], count: Callable[[], int]) -> None:
         self._submit, self._count = submit, count
@@ -97,7 +97,7 @@ class _Others:
                     raise
                 except CancelledError as error:
                     raise _gone() from error
-                # A piece that several workers died of, or that a worker could not even read; the others go on.
+                # Several workers died on this piece, or a worker could not read it; the other pieces go on.
                 except Exception as error:
                     lost.append(error)
                     continue
@@ -120,7 +120,7 @@ def _gone() -> WorkersLost:
 
 @contextmanager
 def crew(workers: WorkerCount, stopped: Callable[[], bool]) -> Iterator[Crew]:
-    """Who computes; it waits for workers until `stopped`.  Raises `InvalidParameter`, `WorkersLost`."""
+    """Yield the workers, after waiting for them until `stopped`.  Raises `InvalidParameter`, `WorkersLost`."""
     wanted = _cores() if workers == "all" else workers
     if wanted is None or wanted == 1:
         yield _Here()
@@ -149,7 +149,7 @@ def _threads(client: Client) -> int:
 
 
 def _connected(stack: ExitStack, address: str, stopped: Callable[[], bool]) -> Client:
-    """A client of the scheduler there, when a worker has come.
+    """Return a client of the scheduler as soon as it has a worker.
 
     Raises `InvalidParameter`, `MissingLibrary`, `WorkersLost`.
     """
