@@ -2,7 +2,7 @@
 
 Public are the names in `__all__` of the packages below, and the public methods and properties of these classes.  A
 class documents its fields as Parameters, or as Attributes where its users do not construct it.  Functions also need
-Examples.  `--all` ignores the list of names that are not valid yet.
+Examples.
 """
 
 from __future__ import annotations
@@ -24,7 +24,6 @@ from numpydoc.validate import Validator, validate
 
 PACKAGES = ("hess_mechanics", "hess_explorer")
 CONFIGURATION = Path(__file__).parents[1] / "pyproject.toml"
-PENDING = Path(__file__).with_name("docstrings-pending.txt")
 MEMBERS = (FunctionType, property, classmethod, functools.cached_property)
 OPENING = re.compile(r"(What|Whether|Who|Whose|Of|How|Where|Which)\b")
 
@@ -84,15 +83,10 @@ def errors_of(name: str, ignored: set[str]) -> list[str]:
 def main() -> int:
     """Print all errors, and return 1 where there are any."""
     checks = tomllib.loads(CONFIGURATION.read_text(encoding="utf-8"))["tool"]["numpydoc_validation"]["checks"]
-    pending = set(PENDING.read_text(encoding="utf-8").split()) if PENDING.exists() else set()
     wrong = {name: errors for name in public_names() if (errors := errors_of(name, set(checks[1:])))}
-    shown = wrong if "--all" in sys.argv else {name: wrong[name] for name in wrong if name not in pending}
-    for name, errors in shown.items():
+    for name, errors in wrong.items():
         print(name, *errors, sep="\n    ")
-    if done := sorted(pending - set(wrong)):
-        print("These are valid now; take them off the list:", *done)
-    print(f"{len(wrong)} names are not valid, {len(shown)} of them shown")
-    return int(bool(shown))
+    return int(bool(wrong))
 
 
 if __name__ == "__main__":
