@@ -1,4 +1,4 @@
-"""Lessons: the Markdown files of this package, and what the scenes say under "Try this"."""
+"""Lessons: the Markdown files of this package, and the "Try this" sections of the scenes."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ __all__ = ["shipped", "tries"]
 
 @cache
 def shipped() -> Mapping[str, Lesson]:
-    """The lessons of this package by name, the longest first."""
+    """Return the lessons of this package by name, the longest first."""
     found = map(read_file, Path(__file__).parent.glob("*.md"))
     return {lesson.name: lesson for lesson in sorted(found, key=lambda lesson: (-lesson.minutes, lesson.title))}
 
 
 @cache
 def tries() -> Mapping[str, Lesson]:
-    """What can be tried, by the name of the scene; those that look into another scene have no own."""
+    """Return the "Try this" sections by scene, except for scenes that show another scene's state."""
     found = {scene.name: read_tries(scene) for scene in scenes().values() if scene.origin is None}
     return {name: lesson for name, lesson in found.items() if lesson is not None}

@@ -1,4 +1,4 @@
-"""What a lesson is: steps, each a text, a state of a scene, and what is done with it."""
+"""A lesson: steps with a text, a state of a scene, and an optional animation, question or prediction."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from hess_explorer.protocol.parameters import Values
 __all__ = ["TIME", "Animation", "Lesson", "LessonError", "LessonStep", "Prediction", "StateLink"]
 
 TIME = "time"
-"""Animated like a parameter: it is that of the player."""
+"""Name of the player's time, which can be animated like a parameter."""
 
 
 class LessonError(Exception):
-    """A lesson that cannot be given: file, line, what is wrong and what to write.
+    """A lesson file is invalid; the error names file, line, problem and remedy.
 
-    message : with what is allowed; line : of the file, from 1.
+    message : the problem and what is allowed; line : line of the file, from 1.
     """
 
     def __init__(self, message: str, line: int, file: str = "") -> None:
@@ -26,7 +26,7 @@ class LessonError(Exception):
 
 @dataclass(frozen=True)
 class StateLink:
-    """A state of a scene: all its values, within their bounds."""
+    """A state of a scene: the values of all parameters, within their bounds."""
 
     scene: str
     values: Values
@@ -34,7 +34,7 @@ class StateLink:
 
 @dataclass(frozen=True)
 class Animation:
-    """A number of the scene, or `TIME`, that goes from `start` to `end` in so many seconds."""
+    """A parameter of the scene, or `TIME`, that changes from `start` to `end` within `seconds`."""
 
     name: str
     start: float
@@ -44,11 +44,13 @@ class Animation:
 
 @dataclass(frozen=True)
 class Prediction:
-    """What the audience places in a picture before it is there.
+    """A layer of a picture whose position the audience guesses before it is shown.
 
-    picture, layer : what is the truth, in the state `then`, which is shown when it is revealed.
-    source, columns : where the browser finds it: positions (x, y), or those of curves.
-    what : "point": one click, the truth is the nearest of the points; "curve": clicks along a curve.
+    Attributes
+    ----------
+    picture : the picture; layer : its hidden layer, shown in the state `then`; source, columns : data of the layer in
+    the browser, positions (x, y) of points or curves; what : "point" for one click, compared with the nearest point,
+    "curve" for clicks along a curve.
     """
 
     picture: str
@@ -61,9 +63,9 @@ class Prediction:
 
 @dataclass(frozen=True)
 class LessonStep:
-    """One page of a lesson.
+    """One step of a lesson.
 
-    text, answer : Markdown; `answer` is hidden until it is asked for.  look : the picture to look at, "" for all alike.
+    text, answer : Markdown; the answer is hidden at first.  look : name of the picture to enlarge, "" for none.
     """
 
     title: str
@@ -76,10 +78,10 @@ class LessonStep:
     prediction: Prediction | None = None
 
 
-# Its values are a mapping: it is equal to itself alone.
+# Compared by identity, because the values of states are mappings, which are not hashable.
 @dataclass(frozen=True, eq=False)
 class Lesson:
-    """A lesson; name : as in a link; minutes : how long it takes, 0 if nobody counts them."""
+    """A lesson; name : as in a link; minutes : its duration, 0 if unknown."""
 
     name: str
     title: str

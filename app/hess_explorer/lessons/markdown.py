@@ -1,4 +1,4 @@
-"""Markdown of a lesson: HTML in it is shown as text, formulas are MathML, pictures from elsewhere are not asked for."""
+"""Convert the Markdown of a lesson to HTML: embedded HTML is escaped, formulas become MathML, images are disabled."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ _SHOWN = 40
 
 
 class _BadFormula(ValueError):
-    """Not set, or more than a formula."""
+    """The formula cannot be converted, or contains more than MathML."""
 
 
 def _formula(latex: str, options: dict[str, Any]) -> str:
-    """MathML.  Text in a formula is not escaped by the library: so nothing but elements of MathML comes out of here."""
+    """Return a formula as MathML; only elements of MathML are accepted, because the library does not escape text."""
     try:
         found: str = convert(latex, display="block" if options["display_mode"] else "inline")
         parts = list(ElementTree.fromstring(found).iter())
-    # The library has errors of many types.
+    # The library raises errors of many types.
     except Exception as error:
         raise _BadFormula(latex) from error
     if not all(_ELEMENT.fullmatch(part.tag) and "href" not in part.attrib for part in parts):
@@ -39,15 +39,32 @@ def _formula(latex: str, options: dict[str, Any]) -> str:
 
 @cache
 def parser() -> MarkdownIt:
-    """CommonMark with tables, formulas and front matter."""
+    """Return a parser for CommonMark with tables, formulas and front matter."""
     found = MarkdownIt("commonmark", {"html": False}).enable("table").disable("image")
     return found.use(front_matter_plugin).use(dollarmath_plugin, renderer=_formula, allow_space=False)
 
 
 def to_html(text: str, line: int = 1, inline: bool = False) -> str:
-    """HTML of Markdown that begins in this line, without paragraphs if `inline`.
+    """Return Markdown as HTML.
 
-    Raises `LessonError` for a formula that cannot be set.
+    Parameters
+    ----------
+    text : str
+        The Markdown.
+    line : int
+        Line of the file at which the text begins, for error messages.
+    inline : bool
+        True for text without paragraphs.
+
+    Returns
+    -------
+    str
+        The HTML.
+
+    Raises
+    ------
+    LessonError
+        If a formula cannot be converted.
     """
     try:
         html: str = parser().renderInline(text) if inline else parser().render(text)

@@ -1,7 +1,7 @@
-"""How a lesson is written: one Markdown file.
+"""Read a lesson from a Markdown file.
 
-Front matter has `title` and `minutes`.  Each heading of the second level begins a step.  A fence with the word `step`
-says, as YAML, what belongs to it; headings one level down, "Question" and "Answer", what is asked:
+The front matter has `title` and `minutes`.  Each heading of the second level begins a step.  A code fence named `step`
+contains its settings as YAML; the headings "Question" and "Answer" one level down are optional:
 
     ---
     title: Two cycles are born
@@ -18,9 +18,9 @@ says, as YAML, what belongs to it; headings one level down, "Question" and "Answ
     ### Question
     ### Answer
 
-`state` is a link as the page gives it; `example: Two limit`, the beginning of the name of an example of that scene, may
-stand in its place.  A step without either stays where the last one has come to.  "Try this" of a scene is a section of
-its words with steps two levels down.
+`state` is a link of the page.  `example: Two limit`, the beginning of the name of an example of the scene, can replace
+it.  A step without both keeps the state of the previous step.  The section "Try this" of a scene has steps two levels
+down.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ _CURVES, _POINTS = ("multi_line", "line"), ("scatter",)
 
 
 def read_file(path: Path) -> Lesson:
-    """The lesson in a file, whose name it has.  Raises `LessonError`."""
+    """Return the lesson in a file, named after the file.  Raises `LessonError`."""
     try:
         with path.open("rb") as file:
             raw = file.read(MAX_BYTES + 1)
@@ -72,7 +72,7 @@ def read_file(path: Path) -> Lesson:
 
 
 def read(text: str, name: str) -> Lesson:
-    """A lesson.  Raises `LessonError`."""
+    """Return the lesson in a Markdown text.  Raises `LessonError`."""
     first = next(iter(parser().parse(text)), None)
     if first is None or first.type != "front_matter":
         raise LessonError("the file begins with front matter: --- above and below title: and minutes:.", 1)
@@ -86,19 +86,19 @@ def read(text: str, name: str) -> Lesson:
 
 
 def read_tries(scene: Scene[Any]) -> Lesson | None:
-    """What a scene's words say under "Try this", as steps; None where they do not.  Raises `LessonError`."""
+    """Return the section "Try this" of a scene as a lesson, or None if it has none.  Raises `LessonError`."""
     lines = scene.words.split("\n")
     begin, end = _section(lines)
     if begin == end:
         return None
-    # At their lines in the file, for messages.
+    # Keep the line numbers of the file, for error messages.
     text = "\n" * (begin + 1) + "\n".join(lines[begin + 1 : end])
     steps = _steps(text, 4, StateLink(scene.name, scene.defaults()))
     return Lesson(scene.name, f"{TRY_THIS}: {scene.title}", 0.0, steps)
 
 
 def without_tries(words: str) -> str:
-    """The words of a scene without that section."""
+    """Return the text of a scene without the section "Try this"."""
     lines = words.split("\n")
     begin, end = _section(lines)
     return "\n".join([*lines[:begin], *lines[end:]])
@@ -114,7 +114,7 @@ def _section(lines: list[str]) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class _Part:
-    """What is between a heading and the next; line : of its first line, from 1."""
+    """The text from a heading to the next one; line : number of its first line, from 1."""
 
     title: str
     text: str
@@ -124,7 +124,7 @@ class _Part:
 
 
 def _parts(text: str, tag: str) -> Iterator[_Part]:
-    """The parts under the headings of one level, with what their fences named `step` say."""
+    """Yield the parts under the headings of one level, with the contents of their `step` fences."""
     lines = text.split("\n")
     tokens = [token for token in parser().parse(text) if token.level == 0]
     heads = [
@@ -160,9 +160,9 @@ def _line(token: Token) -> int:
 
 
 def _fields(text: str, line: int, allowed: tuple[str, ...]) -> dict[str, Any]:
-    """A mapping of YAML with these keys at most."""
+    """Return a YAML mapping, whose keys must be among the allowed ones."""
     try:
-        # Anchors could make much of little.
+        # Aliases could expand a short text to a huge structure.
         if any(isinstance(event, yaml.AliasEvent) for event in yaml.parse(text, yaml.SafeLoader)):
             raise LessonError("references with * are not read here: write it out.", line)
         found = yaml.safe_load(text)
@@ -249,7 +249,7 @@ def _step(part: _Part, tag: str, place: StateLink | None) -> LessonStep:
 
 
 def _split(part: _Part, tag: str) -> tuple[str, dict[str, str]]:
-    """The text before the question, and {"question", "answer"}."""
+    """Return the text before the question, and a mapping with "question" and "answer"."""
     found = {one.title.lower(): one for one in _parts(part.text, tag)}
     extra = [one for name, one in found.items() if name not in ("question", "answer")]
     if extra:
@@ -275,7 +275,7 @@ def _not_one(what: str, given: object, allowed: tuple[str, ...]) -> str:
 
 
 def _place(link: object, line: int) -> StateLink:
-    """The state that a link names: of a scene, each value within its bounds."""
+    """Return the state of a link, each value within its bounds."""
     query = urlsplit(link).query if isinstance(link, str) else ""
     given = dict(parse_qsl(query, keep_blank_values=True))
     scene = scenes().get(given.get("scene", ""))
@@ -301,7 +301,7 @@ def _place(link: object, line: int) -> StateLink:
 
 
 def _example(begins: object, place: StateLink | None, line: int) -> StateLink:
-    """The example of the scene whose name begins so."""
+    """Return the state of the example whose name begins with this text."""
     scene = next(iter(scenes().values())) if place is None else scenes()[place.scene]
     found = [one for one in scene.presets if isinstance(begins, str) and begins and one.name.startswith(begins)]
     if len(found) != 1:
