@@ -43,7 +43,7 @@ def test_an_example_of_the_leak_is_drawn_with_the_rate_of_its_caption(leak, pres
     assert_painted(leak, LEAK)
 
 
-@pytest.mark.parametrize("preset", sample(BRIDGE.presets, 2), ids=lambda preset: preset.name)
+@pytest.mark.parametrize("preset", BRIDGE.presets, ids=lambda preset: preset.name)
 def test_an_example_of_the_bridge_is_drawn_with_a_difference_of_round_off(bridge, preset):
     # The side on which it is given is part of an example.
     chosen(bridge, BRIDGE, preset)
