@@ -174,6 +174,8 @@ interface SceneDescription {
 /** [value, low, high, step, whether the control is disabled], or the option of a menu. */
 type ControlValue = [number, number, number, number, boolean?] | string
 type Texts = Record<string, string>
+/** The words over a picture, see "views/caption.py". */
+type Caption = { title: string, verdict: string, numbers: string }
 type Progress = [done: number, of: number]
 
 /** A state as a tree; `sources` refers to the block of numbers, see "protocol/wire.py". */
@@ -181,6 +183,7 @@ interface Tree {
   sources: Record<string, Record<string, unknown>>
   ranges: Record<string, [number, number, number, number]>
   texts: Texts
+  captions: Record<string, Caption>
   controls: Record<string, ControlValue>
 }
 
@@ -442,6 +445,7 @@ interface PageEvents {
   // From the client
   enter: SceneDescription
   texts: Texts
+  captions: Record<string, Caption>
   controls: Record<string, ControlValue>
   progress: Progress | null
   client: ClientKeys

@@ -100,6 +100,7 @@ export function startClient(model, view) {
     Object.assign(latest.texts, tree.texts)
     Object.assign(latest.controls, tree.controls)
     tell("texts", tree.texts)
+    tell("captions", tree.captions)
     // Controls that were moved since the request keep their values.
     tell("controls", Object.fromEntries(
       Object.entries(tree.controls).filter(([name]) => !requests.hasMoved(name, answers))))

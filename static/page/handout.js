@@ -33,8 +33,9 @@ function numbersOf({ controls }, values, t) {
 }
 
 /** @param {ReturnType<typeof gallery.shoot>[number]} shot */
-function figureOf([title, said, canvas]) {
-  return element("figure", canvas, element("figcaption", element("strong", title), ` ${said}`))
+function figureOf([title, verdict, numbers, canvas]) {
+  return element("figure", canvas,
+    element("figcaption", element("strong", title), " ", element("span", verdict), " ", element("small", numbers)))
 }
 
 /** @param {SceneDescription} scene @param {string} signs */

@@ -48,6 +48,7 @@ async function start() {
   await paint(scene.plots, () => {
     fill(scene, tree, block)
     tell("texts", tree.texts)
+    tell("captions", tree.captions)
   })
   tell("painted")
   document.documentElement.dataset.ready = "true"

@@ -7,7 +7,7 @@ import { element } from "../page/elements.js"
 import { cloudPlane } from "./cloud_plane.js"
 import { planeGhost } from "./ghost.js"
 import { onDark, setDark, setShades, watchTheme } from "./looks.js"
-import { captionOf, createCell, fillTexts, isFolded, isInSight, nameOf, titleOf } from "./picture.js"
+import { captionOf, createCell, fillCaption, fillHover, isFolded, isInSight, nameOf } from "./picture.js"
 import { buildPlot } from "./plot.js"
 import { colourPlot } from "./plot_looks.js"
 import { shootPlot } from "./shots.js"
@@ -139,15 +139,15 @@ function showGhost(taken) {
 }
 
 /**
- * Return [title, caption, canvas] of the pictures in sight, for print.
+ * Return [title, verdict, numbers, canvas] of the pictures in sight, for print.
  * @param {number} side width in pixels
- * @returns {[string, string, HTMLCanvasElement][]}
+ * @returns {[string, string, string, HTMLCanvasElement][]}
  */
 function shoot(side) {
   const wasDark = onDark()
   setDark(false)
-  /** @type {[string, string, HTMLCanvasElement][]} */
-  const shots = gallery.cellsInSight().map((cell) => [titleOf(cell), captionOf(cell), shown.shots.get(nameOf(cell))(side)])
+  /** @type {[string, string, string, HTMLCanvasElement][]} */
+  const shots = gallery.cellsInSight().map((cell) => [...captionOf(cell), shown.shots.get(nameOf(cell))(side)])
   setDark(wasDark)
   colour(shown)
   return shots
@@ -184,7 +184,8 @@ export function render({ el }) {
   stage = createStage(shelf, gallery)
   sayDragMe(besideLayer)
   listen({
-    texts(texts) { for (const cell of shown?.cells ?? []) fillTexts(cell, texts) },
+    captions(captions) { for (const cell of shown?.cells ?? []) fillCaption(cell, captions) },
+    texts(texts) { for (const cell of shown?.cells ?? []) fillHover(cell, texts) },
     // In the frame after a state, when the browser computes styles anyway.
     painted: () => requestAnimationFrame(followTheme),
   })

@@ -24,7 +24,7 @@ export function createCell({ name, folded, hands }, corner, pointed) {
   const cell = element(`section.picture.picture-${name}`, {
     dataset: { name }, onpointerenter: pointed, onmouseleave: () => { under.hidden = true },
   }, element("h2.text.caption",
-    element("span.title"), "\n", element("span.said")), corner, host, under)
+    element("span.title"), "\n", element("span.verdict"), " ", element("span.numbers")), corner, host, under)
   cell.classList.toggle("folded", folded !== null)
   // The server draws a folded picture when it is unfolded.
   if (folded !== null) cell.dataset.late = ""
@@ -33,27 +33,37 @@ export function createCell({ name, folded, hands }, corner, pointed) {
 
 /** Return the name of a picture. @param {HTMLElement} cell */
 export const nameOf = (cell) => cell.dataset.name
+/** Return a part of the caption. @param {HTMLElement} cell @param {keyof Caption} part */
+const textOf = (cell, part) => cell.querySelector(`.${part}`).textContent
 /** Return the title of a picture. @param {HTMLElement} cell */
-export const titleOf = (cell) => cell.querySelector(".title").textContent
-/** Return the caption of a picture. @param {HTMLElement} cell */
-export const captionOf = (cell) => cell.querySelector(".said").textContent
+export const titleOf = (cell) => textOf(cell, "title")
+/**
+ * Return [title, verdict, numbers] of a picture.
+ * @param {HTMLElement} cell
+ * @returns {[string, string, string]}
+ */
+export const captionOf = (cell) => [titleOf(cell), textOf(cell, "verdict"), textOf(cell, "numbers")]
 /** Return whether a picture is folded. @param {HTMLElement} cell */
 export const isFolded = (cell) => cell.classList.contains("folded")
 /** Return whether a picture is visible. @param {HTMLElement} cell */
 export const isInSight = (cell) => cell.checkVisibility()
 
 /**
- * Fill the texts of a cell that have changed.
+ * Fill a cell with its caption, if that has changed.
  * @param {HTMLElement} cell
- * @param {Texts} texts name → caption, "hover-" and name → line about the place under the mouse
+ * @param {Record<string, Caption>} captions by the names of pictures
  */
-export function fillTexts(cell, texts) {
-  const { [nameOf(cell)]: text, [`hover-${nameOf(cell)}`]: hover } = texts
-  if (text !== undefined) {
-    const [title, ...said] = text.split("\n")
-    cell.querySelector(".title").textContent = title
-    cell.querySelector(".said").textContent = said.join(" ")
-  }
+export function fillCaption(cell, { [nameOf(cell)]: caption }) {
+  if (caption === undefined) return
+  for (const [part, text] of Object.entries(caption)) cell.querySelector(`.${part}`).textContent = text
+}
+
+/**
+ * Fill a cell with the line about the place under the mouse, if that has changed.
+ * @param {HTMLElement} cell
+ * @param {Texts} texts "hover-" and name → line
+ */
+export function fillHover(cell, { [`hover-${nameOf(cell)}`]: hover }) {
   if (hover !== undefined) {
     /** @type {HTMLElement} */
     const under = cell.querySelector(".hover")

@@ -20,8 +20,9 @@ const REDUCE = "M8 4h2v6H4V8h4zm6 0h2v4h4v2h-6zM4 14h6v6H8v-4H4zm10 0h6v2h-4v4h-
 // Heights of captions, in units of the font size.
 const LINE = 1.29
 const AIR = 0.3
-// Length of the longest caption with its title, in letters.
-const LONGEST = 56
+// Widths of the longest title with its verdict, and of the longest line of numbers.
+const HEAD = 32
+const NUMBERS = 36
 // Width of the corner button, on both sides.
 const SIDES = 4.4
 const WIDEST = 34
@@ -40,10 +41,14 @@ function captions(type) {
   const most = isPresenting() ? LARGE_LINES : MOST_LINES
   /** @param {number} width */
   const own = (width) => (isNarrow(width, type) ? SMALLER * type : type)
+  /** @param {number} length @param {number} width */
+  const linesOf = (length, width) => Math.ceil(length / Math.max(1, width / own(width) - SIDES))
   /** @param {number} width */
-  const needed = (width) => Math.max(2, Math.ceil(LONGEST / Math.max(1, width / own(width) - SIDES)))
-  /** @param {number} width */
-  const lines = (width) => (isPresenting() && needed(width) > most ? 1 : Math.min(most, needed(width)))
+  const lines = (width) => {
+    const head = linesOf(HEAD, width)
+    const all = head + linesOf(NUMBERS, width)
+    return Math.min(most, isPresenting() && all > most ? head : all)
+  }
   /** @param {number} count @param {number} size */
   const high = (count, size) => Math.ceil((count * LINE + AIR) * size)
   return Object.assign((/** @type {number} */ width) => high(lines(width), own(width)), { title: high(1, type), wide: WIDEST * type })

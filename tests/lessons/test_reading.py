@@ -142,7 +142,7 @@ def test_every_step_is_admitted_unchanged_and_drawn(lesson, step):
     state = scene.compute(place.values, seen, dragging=False)
     for view in scene.views:
         if view.name in seen:
-            assert view.said(state)
+            assert view.said(state).title
     if step.prediction:
         # There is something to reveal.
         plot = next(view for view in scene.views if view.name == step.prediction.picture)

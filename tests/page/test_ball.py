@@ -73,7 +73,7 @@ def test_an_example_of_the_ball_is_drawn_with_the_numbers_of_its_captions(ball, 
     assert ball.chosen("preset") == preset.name
     xi, start = xi_of(values), start_of(values)
     end = integrate(values, start, [1.3 * values["span"]])[-1]
-    left, joined = said(ball, "sphere", "Leaves the circle Γ = # and comes to Γ = # in the end")
+    left, joined = said(ball, "sphere", "Γ = # at the start, Γ = # at the end")
     assert left == shown(math.cos(values["theta"]))
     assert joined == pytest.approx(end[2:4] @ xi, abs=2e-3)
     ring = ball.data("curve-chosen")
@@ -106,12 +106,12 @@ def test_an_example_with_a_field_is_drawn_with_the_numbers_of_its_captions(field
         place = points(field, "section-repels")[0]
         assert returned(values, place) == pytest.approx(place, abs=1e-5)
         exact = sorted(np.linalg.eigvals(derivative(values, place)), key=abs, reverse=True)
-        assert said(field, "section", "Period 1, saddle with reflection: μ = #, # to #")[:2] == pytest.approx(
-            exact, abs=1e-3
-        )
+        assert said(field, "section", "Period 1, saddle with reflection. Multipliers μ = #, #, to #")[
+            :2
+        ] == pytest.approx(exact, abs=1e-3)
         return
     own = points(field, "section-own")
-    count, cells, of = said(field, "section", "The chosen orbit: # points in # of # cells")
+    count, cells, of = said(field, "section", "Chosen orbit: # points in # of # cells")
     assert (count, of) == (len(own), 1024)
     assert cells == pytest.approx(len(occupied(own)), abs=2)
     if values["drop"] == "all":
@@ -173,7 +173,7 @@ def test_a_click_finds_the_periodic_orbit_next_to_it_and_undo_brings_the_one_bef
     field.change(field.choose, "periodic", "period 1")
     saddle = found("repels")
     page.wait_for_function("(hess.source('section-stable-manifold')?.data.xs ?? []).length > 1")
-    assert "\nPeriod 1, saddle: μ = 2.19, 0.4566 to " in field.caption("section")
+    assert "\nPeriod 1, saddle. Multipliers μ = 2.19, 0.4566, to " in field.caption("section")
     assert "4 of 4 branches of its manifolds are 5 long" in field.text("derived")
     # Its orbit is that in the other pictures, and closes.
     values = {**SECTION.defaults(), "psi": float(saddle[0, 0]), "delta": float(saddle[0, 1])}
@@ -275,7 +275,7 @@ def test_a_map_that_takes_long_is_left_out_with_a_sentence(ball):
     for name, text in {"I13": "1e-3", "I23": "1e-3", "digits": "10"}.items():
         ball.change(ball.type, name, text)
     assert "choose larger I13 or I23, or a smaller 𝒟." in ball.text("notes")
-    assert ball.caption("curve").endswith("Left out: it would take too many steps.")
+    assert ball.caption("curve").endswith("Left out: too many steps.")
     assert_painted(ball, BALL)
     for layer in ("ball", "free", "chosen", "levels"):
         assert flat(ball.data(f"curve-{layer}")) == []
@@ -307,7 +307,7 @@ def test_an_extreme_ball_with_a_field_is_drawn(field, typed):
     if "delta" in typed:
         assert "δ must lie between" in field.text("notes")
     if "b1" in typed:
-        assert "no field" in field.caption("sphere")
+        assert "No field" in field.caption("sphere")
     values = {spec.name: field.shown(spec.name)[0] for spec in SECTION.specs if isinstance(spec, Number)}
     E = values["h"] - math.hypot(values["b1"], values["b2"])
     assert np.max(np.abs(energy_of(values, track(field)) - E)) < 1e-4 * (1.0 + abs(E))

@@ -32,11 +32,11 @@ def test_an_example_of_the_leak_is_drawn_with_the_rate_of_its_caption(leak, pres
     assert leak.chosen("preset") == preset.name
     (curve,) = leak.data("leak-own")["ys"]
     if preset.name in STABLE:
-        (largest,) = said(leak, "leak", "Stable: no cycles, no growth; after 60 periods |r·M| ≤ #.")
+        (largest,) = said(leak, "leak", "Stable: no cycles, no growth. After 60 periods |r·M| ≤ #.")
         assert max(curve) == pytest.approx(math.log10(largest), abs=0.05)
         assert largest < 3e-14
     else:
-        measured, _, exact = said(leak, "leak", "grows by # a period over # of them; exact #.")
+        measured, _, exact = said(leak, "leak", "ln |r·M|: # per period, measured over # periods; exact #.")
         expected = 2.0 * math.pi * abs(torus(values)[0]) if values["f"] == 0.0 else exact_growth(preset.name)
         assert (measured, exact) == (pytest.approx(expected, rel=1e-4), pytest.approx(expected, rel=1e-5))
         assert curve[-1] > -4.0
@@ -60,7 +60,7 @@ def test_an_example_of_the_bridge_is_drawn_with_a_difference_of_round_off(bridge
 def test_a_slider_changes_the_rate_and_a_refusal_empties_the_pictures(leak):
     leak.change(lambda: leak.slide(h=80.0))
     assert leak.shown("h")[0] == 80.0
-    *_, exact = said(leak, "leak", "grows by # a period over # of them; exact #.")
+    *_, exact = said(leak, "leak", "ln |r·M|: # per period, measured over # periods; exact #.")
     assert exact == pytest.approx(growth_at({**LEAK.defaults(), "h": 80.0}), rel=1e-5)
     leak.change(leak.type, "I2", "2")
     for picture in LEAK.pictures:
@@ -145,5 +145,7 @@ def test_moments_and_energy_stay_from_one_scene_to_the_next(leak):
     leak.enter("bridge")
     assert (leak.shown("h")[0], leak.shown("I3")[0]) == (60.0, 0.4)
     leak.unfold("andoyer")
-    assert leak.caption("andoyer").startswith("Euler–Poisson: (l, L/G)\nH = 60,")
+    assert leak.caption("andoyer").startswith(
+        "Euler–Poisson: (l, L/G)\nThe Hess relation holds along the orbit. H = 60,"
+    )
     assert_painted(leak, BRIDGE)

@@ -84,7 +84,7 @@ def test_an_example_is_drawn_with_the_numbers_of_its_captions(page, preset):
     assert count == values["orbits"]
     assert (kept == count) is (values["away"] == 0.0)
     assert shown_points(page) == count * values["count"]
-    exponent, span = said(page, "exponent", "λ = # after t = #")
+    exponent, _, span = said(page, "exponent", "λ = # ± # after t = #")
     assert span == values["long"]
     assert page.data("exponent-lambda")["ys"][0][-1] == pytest.approx(exponent, rel=6e-3)
     low, high = said(page, "rotation", "ρ = # … #")

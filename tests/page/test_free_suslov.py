@@ -60,7 +60,7 @@ def test_an_example_of_free_motion_is_drawn_with_the_numbers_of_its_captions(fre
         assert went == other == -came
     if "two circles" in preset.name:
         assert abs(went - other) > 0.05
-    assert said(free, "omega", "at rate ω₀ = #, E = #.") == [
+    assert said(free, "omega", "Rate ω₀ = #, E = #.") == [
         shown(rate_of(values, energy(values, omega))),
         shown(energy(values, omega)),
     ]

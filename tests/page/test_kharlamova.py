@@ -38,7 +38,7 @@ def arc_of(values):
 def test_an_example_of_b3_0_is_drawn_with_the_numbers_of_its_captions(arcs, preset):
     found = arc_of(chosen(arcs, ARC, preset))
     if found.kind == "periodic":
-        assert said(arcs, "domain", "to and fro in T = #.") == [pytest.approx(found.period, rel=6e-6)]
+        assert said(arcs, "domain", "back and forth. T = #.") == [pytest.approx(found.period, rel=6e-6)]
     else:
         assert {"asymptotic": "touches the edge", "fixed": "nothing changes"}[found.kind] in arcs.caption("domain")
     # On the oval, with the mirror image upside down.
@@ -53,15 +53,17 @@ def test_an_example_of_the_quartic_potential_is_drawn_with_the_numbers_of_its_ca
     values = chosen(point, POINT, preset)
     I22, size = values["I22"], abs(values["b3"])
     reach = math.sqrt(2.0 * (values["h"] + size)) / size
-    assert said(point, "domain", "half axes # and #,") == pytest.approx(
+    assert said(point, "domain", "half axes # and #") == pytest.approx(
         [reach * math.sqrt(I22), reach * math.sqrt(values["ratio"] * I22)], rel=6e-4
     )
     if values["periodic"] == NONE:
-        points, _ = said(point, "section", "The orbit: # points in #")
+        points, _ = said(point, "section", "Chosen orbit: # points in #")
         assert points == len(point.data("section-own")["x"])
     else:
         # An elliptic orbit of a map that keeps area: |μ| = 1.
-        assert np.hypot(*said(point, "section", "Period 1, elliptic: μ = # ± #i")) == pytest.approx(1.0, abs=2e-4)
+        assert np.hypot(*said(point, "section", "Period 1, elliptic. Multipliers μ = # ± #i")) == pytest.approx(
+            1.0, abs=2e-4
+        )
     assert_painted(point, POINT)
 
 

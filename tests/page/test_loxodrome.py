@@ -52,11 +52,11 @@ def centre_at(values, t):
 def test_a_preset_is_drawn_with_the_numbers_of_its_captions(loxodrome, preset):
     values = chosen(loxodrome, LOXODROME, preset)
     assert loxodrome.chosen("preset") == preset.name
-    theta, error = said(loxodrome, "angle", "θ = #, measured on the track, to #.")
+    theta, error = said(loxodrome, "angle", "θ = #; measured on the track, to #.")
     assert theta == pytest.approx(math.asin(1.0 / math.hypot(1.0, slope(values))), rel=6e-6)
     assert error < 2e-5
     if values["energy"] < 1.0:
-        assert said(loxodrome, "height", "α = ±#; the height reaches h = #.")[0] == pytest.approx(
+        assert said(loxodrome, "height", "α = ±# at most; the height reaches h = #.")[0] == pytest.approx(
             math.acos(-values["energy"]), rel=6e-4
         )
     orbit = loxodrome.data("data-orbit")
@@ -67,11 +67,11 @@ def test_a_preset_is_drawn_with_the_numbers_of_its_captions(loxodrome, preset):
 
 def test_a_slider_moves_the_angle(loxodrome):
     loxodrome.change(lambda: loxodrome.slide(I2=1.25))
-    theta, _ = said(loxodrome, "angle", "θ = #, measured on the track, to #.")
+    theta, _ = said(loxodrome, "angle", "θ = #; measured on the track, to #.")
     values = {**LOXODROME.defaults(), "I2": 1.25}
     assert theta == pytest.approx(math.asin(1.0 / math.hypot(1.0, slope(values))), rel=6e-6)
     loxodrome.change(lambda: loxodrome.slide(energy=0.5))
-    assert said(loxodrome, "height", "α = ±#;")[0] == pytest.approx(math.acos(-0.5), rel=6e-4)
+    assert said(loxodrome, "height", "α = ±# at most;")[0] == pytest.approx(math.acos(-0.5), rel=6e-4)
 
 
 def test_a_moment_that_is_not_between_the_others_is_refused_in_the_pictures(loxodrome):
@@ -110,7 +110,7 @@ def test_keys_turn_the_body_and_the_link_keeps_it(loxodrome):
 def test_the_body_of_the_hess_case_is_among_the_first_pictures_and_moves(explorer):
     body, orbit = explorer.data("body"), explorer.data("data-orbit")
     assert body["t"][-1] == orbit["t"][-1]
-    moments = said(explorer, "body", "which is free: moments #, #, #.")
+    moments = said(explorer, "body", "(does not affect the motion), principal moments #, #, #.")
     assert (np.array(body["semi"]) / body["semi"][2]) ** 2 == pytest.approx(np.array(moments) / moments[2], rel=1e-3)
     still = canvas(explorer, "body").screenshot()
     explorer.set_time(2.0)
@@ -142,5 +142,5 @@ def test_where_there_is_no_body_the_page_says_so_and_draws_none(tab):
     assert hess.data("body")["semi"]
     hess.change(hess.choose, "preset", "Strong contraction, a = 3 (not a rigid body)")
     assert hess.data("body") == {}
-    assert "Nothing is drawn" in hess.caption("body")
+    assert "Not drawn" in hess.caption("body")
     hess.assert_quiet()

@@ -91,7 +91,7 @@ def test_an_example_of_the_suslov_problem_is_drawn_with_the_numbers_of_its_capti
     assert said(explorer, "omega", "E = #.") == [shown(E)]
     assert explorer.chosen("colours") == preset.values["colours"]
     if preset.values["colours"] == "basins":
-        share, rest = said(explorer, "section", "Two attractors, with # % and # % of the cells.")
+        share, rest = said(explorer, "section", "Two attractors. Basins: # % and # % of the cells.")
         cells = np.array(explorer.data("section-basins")["image"][0]).ravel()
         assert share == pytest.approx(100.0 * np.mean(cells == 2.5), abs=0.51)
         assert rest == pytest.approx(100.0 * np.mean(cells == 1.5), abs=0.51)
@@ -139,8 +139,8 @@ def test_every_plane_and_all_that_can_be_shown(suslov):
     before = colours_of_cells(suslov, "section", (12, 18))
     suslov.change(suslov.choose, "indicator", "MEGNO")
     kinds = np.array(suslov.data("section-megno")["image"][0]).reshape(12, 18) - 1.5
-    _, regular, chaotic, shrinks = said(
-        suslov, "section", "MEGNO after t = #: # % of the cells regular, # % chaotic; volume shrinks about # %."
+    regular, chaotic, _, shrinks = said(
+        suslov, "section", "# % of the cells regular, # % chaotic. MEGNO after t = #; volume shrinks in about # %."
     )
     there = kinds[kinds >= 0.0]
     assert chaotic == pytest.approx(100.0 * np.mean(there % 2.0 == 1.0), abs=0.51)

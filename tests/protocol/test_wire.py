@@ -19,7 +19,7 @@ def unpack(wire):
     tree, block = wire.pack()
     assert isinstance(block, bytes)
     tree = json.loads(json.dumps(tree, allow_nan=False))
-    assert set(tree) == {"sources", "ranges", "texts", "controls"}
+    assert set(tree) == {"sources", "ranges", "texts", "captions", "controls"}
     columns = {
         source: {name: read(column, block) for name, column in columns.items()}
         for source, columns in tree["sources"].items()
@@ -145,6 +145,13 @@ def test_texts_arrive_as_they_are(texts):
     assert unpack(wire)[1] == texts
 
 
+def test_the_last_caption_of_a_picture_arrives_in_its_three_parts():
+    wire, caption = Wire(), {"title": "Circle map", "verdict": "No cycle.", "numbers": "ρ = 0.3."}
+    wire.caption("circle", {"title": "Circle map", "verdict": "", "numbers": ""})
+    wire.caption("circle", caption)
+    assert json.loads(json.dumps(wire.pack()[0]))["captions"] == {"circle": caption}
+
+
 @given(st.floats(allow_nan=False, allow_infinity=False), st.tuples(*[st.floats(-1e9, 1e9)] * 3))
 def test_the_numbers_of_controls_keep_double_precision(value, limits):
     wire = Wire()
@@ -175,10 +182,11 @@ def test_what_was_packed_is_not_sent_again():
     wire.put("orbit", {"x": np.arange(5.0)})
     wire.put_ranges("omega", (0.0, 1.0), (0.0, 1.0))
     wire.say("status", "done")
+    wire.caption("omega", {"title": "Orbit", "verdict": "", "numbers": "h = 1"})
     wire.show_number("h", 1.5, (-1.0, 4.0, 0.01))
     wire.show_choice("accuracy", "draft")
     wire.pack()
-    assert wire.pack() == ({"sources": {}, "ranges": {}, "texts": {}, "controls": {}}, b"")
+    assert wire.pack() == ({"sources": {}, "ranges": {}, "texts": {}, "captions": {}, "controls": {}}, b"")
 
 
 def test_what_is_put_after_packing_does_not_change_what_was_packed():

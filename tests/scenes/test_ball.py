@@ -66,8 +66,8 @@ def test_the_chosen_orbit_goes_from_its_circle_to_the_one_in_the_captions(name):
     exact = integrate(values, start, times)
     left, joined = math.cos(values["theta"]), exact[-1, 2:4] @ xi
     for picture, pattern in (
-        ("sphere", "Leaves the circle Γ = # and comes to Γ = # in the end"),
-        ("Gamma", "from # to #."),
+        ("sphere", "Γ = # at the start, Γ = # at the end"),
+        ("Gamma", "From # to #."),
     ):
         assert view.numbers(picture, pattern) == [shown(left), pytest.approx(joined, abs=1e-4)]
     # And it has arrived there: ω at rest on Nˢ.
@@ -216,8 +216,8 @@ def test_every_energy_above_zero_is_drawn():
         assert (view.values["span"] < span) == (h == 1e-6)
         # ω and t scale with √h: the same circles.
         if h > 1e-6:
-            assert view.numbers("sphere", "to Γ = #")[0] == pytest.approx(
-                ball(BALL.presets[0].name).numbers("sphere", "to Γ = #")[0], abs=2e-4
+            assert view.numbers("sphere", "Γ = # at the end")[0] == pytest.approx(
+                ball(BALL.presets[0].name).numbers("sphere", "Γ = # at the end")[0], abs=2e-4
             )
 
 
@@ -240,7 +240,7 @@ def test_a_map_that_takes_long_is_left_out_and_the_page_says_so(values):
     # All threads together; a map that were computed would take minutes.
     assert time.process_time() - begun < 20.0
     if view.result.map is None:
-        assert view.text["curve"].endswith("Left out: it would take too many steps.")
+        assert view.text["curve"].endswith("Left out: too many steps.")
         (note,) = view.report.notes
         assert note.endswith("choose larger I13 or I23, or a smaller 𝒟.")
         assert " ".join(view.data["curve-message"]["text"][0].split()) == note
@@ -331,20 +331,20 @@ def test_the_chosen_orbit_and_its_points_are_those_of_the_energy_in_the_caption(
 def test_the_numbers_in_the_caption_of_the_section_are_those_of_its_points(name):
     view = field(name)
     own = columns(view.data["section-own"], "x", "y").astype(float)
-    points, found, all_cells = view.numbers("section", "The chosen orbit: # points in # of # cells")
+    points, found, all_cells = view.numbers("section", "Chosen orbit: # points in # of # cells")
     expected = view.values["count"] / (1 if view.values["drop"] == "all" else 2)
     assert (points, all_cells) == (len(own), 1024)
     assert points == expected
     # In single precision a point may fall into the next cell.
     assert found == pytest.approx(len(occupied(own)), abs=2)
     kept = view.values["I13"] == view.values["I23"] == 0.0
-    assert ("the flow keeps volume" in view.text["section"]) == kept
+    assert ("The flow preserves volume." in view.text["section"]) == kept
     assert len(view.data["section-others"]["x"]) == 20 * expected
     # What is proved of the motion is said of these bodies, and of no other.
     plain = kept and view.values["b3"] == 0.0
     symmetric = kept and view.values["I11"] == view.values["I22"] and view.values["b1"] == view.values["b2"] == 0.0
-    assert ("one point, proved by γ₃ → −γ₃, t → −t" in view.text["returns"]) == plain
-    assert ("a curve, as ω₁γ₁ + ω₂γ₂ is an integral" in view.text["returns"]) == symmetric
+    assert ("One point: every orbit closes. Proved by the symmetry γ₃ → −γ₃, t → −t" in view.text["returns"]) == plain
+    assert ("A curve: there is another integral. ω₁γ₁ + ω₂γ₂ is constant." in view.text["returns"]) == symmetric
     if plain:
         assert np.ptp(own, axis=0) == pytest.approx([0.0, 0.0], abs=1e-4)
     if symmetric:
@@ -428,7 +428,7 @@ def test_what_is_extreme_is_drawn(values, dragging):
         assert all(np.all(np.isfinite(np.asarray(column, float))) for column in view.data[name].values())
     assert "nan" not in " ".join(view.text.values())
     if not any(view.values[name] for name in ("b1", "b2", "b3")):
-        assert "no field" in view.text["sphere"]
+        assert "No field" in view.text["sphere"]
         assert view.data["sphere"]["label"] == ""
 
 
@@ -441,7 +441,7 @@ def test_a_section_that_takes_long_is_left_out_and_the_page_says_so(monkeypatch)
     )
     assert view.report.notes == [reason]
     for picture in ("section", "returns"):
-        assert view.text[picture].endswith("Left out: it would take too many steps.")
+        assert view.text[picture].endswith("Left out: too many steps.")
         assert " ".join(view.data[f"{picture}-message"]["text"][0].split()) == reason
         assert not len(view.data.get(f"{picture}-own", {}).get("x", ()))
     assert len(view.data["data-orbit"]["t"]) > 10

@@ -17,6 +17,7 @@ from hess_mechanics.chaplygin_ball.section import coordinates, state_at
 from hess_mechanics.dynamics.orbit_diagram import period_of
 from hess_mechanics.numerics.accuracy import PLANS, Computation
 from support.ball import energy_of, integrate, rates
+from support.captions import as_text
 from support.view import View
 
 SCENE = scenes()["ball-diagram"]
@@ -28,7 +29,7 @@ def complete(beginning, seen, **changes):
     (preset,) = [one for one in SCENE.presets if one.name.startswith(beginning)]
     while True:
         state = SCENE.compute({**SCENE.defaults(), **preset.values, **changes}, seen, False)
-        captions = {view.name: view.said(state) for view in SCENE.views if view.name in seen}
+        captions = {view.name: as_text(view.said(state)) for view in SCENE.views if view.name in seen}
         if not state.work.todo:
             return state, captions
         for task in state.work.todo:
@@ -92,7 +93,7 @@ def test_where_periods_double_along_the_ball_inside_another_integrator_finds_the
     state, captions = complete("Period doubling", ("diagram", "section"))
     found = state.diagram.cascade
     assert found.periods.tolist() == [2, 4, 8, 16]
-    assert "4 doublings located, the first of period 2 at 𝒟 = 1.58721; ratio 4.676 ±" in captions["diagram"]
+    assert "4 period doublings located. The first of period 2 at 𝒟 = 1.58721; ratio 4.676 ±" in captions["diagram"]
     # The numbers of the words beside the pictures.
     assert found.values == pytest.approx([1.5872085, 1.4256035, 1.3934895, 1.3866210], abs=6e-8)
     assert found.ratios == pytest.approx([5.032, 4.676], abs=6e-4)
@@ -106,7 +107,7 @@ def test_where_periods_double_along_the_ball_inside_another_integrator_finds_the
             assert 1 + np.count_nonzero(np.diff(np.sort(drawn[1][drawn[0] == x])) > 2e-3) == count
     # With 𝒟 = 1.5 it is of period 4: a small drift of the energy does not hide that, not even a larger one.
     for said in (captions, complete("Period doubling", ("section",), accuracy="draft", steps=2.0)[1]):
-        assert "Motion: period 4. Looks dissipative.\ndiv = −0.07" in said["section"]
+        assert "Period 4. Looks dissipative. div = −0.07" in said["section"]
 
 
 @pytest.mark.parametrize(("D", "period"), [(1.4, 8), (1.43, 4), (1.44, 4), (1.45, 4), (1.59, 2), (1.6, 2), (1.7, 2)])
@@ -140,7 +141,7 @@ def test_the_orbit_of_period_one_doubles_first_and_goes_on_as_a_saddle():
 
 def test_the_strange_attractor_is_what_its_example_says():
     state, captions = complete("Apart: a strange", ("section",))
-    said = re.search(r"Motion: chaotic\. Looks dissipative\.\ndiv = −([\d.]+) ± ([\d.]+)", captions["section"])
+    said = re.search(r"Chaotic\. Looks dissipative\. div = −([\d.]+) ± ([\d.]+)", captions["section"])
     assert float(said[1]) == pytest.approx(0.0925, abs=1e-3)
     assert float(said[2]) < 1e-3
     values, body, E = at(state, "D", state.D)
@@ -179,7 +180,7 @@ def test_the_strange_attractor_is_what_its_example_says():
 
 def test_a_ball_that_turns_the_wrong_way_turns_round_to_a_permanent_rotation():
     state, captions = complete("Apart: permanent", ("section", "reversal"))
-    assert "It turns round once, at first at t = 80.7" in captions["reversal"]
+    assert "The body turns round once. First at t = 80.7" in captions["reversal"]
     values, body, E = at(state, "D", state.D)
     moment, orbit = float(state.turned.times[0]), state.orbit.path
     assert state.turning[0] > 0.0 > state.turning[-1]
@@ -202,9 +203,9 @@ def test_a_ball_that_turns_the_wrong_way_turns_round_to_a_permanent_rotation():
 
 def test_volume_that_is_kept_is_said():
     state, captions = complete("Equal: volume", ("diagram", "section"), steps=30.0)
-    assert captions["diagram"].endswith("Volume is kept: each value shows one orbit, and nothing attracts.")
+    assert captions["diagram"].endswith("Volume is preserved: no attractors. One orbit for each value.")
     assert state.regime.kind.regime.divergence == 0.0
-    assert "Motion: chaotic. Conservative: volume is kept." in captions["section"]
+    assert "Chaotic. Conservative: volume is preserved." in captions["section"]
 
 
 def test_where_no_motion_crosses_at_the_chosen_place_another_one_is_taken_and_that_is_grey():

@@ -121,7 +121,7 @@ def test_the_branch_of_an_orbit_born_there_turns_at_the_pitchfork():
     assert drawn[0].min() == pytest.approx(exact, abs=1e-4)
     assert view.data["branch-bifurcation-names"]["text"] == ["pitchfork"]
     assert view.text["branch"] == (
-        "Branch of the periodic orbit\nPeriod 1, elliptic here; its branch has 1 bifurcation."
+        "Branch of the periodic orbit\nPeriod 1, elliptic here. 1 bifurcation on its branch."
     )
 
 
@@ -194,7 +194,7 @@ def test_a_click_on_the_branch_shows_that_orbit_and_away_from_it_nothing_happens
 def test_without_a_periodic_orbit_the_picture_says_what_to_do(name):
     scene = SCENES[name]
     view = View(scene, {"orbits": 0.0} if name == "euler-poisson" else {}, seen=["branch"])
-    assert view.text["branch"].split("\n")[1].startswith("No periodic orbit is chosen: choose one")
+    assert view.text["branch"].split("\n")[1].startswith("No periodic orbit is chosen. Choose one")
     assert "Choose a Periodic orbit" in " ".join(view.data["branch-message"]["text"][0].split())
     assert "branch-bifurcations" not in view.data or len(view.data["branch-bifurcations"]["x"]) == 0
     assert not any("branch" in line for line in (*view.report.derived, *view.report.notes, view.report.status))

@@ -73,7 +73,7 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
     assert len(times)
     assert own[-int(view.values["count"]) :][: min(2, len(times))] == pytest.approx(coordinates(states)[:2], abs=1e-4)
     # What is said of the exponent.
-    exponent, end = view.numbers("exponent", "λ = # after t = #")
+    exponent, _, end = view.numbers("exponent", "λ = # ± # after t = #")
     assert end == view.values["long"]
     series = view.data["exponent-lambda"]
     spans, means = (np.asarray(series[key][0], float) for key in ("xs", "ys"))
@@ -103,7 +103,7 @@ def test_the_example_of_a_periodic_orbit_closes_and_says_how_fast_its_neighbours
     slow = math.sqrt(2.0 * max(view.body.a) * (view.h + view.body.strength))
     times, states = crossings_by_scipy(view.body, closed.state, 30.0 / slow)
     assert coordinates(states)[0] == pytest.approx(closed.orbit.places[0], abs=1e-6)
-    m1, m2, _ = view.numbers("section", "Period 1, saddle: μ = #, # to #")
+    m1, m2, _ = view.numbers("section", "Period 1, saddle. Multipliers μ = #, #, to #")
     # The return map keeps an area.
     assert m1 * m2 == pytest.approx(1.0, rel=1e-3)
     assert view.numbers("exponent", "ln|μ₁|/T = #") == [pytest.approx(math.log(m1) / times[0], rel=1e-3)]
@@ -144,7 +144,7 @@ def test_an_orbit_between_two_gaps_is_seen_too():
 
 def test_at_the_meandering_torus_the_rotation_number_turns_round_at_an_eighth():
     view = EulerPoisson({**EP.presets[1].values, "orbits": 0.0}, seen={"rotation"})
-    place, rho = view.numbers("rotation", "turns round at # (ρ = #): no twist.")
+    *_, rho, place = view.numbers("rotation", "No twist where ρ has an extremum. ρ = # … #, extremum # at #.")
     assert rho == pytest.approx(0.125, abs=1e-4)
     centre = view.result.rotation.ends[0]
 
@@ -293,7 +293,7 @@ def test_the_example_of_the_second_sheet_shows_points_of_the_smaller_momentum():
     view = EulerPoisson(preset.values, seen={"section"})
     apart, (l0, l1, x0, x1) = view.points("elsewhere"), view.axes["section"]
     seen = apart[(apart[:, 0] >= l0) & (apart[:, 0] <= l1) & (apart[:, 1] >= x0) & (apart[:, 1] <= x1)]
-    assert view.numbers("section", "the layers never mix. # on another sheet.") == [len(seen)]
+    assert view.numbers("section", "# points on another sheet.") == [len(seen)]
     assert len(seen) > 50
     # A larger momentum there has the same energy.
     assert np.mean(np.array(other_momenta(view, seen[:20])) >= 2) > 0.9
@@ -552,12 +552,16 @@ def test_the_split_of_the_separatrices_is_0_in_the_hess_case_and_begins_in_propo
     exact = split_at(torus, away, level("reference"))
     slope, off = view.derived("split/ε → # ± #")
     if away:
-        value, error, l, shown = view.numbers("split", "\n# ± # at l = #; as ε → 0: # ε.")
+        value, error, l, shown = view.numbers(
+            "split", "\nThe separatrices are split. By # ± # at l = #; as ε → 0: # ε."
+        )
         assert abs(value - exact.value) <= error + exact.error + 1e-8
         assert value == pytest.approx(slope * away, rel=0.02)
         assert abs(value) > 1e3 * error
     else:
-        error, l, shown = view.numbers("split", "\nNot split, to #, at l = #; as ε → 0: # ε.")
+        error, l, shown = view.numbers(
+            "split", "\nThe separatrices are not split. Less than # at l = #; as ε → 0: # ε."
+        )
         assert abs(exact.value) <= error < 1e-9
     assert (l, shown) == (pytest.approx(exact.l, abs=1e-3), pytest.approx(slope, rel=1e-3))
     assert off < 1e-6

@@ -47,6 +47,7 @@ from support.board import (
     shown,
     variant,
 )
+from support.captions import texts_in
 from support.thorough import examples, sample
 from support.view import NUMBER, View
 
@@ -327,6 +328,9 @@ def test_a_preset_is_possible_as_it_stands_and_is_drawn(scene, preset):
     for name, caption in board.captions.items():
         title, sentence = caption.split("\n")
         assert re.search(r"\w", title), name
+        assert 1 <= len(re.findall(r"[A-Za-z–]{2,}", title)) <= 5, (name, title)
+        assert len(board.verdicts[name].split()) <= 8, (name, board.verdicts[name])
+        assert not re.search(r"−0(?![.\d])", sentence), (name, sentence)
         assert re.search(r"\w.*\.$", sentence), name
         # A title and two lines below it.
         assert len(title) < 40, name
@@ -890,7 +894,7 @@ def test_another_scene_keeps_the_values_and_brings_its_own_pictures():
     # Its data are in the answer that enters it, and nothing of the old pictures is sent any more.
     assert len(browser.screen.fresh["data-orbit"]["t"]) > 100
     assert {name.split("-")[0] for name in browser.screen.fresh} <= {*ACCURACY.pictures, "data"}
-    assert set(state["tree"]["texts"]) == {*ACCURACY.open_pictures, *BESIDE}
+    assert set(texts_in(state["tree"])) == {*ACCURACY.open_pictures, *BESIDE}
     assert set(browser.controls) == {*(spec.name for spec in ACCURACY.specs), "preset"}
     state = browser.ask(3, values={"phi0": 2.0})
     assert {name.split("-")[0] for name in state["tree"]["sources"]} <= {*ACCURACY.pictures, "data"}
@@ -904,7 +908,7 @@ def test_another_scene_keeps_the_values_and_brings_its_own_pictures():
     assert "bifurcation-boundary" not in state["tree"]["sources"]
     whole, _ = shown(HESS, browser.session.values)
     assert unfolded(HESS, browser.data) == unfolded(HESS, whole.sources)
-    assert set(state["tree"]["texts"]) == {*HESS.open_pictures, *BESIDE}
+    assert set(texts_in(state["tree"])) == {*HESS.open_pictures, *BESIDE}
 
 
 @pytest.mark.usefixtures("quick")
@@ -972,7 +976,7 @@ def test_from_any_scene_to_any_other_and_back_everything_is_of_the_state():
         browser.assert_admissible()
         assert (state["scene"], state["answers"]) == (name, requested)
         scene = SCENES[name]
-        assert {*scene.open_pictures, *BESIDE} == set(state["tree"]["texts"])
+        assert {*scene.open_pictures, *BESIDE} == set(texts_in(state["tree"]))
         assert set(state["tree"]["controls"]) == {*(spec.name for spec in scene.specs), "preset"}
         # What arrives later is waited for.
         while browser.state["progress"] is not None:

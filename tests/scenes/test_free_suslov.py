@@ -50,8 +50,8 @@ def test_the_rate_the_energy_and_the_last_turning_are_those_of_the_paper(preset)
     J, xi, _ = axes_of(view.values)
     # biz138, its denominator corrected: |ω±| = J √(2h/(I11 I23² + I22 I13²)).
     size = J * math.sqrt(2.0 * h / (I11 * I23**2 + I22 * I13**2))
-    rate, E = view.numbers("omega", "at rate ω₀ = #, E = #.")
-    (speed,) = view.numbers("gamma1", "about ξ at # radians")
+    rate, E = view.numbers("omega", "Rate ω₀ = #, E = #.")
+    (speed,) = view.numbers("gamma1", "By # radians per unit of time")
     assert (rate, E, speed) == (shown(rate_of(view.values, h)), shown(h), shown(size))
     assert view.derived("I₁₁ = #")[0] == pytest.approx(I11, rel=1e-5)
     assert view.derived("ω₀ = #")[0] == pytest.approx(rate_of(view.values, h), rel=1e-5)
@@ -145,7 +145,7 @@ def test_with_F2_both_orbits_join_the_mirrored_circle_and_F2_is_that_of_the_pape
     assert went == other == -came
     for end in (view.result.orbit.limits[1], view.result.second.limits[1]):
         assert end == pytest.approx(-view.result.orbit.limits[0], abs=1e-7)
-    f, minus, plus = view.numbers("sphere", "F₂ = #: both from the cycle C⁻, Γ = #, to C⁺, Γ = #.")
+    f, minus, plus = view.numbers("sphere", "F₂ = #; Γ = # on C⁻, Γ = # on C⁺.")
     assert (minus, plus) == (came, went)
     # Written out (the misprints of n = 2 corrected), along the orbit by the general solver.
     I11, I22, _, I23 = tensor_of(view.values)
@@ -182,7 +182,7 @@ def test_with_F2_both_orbits_join_the_mirrored_circle_and_F2_is_that_of_the_pape
 def test_without_F2_two_phases_join_two_circles(name):
     preset = next(preset for preset in FREE.presets if preset.name.startswith(name))
     view = View(FREE, preset.values)
-    _, went, other = view.numbers("sphere", "From the circle Γ⁻ = # about ξ to Γ⁺ = # and #.")
+    _, went, other = view.numbers("sphere", "From Γ⁻ = # to Γ⁺ = # and #.")
     assert abs(went - other) > 0.05
     assert "F₂: none known" in " ".join(view.report.derived)
     assert (view.values["I13"] != 0.0) == ("I₁₃ ≠ 0" in name)

@@ -12,6 +12,7 @@ import pytest
 import hess_explorer
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes.framework.stage import Stage
+from support.captions import texts_in
 from support.wire import read
 
 PACKAGE = Path(hess_explorer.__file__).parent
@@ -50,7 +51,7 @@ def shown(scene, values):
 
 def test_the_example_shows_a_section_and_an_orbit(scene):
     state, report, tree, data = shown(scene, scene.defaults())
-    assert "crossings of the chosen orbit" in tree["texts"]["section"]
+    assert "crossings of the chosen orbit" in texts_in(tree)["section"]
     assert len(data["section-own"]["x"]) == 200
     # Among others, of which thirty crossings come first.
     assert len(data["section-others"]["x"]) > 300

@@ -36,8 +36,8 @@ def test_cells_that_are_called_chaotic_have_that_exponent_and_the_regular_ones_n
     assert kinds.shape == (12, 18)
     image = np.asarray(view.data["section-megno"]["image"][0]).reshape(12, 18)
     assert image == pytest.approx(kinds + 1.5)
-    t, regular, chaotic, shrinks = view.numbers(
-        "section", "MEGNO after t = #: # % of the cells regular, # % chaotic; volume shrinks about # %."
+    regular, chaotic, t, shrinks = view.numbers(
+        "section", "# % of the cells regular, # % chaotic. MEGNO after t = #; volume shrinks in about # %."
     )
     there = kinds[kinds >= 0.0]
     assert chaotic == pytest.approx(100.0 * np.mean(there % 2.0 == 1.0), abs=0.51)
@@ -79,7 +79,7 @@ def test_coarse_cells_come_first_and_a_slider_that_is_held_has_none():
         CACHE.get(mine[0].function, *mine[0].arguments)
     # Four rows of coarse cells, then twelve.
     assert tasks == [(6, 4)] * 4 + [(18, 12)] * 12
-    assert all("coarse as yet" in one for one in captions[:-1])
+    assert all("first coarse cells" in one for one in captions[:-1])
     assert "of the cells regular" in captions[-1]
     held = View(SCENES["quartic"], values, dragging=True, seen=("section",))
     assert "section-megno" not in held.data or not len(held.data["section-megno"]["image"])

@@ -42,8 +42,10 @@ def test_an_example_of_b3_0_is_what_its_name_says(preset):
         np.column_stack([r1 * states[:, 3], -r2 * states[:, 2]]), abs=2e-6
     )
     if found.kind == "periodic":
-        (shown,) = view.numbers("domain", "to and fro in T = #.")
-        period, missed = view.numbers("period", "T = # here; after T back at the start to #.")
+        (shown,) = view.numbers("domain", "back and forth. T = #.")
+        period, missed = view.numbers(
+            "period", "T = # in this direction. After T the orbit returns to its start, to #."
+        )
         assert shown == period == pytest.approx(found.period, rel=6e-6)
         assert np.abs(solve(body, start, [found.period], FLOOR).states[0] - start).max() <= 1e-9
         assert missed <= 1e-6
@@ -65,7 +67,7 @@ def test_an_example_of_b3_0_is_what_its_name_says(preset):
 
 def test_the_straight_line_the_two_orbits_and_the_long_period():
     line = View(ARC, ARC.presets[1].values)
-    assert "a straight line" in line.text["domain"]
+    assert "Periodic: straight line" in line.text["domain"]
     q = np.column_stack([line.data["data-orbit"][name] for name in ("q1", "q2")])
     assert np.linalg.svd(q - q.mean(axis=0))[1][1] < 1e-5
     assert "parabola" in View(ARC, {}).text["domain"]
@@ -121,7 +123,7 @@ def test_in_another_potential_the_caption_says_what_the_motion_does(name):
     body = PotentialBody(1.5, 1.0, *POTENTIALS[name])
     fast = View(ARC, {"potential": name, "I11": 1.5, "I22": 1.0}, seen={"potential"})
     start = fast.result.start
-    period, back = fast.numbers("potential", "It crosses the equator twice and so closes: T = #, back to #.")
+    period, back = fast.numbers("potential", "it crosses the equator twice. T = #, back to the start to #.")
     assert back < 1e-6
     assert solve(body, start, [period], FLOOR).states[0] == pytest.approx(start, abs=2e-4)
     assert fast.text["potential"].startswith(f"Potential: {name}\n")
@@ -134,12 +136,12 @@ def test_in_another_potential_the_caption_says_what_the_motion_does(name):
     E = POTENTIAL.integrals(start, body.parameters)["E"]
     assert np.all(body.potential(np.column_stack([-y, x / math.sqrt(1.5)])) <= E + 1e-6)
     slow = View(ARC, {"potential": name, "I11": 1.5, "I22": 1.0, "p": 0.2, "span": 60.0}, seen={"potential"})
-    assert "Too slow for the equator, it stays on one side." in slow.text["potential"]
+    assert "Too slow to reach the equator. It stays on one side." in slow.text["potential"]
     assert ("integrable" in slow.text["potential"]) is (name == "quadratic")
     states = slow.result.other.orbit.states
     assert states[:, 4].min() > 0.0
     if name == "quadratic":
-        (kept,) = slow.numbers("potential", "F₂ is kept to #: integrable.")
+        (kept,) = slow.numbers("potential", "F₂ is constant to #: integrable.")
         assert kept < 1e-6
     else:
         (changed,) = slow.numbers("potential", "F₂ changes by # %.")
@@ -156,7 +158,7 @@ def test_where_it_does_not_move_in_another_potential_that_is_said():
     view = View(ARC, {"p": 0.0, "q1": 0.0, "q2": 0.0}, seen={"potential"})
     assert "A fixed point: nothing changes." in view.text["potential"]
     short = View(ARC, {"p": 2.0, "span": 0.2}, seen={"potential"})
-    assert "The equator is not crossed twice up to t = 0.2." in short.text["potential"]
+    assert "Fewer than two equator crossings. Up to t = 0.2." in short.text["potential"]
 
 
 def test_a_start_outside_moves_to_the_edge_and_says_so():
@@ -182,21 +184,23 @@ def test_an_example_of_the_quartic_potential_is_what_its_name_says(preset):
     assert (low, high) == pytest.approx((states[:, 4].min(), states[:, 4].max()), rel=6e-4, abs=1e-4)
     G = (body.I11 * states[:, 0] * states[:, 2] + body.I22 * states[:, 1] * states[:, 3]) / body.b3
     if preset.name.startswith("Integrable"):
-        value, kept = view.numbers("momentum", "an integral, #, kept to #.")
+        value, kept = view.numbers("momentum", "An integral, as I₁₁ = I₂₂. #, constant to #.")
         assert value == pytest.approx(G[0], rel=6e-4)
         assert np.ptp(G) < 1e-12
         assert kept <= 1e-6
     else:
         assert view.numbers("momentum", "between # and #.") == pytest.approx([G.min(), G.max()], rel=1e-3, abs=1e-3)
     if view.values["periodic"] == NONE:
-        points, visited = view.numbers("section", "The orbit: # points in # of 1024 cells.")
+        points, visited = view.numbers("section", "Chosen orbit: # points in # of 1024 cells.")
         assert points == len(view.data["section-own"]["x"])
         assert (visited > 0.6 * points) is ("sea" in preset.name)
     else:
         # An elliptic orbit of a map that keeps area: |μ| = 1.
-        assert np.hypot(*view.numbers("section", "Period 1, elliptic: μ = # ± #i")) == pytest.approx(1.0, abs=2e-4)
+        assert np.hypot(*view.numbers("section", "Period 1, elliptic. Multipliers μ = # ± #i")) == pytest.approx(
+            1.0, abs=2e-4
+        )
     if "ring" in preset.name:
-        assert "a ring" in view.text["domain"]
+        assert "Motion in a ring." in view.text["domain"]
         assert body.h > abs(body.b3)
     if "bouncing" in preset.name:
         assert orbit["q2"].min() > 0.0

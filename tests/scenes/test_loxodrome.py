@@ -28,33 +28,33 @@ def test_a_preset_shows_what_its_captions_promise(preset):
     view = View(LOXODROME, preset.values)
     values = view.values
     a, h, l0 = slope(values), values["energy"], values["l"]
-    theta, error = view.numbers("angle", "θ = #, measured on the track, to #.")
+    theta, error = view.numbers("angle", "θ = #; measured on the track, to #.")
     assert theta == pytest.approx(math.asin(1.0 / math.hypot(1.0, a)), rel=6e-6)
     assert error < 2e-5
     drawn = view.data["angle-theta"]
     assert len(drawn["x"]) > 5
     assert drawn["y"] == pytest.approx(theta, abs=2e-5)
     assert view.data["angle-promised"]["y"] == pytest.approx([theta] * 2, abs=1e-5)
-    assert view.numbers("body", "in a vertical plane, to #.")[0] < 1e-5
+    assert view.numbers("body", "It leaves the vertical plane by #.")[0] < 1e-5
     orbit = view.data["data-orbit"]
     alpha = swing_at(h, orbit["t"].astype(float) / clock(values))
     assert orbit["height"] == pytest.approx(-np.cos(alpha), abs=2e-5 * max(1.0, values["span"] / 20))
     assert orbit["l"] == pytest.approx(2.0 * np.arctan(math.tan(l0 / 2) * np.exp(a * alpha)), abs=1e-4)
     if h < 1.0:
-        reach, top = view.numbers("height", "It swings to α = ±#; the height reaches h = #.")
+        reach, top = view.numbers("height", "It swings. α = ±# at most; the height reaches h = #.")
         assert (reach, top) == (pytest.approx(math.acos(-h), rel=6e-4), pytest.approx(h))
         low, high = view.numbers("space", "l from # to #.")
         ends = sorted(2.0 * math.atan(math.tan(l0 / 2) * math.exp(a * side * math.acos(-h))) for side in (-1, 1))
         assert [low, high] == pytest.approx(ends, rel=6e-4)
         assert (orbit["l"].min(), orbit["l"].max()) == pytest.approx(tuple(ends), abs=2e-3)
     elif h == 1.0:
-        start, end = view.numbers("space", "from l = # towards #.")
+        start, end = view.numbers("space", "l from # towards #.")
         assert start == pytest.approx(l0)
         assert end == pytest.approx(2.0 * math.atan(math.tan(l0 / 2) * math.exp(a * math.pi)), rel=6e-4)
         assert orbit["height"][-1] == pytest.approx(1.0, abs=1e-5)
         assert view.report.notes == [] or "at rest to the eye" in view.report.notes[0]
     else:
-        assert view.numbers("height", "It goes round: # turns") == [
+        assert view.numbers("height", "It rotates. # turns") == [
             pytest.approx(abs(alpha[-1]) / (2 * math.pi), rel=6e-4)
         ]
         assert view.numbers("space", "l from # to #.") == [
@@ -111,7 +111,7 @@ def test_the_source_of_the_body_has_its_attitude_its_ellipsoid_and_its_centre_of
 def test_a_body_that_cannot_be_has_no_ellipsoid_and_says_so():
     view = View(LOXODROME, {"I3": 9.0})
     assert "semi" not in view.data["body"]
-    assert "No rigid body" in view.text["body"]
+    assert "Not a rigid body" in view.text["body"]
     assert view.report.notes[0].startswith("Not a rigid body")
     assert View(LOXODROME, {}).report.notes == []
 
@@ -167,7 +167,7 @@ def test_the_motion_for_the_accuracy_scene_is_that_of_the_pictures():
 
 def test_the_body_of_the_hess_case_is_one_of_the_admissible_ones():
     view = View(HESS, {})
-    I33, *moments = view.numbers("body", "for I₃₃ = #, which is free: moments #, #, #.")
+    I33, *moments = view.numbers("body", "I₃₃ = # (does not affect the motion), principal moments #, #, #.")
     low, high = view.result.body.check.I33
     assert abs(I33 - 0.5 * (low + high)) < 1e-3
     I22, I23 = 0.96, 0.28
@@ -187,7 +187,7 @@ def test_the_body_of_the_hess_case_is_one_of_the_admissible_ones():
 def test_where_there_is_no_body_nothing_is_drawn_and_that_is_said():
     view = View(HESS, {"I22": 0.5, "I23": 1.5})
     assert view.data.get("body", {}) == {}
-    assert "Nothing is drawn: with |a| ≥ 1" in view.text["body"]
+    assert "Not drawn: no such rigid body. |a| ≥ 1" in view.text["body"]
 
 
 def test_out_of_sight_the_body_is_not_computed():

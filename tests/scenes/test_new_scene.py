@@ -14,6 +14,7 @@ from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import OutsideRegion
 from hess_mechanics.numerics.accuracy import level
+from support.captions import texts_in
 from support.pendulum import mechanics, scene
 from support.wire import read
 
@@ -31,7 +32,7 @@ def drawn(values):
             source: {name: read(one, block) for name, one in columns.items()}
             for source, columns in tree["sources"].items()
         },
-        tree["texts"],
+        texts_in(tree),
         report,
     )
 

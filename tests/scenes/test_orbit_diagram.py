@@ -19,6 +19,7 @@ from hess_mechanics.dynamics.continuation import continued
 from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.numerics.accuracy import PLANS, Computation
 from hess_mechanics.suslov.section import SuslovSection
+from support.captions import as_text
 from support.suslov import divergence, field, permanent_rotations
 from support.view import View
 
@@ -32,7 +33,7 @@ def complete(beginning, seen=("diagram", "section"), **changes):
     values = {**SCENE.defaults(), **preset.values, **changes}
     while True:
         state = SCENE.compute(values, seen, False)
-        captions = {view.name: view.said(state) for view in SCENE.views if view.name in seen}
+        captions = {view.name: as_text(view.said(state)) for view in SCENE.views if view.name in seen}
         if not state.work.todo:
             return state, captions
         for task in state.work.todo:
@@ -83,7 +84,7 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
     state, captions = complete("Period doubling")
     found = state.diagram.cascade
     assert found.periods.tolist() == [1, 2, 4, 8]
-    assert "4 doublings located, the first of period 1 at I₂₃ = −0.0498281" in captions["diagram"]
+    assert "4 period doublings located. The first of period 1 at I₂₃ = −0.0498281" in captions["diagram"]
     # The numbers of the words beside the pictures.
     assert found.values == pytest.approx([-0.0498281, 0.0873376, 0.1281912, 0.1376316], abs=6e-8)
     assert found.ratios == pytest.approx([3.357, 4.328], abs=6e-4)
@@ -122,7 +123,7 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
 )
 def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dimension):
     state, captions = complete(name, ("section",))
-    assert f"Motion: chaotic. Looks {verdict}." in captions["section"]
+    assert f"Chaotic. Looks {verdict}." in captions["section"]
     known = state.regime.kind.dynamics
     assert f"div = {digits(known.motion.divergence, 2)} ± " in captions["section"]
     # Statistics of an ensemble, each orbit from another place: one trajectory proves nothing.
@@ -219,7 +220,7 @@ def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_do
     (flip,) = (one for part in state.continuation.branches for one in part.bifurcations)
     (said, value) = view.derived("flip of period # at I₂₂ = # ± ")
     assert (said, value) == (1.0, pytest.approx(flip.value, abs=1e-7))
-    assert view.text["diagram"].split("\n")[1] == "Period 1, saddle with reflection here; its branch has 1 bifurcation."
+    assert view.text["diagram"].split("\n")[1] == "Period 1, saddle with reflection here. 1 bifurcation on its branch."
     attracts, repels = (view.curve(f"diagram-branch-{sign}") for sign in ("attracts", "repels"))
     assert attracts[0].min() == pytest.approx(2.1, abs=1e-6)
     assert attracts[0].max() == pytest.approx(flip.value, abs=1e-6) == pytest.approx(repels[0].min(), abs=1e-6)
@@ -312,7 +313,7 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     assert found[0].imag != 0.0
     assert np.abs(found) == pytest.approx(np.abs(orbit.multipliers), abs=1e-4)
     # The strange attractor: two orbits side by side part as fast.
-    assert "Motion: chaotic. Looks dissipative.\ndiv = −0." in captions["section"]
+    assert "Chaotic. Looks dissipative. div = −0." in captions["section"]
     last = SuslovSection(state.body, E, 3).state_at(*state.regime.sets.attractor[-1])
     exponents = lyapunov_spectrum(state.body, last, 20_000.0)
     twin = lyapunov_exponent(state.body, last, 8000.0, PLANS[Computation.EXPONENT]["standard"].level)
@@ -368,7 +369,7 @@ def test_a_motion_that_comes_to_a_saddle_focus_has_left_it_before():
     assert max(values, key=lambda one: one.imag) == pytest.approx(0.282 + 2.035j, abs=1e-3)
     (one,) = (k for k in range(2) if low[k][0] < 0.05 and high[k][0] < 0.05)
     assert low[one][1] * high[one][1] == -1.0
-    assert "Motion: chaotic." in captions["section"]
+    assert "Chaotic." in captions["section"]
     last = SuslovSection(body, state.poincare.E, 3).state_at(*state.regime.sets.attractor[-1])
     # Its return to the rotation.
     orbit = solve(body, last, np.linspace(0.0, 4000.0, 80_001), level("draft")).states
@@ -433,13 +434,13 @@ def test_a_branch_folds_and_where_there_is_none_that_is_said():
         },
         seen=["diagram"],
     )
-    assert none.text["diagram"].split("\n")[1] == "No periodic orbit is found from here: no branch."
+    assert none.text["diagram"].split("\n")[1] == "No periodic orbit found from here."
     assert any("Newton's method finds no orbit of period 1" in note for note in none.report.notes)
 
 
 def test_volume_that_is_kept_is_said():
     state, captions = complete("Equal: volume", steps=30.0)
-    assert captions["diagram"].endswith("Volume is kept: each value shows one orbit, and nothing attracts.")
+    assert captions["diagram"].endswith("Volume is preserved: no attractors. One orbit for each value.")
     assert state.regime.kind.regime.divergence == 0.0
 
 

@@ -101,17 +101,19 @@ def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(p
     assert np.abs(orbit.multipliers - exact).max() < 1e-5 * max(1.0, abs(exact[0]))
     # The caption has period, kind, multipliers and what they may be off.
     if exact[0].imag:
-        assert view.numbers("section", f"\nPeriod #, {kind}: μ = # ± #i to") == pytest.approx(
+        assert view.numbers("section", f"\nPeriod #, {kind}. Multipliers μ = # ± #i, to") == pytest.approx(
             [m, exact[0].real, abs(exact[0].imag)], rel=1e-3
         )
     else:
-        assert view.numbers("section", f"\nPeriod #, {kind}: μ = #, # to") == pytest.approx(
+        assert view.numbers("section", f"\nPeriod #, {kind}. Multipliers μ = #, #, to") == pytest.approx(
             [m, *np.real(exact)], rel=1e-3
         )
     assert orbit.multiplier_error < 1e-6
     time = returned(state.body, state.E, orbit.places[0], m)[1]
     assert view.derived("T = #, periodic") == pytest.approx([time], rel=1e-5)
-    across, divergence = view.numbers("exponent", "\nNext to the periodic orbit: ln|μ₁|/T = #, div = ln|μ₁μ₂|/T = #.")
+    across, divergence = view.numbers(
+        "exponent", "\nFrom the multipliers of the periodic orbit. ln|μ₁|/T = #, div = ln|μ₁μ₂|/T = #."
+    )
     assert across == pytest.approx(math.log(abs(exact[0])) / time, abs=1e-3)
     assert divergence == pytest.approx(math.log(abs(np.linalg.det(M))) / time, abs=1e-3)
     assert np.unique(view.curve("exponent-lambda")[1]) == pytest.approx([across], abs=1e-4)
@@ -128,7 +130,8 @@ def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(p
     for name in ("g1", "g2", "g3"):
         assert track[name][-1] == pytest.approx(track[name][0], abs=2e-4)
     assert view.points("chosen")[-1] == pytest.approx(orbit.places[0])
-    assert len(view.text["section"].split("\n")[1]) <= 75
+    assert len(view.captions["section"]["verdict"]) <= 50
+    assert len(view.captions["section"]["numbers"]) <= 60
 
 
 def test_points_of_the_manifolds_are_taken_along_them():
@@ -238,7 +241,7 @@ def test_in_the_hess_case_the_saddle_has_the_multipliers_of_the_moebius_matrix_a
     h, f = bridge.in_units_of_b(state.h, state.f)
     exact = max(one.multiplier for one in circle_map(bridge.hess.a, h, f, level("reference")).fixed_points)
     assert np.abs(state.periodic_orbit.closed.orbit.multipliers - (exact, 1.0 / exact)).max() < 1e-9 * exact
-    said = view.numbers("section", "\nPeriod #, saddle: μ = #, # to")
+    said = view.numbers("section", "\nPeriod #, saddle. Multipliers μ = #, #, to")
     assert said == pytest.approx([1, exact, 1.0 / exact], rel=1e-3)
     # One of its manifolds is the Hess manifold itself.
     off = {
@@ -250,7 +253,7 @@ def test_in_the_hess_case_the_saddle_has_the_multipliers_of_the_moebius_matrix_a
         for stable in (True, False)
     }
     assert min(off.values()) < 0.5 / max(state.section.pixels) < 0.1 < max(off.values())
-    assert view.numbers("exponent", "\nNext to the periodic orbit: ln|μ₁|/T = #,") == pytest.approx(
+    assert view.numbers("exponent", "\nFrom the multipliers of the periodic orbit. ln|μ₁|/T = #,") == pytest.approx(
         [math.log(exact) / state.periodic_orbit.closed.time], rel=1e-3
     )
 
@@ -258,7 +261,7 @@ def test_in_the_hess_case_the_saddle_has_the_multipliers_of_the_moebius_matrix_a
 def test_where_every_orbit_of_the_ball_closes_the_chosen_one_is_parabolic():
     given = {**preset("ball-section", "Every orbit"), **LIGHT["ball-section"]}
     view = shown("ball-section", "period 1", *given.items())
-    assert view.text["section"].split("\n")[1].startswith("Period 1, parabolic: μ = 1, 1 to ")
+    assert view.text["section"].split("\n")[1].startswith("Period 1, parabolic. Multipliers μ = 1, 1, to ")
     assert drawn(view) == {"neither"}
     assert view.points("neither") == pytest.approx(np.array([[view.values["psi"], view.values["delta"]]]), abs=1e-6)
     # It is followed by itself.
@@ -298,7 +301,7 @@ def test_without_one_nothing_is_said_or_drawn_of_it(name):
 
 def test_where_none_is_found_the_chosen_orbit_is_shown_and_why():
     view = shown("suslov", "period 3")
-    assert view.text["section"].split("\n")[1] == "No orbit of period 3 found from here: the chosen one is shown."
+    assert view.text["section"].split("\n")[1] == "No orbit of period 3 found from here. The chosen orbit is shown."
     assert view.report.notes == [
         "Newton's method finds no orbit of period 3 from here: start closer to one, where an orbit comes back close to "
         "itself, or choose another period."
@@ -315,17 +318,17 @@ def test_where_none_is_found_the_chosen_orbit_is_shown_and_why():
 def test_before_it_is_known_the_caption_says_so_and_the_chosen_orbit_is_shown():
     values = {**LIGHT["suslov"], "periodic": "period 1", "h": 1.0123}
     view = View(scenes()["suslov"], values, seen=["section", "exponent"], whole=False)
-    assert view.text["section"].split("\n")[1] == "A periodic orbit is being looked for."
+    assert view.text["section"].split("\n")[1] == "Searching for a periodic orbit."
     assert drawn(view) == set()
     assert view.text["exponent"].split("\n")[1] == "They are being computed."
     known = View(scenes()["suslov"], values, seen=["section", "exponent"])
-    assert "looked for" not in known.text["section"]
+    assert "Searching" not in known.text["section"]
     assert drawn(known)
 
 
 def test_while_a_slider_is_held_it_follows_and_its_manifolds_come_later():
     view = shown("ball-section", "period 1", dragging=True)
-    assert view.text["section"].split("\n")[1].startswith("Period 1, saddle: μ = 2.19, 0.4566 to ")
+    assert view.text["section"].split("\n")[1].startswith("Period 1, saddle. Multipliers μ = 2.19, 0.4566, to ")
     assert drawn(view) == {"repels"}
     assert "Its manifolds are found when a slider is let go." in view.report.derived
     let_go = shown("ball-section", "period 1")
@@ -351,7 +354,7 @@ def test_a_click_looks_for_one_there_and_undo_is_a_link():
     browser.session.background.follow(())
     values = dict(browser.session.values)
     view = View(scenes()["ball-section"], values, seen=["section"])
-    assert view.text["section"].split("\n")[1].startswith("Period 2, elliptic: μ = ")
+    assert view.text["section"].split("\n")[1].startswith("Period 2, elliptic. Multipliers μ = ")
     assert drawn(view) == {"neither"}
 
 

@@ -68,7 +68,7 @@ def test_the_rational_number_of_an_example_is_where_its_caption_says(name):
     with np.errstate(invalid="ignore"):
         changes = np.flatnonzero((values[1:] * values[:-1] <= 0.0) & (np.abs(np.diff(values)) < 0.3))
     if not changes.size:
-        assert f"No torus of the line has ρ = {view.values['rational']}." in view.text["line"]
+        assert f"No torus here has ρ = {view.values['rational']}." in view.text["line"]
         assert name == "Euler–Poisson, figure 11"
         return
     place, power, defect = view.numbers("line", f"ρ = {view.values['rational']} at {line} = #: |Θ^# − id| ≤ #")

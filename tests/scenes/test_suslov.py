@@ -75,7 +75,7 @@ def test_an_example_is_complete_and_counts_its_points(name):
     if name != TWO:
         said = view.numbers("section", "\n# points forward")
         assert said == [len(forward)]
-        cells, of = view.numbers("section", "forward ones lie in # of # cells.")
+        cells, of = view.numbers("section", "forward orbits in # of # cells.")
         later = joined(orbit[len(orbit) // 2 :] for orbit in view.result.section.kind(True))
         assert len(later) == pytest.approx(len(forward) * (0.5 if view.values["drop"] == "all" else 1.0), rel=0.01)
         counted, _, _ = np.histogram2d(*later.T, bins=32, range=[[-math.pi, math.pi], [0.0, math.pi]])
@@ -149,7 +149,7 @@ def test_the_exponent_of_a_regular_orbit_goes_on_falling():
 
 
 def test_the_sea_fills_the_section_and_attractors_do_not():
-    cells = {name: example(name).numbers("section", "lie in # of #")[0] for name in (SEA, STRANGE, REVERSAL)}
+    cells = {name: example(name).numbers("section", "forward orbits in # of #")[0] for name in (SEA, STRANGE, REVERSAL)}
     assert cells[SEA] > 400
     assert 50 < cells[STRANGE] < 300
     assert cells[REVERSAL] < 4
@@ -179,7 +179,7 @@ def test_what_attracts_and_repels_in_the_reversal_are_permanent_rotations():
 
 def test_the_shares_in_the_caption_are_those_of_the_basins():
     view = example(TWO)
-    share, rest = view.numbers("section", "Two attractors, with # % and # % of the cells.")
+    share, rest = view.numbers("section", "Two attractors. Basins: # % and # % of the cells.")
     cells = view.result.basins.basin
     assert cells.shape == (24, 36)
     assert set(np.unique(cells)) == {0.0, 1.0}
@@ -202,7 +202,7 @@ def test_basins_come_coarse_at_first_and_then_row_by_row_finer():
         task = next(task for task in view.report.todo if task.function is SuslovSection.ends)
         CACHE.get(task.function, *task.arguments)
         if len(cells):
-            assert "Basins, coarse as yet" in view.text["section"]
+            assert "Basins: first coarse cells." in view.text["section"]
             assert "basins 18" not in view.report.status
     view, final = picture()
     assert not any(task.function is SuslovSection.ends for task in view.report.todo)
@@ -223,7 +223,7 @@ def test_basins_come_coarse_at_first_and_then_row_by_row_finer():
 
 def test_where_volume_is_kept_no_attractor_is_claimed():
     view = View(SCENE, {**FEW, "I13": 0.0, "I23": 0.0, "colours": "basins", "h": 2.0, "long": 300.0})
-    assert view.text["section"].endswith("Nothing attracts here, as far as it is seen: mean div = 0 ± 0.")
+    assert view.text["section"].endswith("No attractor is seen. mean div = 0 ± 0.")
 
 
 def test_a_sea_that_is_its_own_mirror_image_is_no_attractor_also_where_part_of_the_window_is_impossible():
@@ -231,7 +231,7 @@ def test_a_sea_that_is_its_own_mirror_image_is_no_attractor_also_where_part_of_t
     cells = view.result.basins.basin
     assert 0.1 < np.mean(cells == -1.0) < 0.9
     assert set(np.unique(cells)) == {-1.0, 0.0}
-    mean, error = view.numbers("section", "Nothing attracts here, as far as it is seen: mean div = # ± #.")
+    mean, error = view.numbers("section", "No attractor is seen. mean div = # ± #.")
     assert abs(mean) < 3.0 * error < 0.02
     # Grey cells are those that the energy forbids.
     psi = -math.pi + (np.arange(36) + 0.5) * 2.0 * math.pi / 36
@@ -241,7 +241,7 @@ def test_a_sea_that_is_its_own_mirror_image_is_no_attractor_also_where_part_of_t
 
 def test_one_strange_attractor_is_one():
     view = View(SCENE, {**example(STRANGE).values, **FEW, "colours": "basins", "long": 1000.0})
-    mean, error = view.numbers("section", "All orbits come to one attractor: mean div = # ± #.")
+    mean, error = view.numbers("section", "One attractor for all orbits. mean div = # ± #.")
     assert mean < -3.0 * error
 
 
@@ -430,7 +430,7 @@ def test_on_a_principal_axis_both_times_and_the_brackets_are_drawn():
         y = run.sol(at)
         assert value == pytest.approx(sign * y[k] / (moment * y[4]), rel=1e-3, abs=1e-4)
         assert len(view.data[f"conformal-{source}"]["xs"]) > 3
-    left, turns = view.numbers("conformal", "ẋ = γ₃{x, E} to #. On the equator τ turns round # times.")
+    left, turns = view.numbers("conformal", "ẋ = γ₃{x, E} to #; τ turns round # times on the equator.")
     assert left < 1e-14
     # The start lies on the equator.
     g3 = run.sol(np.linspace(1e-3, 20.0, 4001))[4]

@@ -15,6 +15,7 @@ from hess_explorer.compute.cache import CACHE
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework import proved_zone
 from hess_explorer.scenes.framework.hess_case import proved
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.circle_map import EVENLY, about
 from hess_mechanics import circle_map, f_max, level, solve, systems, turning_points
 from hess_mechanics.numerics.accuracy import REFERENCE
@@ -52,7 +53,7 @@ def test_the_shade_of_the_torus_is_where_a_long_motion_is(I23, h, f):
     values = {"I22": 2.0, "I23": 2.0 * I23, "h": h, "f": f}
     view = View(SCENE, values, seen={"torus"})
     (shade,) = view.data["torus-density"]["image"]
-    least, most = view.numbers("torus", "The flow keeps it: # to # times an even one")
+    least, most = view.numbers("torus", "The flow preserves this density. # to # times the uniform one")
     density = np.asarray(shade, float) * most
     assert (density.min(), density.mean()) == pytest.approx((least, 1.0), rel=6e-3)
     # The orbit on show, at even times by the general kernel.
@@ -254,7 +255,7 @@ def test_on_the_edge_the_caption_says_that_there_is_no_torus_and_names_no_cycle(
     theta = circle_map(0.5, 1.625, 1.875, REFERENCE)
     assert theta.kind == "hyperbolic"
     found = proved(1.0, 0.5, 1.625, 1.875)
-    assert about(theta, found.badge) == found.badge
+    assert about(theta, found.badge) == Caption(numbers=found.badge)
     assert found.badge == "Proved: no torus, but a circle with n₃ constant: two equilibria."
     assert "exactly two equilibria" in found.said
     assert "one periodic orbit" in proved(1.0, 0.1, 1.625, 1.875).badge

@@ -293,8 +293,8 @@ def test_the_points_that_move_are_those_of_the_finer_run_that_lie_elsewhere():
     assert (len(shown.changed), len(shown.same), len(shown.added)) == (changed.sum(), (~changed).sum(), longer)
     first = [int(np.argmax(one > 0.5)) + 1 for one in away if one.max() > 30.0]
     assert len(first) > 15
-    said = f"chaos takes {len(shown.lost)} of {len(away)} orbits, from crossing {min(first)}."
-    assert state.comparison.about().endswith(said)
+    said = f"Chaos changes {len(shown.lost)} of {len(away)} orbits. From crossing {min(first)} on;"
+    assert state.comparison.about().words.startswith(said)
     assert len(shown.lost) >= len(first)
     assert any(row.startswith("Lost to chaos between draft and standard") for row in report.derived)
 

@@ -103,7 +103,7 @@ def test_a_bare_machine_serves(tmp_path, read_only):
             process.terminate()
         said = process.stdout.read().decode()
         assert process.wait(20) == 0
-    assert "ρ = " in state["tree"]["texts"]["circle"]
+    assert "ρ = " in state["tree"]["captions"]["circle"]["numbers"]
     assert "1.25" in state["query"]
     # Python itself complains of what it does not know.
     lines = [line for line in said.splitlines() if "Invalid -W option" not in line]

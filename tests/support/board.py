@@ -18,6 +18,7 @@ from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework import work
 from hess_explorer.scenes.framework.stage import Stage
+from support.captions import texts_in
 from support.wire import read, read_frame
 
 SCENES = scenes()
@@ -123,12 +124,12 @@ class Screen:
     def __init__(self, name):
         self.sources = dict(empty_sources(name))
         self.ranges = {plot: list(figure.ranges) for plot, figure in plots_of(name).items()}
-        self.texts, self.controls = {}, {}
+        self.texts, self.verdicts, self.controls = {}, {}, {}
         self.fresh = {}
 
     def take(self, tree, block):
         """What came; `fresh` are the sources among it.  Names that the browser does not know are errors."""
-        assert set(tree) == {"sources", "ranges", "texts", "controls"}
+        assert set(tree) == {"sources", "ranges", "texts", "captions", "controls"}
         assert np.all(np.isfinite(np.frombuffer(block, "<f4")))
         self.fresh = {
             name: {key: read(column, block) for key, column in columns.items()}
@@ -138,7 +139,8 @@ class Screen:
         assert set(tree["ranges"]) <= set(self.ranges)
         self.sources.update(self.fresh)
         self.ranges.update(tree["ranges"])
-        self.texts.update(tree["texts"])
+        self.texts.update(texts_in(tree))
+        self.verdicts.update({name: parts["verdict"] for name, parts in tree["captions"].items()})
         self.controls.update(tree["controls"])
 
 

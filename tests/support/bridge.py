@@ -11,7 +11,7 @@ from scipy.special import ellipk
 
 from hess_explorer.scenes import scenes
 
-HELD = "At most # up to t = #, held on r·M = 0; left to itself #."
+HELD = "At most # up to t = # if r·M = 0 is imposed; # if not."
 LEAK, BRIDGE = scenes()["hess-leak"], scenes()["bridge"]
 
 

@@ -6,6 +6,7 @@ from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.stage import Stage
+from support.captions import texts_in
 
 SCENE = scenes()["singular-measures"]
 
@@ -14,7 +15,7 @@ def captions(values):
     """The texts beside the pictures, by their names."""
     wire = Wire()
     Stage(SCENE, wire).show(complete(SCENE.admit(values)[0]), False)
-    return wire.pack()[0]["texts"]
+    return texts_in(wire.pack()[0])
 
 
 def complete(values):

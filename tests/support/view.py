@@ -10,6 +10,7 @@ from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics.errors import WorkLimit
+from support.captions import texts_in
 from support.wire import read
 
 NUMBER = r"(−?\d+(?:\.\d+)?(?:e−?\d+)?)"
@@ -50,7 +51,7 @@ class View:
             name: {key: read(column, block) for key, column in columns.items()}
             for name, columns in tree["sources"].items()
         }
-        self.axes, self.text = tree["ranges"], tree["texts"]
+        self.axes, self.captions, self.text = tree["ranges"], tree["captions"], texts_in(tree)
 
     def _complete(self, scene, seen, dragging, refusing):
         """Find what is left to be computed, and show it; whether anything was."""

@@ -174,7 +174,7 @@ def picture_of(scene: Scene[Any], name: str) -> Picture[Any]:
 def show(address: Address) -> Shown:
     """Compute a picture completely.  Raises `ModelError`."""
     scene, view = address.scene, address.picture
-    state, (columns, axes, title, caption, status, said) = complete(
+    state, (columns, axes, caption, status, said) = complete(
         scene, address.values, [view.name], lambda state: _said(view, state)
     )
     return Shown(
@@ -185,8 +185,8 @@ def show(address: Address) -> Shown:
         state,
         columns,
         axes,
-        title,
-        caption,
+        caption.title,
+        caption.words,
         (f"accuracy: {state.work.chosen}", *status),
         tuple(dict.fromkeys([*address.notes, *said])),
     )
@@ -205,10 +205,10 @@ def complete(scene: Scene[Any], values: Values, pictures: Collection[str], made:
 
 
 def _said(view: Picture[Any], state: Any) -> tuple[Any, ...]:
-    """Return the columns, axes, title, caption, status and notes of a picture."""
-    title, _, caption = view.said(state).partition("\n")
+    """Return the columns, axes, caption, status and notes of a picture."""
+    caption = view.said(state)
     axes = view.ranges(state) or view.first_axes
     columns = dict(state.drawn)
     for source, more in view.framed(state, axes).items():
         columns[source] = {**columns.get(source, {}), **more}
-    return columns, axes, title, caption, tuple(state.status()), tuple(state.notes())
+    return columns, axes, caption, tuple(state.status()), tuple(state.notes())

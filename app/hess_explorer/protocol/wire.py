@@ -21,6 +21,7 @@ class Wire:
     def __init__(self) -> None:
         self._pending: dict[str, Mapping[str, Any]] = {}
         self._texts: dict[str, str] = {}
+        self._captions: dict[str, dict[str, str]] = {}
         self._ranges: dict[str, list[float]] = {}
         self._controls: dict[str, list[float] | str] = {}
 
@@ -36,6 +37,10 @@ class Wire:
         """Set the text of the `Text` component of that key."""
         self._texts[key] = text
 
+    def caption(self, picture: str, caption: dict[str, str]) -> None:
+        """Set the title, verdict and numbers over a picture."""
+        self._captions[picture] = caption
+
     def show_number(self, name: str, value: float, limits: Sequence[float], idle: bool = False) -> None:
         """Set the control of a number: its value, the (low, high, step) of its slider, idle if it is disabled."""
         self._controls[name] = [value, *limits, *([True] if idle else [])]
@@ -47,9 +52,9 @@ class Wire:
     def pack(self) -> tuple[dict[str, Any], bytes]:
         """Return the tree and the block of all collected changes, and clear them.
 
-        The tree has the keys "sources", "ranges", "texts" and "controls".  It represents an array by {"at": first,
-        "n": length}, counted in single-precision numbers, and its "shape" unless that is (n,).  Lists and plain values
-        are copied.
+        The tree has the keys "sources", "ranges", "texts", "captions" and "controls".  It represents an array by
+        {"at": first, "n": length}, counted in single-precision numbers, and its "shape" unless that is (n,).  Lists and
+        plain values are copied.
         """
         blocks: list[np.ndarray] = []
         position = 0
@@ -68,6 +73,12 @@ class Wire:
             source: {name: place(column) for name, column in columns.items()}
             for source, columns in self._pending.items()
         }
-        tree = {"sources": sources, "ranges": self._ranges, "texts": self._texts, "controls": self._controls}
-        self._pending, self._ranges, self._texts, self._controls = {}, {}, {}, {}
+        tree = {
+            "sources": sources,
+            "ranges": self._ranges,
+            "texts": self._texts,
+            "captions": self._captions,
+            "controls": self._controls,
+        }
+        self._pending, self._ranges, self._texts, self._captions, self._controls = {}, {}, {}, {}, {}
         return tree, b"".join(block.tobytes() for block in blocks)

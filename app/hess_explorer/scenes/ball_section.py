@@ -32,6 +32,7 @@ from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.scenes.parts.section import Section, crossings_of_each, section_trial
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import section_plane
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.plot import Plot
@@ -313,22 +314,24 @@ class BallSection(State):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _about_section(self) -> str:
+    def _about_section(self) -> Caption:
         special = self.periodic_orbit.caption or self.megno.caption
-        if special or self.section.own is None:
-            return special or "Left out: it would take too many steps."
-        volume = "the flow keeps volume" if self.I13 == self.I23 == 0.0 else "volume is not kept"
-        visited = occupied_cells(self.section.own, _CELLS)
-        return f"The chosen orbit: {len(self.section.own)} points in {visited} of {_CELLS**2} cells; {volume}."
-
-    def _about_returns(self) -> str:
+        if special is not None:
+            return special
         if self.section.own is None:
-            return "Left out: it would take too many steps."
+            return Caption("Left out: too many steps.")
+        volume = "The flow preserves volume." if self.I13 == self.I23 == 0.0 else "The flow does not preserve volume."
+        visited = occupied_cells(self.section.own, _CELLS)
+        return Caption(volume, f"Chosen orbit: {len(self.section.own)} points in {visited} of {_CELLS**2} cells.")
+
+    def _about_returns(self) -> Caption:
+        if self.section.own is None:
+            return Caption("Left out: too many steps.")
         if is_reversible(self.body):
-            return "ψ and the next ψ: one point, proved by γ₃ → −γ₃, t → −t."
+            return Caption("One point: every orbit closes.", "Proved by the symmetry γ₃ → −γ₃, t → −t.")
         if has_area_integral(self.body):
-            return "ψ and the next ψ: a curve, as ω₁γ₁ + ω₂γ₂ is an integral."
-        return "ψ and the next ψ: a point if closed, a curve if regular, a cloud in chaos."
+            return Caption("A curve: there is another integral.", "ω₁γ₁ + ω₂γ₂ is constant.")
+        return Caption("ψ and the next ψ.", "Closed orbit: a point; regular: a curve; chaotic: a cloud.")
 
     def derived(self) -> Iterator[str]:
         """Energies, and where the orbit starts."""

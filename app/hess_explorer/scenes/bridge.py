@@ -18,6 +18,7 @@ from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, hess_s
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import andoyer, theme, torus_plane
 from hess_explorer.views import circle_map as circle
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.chart import LG_OF_0, lg, lg_axis
 from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import Columns
@@ -259,20 +260,19 @@ class BothSides(State):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _about_torus(self) -> str:
-        return (
-            f"h = {digits(self.map.h, 6)}, f = {digits(self.map.f, 6)} in units b = 1; |w| "
-            f"{ranging(self.turning.initial_rho, self.turning.final_rho)}."
-        )
+    def _about_torus(self) -> Caption:
+        h, f = digits(self.map.h, 6), digits(self.map.f, 6)
+        width = ranging(self.turning.initial_rho, self.turning.final_rho)
+        return Caption(numbers=f"h = {h}, f = {f} in units b = 1; |w| {width}.")
 
-    def _about_andoyer(self) -> str:
+    def _about_andoyer(self) -> Caption:
         H, F1 = self.bridge.from_units_of_b(self.map.h, self.map.f)
-        return f"H = {digits(H, 6)}, F₁ = {digits(F1, 6)}: it keeps to the Hess relation."
+        return Caption("The Hess relation holds along the orbit.", f"H = {digits(H, 6)}, F₁ = {digits(F1, 6)}.")
 
-    def _about_difference(self) -> str:
+    def _about_difference(self) -> Caption:
         held, free = (digits(float(one.max()), 2) for one in (self.difference.held, self.difference.free))
         end = digits(float(self.difference.times[-1]))
-        return f"At most {held} up to t = {end}, held on r·M = 0; left to itself {free}."
+        return Caption(numbers=f"At most {held} up to t = {end} if r·M = 0 is imposed; {free} if not.")
 
     def derived(self) -> Iterator[str]:
         """Both bodies, what they share."""

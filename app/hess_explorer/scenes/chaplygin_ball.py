@@ -22,6 +22,7 @@ from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
 from hess_explorer.views import velocity_plane as plane
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Curves
 from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import arrows, curves, levels, names, region, ring
@@ -182,20 +183,17 @@ class ChaplyginBall(State):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _about_sphere(self) -> str:
+    def _about_sphere(self) -> Caption:
         left, last = in_digits(math.cos(self.theta)), in_digits(self.Gamma[-1])
-        return (
-            f"Leaves the circle Γ = {left} and comes back to it in the end."
-            if left == last
-            else f"Leaves the circle Γ = {left} and comes to Γ = {last} in the end."
-        )
+        verdict = "The orbit returns to its circle." if left == last else "The orbit passes to another circle."
+        return Caption(verdict, f"Γ = {left} at the start, Γ = {last} at the end.")
 
-    def _about_curve(self) -> str:
+    def _about_curve(self) -> Caption:
         if self.map is None:
-            return "Left out: it would take too many steps."
-        return f"θ⁻ = {in_digits(self.theta)}: {square.spread(self.map.theta_plus)}; dashed: 𝒟 = 0."
+            return Caption("Left out: too many steps.")
+        return Caption(numbers=f"θ⁻ = {in_digits(self.theta)}: {square.spread(self.map.theta_plus)}; dashed: 𝒟 = 0.")
 
-    def _about_Gamma(self) -> str:
+    def _about_Gamma(self) -> Caption:
         return _change(math.cos(self.theta), float(self.Gamma[-1]))
 
     def derived(self) -> Iterator[str]:
@@ -252,14 +250,12 @@ _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
 )
 
 
-def _change(first: float, last: float) -> str:
-    """What an angle cosine does in all."""
+def _change(first: float, last: float) -> Caption:
+    """Return the caption of a cosine Γ that goes from one value to another."""
     shown = in_digits(first), in_digits(last)
-    return (
-        f"Γ is {shown[0]} again in the end."
-        if shown[0] == shown[1]
-        else (f"Γ {'grows' if last > first else 'falls'} from {shown[0]} to {shown[1]}.")
-    )
+    if shown[0] == shown[1]:
+        return Caption("Γ returns to its initial value.", f"Γ = {shown[0]}.")
+    return Caption(f"Γ {'grows' if last > first else 'falls'}.", f"From {shown[0]} to {shown[1]}.")
 
 
 SCENE = Scene(
@@ -284,7 +280,7 @@ SCENE = Scene(
     views=(
         solid_body(ball=True, field=False),
         plane.picture(
-            lambda s: "Every orbit crosses the strip between σ₂ and σ₁ from Nᵘ to Nˢ.",
+            lambda s: Caption("From Nᵘ to Nˢ.", "Every orbit crosses the strip between σ₂ and σ₁."),
             lambda s: s.half_width,
             layers=(
                 region(

@@ -41,6 +41,7 @@ from hess_explorer.scenes.parts.orbit_diagram import (
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.scenes.parts.regime import Regime, few
 from hess_explorer.views import branch, layered_section, periodic, theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import about_0, over_time
 from hess_explorer.views.layers import Axes, levels, points
 from hess_explorer.views.picture import Picture
@@ -257,20 +258,18 @@ class DiagramState(State, ABC):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _about_diagram(self) -> str:
+    def _about_diagram(self) -> Caption:
         if self.branch == NONE:
             return self.diagram.caption()
-        return self.continuation.caption or self.work.awaited("A periodic orbit is")
+        return self.continuation.caption or Caption(self.work.awaited("A periodic orbit is"))
 
-    def _about_turning(self) -> str:
+    def _about_turning(self) -> Caption:
         times = self.turned.times
         if not len(times):
-            return "The body does not turn round in this time."
+            return Caption("The body does not turn round.")
         many = "once" if len(times) == 1 else f"{len(times)} times"
-        return (
-            f"It turns round {many}, at first at t = {digits(float(times[0]), 6)}, "
-            f"to {digits(self.turned.error_estimate, 1)}."
-        )
+        first, error = digits(float(times[0]), 6), digits(self.turned.error_estimate, 1)
+        return Caption(f"The body turns round {many}.", f"First at t = {first} ± {error}.")
 
     def derived(self) -> list[str]:
         """Return the energy, the place on show, the bifurcations of the branch, whether this is a rigid body."""

@@ -52,6 +52,7 @@ from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, len
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.scenes.parts.rotation_across import RotationAcross, rotation_picture, rotation_trial
 from hess_explorer.views import andoyer
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns, column
 from hess_explorer.views.poisson_sphere import Direction, along_the_orbit, gamma_columns
 from hess_explorer.views.section_plane import joined
@@ -349,15 +350,17 @@ class EulerPoisson(State):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _about_section(self) -> str:
+    def _about_section(self) -> Caption:
         special = self.periodic_orbit.caption or self.megno.caption
-        if special:
+        if special is not None:
             return special
         kept = [one for batch in self.section.batches for one in batch.kept]
-        mixed = ": the layers never mix." if self.away == 0.0 else "."
         other = len(inside([(float(l), float(x)) for l, x in self.section.elsewhere], self.section.frame))
-        apart = f" {other} on another sheet." if other else ""
-        return f"r·M keeps its sign along {sum(kept)} of {len(kept)} orbits{mixed}{apart}"
+        apart = f" {other} points on another sheet." if other else ""
+        return Caption(
+            "The two layers never mix." if self.away == 0.0 else "",
+            f"r·M keeps its sign along {sum(kept)} of {len(kept)} orbits.{apart}",
+        )
 
     def derived(self) -> Iterator[str]:
         """a and r, the start of the orbit on show, whether this is a rigid body."""

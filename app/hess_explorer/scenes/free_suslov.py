@@ -18,6 +18,7 @@ from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, 
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views import velocity_plane as plane
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import branches, over_time
 from hess_explorer.views.layers import Columns, Sign, arrows, curves, levels, line, text
 from hess_explorer.views.plot import Plot
@@ -229,21 +230,27 @@ class FreeSuslov(State):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _about_velocity(self) -> str:
-        return f"From the unstable to the stable point at rate ω₀ = {digits(self.points.rate)}, E = {digits(self.h)}."
+    def _about_velocity(self) -> Caption:
+        return Caption(
+            "From the unstable to the stable point.", f"Rate ω₀ = {digits(self.points.rate)}, E = {digits(self.h)}."
+        )
 
-    def _about_sphere(self) -> str:
+    def _about_sphere(self) -> Caption:
         came, went, other = map(digits, (*self.orbit.limits, self.second.limits[1]))
         if self.F2 is None:
-            return f"From the circle Γ⁻ = {came} about ξ to Γ⁺ = {went} and {other}."
-        return f"F₂ = {digits(self.F2[1])}: both from the cycle C⁻, Γ = {came}, to C⁺, Γ = {went}."
+            return Caption("Both orbits leave one circle about ξ.", f"From Γ⁻ = {came} to Γ⁺ = {went} and {other}.")
+        return Caption(
+            "Both orbits go from C⁻ to C⁺.", f"F₂ = {digits(self.F2[1])}; Γ = {came} on C⁻, Γ = {went} on C⁺."
+        )
 
-    def _about_gamma1(self) -> str:
-        return f"In the end γ turns about ξ at {digits(self.points.speed)} radians a unit of time."
+    def _about_gamma1(self) -> Caption:
+        return Caption(
+            "In the end γ rotates uniformly about ξ.", f"By {digits(self.points.speed)} radians per unit of time."
+        )
 
-    def _about_Gamma(self) -> str:
+    def _about_Gamma(self) -> Caption:
         came, went, other = map(digits, (*self.orbit.limits, self.second.limits[1]))
-        return f"From Γ⁻ = {came} to Γ⁺ = {went} and {other} (dotted)."
+        return Caption("Γ tends to a constant.", f"From Γ⁻ = {came} to Γ⁺ = {went} and {other} (dotted).")
 
     def derived(self) -> Iterator[str]:
         """I11 and k², energy, rate and directions, F2."""

@@ -15,6 +15,7 @@ from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, nu
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Solid, heavy_solid, solid_body
 from hess_explorer.views import andoyer, theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.chart import LG_OF_0, lg, lg_axis
 from hess_explorer.views.layers import Columns, Range, column, curves
 from hess_explorer.views.leak import distances
@@ -173,31 +174,32 @@ class HessLeak(State):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _about_leak(self) -> str:
+    def _about_leak(self) -> Caption:
         exact, growth = digits(mechanics.exact_growth(self.map), 6), self.leaks["own"].growth
         if self.map.kind != "hyperbolic":
             largest = digits(float(np.max(np.abs(self.run.off))), 2)
-            return f"Stable: no cycles, no growth; after {self._periods} periods |r·M| ≤ {largest}."
+            return Caption("Stable: no cycles, no growth.", f"After {self._periods} periods |r·M| ≤ {largest}.")
         if growth is None:
-            return f"Exact growth {exact} a period; too little of it is straight to measure."
+            return Caption("Too short a growth to measure.", f"Exact growth {exact} per period.")
         measured = digits(growth.per_period, 6)
-        return f"ln |r·M| grows by {measured} a period over {growth.periods} of them; exact {exact}."
-
-    def _about_difference(self) -> str:
-        largest = digits(float(self.leaks["own"].apart.max()), 2)
-        return f"{self.run.level}: up to {largest} (units b = 1) from that of the reduced system."
-
-    def _about_side(self) -> str:
-        sign, stays = self.leaks["own"].side
-        if sign == 0:
-            return "The orbit keeps to the Hess relation, to round-off."
-        return (
-            f"The orbit falls into the layer r·M {'>' if sign > 0 else '<'} 0"
-            f"{' and stays in it' if stays else ', and changes it later'}."
+        return Caption(
+            "r·M grows exponentially.",
+            f"ln |r·M|: {measured} per period, measured over {growth.periods} periods; exact {exact}.",
         )
 
-    def _about_sphere(self) -> str:
-        return f"The exact γ, n₃ {ranging(*self.hess.turning.roots[1:])}, and the one that leaks."
+    def _about_difference(self) -> Caption:
+        largest = digits(float(self.leaks["own"].apart.max()), 2)
+        return Caption(numbers=f"{self.run.level}: at most {largest} (units b = 1).")
+
+    def _about_side(self) -> Caption:
+        sign, stays = self.leaks["own"].side
+        if sign == 0:
+            return Caption("The Hess relation holds to round-off.")
+        layer = f"The orbit enters the layer r·M {'>' if sign > 0 else '<'} 0."
+        return Caption(layer, "It stays there." if stays else "It changes layer later.")
+
+    def _about_sphere(self) -> Caption:
+        return Caption("The exact γ and the leaking one.", f"n₃ {ranging(*self.hess.turning.roots[1:])}.")
 
     def derived(self) -> Iterator[str]:
         """The reduced body and torus, the exact growth, and what was measured of it."""

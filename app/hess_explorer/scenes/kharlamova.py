@@ -24,6 +24,7 @@ from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import period_graph, plane_domain, plane_potential, theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import pieces
 from hess_explorer.views.layers import Columns, Layer, curves, points, ring
 from hess_explorer.views.period_graph import has_periods, period_axis
@@ -245,37 +246,43 @@ class Kharlamova(State):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _about_domain(self) -> str:
+    def _about_domain(self) -> Caption:
         if self.arc.kind == "fixed":
-            where = "on the equator" if self.start[4] == 0.0 else "no field and no motion"
-            stable = {True: ", stable", False: ", unstable", None: ""}[self.arc.stable]
-            return f"A fixed point, {where}{stable}: nothing changes."
+            stable = {True: "A stable fixed point.", False: "An unstable fixed point.", None: "A fixed point."}
+            where = "On the equator." if self.start[4] == 0.0 else "No field and no motion."
+            return Caption(stable[self.arc.stable], where)
         if self.arc.kind == "asymptotic":
-            return "Asymptotic: the arc touches the edge from inside, at an unstable fixed point."
-        shape = "an arc of a parabola" if np.any(self.arc.a) else "a straight line"
-        return f"Periodic: {shape}, to and fro in T = {digits(self.arc.period, 6)}."
+            return Caption("Asymptotic to an unstable fixed point.", "The arc touches the edge from inside there.")
+        shape = "arc of a parabola" if np.any(self.arc.a) else "straight line"
+        return Caption(f"Periodic: {shape}, back and forth.", f"T = {digits(self.arc.period, 6)}.")
 
-    def _about_sphere(self) -> str:
+    def _about_sphere(self) -> Caption:
         if self.arc.kind == "fixed":
-            return "γ̇₃ = γ₁ω₂ − γ₂ω₁ = 0 and γ₃ = 0: γ stays." if self.arc.rate > 0.0 else "γ stays."
+            return Caption("γ stays.", "γ̇₃ = γ₁ω₂ − γ₂ω₁ = 0 and γ₃ = 0." if self.arc.rate > 0.0 else "")
         first, second = map(digits, self.arc.crossing_speeds)
         if self.arc.kind == "asymptotic":
             last = second if self.arc.touch == self.arc.tau[0] else first
-            return f"The equator is crossed once, |γ̇₃| = {last}; from and to the fixed point for ever."
-        return f"Twice a period it crosses the equator, |γ̇₃| = {first} and {second}."
+            return Caption("The equator is crossed once.", f"|γ̇₃| = {last}.")
+        return Caption("Two equator crossings per period.", f"|γ̇₃| = {first} and {second}.")
 
-    def _about_curve(self) -> str:
+    def _about_curve(self) -> Caption:
         if self.arc.kind == "fixed":
-            return "τ does not run: dτ = γ₃ dt = 0." if self.arc.rate > 0.0 else "Nothing depends on τ."
-        said = "γ₃² = P(τ) between its zeros {} and {}".format(*map(digits, self.arc.tau))
+            return Caption("τ stands still.", "dτ = γ₃ dt = 0." if self.arc.rate > 0.0 else "Nothing depends on it.")
+        verdict = "γ₃² = P(τ) between two zeros."
+        zeros = "Zeros {} and {}".format(*map(digits, self.arc.tau))
         if self.arc.kind == "asymptotic":
-            return f"{said}, with a double zero at {digits(self.arc.touch or 0.0)}."
-        return f"{said}; dτ = γ₃ dt, ∮dτ/γ₃ = T."
+            return Caption(verdict, f"{zeros}; the zero {digits(self.arc.touch or 0.0)} is double.")
+        return Caption(verdict, f"{zeros}; dτ = γ₃ dt, ∮dτ/γ₃ = T.")
 
-    def _about_period(self) -> str:
-        if self.arc.kind != "periodic":
-            return "Of the other directions from here." if self.arc.kind == "fixed" else "T = ∞ here: ∫dτ/γ₃ diverges."
-        return f"T = {digits(self.arc.period, 6)} here; after T back at the start to {power(self.missed)}."
+    def _about_period(self) -> Caption:
+        if self.arc.kind == "fixed":
+            return Caption("Periods of other directions from here.")
+        if self.arc.kind == "asymptotic":
+            return Caption("T = ∞ in this direction.", "∫dτ/γ₃ diverges.")
+        return Caption(
+            f"T = {digits(self.arc.period, 6)} in this direction.",
+            f"After T the orbit returns to its start, to {power(self.missed)}.",
+        )
 
     def derived(self) -> Iterator[str]:
         """Energy, start, force, period, divergence."""

@@ -16,6 +16,7 @@ from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views.body import BodyInSpace, Curve, Rod, Shape, Trail
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns, Sign, column, line
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Mark
@@ -113,32 +114,38 @@ class Loxodrome(State):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _about_body(self) -> str:
-        said = "" if self.pendulum.body.check.is_body else "No rigid body, so no ellipsoid. "
-        return f"{said}The centre of mass stays in a vertical plane, to {power(self.found.off_plane)}."
+    def _about_body(self) -> Caption:
+        said = "" if self.pendulum.body.check.is_body else "Not a rigid body, so no ellipsoid. "
+        return Caption(
+            "The centre of mass swings in a plane.",
+            f"{said}It leaves the vertical plane by {power(self.found.off_plane)}.",
+        )
 
-    def _about_space(self) -> str:
+    def _about_space(self) -> Caption:
         p, l = self.pendulum, self.found.l
         if p.h < 1.0:
             low, high = sorted(map(float, p.l_at(np.array([-p.amplitude, p.amplitude]))))
-            return f"Middle axis: to and fro on a segment of the loxodrome, l {ranging(low, high)}."
+            return Caption("Middle axis: oscillates along a loxodrome.", f"l {ranging(low, high)}.")
         if p.h == 1.0:
             top = float(p.l_at(np.array([math.pi]))[0])
-            return f"Middle axis: once along the loxodrome, from l = {digits(l[0])} towards {digits(top)}."
-        return f"Middle axis: along the whole loxodrome to a pole; l {ranging(l[0], l[-1])}."
+            return Caption("Middle axis: once along the loxodrome.", f"l from {digits(l[0])} towards {digits(top)}.")
+        return Caption("Middle axis: along a loxodrome to a pole.", f"l {ranging(l[0], l[-1])}.")
 
-    def _about_angle(self) -> str:
+    def _about_angle(self) -> Caption:
         measured, theta = self.found.measured[1], self.pendulum.angle
         error = f", to {power(np.max(np.abs(measured - theta)))}" if measured.size else ""
-        return f"sin θ = 1/√(1+a²): θ = {digits(theta, 6)}, measured on the track{error}."
+        return Caption(
+            "The angle θ is constant.", f"sin θ = 1/√(1+a²), θ = {digits(theta, 6)}; measured on the track{error}."
+        )
 
-    def _about_height(self) -> str:
+    def _about_height(self) -> Caption:
         p = self.pendulum
         if p.h < 1.0:
-            return f"It swings to α = ±{digits(p.amplitude)}; the height reaches h = {digits(p.h)}."
+            return Caption("It swings.", f"α = ±{digits(p.amplitude)} at most; the height reaches h = {digits(p.h)}.")
         if p.h == 1.0:
-            return "It rises to the top, 1, and never quite comes there."
-        return f"It goes round: {digits(abs(float(self.found.swing[-1])) / (2.0 * math.pi))} turns in this time."
+            return Caption("It rises towards the top for ever.", "The height tends to 1.")
+        turns = abs(float(self.found.swing[-1])) / (2.0 * math.pi)
+        return Caption("It rotates.", f"{digits(turns)} turns in this time.")
 
     def derived(self) -> Iterator[str]:
         """a, the angle of the loxodrome, what follows of the body."""
@@ -235,7 +242,7 @@ SCENE = Scene(
         ),
         Plot(
             name="height",
-            title="Height of the centre of mass",
+            title="Height of the mass centre",
             caption=Loxodrome._about_height,
             axes=("t", "height"),
             x=lambda s: (0.0, s.span),

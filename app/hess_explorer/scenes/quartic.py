@@ -37,6 +37,7 @@ from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, len
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.scenes.parts.section import Section, crossings_of_each, section_trial
 from hess_explorer.views import plane_domain, section_plane
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Sphere, centre_of_mass, parallels
@@ -259,20 +260,25 @@ class Quartic(State):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _about_domain(self) -> str:
+    def _about_domain(self) -> Caption:
         first, second = map(digits, self.body.axes)
-        ring = f"a ring, inside {digits(self.body.hole)} of it grey" if self.body.hole > 0.0 else "no hole"
-        return f"Level ½, half axes {first} and {second}, {ring}."
+        hole = self.body.hole > 0.0
+        return Caption(
+            "Motion in a ring." if hole else "Motion in a region without a hole.",
+            f"Level ½: half axes {first} and {second}{f', hole (grey) {digits(self.body.hole)}' if hole else ''}.",
+        )
 
-    def _about_section(self) -> str:
+    def _about_section(self) -> Caption:
         special = self.periodic_orbit.caption or self.megno.caption
-        if special or self.section.own is None:
-            return special or self.section.reason
+        if special is not None:
+            return special
+        if self.section.own is None:
+            return Caption(numbers=self.section.reason)
         visited = model.visited(self.body, self.section.own, _CELLS)
-        return f"The orbit: {len(self.section.own)} points in {visited} of {_CELLS * _CELLS} cells."
+        return Caption(numbers=f"Chosen orbit: {len(self.section.own)} points in {visited} of {_CELLS * _CELLS} cells.")
 
-    def _about_sphere(self) -> str:
-        return f"Back to the body: γ = (p₁, p₂, γ₃), γ₃ {staying(self.orbit.path.states[:, 4])}."
+    def _about_sphere(self) -> Caption:
+        return Caption("The motion of the body.", f"γ = (p₁, p₂, γ₃), γ₃ {staying(self.orbit.path.states[:, 4])}.")
 
     def derived(self) -> Iterator[str]:
         """Moment of inertia, energy, start; how well the point stays on its level."""

@@ -20,6 +20,7 @@ from hess_explorer.scenes.framework.trial import COLOUR, COLOUR_UNIT, Trial, col
 from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import rotation_line, rotation_plane
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Cells, Curves, Frame
 from hess_explorer.views.graph import pieces
 from hess_explorer.views.layers import Axes, CellGrid
@@ -258,23 +259,22 @@ class RotationNumber(State):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _about_line(self) -> str:
+    def _about_line(self) -> Caption:
         rho = str(self.sought).replace("-", "−")
         if self.periodic is not None:
             place = digits(self.on_line.place(self.periodic.torus), 6)
-            return (
-                f"ρ = {rho} at {self.line} = {place}: |Θ^{self.sought.denominator} − id| ≤ "
-                f"{digits(self.periodic.defect, 1)}, every orbit is periodic."
-            )
-        return "No plateau but ρ = 0." if self.perturbed is None else f"No torus of the line has ρ = {rho}."
+            identity = f"|Θ^{self.sought.denominator} − id| ≤ {digits(self.periodic.defect, 1)}"
+            return Caption("Every orbit is periodic there.", f"ρ = {rho} at {self.line} = {place}: {identity}.")
+        return Caption("The only plateau is ρ = 0." if self.perturbed is None else f"No torus here has ρ = {rho}.")
 
-    def _about_circle(self) -> str:
+    def _about_circle(self) -> Caption:
         if self.map is None:
-            return "Separatrix: no return."
+            return Caption("Separatrix: no return.")
         kind = {"elliptic": "no cycle", "parabolic": "one cycle", "hyperbolic": "two cycles"}[self.map.kind]
-        return (
-            f"a = {digits(self.a)}, h = {digits(self.h)}, f = {digits(self.f)}: {self.map.kind}, {kind}, "
-            f"ρ = {digits(self.map.rotation_number)}."
+        return Caption(
+            f"{self.map.kind.capitalize()}: {kind}.",
+            f"a = {digits(self.a)}, h = {digits(self.h)}, f = {digits(self.f)}; "
+            f"ρ = {digits(self.map.rotation_number)}.",
         )
 
     def derived(self) -> Iterator[str]:
@@ -398,7 +398,7 @@ SCENE = Scene(
             name="map",
             title=lambda s: f"Rotation number ρ over ({s.over})",
             axes=lambda s: s.sides,
-            caption=lambda s: "One plateau, ρ = 0, where it locks; else ρ changes everywhere.",
+            caption=lambda s: Caption("Locked on one plateau, ρ = 0.", "Elsewhere ρ changes everywhere."),
             x=lambda s: s.window[0],
             y=lambda s: s.window[1],
             on_click=lambda s, x, y: {s.sides[0]: x, s.sides[1]: y},
@@ -432,7 +432,7 @@ SCENE = Scene(
             name="trace",
             title=lambda s: f"|trace| along {s.line}",
             axes=lambda s: (s.line, "|trace|"),
-            caption=lambda s: "Elliptic below 2: no cycle; hyperbolic above: two limit cycles.",
+            caption=lambda s: Caption("Below 2: no cycle. Above: two cycles.", "Elliptic below 2, hyperbolic above."),
             x=lambda s: s.on_line.ends,
             y=rotation_line.TRACE,
             on_click=lambda s, x, y: {s.line: x},

@@ -19,6 +19,7 @@ from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import drift_status
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Curves
 from hess_explorer.views.layers import curves, levels, ring
 from hess_explorer.views.text import digits as in_digits
@@ -161,14 +162,17 @@ class Scattering(State):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _about_curve(self) -> str:
-        return f"θ⁻ = {in_digits(self.theta)}: {square.spread(self.curve)} (dotted: θ⁻, π − θ⁻)."
+    def _about_curve(self) -> Caption:
+        return Caption(numbers=f"θ⁻ = {in_digits(self.theta)}: {square.spread(self.curve)} (dotted: θ⁻, π − θ⁻).")
 
-    def _about_map(self) -> str:
-        return f"All of it from one rotation, which turns ξ by χ = {in_digits(math.acos(self.limit.cos_chi))}."
+    def _about_map(self) -> Caption:
+        return Caption(
+            "One rotation gives the whole map.", f"It turns ξ by χ = {in_digits(math.acos(self.limit.cos_chi))}."
+        )
 
-    def _about_sphere(self) -> str:
-        return f"φ = {in_digits(self.phi)}: from θ⁻ = {in_digits(self.theta)} to θ⁺ = {in_digits(self.theta_plus)}."
+    def _about_sphere(self) -> Caption:
+        phi, before, after = map(in_digits, (self.phi, self.theta, self.theta_plus))
+        return Caption(numbers=f"φ = {phi}: from θ⁻ = {before} to θ⁺ = {after}.")
 
     def derived(self) -> Iterator[str]:
         """I11 and k², the rotation, the start."""

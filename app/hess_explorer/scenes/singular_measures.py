@@ -15,6 +15,7 @@ from hess_explorer.scenes.framework.parameters import ONE_TURN, accuracy_level, 
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views import cloud
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import compared
 from hess_explorer.views.graph import with_room
 from hess_explorer.views.layers import Columns, Range, column
@@ -179,19 +180,19 @@ class SingularMeasures(State):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _about_velocity(self) -> str:
+    def _about_velocity(self) -> Caption:
         return cloud.about_ends(self.clouds)
 
-    def _about_sphere(self) -> str:
+    def _about_sphere(self) -> Caption:
         first, last = (float(((self.clouds.cloud.gamma[:, i] @ self.strip.xi) ** 2).mean()) for i in (0, -1))
-        return f"γ of the same points; mean of (γ, ξ)² {ranging(first, last, 3)}."
+        return Caption("γ of the same points.", f"Mean of (γ, ξ)² {ranging(first, last, 3)}.")
 
-    def _about_density(self) -> str:
+    def _about_density(self) -> Caption:
         s, mean = self.clouds.density.passed_by_most
         height = digits(self.clouds.density.height, 3)
-        return f"Mean over time · |s| at {digits(s, 2)}: {digits(mean, 3)}; dotted {height}/|s|."
+        return Caption(numbers=f"Mean over time · |s| at {digits(s, 2)}: {digits(mean, 3)}; dotted: {height}/|s|.")
 
-    def _about_course(self) -> str:
+    def _about_course(self) -> Caption:
         return cloud.about_course(self.clouds, of_patch=self.along == "volume" and self.start == "small patch")
 
     def derived(self) -> Iterator[str]:

@@ -39,6 +39,7 @@ from hess_explorer.scenes.parts.orbit import Orbit
 from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, length_of_manifolds, plain, which
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.views import conformal_time, layered_section, theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import over_time, settled_range, thinned
 from hess_explorer.views.layers import Axes, levels
 from hess_explorer.views.plot import Plot
@@ -311,9 +312,9 @@ class Suslov(State):
     def _section_title(self) -> str:
         return f"Section {self.plane}, growing" if self.basins.basin is None else f"Section {self.plane}: basins"
 
-    def _about_section(self) -> str:
+    def _about_section(self) -> Caption:
         special = self.periodic_orbit.caption or self.megno.caption
-        if special:
+        if special is not None:
             return special
         if self.basins.basin is not None:
             return self.basins.about(self.basins.basin)
@@ -321,21 +322,25 @@ class Suslov(State):
         backward = f", {len(second)} backward" if len(second) else ""
         # The later halves of the forward orbits show what attracts.
         later = joined(orbit[len(orbit) // 2 :] for orbit in self.section.kind(True))
-        return (
-            f"{len(first)} points forward{backward}; the later forward ones lie in "
+        return Caption(
+            numbers=f"{len(first)} points forward{backward}; second halves of the forward orbits in "
             f"{occupied_cells(later, _CELLS)} of {_CELLS**2} cells."
         )
 
-    def _about_rates(self) -> str:
+    def _about_rates(self) -> Caption:
         if self.exponent.growth is not None:
             across, divergence = map(digits, self.exponent.growth)
-            return f"Next to the periodic orbit: ln|μ₁|/T = {across}, div = ln|μ₁μ₂|/T = {divergence}."
+            return Caption(
+                "From the multipliers of the periodic orbit.", f"ln|μ₁|/T = {across}, div = ln|μ₁μ₂|/T = {divergence}."
+            )
         exponent, course = self.exponent.found, self.course
         if exponent is None or course is None:
-            return self.awaited("They are")
-        return (
+            return Caption(self.awaited("They are"))
+        end = digits(float(course.times[-1]))
+        return Caption(
+            "Regular so far." if exponent.is_regular else "Chaotic.",
             f"λ = {digits(exponent.value, 3)} ± {digits(exponent.spread, 2)}, "
-            f"div = {digits(float(course.mean[-1]), 3)} after t = {digits(float(course.times[-1]))}."
+            f"div = {digits(float(course.mean[-1]), 3)} after t = {end}.",
         )
 
     def derived(self) -> Iterator[str]:

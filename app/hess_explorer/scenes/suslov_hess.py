@@ -24,6 +24,7 @@ from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.views import bifurcation_diagram as diagram
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import torus_density, torus_plane
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Cells
 from hess_explorer.views.layers import CellGrid, Columns
 from hess_explorer.views.plot import Plot
@@ -202,10 +203,10 @@ class SuslovHess(State):
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 
-    def about_diagram(self) -> str:
-        """The caption of the bifurcation diagram."""
-        said = diagram.about(self.h, self.f, self.map)
-        return said if self.zone is None else f"{said} {self.zone.said}"
+    def about_diagram(self) -> Caption:
+        """Return the caption of the bifurcation diagram."""
+        found = diagram.about(self.h, self.f, self.map)
+        return found if self.zone is None else replace(found, numbers=f"{found.numbers} {self.zone.said}")
 
     def orbit_columns(self) -> Columns:
         """The orbit, and what the moving points of the other pictures follow."""

@@ -9,6 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
 from hess_explorer.views.layers import Layers, Positions, curves, dots, line, ring
 from hess_explorer.views.plot import Plot
@@ -23,7 +24,7 @@ _X_TICKS = [(-1.0, "−1"), (-0.5, "−½"), (0.0, "0"), (0.5, "½"), (1.0, "1")
 
 def picture(
     title: str,
-    caption: Callable[[S], str],
+    caption: Callable[[S], Caption],
     relation: Callable[[S], Array],
     orbit: Callable[[S], Array],
     color: str = theme.ORBIT,

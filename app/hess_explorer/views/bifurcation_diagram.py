@@ -8,6 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Frame
 from hess_explorer.views.layers import (
     TURNS,
@@ -118,16 +119,17 @@ def layers(
     )
 
 
-def about(h: float, f: float, theta: CircleMap | None) -> str:
-    """In which zone a torus lies, from its circle map, None on the separatrix."""
+def about(h: float, f: float, theta: CircleMap | None) -> Caption:
+    """Return the zone of a torus from its circle map; None on the separatrix."""
     zone = (
-        "the separatrix"
+        "On the separatrix."
         if theta is None
-        else {"hyperbolic": "locked, two limit cycles", "parabolic": "on the lock boundary"}.get(
-            theta.kind, f"not locked, ρ = {digits(theta.rotation_number)}"
+        else {"hyperbolic": "Locked: two limit cycles.", "parabolic": "On the lock boundary."}.get(
+            theta.kind, "Not locked: no limit cycle."
         )
     )
-    return f"h = {digits(h)}, f = {digits(f)}: {zone}."
+    rho = f", ρ = {digits(theta.rotation_number)}" if theta is not None and theta.kind == "elliptic" else ""
+    return Caption(zone, f"h = {digits(h)}, f = {digits(f)}{rho}.")
 
 
 def about_torus(a: float, h: float, f: float) -> str:

@@ -9,6 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Curves, Frame
 from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
 from hess_explorer.views.layers import Axes, Layers, curves, line, mapped, points
@@ -60,7 +61,7 @@ def _density(circle_map: CircleMap) -> list[Array]:
 def picture(
     map: Callable[[S], CircleMap | None],
     iterates: Callable[[S], Array | None],
-    caption: Callable[[S], str],
+    caption: Callable[[S], Caption],
     title: str = "Circle map",
     dot: tuple[str, str] | None = None,
     on_click: Click[S] | None = None,
@@ -133,25 +134,27 @@ def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array 
     )
 
 
-def about(theta: CircleMap | None, proof: str = "") -> str:
-    """The kind of a map, its trace and rotation number, and what its cycles are, None on the separatrix.
+def about(theta: CircleMap | None, proof: str = "") -> Caption:
+    """Return the kind of a map, its trace and rotation number, and its multipliers; None on the separatrix.
 
-    proof : what is proved of it, where that is known: it takes the place of the numbers that it encloses, and of all
-    where it says that there is no torus.
+    proof : the proved statement, if known.  It replaces the numbers that it encloses, and the whole caption if it says
+    that there is no torus.
     """
     if theta is None:
-        return "Separatrix: no return."
+        return Caption("Separatrix: no return.")
     if "no torus" in proof:
-        return proof
+        return Caption(numbers=proof)
+    cycles = {"hyperbolic": "two limit cycles", "parabolic": "the two cycles have merged"}.get(theta.kind, "no cycle")
+    kind = f"{theta.kind.capitalize()}: {cycles}."
+    trace, rho = f"|trace| {digits(theta.trace, 5)}", f"ρ = {digits(theta.rotation_number)}"
     if "cycle" in proof:
-        enclosed = "" if theta.kind == "elliptic" else f"|trace| {digits(theta.trace, 5)}, "
-        return f"{theta.kind}, {enclosed}ρ = {digits(theta.rotation_number)}. {proof}"
-    points = {
-        "hyperbolic": f"multipliers {', '.join(digits(point.multiplier) for point in theta.fixed_points)}",
-        "parabolic": "multiplier 1",
-    }.get(theta.kind, "no fixed point")
-    said = f"{theta.kind}, |trace| {digits(theta.trace, 5)}, ρ = {digits(theta.rotation_number)}; {points}."
-    return f"{said} {proof}" if proof else said
+        return Caption(kind, f"{rho}. {proof}" if theta.kind == "elliptic" else f"{trace}, {rho}. {proof}")
+    multipliers = {
+        "hyperbolic": f"; multipliers {', '.join(digits(point.multiplier) for point in theta.fixed_points)}",
+        "parabolic": "; multiplier 1",
+    }.get(theta.kind, "")
+    numbers = f"{trace}, {rho}{multipliers}."
+    return Caption(kind, f"{numbers} {proof}" if proof else numbers)
 
 
 def riccati_matrix(theta: CircleMap) -> str:
@@ -163,12 +166,12 @@ def riccati_matrix(theta: CircleMap) -> str:
     )
 
 
-def about_cycles(theta: CircleMap) -> str:
-    """What the cycles of a map are, and its trace."""
-    zone = f"No cycle, ρ = {digits(theta.rotation_number)}"
+def about_cycles(theta: CircleMap) -> Caption:
+    """Return the cycles of a map, and its trace."""
+    trace = f"|trace| {digits(theta.trace, 5)}"
     if theta.kind == "hyperbolic":
         stable, unstable = (digits(point.multiplier) for point in theta.fixed_points)
-        zone = f"Two cycles, multipliers {stable}, {unstable}"
-    elif theta.kind == "parabolic":
-        zone = "The two cycles have merged, multiplier 1"
-    return f"{zone}; |trace| {digits(theta.trace, 5)}."
+        return Caption("Two limit cycles.", f"Multipliers {stable}, {unstable}; {trace}.")
+    if theta.kind == "parabolic":
+        return Caption("The two cycles have merged.", f"Multiplier 1; {trace}.")
+    return Caption("No cycle.", f"ρ = {digits(theta.rotation_number)}; {trace}.")

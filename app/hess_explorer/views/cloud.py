@@ -10,6 +10,7 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Marks
 from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import Axes, Layer, Layers, Sign, Sources, column, levels, line, points
@@ -49,10 +50,12 @@ def room(found: Clouds) -> float:
     return nice_above(1.1 * found.fastest)
 
 
-def about_ends(found: Clouds) -> str:
-    """How far from s = 0 half of the points begin and end."""
+def about_ends(found: Clouds) -> Caption:
+    """Return the median distance of the points from s = 0 at the start and at the end."""
     before, after = (digits(math.exp(float(np.median(found.cloud.log_s[:, i]))), 3) for i in (0, -1))
-    return f"Half of {found.cloud.signs.size} points begin within |s| < {before}, and end within {after}."
+    return Caption(
+        numbers=f"{found.cloud.signs.size} points: half of them start within |s| < {before}, and end within {after}."
+    )
 
 
 def status_of(found: Clouds) -> Iterator[str]:
@@ -66,17 +69,17 @@ def status_of(found: Clouds) -> Iterator[str]:
         yield f"beside ≤ {other.errors.max():.1e}"
 
 
-def about_course(found: Clouds, of_patch: bool) -> str:
-    """What becomes of small volumes; of_patch : of that of the patch."""
+def about_course(found: Clouds, of_patch: bool) -> Caption:
+    """Return the change of small volumes; of_patch : of the volume of the patch."""
     course = found.course
     if of_patch:
-        said = f"The patch has {digits(course.volume[-1], 3)} of its volume left"
+        said = f"The patch keeps {digits(course.volume[-1], 3)} of its volume"
     else:
         said = (
             f"Mean of div v {ranging(course.divergence[0, 0], course.divergence[0, -1], 3)}; "
-            f"mean of ln s(t)/s(0) in the end {digits(course.log_growth[0, -1], 3)}"
+            f"mean of ln s(t)/s(0) at the end {digits(course.log_growth[0, -1], 3)}"
         )
-    return f"{said}; beside, all of it." if found.other is not None else f"{said}."
+    return Caption(numbers=f"{said}; the second cloud preserves volume." if found.other is not None else f"{said}.")
 
 
 def look(found: Clouds) -> Marks:

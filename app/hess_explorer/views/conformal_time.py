@@ -8,6 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import about_0, over_time, pieces, thinned
 from hess_explorer.views.layers import Axes, Layers, curves, levels, mapped
 from hess_explorer.views.plot import Plot
@@ -24,10 +25,13 @@ _LEAST = 2.5
 """So that the brackets, which are some units large where γ3 is not small, are seen too."""
 
 
-def about(found: Conformal) -> str:
-    """What a motion in its two times says."""
-    turned = {0: "never turns round", 1: "turns round once"}.get(found.turns, f"turns round {found.turns} times")
-    return f"Hamiltonian in τ: ẋ = γ₃{{x, E}} to {power(found.left_over)}. On the equator τ {turned}."
+def about(found: Conformal) -> Caption:
+    """Return the caption of a motion in both times."""
+    turned = {0: "never", 1: "once"}.get(found.turns, f"{found.turns} times")
+    return Caption(
+        "Hamiltonian in the time τ.",
+        f"ẋ = γ₃{{x, E}} to {power(found.left_over)}; τ turns round {turned} on the equator.",
+    )
 
 
 def _bracket(found: Found[S], i: int) -> Callable[[S, Axes], list[Array]]:
@@ -47,9 +51,9 @@ def _bracket(found: Found[S], i: int) -> Callable[[S, Axes], list[Array]]:
 def picture(found: Found[S], reason: Callable[[S], str], span: Callable[[S], float]) -> Plot[S]:
     """τ and {ω1, γ3}, {ω2, γ3} against t, or the reason why there is none."""
 
-    def caption(state: S) -> str:
+    def caption(state: S) -> Caption:
         motion = found(state)
-        return reason(state) if motion is None else about(motion)
+        return Caption(numbers=reason(state)) if motion is None else about(motion)
 
     layers: Layers[S] = (
         levels("levels", lambda s: [] if found(s) is None else [0.0]),

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any, ClassVar, Generic, TypeVar, cast
 
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes, Columns, Sign, Sources
 
 __all__ = ["Corners", "Picture", "Values", "adapted"]
@@ -25,7 +26,7 @@ class Picture(ABC, Generic[S]):
     Parameters
     ----------
     name, title : identifier; what stands over it, of a state where it depends on that.
-    caption(state) : one or two lines under the title, ending with a full stop.
+    caption(state) : verdict and numbers; `said` adds the title.
     on_click(state, x, y) : the values that a click chooses; on_drag : whether a drag does the same.
     on_box(state, corners) : the values that a box chooses.
     on_hover(state, x, y) : a line about the place under the mouse.  Raises `ModelError`.
@@ -36,7 +37,7 @@ class Picture(ABC, Generic[S]):
 
     name: str
     title: str | Callable[[S], str]
-    caption: Callable[[S], str]
+    caption: Callable[[S], Caption]
     on_click: Callable[[S, float, float], Values] | None = None
     on_drag: bool = False
     on_box: Callable[[S, Corners], Values] | None = None
@@ -108,10 +109,10 @@ class Picture(ABC, Generic[S]):
         """The columns of its sources where there is nothing to see; only a plot has room for the reason."""
         return {self.name: {}}
 
-    def said(self, state: S) -> str:
-        """The title and the caption."""
+    def said(self, state: S) -> Caption:
+        """Return the caption with its title."""
         title = self.title if isinstance(self.title, str) else self.title(state)
-        return f"{title}\n{self.caption(state)}"
+        return replace(self.caption(state), title=title)
 
 
 def adapted(shown: Any, part: Callable[[Any], Any]) -> Any:

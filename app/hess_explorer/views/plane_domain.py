@@ -8,6 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import about_0, over_time
 from hess_explorer.views.layers import Axes, Columns, Layers, Regions, Sign, column, curves, line, region, ring
 from hess_explorer.views.plot import Plot
@@ -34,7 +35,7 @@ def plane_columns(orbit: Orbit, q: Array, **more: Array) -> Columns:
 
 def picture(
     title: str,
-    caption: Callable[[S], str],
+    caption: Callable[[S], Caption],
     half_width: Callable[[S], float],
     names: tuple[str, str],
     layers: Layers[S],
@@ -90,12 +91,14 @@ def momentum_picture(
     least : half the height of its axis at least; is_integral : whether the force is central.
     """
 
-    def about(state: S) -> str:
+    def about(state: S) -> Caption:
         _, values = momentum(state)
         if is_integral(state):
-            return f"I₁₁ = I₂₂: an integral, {digits(float(values[0]))}, kept to {power(float(np.ptp(values)))}."
+            return Caption(
+                "An integral, as I₁₁ = I₂₂.", f"{digits(float(values[0]))}, constant to {power(float(np.ptp(values)))}."
+            )
         stays = staying(values)
-        return f"I₁₁ ≠ I₂₂: no integral, {f'but here it {stays}' if stays.startswith('stays') else stays}."
+        return Caption("No integral, as I₁₁ ≠ I₂₂.", f"{'Here it ' if stays.startswith('stays') else ''}{stays}.")
 
     return Plot(
         name="momentum",

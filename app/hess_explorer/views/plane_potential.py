@@ -8,6 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import curves, line, ring
 from hess_explorer.views.plane_domain import ground
 from hess_explorer.views.plot import Plot
@@ -31,26 +32,25 @@ _LEVELS = (0.1, 0.25, 0.5, 0.75, 0.95)
 """Equipotentials, in units of the largest U on the edge."""
 
 
-def about(body: PotentialBody, motion: PlaneMotion) -> str:
-    """Whether the motion closes, and why; whether there is another integral."""
+def about(body: PotentialBody, motion: PlaneMotion) -> Caption:
+    """Return whether the motion closes, and why; whether there is another integral."""
     if motion.fixed:
-        return "A fixed point: nothing changes."
+        return Caption("A fixed point: nothing changes.")
     if motion.period is not None:
-        return (
-            f"It crosses the equator twice and so closes: T = {digits(motion.period, 6)}, back to "
-            f"{power(motion.missed)}."
+        return Caption(
+            "Periodic: it crosses the equator twice.",
+            f"T = {digits(motion.period, 6)}, back to the start to {power(motion.missed)}.",
         )
-    where = (
-        "Too slow for the equator, it stays on one side"
-        if motion.energy < equator_energy(body)
-        else f"The equator is not crossed twice up to t = {digits(float(motion.orbit.times[-1]))}"
-    )
     integral = (
-        f"is kept to {power(motion.integral)}: integrable"
+        f"F₂ is constant to {power(motion.integral)}: integrable."
         if body.separates
-        else f"changes by {digits(100.0 * motion.integral, 2)} %"
+        else f"F₂ changes by {digits(100.0 * motion.integral, 2)} %."
     )
-    return f"{where}. F₂ {integral}."
+    if motion.energy < equator_energy(body):
+        return Caption("Too slow to reach the equator.", f"It stays on one side. {integral}")
+    return Caption(
+        "Fewer than two equator crossings.", f"Up to t = {digits(float(motion.orbit.times[-1]))}. {integral}"
+    )
 
 
 def _largest(body: PotentialBody) -> float:

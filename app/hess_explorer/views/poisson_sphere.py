@@ -8,6 +8,7 @@ from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import MOVING_POINT, Axes, Columns, Sign, Sources, column
 from hess_explorer.views.picture import Picture
 from hess_mechanics.numerics.results import Array
@@ -139,9 +140,9 @@ def along_the_orbit(axis: Callable[[S], Direction | None], circles: Callable[[S]
         looks={"orbit": "orbit"},
         axis=axis,
         circles=circles,
-        caption=lambda s: (
-            "The vertical γ along the chosen orbit; "
-            + ("no field, b = 0." if axis(s) is None else "r: the centre of mass.")
+        caption=lambda s: Caption(
+            "The vertical γ along the chosen orbit.",
+            "No field: b = 0." if axis(s) is None else "r: the centre of mass.",
         ),
     )
 

@@ -10,6 +10,7 @@ import numpy as np
 from bokeh.palettes import Cividis256
 
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Frame
 from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
 from hess_explorer.views.layers import Axes, CellGrid, Layers, Range, Sign, curves, image, line, ring, target
@@ -38,7 +39,7 @@ POLAR_TICKS = ((0.0, "0"), (math.pi / 4, "π/4"), (math.pi / 2, "π/2"), (3 * ma
 
 
 def over_square(
-    caption: Callable[[S], str], theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]
+    caption: Callable[[S], Caption], theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]
 ) -> Plot[S]:
     """θ⁺ over (φ, θ⁻); a click or a drag chooses both."""
     return Plot(
@@ -73,7 +74,9 @@ def _layers(theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, f
     )
 
 
-def over_phases(caption: Callable[[S], str], layers: Layers[S], message: Callable[[S], str] | None = None) -> Plot[S]:
+def over_phases(
+    caption: Callable[[S], Caption], layers: Layers[S], message: Callable[[S], str] | None = None
+) -> Plot[S]:
     """Curves θ⁺(φ); a click or a drag chooses the phase."""
     return Plot(
         name="curve",
@@ -108,10 +111,10 @@ def over_orders(
     orders : the closed form, rows (k, cos χ); closed : its value at the body; here : k of that, and what was computed.
     """
 
-    def about(state: S) -> str:
+    def about(state: S) -> Caption:
         computed, exact = here(state)[1], closed(state)
-        return (
-            f"Computed {digits(computed, 6)}; closed form {digits(exact, 6)}, "
+        return Caption(
+            numbers=f"Computed {digits(computed, 6)}; closed form {digits(exact, 6)}, "
             f"difference {digits(abs(computed - exact), 2)}."
         )
 

@@ -14,10 +14,11 @@ __all__ = ["conjugates", "digits", "power", "ranging", "staying", "vector", "wit
 
 
 def digits(value: float, count: int = 4) -> str:
-    """Up to `count` significant digits, with a true minus sign; ∞ where it is beyond double range."""
+    """Return a number with up to `count` significant digits, with a true minus sign; ∞ beyond double range."""
     if math.isinf(value):
         return "∞" if value > 0 else "−∞"
-    return f"{value:.{count}g}".replace("-", "−").replace("e+", "e")
+    # Adding 0 turns −0 into 0.
+    return f"{value + 0.0:.{count}g}".replace("-", "−").replace("e+", "e")
 
 
 def ranging(low: float, high: float, count: int = 4) -> str:

@@ -8,6 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
 from hess_explorer.views.layers import CellGrid, Layers, Sign, dots, image
 from hess_explorer.views.plot import Plot
@@ -45,20 +46,20 @@ def why_none(theta: CircleMap | None, turning: TurningPoints | None) -> str:
     return "No density is drawn at f = 0: φ jumps where w = 0. Choose another f." if theta.f == 0.0 else ""
 
 
-def about(density: Array) -> str:
-    """What a density, relative to an even one, says."""
+def about(density: Array) -> Caption:
+    """Return the caption of a density relative to the uniform one."""
     low, high = digits(float(density.min()), 3), digits(float(density.max()), 3)
     if low == high:
-        return "The flow keeps it: the even one, to three digits."
-    return f"The flow keeps it: {low} to {high} times an even one, greener is more."
+        return Caption("The flow preserves the uniform density.", "Uniform to three digits.")
+    return Caption("The flow preserves this density.", f"{low} to {high} times the uniform one; greener is more.")
 
 
 def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
     """The density (n, m) relative to an even one, or why there is none; the track "orbit" on the torus."""
 
-    def caption(state: S) -> str:
+    def caption(state: S) -> Caption:
         found, reason = density(state)
-        return reason if found is None else about(found)
+        return Caption(numbers=reason) if found is None else about(found)
 
     def shares(state: S) -> CellGrid | None:
         found, _ = density(state)

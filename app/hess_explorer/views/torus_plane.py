@@ -8,6 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns, Layers, Regions, line, region
 from hess_explorer.views.text import digits, ranging
 from hess_explorer.views.velocity_plane import band, ring_outside, velocity_columns
@@ -68,25 +69,25 @@ def cycle_columns(cycles: tuple[Track, Track] | None, i: int) -> Columns | None:
     return None if cycles is None else velocity_columns(None, cycles[i].omega, cycles[i].gamma)
 
 
-def about(theta: CircleMap | None, turning: TurningPoints | None) -> str:
-    """What the orbit does on its torus, both None on the separatrix."""
+def about(theta: CircleMap | None, turning: TurningPoints | None) -> Caption:
+    """Return the fate of the orbit on its torus; both None on the separatrix."""
     if theta is None or turning is None:
-        return "The orbit needs infinite time to come to rest."
+        return Caption("The orbit comes to rest in infinite time.")
     n1, n2 = turning.roots[1:]
     orbit = {
-        "hyperbolic": "The orbit tends to the stable limit cycle",
-        "parabolic": "The two limit cycles have merged",
-    }.get(theta.kind, "The orbit winds round the torus, no limit cycle")
+        "hyperbolic": "The orbit tends to the stable limit cycle.",
+        "parabolic": "The two limit cycles have merged.",
+    }.get(theta.kind, "No limit cycle: the orbit winds for ever.")
     if n2 - n1 < 1e-6:
-        orbit = "On the bifurcation curve the torus is a circle"
-    return f"{orbit}; |w| {ranging(turning.initial_rho, turning.final_rho)}."
+        orbit = "Bifurcation curve: the torus is a circle."
+    return Caption(orbit, f"|w| {ranging(turning.initial_rho, turning.final_rho)}.")
 
 
-def about_heights(turning: TurningPoints | None) -> str:
-    """Between which heights the vertical is, None on the separatrix."""
+def about_heights(turning: TurningPoints | None) -> Caption:
+    """Return the range of heights of the vertical; None on the separatrix."""
     if turning is None:
-        return "Towards the upper equilibrium, n₃ = −1."
+        return Caption("The vertical tends to n₃ = −1.", "The upper equilibrium.")
     n1, n2 = turning.roots[1:]
     if digits(n1) == digits(n2):
-        return f"The vertical γ, at the height n₃ = {digits(n1)}."
-    return f"The vertical γ, between heights n₃ = {digits(n1)} and {digits(n2)}."
+        return Caption("The vertical γ keeps its height.", f"n₃ = {digits(n1)}.")
+    return Caption("The vertical γ between two heights.", f"n₃ = {digits(n1)} and {digits(n2)}.")

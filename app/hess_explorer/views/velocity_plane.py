@@ -8,6 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Frame
 from hess_explorer.views.layers import (
     Axes,
@@ -84,7 +85,7 @@ def pixels_per_unit(half_width: float) -> tuple[float, ...]:
 
 
 def picture(
-    caption: Callable[[S], str],
+    caption: Callable[[S], Caption],
     half_width: Callable[[S], float],
     layers: Layers[S],
     title: str = "Angular velocity (ω₁, ω₂)",
@@ -121,7 +122,9 @@ def orbit_alone(
     label: str = "",
 ) -> Plot[S]:
     """The plane with nothing but the track of the orbit, which has this energy, and where the true one is."""
-    return picture(lambda s: f"The chosen orbit, E = {digits(energy(s))}.", half_width, (band(proved), orbit(label)))
+    return picture(
+        lambda s: Caption("The chosen orbit.", f"E = {digits(energy(s))}."), half_width, (band(proved), orbit(label))
+    )
 
 
 def nice_above(value: float) -> float:

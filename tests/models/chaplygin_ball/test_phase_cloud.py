@@ -470,7 +470,7 @@ def test_the_captions_say_what_the_general_equations_give(preset):
     if values["start"] == "small patch" and values["along"] == "volume":
         assert numbers_in(said["divergence"])[0] == pytest.approx(growth.mean(), rel=6e-3)
         assert growth.mean() < 0.01
-        assert ("beside, all of it" in said["divergence"]) == beside
+        assert ("the second cloud preserves volume" in said["divergence"]) == beside
     else:
         mean = [float(divergence(body, y[:, :2], y[:, 2:]).mean()) for y in (states, end)]
         assert numbers_in(said["divergence"])[0] == pytest.approx(mean[0], rel=6e-3)

@@ -344,19 +344,24 @@ def test_a_picture_that_stays_right_is_said_to_be_so_to_the_end():
     _, captions, _ = shown(errors=made_up(0.25))
     # The page's time is twice the computation's here.
     assert captions["pixels"].splitlines()[1] == (
-        "standard: wrong by less than a pixel to the end, t = 20 (at most 0.25)."
+        "standard: accurate to the end. Error below one pixel until t = 20 (at most 0.25)."
     )
     _, captions, _ = shown("draft", errors=made_up(1.0))
-    assert captions["pixels"].splitlines()[1] == "draft: wrong by less than a pixel to the end, t = 20 (at most 1)."
+    assert (
+        captions["pixels"].splitlines()[1]
+        == "draft: accurate to the end. Error below one pixel until t = 20 (at most 1)."
+    )
 
 
 def test_a_picture_that_goes_wrong_is_said_to_be_right_until_then():
     _, captions, _ = shown(errors=made_up(4.0))
     # 4 (t/10)² first exceeds 1 at the sample 6, which is 12 on the page.
-    assert captions["pixels"].splitlines()[1] == "standard: wrong by less than a pixel until t = 12."
+    assert (
+        captions["pixels"].splitlines()[1] == "standard: not accurate to the end. Error below one pixel until t = 12."
+    )
     # Also where it comes right again later.
     _, captions, _ = shown(errors=made_up([0, 0, 0, 1.5, 0, 0, 0, 0, 0, 0, 0.1]))
-    assert captions["pixels"].splitlines()[1] == "standard: wrong by less than a pixel until t = 6."
+    assert captions["pixels"].splitlines()[1] == "standard: not accurate to the end. Error below one pixel until t = 6."
 
 
 def test_the_other_captions_give_the_numbers_of_the_chosen_level():

@@ -9,6 +9,7 @@ from typing import TypeVar
 
 from hess_explorer.scenes.framework.parameters import ONE_TURN
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Sign
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, ends
 from hess_mechanics.numerics.results import Array
@@ -39,7 +40,7 @@ S = TypeVar("S")
 
 
 def sphere(
-    caption: Callable[[S], str],
+    caption: Callable[[S], Caption],
     xi: Callable[[S], Array],
     left: Callable[[S], float],
     joined: Callable[[S], float],

@@ -13,6 +13,7 @@ import numpy as np
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.body import BodyInSpace, Rod, Shape, Trail, Wheels
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Sign
 from hess_explorer.views.poisson_sphere import Direction, centre_of_mass
 from hess_explorer.views.text import digits
@@ -29,7 +30,7 @@ __all__ = ["Solid", "constrained_solid", "ellipsoid_of_inertia", "free_I33", "he
 
 _LOST = 0.02
 """The largest step of γ, in radians, between a sample and the one that follows from it, of a motion that is drawn."""
-_TOO_LONG = "Nothing is drawn: so long a motion has samples too far apart to follow its turns."
+_TOO_LONG = Caption("Not drawn: the motion is too long.", "Its samples are too far apart to follow the rotation.")
 _WHEEL = (math.sqrt(0.5), math.sqrt(0.5), 0.0)
 """Where a wheel touches: across e; about ω1 or ω2 alone a body would turn that one without rolling it."""
 _MASS = Sign("centre of mass", "dot", "background: #F0E442; border: 1.5px solid black")
@@ -51,7 +52,7 @@ class Solid:
     gamma: Array
     mass: Direction | None
     shape: Shape | None
-    about_shape: str
+    about_shape: Caption
     drawn: bool = True
 
     @cached_property
@@ -68,7 +69,7 @@ class Solid:
         return found, found.times
 
     @property
-    def caption(self) -> str:
+    def caption(self) -> Caption:
         """The caption of its picture."""
         return _TOO_LONG if self.drawn and self.in_space() is None else self.about_shape
 
@@ -81,13 +82,17 @@ def free_I33(tensor: tuple[float, float, float, float], check: BodyCheck) -> flo
     return 0.5 * sum(check.I33)
 
 
-def ellipsoid_of_inertia(tensor: tuple[float, float, float, float], check: BodyCheck) -> tuple[Shape, str]:
-    """Return it for I11, I22, I13, I23 and a free I33, and what is said of it."""
+def ellipsoid_of_inertia(tensor: tuple[float, float, float, float], check: BodyCheck) -> tuple[Shape, Caption]:
+    """Return the ellipsoid of inertia for I11, I22, I13, I23 and a chosen I33, and its caption."""
     (I11, I22, I13, I23), I33 = tensor, free_I33(tensor, check)
-    free = "which is free; wheels for (ω, e) = 0." if check.is_body else "but no I₃₃ makes this a rigid body."
+    chosen = f"I₃₃ = {digits(I33)}"
+    if check.is_body:
+        about = Caption("Ellipsoid of inertia.", f"{chosen} (does not affect the motion); wheels impose (ω, e) = 0.")
+    else:
+        about = Caption("Not a rigid body.", f"No I₃₃ satisfies the triangle inequalities; drawn for {chosen}.")
     return (
         Shape.of_tensor(np.array([[I11, 0.0, I13], [0.0, I22, I23], [I13, I23, I33]])),
-        f"Ellipsoid of inertia for I₃₃ = {digits(I33)}, {free}",
+        about,
     )
 
 
@@ -108,7 +113,7 @@ def hess_solid(body: HessBody, track: Track) -> Solid:
     """Return a body of the Suslov–Hess case with its gyration ellipsoid, which has a section across n3."""
     mass = centre_of_mass((0.0, body.b2, body.b3))
     if body.middle_I33 is None:
-        said = "Nothing is drawn: with |a| ≥ 1 there is no such rigid body, whatever I₃₃."
+        said = Caption("Not drawn: no such rigid body.", "|a| ≥ 1 violates the triangle inequalities for every I₃₃.")
         return Solid(track.times, track.omega, track.gamma, mass, None, said, drawn=False)
     # In the axes of (n1, n2, n3).
     tensor = body.tensor(body.middle_I33)
@@ -119,18 +124,21 @@ def hess_solid(body: HessBody, track: Track) -> Solid:
         track.gamma,
         mass,
         Shape.of_tensor(body.turn.T @ tensor @ body.turn, body.turn[2]),
-        f"Gyration ellipsoid for I₃₃ = {digits(body.middle_I33)}, which is free: moments {moments}.",
+        Caption(
+            "Gyration ellipsoid.",
+            f"I₃₃ = {digits(body.middle_I33)} (does not affect the motion), principal moments {moments}.",
+        ),
     )
 
 
 def heavy_solid(body: HeavyBody, times: Array, states: Array) -> Solid:
     """Return a heavy body without a constraint along states (n, 6) = (M, γ)."""
-    shape, said = None, "No rigid body has these moments: no ellipsoid. r: the centre of mass."
+    shape, said = None, Caption("Not a rigid body, so no ellipsoid.", "r: the centre of mass.")
     if body.check.is_body:
         I1, I2, I3 = (1.0 / a for a in body.a)
         shape = Shape(np.eye(3), np.array([I1, I2, I3]), np.array(HeavyBody.hess((I1, I2, I3), 1.0).r))
         normal = "normal" if body.is_hess else "not normal"
-        said = f"Gyration ellipsoid; r, the centre of mass, is {normal} to its circular section."
+        said = Caption("Gyration ellipsoid.", f"The centre of mass r is {normal} to its circular section.")
     mass = Direction(math.copysign(1.0, body.mu) * np.array(body.r), "r")
     return Solid(times, states[:, :3] * body.a, states[:, 3:], mass, shape, said)
 
@@ -167,9 +175,9 @@ def solid_body(
         mass = of(state).mass if section else None
         return Trail(_WHEEL if mass is None else mass.along, "orbit")
 
-    def caption(state: S) -> str:
+    def caption(state: S) -> Caption:
         if ball and of(state).in_space():
-            return "It rolls on a ball inside, whose centre stays; wheels for (ω, e) = 0."
+            return Caption("Rolls on an inner ball with fixed centre.", "Wheels impose (ω, e) = 0.")
         return of(state).caption
 
     return BodyInSpace(

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from typing import Any, Generic, TypeVar
 
 import numpy as np
 
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes.framework.scene import Report, Scene, State
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes, Columns
 from hess_explorer.views.picture import Corners, Picture, Values
 
@@ -33,7 +35,7 @@ class Stage(Generic[S]):
         """Draw what `Scene.compute` has found; axes stay while a slider is held.  Raises `ModelError`."""
         # All that can fail comes first: then nothing of a state that is refused is drawn.
         views = [view for view in self.scene.views if view.name in state.seen]
-        said = {view.name: view.said(state) for view in views}
+        captions = {view.name: view.said(state) for view in views}
         axes = {view.name: (None if hold_axes else view.ranges(state)) or self._axes[view.name] for view in views}
         drawn = dict(state.drawn)
         for view in views:
@@ -44,7 +46,7 @@ class Stage(Generic[S]):
         self._state = state
         for view in views:
             self._set_axes(view, axes[view.name])
-            self.wire.say(view.name, said[view.name])
+            self.wire.caption(view.name, asdict(captions[view.name]))
         for source, columns in drawn.items():
             self._put(source, columns)
         self._name_signs(views, drawn)
@@ -63,7 +65,7 @@ class Stage(Generic[S]):
             self._set_axes(view, None if hold_axes else view.first_axes)
             for source, columns in view.nothing(sentence, self._axes[name]).items():
                 self._put(source, columns)
-            self.wire.say(name, sentence)
+            self.wire.caption(name, asdict(Caption(title=sentence)))
 
     def pick(self, picture: str, x: float, y: float) -> Values:
         """The values that a click at (x, y) of a picture chooses.  Raises `ModelError`."""

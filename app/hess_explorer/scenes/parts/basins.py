@@ -14,6 +14,7 @@ from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.basin_boundary import unsure
 from hess_mechanics.numerics.accuracy import Computation, Plan
@@ -96,26 +97,33 @@ class Basins(Part[_Host]):
         known = [one for one in found if one is not None]
         return known if len(known) == len(found) else None
 
-    def about(self, cells: Array) -> str:
-        """The caption of the basins."""
+    def about(self, cells: Array) -> Caption:
+        """Return the caption of the basins."""
         found = self.contractions
         if found is None:
-            coarse = "coarse as yet" if self.ends is None else "to the end"
-            return f"Basins, {coarse}; whether they are of attractors is being found."
+            return Caption(
+                self.work.awaited(), "Basins: first coarse cells." if self.ends is None else "Basins: all cells."
+            )
         if not found:
-            return "Nothing moves in this window."
+            return Caption("Nothing moves in this window.")
         largest = max(found, key=lambda one: one.mean)
         div = f"mean div = {digits(largest.mean, 2)} ± {digits(largest.error, 1)}"
         shares = [100.0 * float(np.mean(cells[cells >= 0] == group)) for group in range(len(found))]
         drawn = [share for share, one in zip(shares, found, strict=True) if one.attracts]
         if not drawn:
-            return f"Nothing attracts here, as far as it is seen: {div}."
+            return Caption("No attractor is seen.", f"{div}.")
         if len(drawn) < len(found):
-            return f"What attracts has {digits(sum(drawn), 2)} % of the cells; on the rest {div}."
+            return Caption(
+                "Attractors and motion without one.",
+                f"Basins: {digits(sum(drawn), 2)} % of the cells; elsewhere {div}.",
+            )
         if len(drawn) == 1:
-            return f"All orbits come to one attractor: {div}."
+            return Caption("One attractor for all orbits.", f"{div}.")
         *parts, last = (f"{digits(share, 2)} %" for share in reversed(drawn))
-        return f"{_NUMBERS.get(len(drawn), len(drawn))} attractors, with {', '.join(parts)} and {last} of the cells."
+        return Caption(
+            f"{_NUMBERS.get(len(drawn), len(drawn))} attractors.",
+            f"Basins: {', '.join(parts)} and {last} of the cells.",
+        )
 
     def status(self) -> Iterator[str]:
         """Yield how much depends on the size of the cells, when all of them are known."""

@@ -21,6 +21,7 @@ from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import branch as view
 from hess_explorer.views import theme
 from hess_explorer.views.branch import bifurcations
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes, curves, points
 from hess_explorer.views.periodic import seen
 from hess_explorer.views.picture import Corners, Picture
@@ -266,17 +267,19 @@ class Continuation(Part[_Host]):
         return f"{one.kind} of period {len(one.places)} at {self._symbol} = {digits(one.value, 8)} ± {power(one.error)}"
 
     @property
-    def caption(self) -> str:
-        """Of the picture; empty while the orbit itself is not known."""
+    def caption(self) -> Caption | None:
+        """The caption of the branch; None while the orbit itself is not known."""
         if self._found is None:
-            return ""
+            return None
         if self.closed is None:
-            return "No periodic orbit is found from here: no branch."
+            return Caption("No periodic orbit found from here.")
         found, _, whole = self._known
         orbit = self.closed.orbit
         known = bifurcations(found)
-        some = f"{len(known)} bifurcation{'s' * (len(known) != 1)}" if known else "no bifurcation"
-        return f"Period {orbit.period}, {orbit.kind} here; its branch has {some}{'' if whole else ' so far'}."
+        some = f"{len(known)} bifurcation{'s' * (len(known) != 1)}" if known else "No bifurcation"
+        return Caption(
+            f"Period {orbit.period}, {orbit.kind} here.", f"{some} on its branch{'' if whole else ' so far'}."
+        )
 
     def derived(self) -> Iterator[str]:
         """Yield the bifurcations."""
@@ -466,14 +469,14 @@ class Branch(Part[_Section]):
     # ---- words --------------------------------------------------------------------------------------------------
 
     @property
-    def caption(self) -> str:
-        """Of the picture."""
+    def caption(self) -> Caption:
+        """The caption of the picture."""
         if not self.orbit.closing:
-            return "No periodic orbit is chosen: choose one, and a click on its branch shows that orbit."
-        found = self.continuation.caption if self.begin is not None else ""
-        if self.orbit.looking or (self.begin is not None and not found):
-            return self.work.awaited("A periodic orbit is")
-        return found or "No periodic orbit is found from here: no branch."
+            return Caption("No periodic orbit is chosen.", "Choose one; then a click on its branch shows that orbit.")
+        found = self.continuation.caption if self.begin is not None else None
+        if self.orbit.looking or (self.begin is not None and found is None):
+            return Caption(self.work.awaited("A periodic orbit is"))
+        return found or Caption("No periodic orbit found from here.")
 
     @property
     def message(self) -> str:

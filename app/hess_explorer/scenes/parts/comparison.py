@@ -12,6 +12,7 @@ from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Refused, Trial, differing, next_level
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Difference
 from hess_explorer.views.layers import Axes, CellGrid, Layer, Range, Sign, dots, image, text
 from hess_explorer.views.plot import Plot
@@ -59,16 +60,16 @@ class Comparison:
         """Which levels are compared."""
         return f"{self.trial.kind.capitalize()}: {self.work.chosen}" + (f" and {self.finer}" if self.finer else "")
 
-    def about(self) -> str:
-        """The caption: how much changes, and from which crossing on orbits are others."""
+    def about(self) -> Caption:
+        """Return the caption: how much changes, and the first crossing after which orbits differ."""
         if self.finer is None:
-            return f"Nothing is more exact than {self.work.chosen}: nothing to compare it with."
+            return Caption("Nothing to compare with.", f"No level is more accurate than {self.work.chosen}.")
         if self.work.dragging:
-            return "It is found when a slider is let go."
+            return Caption("Compared when a slider is released.")
         if isinstance(self.found, Refused):
-            return self.found.reason
+            return Caption(numbers=self.found.reason)
         if self.found is None:
-            return f"The scene shows no {self.trial.kind} now." if self.message() else "Not compared yet."
+            return Caption(f"The scene shows no {self.trial.kind} now." if self.message() else "Not compared yet.")
         return _said(self.found)
 
     def message(self) -> str:
@@ -159,17 +160,17 @@ class Comparison:
         )
 
 
-def _said(found: Difference) -> str:
-    """Two short lines."""
+def _said(found: Difference) -> Caption:
+    """Return the caption of a difference."""
     share = digits(100.0 * found.share, 2)
     if found.cells is not None:
-        return f"{share} % of the cells change." if found.share else "No cell changes."
+        return Caption(f"{share} % of the cells change." if found.share else "No cell changes.")
     largest = f"{found.largest:.0f}" if found.largest >= 10.0 else digits(found.largest, 2)
     if not len(found.changed):
-        return f"Nothing moves by more than {largest} pixels."
+        return Caption(f"Nothing moves by more than {largest} pixels.")
     if found.lost:
-        return (
-            f"{share} % move over ½ pixel; chaos takes {len(found.lost)} of {found.orbits} orbits, from crossing "
-            f"{min(found.lost)}."
+        return Caption(
+            f"Chaos changes {len(found.lost)} of {found.orbits} orbits.",
+            f"From crossing {min(found.lost)} on; {share} % of the points move over ½ pixel.",
         )
-    return f"{share} % of the points move over ½ pixel, by at most {largest} pixels."
+    return Caption(f"No point moves over {largest} pixels.", f"{share} % of the points move over ½ pixel.")

@@ -13,6 +13,7 @@ from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Refused, Trial, measured
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Layer, line, points, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
@@ -85,13 +86,13 @@ class Costs:
         """The points beyond which more accuracy changes nothing that is seen."""
         return self._at(self.enough)
 
-    def about(self) -> str:
-        """The caption: which level is enough for what, as far as that is measured."""
+    def about(self) -> Caption:
+        """Return the caption: the cheapest level that is accurate enough for each trial, as far as measured."""
         if self.work.dragging:
-            return "It is measured when a slider is let go."
+            return Caption("Measured when a slider is released.")
         known = [found for found in self.found.values() if found is not None]
         if len(known) < len(self.found):
-            return f"Measured so far: {len(known)} of {len(self.found)}."
+            return Caption("Being measured.", f"{len(known)} of {len(self.found)} so far.")
         said = [
             f"{trial.kind} cannot be measured: {found.reason}"
             for trial, found in self.found.items()
@@ -99,9 +100,9 @@ class Costs:
         ]
         if self.enough:
             least = ", ".join(f"{trial.kind} {name}" for trial, name in self.enough.items())
-            said.insert(0, f"Enough to the eye: {least}.")
+            said.insert(0, f"Accurate enough for the eye: {least}.")
         sentence = " ".join(said)
-        return sentence[:1].upper() + sentence[1:]
+        return Caption(numbers=sentence[:1].upper() + sentence[1:])
 
     def rows(self) -> Iterator[str]:
         """Milliseconds and errors of the levels, a line for each kind."""
@@ -127,7 +128,7 @@ class Costs:
 
         return Plot(
             name="trade",
-            title="Cost of all that is computed",
+            title="Cost of all computations",
             caption=Costs.about,
             log="xy",
             axes=("error / what is not seen", "milliseconds"),

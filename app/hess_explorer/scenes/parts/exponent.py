@@ -13,6 +13,7 @@ from hess_explorer.scenes.framework.part import Host, Part, Start
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Curves, Frame
 from hess_explorer.views.graph import over_time, settled_range, thinned, with_room
 from hess_explorer.views.layers import Axes, Range
@@ -105,16 +106,16 @@ class Exponent(Part[_Host]):
         return min(0.0, 1.05 * float(later.min())), nice_above(1.05 * max(1e-6, float(later.max())))
 
     @property
-    def caption(self) -> str:
-        """Of the picture."""
+    def caption(self) -> Caption:
+        """The caption of the picture."""
         if self.growth is not None:
-            return f"Next to the periodic orbit: ln|μ₁|/T = {digits(self.growth[0])}, from its multipliers."
+            return Caption("From the multipliers of the periodic orbit.", f"ln|μ₁|/T = {digits(self.growth[0])}.")
         found = self.found
         if found is None:
-            return self.work.awaited()
+            return Caption(self.work.awaited())
         end = float(found.times[-1])
-        kind = "falling as ln(t)/t: regular so far" if found.is_regular else "chaotic"
-        return f"λ = {digits(found.value, 3)} after t = {digits(end)}, ± {digits(found.spread, 2)} lately: {kind}."
+        kind = "Regular so far: falls as ln(t)/t." if found.is_regular else "Chaotic."
+        return Caption(kind, f"λ = {digits(found.value, 3)} ± {digits(found.spread, 2)} after t = {digits(end)}.")
 
 
 S = TypeVar("S", bound=State)

@@ -21,6 +21,7 @@ from hess_explorer.scenes.framework.trial import Trial, section_error
 from hess_explorer.scenes.framework.windows import Window, boxed, frame_of, inside, tidy_window, window_of
 from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views import layered_section
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Marks
 from hess_explorer.views.layers import Axes, Layer
 from hess_explorer.views.plot import Plot
@@ -417,7 +418,7 @@ def filled_picture(
     of: Callable[[S], FilledSection],
     full: Window,
     title: str | Callable[[S], str],
-    caption: Callable[[S], str],
+    caption: Callable[[S], Caption],
     axes: tuple[str, str],
     labels: tuple[str, str],
     dot: tuple[str, str] | None = None,

@@ -13,6 +13,7 @@ from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.periodic_search import Missed
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import about_0
 from hess_explorer.views.layers import Axes, curves, levels, points, ring
 from hess_explorer.views.picture import Picture
@@ -77,17 +78,17 @@ class HessSplit(Part[Host]):
         close = {one.away: one for one in self._splits or () if isinstance(one, Split) and one.away in _CLOSE}
         return slope_of([close[value] for value in _CLOSE]) if len(close) == len(_CLOSE) else None
 
-    def caption(self) -> str:
+    def caption(self) -> Caption:
         """Return the caption of the picture."""
         if self._splits is None:
-            return self.work.awaited("They are")
+            return Caption(self.work.awaited("They are"))
         if self.split is None or self.slope is None:
-            return "No separatrices are found here."
+            return Caption("No separatrices are found here.")
         value, error = self.split.value, self.split.error
-        near = f"as ε → 0: {digits(self.slope[0], 4)} ε"
+        place = f"at l = {digits(self.split.l)}; as ε → 0: {digits(self.slope[0], 4)} ε."
         if abs(value) <= error:
-            return f"Not split, to {power(error)}, at l = {digits(self.split.l)}; {near}."
-        return f"{digits(value, 5)} ± {power(error)} at l = {digits(self.split.l)}; {near}."
+            return Caption("The separatrices are not split.", f"Less than {power(error)} {place}")
+        return Caption("The separatrices are split.", f"By {digits(value, 5)} ± {power(error)} {place}")
 
     def message(self) -> str:
         """Why there is nothing to be seen."""

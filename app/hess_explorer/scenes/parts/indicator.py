@@ -16,6 +16,7 @@ from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import layered_section
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Cells
 from hess_explorer.views.layers import Layer
 from hess_explorer.views.text import digits
@@ -87,21 +88,20 @@ class Indicator(Part[_Host]):
         return None if self._cells is None else self._cells[0][:, 1]
 
     @property
-    def caption(self) -> str:
-        """The caption of a section with MEGNO; else empty."""
+    def caption(self) -> Caption | None:
+        """The caption of a section with MEGNO; None without it."""
         if not self.wanted or self.work.dragging:
-            return ""
-        said = f"MEGNO after t = {digits(self.time)}"
+            return None
         if self._cells is None or self._cells[1]:
-            return f"{said}, coarse as yet."
+            return Caption(self.work.awaited(), f"MEGNO after t = {digits(self.time)}: first coarse cells.")
         kinds = self._cells[0][:, 1]
         there = kinds[kinds >= 0.0]
         if not there.size:
-            return "Nothing moves in this window."
+            return Caption("Nothing moves in this window.")
         chaotic, shrinks = (100.0 * float(np.mean(one)) for one in (there % 2.0 == 1.0, there >= 2.0))
-        return (
-            f"{said}: {100.0 - chaotic:.0f} % of the cells regular, {chaotic:.0f} % chaotic; volume shrinks about "
-            f"{shrinks:.0f} %."
+        return Caption(
+            f"{100.0 - chaotic:.0f} % of the cells regular, {chaotic:.0f} % chaotic.",
+            f"MEGNO after t = {digits(self.time)}; volume shrinks in about {shrinks:.0f} %.",
         )
 
     def status(self) -> Iterator[str]:

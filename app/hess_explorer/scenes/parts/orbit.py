@@ -12,6 +12,7 @@ from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.scene import Motion, State
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import with_room
 from hess_explorer.views.layers import Columns, Range, column, line
 from hess_explorer.views.picture import Picture
@@ -95,7 +96,7 @@ def orbit_picture(of: Callable[[S], Orbit], x: str, y: str, title: str = "The or
     return Plot[Orbit](
         name="orbit",
         title=title,
-        caption=lambda s: f"From t = 0 to t = {digits(s.host.lasts)}.",
+        caption=lambda s: Caption(numbers=f"From t = 0 to t = {digits(s.host.lasts)}."),
         axes=(x, y),
         x=room_for(x),
         y=room_for(y),

@@ -18,6 +18,7 @@ from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.windows import Window, boxed, tidy_window, window_of
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes, Layer, Range, curves, dots
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
@@ -279,27 +280,30 @@ class OrbitDiagram(Part[_Host]):
         value, place = found
         return {self.name: value, "chosen": written([place])}
 
-    def caption(self) -> str:
-        """Return the caption: how much is known, doublings, periods."""
+    def caption(self) -> Caption:
+        """Return the caption: progress, doublings, periods."""
         known = sum(len(one.values) for way in self.branches.values() for one in way)
         asked = self.along_values.size * len(WAYS[self.host.ways])
         if known < asked:
-            return f"{known} of {asked} values are known."
+            return Caption(self.work.awaited(), f"{known} of {asked} values are known.")
         if all(one.conservative.all() for one in self.branches[_RISING]):
-            return "Volume is kept: each value shows one orbit, and nothing attracts."
+            return Caption("Volume is preserved: no attractors.", "One orbit for each value.")
         if isinstance(self.cascade, Cascade) and self.flips.size:
             ratios = self.cascade.ratios
-            said = (
-                ""
-                if not ratios.size
-                else (f"; ratio {digits(ratios[-1], 4)} ± {digits(self.cascade.ratio_errors[-1], 1)}")
+            ratio = (
+                f"; ratio {digits(ratios[-1], 4)} ± {digits(self.cascade.ratio_errors[-1], 1)}" if ratios.size else ""
             )
-            many = f"{self.flips.size} doublings located, the first" if self.flips.size > 1 else "One doubling located,"
-            return (
-                f"{many} of period {self.cascade.periods[0]} at {self.host.along} = {digits(self.flips[0], 6)}{said}."
+            many = (
+                f"{self.flips.size} period doublings located."
+                if self.flips.size > 1
+                else "One period doubling located."
             )
+            period, place = self.cascade.periods[0], digits(self.flips[0], 6)
+            return Caption(many, f"The first of period {period} at {self.host.along} = {place}{ratio}.")
         periods = sorted({int(m) for one in self.branches[_RISING] for m in one.periods if m})
-        return f"Periods seen: {', '.join(map(str, periods[:8])) or 'none'}."
+        if not periods:
+            return Caption("No periodic orbit is seen.")
+        return Caption(numbers=f"Periods seen: {', '.join(map(str, periods[:8]))}.")
 
     def status(self) -> Iterator[str]:
         """Yield how exact the doublings are."""
@@ -324,7 +328,7 @@ S = TypeVar("S", bound=State)
 def diagram_picture(
     of: Callable[[S], OrbitDiagram],
     first: Range,
-    caption: Callable[[S], str],
+    caption: Callable[[S], Caption],
     on_click: Callable[[S, float, float], Values],
     on_hover: Callable[[S, float, float], str],
     over: tuple[Layer[S], ...] = (),

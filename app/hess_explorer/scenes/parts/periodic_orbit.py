@@ -30,6 +30,7 @@ from hess_explorer.scenes.framework.periodic_search import (
 )
 from hess_explorer.scenes.framework.scene import Preset, State
 from hess_explorer.views import periodic as view
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Layer
 from hess_explorer.views.text import conjugates, digits, power
 from hess_mechanics.dynamics import periodic as mechanics
@@ -225,15 +226,15 @@ class PeriodicOrbit(Part[_Host]):
         return {} if self.closing else {"reach": self.reach}
 
     @property
-    def caption(self) -> str:
-        """The caption of the section where a periodic orbit is asked for; else empty."""
+    def caption(self) -> Caption | None:
+        """The caption of the section where a periodic orbit is chosen, else None."""
         if not self.closing or self.aim is None:
-            return ""
+            return None
         if self.looking:
-            return "A periodic orbit is being looked for."
+            return Caption("Searching for a periodic orbit.")
         if self.closed is None:
-            which = "No periodic orbit" if self.period == ANY else f"No orbit of {self.period}"
-            return f"{which} found from here: the chosen one is shown."
+            which = "No periodic orbit" if self.period == ANY else f"No orbit of period {self.period}"
+            return Caption(f"{which} found from here.", "The chosen orbit is shown.")
         orbit = self.closed.orbit
         # An imaginary part within the error is none: at a double multiplier 1 its sign is left to roundings.
         first = complex(orbit.multipliers[0])
@@ -242,7 +243,10 @@ class PeriodicOrbit(Part[_Host]):
             if abs(first.imag) > orbit.multiplier_error
             else ", ".join(digits(float(one.real)) for one in orbit.multipliers)
         )
-        return f"Period {orbit.period}, {orbit.kind}: μ = {multipliers} to {power(orbit.multiplier_error)}."
+        return Caption(
+            f"Period {orbit.period}, {orbit.kind}.",
+            f"Multipliers μ = {multipliers}, to {power(orbit.multiplier_error)}.",
+        )
 
     def derived(self) -> Iterator[str]:
         """Period in time, how exact its places are, symmetries; what is drawn of its manifolds."""

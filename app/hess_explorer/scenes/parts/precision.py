@@ -11,6 +11,7 @@ import numpy as np
 
 from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.work import Work
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.chart import POWERS, clipped, limit
 from hess_explorer.views.layers import Columns, Range, column, ring
 from hess_explorer.views.levels import curves_of_levels, integrals, methods
@@ -113,35 +114,33 @@ class Precision:
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _about_cost(self) -> str:
+    def _about_cost(self) -> Caption:
         here = self._here
         said = f"{self.work.chosen}: {digits(here.ms, 2)} ms, error {digits(here.error, 2)}"
         other = mechanics.quickest_other(self.measured, 10.0 * here.error)
         if other is not None:
             said += f"; {other.method}: {digits(other.ms / here.ms, 2)} × as long, {digits(other.error, 2)}"
-        return f"{said}."
+        return Caption(numbers=f"{said}.")
 
-    def _about_growth(self) -> str:
-        own = self.growing.errors[self.work.chosen]
-        return (
-            f"{self.work.chosen}: {digits(float(own[-1]), 2)} at the end; promised "
-            f"{digits(level(self.work.chosen).promise)} (dotted)."
-        )
+    def _about_growth(self) -> Caption:
+        own, promise = float(self.growing.errors[self.work.chosen][-1]), level(self.work.chosen).promise
+        return Caption(numbers=f"{self.work.chosen}: {digits(own, 2)} at the end; promised {digits(promise)} (dotted).")
 
-    def _about_drift(self) -> str:
+    def _about_drift(self) -> Caption:
         largest = ", ".join(
             f"({i + 1}) {name} {digits(float(drift.max()), 2)}" for i, (name, drift) in enumerate(self._drifts.items())
         )
-        return f"{self.work.chosen}: at most {largest}."
+        return Caption(numbers=f"{self.work.chosen}: at most {largest}.")
 
-    def _about_pixels(self) -> str:
+    def _about_pixels(self) -> Caption:
         t, pixels = self.times, self.growing.pixels[self.work.chosen]
         wrong = np.flatnonzero(pixels > 1.0)
         if wrong.size:
-            return f"{self.work.chosen}: wrong by less than a pixel until t = {digits(float(t[wrong[0]]))}."
-        return (
-            f"{self.work.chosen}: wrong by less than a pixel to the end, t = {digits(float(t[-1]))} (at most "
-            f"{digits(pixels.max(), 2)})."
+            until = digits(float(t[wrong[0]]))
+            return Caption(f"{self.work.chosen}: not accurate to the end.", f"Error below one pixel until t = {until}.")
+        return Caption(
+            f"{self.work.chosen}: accurate to the end.",
+            f"Error below one pixel until t = {digits(float(t[-1]))} (at most {digits(pixels.max(), 2)}).",
         )
 
     def derived(self) -> Iterator[str]:
@@ -215,7 +214,7 @@ class Precision:
             ),
             Plot(
                 name="pixels",
-                title="What it means for the pictures",
+                title="Error in pixels",
                 caption=Precision._about_pixels,
                 log="y",
                 x=Precision._span,

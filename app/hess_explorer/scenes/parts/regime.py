@@ -9,6 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from hess_explorer.scenes.framework.part import Part, Sectioned
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.parameter_diagram import AtState, Sets, at_state, sets_of
 from hess_mechanics.numerics.accuracy import Computation
@@ -65,24 +66,24 @@ class Regime(Part[_Host]):
         )
 
     @property
-    def caption(self) -> str:
-        """The kind of motion, and whether it is dissipative."""
+    def caption(self) -> Caption:
+        """The caption: the kind of motion, and whether it is dissipative."""
         found = self.kind
         if found is None:
-            return self.work.awaited()
+            return Caption(self.work.awaited())
         motion = found.regime
-        kind = f"period {motion.period}" if motion.period else motion.kind.words
+        kind = f"Period {motion.period}" if motion.period else motion.kind.words.capitalize()
         if found.dynamics is None:
-            return f"Motion: {kind}. Attractor and repeller: not compared, as the orbit leaves."
+            return Caption(f"{kind}.", "Attractor and repeller are not compared: the orbit leaves.")
         if found.dynamics.verdict == "not told apart":
-            return f"Motion: {kind}. Attractor and repeller: not told apart.\n|mean div| < {digits(motion.bound, 1)}"
+            return Caption(
+                f"{kind}.", f"Attractor and repeller: not told apart; |mean div| < {digits(motion.bound, 1)}."
+            )
         if motion.volume_kept:
-            return f"Motion: {kind}. Conservative: volume is kept."
-        return (
-            f"Motion: {kind}. Looks {found.dynamics.verdict}.\n"
-            f"div = {digits(motion.divergence, 2)} ± {digits(motion.divergence_error, 1)}, sets "
-            f"{digits(found.dynamics.distance, 2)} ± {digits(found.dynamics.distance_error, 1)} apart"
-        )
+            return Caption(f"{kind}. Conservative: volume is preserved.")
+        div = f"div = {digits(motion.divergence, 2)} ± {digits(motion.divergence_error, 1)}"
+        apart = f"{digits(found.dynamics.distance, 2)} ± {digits(found.dynamics.distance_error, 1)} apart"
+        return Caption(f"{kind}. Looks {found.dynamics.verdict}.", f"{div}; attractor and repeller {apart}.")
 
 
 def few(found: Array) -> Array | None:

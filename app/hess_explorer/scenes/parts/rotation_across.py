@@ -16,6 +16,7 @@ from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Curves, Frame
 from hess_explorer.views.graph import with_room
 from hess_explorer.views.layers import Axes, Range, curves, points, region
@@ -163,22 +164,23 @@ class RotationAcross(Part[_Host]):
         low, high = axes.y
         return [[np.array([[a, low], [b, low], [b, high], [a, high]])] for a, b in self.found.sea]
 
-    def caption(self) -> str:
-        """The caption."""
+    def caption(self) -> Caption:
+        """Return the caption of the picture."""
         if not self.found.numbers.size:
-            return self.message() + "." if self._orbits_on_line[1] else "It is being computed."
+            return Caption(self.message() + "." if self._orbits_on_line[1] else self.work.awaited())
         rho = self.found.numbers
         # A line through all of the section meets orbits of many kinds, whose numbers are no one function of the place.
         turning = self.found.extremum if self.about_middle else None
         still = self.found.standing.size
-        standing = f"; {still} {'does' if still == 1 else 'do'} not go round." if still else "."
+        standing = f"; {still} without rotation" if still else ""
         low, high = self._turns(rho.min()), self._turns(rho.max())
         if low == high:
-            return f"All closed curves have ρ = {low}{standing}"
-        return f"Closed curves: ρ = {low} … {high}" + (
-            standing
-            if turning is None
-            else f", turns round at {digits(turning[0])} (ρ = {self._turns(turning[1])}): no twist."
+            return Caption("One rotation number for all closed curves.", f"ρ = {low}{standing}.")
+        if turning is None:
+            return Caption("ρ of the closed curves.", f"ρ = {low} … {high}{standing}.")
+        return Caption(
+            "No twist where ρ has an extremum.",
+            f"ρ = {low} … {high}, extremum {self._turns(turning[1])} at {digits(turning[0])}.",
         )
 
     def _turns(self, rho: float) -> str:

@@ -20,6 +20,7 @@ from hess_explorer.scenes.framework.trial import Trial, section_error
 from hess_explorer.scenes.framework.windows import Window, frame_of
 from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views import section_plane
+from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Marks
 from hess_explorer.views.layers import Axes, Range
 from hess_explorer.views.picture import Picture
@@ -220,11 +221,11 @@ class Section(Part[_Host]):
         return own[0], typical(others)
 
     @property
-    def caption(self) -> str:
-        """How much is drawn, or why nothing is."""
+    def caption(self) -> Caption:
+        """The number of crossings, or why nothing is drawn."""
         if self.own is None or self.others is None:
-            return self.reason
-        return f"{len(self.own)} crossings of the chosen orbit, {len(self.others)} of others."
+            return Caption(numbers=self.reason)
+        return Caption(numbers=f"{len(self.own)} crossings of the chosen orbit, {len(self.others)} of others.")
 
     def status(self) -> Iterator[str]:
         """Yield size, cost and drift."""

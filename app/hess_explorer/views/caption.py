@@ -1,0 +1,28 @@
+"""The words over a picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+__all__ = ["Caption"]
+
+
+@dataclass(frozen=True)
+class Caption:
+    """The words over a picture: title and verdict on one line, the numbers below.
+
+    Parameters
+    ----------
+    verdict : the main result, in at most eight words.
+    numbers : the numbers behind it.
+    title : the heading, in two to five words.  `Picture.said` adds that of the picture.
+    """
+
+    verdict: str = ""
+    numbers: str = ""
+    title: str = ""
+
+    @property
+    def words(self) -> str:
+        """Verdict and numbers as one string, for metadata and other places without lines."""
+        return " ".join(filter(None, (self.verdict, self.numbers)))

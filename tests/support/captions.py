@@ -1,0 +1,15 @@
+"""Captions as text."""
+
+from __future__ import annotations
+
+from hess_explorer.views.caption import Caption
+
+
+def as_text(caption):
+    """The title, and below it verdict and numbers."""
+    return "\n".join(filter(None, (caption.title, caption.words)))
+
+
+def texts_in(tree):
+    """All texts of a message to the browser by their keys, captions among them."""
+    return {**tree["texts"], **{name: as_text(Caption(**parts)) for name, parts in tree["captions"].items()}}
