@@ -401,7 +401,7 @@ def test_what_is_found_may_ask_for_more(free_gate):
     browser = Browser(scene, {**scene.defaults(), "colours": "basins", "orbits": 2.0, "count": 20.0, "long": 50.0})
     browser.ask(1)
     wait_until(lambda: completed(browser, 2)["progress"] is None)
-    assert "is being found" not in browser.texts["section"]
+    assert "being computed" not in browser.texts["section"]
     assert "mean div = " in browser.texts["section"]
     assert browser.session.background.left == 0
 

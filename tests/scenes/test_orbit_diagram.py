@@ -118,7 +118,7 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
     [
         ("Touching", "mixed", (2.251, 0.021)),
         ("Apart: a strange", "dissipative", (2.174, 0.015)),
-        ("Equal: a sea", "mixed", (2.94, 0.02)),
+        ("A chaotic sea", "mixed", (2.94, 0.02)),
     ],
 )
 def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dimension):

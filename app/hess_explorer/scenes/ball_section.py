@@ -361,7 +361,7 @@ SCENE = Scene(
         solid_body(ball=True),
         Plot(
             name="section",
-            title="Section: γ₃ grows through 0",
+            title="Section γ₃ = 0 (upward crossings)",
             caption=BallSection._about_section,
             axes=_NAMES,
             x=ANGLE,

@@ -322,7 +322,7 @@ def pictures(state: type[S], ball: bool = False) -> tuple[Picture[S], ...]:
         solid_body(ball=ball),
         Plot(
             name="section",
-            title="Its section γ₃ = 0, growing",
+            title="Section γ₃ = 0 (upward crossings)",
             caption=lambda s: s.regime.caption,
             axes=_COORDINATES,
             x=(-math.pi, math.pi),

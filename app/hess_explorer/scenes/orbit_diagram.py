@@ -63,7 +63,7 @@ PRESETS = (
         span=60.0,
     ),
     Preset(
-        "Equal: a sea that keeps no volume",
+        "A chaotic sea without an invariant volume",
         **_body(1.5, 1.7, 0.1, -0.3, -1.7, 1.0, 2.0, 1.9),
         along="h",
         first=1.7,

@@ -328,7 +328,7 @@ SCENE = Scene(
             caption=Quartic._about_section,
             axes=_NAMES,
             on_click=Quartic.start_at,
-            title=lambda s: "Section {0} = 0, {0} growing".format("q₂" if s.body.across else "q₁"),
+            title=lambda s: "Section {} = 0 (upward crossings)".format("q₂" if s.body.across else "q₁"),
             x=lambda s: s.section_axes().x,
             y=_P_AXIS,
             message=lambda s: s.section.reason,

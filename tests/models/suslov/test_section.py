@@ -300,7 +300,7 @@ def test_the_exponents_of_chaotic_examples_are_positive_and_do_not_depend_on_the
     ("problem", "place", "forward", "backward", "count"),
     sample(
         [
-            # The example "Equal: a sea" of the orbit diagram, then that of the section.
+            # The example "A chaotic sea" of the orbit diagram, then that of the section.
             (
                 (SHRINKING, 1.9 - math.hypot(SHRINKING.b1, SHRINKING.b2, SHRINKING.b3)),
                 (-1.0063, 1.1872),
