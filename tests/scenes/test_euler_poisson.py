@@ -80,7 +80,7 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
     assert means[-1] == pytest.approx(exponent, rel=6e-3)
     early = int(np.argmin(np.abs(spans - 3.0)))
     assert means[early] == pytest.approx(finite_exponent(view.body, view.start, float(spans[early])), abs=1e-4)
-    words = "chaotic" if lyapunov_exponent(view.body, view.start, 2000.0).value > 0.03 else "regular"
+    words = "Chaotic." if lyapunov_exponent(view.body, view.start, 2000.0).value > 0.03 else "Regular so far:"
     assert words in view.text["exponent"]
     # And of the orbit.
     track = view.data["data-orbit"]

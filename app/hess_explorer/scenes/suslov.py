@@ -310,7 +310,9 @@ class Suslov(State):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _section_title(self) -> str:
-        return f"Section {self.plane} (upward crossings)" if self.basins.basin is None else f"Section {self.plane}: basins"
+        return (
+            f"Section {self.plane} (upward crossings)" if self.basins.basin is None else f"Section {self.plane}: basins"
+        )
 
     def _about_section(self) -> Caption:
         special = self.periodic_orbit.caption or self.megno.caption
