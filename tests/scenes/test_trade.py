@@ -209,7 +209,7 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     assert any(row.startswith("map: ") and row.endswith(" pixels") for row in report.derived)
     # A draft of the map has a quarter of the cells: it is right, but not all.
     assert samples[0].error < 0.5
-    assert state.costs.about() == "Enough to the eye: orbit draft, map standard."
+    assert state.costs.about().numbers == "Accurate enough for the eye: orbit draft, map standard."
 
 
 def test_what_is_too_large_to_be_measured_or_compared_says_so_and_leaves_no_axes_of_before():
@@ -226,8 +226,8 @@ def test_what_is_too_large_to_be_measured_or_compared_says_so_and_leaves_no_axes
     assert max(shown(points="1000", h=3.0)[2]) > 1.5
     state, report, axes = shown(h=60.0, span=200.0)
     why = "In this time the cloud turns too often for 30 frames: choose a time span below "
-    assert state.costs.about().startswith(f"Cloud cannot be measured: {why}")
-    assert state.comparison.about().startswith(why)
+    assert state.costs.about().numbers.startswith(f"Cloud cannot be measured: {why}")
+    assert state.comparison.about().numbers.startswith(why)
     assert state.comparison.message() == "The cloud cannot be compared"
     assert (report.todo, axes) == ((), [-1.0, 1.0, -1.0, 1.0])
 
@@ -265,13 +265,13 @@ def test_the_cells_that_change_are_those_of_the_finer_grid_with_another_colour()
     assert np.array_equal(state.comparison.found.cells, np.where(nothing, -1.0, changed))
     share = 100.0 * changed[~nothing].mean()
     assert 3.0 < share < 12.0
-    assert float(re.search(r"([\d.]+) % of the cells change\.", state.comparison.about())[1]) == (
+    assert float(re.search(r"([\d.]+) % of the cells change\.", state.comparison.about().verdict)[1]) == (
         pytest.approx(share, rel=0.05)
     )
     assert "difference" in scenes()["rotation-number-accuracy"].open_pictures
     # Of the same cells more digits change none.
     state, _ = difference("rotation-number", "grid", "standard")
-    assert state.comparison.about() == "No cell changes."
+    assert state.comparison.about().verdict == "No cell changes."
     assert not state.comparison.found.cells.max()
 
 
@@ -303,19 +303,19 @@ def test_of_a_regular_motion_nothing_moves():
     state, _ = difference("quartic", "section", "standard", ratio=1.0, h=0.6)
     assert len(state.comparison.found.changed) == len(state.comparison.found.lost) == 0
     assert len(state.comparison.found.same) > 4000
-    assert state.comparison.about().startswith("Nothing moves by more than ")
+    assert state.comparison.about().verdict.startswith("Nothing moves by more than ")
 
 
 def test_there_is_nothing_beyond_the_last_level_and_nothing_of_what_is_not_shown():
     state, report = difference("scattering", "map", "reference")
     assert state.comparison.found is None
     assert report.todo == ()
-    assert state.comparison.about() == "Nothing is more exact than reference: nothing to compare it with."
+    assert state.comparison.about().words == "Nothing to compare with. No level is more accurate than reference."
     state, _ = difference("suslov", "basins", "draft")
-    assert state.comparison.about() == "The scene shows no basins now."
+    assert state.comparison.about().words == "The scene shows no basins now."
     scene = scenes()["scattering-accuracy"]
     held = scene.compute({**scene.defaults(), "accuracy": "draft"}, ("difference",), True)
-    assert (held.comparison.found, held.comparison.about()) == (None, "It is found when a slider is let go.")
+    assert (held.comparison.found, held.comparison.about().words) == (None, "Compared when a slider is released.")
 
 
 def test_what_is_compared_is_one_of_the_kinds_the_costliest_at_first():
