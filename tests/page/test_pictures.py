@@ -375,7 +375,10 @@ def test_examples_with_a_closed_form_show_it(explorer, name, words, expected):
 
 @pytest.mark.parametrize(
     ("name", "words", "expected"),
-    [("At the lock boundary", "parabolic, |trace|", [2.0, 0.0]), ("Oscillation", "elliptic, ρ =", [-0.5])],
+    [
+        ("At the lock boundary", "Parabolic: the two cycles have merged. |trace|", [2.0, 0.0]),
+        ("Oscillation", "Elliptic: no cycle. ρ =", [-0.5]),
+    ],
 )
 def test_examples_at_a_limit_show_it_beside_what_is_proved(explorer, name, words, expected):
     choose(explorer, next(preset for preset in PRESETS if preset.startswith(name)))

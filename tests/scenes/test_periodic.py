@@ -253,7 +253,7 @@ def test_in_the_hess_case_the_saddle_has_the_multipliers_of_the_moebius_matrix_a
         for stable in (True, False)
     }
     assert min(off.values()) < 0.5 / max(state.section.pixels) < 0.1 < max(off.values())
-    assert view.numbers("exponent", "\nFrom the multipliers of the periodic orbit. ln|μ₁|/T = #,") == pytest.approx(
+    assert view.numbers("exponent", "\nFrom the multipliers of the periodic orbit. ln|μ₁|/T = #.") == pytest.approx(
         [math.log(exact) / state.periodic_orbit.closed.time], rel=1e-3
     )
 

@@ -340,8 +340,7 @@ class Suslov(State):
             return Caption(self.awaited("They are"))
         end = digits(float(course.times[-1]))
         return Caption(
-            "Regular so far." if exponent.is_regular else "Chaotic.",
-            f"λ = {digits(exponent.value, 3)} ± {digits(exponent.spread, 2)}, "
+            numbers=f"λ = {digits(exponent.value, 3)} ± {digits(exponent.spread, 2)}, "
             f"div = {digits(float(course.mean[-1]), 3)} after t = {end}.",
         )
 

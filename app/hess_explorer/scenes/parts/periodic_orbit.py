@@ -233,7 +233,7 @@ class PeriodicOrbit(Part[_Host]):
         if self.looking:
             return Caption("Searching for a periodic orbit.")
         if self.closed is None:
-            which = "No periodic orbit" if self.period == ANY else f"No orbit of period {self.period}"
+            which = "No periodic orbit" if self.period == ANY else f"No orbit of {self.period}"
             return Caption(f"{which} found from here.", "The chosen orbit is shown.")
         orbit = self.closed.orbit
         # An imaginary part within the error is none: at a double multiplier 1 its sign is left to roundings.
