@@ -20,9 +20,10 @@ const REDUCE = "M8 4h2v6H4V8h4zm6 0h2v4h4v2h-6zM4 14h6v6H8v-4H4zm10 0h6v2h-4v4h-
 // Heights of captions, in units of the font size.
 const LINE = 1.29
 const AIR = 0.3
-// Widths of the longest title with its verdict, and of the longest line of numbers.
+// Widths of the longest title with its verdict, of the longest line of numbers, and of the longest caption in one piece.
 const HEAD = 32
 const NUMBERS = 36
+const LONGEST = 56
 // Width of the corner button, on both sides.
 const SIDES = 4.4
 const WIDEST = 34
@@ -45,6 +46,8 @@ function captions(type) {
   const linesOf = (length, width) => Math.ceil(length / Math.max(1, width / own(width) - SIDES))
   /** @param {number} width */
   const lines = (width) => {
+    // In a narrow cell the numbers follow the verdict on the same line.
+    if (isNarrow(width, type)) return Math.min(most, Math.max(2, linesOf(LONGEST, width)))
     const head = linesOf(HEAD, width)
     const all = head + linesOf(NUMBERS, width)
     return Math.min(most, isPresenting() && all > most ? head : all)

@@ -115,7 +115,7 @@ def test_the_separatrices_of_a_saddle_have_the_length_that_is_given(answer, caps
         ([*CYCLE, "--along", "mass=2"], "There is no mass here to change: choose one of a, h, f"),
         ([*CYCLE, "--along", "a"], "write it like E=2.5"),
         ([*CYCLE, "--along", "a=0.3", "--manifolds", "1"], "not allowed with"),
-        ([*CYCLE, "--manifolds", "1"], "a map of a line"),
+        ([*CYCLE, "--manifolds", "1"], "Manifolds need a section with two coordinates"),
         (replaced(CYCLE, "--period", "65"), "from 1 to 64"),
         (replaced(CYCLE, "--period", "5"), "none of period 5"),
         (replaced(QUARTIC, "--at", "5,0"), "No motion crosses the section at q = 5"),

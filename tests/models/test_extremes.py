@@ -832,7 +832,7 @@ REFUSALS = [
         "track, b3 = 0",
         lambda grade: track(HessBody(1.0, 0.5, 0.0), 1.5, 0.6, 0.0, 10.0, grade, 4.0),
         NoField,
-        "b3 = 0.*Choose b3 ≠ 0",
+        "b3 = 0.*Choose b3 other than 0",
     ),
     *extremes_ball.refusals(Refusal),
     *extremes_euler_poisson.refusals(Refusal),

@@ -40,7 +40,9 @@ def test_an_example_of_b3_0_is_drawn_with_the_numbers_of_its_captions(arcs, pres
     if found.kind == "periodic":
         assert said(arcs, "domain", "back and forth. T = #.") == [pytest.approx(found.period, rel=6e-6)]
     else:
-        assert {"asymptotic": "touches the edge", "fixed": "nothing changes"}[found.kind] in arcs.caption("domain")
+        assert {"asymptotic": "touches the edge", "fixed": "A stable fixed point" if found.stable else "fixed point"}[
+            found.kind
+        ] in arcs.caption("domain")
     # On the oval, with the mirror image upside down.
     orbit = {name: np.array(column) for name, column in arcs.data("data-orbit").items()}
     for tau, g3 in (("tau", "g3"), ("mirror_tau", "mirror_g3")):

@@ -214,7 +214,7 @@ def test_a_window_is_brought_into_order(text, window):
 def test_a_window_beyond_what_is_allowed_is_refused_in_a_link_and_cut_in_a_box():
     values, notes = decode("part_hf=-50,-2;3,2", SCENE.specs)
     assert values["part_hf"] == ""
-    assert "The window of the map over h, f could not be read" in notes[0]
+    assert "The window of the map over h, f must be points x,y;x,y" in notes[0]
     stage = View(SCENE, {}).stage
     assert stage.box("map", (3.0, 2.0, -50.0, -2.0)) == {"part_hf": "-1,-2;3,2"}
     assert stage.box("map", (-20.0, 2.0, -50.0, -2.0)) == {}

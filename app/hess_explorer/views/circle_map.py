@@ -137,8 +137,8 @@ def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array 
 def about(theta: CircleMap | None, proof: str = "") -> Caption:
     """Return the kind of a map, its trace and rotation number, and its multipliers; None on the separatrix.
 
-    proof : the proved statement, if known.  It replaces the numbers that it encloses, and the whole caption if it says
-    that there is no torus.
+    proof : the proved statement, if known.  It replaces the kind and the numbers that it encloses, and the whole caption
+    if it says that there is no torus.
     """
     if theta is None:
         return Caption("Separatrix: no return.")
@@ -148,7 +148,8 @@ def about(theta: CircleMap | None, proof: str = "") -> Caption:
     kind = f"{theta.kind.capitalize()}: {cycles}."
     trace, rho = f"|trace| {digits(theta.trace, 5)}", f"ρ = {digits(theta.rotation_number)}"
     if "cycle" in proof:
-        return Caption(kind, f"{rho}. {proof}" if theta.kind == "elliptic" else f"{trace}, {rho}. {proof}")
+        statement, bounds = proof.split(", ", 1)
+        return Caption(f"{statement}.", f"{rho}, {bounds}" if "|trace|" in bounds else f"{trace}, {rho}, {bounds}")
     multipliers = {
         "hyperbolic": f"; multipliers {', '.join(digits(point.multiplier) for point in theta.fixed_points)}",
         "parabolic": "; multiplier 1",

@@ -133,7 +133,7 @@ def test_where_a_manifold_comes_to():
 def test_what_has_no_manifolds_is_refused():
     with pytest.raises(InvalidParameter, match="Only a saddle"):
         grown(henon(0.1), find_periodic(henon(0.1), (0.6, 0.2), 1), 1.0)
-    with pytest.raises(InvalidParameter, match="map of a line"):
+    with pytest.raises(InvalidParameter, match="Manifolds need a section with two coordinates"):
         grown(arnold(0.1), find_periodic(arnold(0.1), (0.3,), 1), 1.0)
     m = bent_saddle()
     saddle = find_periodic(m, (0.1, 0.2), 1)
