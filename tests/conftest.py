@@ -29,7 +29,7 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
-    """Where several processes run the tests: compile everything once before they begin, and serve the page to all."""
+    """With several test processes, compile all kernels once before they start and share one server."""
     from support.thorough import load_profile
 
     load_profile(is_thorough=config.getoption("thorough"))

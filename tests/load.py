@@ -146,14 +146,14 @@ async def measure(base, pid, counts, seconds):
 
 
 async def counters(base):
-    """What `/metrics` says."""
+    """Return the counters from `/metrics`."""
     answer = await AsyncHTTPClient().fetch(f"{base}/metrics")
     pairs = (line.split() for line in answer.body.decode().splitlines())
     return {name.removeprefix("hess_explorer_"): int(value) for name, value in pairs}
 
 
 async def _expired(base):
-    """What is left when sessions that are gone have been forgotten: `counters`."""
+    """Return the `counters` after closed sessions have expired."""
     ends = time.monotonic() + 240.0
     while (found := await counters(base))["sessions"] > 0 and time.monotonic() < ends:
         await asyncio.sleep(2.0)

@@ -1,4 +1,4 @@
-"""How long the solid body takes to paint: `python tests/benchmarks/benchmark_body.py`; nothing here is asserted.
+"""Measure the time to paint the solid body: `python tests/benchmarks/benchmark_body.py`; it asserts nothing.
 
 Each frame turns the body by a key and reads a pixel back, so that all that was drawn is painted by then: in headless
 Chromium without a graphics card, at the size that the picture has on the page of 1600×950.

@@ -51,7 +51,7 @@ class _Page:
 
 
 def alone(scene, changes):
-    """Of one change: (ms of its answer, ms of all, KB sent)."""
+    """Return the cost of one change: (ms of its answer, ms of all its work, KB sent)."""
     page = _Page(scene)
     for _ in range(2):
         page.change()

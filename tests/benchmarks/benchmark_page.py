@@ -1,4 +1,4 @@
-"""How fast the page is: `python tests/benchmarks/benchmark_page.py` writes its README; nothing here is asserted.
+"""Measure the speed of the page and write the results to its README: `python tests/benchmarks/benchmark_page.py`.
 
 Slider to four painted pictures: from the key's event to `data-ready`, in the page's own time, for moves
 one after the other.  Drag: the mouse moves every 16 ms whether or not the page follows.

@@ -98,7 +98,7 @@ def together():
 
 
 def tell(text):
-    """What is measured now."""
+    """Print the current step to stderr."""
     print(f"{time.strftime('%X')} {text} …", file=sys.stderr, flush=True)
 
 

@@ -11,7 +11,7 @@ from support.command_line import strict_json
 
 @pytest.fixture(autouse=True)
 def no_patience(monkeypatch):
-    """Nothing is said of how long it takes: kernels are compiled the first time."""
+    """Suppress progress messages: the first run compiles kernels and takes longer."""
     monkeypatch.setattr(output, "LONG", 1e6)
 
 

@@ -1,4 +1,4 @@
-"""What is computed while the page goes on: the background's order and end, places in the link, and a session's part."""
+"""Background computation: order, cancellation, stored places, and the session's part."""
 
 from __future__ import annotations
 
@@ -396,7 +396,7 @@ def completed(browser, requested=1):
 
 
 def test_what_is_found_may_ask_for_more(free_gate):
-    """Which motions shrink volume is asked only when it is known where the orbits end."""
+    """The set of volume-contracting motions is computed only after the ends of the orbits are known."""
     scene = SCENES["suslov"]
     browser = Browser(scene, {**scene.defaults(), "colours": "basins", "orbits": 2.0, "count": 20.0, "long": 50.0})
     browser.ask(1)
@@ -522,7 +522,7 @@ def test_what_a_drag_shows_needs_no_background(gate):
 
 
 def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
-    """What comes between the computation and the question how much is left is not lost, and not called stopped."""
+    """A piece that arrives between the computation and the check for pending work is neither lost nor "stopped"."""
     browser = Browser(EP, {**SMALL, "orbits": 0.0})
     total = browser.state["progress"][1]
     gate.let(total - 1)

@@ -140,7 +140,7 @@ def test_the_least_recently_used_go_first():
 
 
 def keeps(cache, function, key):
-    """Whether the cache still has this answer; asking changes nothing, since an error is not kept."""
+    """Return whether the cache still holds this answer. The check changes nothing, as errors are not cached."""
 
     def refuse(*_):
         raise LookupError

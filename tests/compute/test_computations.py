@@ -1,4 +1,4 @@
-"""What is computed for each thing that a user may do: not more than the pictures in sight need, and nothing twice."""
+"""Computations started by each user action: only those the visible pictures need, and none twice."""
 
 from __future__ import annotations
 
@@ -84,9 +84,9 @@ class Recorder(ResultCache):
 
 @pytest.fixture(autouse=True)
 def nothing_later(monkeypatch):
-    """What can wait is never begun: here it is asked what a state computes at once, and threads outlive their test.
+    """Disable background work: the tests count immediate computations, and threads outlive their test.
 
-    Nor is anything proved: a state that waits for its proof asks the cache once more for all that it is of.
+    Disable proofs as well: a state that waits for its proof looks up all its results in the cache again.
     """
     monkeypatch.setattr(background, "_pool", types.SimpleNamespace(submit=lambda job: None))
     monkeypatch.setattr(suslov_hess, "has_flint", lambda: False)
@@ -102,7 +102,7 @@ def cache(monkeypatch):
 
 
 def subsets(names):
-    """None, each alone, all but one, all: what a picture asks for depends on no two others."""
+    """Return the empty set, each single name, all but one, and all: no request depends on two other pictures."""
     sizes = (0, 1, len(names) - 1, len(names))
     return [set(some) for size in sizes for some in itertools.combinations(names, size)]
 
@@ -116,7 +116,7 @@ every_subset_of_the_study = pytest.mark.parametrize("seen", subsets(ACCURACY.pic
 
 
 def needed(seen):
-    """What the scene of the Hess case computes at a state with two cycles."""
+    """Return the computations that the Hess scene needs at a state with two cycles."""
     return (
         {MAP}
         | ({TRACK} if seen else set())

@@ -1,4 +1,4 @@
-"""Who waits for an answer goes before what is filled in, which goes on under any load; and how all that ends."""
+"""Pending answers take priority over background work, which still progresses under load and ends cleanly."""
 
 from __future__ import annotations
 

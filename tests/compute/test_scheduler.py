@@ -1,4 +1,4 @@
-"""What sessions ask for outside the thread that serves: one at a time in each, in turn, within a budget."""
+"""Requests run outside the serving thread: one at a time per session, in turn, within a budget."""
 
 from __future__ import annotations
 

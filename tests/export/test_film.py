@@ -48,7 +48,7 @@ def point_in(picture):
 
 
 def clock_in(picture, among):
-    """Which of these texts stands in the corner over the plot, and how far the picture of it is from that, 0 to 1."""
+    """Return the text that best matches the corner above the plot, and its image distance, 0 to 1."""
     _, right, top, _ = box_of(picture)
     corner = 1.0 - picture[top - 50 : top - 2, right - 120 : right + 5].mean(axis=2) / 255.0
 

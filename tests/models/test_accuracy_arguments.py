@@ -111,7 +111,7 @@ INTERNAL = {"measured", "evaluate", "cost_of_a_cell", "create", "require", "open
 
 
 def test_every_public_function_says_that_it_takes_either():
-    """Whether each reads it before it asks for order or tolerance, the type checker finds out."""
+    """The type checker verifies that each function resolves it before it reads order or tolerance."""
     found = {name: taken(one) for name, one in public() if taken(one)}
     assert len(found) > 80
     wrong = {

@@ -52,7 +52,7 @@ def test_what_is_kept_is_what_the_oracle_finds(name):
 
 
 def agree(found, kept, within):
-    """Whether answers are the same, decimals up to so much."""
+    """Return whether two answers are equal, decimals within a tolerance."""
     if isinstance(found, list):
         return len(found) == len(kept) and all(agree(*pair, within) for pair in zip(found, kept, strict=True))
     return abs(Decimal(found) - Decimal(kept)) <= within if isinstance(found, str) else found == kept

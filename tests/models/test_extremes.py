@@ -256,7 +256,7 @@ def on_the_grid(name, a, h, f, digits=50, **options):
 
 
 def on_the_lock_boundary(name, a, **options):
-    """How far in h, relative to h + 1, the middle of the boundary is from where the trace is 2."""
+    """Return the error in h, relative to h + 1, of the boundary's midpoint: the trace is 2 on the boundary."""
 
     def error(grade):
         h, f = lock_boundary(a, level(grade), points=7)[3]
@@ -369,7 +369,7 @@ def free(name, tensor, omega, times, truth=None, against="Taylor series of `Biz1
 
 
 def free_refusal(name, tensor, omega, words, error=InvalidParameter, times=(1.0,)):
-    """Of a motion without a field."""
+    """Return the refusal of a motion without a field."""
     return Refusal(
         f"free Suslov, {name}", lambda grade: free_motion(SuslovBody(*tensor), omega, UP, times, grade), error, words
     )

@@ -24,7 +24,7 @@ def instructions(text):
 
 
 class Image:
-    """What the instructions of `project`/Dockerfile make below the folder `root`; a subclass says how commands run."""
+    """Build the image of `project`/Dockerfile below the folder `root`; a subclass defines how commands run."""
 
     def __init__(self, project, root):
         self.project, self.root = project, root
@@ -34,7 +34,7 @@ class Image:
         self.cmd = self.health = None
 
     def at(self, path):
-        """Where a path of the image is here."""
+        """Return the local path of a path in the image."""
         return self.root / path.lstrip("/")
 
     def mapped(self, text):
@@ -43,7 +43,7 @@ class Image:
 
     @property
     def environment(self):
-        """Nothing of the caller's: above all no PYTHONPATH and no home."""
+        """Return an environment without the caller's variables, in particular without PYTHONPATH and home."""
         home = "/root" if self.user == "root" else f"/home/{self.user}"
         reached = {name: value for name, value in os.environ.items() if name.startswith(("PIP_", "SSL_"))}
         return {

@@ -70,7 +70,7 @@ def ends(values, omega, gamma):
 
 
 def shown(value):
-    """To the digits of a caption."""
+    """Compare to the precision of a caption."""
     return pytest.approx(value, rel=6e-4, abs=6e-5)
 
 

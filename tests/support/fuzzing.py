@@ -1,4 +1,4 @@
-"""What strangers send: links, messages and command lines made at random, and what of the answers is counted."""
+"""Fuzzing: random links, messages and command lines, and counts of the responses."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ _NO_NUMBER = re.compile(r"(?<![\w−-])(?:nan|inf)(?![\w-])", re.IGNORECASE)
 
 
 class Findings:
-    """What went wrong, by kind, with the inputs that show it; `slow` : the seconds of the slowest."""
+    """Failures by kind, with the inputs that cause them; `slow`: the seconds of the slowest."""
 
     tell = None
     """Called with each finding as it is found."""
@@ -321,7 +321,7 @@ def _side(random, scene, names):
 
 
 def chart_message(random, scene):
-    """What a page asks of its chart: start or a box that looks closer, a cell clicked, more, stop."""
+    """Return a random chart message: start or refine a box, click a cell, request more, stop."""
     charted = random.choice([*scene.charts] or [None])
     names = [] if charted is None else swept(scene.name, charted.quantity)
     given = {
@@ -374,7 +374,7 @@ class _Chart:
             self.cells = answer.cells
 
     def ask(self, asked):
-        """What is said to this message, and whatever the chart says until it is stopped after some pieces."""
+        """Return all responses of the chart to this message; the chart is stopped after some pieces."""
         self.told.clear()
         self._handle(asked)
         for pause in (0.01, 0.05, 0.1):

@@ -185,7 +185,7 @@ class Explorer:
         return self.picture(picture).locator(".caption").text_content().strip()
 
     def text(self, look):
-        """What stands in the status line's details, the notes or the derived quantities."""
+        """Return the text of the status line's details, the notes or the derived quantities."""
         return self.page.locator({"status": ".text.details"}.get(look, f".text.{look}")).text_content()
 
     @property

@@ -1,4 +1,4 @@
-"""What is painted on the page: that it is there, finite, and where."""
+"""Checks of painted pictures: present, finite, and in the right place."""
 
 from __future__ import annotations
 

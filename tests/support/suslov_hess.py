@@ -23,7 +23,7 @@ def exact_states(values, times):
 
 
 def rounding(values, times, states):
-    """How far the body gets in half of the last digit of these times, which are sent in single precision."""
+    """Bound the motion of the body during half a unit in the last place of these times, sent in single precision."""
     rates = np.abs(systems()["suslov"].field(states.T, body_of(values).suslov.parameters)).T
     return rates * np.spacing(np.float32(times))[:, None] / 2
 

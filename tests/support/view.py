@@ -1,4 +1,4 @@
-"""What a scene shows of some values, without a browser."""
+"""View of a scene for given values, without a browser."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ def numbers_in(text, pattern):
 
 
 class View:
-    """What a scene shows of some values when all that it leaves to be computed is there.
+    """View of a scene for given values, after all pending computations.
 
-    `values` as they were admitted, and the `notes` on that; `begun` and `first`, result and report of what is seen at
-    once; `result` and `report` when all is there; `data` by source, `axes` and `text` by picture.  Notes, and work that
-    is too much, are errors unless they are expected: then `notes` and `refused` have the sentences.
+    `values` are the admitted values, and `notes` the changes to them; `begun` and `first` are result and report of the
+    first view, `result` and `report` those of the final one; `data` by source, `axes` and `text` by picture.
+    Notes and refused work are errors unless expected: then `notes` and `refused` hold the messages.
     """
 
     def __init__(self, scene, values, dragging=False, seen=None, noted=False, refusing=False, whole=True):

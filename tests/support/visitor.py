@@ -91,7 +91,7 @@ class Visitor:
         return found
 
     def _look(self):
-        """Whether this is a page, with a client that asks for states."""
+        """Raise `Closed` unless this is a page whose client requests states."""
         for node in _nodes(self.document["doc"]):
             data = node.get("attributes", {}).get("data")
             if isinstance(data, dict) and "client" in data.get("attributes", {}):
@@ -113,7 +113,7 @@ class Visitor:
         return fragment
 
     async def end(self, timeout=60.0):
-        """What both websockets hear last."""
+        """Return the last messages of both websockets."""
         heard = []
         for socket in (self._states, self._socket):
             try:

@@ -65,7 +65,7 @@ class Page:
         self.charts = Charts()
 
     def send(self, message):
-        """What is answered, if anything is."""
+        """Return the response, or None."""
         request = parse(message)
         if request is None:
             return None
@@ -416,7 +416,7 @@ def test_the_part_of_a_quantity_that_has_several_numbers():
 
 
 def file_of(given, head, values, status):
-    """What the page saves, see "static/controls/chart_file.js"."""
+    """Return the file that the page saves, see "static/controls/chart_file.js"."""
     sides = {side: dict(zip(("name", "low", "high", "count"), head[side], strict=True), symbol="s") for side in "xy"}
     what = QUANTITIES[given["quantity"]]
     return {

@@ -45,7 +45,7 @@ def pairs(monkeypatch):
 
 @pytest.fixture(scope="module")
 def alone():
-    """What one thread finds."""
+    """Return the results of a single thread."""
     return sweep("lyapunov-suslov", MOTIONS, level="draft", t=TIME)
 
 

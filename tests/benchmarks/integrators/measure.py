@@ -48,7 +48,7 @@ class MethodSample:
 
 @dataclass(frozen=True)
 class Timing:
-    """Of one run in the race: minimum and median in seconds, and how many runs there were."""
+    """Timing of one method in the race: minimum and median in seconds, and the number of runs."""
 
     minimum: float
     median: float

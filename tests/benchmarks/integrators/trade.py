@@ -46,7 +46,7 @@ class Row:
 
     @property
     def ratio(self) -> float:
-        """How many times as long `reference` takes as `draft`."""
+        """Ratio of the run times at `reference` and at `draft`."""
         return self.samples[-1].ms / self.samples[0].ms
 
 
@@ -65,7 +65,7 @@ class Failed:
 
 
 def _states(scene: Scene[Any]) -> Iterator[dict[str, Value]]:
-    """What a newcomer sees, the presets, and each of these with one choice made differently."""
+    """Yield the default state, the presets, and variants of each with a single choice changed."""
     shown = [{**scene.defaults(), **values} for values in ({}, *map(scene.example, scene.presets))]
     yield from shown
     for values in shown:

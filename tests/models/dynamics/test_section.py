@@ -35,7 +35,7 @@ PENDULA = {
 
 @pytest.fixture(scope="module", autouse=True)
 def compiled_kernels():
-    """What takes long from here on is not the compiler."""
+    """Compile all kernels first, so that time limits exclude the compiler."""
     for system in SYSTEMS.values():
         example_section(system)
 

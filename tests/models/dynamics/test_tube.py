@@ -44,7 +44,7 @@ def test_the_motion_to_thirty_digits_lies_in_its_tube(name, sign):
 
 @pytest.mark.parametrize("name", sample(["suslov", "ball"], 1))
 def test_a_long_motion_lies_in_its_tube(name):
-    """Where radii have grown by more than the digits that are asked for; by decimals, backward in time."""
+    """The tube's radii exceed the requested digits; checked in decimal arithmetic, backward in time."""
     system = systems()[name]
     state, parameters = system.example
     found = tube(system.at(parameters), state, [-6.0, -12.0], digits=15)

@@ -41,7 +41,7 @@ every_preset = pytest.mark.parametrize("values", PRESETS.values(), ids=PRESETS)
 
 
 def asked(motion):
-    """How a motion is asked for, without the weights."""
+    """Return the definition of a motion, without the weights."""
     return motion.system.name, motion.state, motion.parameters, motion.span
 
 

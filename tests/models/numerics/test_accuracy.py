@@ -1,4 +1,4 @@
-"""What the levels mean for each kind of computation."""
+"""Effect of the accuracy levels on each kind of computation."""
 
 import dataclasses
 from itertools import pairwise
@@ -31,7 +31,7 @@ def test_a_finer_level_is_never_less_exact_shorter_or_coarser(kind):
 
 @every_kind
 def test_standard_computes_all_that_is_asked_for(kind):
-    """Who chooses 200 crossings gets 200: only the draft leaves some out."""
+    """A request for 200 crossings returns 200; only `draft` computes fewer."""
     for name in ("standard", "precise", "reference"):
         assert PLANS[kind][name].share == 1.0
 

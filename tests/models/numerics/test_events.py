@@ -26,9 +26,9 @@ class Pieces(np.ndarray):
 
 
 def found_roots(e, h, below=None, end=None, enough=50_000):
-    """What `roots_on_step` finds, with at most `enough` halvings; the sides of the ends are those of e unless given.
+    """Run `roots_on_step` with at most `enough` bisections; the signs at the ends default to those of e.
 
-    Uncompiled, so that a root too many is an error and not a write into someone else's memory.
+    Uncompiled, so that one root too many raises an error instead of writing outside the array.
     """
     e = np.array(e, float)
     end = value_and_slope(e, h)[0] if end is None else end
@@ -47,7 +47,7 @@ def exactly(e, s):
 
 
 def reach(e, s, h):
-    """How far from a root at s double precision lets one be found on [0, h].
+    """Bound the distance from a root s at which double precision may locate it on [0, h].
 
     Horner's rule errs by at most 2n ε Σ|e_k| h^k, coefficients multiplied out from their roots by about as much
     again; the slope turns that into a distance.  s itself is rounded, and the search may stop at 1e-16 of h.

@@ -38,7 +38,7 @@ def files(kernels):
 
 
 def read(kernel):
-    """How many kernels were read from disk."""
+    """Return the number of kernels loaded from disk."""
     return sum(kernel.stats.cache_hits.values())
 
 

@@ -61,7 +61,7 @@ def tori(rng, h_end, count):
 
 
 def statement_at(zone, h, f):
-    """Of the cells with this torus; None beyond them all."""
+    """Return the statement of the cells that contain this torus; None outside all cells."""
     place = alpha_beta(turning_points(h, f).roots)
     found = {cell.statement for cell in zone.cells if place in cell}
     return found.pop() if len(found) == 1 else None
