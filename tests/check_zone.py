@@ -118,7 +118,7 @@ def sides(cell, name):
 
 
 def verify(zone, halvings=HALVINGS):
-    """Raise `Refused` unless every cell is what it is said to be; return how many of them are decided.
+    """Raise `Refused` unless every cell has the stated property; return the number of decided cells.
 
     What is refused is what is not proved of a cell; whether cells overlap, and how much they cover, is not looked at.
     """

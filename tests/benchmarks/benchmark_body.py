@@ -39,7 +39,7 @@ FRAMES = """async (count) => {
 
 
 def main() -> None:
-    """The median and the least time of a frame, in some scenes."""
+    """Print the median and the minimum frame time in some scenes."""
     with sync_playwright() as playwright, server_process(Path("/dev/null")) as (_, base):
         browser = playwright.chromium.launch(
             executable_path=find_browser(playwright.chromium.executable_path), args=["--no-sandbox"]

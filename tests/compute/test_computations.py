@@ -49,7 +49,7 @@ SHORT = {**ACCURACY.defaults(), "span": 1.0}
 
 
 class Recorder(ResultCache):
-    """A cache that writes down which functions its thread calls, with which arguments.
+    """Cache that records the functions its thread calls, and their arguments.
 
     What an earlier test has left in the background may still ask here: its calls are none of this test's.
     """
@@ -69,7 +69,7 @@ class Recorder(ResultCache):
         return super().get(recorded, *arguments)
 
     def take(self):
-        """The names of the functions called since the last time; none of them twice."""
+        """Return the names of the functions called since the last call; assert that none was called twice."""
         names = Counter(name for name, _ in self.calls)
         self.calls.clear()
         assert set(names.values()) <= {1}, names
@@ -94,7 +94,7 @@ def nothing_later(monkeypatch):
 
 @pytest.fixture
 def cache(monkeypatch):
-    """A cache of its own, empty, in place of the process's."""
+    """Replace the process's cache by an empty one."""
     recorder = Recorder()
     for module in modules_of_scenes():
         monkeypatch.setattr(module, "CACHE", recorder)
@@ -370,7 +370,7 @@ def test_at_the_separatrix_too_what_is_hidden_is_not_computed(cache):
 
 
 def own_sources(board, name):
-    """The data of one picture, those that others hold for it among them."""
+    """Return the data of one picture, including sources that other pictures hold for it."""
     own = {name, *board.tracks.get(name, ())}
     if name in plots_of(board.scene.name):
         own |= set(plots_of(board.scene.name)[name].sources)
@@ -532,7 +532,7 @@ def test_over_a_long_span_scipy_is_left_out_and_the_page_says_so(cache):
 
 
 def test_levels_of_accuracy_do_not_follow_a_drag_here(cache):
-    """Every level is on show: a drag may leave none out."""
+    """All levels are shown here, so a drag may not skip any."""
     study = compute(ACCURACY, {**SHORT, "accuracy": "reference"}, dragging=True)
     assert [point.setting for point in study.precision.measured] == ["draft", "standard", "precise", "reference"]
     assert set(study.precision.growing.errors) == {"draft", "standard", "precise", "reference"}

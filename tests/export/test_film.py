@@ -1,4 +1,4 @@
-"""Films: they decode, have the frames that were asked for, and the point is where the motion is at that time."""
+"""Films: they decode, have the requested number of frames, and show the point at the right place."""
 
 from __future__ import annotations
 

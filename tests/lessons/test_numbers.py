@@ -1,4 +1,4 @@
-"""Every number that a shipped lesson says is computed anew: a number in the text without a row here fails."""
+"""Every number in a shipped lesson is computed again: a number in the text without a row here fails."""
 
 from __future__ import annotations
 

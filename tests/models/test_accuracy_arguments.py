@@ -1,4 +1,4 @@
-"""An accuracy is a level or the name of one, wherever one is taken."""
+"""Every accuracy argument accepts a level or its name."""
 
 import importlib
 import inspect
@@ -62,7 +62,7 @@ CALLS = {
 
 
 def taken(function):
-    """The parameters of a function that are accuracies, by their annotations."""
+    """Return the accuracy parameters of a function, by their annotations."""
     kinds = {name: str(one.annotation) for name, one in inspect.signature(function).parameters.items()}
     return {
         name: kind

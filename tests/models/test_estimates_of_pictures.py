@@ -67,7 +67,7 @@ def followed():
 
 
 def e_folds(one, other):
-    """By how many times e neighbours, 1e-10 apart at first, part from one crossing to the next, over 12 of them."""
+    """Return the number of e-foldings of a 1e-10 separation from one crossing to the next, over 12 crossings."""
     parted = errors_in_pixels(one[:13], other, PIXELS, PERIODS)
     if len(parted) < 13:
         return 0.0

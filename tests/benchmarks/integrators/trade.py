@@ -51,7 +51,7 @@ class Row:
 
 
 def names() -> tuple[str, ...]:
-    """The scenes that compute something at the level chosen."""
+    """Return the scenes whose computations depend on the accuracy level."""
     return tuple(name for name, scene in scenes().items() if scene.origin is None and scene.trials)
 
 
@@ -75,7 +75,7 @@ def _states(scene: Scene[Any]) -> Iterator[dict[str, Value]]:
 
 
 def _example(scene: Scene[Any], trial: Trial[Any]) -> Any:
-    """The first state that shows it.  Raises `InvalidParameter`."""
+    """Return the first state that shows this computation.  Raises `InvalidParameter`."""
     for values in _states(scene):
         state = bare(scene.of(values))
         if trial.shown(state):
@@ -107,7 +107,7 @@ def trade(chosen: Sequence[str], repeats: int, progress: Callable[[str], None]) 
 
 
 def costliest(rows: Sequence[Row], count: int) -> list[Row]:
-    """Those that take longest at `reference`, the longest first."""
+    """Return the rows that take longest at `reference`, the longest first."""
     return sorted(rows, key=lambda row: -row.samples[-1].ms)[:count]
 
 

@@ -1,4 +1,4 @@
-"""The section of the ball with a field: its coordinates, its points, and what the examples of the scene are."""
+"""The section of the ball with a field: its coordinates, its points, and the claims of the scene's examples."""
 
 import math
 

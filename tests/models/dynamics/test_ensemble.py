@@ -1,4 +1,4 @@
-"""Many orbits at once are the orbits one by one: for every registered system, on any number of threads."""
+"""Ensembles equal single orbits: for every registered system, on any number of threads."""
 
 import re
 import sys

@@ -1,4 +1,4 @@
-"""Samples of an orbit: few, and so placed that straight lines between them look like the curve, at every time."""
+"""Samples of an orbit: few, but dense enough that the polyline looks like the curve at every time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Crossings of a plane: all of them, each once, in the right place, for every registered system."""
+"""Crossings of a plane: each found once and in the right place, for every registered system."""
 
 import math
 import sys

@@ -1,4 +1,4 @@
-"""Conformance: what holds for every registered system, and the symmetries each one has."""
+"""Conformance: properties of every registered system, and the symmetries of each."""
 
 import re
 import sys

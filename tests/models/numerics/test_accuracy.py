@@ -83,7 +83,7 @@ def test_the_cheapest_level_is_the_first_that_promises_an_error(error, name):
 
 @pytest.mark.parametrize("name", [*LEVELS])
 def test_no_run_is_measured_by_one_that_takes_the_same_steps(name):
-    """Down to the floor and against what measures that: another order, or a third of the tolerance at most."""
+    """Each comparison run, down to the floor, has another order or at most a third of the tolerance."""
     rung = LEVELS[name]
     for _ in range(12):
         finer = rung.tightened()

@@ -1,4 +1,4 @@
-"""The search for the roots of one step's polynomial: none lost, none doubled, each to round-off."""
+"""Roots of one step's polynomial: none lost, none doubled, each accurate to round-off."""
 
 from fractions import Fraction
 from math import comb
@@ -17,7 +17,7 @@ EPS = np.finfo(float).eps
 
 
 class Pieces(np.ndarray):
-    """Scratch for the pieces, which ends a search that does not end by itself."""
+    """Scratch space for the subintervals, which stops an endless search."""
 
     def __setitem__(self, place, value):
         self.written = getattr(self, "written", 0) + 1
@@ -130,7 +130,7 @@ def test_simple_roots_are_found_to_round_off(roots, others, h):
 
 @pytest.mark.parametrize("height", [1e-6, 1e-10, 1e-14])
 def test_what_is_flat_at_first_is_not_halved_away(height):
-    """s²⁰ bends by 380 at the end and by nothing at first: pieces as short as that bend asks for would be 2e5."""
+    """s²⁰ bends by 380 at the end and hardly at the start: uniform pieces for the largest bend would be 2e5."""
     e = np.zeros(21)
     e[0], e[20] = height, -1.0
     found = found_roots(e, 1.0, enough=200)
