@@ -96,7 +96,7 @@ class HessLeak(State):
 
     @property
     def period(self) -> float:
-        """One period of n3, in the time of the body."""
+        """The period of n3 in the body's own time unit."""
         return self.map.period / self.bridge.hess.frequency_unit
 
     @property

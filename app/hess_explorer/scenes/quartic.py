@@ -158,12 +158,12 @@ class Quartic(State):
 
     @property
     def start(self) -> Start:
-        """The state from which the orbit on show starts."""
+        """The initial state of the orbit on show."""
         return self.periodic_orbit.start
 
     @property
     def lasts(self) -> float:
-        """The time for which it is followed."""
+        """The length of the orbit in time."""
         return self.periodic_orbit.lasts
 
     def motion(self) -> Motion:
@@ -177,7 +177,7 @@ class Quartic(State):
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """From the variables to the pictures, in pixels for a unit."""
+        """Scale of each variable in pixels per unit."""
         return self.body.pixels_per_unit(self.half_width)
 
     # ---- the parts ----------------------------------------------------------------------------------------------
@@ -199,12 +199,12 @@ class Quartic(State):
 
     @property
     def closed(self) -> Closed | None:
-        """The same where it is known."""
+        """The periodic orbit, if known."""
         return self.periodic_orbit.closed
 
     @part
     def branch(self) -> Branch:
-        """Its branch over a parameter."""
+        """The branch of the periodic orbit over a parameter."""
         return Branch(self, self.periodic_orbit, _ALONG, ("I22",))
 
     @part
@@ -214,7 +214,7 @@ class Quartic(State):
 
     @part
     def proof(self) -> Proof:
-        """Its proved error."""
+        """The proved error of the orbit."""
         return Proof(self.orbit, self.certain)
 
     def _crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:

@@ -73,7 +73,7 @@ class Scattering(State):
     accuracy: str = accuracy_level()
 
     def limits(self) -> Mapping[str, Slider]:
-        """The slider of k begins where I11 is still positive."""
+        """Return the slider of k, limited to I11 > 0."""
         return free_body.limits_of_k(self.I22, self.I13, self.I23)
 
     def admitted(self, notes: list[str]) -> Scattering:

@@ -140,7 +140,7 @@ class SingularMeasures(State):
 
     @cached_property
     def strip(self) -> Strip:
-        """Where ω may be."""
+        """The strip of admissible ω."""
         return Strip(self.body, self.h)
 
     def task(self, count: int, level: Level) -> Task:

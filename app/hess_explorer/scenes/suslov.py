@@ -180,12 +180,12 @@ class Suslov(State):
 
     @property
     def start(self) -> Start:
-        """The state from which the orbit on show starts."""
+        """The initial state of the orbit on show."""
         return self.periodic_orbit.start
 
     @property
     def lasts(self) -> float:
-        """The time for which it is followed."""
+        """The length of the orbit in time."""
         return self.periodic_orbit.lasts
 
     def motion(self) -> Motion:
@@ -199,7 +199,7 @@ class Suslov(State):
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """From the variables to the pictures, in pixels for a unit."""
+        """Scale of each variable in pixels per unit."""
         return pixels_per_unit(self.half_width)
 
     def orbit_level(self) -> Level:
@@ -235,12 +235,12 @@ class Suslov(State):
 
     @part
     def proof(self) -> Proof:
-        """Its proved error."""
+        """The proved error of the orbit."""
         return Proof(self.orbit, self.certain)
 
     @part
     def exponent(self) -> Exponent:
-        """Its largest Lyapunov exponent."""
+        """The largest Lyapunov exponent of the orbit."""
         return Exponent(self)
 
     @part
@@ -249,12 +249,12 @@ class Suslov(State):
         return Basins(self, self.section, self.colours == "basins")
 
     def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
-        """Return the computation of so many crossings of the orbits from there."""
+        """Return a task that computes `crossings` crossings of the orbits from `starts`."""
         return Task(_batch, (self.poincare, starts, crossings, forward, level))
 
     @property
     def impossible_here(self) -> str:
-        """What is said where nothing is possible in the window."""
+        """The message for a window that no motion reaches."""
         return (
             f"Nothing is possible in this window with the energy E = {self.E:.6g}: choose a larger h, or press "
             "Clear for the whole section."

@@ -148,18 +148,18 @@ class SuslovHess(State):
 
     @cached_property
     def orbit_proof(self) -> Proof:
-        """Its proved error."""
+        """The proved error of the orbit."""
         unit = self.body.frequency_unit
         return Proof(self, self.certain, (unit, unit * math.hypot(1.0, self.body.a)))
 
     @cached_property
     def cycles(self) -> tuple[Track, Track] | None:
-        """The stable and the unstable limit cycle, where there are two."""
+        """The stable and the unstable limit cycle, if they exist."""
         return limit_cycles(self.work, self.body, self.map, self.level, self.half_width)
 
     @cached_property
     def iterates(self) -> Array | None:
-        """φ0 and its images, as far as the orbit goes."""
+        """φ0 and its images under the circle map, up to the end of the orbit."""
         if self.map is None:
             return None
         returns = math.ceil(self.track.orbit.times[-1] / self.map.period)
@@ -209,7 +209,7 @@ class SuslovHess(State):
         return found if self.zone is None else replace(found, numbers=f"{found.numbers} {self.zone.said}")
 
     def orbit_columns(self) -> Columns:
-        """The orbit, and what the moving points of the other pictures follow."""
+        """Return the columns of the orbit and of the moving points in the other pictures."""
         found, start = self.track, self.track.phi
         if self.map is not None and self.iterates is not None:
             start = torus_plane.phases_at_returns(found, self.map, self.iterates)
