@@ -85,7 +85,7 @@ class ChaplyginBall(State):
 
     @property
     def distance(self) -> float:
-        """The distance δ of the start from the equilibrium."""
+        """The distance δ of the start from its circle."""
         return float(10.0**-self.digits)
 
     @cached_property
@@ -119,7 +119,7 @@ class ChaplyginBall(State):
         return Proof(self.orbit, self.certain)
 
     def motion(self) -> Motion:
-        """The chosen orbit."""
+        """Return the chosen orbit."""
         return self.orbit.motion()
 
     @cached_property

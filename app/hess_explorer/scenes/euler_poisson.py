@@ -333,7 +333,7 @@ class EulerPoisson(State):
     # ---- what the pictures show ---------------------------------------------------------------------------------
 
     def track(self) -> Columns:
-        """The orbit on show."""
+        """Return the orbit on show."""
         orbit = self.orbit.path
         l, x = self.poincare.places_of(orbit.states).T
         return {"t": column(orbit.times), "l": column(l), "x": column(x), **gamma_columns(orbit.states[:, 3:])}
@@ -344,7 +344,7 @@ class EulerPoisson(State):
         return heavy_solid(self.body, self.orbit.path.times, self.orbit.path.states)
 
     def hess_curve(self) -> tuple[Array, Array]:
-        """The Hess manifold across the window."""
+        """Return the Hess manifold across the window."""
         l = np.linspace(self.section.frame[0][0], self.section.frame[1][0], 241)
         return l, hess_curve(self.body, l)
 
