@@ -1,4 +1,4 @@
-"""The examples of the docstrings run, and say what they say; every function that is imported from a package has one."""
+"""The examples in docstrings run and give the stated results; every function exported by a package has one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Films, read again frame by frame."""
+"""Read films frame by frame."""
 
 from __future__ import annotations
 

@@ -64,7 +64,7 @@ def start_of(values):
 
 
 def ends(values, omega, gamma):
-    """States long before and long after, when ω has settled to 1e-11 of its energy."""
+    """Return states long before and long after the passage, when ω has settled to 1e-11 of its energy."""
     reach = 30.0 / rate_of(values, energy(values, omega))
     return integrate(values, omega, gamma, [-reach])[0], integrate(values, omega, gamma, [reach])[0]
 

@@ -41,7 +41,7 @@ def crossings(Row, name, body, k, E, count=3, sense=1, **options):
 
 
 def rotation(Row, name, a, h, f, half_trace, against, **options):
-    """ρ, the trace (of its logarithm beyond 700) and whether it locks; half_trace() is an mpmath number."""
+    """Return a row for ρ, the trace (its logarithm beyond 700) and locking; half_trace() is an mpmath number."""
     once = cache(half_trace)
 
     def error(grade):
