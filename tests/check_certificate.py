@@ -26,7 +26,7 @@ MOST_BITS, MOST_TERMS = 1 << 14, 1 << 14
 
 
 class Refused(Exception):
-    """A certificate that does not prove what it states."""
+    """Raised for a certificate that does not prove its statement."""
 
 
 def need(true, what):
@@ -36,7 +36,7 @@ def need(true, what):
 
 @contextmanager
 def precision(bits):
-    """Compute with intervals of so many bits, and leave mpmath as it was."""
+    """Compute with intervals of this many bits, and restore mpmath's precision afterwards."""
     before = iv.prec
     iv.prec = bits
     try:

@@ -68,7 +68,7 @@ def edge(a, pieces, start, upper):
 
 
 def quadrant(low, high):
-    """Of all angles between these; None where an axis is among them."""
+    """Return the quadrant that holds all angles in this interval; None if it touches an axis."""
     ends = [float((2 * end / iv.pi).mid) for end in (low, high)]
     if not all(map(math.isfinite, ends)):
         return None
@@ -78,7 +78,7 @@ def quadrant(low, high):
 
 
 def signs(a, alpha, beta, pieces):
-    """What the signs of A, B, C, D prove of all tori of a cell; None for nothing."""
+    """Return the statement proved for every torus of a cell by the signs of A, B, C, D; None if nothing is proved."""
     parts = coefficients(alpha, beta, pieces)
     found = [quadrant(edge(a, parts, start, False), edge(a, parts, start, True)) for start in (iv.mpf(0), iv.pi / 2)]
     if None in found:
@@ -118,7 +118,7 @@ def sides(cell, name):
 
 
 def verify(zone, halvings=HALVINGS):
-    """Raise `Refused` unless every cell is what it is said to be; return how many of them are decided.
+    """Raise `Refused` unless every cell has the stated property; return the number of decided cells.
 
     What is refused is what is not proved of a cell; whether cells overlap, and how much they cover, is not looked at.
     """

@@ -46,7 +46,7 @@ class ImageInRoot(Image):
         return {**super().environment, "PATH": PATH}
 
     def here(self, command):
-        """As the image's user at this point, in its root."""
+        """Return the command line that runs a command in the root, as the image's user at this point."""
         return ["chroot", f"--userspec={self.user}", str(self.root), "env", f"--chdir={self.workdir}", *command]
 
 
@@ -84,7 +84,7 @@ def mounted(image: ImageInRoot):
 
 
 def serve(image: ImageInRoot, seconds: float) -> None:
-    """The command: until its health check passes and it has said its address, and how it ends."""
+    """Run the command until its health check passes and it has printed its address; check how it exits."""
     begun = time.monotonic()
 
     def wait(until) -> None:

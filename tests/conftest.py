@@ -1,4 +1,4 @@
-"""The explorer as its users meet it: a served page in a real browser."""
+"""The explorer as users see it: a served page in a real browser."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
-    """Where several processes run the tests: compile everything once before they begin, and serve the page to all."""
+    """With several test processes, compile all kernels once before they start and share one server."""
     from support.thorough import load_profile
 
     load_profile(is_thorough=config.getoption("thorough"))
@@ -52,7 +52,7 @@ def pytest_collection_modifyitems(config, items):
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_configure_node(node):
-    """Tell a process of the server."""
+    """Pass the shared server to a test process."""
     node.workerinput["server"] = node.config.stash[SHARED_SERVER]
 
 
@@ -63,7 +63,7 @@ def pytest_unconfigure(config):
 
 @pytest.fixture(scope="session")
 def browser():
-    """A headless Chromium: found, or else installed, or else every test that needs it fails."""
+    """Start a headless Chromium, installed if necessary; without one every test that needs it fails."""
     from support.chromium import launched_or_installed
 
     with launched_or_installed() as running:
@@ -72,7 +72,7 @@ def browser():
 
 @pytest.fixture(scope="session")
 def server(pytestconfig, tmp_path_factory):
-    """Base URL of a server for the whole run; what it has logged is checked when a process has ended."""
+    """Return the base URL of a server for the whole run; its log is checked when a process has ended."""
     with ExitStack() as own:
         shared = getattr(pytestconfig, "workerinput", {}).get("server")
         if shared is None:

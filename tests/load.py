@@ -35,7 +35,7 @@ DEAREST = "scene=euler-poisson&accuracy=reference"
 
 
 class Crowd:
-    """So many visitors of the scenes in turn."""
+    """A number of visitors that open the scenes in turn."""
 
     def __init__(self, base):
         self.base, self.visitors, self.errors = base, [], 0
@@ -63,7 +63,7 @@ class Crowd:
         return time.monotonic() - begun
 
     async def use(self, seconds, seed):
-        """Change a value every 2 s; the times to the answers."""
+        """Change a value every 2 s; return the times to the answers."""
         self.answered = []
         ends = time.monotonic() + seconds
 
@@ -92,7 +92,7 @@ class Crowd:
 
 
 async def dear(base, until):
-    """The user who asks for the dearest without a pause."""
+    """Send the most expensive request without a pause."""
     visitor = await Visitor.open(base, DEAREST, timeout=120.0)
     chance = random.Random(7)
     while not until.is_set():
@@ -112,7 +112,7 @@ def _row(times):
 
 
 async def measure(base, pid, counts, seconds):
-    """One line of the table for each count."""
+    """Yield one line of the table for each count."""
     # What a process loads once, the first time that it is asked for, is no part of a session: each of them should have
     # had each scene, with what is filled in behind it.
     warm = Crowd(base)
@@ -146,14 +146,14 @@ async def measure(base, pid, counts, seconds):
 
 
 async def counters(base):
-    """What `/metrics` says."""
+    """Return the counters from `/metrics`."""
     answer = await AsyncHTTPClient().fetch(f"{base}/metrics")
     pairs = (line.split() for line in answer.body.decode().splitlines())
     return {name.removeprefix("hess_explorer_"): int(value) for name, value in pairs}
 
 
 async def _expired(base):
-    """What is left when sessions that are gone have been forgotten: `counters`."""
+    """Return the `counters` after closed sessions have expired."""
     ends = time.monotonic() + 240.0
     while (found := await counters(base))["sessions"] > 0 and time.monotonic() < ends:
         await asyncio.sleep(2.0)
@@ -161,7 +161,7 @@ async def _expired(base):
 
 
 async def leave(base, pid, count):
-    """Open and leave so many sessions, and what is left of them when they have expired."""
+    """Open and close this many sessions; yield a table of the resources that remain after they expire."""
     warm = Crowd(base)
     await warm.open(len(warm.names))
     await warm.leave()
@@ -245,7 +245,7 @@ def main():
 
 
 async def _ready(base):
-    """The server answers."""
+    """Wait until the server answers."""
     ends = time.monotonic() + 120.0
     while True:
         try:

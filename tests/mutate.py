@@ -32,7 +32,7 @@ NOTICED, CLEAN = 1, 0
 
 @dataclass(frozen=True)
 class Fault:
-    """In `file` the text `old`, which stands there once, becomes `new`; some of `tests` should fail."""
+    """Replace `old`, which occurs once in `file`, by `new`; some of `tests` should fail."""
 
     name: str
     file: str
@@ -52,13 +52,13 @@ class Outcome:
 
 
 def faults(words: list[str]) -> list[Fault]:
-    """Those of "faults.toml" whose names contain one of the words, or all."""
+    """Return the faults of "faults.toml" whose names contain one of the words, or all."""
     every = [Fault(**one) for one in tomllib.loads((TESTS / "faults.toml").read_text("utf-8"))["fault"]]
     return [one for one in every if not words or any(word in one.name for word in words)]
 
 
 def not_found_once(chosen: list[Fault]) -> list[str]:
-    """Names of those that cannot be seeded: their file is gone, or their text does not stand in it just once."""
+    """Return the names of faults that cannot be seeded: the file is missing, or the text does not occur just once."""
     return [
         one.name
         for one in chosen
@@ -67,7 +67,7 @@ def not_found_once(chosen: list[Fault]) -> list[str]:
 
 
 def copied(folder: Path) -> Path:
-    """A copy of all that git knows or would add."""
+    """Copy all files that git tracks or would add."""
     listed = subprocess.run(
         ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
         cwd=ROOT,
@@ -99,7 +99,7 @@ def pytest_in(copy: Path, mechanics: Path, tests: list[str]) -> tuple[int, str]:
 
 
 def seeded(fault: Fault, copy: Path) -> Outcome:
-    """What the tests say of the copy with this fault, which is taken out again."""
+    """Run the tests on the copy with this fault, restore the file, and return the outcome."""
     path, begun = copy / fault.file, time.monotonic()
     if not path.exists():
         return Outcome(fault, False, "NO SUCH FILE", 0.0)
@@ -147,7 +147,7 @@ def table(outcomes: list[Outcome]) -> str:
 
 
 def main() -> int:
-    """Seed, run, print."""
+    """Seed the faults, run the tests, print the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("words", nargs="*", help="only faults whose names contain one of these")
     parser.add_argument("--write", action="store_true", help=f"keep the table in {README.name}")

@@ -34,7 +34,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 
 def connections(process):
-    """How many connections all processes of a replica hold."""
+    """Return the number of open connections of all processes of a replica."""
     return sum(
         str(link.readlink()).startswith("socket:")
         for one in below(process.pid)
@@ -70,7 +70,7 @@ def _replica(stack, folder, origin):
 
 
 async def _main(base, trusted, replicas):
-    """What happens, told as it does."""
+    """Run the checks and print each result."""
 
     async def get(path):
         try:

@@ -28,7 +28,7 @@ AGES = {"oldest": "lowest-direct", "newest": "highest"}
 
 
 async def _scenes(base):
-    """How many scenes opened and answered."""
+    """Return the number of scenes that open and answer."""
     from hess_explorer.protocol.parameters import Number
     from hess_explorer.scenes import scenes
     from support.visitor import Visitor
@@ -44,7 +44,7 @@ async def _scenes(base):
 
 
 def smoke():
-    """Everything once; what went wrong ends it."""
+    """Run everything once; any failure ends the run."""
     sys.path[:0] = [str(ROOT / "tests")]
     from hess_explorer.headless.screenshot import server_process
 
@@ -67,7 +67,7 @@ def smoke():
 
 
 def _tried(python, age, folder):
-    """Versions, and what came of it."""
+    """Return the versions and the result of a trial."""
     uv = shutil.which("uv") or str(Path(sys.executable).with_name("uv"))
     here = folder / "venv" / "bin" / "python"
     # Neither the caller's packages nor kernels of others.
@@ -104,7 +104,7 @@ def _tried(python, age, folder):
 
 
 def main():
-    """Try all pairs, or be what is tried."""
+    """Try all pairs, or run as one of the trials."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("pythons", nargs="*", metavar="PYTHON", help="versions, or paths of interpreters")
     parser.add_argument("--age", choices=AGES, help="only these")

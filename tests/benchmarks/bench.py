@@ -1,4 +1,4 @@
-"""What `hess-explorer bench` measures: its options, and how it runs."""
+"""Measure what `hess-explorer bench` reports: its options and its runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How long the solid body takes to paint: `python tests/benchmarks/benchmark_body.py`; nothing here is asserted.
+"""Measure the time to paint the solid body: `python tests/benchmarks/benchmark_body.py`; it asserts nothing.
 
 Each frame turns the body by a key and reads a pixel back, so that all that was drawn is painted by then: in headless
 Chromium without a graphics card, at the size that the picture has on the page of 1600×950.
@@ -39,7 +39,7 @@ FRAMES = """async (count) => {
 
 
 def main() -> None:
-    """The median and the least time of a frame, in some scenes."""
+    """Print the median and the minimum frame time in some scenes."""
     with sync_playwright() as playwright, server_process(Path("/dev/null")) as (_, base):
         browser = playwright.chromium.launch(
             executable_path=find_browser(playwright.chromium.executable_path), args=["--no-sandbox"]

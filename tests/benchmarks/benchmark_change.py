@@ -21,7 +21,7 @@ SESSIONS, CHANGES = 42, 6
 
 
 class _Page:
-    """The browser's end of a session."""
+    """Client side of a session."""
 
     def __init__(self, scene):
         from hess_explorer.lessons import shipped
@@ -51,7 +51,7 @@ class _Page:
 
 
 def alone(scene, changes):
-    """Of one change: (ms of its answer, ms of all, KB sent)."""
+    """Return the cost of one change: (ms of its answer, ms of all its work, KB sent)."""
     page = _Page(scene)
     for _ in range(2):
         page.change()
@@ -68,7 +68,7 @@ def alone(scene, changes):
 
 
 def crowd(scenes):
-    """Milliseconds of an answer where sessions ask without a pause, each behind its last answer."""
+    """Return the milliseconds per answer when all sessions send their next request as soon as they are answered."""
     from hess_explorer.compute.scheduler import RequestQueue
 
     pages = [_Page(scenes[i % len(scenes)]) for i in range(SESSIONS)]
@@ -96,7 +96,7 @@ def crowd(scenes):
 
 
 def measure(changes):
-    """All of this checkout, as JSON."""
+    """Print all measurements of this checkout as JSON."""
     from hess_explorer.scenes import scenes
 
     own = [scene for scene in scenes().values() if scene.origin is None]

@@ -1,4 +1,4 @@
-"""How fast the page is: `python tests/benchmarks/benchmark_page.py` writes its README; nothing here is asserted.
+"""Measure the speed of the page and write the results to its README: `python tests/benchmarks/benchmark_page.py`.
 
 Slider to four painted pictures: from the key's event to `data-ready`, in the page's own time, for moves
 one after the other.  Drag: the mouse moves every 16 ms whether or not the page follows.
@@ -78,7 +78,7 @@ def server(environment: dict[str, str]) -> Iterator[tuple[str, int]]:
 
 
 async def idle(pid: int) -> None:
-    """Wait until the server has loaded all scenes: it works no more."""
+    """Wait until the server has loaded all scenes and is idle."""
     before = -1.0
     while (now := worked(pid)) > before + 0.05:
         before = now
@@ -271,7 +271,7 @@ print(time.perf_counter() - start)
 
 
 def others() -> list[Scene]:
-    """The scenes besides the first one that do not look into another."""
+    """Return the scenes other than the first that do not study another scene."""
     return [scene for scene in scenes().values() if scene.origin is None and scene.name != SCENE]
 
 
@@ -304,7 +304,7 @@ async def entries(page: Page, rested: Page, name: str) -> tuple[float, float, fl
 
 
 def processor() -> str:
-    """The processor's name, as far as the system tells it."""
+    """Return the model name of the processor, if the system reports it."""
     try:
         lines = Path("/proc/cpuinfo").read_text().splitlines()
     except OSError:

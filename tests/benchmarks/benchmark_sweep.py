@@ -79,26 +79,26 @@ def motions(side):
 
 @contextmanager
 def folder():
-    """For a store, gone afterwards."""
+    """Yield a temporary folder for a store."""
     with tempfile.TemporaryDirectory() as place:
         yield Path(place) / "sweep.zarr"
 
 
 def timed(function, clock):
-    """Seconds by this clock."""
+    """Return the elapsed seconds by this clock."""
     begun = clock()
     function()
     return clock() - begun
 
 
 def together():
-    """Seconds of the processor, of this process and of those that it has waited for."""
+    """Return the CPU seconds of this process and of its finished children."""
     own = os.times()
     return own.user + own.system + own.children_user + own.children_system
 
 
 def tell(text):
-    """What is measured now."""
+    """Print the current step to stderr."""
     print(f"{time.strftime('%X')} {text} …", file=sys.stderr, flush=True)
 
 
@@ -246,7 +246,7 @@ def on_paper(name, cost, found):
 
 
 def span(seconds):
-    """As people say it."""
+    """Format a duration for people."""
     for unit, size in (("h", 3600.0), ("min", 60.0)):
         if seconds >= 2.0 * size:
             return f"{seconds / size:.3g} {unit}"

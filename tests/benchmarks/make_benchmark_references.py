@@ -43,7 +43,7 @@ Step = tuple[int, int, list[list[int]]]
 
 @dataclass(frozen=True)
 class Digits:
-    """How exactly to compute: bits after the point, and the order of the series."""
+    """Working precision: bits after the binary point, and the order of the series."""
 
     bits: int
     order: int
@@ -228,7 +228,10 @@ def check(digits: Digits) -> None:
 
 
 def initial_states() -> dict[str, np.ndarray]:
-    """Of A (A2, D), B and B2.  Stored, as sine, cosine and square root may differ from machine to machine."""
+    """Return the initial states of A (A2, D), B and B2.
+
+    They are stored, as sine, cosine and square root may differ from machine to machine.
+    """
     gamma = np.array([0.3, 0.2, 0.93])
     # B: the circle at π/2 about ξ = (I23, −I13, 0)/|…|.
     xi, axis = np.array([FREE_BODY[3], -FREE_BODY[2], 0.0]), np.array([0.0, 0.0, 1.0])

@@ -25,7 +25,7 @@ def taken(query, size):
 
 
 def main():
-    """The page as it opens, and a thumbnail of every scene with pictures of its own."""
+    """Save the page as it opens, and a thumbnail of every scene with its own pictures."""
     save(taken({"scene": "suslov-hess"}, PAGE), "page", 128)
     for scene in scenes().values():
         if scene.origin is None:

@@ -1,4 +1,4 @@
-"""The command line within this process: `answer` reads what it prints, `refusal` the sentence of a refused request."""
+"""The command line in this process: `answer` returns the output, `refusal` the message of a rejected request."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from support.command_line import strict_json
 
 @pytest.fixture(autouse=True)
 def no_patience(monkeypatch):
-    """Nothing is said of how long it takes: kernels are compiled the first time."""
+    """Suppress progress messages: the first run compiles kernels and takes longer."""
     monkeypatch.setattr(output, "LONG", 1e6)
 
 
@@ -28,7 +28,7 @@ def answer(capsys):
 
 @pytest.fixture
 def refusal(capsys):
-    """The one sentence of a refused request."""
+    """Return the single error message of a rejected request."""
 
     def call(*words):
         assert main(words) == 2

@@ -1,4 +1,4 @@
-"""The benchmark: its references, its choice of settings, its formats, the command.  No times are asserted."""
+"""The benchmark: its references, its choice of settings, its formats and its command.  Times are not asserted."""
 
 from __future__ import annotations
 
@@ -502,7 +502,7 @@ def test_without_the_sources_the_command_says_what_to_do(monkeypatch, tmp_path, 
 
 
 def test_the_trade_of_a_scene_is_measured_and_printed(capsys):
-    """The errors are those of SciPy's orbit; times are only what they are."""
+    """Errors are compared with SciPy's orbit; times are not checked."""
     assert main(typed("bench --trade --quick --scenes kharlamova --format json")) == 0
     said = capsys.readouterr()
     assert said.err.splitlines() == ["kharlamova: orbit …"]

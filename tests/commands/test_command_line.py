@@ -1,4 +1,4 @@
-"""The command line: its numbers, its formats, and one sentence for whatever is wrong."""
+"""The command line: its numbers, its formats, and a one-sentence message for every error."""
 
 from __future__ import annotations
 
@@ -168,7 +168,7 @@ def test_orbit(answer, words, states, variables, integrals):
 
 
 def test_an_orbit_that_rests_at_an_unstable_equilibrium_knows_how_wrong_it_is(answer):
-    """It said "error 1.1e-7, ok" and was wrong by 1.5e-2."""
+    """The output once read "error 1.1e-7, ok" for an error of 1.5e-2."""
     gamma = (0.83, -0.97, 0.81)
     text = ",".join(map(str, gamma))
     found = answer(
@@ -506,7 +506,7 @@ def test_without_a_browser_the_server_goes_on(served, free_port, monkeypatch, ca
 
 
 def test_basins_of_a_body_beyond_double_range_end(refusal):
-    """No piece of a step was ever clear of roots: it took for ever."""
+    """No subinterval of a step was ever free of roots, so the search did not end."""
     words = typed("--b=0.3,-0.5,1 --E 0.68 --k 2 --cells 8,6 --accuracy draft")
     assert "I13 = 4.4e+90 is not between -1000 and 1000" in refusal("basins", "--I", "1.5,1.07,4.4e+90,0", *words)
     assert (

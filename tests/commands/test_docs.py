@@ -64,7 +64,7 @@ def test_the_gallery_has_a_picture_of_every_scene(site):
 
 @thorough
 def test_it_loads_nothing_from_another_host(site):
-    """Links that a reader follows are allowed; scripts, styles, pictures and fonts of others are not."""
+    """Links are allowed; scripts, styles, pictures and fonts from other hosts are not."""
     loaded = re.compile(r'<(?:script|img|iframe)[^>]*src="(?:https?:)?//|<link[^>]*href="(?:https?:)?//', re.IGNORECASE)
     assert {name: loaded.findall(text) for name, text in site.items() if loaded.search(text)} == {}
 

@@ -1,4 +1,4 @@
-"""`hess-explorer prove`: words, a certificate that a checker accepts, and one sentence for whatever is wrong."""
+"""`hess-explorer prove`: words, a certificate that a checker accepts, and a one-sentence message for every error."""
 
 from __future__ import annotations
 

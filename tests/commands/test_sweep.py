@@ -1,4 +1,4 @@
-"""`hess-explorer sweep`: numbers, formats, stores; killed, interrupted, gone on with; what is wrong, in a sentence."""
+"""`hess-explorer sweep`: numbers, formats, stores; killed, interrupted and resumed runs; one-sentence errors."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ def begun(store):
 
 
 def started(words, store, least):
-    """The command as a process, when so many pieces are done."""
+    """Start the command as a process and return when this many pieces are done."""
     with interruptible():
         process = subprocess.Popen(
             [sys.executable, "-m", "hess_explorer", *words, "--store", str(store)],

@@ -19,7 +19,7 @@ from support.mechanics import ROOT
 
 @pytest.mark.parametrize("name", names())
 def test_every_computation_of_every_scene_is_shown_by_some_state(name):
-    """Of the Suslov problem the indicator was shown by none of the presets, and all rows were lost."""
+    """No preset of the Suslov problem showed the indicator, and the table lost all rows."""
     scene = scenes()[name]
     for trial in scene.trials:
         assert trial.shown(_example(scene, trial)), trial.kind

@@ -1,4 +1,4 @@
-"""Commands refuse a state that they do not understand; leniently they put it right and say so."""
+"""Commands reject an invalid state; in lenient mode they correct it and report the changes."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""What is computed while the page goes on: the background's order and end, places in the link, and a session's part."""
+"""Background computation: order, cancellation, stored places, and the session's part."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def wait_until(condition, seconds=60.0):
 
 
 class Gate(ResultCache):
-    """A cache whose computations in the background wait until they are let through."""
+    """Cache whose background computations wait until they are released."""
 
     def __init__(self):
         super().__init__(2**26)
@@ -60,7 +60,7 @@ class Gate(ResultCache):
 
 @pytest.fixture
 def gate(monkeypatch):
-    """The gate, closed, in place of the process's cache."""
+    """Return a closed gate in place of the process's cache."""
     closed, begun = Gate(), []
     for module in (background, *modules_of_scenes()):
         monkeypatch.setattr(module, "CACHE", closed)
@@ -81,7 +81,7 @@ def gate(monkeypatch):
 
 @pytest.fixture
 def free_gate(gate):
-    """The same, open."""
+    """Return an open gate in place of the process's cache."""
     gate.let(10_000)
     return gate
 
@@ -160,7 +160,7 @@ def test_stop_begins_nothing_more(gate):
 
 @pytest.fixture
 def endless():
-    """A piece that would go on for ever, and that says when it has begun and when it has ended."""
+    """Return an endless piece of work, with events for its start and its end."""
     begun, ended = threading.Event(), threading.Event()
 
     def goes_on(n):
@@ -389,14 +389,14 @@ def plain(browser, picture):
 
 
 def completed(browser, requested=1):
-    """The state when all that it lacks has been computed."""
+    """Return the state after all missing results have been computed."""
     wait_until(lambda: browser.session.background.left == 0, seconds=60.0)
     browser.ask(requested)
     return browser.ask(requested)
 
 
 def test_what_is_found_may_ask_for_more(free_gate):
-    """Which motions shrink volume is asked only when it is known where the orbits end."""
+    """The set of volume-contracting motions is computed only after the ends of the orbits are known."""
     scene = SCENES["suslov"]
     browser = Browser(scene, {**scene.defaults(), "colours": "basins", "orbits": 2.0, "count": 20.0, "long": 50.0})
     browser.ask(1)
@@ -522,7 +522,7 @@ def test_what_a_drag_shows_needs_no_background(gate):
 
 
 def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
-    """What comes between the computation and the question how much is left is not lost, and not called stopped."""
+    """A piece that arrives between the computation and the check for pending work is neither lost nor "stopped"."""
     browser = Browser(EP, {**SMALL, "orbits": 0.0})
     total = browser.state["progress"][1]
     gate.let(total - 1)

@@ -1,4 +1,4 @@
-"""The cache of results: one computation for one question, bounded by bytes, errors never kept."""
+"""The cache of results: one computation per key, bounded in bytes, errors are not kept."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Result:
 
 
 class Counted:
-    """A function that notes its calls; named, since a cache's key is a function's name."""
+    """Function that records its calls; it has a name, since cache keys contain the name of a function."""
 
     __module__ = __name__
 
@@ -62,7 +62,7 @@ def test_other_arguments_and_other_functions_are_other_questions():
 
 
 class Slow(Counted):
-    """Computes only when it is let; `asked` is set when it has begun."""
+    """Function that computes when released; `asked` is set when it has started."""
 
     def __init__(self, error=None):
         super().__init__("slow")
@@ -79,7 +79,7 @@ class Slow(Counted):
 
 
 def ask_together(cache, function, count):
-    """The futures of `count` threads, all of which have asked before the function may end."""
+    """Return the futures of `count` threads, all of which have made their request before the function may return."""
     pool = ThreadPoolExecutor(count)
     futures = [pool.submit(cache.get, function, 1.0)]
     assert function.begun.wait(WAIT)
@@ -140,7 +140,7 @@ def test_the_least_recently_used_go_first():
 
 
 def keeps(cache, function, key):
-    """Whether the cache still has this answer; asking changes nothing, since an error is not kept."""
+    """Return whether the cache still holds this answer. The check changes nothing, as errors are not cached."""
 
     def refuse(*_):
         raise LookupError

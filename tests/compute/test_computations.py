@@ -1,4 +1,4 @@
-"""What is computed for each thing that a user may do: not more than the pictures in sight need, and nothing twice."""
+"""Computations started by each user action: only those the visible pictures need, and none twice."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ SHORT = {**ACCURACY.defaults(), "span": 1.0}
 
 
 class Recorder(ResultCache):
-    """A cache that writes down which functions its thread calls, with which arguments.
+    """Cache that records the functions its thread calls, and their arguments.
 
     What an earlier test has left in the background may still ask here: its calls are none of this test's.
     """
@@ -69,7 +69,7 @@ class Recorder(ResultCache):
         return super().get(recorded, *arguments)
 
     def take(self):
-        """The names of the functions called since the last time; none of them twice."""
+        """Return the names of the functions called since the last call; assert that none was called twice."""
         names = Counter(name for name, _ in self.calls)
         self.calls.clear()
         assert set(names.values()) <= {1}, names
@@ -84,9 +84,9 @@ class Recorder(ResultCache):
 
 @pytest.fixture(autouse=True)
 def nothing_later(monkeypatch):
-    """What can wait is never begun: here it is asked what a state computes at once, and threads outlive their test.
+    """Disable background work: the tests count immediate computations, and threads outlive their test.
 
-    Nor is anything proved: a state that waits for its proof asks the cache once more for all that it is of.
+    Disable proofs as well: a state that waits for its proof looks up all its results in the cache again.
     """
     monkeypatch.setattr(background, "_pool", types.SimpleNamespace(submit=lambda job: None))
     monkeypatch.setattr(suslov_hess, "has_flint", lambda: False)
@@ -94,7 +94,7 @@ def nothing_later(monkeypatch):
 
 @pytest.fixture
 def cache(monkeypatch):
-    """A cache of its own, empty, in place of the process's."""
+    """Replace the process's cache by an empty one."""
     recorder = Recorder()
     for module in modules_of_scenes():
         monkeypatch.setattr(module, "CACHE", recorder)
@@ -102,7 +102,7 @@ def cache(monkeypatch):
 
 
 def subsets(names):
-    """None, each alone, all but one, all: what a picture asks for depends on no two others."""
+    """Return the empty set, each single name, all but one, and all: no request depends on two other pictures."""
     sizes = (0, 1, len(names) - 1, len(names))
     return [set(some) for size in sizes for some in itertools.combinations(names, size)]
 
@@ -116,7 +116,7 @@ every_subset_of_the_study = pytest.mark.parametrize("seen", subsets(ACCURACY.pic
 
 
 def needed(seen):
-    """What the scene of the Hess case computes at a state with two cycles."""
+    """Return the computations that the Hess scene needs at a state with two cycles."""
     return (
         {MAP}
         | ({TRACK} if seen else set())
@@ -370,7 +370,7 @@ def test_at_the_separatrix_too_what_is_hidden_is_not_computed(cache):
 
 
 def own_sources(board, name):
-    """The data of one picture, those that others hold for it among them."""
+    """Return the data of one picture, including sources that other pictures hold for it."""
     own = {name, *board.tracks.get(name, ())}
     if name in plots_of(board.scene.name):
         own |= set(plots_of(board.scene.name)[name].sources)
@@ -532,7 +532,7 @@ def test_over_a_long_span_scipy_is_left_out_and_the_page_says_so(cache):
 
 
 def test_levels_of_accuracy_do_not_follow_a_drag_here(cache):
-    """Every level is on show: a drag may leave none out."""
+    """All levels are shown here, so a drag may not skip any."""
     study = compute(ACCURACY, {**SHORT, "accuracy": "reference"}, dragging=True)
     assert [point.setting for point in study.precision.measured] == ["draft", "standard", "precise", "reference"]
     assert set(study.precision.growing.errors) == {"draft", "standard", "precise", "reference"}

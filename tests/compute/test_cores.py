@@ -1,4 +1,4 @@
-"""Who waits for an answer goes before what is filled in, which goes on under any load; and how all that ends."""
+"""Pending answers take priority over background work, which still progresses under load and ends cleanly."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def waited(event):
 
 
 def filling(cores, patience=PATIENCE):
-    """A piece in a thread of its own: has it begun, and what ends it."""
+    """Run a piece in its own thread; return the events of its start and its end, and the thread."""
     begun, end = threading.Event(), threading.Event()
 
     def one():

@@ -1,4 +1,4 @@
-"""What sessions ask for outside the thread that serves: one at a time in each, in turn, within a budget."""
+"""Requests run outside the serving thread: one at a time per session, in turn, within a budget."""
 
 from __future__ import annotations
 
@@ -212,5 +212,5 @@ def test_the_end_of_one_budget_is_not_that_of_others_who_wait_for_the_same():
 
 
 def test_there_are_more_threads_than_cores():
-    """So that one who asks for what takes long keeps no other waiting."""
+    """A slow request then does not block the requests of others."""
     assert scheduler._pool._max_workers > scheduler.THREADS

@@ -1,4 +1,4 @@
-"""Copy Python: what the lines compute is what the page exports, every bit of it."""
+"""Copy Python: the copied code computes exactly the exported data, bit by bit."""
 
 from __future__ import annotations
 

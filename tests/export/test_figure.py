@@ -1,4 +1,4 @@
-"""Figures for paper: their lines are those of the data, their text is text, and they say where they come from."""
+"""Figures for papers: lines match the data, text remains text, and metadata names the source."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Films: they decode, have the frames that were asked for, and the point is where the motion is at that time."""
+"""Films: they decode, have the requested number of frames, and show the point at the right place."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def point_in(picture):
 
 
 def clock_in(picture, among):
-    """Which of these texts stands in the corner over the plot, and how far the picture of it is from that, 0 to 1."""
+    """Return the text that best matches the corner above the plot, and its image distance, 0 to 1."""
     _, right, top, _ = box_of(picture)
     corner = 1.0 - picture[top - 50 : top - 2, right - 120 : right + 5].mean(axis=2) / 255.0
 

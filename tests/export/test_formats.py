@@ -59,7 +59,7 @@ def test_every_picture_is_there_in_every_format(scene, picture):
 
 
 def assert_numbers(found, values):
-    """The tables have finite numbers, the facts, and a link that leads back."""
+    """Assert that the tables hold finite numbers and the metadata, with a link that restores the state."""
     facts, table = read(as_csv(found))
     whole = json.loads(as_json(found), parse_constant=pytest.fail)
     assert {"link", "parameters", "status", "program", "caption"} <= facts.keys() & whole.keys()

@@ -1,4 +1,4 @@
-"""The data of pictures: every digit of what the mechanics give, and what every file says of itself."""
+"""Exported data: every digit of the computed values, and the metadata of every file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the browser is looked for, in which order, and that its absence is never passed over."""
+"""Search order for the browser; a missing browser is always reported."""
 
 from __future__ import annotations
 

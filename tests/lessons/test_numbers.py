@@ -1,4 +1,4 @@
-"""Every number that a shipped lesson says is computed anew: a number in the text without a row here fails."""
+"""Every number in a shipped lesson is computed again: a number in the text without a row here fails."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def value_of(number):
 
 
 def is_rounded(number, exact):
-    """Whether this is what the exact value is to as many digits."""
+    """Return whether a number equals the exact value rounded to the same number of digits."""
     digits = number.replace("·10⁻⁸", "")
     unit = 10.0 ** -len(digits.partition(".")[2]) * (1e-8 if digits != number else 1.0)
     return abs(value_of(number) - exact) <= 0.5 * unit * (1 + 1e-9)

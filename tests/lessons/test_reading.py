@@ -1,4 +1,4 @@
-"""Lessons as they are written: what is read, and what a mistake is told."""
+"""Parsing of lessons, and the messages for mistakes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A scene in a notebook: what is shown there, and the state that comes back."""
+"""A scene in a notebook: its display, and the state it returns."""
 
 import re
 import time

@@ -1,4 +1,4 @@
-"""States of the explorer in Python: parameters by name, sentences for what cannot be, drawing, the mechanics behind."""
+"""States of the explorer in Python: parameters by name, error messages, drawing, and the underlying mechanics."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An accuracy is a level or the name of one, wherever one is taken."""
+"""Every accuracy argument accepts a level or its name."""
 
 import importlib
 import inspect
@@ -62,7 +62,7 @@ CALLS = {
 
 
 def taken(function):
-    """The parameters of a function that are accuracies, by their annotations."""
+    """Return the accuracy parameters of a function, by their annotations."""
     kinds = {name: str(one.annotation) for name, one in inspect.signature(function).parameters.items()}
     return {
         name: kind
@@ -111,7 +111,7 @@ INTERNAL = {"measured", "evaluate", "cost_of_a_cell", "create", "require", "open
 
 
 def test_every_public_function_says_that_it_takes_either():
-    """Whether each reads it before it asks for order or tolerance, the type checker finds out."""
+    """The type checker verifies that each function resolves it before it reads order or tolerance."""
     found = {name: taken(one) for name, one in public() if taken(one)}
     assert len(found) > 80
     wrong = {

@@ -1,4 +1,4 @@
-"""What is asked for by a body and words: points on their section, names and units, sentences for what cannot be."""
+"""Computations from a body and keywords: points on their section, names and units, messages for invalid input."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ def parameters_of(row):
 
 
 def quickest(name):
-    """Two of the questions to this function that are answered soonest."""
+    """Return the two stored calls of this function that run fastest."""
     of_this = (question for question in oracle.KEPT if f'"{name}"' in question and "sha256" not in question)
     return sorted(of_this, key=lambda question: oracle.KEPT[question][0])[:2]
 
@@ -52,7 +52,7 @@ def test_what_is_kept_is_what_the_oracle_finds(name):
 
 
 def agree(found, kept, within):
-    """Whether answers are the same, decimals up to so much."""
+    """Return whether two answers are equal, decimals within a tolerance."""
     if isinstance(found, list):
         return len(found) == len(kept) and all(agree(*pair, within) for pair in zip(found, kept, strict=True))
     return abs(Decimal(found) - Decimal(kept)) <= within if isinstance(found, str) else found == kept
@@ -193,7 +193,7 @@ def random_body(random):
 
 
 def random_parameters(system, random):
-    """Admissible ones: bodies for `Biz131`, |a| < 1 for `eq01`; of other systems the example, up to a factor 2."""
+    """Return admissible parameters: bodies for `Biz131`, |a| < 1 for `eq01`; else the example, scaled up to 2 times."""
     if system.name == "suslov":
         return random_body(random)
     if system.name == "hess":

@@ -1,9 +1,9 @@
-"""What is promised of sections, exponents, basins, rotation numbers and clouds, and the error estimates they carry.
+"""Error estimates of sections, exponents, basins, rotation numbers and clouds against the true errors.
 
 As for orbits, an estimate is right if the true error is at most ten times as large, in 99 of 100 of some 300 random
-cases.  No picture can promise where the hundredth crossing of a chaotic orbit lies: there it is promised how many
-crossings are right, and said of each orbit.  Truths are closed forms, circle maps with other methods, or runs at
-`reference` where they are known to be a thousand times as exact.
+cases.  The position of the hundredth crossing of a chaotic orbit cannot be guaranteed: the estimate gives the number
+of correct crossings of each orbit instead.  Truths are closed forms, circle maps by other methods, or runs at
+`reference` that are known to be a thousand times as exact.
 """
 
 import math
@@ -67,7 +67,7 @@ def followed():
 
 
 def e_folds(one, other):
-    """By how many times e neighbours, 1e-10 apart at first, part from one crossing to the next, over 12 of them."""
+    """Return the number of e-foldings of a 1e-10 separation from one crossing to the next, over 12 crossings."""
     parted = errors_in_pixels(one[:13], other, PIXELS, PERIODS)
     if len(parted) < 13:
         return 0.0

@@ -1,4 +1,4 @@
-"""At the edges of what can be asked: right within the level's promise, or refused in a sentence.
+"""Extreme inputs: the result meets the level's error bound, or a message refuses the input.
 
 One row for each extreme.  `python tests/models/test_extremes.py` prints what was measured as a table.
 """
@@ -64,7 +64,7 @@ PHASES = np.linspace(-3.0, 3.1, 14)
 
 @dataclass(frozen=True)
 class Row:
-    """error(level) is the true error, measured `against` something independent, and must be within bound(level).
+    """error(level) is the true error `against` an independent result; it must not exceed bound(level).
 
     `floor` replaces a smaller promise at `precise` and `reference`; `because` says what puts it there.  Where no double
     can hold the answer, a result that says so is right too: `admitted(level)`.
@@ -141,7 +141,7 @@ def a_map(name, a, h, f, truth, against, **options):
 
 
 def says_so(a, h, f, error):
-    """The status is not OK, and the estimate covers this error, or says that no digit is known."""
+    """Assert that the status is not OK and that the estimate covers this error, or that no digit is known."""
 
     def admitted(grade):
         found = circle_map(a, h, f, level(grade))
@@ -256,7 +256,7 @@ def on_the_grid(name, a, h, f, digits=50, **options):
 
 
 def on_the_lock_boundary(name, a, **options):
-    """How far in h, relative to h + 1, the middle of the boundary is from where the trace is 2."""
+    """Return the error in h, relative to h + 1, of the boundary's midpoint: the trace is 2 on the boundary."""
 
     def error(grade):
         h, f = lock_boundary(a, level(grade), points=7)[3]
@@ -369,7 +369,7 @@ def free(name, tensor, omega, times, truth=None, against="Taylor series of `Biz1
 
 
 def free_refusal(name, tensor, omega, words, error=InvalidParameter, times=(1.0,)):
-    """Of a motion without a field."""
+    """Return the refusal of a motion without a field."""
     return Refusal(
         f"free Suslov, {name}", lambda grade: free_motion(SuslovBody(*tensor), omega, UP, times, grade), error, words
     )

@@ -1,4 +1,4 @@
-"""What holds everywhere in the admissible set of each system, found by hypothesis."""
+"""Properties that hold on the whole admissible set of each system, tested with hypothesis."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What models/README.md says: its example runs, its table is complete, kernels have files of their own."""
+"""Checks of models/README.md: its example runs, its table is complete, kernels have their own files."""
 
 import ast
 import re

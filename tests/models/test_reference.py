@@ -1,4 +1,4 @@
-"""Against 20-digit values computed elsewhere, at every level of the accuracy ladder."""
+"""Comparison with independent 20-digit values at every accuracy level."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Answers that took long, looked up by their questions in "oracle_values.json"."""
+"""Stored results of slow computations, looked up by their call in "oracle_values.json"."""
 
 import hashlib
 import json
@@ -21,7 +21,7 @@ FUNCTIONS = {}
 
 
 def plain(value):
-    """A value as JSON has it, with all its digits."""
+    """Convert a value to JSON types, with all its digits."""
     if isinstance(value, np.ndarray):
         value = value.tolist()
     if isinstance(value, list | tuple):
@@ -34,7 +34,7 @@ def plain(value):
 
 
 def asked(function, arguments):
-    """A question; arguments that fill pages are replaced by their hash."""
+    """Return the key of a call; very long arguments are replaced by their hash."""
     question = json.dumps([function.__name__, *map(plain, arguments)])
     if len(question) < 4000:
         return question
@@ -62,7 +62,7 @@ def kept(read):
 
 
 def found_anew(question):
-    """The answer to a question, as JSON has it."""
+    """Compute the result of a call again, as JSON types."""
     name, *arguments = json.loads(question)
     if name in ("orbit_in_decimals", "orbits_in_long_double"):
         arguments[0] = systems()[arguments[0]]

@@ -216,7 +216,7 @@ class Top:
         return 0.5 * self.A @ y[:3] ** 2 - self.mr @ y[3:]
 
     def counts(self, y):
-        """Whether a crossing is one of g = π/2 and of the sheet with the largest G."""
+        """Return whether a crossing has g = π/2 and lies on the sheet with the largest G."""
         if y[3] * y[1] - y[4] * y[0] <= 0.0:
             return False
         if self.f == 0.0:

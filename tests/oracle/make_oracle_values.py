@@ -1,4 +1,4 @@
-"""Finds anew what the oracle keeps: `python tests/oracle/make_oracle_values.py` (some minutes).
+"""Compute the oracle's stored results again: `python tests/oracle/make_oracle_values.py` (some minutes).
 
 The tests that ask the oracle are run with nothing kept; what took long to answer goes to "oracle_values.json".
 With files of tests as arguments only these are run, and what is missing is added.

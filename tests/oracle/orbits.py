@@ -1,4 +1,4 @@
-"""Taylor series of a system's plain `field`, in whatever arithmetic the numbers bring."""
+"""Taylor series of a system's plain `field`, in the arithmetic of the given numbers."""
 
 import decimal
 import math
@@ -14,7 +14,7 @@ from oracle.kept import kept
 
 
 class Series:
-    """A power series in time, for many orbits at once, whose coefficients are found when they are asked for.
+    """Power series in time, for many orbits at once; coefficients are computed on demand.
 
     `rule(k)` is coefficient k, from coefficients that are known by then: one number for each orbit in an array of this
     shape (order + 1, orbits); with the shape (order + 1,) one number, which saves decimals the work of arrays.
@@ -157,7 +157,7 @@ def as_decimals(values):
 
 
 def as_long_doubles(texts):
-    """The numbers of these texts, not by way of doubles."""
+    """Convert texts to long doubles directly, without rounding to double first."""
     return np.vectorize(np.longdouble, otypes=[np.longdouble])(np.array(texts))
 
 
@@ -202,6 +202,6 @@ class Along:
 
 
 def distances(computed, exact):
-    """|computed − exact| as doubles, without first rounding what is exact."""
+    """Return |computed − exact| as doubles, without rounding the exact values first."""
     computed = as_decimals(np.asarray(computed).tolist()) if exact.dtype == object else computed.astype(exact.dtype)
     return np.abs(computed - exact).astype(float)

@@ -1,4 +1,4 @@
-"""Composition over inheritance: how many own classes a class is made of."""
+"""Composition over inheritance: the number of the project's own base classes of a class."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The image can be built and serves: each line of the Dockerfile, carried out without Docker."""
+"""The image can be built and serves: every line of the Dockerfile is executed without Docker."""
 
 import re
 import signal
@@ -164,7 +164,7 @@ def test_the_lock_file_names_no_host_and_has_a_hash_for_everything():
 
 
 def test_every_dependency_is_in_the_lock_file():
-    """The image installs no others, so one that is missing there would fail as it starts."""
+    """The image installs only locked packages, so a missing one would fail at start."""
     locked = set(re.findall(r"^([a-z0-9-]+)==", (ROOT / "app" / "requirements.lock").read_text(), re.MULTILINE))
     asked = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["dependencies"]
     assert {re.match(r"[A-Za-z0-9-]+", one)[0].lower() for one in asked} <= locked

@@ -1,4 +1,4 @@
-"""The examples of the docstrings run, and say what they say; every function that is imported from a package has one."""
+"""The examples in docstrings run and give the stated results; every function exported by a package has one."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ BODIES = [name for name in hess_mechanics.__all__ if name.endswith("Body")]
 
 
 def ran(thing, name):
-    """How many examples it has, all of which are right."""
+    """Run a module's examples and return their number; all must pass."""
     runner = doctest.DocTestRunner(optionflags=FLAGS)
     tests = doctest.DocTestFinder().find(thing, name, globs={})
     said = []

@@ -1,4 +1,4 @@
-"""The faults that `tests/mutate.py` seeds can be seeded: sources change, and what nobody seeds nobody notices."""
+"""The faults of `tests/mutate.py` can be seeded: sources change, and a fault that cannot be seeded tests nothing."""
 
 from mutate import ROOT, Fault, faults, not_found_once
 

@@ -113,7 +113,7 @@ def test_what_a_row_names_is_on_the_page(row):
 
 
 def check_of(state):
-    """Whether the body of a state is a rigid body; None where the scene has none of its own."""
+    """Return whether a state's body is a rigid body; None if the scene has no body of its own."""
     for one in (
         getattr(state, "body", None),
         getattr(getattr(state, "bridge", None), "heavy", None),

@@ -1,4 +1,4 @@
-"""What the README and its companions say is true: code runs, links lead somewhere, tables can be measured anew."""
+"""Checks of the READMEs: code runs, links resolve, tables can be measured again."""
 
 import re
 import shlex

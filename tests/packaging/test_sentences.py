@@ -1,4 +1,4 @@
-"""Sentences that were wrong: README.md names the test that holds each; the tests exist and the words are gone."""
+"""Sentences that were wrong: README.md names the test for each; the tests exist and the sentences are gone."""
 
 import re
 from functools import cache
@@ -19,7 +19,7 @@ ROWS = [
 
 @cache
 def words():
-    """All that the explorer and the library say, white space as one space; by file."""
+    """Return all texts of the explorer and the library, white space normalized, by file."""
     files = [path for part in ("app", "models") for kind in ("*.md", "*.py") for path in (ROOT / part).rglob(kind)]
     return {path: " ".join(path.read_text(encoding="utf-8").split()) for path in files}
 

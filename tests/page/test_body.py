@@ -29,7 +29,7 @@ def canvas(explorer):
 
 
 def view_of(turn):
-    """To the right, upwards and towards the eye, in space: the rows of (3, 3)."""
+    """Return the view axes in space, right, up and towards the viewer, as rows of (3, 3)."""
     azimuth, elevation = turn
     right = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
     towards = np.array(
@@ -39,13 +39,13 @@ def view_of(turn):
 
 
 def placed(body, i):
-    """What takes a direction of the body to space, (3, 3), at a sample of its attitude."""
+    """Return the rotation (3, 3) from body to space at a sample of the attitude."""
     g, e = (np.array([body[f"{name}{k}"][i] for k in (1, 2, 3)]) for name in "ge")
     return np.array([e, -np.cross(g, e), -g])
 
 
 def pixels(explorer):
-    """What is painted, (n, n, 4)."""
+    """Return the painted pixels (n, n, 4)."""
     # As a picture: Playwright packs numbers one by one, which takes seconds.
     address = canvas(explorer).evaluate("canvas => canvas.toDataURL()")
     return np.asarray(Image.open(io.BytesIO(base64.b64decode(address.split(",")[1]))).convert("RGBA"), int)

@@ -52,7 +52,7 @@ def shown_points(explorer):
 
 
 def drawn(explorer, name):
-    """Whether something is painted on each canvas of a picture."""
+    """Return whether some canvas of a picture has painted pixels."""
     return explorer.picture(name).evaluate(
         """picture => {
           const canvases = (root) => [...root.querySelectorAll("*")].flatMap((item) =>

@@ -1,4 +1,4 @@
-"""What is taken away of the page: the file of a picture, by the dialog and from the server, and its command."""
+"""Exports: the file of a picture from the dialog and from the server, and the matching command."""
 
 from __future__ import annotations
 

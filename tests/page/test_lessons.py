@@ -39,7 +39,7 @@ def guess(explorer, prediction):
 
 
 def distance(explorer, prediction, pixels):
-    """How far the places are from what is drawn now, on average."""
+    """Return the mean distance between the places and the drawn points."""
     columns = explorer.data(prediction.source)
     xs, ys = (columns[name] for name in prediction.columns)
     if prediction.what == "point":

@@ -1,4 +1,4 @@
-"""How the page looks: its layouts, light and dark, and whether everyone can use it."""
+"""Layout, light and dark themes, and accessibility of the page."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def look_at(browser, server):
 
 
 def tell(page, name, detail=None):
-    """What the controls say when they are used, also where they are folded."""
+    """Send a message on the page's bus, as the controls do, also while they are collapsed."""
     page.evaluate("([name, detail]) => hess.tell(name, detail)", [name, detail])
 
 
@@ -167,7 +167,7 @@ CUT_OFF = """items => items.filter((item) => item.checkVisibility({ visibilityPr
 
 
 def assert_apart_and_whole(page, size):
-    """Nothing covers anything else, and no text is cut off."""
+    """Assert that no elements overlap and that no text is clipped."""
     for selector in PARTS:
         parts = page.locator(selector).evaluate_all(BOXES)
         # On a phone one picture and one control are.

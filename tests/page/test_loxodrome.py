@@ -43,7 +43,7 @@ def colour_at(explorer, picture, x, y, z):
 
 
 def centre_at(values, t):
-    """Where the centre of mass is in the picture's space."""
+    """Return the position of the centre of mass in the picture's space."""
     alpha = float(swing_at(values["energy"], np.array(t / clock(values))))
     return 0.0, math.sin(alpha), -math.cos(alpha)
 

@@ -38,7 +38,7 @@ def fresh_browser(browser, server):
 
 
 def moves(explorer):
-    """Whether the time goes on within a few frames."""
+    """Return whether the time advances within a few frames."""
     return explorer.page.locator("input.param-t").evaluate(
         """async (slider) => {
           const before = slider.value

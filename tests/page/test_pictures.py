@@ -37,14 +37,14 @@ def choose(explorer, name):
 
 
 def picture(explorer, clip):
-    """What is on the screen there (x, y, width, height), as an array of RGB."""
+    """Return the screen region (x, y, width, height) as an RGB array."""
     x, y, width, height = clip
     shot = explorer.page.screenshot(clip={"x": x, "y": y, "width": width, "height": height})
     return np.asarray(Image.open(BytesIO(shot)).convert("RGB")).astype(int)
 
 
 def like(pixels, colour, tolerance=24):
-    """Which pixels have this colour."""
+    """Return a mask of the pixels of this colour."""
     rgb = [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
     return np.abs(pixels - rgb).max(axis=-1) <= tolerance
 
@@ -242,7 +242,7 @@ def test_a_finger_that_moves_over_the_diagram_or_scrolls_the_text_chooses_nothin
 
 
 def on_sphere(gamma, turn):
-    """Where an orthographic view from this direction shows γ: right and up, and towards the eye, radius 1."""
+    """Project γ in an orthographic view: right, up and towards the viewer, on the unit sphere."""
     azimuth, elevation = turn
     right = (-math.sin(azimuth), math.cos(azimuth), 0.0)
     towards = (math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation))
@@ -560,7 +560,7 @@ PAINTED = {
 
 
 def painted(pixels, colour):
-    """How many pixels are of this colour.  The orbit is a thin line, and smoothed: any clear blue is taken for it."""
+    """Count the pixels of this colour. The orbit is a thin antialiased line, so any clear blue counts."""
     if colour != theme.ORBIT:
         return like(pixels, colour).sum()
     red, green, blue = np.moveaxis(pixels, -1, 0)

@@ -1,4 +1,4 @@
-"""What is printed: a handout in place of the page."""
+"""Printing replaces the page by a handout."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ def study(tab):
 
 
 def drawn(scene, values):
-    """What the sources of the pictures that a scene shows at first hold in this state."""
+    """Return the source data of the pictures that a scene shows at first, for this state."""
     sources = contents(shown(SCENES[scene], {**SCENES[scene].defaults(), **values})[0].sources)
     return {name: columns for name, columns in sources.items() if name.split("-")[0] not in SCENES[scene].folded}
 
@@ -93,7 +93,7 @@ HELD = """[Bokeh.documents.length, Object.keys(Bokeh.index).length, document.que
 
 
 def listeners(explorer):
-    """How many listeners the page has for each kind of event."""
+    """Return the page's number of listeners for each kind of event."""
     session = explorer.page.context.new_cdp_session(explorer.page)
     answer = session.send(
         "Runtime.evaluate",
@@ -732,7 +732,7 @@ def test_on_a_phone_one_control_is_at_hand_and_the_picture_stays_while_it_moves(
 
 
 def pixels_off(explorer, found, exact):
-    """How far two states (ω1, ω2, γ1, γ2, γ3) are apart in the pictures, in pixels, the larger of plane and sphere."""
+    """Return the distance between two states (ω1, ω2, γ1, γ2, γ3) in pixels, the larger of plane and sphere."""
     left, right, *_ = explorer.axes("omega")
     difference = np.asarray(found) - exact
     plane = np.hypot(difference[:, 0], difference[:, 1]) * PIXELS / (right - left)

@@ -1,4 +1,4 @@
-"""What is shared of the page: its link, its QR code, and parts of it inside another page."""
+"""Sharing: the page's link, its QR code, and parts of the page embedded in another one."""
 
 from __future__ import annotations
 

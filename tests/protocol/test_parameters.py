@@ -62,7 +62,7 @@ def is_admissible(spec, value):
 
 
 def understood(spec, text):
-    """What a text means if it is an admissible value as it stands, else None."""
+    """Parse a text as a value; None unless it is admissible without changes."""
     if isinstance(spec, Choice):
         return text if text in spec.options else None
     try:

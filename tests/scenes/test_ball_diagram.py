@@ -44,7 +44,7 @@ def at(state, name, value):
 
 
 def returned(values, body, E, place):
-    """Where SciPy's orbit from a place crosses γ3 = 0 next; its equations are a 2 × 2 system solved at every call."""
+    """Return the next crossing of γ3 = 0 by SciPy; each call solves a 2 × 2 system for the equations."""
 
     def height(_, y):
         return y[4]
@@ -64,7 +64,7 @@ def returned(values, body, E, place):
 
 
 def multipliers(values, body, E, places):
-    """Of the orbit with these places, which must close, by differences of SciPy's returns."""
+    """Return the multipliers of the orbit through these places, which must close, by differences of SciPy's returns."""
     M, step = np.eye(2), 2e-5
     for i, place in enumerate(places):
         assert np.abs(returned(values, body, E, place) - places[(i + 1) % len(places)]).max() < 1e-8

@@ -45,7 +45,7 @@ def marks(view):
 
 
 def points_of(view):
-    """Of all points of the branch: the parameter, the places (m, 2), the multipliers."""
+    """Return all points of the branch: the parameter, the places (m, 2), the multipliers."""
     return [
         point
         for part in view.result.branch.continuation.branches
@@ -54,7 +54,7 @@ def points_of(view):
 
 
 def half_trace(h, share):
-    """Of half a turn of the motion to and fro through the middle along the shorter axis, of what is next to it.
+    """Return the half trace of the variation along half a swing through the middle, on the shorter axis.
 
     There q̈ = γ3 q and ü = share γ3 u with γ3 = h − q²/2, in units I = 1, b3 = 1, share the ratio of the moments of
     inertia.  By the symmetry q → −q the second half is like the first.

@@ -267,7 +267,7 @@ def test_the_green_curve_is_the_hess_manifold():
 
 
 def other_momenta(view, places):
-    """How many momenta with this energy there are at places (n, 2), by a dense search."""
+    """Count the momenta with this energy at places (n, 2), by a dense search."""
     top = math.sqrt(2.0 * (view.h + view.body.strength) / min(view.body.a))
     return [
         np.count_nonzero(np.diff(np.sign(dense(view.body, view.f, float(l), float(x), top)[1] - view.h)))

@@ -73,7 +73,7 @@ every_preset = pytest.mark.parametrize(
 
 
 def at_once(scene):
-    """Whether it shows something before what takes long is computed: all but the costs of what shows no motion."""
+    """Return whether a scene shows something before its slow computations; cost studies without a motion do not."""
     return scene.origin is None or SCENES[scene.origin].has_motion
 
 
@@ -877,7 +877,7 @@ def quick(monkeypatch):
 
 
 def unfolded(scene, sources):
-    """What the sources hold, but for those of pictures that are not seen at first."""
+    """Return the contents of the sources, except those of pictures that start collapsed."""
     return {name: columns for name, columns in contents(sources).items() if name.split("-")[0] not in scene.folded}
 
 

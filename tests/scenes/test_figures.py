@@ -58,7 +58,7 @@ def examples(row):
 
 
 def values_of(number):
-    """Of all examples of a figure."""
+    """Return the values of all examples of a figure."""
     scene, found = examples(ROWS[number - 1])
     return [{**scene.defaults(), **one.values} for one in found]
 
@@ -82,7 +82,7 @@ def test_every_example_that_names_its_figure_stands_in_its_row():
 
 
 def full(columns):
-    """Whether there is anything in them; no number is NaN or infinite."""
+    """Return whether the columns hold data, and assert that all numbers are finite."""
     drawn = [one for column in columns.values() for one in flat(column)]
     assert np.all(np.isfinite([one for one in drawn if isinstance(one, int | float)]))
     return bool(drawn)

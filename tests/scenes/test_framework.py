@@ -1,4 +1,4 @@
-"""What a scene is made of: shared parameters, members that a scene must have, a scene that looks into another one."""
+"""Parts of a scene: shared parameters, required members, a scene that studies another one."""
 
 from __future__ import annotations
 
@@ -82,11 +82,11 @@ class Shown(Mixed):
 
     @cached_property
     def chosen(self) -> str:
-        """Of its own."""
+        """Override the member."""
         return "mine"
 
     def derived(self) -> list[str]:
-        """Of its own."""
+        """Override the member."""
         return ["mine"]
 
     def motion(self) -> Motion:

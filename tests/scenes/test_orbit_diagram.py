@@ -46,7 +46,7 @@ def moved(state, name, value):
 
 
 def returns(body, state, times):
-    """Where SciPy's orbit crosses γ3 = 0 upwards so many times (n, 2), and its last state."""
+    """Return the first upward crossings of γ3 = 0 (n, 2) by SciPy, and the last state."""
 
     def height(t, y):
         return y[4]
@@ -210,7 +210,7 @@ def product(body, E, places):
 
 
 def multipliers(body, E, place):
-    """Of the return map at a place, by SciPy, the largest first; and where it takes the place."""
+    """Return the multipliers of the return map at a place, by SciPy, the largest first, and the image of the place."""
     return product(body, E, [place]), returns(body, SuslovSection(body, E, 3).state_at(*place), 1)[0].ravel()
 
 
@@ -478,7 +478,7 @@ def test_reversals_are_where_the_rate_about_the_vertical_is_zero():
 
 
 def test_the_way_back_begins_where_the_way_there_ended():
-    """Nothing is left out of the orbits, so that the first point of the way back is next to the last one there."""
+    """The orbits keep all points: the first point of the way back is next to the last one of the way there."""
     state, _ = complete(SCENE.presets[0].name, ("diagram",), **{**LIGHT, "transient": 0.0})
     there, back = (state.diagram.branches[way] for way in ("rising", "falling"))
     assert (there[-1].values[-1], back[0].values[0]) == (2.4, 2.4)

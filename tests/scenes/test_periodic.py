@@ -50,7 +50,7 @@ def shown(name, periodic, *given, dragging=False):
 
 
 def drawn(view):
-    """Of which layers of a periodic orbit there is something."""
+    """Return the layers of a periodic orbit that have data."""
     return {name for name in LAYERS if any(map(len, view.data.get(f"section-{name}", {}).values()))}
 
 
@@ -168,7 +168,7 @@ def test_a_manifold_ends_where_the_map_jumps_and_no_line_is_drawn_across():
 
 
 def meetings(one, other):
-    """How many segments of two polylines meet, by the sides on which their ends lie."""
+    """Count the segments of two polylines that intersect, by the sides on which their ends lie."""
     a, b, c, d = one[1:-1, None], one[2:, None], other[None, 1:-1], other[None, 2:]
 
     def side(p, q, r):

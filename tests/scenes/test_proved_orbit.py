@@ -1,4 +1,4 @@
-"""What is proved of the orbit on show: said beside its estimate, drawn where it is wider than a pixel."""
+"""Proved enclosure of the shown orbit: stated beside the estimate, drawn where it is wider than a pixel."""
 
 from __future__ import annotations
 

@@ -100,7 +100,7 @@ def test_the_plateaus_of_the_other_family_are_those_of_plain_iteration(name):
 
 
 def covered(region, x, y):
-    """Whether a place lies in a part of a region, by the number of edges to its right."""
+    """Return whether a place lies in a part of a region, by the number of edges to its right."""
     inside = False
     for (xs,), (ys,) in zip((one[0] for one in region["xs"]), (one[0] for one in region["ys"]), strict=True):
         ends = zip(xs, ys, np.roll(xs, -1), np.roll(ys, -1), strict=True)

@@ -1,4 +1,4 @@
-"""What the levels mean in the scenes: what each computes, what the status line says of it, "auto", the cost of all."""
+"""Accuracy levels in the scenes: computations, status line, "auto", and the cost of all levels."""
 
 import dataclasses
 import math

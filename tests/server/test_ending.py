@@ -1,4 +1,4 @@
-"""How a server ends: its pages are told, and its processes are gone."""
+"""Shutdown of a server: it notifies its pages, and its processes exit."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ WORKERS = ("--workers", "2")
 
 
 async def told(base, end, count):
-    """What so many pages hear when the server ends, by both of their websockets."""
+    """Return the last messages of `count` pages on both of their websockets when the server ends."""
     visitors = [await Visitor.open(base, "scene=kharlamova&accuracy=draft") for _ in range(count)]
     end()
     heard = []

@@ -40,7 +40,7 @@ def started():
 
 
 class Rounds:
-    """How many results have been asked for, and how often that was looked at."""
+    """Count the results requested so far, and the number of times this count was read."""
 
     def __init__(self):
         self.looked, self.busy = 0, True

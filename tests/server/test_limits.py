@@ -1,4 +1,4 @@
-"""How much one visitor may send, and the sentence for who sends more."""
+"""Rate limits of one visitor, and the message when they are exceeded."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the server logs."""
+"""Log messages of the server."""
 
 from __future__ import annotations
 

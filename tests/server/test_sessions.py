@@ -1,4 +1,4 @@
-"""What a session leaves behind when it is gone: nothing."""
+"""A closed session leaves nothing behind."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who may speak with the server, and who may show its page."""
+"""Access control: origins that may connect to the server, and sites that may embed the page."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What test modules share; no test module imports another."""
+"""Helpers shared by test modules; no test module imports another."""

@@ -92,7 +92,7 @@ def returned(values, place):
 
 
 def derivative(values, place, step=2e-4):
-    """Of the return map of the ball, by differences of fourth order."""
+    """Return the derivative of the ball's return map, by differences of fourth order."""
     columns = []
     for axis in np.eye(2):
         far, near = (

@@ -33,7 +33,7 @@ def modules_of_scenes():
 
 @cache
 def description(name):
-    """What the browser gets of a scene, once."""
+    """Return the description of a scene that the browser receives once."""
     return json.loads(describe(name))
 
 
@@ -119,7 +119,7 @@ def tracks_of(name):
 
 
 class Screen:
-    """What the browser has of a scene: the data, axes and texts that came by the wire, the newest of each."""
+    """The browser's data of a scene: the newest data, axes and texts received from the server."""
 
     def __init__(self, name):
         self.sources = dict(empty_sources(name))
@@ -128,7 +128,7 @@ class Screen:
         self.fresh = {}
 
     def take(self, tree, block):
-        """What came; `fresh` are the sources among it.  Names that the browser does not know are errors."""
+        """Apply an update; `fresh` names its new sources. Names unknown to the browser raise errors."""
         assert set(tree) == {"sources", "ranges", "texts", "captions", "controls"}
         assert np.all(np.isfinite(np.frombuffer(block, "<f4")))
         self.fresh = {
@@ -189,7 +189,7 @@ def said(message):
 
 
 def contents(sources):
-    """What is drawn: an empty column is the same as none."""
+    """Return the drawn data; an empty column equals a missing one."""
     flattened = {name: {key: flat(column) for key, column in columns.items()} for name, columns in sources.items()}
     return {name: {key: column for key, column in columns.items() if column} for name, columns in flattened.items()}
 

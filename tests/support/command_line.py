@@ -31,7 +31,7 @@ def run(*words):
 
 
 def without_patience(said):
-    """What a process says (bytes) but for the sentence that it takes long, as where kernels are compiled."""
+    """Return the output of a process (bytes) without progress messages, which appear while kernels compile."""
     return said.replace(f"{PATIENCE}\n".encode(), b"")
 
 

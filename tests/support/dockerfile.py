@@ -1,4 +1,4 @@
-"""A Dockerfile carried out without Docker: a folder stands for the image's root.
+"""Execute a Dockerfile without Docker: a folder serves as the image's root.
 
 Every instruction is read from the file, so what runs is what it says.
 """
@@ -24,7 +24,7 @@ def instructions(text):
 
 
 class Image:
-    """What the instructions of `project`/Dockerfile make below the folder `root`; a subclass says how commands run."""
+    """Build the image of `project`/Dockerfile below the folder `root`; a subclass defines how commands run."""
 
     def __init__(self, project, root):
         self.project, self.root = project, root
@@ -34,16 +34,16 @@ class Image:
         self.cmd = self.health = None
 
     def at(self, path):
-        """Where a path of the image is here."""
+        """Return the local path of a path in the image."""
         return self.root / path.lstrip("/")
 
     def mapped(self, text):
-        """A command or value as it is to be run or set here."""
+        """Return a command or value with local paths."""
         return text
 
     @property
     def environment(self):
-        """Nothing of the caller's: above all no PYTHONPATH and no home."""
+        """Return an environment without the caller's variables, in particular without PYTHONPATH and home."""
         home = "/root" if self.user == "root" else f"/home/{self.user}"
         reached = {name: value for name, value in os.environ.items() if name.startswith(("PIP_", "SSL_"))}
         return {
@@ -55,7 +55,7 @@ class Image:
         }
 
     def run(self, command, **options):
-        """Run as the image would at this point.  Fails with all the output if the command does."""
+        """Run a command as the image would at this point.  Fails with all the output if the command does."""
         done = subprocess.run(
             self.here(command),
             cwd=self.at(self.workdir),
@@ -75,7 +75,7 @@ class Image:
         return command
 
     def carry_out(self, instruction, rest):
-        """One instruction.  Unknown ones fail: this class must learn them."""
+        """Execute one instruction.  Unknown instructions fail: add them to this class."""
         getattr(self, f"_{instruction.lower()}")(rest)
 
     def _from(self, rest):
@@ -95,7 +95,7 @@ class Image:
                 shutil.copy2(self.project / source, into)
 
     def _is_ignored(self, source):
-        """For a .dockerignore of the form used here: everything (`*`), but not …"""
+        """Return whether a .dockerignore of the form used here (`*`, then exceptions) excludes a path."""
         rules = (self.project / ".dockerignore").read_text().splitlines()
         assert "*" in rules
         return not any(source == rule[1:] or source.startswith(f"{rule[1:]}/") for rule in rules if rule[:1] == "!")
@@ -129,7 +129,7 @@ class Image:
 
 
 class ImageInVenv(Image):
-    """A virtual environment stands for its Python.
+    """Image whose Python is a virtual environment.
 
     Not covered: the base image, other users' rights, and the libraries the base image lacks.
     """
@@ -143,12 +143,12 @@ class ImageInVenv(Image):
         (self.site / "libraries.pth").write_text(f"{sysconfig.get_path('purelib')}\n{sysconfig.get_path('platlib')}\n")
 
     def mapped(self, text):
-        """The image's absolute paths replaced by where they are here."""
+        """Replace the image's absolute paths by the local ones."""
         return re.sub(r"(?<![\w.:/])/(?=(src|home|root)\b)", lambda _: f"{self.root}/", text)
 
     @property
     def environment(self):
-        """That of the image, with the Python of the virtual environment."""
+        """Return the image's environment, with the Python of the virtual environment."""
         inherited = super().environment
         return {**inherited, "PATH": f"{self.root / 'venv' / 'bin'}:{inherited['PATH']}"}
 

@@ -1,4 +1,4 @@
-"""The scene of the Euler–Poisson sections with all that it computes."""
+"""The scene of the Euler–Poisson sections with all its computations."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ EP = scenes()["euler-poisson"]
 
 
 class EulerPoisson(View):
-    """The same of this scene, with its body, energy and constant of areas."""
+    """View of this scene, with its body, energy and area constant."""
 
     def __init__(self, values, **options):
         super().__init__(EP, values, **options)

@@ -8,7 +8,7 @@ import json
 
 
 def read(text):
-    """Of a CSV the comments by key, and the table."""
+    """Return the comments by key and the table of a CSV."""
     comments = dict(line[2:].split(": ", 1) for line in text.splitlines() if line.startswith("# "))
     body = "\n".join(line for line in text.splitlines() if not line.startswith("# "))
     table = list(csv.DictReader(io.StringIO(body)))

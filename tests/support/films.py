@@ -1,4 +1,4 @@
-"""Films, read again frame by frame."""
+"""Read films frame by frame."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def frames_of(path, side):
 
 
 def tags_of(path):
-    """What the file says of itself, as text."""
+    """Return the metadata of the file as text."""
     run = subprocess.run(
         [imageio_ffmpeg.get_ffmpeg_exe(), "-loglevel", "error", "-i", path, "-f", "ffmetadata", "-"],
         capture_output=True,

@@ -64,13 +64,13 @@ def start_of(values):
 
 
 def ends(values, omega, gamma):
-    """States long before and long after, when ω has settled to 1e-11 of its energy."""
+    """Return states long before and long after the passage, when ω has settled to 1e-11 of its energy."""
     reach = 30.0 / rate_of(values, energy(values, omega))
     return integrate(values, omega, gamma, [-reach])[0], integrate(values, omega, gamma, [reach])[0]
 
 
 def shown(value):
-    """To the digits of a caption."""
+    """Compare to the precision of a caption."""
     return pytest.approx(value, rel=6e-4, abs=6e-5)
 
 

@@ -1,4 +1,4 @@
-"""What strangers send: links, messages and command lines made at random, and what of the answers is counted."""
+"""Fuzzing: random links, messages and command lines, and counts of the responses."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ _NO_NUMBER = re.compile(r"(?<![\w−-])(?:nan|inf)(?![\w-])", re.IGNORECASE)
 
 
 class Findings:
-    """What went wrong, by kind, with the inputs that show it; `slow` : the seconds of the slowest."""
+    """Failures by kind, with the inputs that cause them; `slow`: the seconds of the slowest."""
 
     tell = None
     """Called with each finding as it is found."""
@@ -206,7 +206,7 @@ def _some(random, specs):
 
 
 def link(random):
-    """A query, of one scene for the most part."""
+    """Return a query, mostly valid for one scene."""
     if random.random() < 0.02:
         return quote(random.choice(GARBAGE)) * random.randint(1, 9)
     scene = random.choice([*scenes().values()])
@@ -222,7 +222,7 @@ def link(random):
 
 
 def fuzz_links(random, count, scene=None):
-    """Open so many links, each in a session of its own."""
+    """Open this many links, each in its own session."""
     findings, first = Findings(), next(iter(scenes()))
     for _ in range(count):
         if findings.over:
@@ -297,7 +297,7 @@ def message(random, scene):
 
 
 def _side(random, scene, names):
-    """One side of a chart, as a page asks for it or as nobody would."""
+    """Return one side of a chart, valid or malformed."""
     if not names or random.random() < 0.05:
         return random.choice([None, [], 3, "h", ["h", 0.0, 1.0], ["nobody", 0.0, 1.0, 5], [None] * 4])
     name = random.choice(names)
@@ -321,7 +321,7 @@ def _side(random, scene, names):
 
 
 def chart_message(random, scene):
-    """What a page asks of its chart: start or a box that looks closer, a cell clicked, more, stop."""
+    """Return a random chart message: start or refine a box, click a cell, request more, stop."""
     charted = random.choice([*scene.charts] or [None])
     names = [] if charted is None else swept(scene.name, charted.quantity)
     given = {
@@ -360,7 +360,7 @@ def chart_message(random, scene):
 
 
 class _Chart:
-    """The page's end of its chart."""
+    """Client side of a chart."""
 
     def __init__(self):
         self.cells, self.told = b"", []
@@ -374,7 +374,7 @@ class _Chart:
             self.cells = answer.cells
 
     def ask(self, asked):
-        """What is said to this message, and whatever the chart says until it is stopped after some pieces."""
+        """Return all responses of the chart to this message; the chart is stopped after some pieces."""
         self.told.clear()
         self._handle(asked)
         for pause in (0.01, 0.05, 0.1):
@@ -411,7 +411,7 @@ def _checked_chart(head, cells, findings, given):
 
 
 def fuzz_messages(random, count, length=25):
-    """Send so many messages, to sessions that are left after `length` of them."""
+    """Send this many messages, to sessions that are closed after `length` of them."""
     findings, browser, chart, story = Findings(), None, None, []
     for number in range(count):
         if findings.over:
@@ -440,7 +440,7 @@ def fuzz_messages(random, count, length=25):
 
 
 def _left(browser):
-    """Nobody waits for pieces any more; those that have begun come to their end, before the program does too."""
+    """Stop pending pieces, and wait for those that have started before the program ends."""
     if browser is not None:
         browser.session.background.stop()
         while browser.session.background.left:
@@ -448,7 +448,7 @@ def _left(browser):
 
 
 class _Story:
-    """The messages that led here: the state before the last one, and that one."""
+    """The messages that led to a finding: the last one and the state before it."""
 
     def __init__(self, story):
         self.scene, self.length, self.last = story[0], len(story), story[-1]
@@ -473,7 +473,7 @@ def _examples(parser):
 
 
 def _argument(random, text):
-    """Another value in the place of this one, of the same form for the most part."""
+    """Return another value for an argument, mostly of the same form."""
     kind = random.random()
     if kind < 0.1:
         return random.choice(GARBAGE)
@@ -500,7 +500,7 @@ def _argument(random, text):
 
 
 def command_line(random, examples):
-    """The words of a command that computes, and does not write a file."""
+    """Return a command line that computes something and writes no file."""
     words = list(random.choice(examples))
     for i, word in enumerate(words[1:], 1):
         name, sign, value = word.partition("=")
@@ -529,7 +529,7 @@ def command_line(random, examples):
 
 
 def fuzz_commands(random, count):
-    """Carry out so many command lines in this process; the files that they write are thrown away."""
+    """Run this many command lines in this process, and discard the files they write."""
     with tempfile.TemporaryDirectory() as folder, chdir(folder):
         return _fuzz_commands(random, count)
 

@@ -1,4 +1,4 @@
-"""The scenes of a principal axis: where their moving points are."""
+"""The scenes of a principal axis: positions of their moving points."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from support.andoyer import cross
 
 
 def finite_exponent(body, state, span):
-    """The same by the variational equations of hh01, integrated with the motion.
+    """Return the exponent by the variational equations of hh01, integrated with the motion.
 
     Directions and lengths are in units of the largest velocity ν = √(2 max(a)(T + 2μ|r|)) and of M = I ω.
     """

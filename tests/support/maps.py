@@ -1,4 +1,4 @@
-"""Maps whose periodic orbits, bifurcations and manifolds are known: `Formula` makes one from formulas."""
+"""Maps with known periodic orbits, bifurcations and manifolds: `Formula` makes a map from formulas."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def delayed_logistic(a):
 
 
 def pitchfork(r):
-    """x′ = r x − x³, y′ = y/2, which x → −x changes nothing of: a pitchfork of 0 at r = 1, a flip at r = −1."""
+    """x′ = r x − x³, y′ = y/2, symmetric under x → −x: a pitchfork of 0 at r = 1, a flip at r = −1."""
     return Formula(lambda x, y: (r * x - x**3, 0.5 * y), lambda x, y: [[r - 3.0 * x * x, 0.0], [0.0, 0.5]])
 
 

@@ -1,4 +1,4 @@
-"""Tables of a README that a script measures: they stand between two comments and are replaced as a whole."""
+"""Tables in a README that a script measures: they lie between two comments and are replaced as a whole."""
 
 import re
 
@@ -6,7 +6,7 @@ __all__ = ["write_measured"]
 
 
 def write_measured(readme, text):
-    """Replace what stands in `readme` between its comments `measured` and `end of measured`."""
+    """Replace the text in `readme` between the comments `measured` and `end of measured`."""
     whole = readme.read_text(encoding="utf-8")
     pattern = re.compile(r"(<!-- measured[^>]*-->\n).*?(\n<!-- end of measured -->)", re.DOTALL)
     if len(pattern.findall(whole)) != 1:

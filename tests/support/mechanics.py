@@ -1,4 +1,4 @@
-"""Shared by the tests of the mechanics: reference values, equilibria, angles, returns, runs without the JIT."""
+"""Helpers of the tests of the mechanics: reference values, equilibria, angles, returns, runs without the JIT."""
 
 import json
 import os

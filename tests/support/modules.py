@@ -1,4 +1,4 @@
-"""What tests look at inside the page: its own modules, imported once more, as `window.hess`.
+"""Access from tests to the page's own modules, imported once more as `window.hess`.
 
 hess.plots, hess.source(name), hess.has(scene) are the gallery's; hess.tell(name, detail) and hess.listen(name, hear)
 the bus's; hess.plotted() names the sources of the planar pictures on show; hess.clouds(source, t).

@@ -1,4 +1,4 @@
-"""The page in a browser: what a user does with it (`Explorer`), and what is to be seen on it."""
+"""The page in a browser: user actions (`Explorer`), and what the page shows."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ SLIDERS = {"I22": 0.01, "I23": 0.01, "b3": 0.01, "h": 0.01, "f": 0.01, "phi0": 0
 
 
 def scene_of(query):
-    """The query, in the Suslov–Hess scene if it names none: which scene is the first one is no matter here."""
+    """Return the query with the Suslov–Hess scene as its default; the tests do not depend on the page's first scene."""
     return query if "scene=" in query else f"scene=suslov-hess&{query}".rstrip("&")
 
 
 class Explorer:
-    """A page that is open: what a user does with it, and what is to be seen on it."""
+    """An open page: user actions, and what it shows."""
 
     def __init__(self, page, base):
         self.page = page
@@ -66,13 +66,13 @@ class Explorer:
         return self.goto(f"/?{scene_of(query)}")
 
     def goto(self, address):
-        """The page of exactly this address."""
+        """Open exactly this address."""
         self.page.goto(self.base + address)
         wait_ready(self.page)
         return self.unfold_controls()
 
     def unfold_controls(self):
-        """Open all groups of controls, as a user who works all of them: they stay open in every scene."""
+        """Expand all groups of controls; they stay open in every scene."""
         self.page.locator("details.group").evaluate_all("groups => groups.forEach((group) => { group.open = true })")
         return self
 
@@ -105,11 +105,11 @@ class Explorer:
         return self
 
     def fold_controls(self):
-        """As they are at first."""
+        """Restore the initial state of the groups of controls."""
         self.page.locator("details.group").evaluate_all("groups => groups.forEach((group) => { group.open = false })")
 
     def resize(self, width, height):
-        """A window of another size, and all that follows it painted."""
+        """Resize the window and wait until everything is repainted."""
         self.page.set_viewport_size({"width": width, "height": height})
         wait_frames(self, 4)
 
@@ -118,7 +118,7 @@ class Explorer:
         return self.page.evaluate(f"{PANEL}.dark_theme")
 
     def turn_theme(self, *, is_dark):
-        """Dark or light, as its button does, and the colours of the plots with it: they come from Panel, later."""
+        """Switch between dark and light, and wait for the plots' colours, which Panel sends later."""
         if self.dark == is_dark:
             return
         before = self.page.evaluate(COLOURS)
@@ -127,7 +127,7 @@ class Explorer:
         wait_frames(self, 3)
 
     def assert_quiet(self):
-        """No error was reported and no other host was asked for anything; each is reported once."""
+        """Assert that there were no errors and no requests to other hosts; each is reported once."""
         errors, outside = self.errors.copy(), self.outside.copy()
         self.errors.clear()
         self.outside.clear()
@@ -185,7 +185,7 @@ class Explorer:
         return self.picture(picture).locator(".caption").text_content().strip()
 
     def text(self, look):
-        """What stands in the status line's details, the notes or the derived quantities."""
+        """Return the text of the status line's details, the notes or the derived quantities."""
         return self.page.locator({"status": ".text.details"}.get(look, f".text.{look}")).text_content()
 
     @property
@@ -220,12 +220,12 @@ class Explorer:
         return tuple(map(float, self.sphere.get_attribute("data-turn").split()))
 
     def link(self):
-        """The address of what is on the screen, as "Copy link" writes it: at once, not after the pause."""
+        """Return the link that "Copy link" writes for the current state, without the pause of the address bar."""
         self.page.locator(".param-link").dispatch_event("click")
         return self.page.url
 
     def wait_url(self, **values):
-        """Wait until the address bar has these values, and return all that it has."""
+        """Wait until the address bar has these values, and return all its values."""
         self.page.wait_for_function(
             "wanted => wanted.every(([key, value]) => new URLSearchParams(location.search).get(key) === value)",
             arg=[[key, str(value)] for key, value in values.items()],
@@ -253,7 +253,7 @@ class Explorer:
         return sphere
 
     def unfold(self, picture):
-        """Show a picture that is not seen at first."""
+        """Show a picture that starts collapsed."""
         if "folded" in self.picture(picture).get_attribute("class").split():
             self.change(self.fold, picture)
 
@@ -262,7 +262,7 @@ class Explorer:
         self.page.locator(f".unfold-{picture}").click()
 
     def change(self, action, *arguments):
-        """Do something that asks for a new state, and wait until it is painted."""
+        """Do something that requests a new state, and wait until it is painted."""
         before = self.state
         action(*arguments)
         wait_ready(self.page, after=before)
@@ -277,14 +277,14 @@ class Explorer:
         self.page.locator(".param-scenes").click()
 
     def type(self, name, text):
-        """Type into the box of a number, and Enter."""
+        """Type into the box of a number, and press Enter."""
         box = self.box(name)
         box.evaluate(UNFOLD)
         box.fill(text)
         box.press("Enter")
 
     def give(self, **values):
-        """The first state of the scene on show with these values, as if opened by a link, but sooner."""
+        """Set the scene's first state with these values, as its link would, but faster."""
         self.change(self.page.locator(".param-reset").click)
         for name, value in values.items():
             if isinstance(value, str) and self.chosen(name) != value:
@@ -298,12 +298,12 @@ class Explorer:
         return self.page.evaluate(SLIDE, list(values.items()))
 
     def choose(self, menu, option):
-        """Choose an option of a menu, which may stand in a group that is folded."""
+        """Choose an option of a menu, expanding its group if needed."""
         self.menu(menu).evaluate(UNFOLD)
         self.menu(menu).select_option(label=option)
 
     def play_until(self, t):
-        """Let it play until the time slider has come past t."""
+        """Play until the time slider has passed t."""
         self.page.locator(".param-play").click()
         while self.time <= t:
             self.page.wait_for_timeout(20)
@@ -380,7 +380,7 @@ ENTER = f"""pairs => {{
 
 
 def one_tab(browser, server):
-    """A tab for many tests: loading a page is what takes longest."""
+    """Yield one tab for many tests: loading a page takes longest."""
     context = browser.new_context(
         viewport={"width": WIDE[0], "height": WIDE[1]},
         permissions=["clipboard-read", "clipboard-write"],
@@ -392,7 +392,7 @@ def one_tab(browser, server):
 
 
 def default_state(tab):
-    """The page in its default state; when the test ends it may have reported no error and asked no other host."""
+    """Return the page in its default state; at the end assert no errors and no requests to other hosts."""
     tab.fresh()
     tab.assert_quiet()
     yield tab
@@ -400,7 +400,7 @@ def default_state(tab):
 
 
 def one_phone(browser, server):
-    """A tab on a phone for many tests, whose controls are as they are at first."""
+    """Yield one phone tab for many tests, with the controls in their initial state."""
     context = browser.new_context(
         viewport={"width": 390, "height": 844}, reduced_motion="reduce", has_touch=True, is_mobile=True
     )
@@ -427,7 +427,7 @@ def first_on_phone(phone_tab):
 
 
 class Websocket:
-    """Between a page and its server: can hold back what the server says."""
+    """Proxy between a page and its server that can hold back the server's messages."""
 
     def __init__(self, page):
         self._socket, self._held, self._holding = None, [], False
@@ -447,7 +447,7 @@ class Websocket:
         self._holding = True
 
     def cut(self):
-        """As when the server ends."""
+        """Close the connection as when the server ends."""
         self._socket.close()
 
     def release(self):
@@ -457,7 +457,7 @@ class Websocket:
 
 
 def tab_with_websocket(browser, server):
-    """(explorer, websocket): a tab for many tests, and what is between it and the server."""
+    """Yield (explorer, websocket): a tab for many tests, and the proxy between it and the server."""
     context = browser.new_context(viewport={"width": WIDE[0], "height": WIDE[1]}, reduced_motion="reduce")
     page = context.new_page()
     yield Explorer(page, server), Websocket(page)
@@ -465,7 +465,7 @@ def tab_with_websocket(browser, server):
 
 
 def page_with_websocket(websocket_tab):
-    """(explorer, websocket): the page in its default state, and what is between it and the server."""
+    """Return (explorer, websocket): the page in its default state, and the proxy between it and the server."""
     explorer, websocket = websocket_tab
     explorer.fresh()
     explorer.assert_quiet()
@@ -497,14 +497,14 @@ MOMENT = """names => {
 
 
 def wait_frames(explorer, count=6):
-    """Let the browser paint so many frames."""
+    """Wait until the browser has painted this many frames."""
     explorer.page.evaluate(
         "async (count) => { while (count-- > 0) await new Promise((done) => requestAnimationFrame(done)) }", count
     )
 
 
 def wait_time(explorer, condition):
-    """Wait until the time slider fulfils a condition on t."""
+    """Wait until t on the time slider fulfils a condition."""
     explorer.page.wait_for_function(f"() => {{ const {{ t }} = ({MOMENT})({list(POINTS)!r}); return {condition} }}")
 
 
@@ -516,7 +516,7 @@ def brought(tab, scene):
 
 
 def said(explorer, picture, pattern):
-    """The numbers where the pattern has #, in a caption."""
+    """Return the numbers in a caption at the places of # in the pattern."""
     explorer.unfold(picture)
     return numbers_in(explorer.caption(picture), pattern)
 

@@ -1,4 +1,4 @@
-"""What is painted on the page: that it is there, finite, and where."""
+"""Checks of painted pictures: present, finite, and in the right place."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def track(explorer, source="data-orbit"):
 
 
 def assert_captions_fit(explorer, scene):
-    """Each caption fits into its place where that is narrowest: four pictures beside each other, as a wide page has.
+    """Assert that each caption fits its narrowest place: four pictures side by side, as on a wide page.
 
     On a laptop the places are wider, and on a phone they grow with the text.
     """
@@ -46,7 +46,7 @@ def assert_captions_fit(explorer, scene):
 
 
 def assert_painted(explorer, scene):
-    """Finite data, words that fit, something on every canvas."""
+    """Assert finite data, captions that fit, and painted pixels on every canvas."""
     assert_captions_fit(explorer, scene)
     for name in explorer.page.evaluate(SOURCES):
         assert all(isinstance(x, str) or math.isfinite(x) for x in flat(explorer.data(name))), name

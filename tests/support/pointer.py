@@ -33,7 +33,7 @@ STEP = math.pi / 36
 
 
 def assert_turned(explorer, azimuth, elevation):
-    """The sphere is painted in this direction of sight, now or a few frames later."""
+    """Assert that the sphere is painted in this view direction, now or a few frames later."""
     azimuth = math.remainder(azimuth, 2 * math.pi)
     explorer.sphere.evaluate(
         """async (canvas, turn) => {

@@ -1,4 +1,4 @@
-"""Child processes: interrupted, weighed, timed."""
+"""Child processes: interrupt them, and measure their memory and CPU time."""
 
 import os
 import signal
@@ -10,7 +10,7 @@ __all__ = ["below", "interruptible", "memory", "worked"]
 
 @contextmanager
 def interruptible():
-    """Children started inside obey Ctrl-C, even where a shell runs the tests in the background.
+    """Make children started inside react to Ctrl-C, even if a shell runs the tests in the background.
 
     Such a shell lets its children ignore SIGINT, and they hand that on; a handler is reset to the default instead.
     """
@@ -22,7 +22,7 @@ def interruptible():
 
 
 def below(pid):
-    """A process and all below it."""
+    """Return a process and all its descendants."""
     found = [pid]
     for one in found:
         try:
@@ -33,7 +33,7 @@ def below(pid):
 
 
 def memory(pid):
-    """Bytes in memory, each page shared between processes counted once."""
+    """Return the bytes of memory; pages shared between processes count once."""
     total = 0
     for one in below(pid):
         for line in Path(f"/proc/{one}/smaps_rollup").read_text().splitlines():
@@ -43,7 +43,7 @@ def memory(pid):
 
 
 def worked(pid):
-    """Seconds of the processor until now."""
+    """Return the CPU seconds used so far."""
     ticks = 0
     for one in below(pid):
         fields = Path(f"/proc/{one}/stat").read_text().rpartition(")")[2].split()

@@ -1,4 +1,4 @@
-"""The page served in the process of the test, so that what stays behind can be counted."""
+"""Serve the page in the test's process, so that leftover objects can be counted."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ main()
 
 @contextmanager
 def served(embedders=("*",), sessions=1000, **changed):
-    """The URL of a server in another thread, with the options of `serve` but those that are changed."""
+    """Yield the URL of a server in another thread, with the options of `serve` except those given."""
     port = free_port()
     options = {**serving.options(port, "127.0.0.1", [], sessions=sessions), **changed}
     pn.extension()

@@ -24,7 +24,7 @@ def field(body, y):
 
 
 def divergence(body, y):
-    """Of that field: its components are quadratic, so differences over 2 are derivatives."""
+    """Return the divergence of that field: its components are quadratic, so central differences are exact."""
     y = np.asarray(y)
     return sum(field(body, y + e)[i] - field(body, y - e)[i] for i, e in enumerate(np.eye(5))) / 2.0
 

@@ -23,13 +23,13 @@ def exact_states(values, times):
 
 
 def rounding(values, times, states):
-    """How far the body gets in half of the last digit of these times, which are sent in single precision."""
+    """Bound the motion of the body during half a unit in the last place of these times, sent in single precision."""
     rates = np.abs(systems()["suslov"].field(states.T, body_of(values).suslov.parameters)).T
     return rates * np.spacing(np.float32(times))[:, None] / 2
 
 
 def assert_orbit(explorer, values, within=2e-6):
-    """The orbit in the browser is that of these values: where it starts, where it ends, and in between."""
+    """Assert that the browser's orbit has these values: start, end, and points between."""
     orbit = explorer.data("data-orbit")
     times = np.array(orbit["t"])
     last = min(values["span"], 100 * turning_points(values["h"], values["f"]).period / body_of(values).frequency_unit)
@@ -45,7 +45,7 @@ def assert_orbit(explorer, values, within=2e-6):
 
 
 def assert_defaults(explorer, scene, **others):
-    """The page shows the default state of this scene, but for the values of others that it knows."""
+    """Assert that the page shows the scene's default state, except for values shared with other scenes."""
     assert explorer.scene == scene
     for spec in scenes()[scene].specs:
         value = others.get(spec.name, spec.default)

@@ -1,4 +1,4 @@
-"""Fewer cases by default, all of them with `pytest --thorough`."""
+"""Fewer cases by default; all of them with `pytest --thorough`."""
 
 from hypothesis import settings
 

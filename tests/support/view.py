@@ -1,4 +1,4 @@
-"""What a scene shows of some values, without a browser."""
+"""View of a scene for given values, without a browser."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ NUMBER = r"(−?\d+(?:\.\d+)?(?:e−?\d+)?)"
 
 
 def numbers_in(text, pattern):
-    """The numbers in a text that stand where the pattern has #; a space there is any white space."""
+    """Return the numbers in a text at the places of # in the pattern; a space matches any white space."""
     found = re.search(re.escape(pattern).replace(r"\#", NUMBER).replace(r"\ ", r"\s"), text)
     assert found, (pattern, text)
     return [float(number.replace("−", "-")) for number in found.groups()]
 
 
 class View:
-    """What a scene shows of some values when all that it leaves to be computed is there.
+    """View of a scene for given values, after all pending computations.
 
-    `values` as they were admitted, and the `notes` on that; `begun` and `first`, result and report of what is seen at
-    once; `result` and `report` when all is there; `data` by source, `axes` and `text` by picture.  Notes, and work that
-    is too much, are errors unless they are expected: then `notes` and `refused` have the sentences.
+    `values` are the admitted values, and `notes` the changes to them; `begun` and `first` are result and report of the
+    first view, `result` and `report` those of the final one; `data` by source, `axes` and `text` by picture.
+    Notes and refused work are errors unless expected: then `notes` and `refused` hold the messages.
     """
 
     def __init__(self, scene, values, dragging=False, seen=None, noted=False, refusing=False, whole=True):
@@ -54,7 +54,7 @@ class View:
         self.axes, self.captions, self.text = tree["ranges"], tree["captions"], texts_in(tree)
 
     def _complete(self, scene, seen, dragging, refusing):
-        """Find what is left to be computed, and show it; whether anything was."""
+        """Compute and show the pending results; return whether there were any."""
         left = [task for task in self.report.todo if task not in self._left_out]
         for task in left:
             try:
@@ -69,15 +69,15 @@ class View:
         return bool(left)
 
     def numbers(self, picture, pattern):
-        """The numbers in a caption that stand where the pattern has #."""
+        """Return the numbers in a caption at the places of # in the pattern."""
         return numbers_in(self.text[picture], pattern)
 
     def derived(self, pattern):
-        """The numbers beside the pictures that stand where the pattern has #."""
+        """Return the numbers in the derived quantities at the places of # in the pattern."""
         return numbers_in("\n".join(self.report.derived), pattern)
 
     def curve(self, source):
-        """The parts of a series of a graph, joined: xs, ys."""
+        """Return xs and ys of the joined parts of a graph's series."""
         columns = self.data[source]
         return tuple(np.concatenate([np.asarray(part, float) for part in columns[key]] or [[]]) for key in ("xs", "ys"))
 
@@ -87,7 +87,7 @@ class View:
         return np.column_stack([columns["x"], columns["y"]]).astype(float)
 
     def assert_finite(self):
-        """No number is NaN or infinite, neither drawn nor written."""
+        """Assert that all drawn and written numbers are finite."""
         for name, columns in self.data.items():
             for column in columns.values():
                 for part in column if isinstance(column, list) else [column]:

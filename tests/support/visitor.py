@@ -1,4 +1,4 @@
-"""A visitor without a browser: opens the page over HTTP and the websocket, as a browser does, and asks for states."""
+"""Client without a browser: opens the page over HTTP and websocket, as a browser does, and requests states."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _numbers = itertools.count(1)
 
 
 class Closed(Exception):
-    """The server has ended the connection, or has no page to show; the message says why."""
+    """Raised when the server has closed the connection or has no page to show; the message gives the reason."""
 
 
 def _nodes(item):
@@ -52,7 +52,7 @@ class Visitor:
 
     @classmethod
     async def open(cls, base, query="", origin=None, timeout=60.0, pause=0.0, headers=None, trusted=None):
-        """The page of a query, when its first state is there.
+        """Open the page of a query, and return it once its first state has arrived.
 
         origin : of the page that opens the websocket; pause : seconds before it does; headers : of both requests;
         trusted : whose certificates count, by https.
@@ -91,7 +91,7 @@ class Visitor:
         return found
 
     def _look(self):
-        """Whether this is a page, with a client that asks for states."""
+        """Raise `Closed` unless this is a page whose client requests states."""
         for node in _nodes(self.document["doc"]):
             data = node.get("attributes", {}).get("data")
             if isinstance(data, dict) and "client" in data.get("attributes", {}):
@@ -99,7 +99,7 @@ class Visitor:
         raise Closed(f"nothing here asks for states: {self.document['doc']}")
 
     async def say_to_panel(self, kind, content):
-        """A message of Bokeh's protocol."""
+        """Send a message of Bokeh's protocol."""
         header = {"msgid": f"visitor-{next(_numbers)}", "msgtype": kind}
         for part in (header, {}, content):
             await self._socket.write_message(json.dumps(part))
@@ -113,7 +113,7 @@ class Visitor:
         return fragment
 
     async def end(self, timeout=60.0):
-        """What both websockets hear last."""
+        """Return the last messages of both websockets."""
         heard = []
         for socket in (self._states, self._socket):
             try:
@@ -132,7 +132,7 @@ class Visitor:
                 return message
 
     async def hear(self, timeout=60.0):
-        """The next answer: what is told, by name."""
+        """Return the next response, by name."""
         frame = await self._read(self._states, timeout)
         head, _ = struct.unpack_from("<II", frame)
         told = json.loads(frame[8 : 8 + head])
@@ -140,11 +140,11 @@ class Visitor:
         return told
 
     async def say(self, data):
-        """Send a message, whatever it is."""
+        """Send any message."""
         await self._states.write_message(json.dumps(data))
 
     async def ask(self, timeout=60.0, **message):
-        """The state that answers this message."""
+        """Send a message and return the state in the response."""
         self._asked += 1
         asked = self._asked
         await self.say({"requested": asked, "held": False, "values": {}, **message})
@@ -153,13 +153,13 @@ class Visitor:
         return self.state
 
     async def whole(self, timeout=60.0):
-        """The state when nothing of it is missing any more."""
+        """Wait for all pending results, and return the complete state."""
         while self.state["progress"] is not None:
             await self.ask(timeout)
         return self.state
 
     async def leave(self):
-        """Close both websockets, as a tab that is closed does."""
+        """Close both websockets, as a closed tab does."""
         both = [socket for socket in (self._states, self._socket) if socket is not None]
         for socket in both:
             socket.close()

@@ -1,4 +1,4 @@
-"""What the browser reads of a message."""
+"""Decoding of messages as in the browser."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ def _refuse(name):
 
 
 def read_frame(frame):
-    """What "websocket.js" makes of an answer: its head, its block, the cells of a chart."""
+    """Decode a response as "websocket.js" does: its head, its block, the cells of a chart."""
     if not frame:
         return {}, b"", b""
     head, block = struct.unpack_from("<II", frame)
@@ -25,7 +25,7 @@ def read_frame(frame):
 
 
 def read(item, block):
-    """What "unpack.js" makes of an item of the tree: an array where the tree says where one lies."""
+    """Decode an item of the tree as "unpack.js" does: an array where the tree refers to one."""
     if isinstance(item, list):
         return [read(part, block) for part in item]
     if isinstance(item, dict):

@@ -1,4 +1,4 @@
-"""Charts of the page, without a browser: what is computed, in which order, what is believed of wishes."""
+"""Charts of the page, without a browser: computed cells, their order, and validation of requests."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def wish(state="scene=suslov-hess", quantity="rotation-number", x=("h", -0.9, 2.
 
 
 def whole(chart):
-    """(rows, columns) of the numbers, and of how the cells ended."""
+    """Return the numbers (rows, columns), and the status of the cells."""
     found = chart.compute(np.arange(chart.cells, dtype=np.int32))
     shape = chart.y.count, chart.x.count
     return found.values.reshape(shape), found.status.reshape(shape)
@@ -58,14 +58,14 @@ def wait_until(condition, seconds=60.0):
 
 
 class Page:
-    """The browser's end of a chart: every answer, as it comes."""
+    """Client side of a chart, which records every response."""
 
     def __init__(self):
         self.cells, self.told = b"", []
         self.charts = Charts()
 
     def send(self, message):
-        """What is answered, if anything is."""
+        """Return the response, or None."""
         request = parse(message)
         if request is None:
             return None
@@ -77,7 +77,7 @@ class Page:
         return self.told[-1]
 
     def all_of(self, given):
-        """A chart to its end, as the browser asks for it: the last answer, numbers, status."""
+        """Run a chart to its end as the browser does; return the last response, the numbers and the status."""
         head = self.send({"chart": {"start": given, "id": 7}})
         values, status = np.full(head["of"], np.nan), np.zeros(head["of"], np.uint8)
         known = 0
@@ -141,7 +141,7 @@ def test_what_the_quantity_needs_follows_from_each_state():
 
 
 def test_the_place_of_a_start_on_a_section_is_a_place_of_a_chart():
-    """Against sweeps over the coordinates of the section; where no motion starts there is no number of another one."""
+    """Against sweeps over the section's coordinates; cells without a possible motion have no number."""
     given = wish(
         "scene=suslov&accuracy=draft&starts=0.5,0.5;1,1&h=0.9",
         "megno-suslov",
@@ -319,7 +319,7 @@ def test_a_message_that_means_nothing_has_no_answer(message):
 
 @pytest.fixture
 def slow(monkeypatch):
-    """A quantity each of whose cells waits to be let through: (let, begun)."""
+    """Make every cell wait until it is released; return the semaphores (let, begun)."""
     let, begun = threading.Semaphore(0), threading.Semaphore(0)
     plain = Chart.compute
 
@@ -416,7 +416,7 @@ def test_the_part_of_a_quantity_that_has_several_numbers():
 
 
 def file_of(given, head, values, status):
-    """What the page saves, see "static/controls/chart_file.js"."""
+    """Return the file that the page saves, see "static/controls/chart_file.js"."""
     sides = {side: dict(zip(("name", "low", "high", "count"), head[side], strict=True), symbol="s") for side in "xy"}
     what = QUANTITIES[given["quantity"]]
     return {

@@ -1,4 +1,4 @@
-"""The quantities: as loops written by hand give them, bit for bit, and as other ways of computation say."""
+"""Quantities equal hand-written loops bit for bit, and agree with other methods."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Stores: gone on with after every kind of end, read back, refused where they are another's."""
+"""Stores: resumed after every kind of end, read back, and refused if they belong to another sweep."""
 
 from __future__ import annotations
 

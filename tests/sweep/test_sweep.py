@@ -1,4 +1,4 @@
-"""`sweep`: pieces of any size, cells that fail, progress, stopping, and one sentence for whatever is wrong."""
+"""`sweep`: pieces of any size, failing cells, progress, stopping, and a one-sentence message for every error."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Processes of this machine, and workers of a Dask cluster: the same numbers, and nothing lost where one dies."""
+"""Local processes, and workers of a Dask cluster: the same numbers, and no loss when one dies."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ TIME = 15.0
 
 @pytest.fixture(scope="module")
 def cluster():
-    """The address of a cluster of two."""
+    """Yield the address of a cluster with two workers."""
     with local_cluster(2) as address:
         yield address
 
@@ -45,7 +45,7 @@ def pairs(monkeypatch):
 
 @pytest.fixture(scope="module")
 def alone():
-    """What one thread finds."""
+    """Return the results of a single thread."""
     return sweep("lyapunov-suslov", MOTIONS, level="draft", t=TIME)
 
 
@@ -76,7 +76,7 @@ def test_workers_find_the_same_and_one_that_is_killed_is_no_loss(cluster, client
 
 
 def children():
-    """Those of this process that compute."""
+    """Return the child processes of this process that compute."""
     found = []
     for one in psutil.Process().children():
         # One may end meanwhile.

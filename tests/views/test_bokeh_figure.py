@@ -1,4 +1,4 @@
-"""The figure as the browser gets it."""
+"""The figure as sent to the browser."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What of a picture changes: points, curves and cells against what is put in by hand."""
+"""Differences between pictures: points, curves and cells against values set by hand."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Layers as HoloViews elements and as Matplotlib draws them: right side up, turned the right way, with holes."""
+"""Layers as HoloViews elements and as Matplotlib draws them: orientation, direction of rotation, holes."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def test_cells_lie_where_their_numbers_are():
     ("look", "drawn_as"), [({}, "nearest"), ({"smooth": True}, "bilinear"), ({"cyclic": True}, "nearest")]
 )
 def test_numbers_that_go_round_are_not_mixed(look, drawn_as):
-    """Half way from −½ to ½ turns there is no 0."""
+    """The mean of −½ and ½ turns is not 0."""
     _, axis = drawn(image([[0.0, 1.0], [0.0, 1.0]], **look))
     assert axis.images[0].get_interpolation() == drawn_as
 

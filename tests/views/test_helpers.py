@@ -76,7 +76,7 @@ def test_parallels_end_at_the_poles():
 
 
 def inside(point, curve):
-    """Whether a point lies in a convex closed curve (n, 2)."""
+    """Return whether a point lies in a convex closed curve (n, 2)."""
     steps, to_it = np.roll(curve, -1, axis=0) - curve, np.asarray(point) - curve
     turns = steps[:, 0] * to_it[:, 1] - steps[:, 1] * to_it[:, 0]
     return bool(np.all(turns > 0.0) or np.all(turns < 0.0))

@@ -1,4 +1,4 @@
-"""Of very many points of a section those are drawn that a picture can tell apart."""
+"""A section with very many points draws only those that a picture can distinguish."""
 
 import numpy as np
 import pytest

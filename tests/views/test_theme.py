@@ -1,4 +1,4 @@
-"""Colours: clear on both pages, the same in the browser, and a scale of turns that closes."""
+"""Colours: visible on both themes, equal in the browser, and a periodic colour scale for turns."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The scenes: every module of this package with a `SCENE`, and "Speed and accuracy" of each."""
+"""The scenes: the `SCENE` of every module in this package, and "Speed and accuracy" for each."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["scenes"]
 
 @cache
 def scenes() -> dict[str, Scene[Any]]:
-    """All scenes by name, in the order of the menu; those that look into another one come last."""
+    """Return all scenes by name, in menu order; scenes derived from another scene come last."""
     modules = (importlib.import_module(f"{__name__}.{module.name}") for module in pkgutil.iter_modules(__path__))
     own = [module.SCENE for module in modules if isinstance(getattr(module, "SCENE", None), Scene)]
     own += [speed_and_accuracy(scene) for scene in own if scene.trials]

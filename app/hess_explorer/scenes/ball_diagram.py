@@ -54,12 +54,12 @@ PRESETS = (
         chosen="1,1.5",
     ),
 )
-"""All of them are rigid bodies for some I₃₃; the third was found in a search of random bodies."""
+"""Each is a rigid body for some I₃₃; the third comes from a search over random bodies."""
 
 
 @dataclass(frozen=True)
 class BallDiagram(DiagramState):
-    """The diagram of the ball."""
+    """State of the orbit diagram of the ball."""
 
     I11: float = parameter(ball.I11, 1.5)
     I22: float = parameter(ball.I22)
@@ -95,7 +95,7 @@ class BallDiagram(DiagramState):
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """From the variables to the pictures, in pixels for a unit: with room for all motions of this energy."""
+        """Scale of each variable in pixels per unit, with room for all motions of this energy."""
         highest = self.E + math.hypot(self.b1, self.b2, self.b3)
         return pixels_per_unit(room_for(math.sqrt(2.0 * highest / min(self.I11, self.I22))))
 

@@ -138,7 +138,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class BallSection(State):
-    """The orbit from one place of the section, among others of its energy."""
+    """One orbit, chosen in the section, among others of the same energy."""
 
     I11: float = parameter(ball.I11)
     I22: float = parameter(ball.I22)
@@ -203,7 +203,7 @@ class BallSection(State):
 
     @cached_property
     def band(self) -> tuple[float, float] | None:
-        """The middle and half width of the band of ψ that the energy forbids; None where it forbids nothing."""
+        """The centre and half width of the forbidden band of ψ; None if every ψ is possible."""
         return forbidden_band(self.body, self.E)
 
     @cached_property
@@ -218,17 +218,17 @@ class BallSection(State):
 
     @property
     def start(self) -> tuple[float, ...]:
-        """The state from which the orbit on show starts."""
+        """The initial state of the orbit on show."""
         return self.periodic_orbit.start
 
     @property
     def lasts(self) -> float:
-        """The time for which it is followed."""
+        """The length of the orbit in time."""
         return self.periodic_orbit.lasts
 
     @cached_property
     def weights(self) -> tuple[float, ...]:
-        """From the variables to the pictures, as large as the orbit will be drawn."""
+        """Scale of each variable in pixels per unit, fitted to the orbit."""
         return pixels_per_unit(room_for(self.work.get(fastest, self.body, self.start, self.lasts)))
 
     def motion(self) -> Motion:
@@ -239,27 +239,27 @@ class BallSection(State):
 
     @part
     def section(self) -> Section:
-        """The orbit on show among others."""
+        """The section of the orbit on show and of others."""
         return Section(self, lambda: self.given, self._crossing, closed=lambda: self.closed, later=self.drop != "all")
 
     @part
     def megno(self) -> Indicator:
-        """The cells of the section by MEGNO."""
+        """The MEGNO of the section's cells."""
         return Indicator(self.section, self.indicator == MEGNO)
 
     @part
     def periodic_orbit(self) -> PeriodicOrbit:
-        """The periodic orbit in place of the chosen one."""
+        """The periodic orbit that replaces the chosen one."""
         return PeriodicOrbit(self.section, self.periodic, self.reach, self.span)
 
     @property
     def closed(self) -> Closed | None:
-        """The same where it is known."""
+        """The periodic orbit, if known."""
         return self.periodic_orbit.closed
 
     @part
     def branch(self) -> Branch:
-        """Its branch over a parameter."""
+        """The branch of the periodic orbit over a parameter."""
         return Branch(self, self.periodic_orbit, ball.PARAMETERS)
 
     @part
@@ -269,7 +269,7 @@ class BallSection(State):
 
     @part
     def proof(self) -> Proof:
-        """Its proved error."""
+        """The proved error of the orbit."""
         return Proof(self.orbit, self.certain)
 
     def _crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
@@ -291,7 +291,7 @@ class BallSection(State):
         return constrained_solid(self.work, self.body, self.orbit.path)
 
     def start_at(self, x: float, y: float) -> Values:
-        """Return the start at a place of the section."""
+        """Return the parameters of an orbit that starts at (ψ, δ)."""
         return {"psi": x, "delta": y}
 
     def half_width(self) -> float:
@@ -305,7 +305,7 @@ class BallSection(State):
         return section_plane.band(*self.band, 2.0 * math.pi, axes)
 
     def returns(self) -> Array | None:
-        """Return ψ and the next ψ (n, 2); which returns belong together only the chosen orbit tells."""
+        """Return consecutive values (ψ, next ψ) of the chosen orbit (n, 2)."""
         own = self.section.own
         if own is None:
             return None
@@ -334,7 +334,7 @@ class BallSection(State):
         return Caption("ψ and the next ψ.", "Closed orbit: a point; regular: a curve; chaotic: a cloud.")
 
     def derived(self) -> Iterator[str]:
-        """Energies, and where the orbit starts."""
+        """Yield the energies and the start of the orbit."""
         yield f"E = {digits(self.E, 6)}"
         yield from super().derived()
         yield f"lowest energy −|b| = {digits(lowest_energy(self.body), 6)}"

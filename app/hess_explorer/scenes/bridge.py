@@ -1,4 +1,4 @@
-"""The bridge: one motion of the Suslov–Hess case and of Euler–Poisson, translated, side by side."""
+"""The bridge: one motion of the Suslov–Hess case and its translation to Euler–Poisson, side by side."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ SUSLOV, HEAVY = "Suslov–Hess", "Euler–Poisson"
 _IN_A_PERIOD = 40
 _MOST_PERIODS = 200
 _IN_A_DRAG = 30
-"""Periods of the difference while a slider is held."""
+"""Number of periods of the difference while a slider is held."""
 _MOST_GROWTH = 3000.0
-"""The strongest leak, as a logarithm, that is held back: it takes longer the larger |a| is."""
+"""Largest logarithm of the leak that is computed: the cost grows with |a|."""
 _BOTTOM = -1.0 + 1e-9
 
 PRESETS = (
@@ -56,14 +56,14 @@ PRESETS = (
 
 
 def _without_round_off(value: float) -> float:
-    """What was 5 is 5 again, and not 5.000000000000001, on the way there and back."""
+    """Remove round-off of a translation there and back: 5.000000000000001 becomes 5."""
     short = float(f"{value:.12g}")
     return short if math.isclose(short, value, rel_tol=1e-14) else value
 
 
 @dataclass(frozen=True)
 class BothSides(State):
-    """One motion on both sides."""
+    """One motion in both descriptions."""
 
     given: str = choice(
         "Given in",
@@ -110,16 +110,16 @@ class BothSides(State):
 
     @cached_property
     def body(self) -> HessBody:
-        """The body of Suslov–Hess, where that is given."""
+        """The Suslov–Hess body from the parameters, if that side is given."""
         return HessBody(self.I22, self.I23, self.b3)
 
     @cached_property
     def heavy(self) -> HeavyHess:
-        """The motion as one of Euler–Poisson, where that is given."""
+        """The Euler–Poisson motion from the parameters, if that side is given."""
         return HeavyHess((self.I1, self.I2, self.I3), self.m, self.h, self.f)
 
     def admitted(self, notes: list[str]) -> BothSides:
-        """What is possible together on the side that is given."""
+        """Clamp the parameters of the given side to a valid motion."""
         if self.given == HEAVY:
             return self.changed(self.heavy.admitted(notes))
         h = max(self.h, _BOTTOM)
@@ -130,14 +130,14 @@ class BothSides(State):
         )
 
     def limits(self) -> Mapping[str, Slider]:
-        """The ranges of h and f on the side that is given."""
+        """Return the sliders of the given side."""
         if self.given == HEAVY:
             return self.heavy.limits()
         f = {"f": slider_within(f_max(self.h))} if self.h > -1.0 else {}
         return {"h": (-0.99, max(4.0, self.h), 0.01), **f}
 
     def idle(self) -> Mapping[str, float]:
-        """The body of the side that is not given, translated.  Raises `ModelError`."""
+        """Return the parameters of the other side, translated from the given one.  Raises `ModelError`."""
         hess, heavy = self.bridge.hess, self.bridge.heavy
         if self.given == HEAVY:
             body = {"I22": hess.I22, "I23": hess.I23, "b3": hess.b3, "share": share_of(heavy)}
@@ -146,18 +146,18 @@ class BothSides(State):
         return {name: _without_round_off(value) for name, value in body.items()}
 
     def means(self) -> Mapping[str, str]:
-        """h and f are those of the side that is given."""
+        """Return the meaning of h and f on the given side."""
         return dict.fromkeys("hf", (known.H_HEAVY if self.given == HEAVY else known.H_HESS).means)
 
     def carried(self, before: BothSides) -> Mapping[str, float]:
-        """The same motion, given on the other side.  Raises `ModelError`."""
+        """Return the parameters of the same motion after a change of the given side.  Raises `ModelError`."""
         if self.given == before.given:
             return {}
         bridge = before.bridge
         translate = bridge.in_units_of_b if before.given == HEAVY else bridge.from_units_of_b
         h, f = map(_without_round_off, translate(before.h, before.f))
         shown = before.idle()
-        # In units b = 1 both signs of b are one; here b > 0, so with μ < 0 the vertical is reversed.
+        # Units b = 1 hide the sign of b; here b > 0, so μ < 0 reverses the vertical.
         return {**shown, **({"b3": -abs(shown["b3"])} if "b3" in shown else {}), "h": h, "f": f}
 
     @cached_property
@@ -167,7 +167,7 @@ class BothSides(State):
 
     @cached_property
     def turning(self) -> TurningPoints:
-        """(h, f) in units b = 1, and where n3 turns.  Raises `ModelError`."""
+        """(h, f) in units b = 1, with the turning points of n3.  Raises `ModelError`."""
         return self.heavy.turning if self.given == HEAVY else turning_points(self.h, self.f)
 
     @cached_property
@@ -177,16 +177,16 @@ class BothSides(State):
 
     @property
     def period(self) -> float:
-        """One period of n3, in the time of the body."""
+        """The period of n3 in the body's own time unit."""
         return self.map.period / self.bridge.hess.frequency_unit
 
     def ring(self) -> tuple[Array, Array]:
-        """The ellipses between which ω lies."""
+        """Return the two ellipses that bound ω."""
         return annulus(self.bridge.hess, self.map.h, self.turning)
 
     @cached_property
     def half_width(self) -> float:
-        """Of the frame of the (ω1, ω2)-plane, a little wider than the ring, and than what a draft may be wrong by."""
+        """Half width of the (ω1, ω2)-plane: a little more than the ring and than the error of a draft."""
         ring = 1.1 * float(np.max(np.abs(self.ring()[1])))
         return nice_above(max(ring, 2.0 * DRAFT.promise * self.bridge.hess.frequency_unit))
 
@@ -199,28 +199,28 @@ class BothSides(State):
 
     @cached_property
     def cycles(self) -> tuple[Track, Track] | None:
-        """The stable and the unstable limit cycle, where there are two."""
+        """The stable and the unstable limit cycle, if they exist."""
         return hess_case.limit_cycles(self.work, self.bridge.hess, self.map, self.level, self.half_width)
 
     @cached_property
     def iterates(self) -> Array:
-        """φ0 and its images, as far as the orbit goes."""
+        """φ0 and its images under the circle map, up to the end of the orbit."""
         returns = max(1, math.ceil(self.span * self.bridge.hess.frequency_unit / self.map.period))
         return self.map.iterate(self.phi0, min(returns, MAX_RETURNS))
 
     @cached_property
     def heavy_states(self) -> Array:
-        """The same motion in Euler–Poisson, (n, 6)."""
+        """The same motion in the variables of Euler–Poisson, (n, 6)."""
         return self.bridge.from_suslov(np.hstack([self.track.omega, self.track.gamma]))
 
     @cached_property
     def andoyer(self) -> Array:
-        """(l, L/G) of it."""
+        """(l, L/G) along the motion."""
         return coordinates(self.heavy_states)
 
     @cached_property
     def solids(self) -> tuple[Solid, Solid]:
-        """Both bodies along it."""
+        """Both bodies along the motion."""
         return (
             hess_solid(self.bridge.hess, self.track),
             heavy_solid(self.bridge.heavy, self.track.times, self.heavy_states),
@@ -228,7 +228,7 @@ class BothSides(State):
 
     @cached_property
     def difference(self) -> SuslovDistance:
-        """How far apart both sides are, computed each by itself."""
+        """The difference between the two sides, each integrated independently."""
         most = min(
             _IN_A_DRAG if self.dragging else _MOST_PERIODS,
             _MOST_GROWTH / (1.0 + 2.0 * math.pi * abs(self.bridge.hess.a)),
@@ -239,12 +239,12 @@ class BothSides(State):
         return self.work.get(difference, self.bridge, start, end, count)
 
     def motion(self) -> Motion:
-        """The motion that both sides share, reduced."""
+        """Return the reduced motion, common to both sides."""
         length = min(self.span * self.bridge.hess.frequency_unit, MAX_RETURNS * self.turning.period)
         return hess_case.reduced_motion(self.bridge.hess, self.turning, self.phi0, length)
 
     def orbit_columns(self) -> Columns:
-        """The orbit, and what the moving points of the other pictures follow."""
+        """Return the columns of the orbit and of the moving points in the other pictures."""
         found = self.track
         start = torus_plane.phases_at_returns(found, self.map, self.iterates)
         seen = self.known("difference")
@@ -255,7 +255,7 @@ class BothSides(State):
         return torus_plane.track_columns(found, phi_start=start, l=l, x=x, apart=apart)
 
     def apart(self, distance: Array) -> tuple[Array, Array]:
-        """lg of a distance over time."""
+        """Return times and lg of a distance."""
         return self.difference.times, lg(distance)
 
     # ---- words --------------------------------------------------------------------------------------------------
@@ -275,7 +275,7 @@ class BothSides(State):
         return Caption(numbers=f"At most {held} up to t = {end} if r·M = 0 is imposed; {free} if not.")
 
     def derived(self) -> Iterator[str]:
-        """Both bodies, what they share."""
+        """Yield the data of both bodies and their common integrals."""
         hess, heavy, theta = self.bridge.hess, self.bridge.heavy, self.map
         H, F1 = self.bridge.from_units_of_b(theta.h, theta.f)
         frequency = 2.0 * math.pi / self.period
@@ -297,14 +297,14 @@ class BothSides(State):
         yield "Rigid bodies? Suslov: {}; Euler–Poisson: {}".format(*bodies)
 
     def status(self) -> Iterator[str]:
-        """The orbit and the difference."""
+        """Yield the status of the orbit and of the difference."""
         if self.known("track"):
             yield from orbit_status(self.track.orbit)
         if self.known("difference"):
             yield f"difference at reference, error of the Suslov side ≤ {digits(self.difference.error, 2)}"
 
     def notes(self) -> Iterator[str]:
-        """No body; an orbit that is not drawn to its end; round-off that grows on the torus too."""
+        """Yield warnings: not a rigid body, a truncated orbit, round-off that grows within the torus."""
         if not self.bridge.hess.check.is_body:
             yield self.bridge.hess.check.sentence
         shown = float(self.track.times[-1]) if self.known("track") else math.inf

@@ -41,7 +41,7 @@ from hess_mechanics.numerics.results import Array
 
 _ORBITS, _FEW_ORBITS = 18, 8
 _PHASES, _FEW_PHASES = 65, 33
-"""Few: while a slider is dragged, and until the others are known."""
+"""The smaller numbers serve while a slider is dragged and until the full result is known."""
 _MOST_STEPS = 1.2e6
 _ANGLES = np.linspace(0.0, 2.0 * math.pi, 181)
 
@@ -58,7 +58,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class ChaplyginBall(State):
-    """The chosen orbit, many over the strip, and the map of the phases."""
+    """The chosen orbit, many orbits over the strip, and the map of the phases."""
 
     I11: float = parameter(known.I11, 1.0)
     I22: float = parameter(known.I22)
@@ -80,32 +80,32 @@ class ChaplyginBall(State):
 
     @cached_property
     def strip(self) -> Strip:
-        """Where ω may be."""
+        """The strip of admissible ω."""
         return Strip(self.body, self.h)
 
     @property
     def distance(self) -> float:
-        """δ."""
+        """The distance δ of the start from its circle."""
         return float(10.0**-self.digits)
 
     @cached_property
     def half_width(self) -> float:
-        """Of the frame of the (ω1, ω2)-plane: room for σ1."""
+        """Half width of the (ω1, ω2)-plane, with room for σ1."""
         return plane.nice_above(1.1 * float(self.strip.outer.max()))
 
     @cached_property
     def start(self) -> tuple[float, ...]:
-        """Of the chosen orbit."""
+        """The initial state of the chosen orbit."""
         return model.start(self.body, self.h, self.theta, self.phi, self.distance)
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """From the variables to the pictures, in pixels for a unit."""
+        """Scale of each variable in pixels per unit."""
         return plane.pixels_per_unit(self.half_width)
 
     @property
     def lasts(self) -> float:
-        """How long it is followed."""
+        """The length of the orbit in time."""
         return self.span
 
     @cached_property
@@ -115,29 +115,29 @@ class ChaplyginBall(State):
 
     @cached_property
     def proof(self) -> Proof:
-        """Its proved error."""
+        """The proved error of the orbit."""
         return Proof(self.orbit, self.certain)
 
     def motion(self) -> Motion:
-        """The chosen orbit."""
+        """Return the chosen orbit."""
         return self.orbit.motion()
 
     @cached_property
     def solid(self) -> Solid:
-        """The ball along it."""
+        """The ball along the orbit."""
         return constrained_solid(self.work, self.body, self.orbit.path)
 
     @cached_property
     def Gamma(self) -> Array:
-        """(ξ, γ) along it."""
+        """(ξ, γ) along the orbit."""
         return self.orbit.path.states[:, 2:] @ self.strip.xi
 
     def strip_orbits(self, count: int, level: Level) -> Task:
-        """What follows so many orbits over the strip, with E = 1."""
+        """Return a task that computes `count` orbits over the strip, with E = 1."""
         return Task(strip_orbits, (self.body, count, level))
 
     def phases(self, count: int, level: Level) -> Task:
-        """What finds θ⁺ of so many phases.  Raises `WorkLimit`."""
+        """Return a task that computes θ⁺ of `count` phases.  The task raises `WorkLimit`."""
         return Task(model.all_phases, (self.body, self.theta, count, self.distance, level, _MOST_STEPS))
 
     @cached_property
@@ -151,7 +151,7 @@ class ChaplyginBall(State):
 
     @cached_property
     def map_or_reason(self) -> tuple[model.BallScattering | None, str]:
-        """θ⁺ over the phases; None where it would take too long, and why."""
+        """θ⁺ over the phases and an empty reason; or None and the reason, if the map takes too many steps."""
         plan = self.plan(Computation.MAP)
         whole = plan.side(_PHASES)
         try:
@@ -161,11 +161,11 @@ class ChaplyginBall(State):
 
     @property
     def map(self) -> model.BallScattering | None:
-        """θ⁺ over the phases."""
+        """θ⁺ over the phases; None if it takes too many steps."""
         return self.map_or_reason[0]
 
     def free(self) -> list[Array]:
-        """θ⁺ over the same phases for 𝒟 = 0."""
+        """Return θ⁺ over the same phases for 𝒟 = 0."""
         if self.map is None:
             return []
         phis = self.map.phis
@@ -176,7 +176,7 @@ class ChaplyginBall(State):
         ]
 
     def ellipse_names(self) -> list[tuple[float, float, str]]:
-        """σ2 and σ1 beside their curves, in a quadrant that the line of rest does not cross."""
+        """Return labels beside σ2 and σ1, in a quadrant without the line of equilibria."""
         angle = [(0.25 if self.I13 * self.I23 >= 0.0 else 0.75) * math.pi]
         places = plane.beside(self.strip.sigma2(angle)[0], self.strip.sigma1(angle)[0], self.half_width)
         return [(float(x), float(y), name) for (x, y), name in zip(places, ("σ₂", "σ₁"), strict=True)]
@@ -197,7 +197,7 @@ class ChaplyginBall(State):
         return _change(math.cos(self.theta), float(self.Gamma[-1]))
 
     def derived(self) -> Iterator[str]:
-        """The strip, its line, the start."""
+        """Yield the dimensions of the strip, its axis ξ and the distance δ."""
         most, least = (tuple(map(in_digits, axes)) for axes in (self.strip.outer, self.strip.inner))
         slowest, fastest = (in_digits(float(np.hypot(*end))) for end in self.strip.unstable)
         yield f"σ₁: |ω₁| ≤ {most[0]}, |ω₂| ≤ {most[1]}"
@@ -207,7 +207,7 @@ class ChaplyginBall(State):
         yield f"δ = {in_digits(self.distance, 3)}"
 
     def status(self) -> Iterator[str]:
-        """The chosen orbit and the map."""
+        """Yield the status of the chosen orbit and of the map."""
         if self.orbit.asked("path"):
             yield from orbit_status(self.orbit.path)
             yield from self.proof.status()
@@ -215,12 +215,12 @@ class ChaplyginBall(State):
             yield f"{self.map.phis.size} phases, error ≤ {float(self.map.errors.max()):.1e}"
 
     def notes(self) -> Iterator[str]:
-        """Why there is no map."""
+        """Yield the reason for a missing map."""
         if self.known("map_or_reason") and self.map_or_reason[1]:
             yield self.map_or_reason[1]
 
 
-# The phases and orbits found are not those of the truth: the exact ones are computed again.
+# Grids differ between levels, so the reference is computed on the grid of each result.
 _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
     Trial(
         Computation.MAP,
@@ -297,7 +297,7 @@ SCENE = Scene(
                 ),
                 plane.band(lambda s: s.proof.band),
                 plane.orbit("orbits; the chosen one bold"),
-                # Not in the middle of each, where all of them are slow, but where the strip is covered evenly.
+                # Placed evenly over the strip: the middles of the orbits, where all are slow, would cluster.
                 arrows("arrows", lambda s: plane.arrows_at(s.crowd), color=theme.ORBIT, alpha=0.8),
             ),
         ),

@@ -1,4 +1,4 @@
-"""Where the orbits of a section γ₃ = 0 settle over a parameter, and one of these orbits: two scenes, of two systems."""
+"""Common part of two scenes: attractors of a section γ₃ = 0 over a parameter, and one orbit."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ _COORDINATES = ("ψ", "δ")
 
 
 def parameter_of_diagram(symbols: tuple[str, ...], default: str) -> str:
-    """Declare over what the diagram is."""
+    """Declare the control that selects the parameter of the diagram."""
     declared: str = choice(
         "Parameter of the diagram",
         symbols,
@@ -77,17 +77,17 @@ class _Equator(PoincareSection, Protocol):
     """A section γ3 = 0 in (ψ, δ)."""
 
     def somewhere(self) -> Start | None:
-        """Return a state of it; None where no motion crosses."""
+        """Return a state on the section; None if no motion crosses it."""
 
     def impossible(self, window: Window) -> Array:
-        """Return cells (1, n) over the window: 1 where the energy does not allow ψ."""
+        """Return cells (1, n) over the window: 1 where the energy forbids ψ."""
 
 
 @dataclass(frozen=True)
 class DiagramState(State, ABC):
-    """Where orbits of a section settle over one parameter, and the orbit on show at the value that this one has.
+    """Attractors of a section over one parameter, and one orbit at the current value of that parameter.
 
-    symbols : of all on which the section depends → their names.
+    symbols : symbol of each parameter of the section → its name.
     """
 
     I11: float = parameter(I11)
@@ -183,17 +183,17 @@ class DiagramState(State, ABC):
     @property
     @abstractmethod
     def weights(self) -> tuple[float, ...]:
-        """From the variables to the pictures, in pixels for a unit."""
+        """Scale of each variable in pixels per unit."""
 
     @property
     def start(self) -> Start:
-        """The state from which the orbit on show starts: that of the periodic orbit, where its branch is shown."""
+        """The initial state of the orbit on show: on the periodic orbit if its branch is shown."""
         closed = self.continuation.closed
         return self.diagram.start if closed is None else closed.state
 
     @property
     def lasts(self) -> float:
-        """The time for which it is followed."""
+        """The length of the orbit in time."""
         return self.span
 
     def motion(self) -> Motion:
@@ -204,12 +204,12 @@ class DiagramState(State, ABC):
 
     @part
     def diagram(self) -> OrbitDiagram:
-        """Where orbits settle."""
+        """The attractors over the parameter."""
         return OrbitDiagram(self, self.symbols)
 
     @part
     def continuation(self) -> Continuation:
-        """The branch of a periodic orbit over it."""
+        """The branch of a periodic orbit over the same parameter."""
         return Continuation(self.diagram)
 
     @part
@@ -219,12 +219,12 @@ class DiagramState(State, ABC):
 
     @part
     def proof(self) -> Proof:
-        """Its proved error."""
+        """The proved error of the orbit."""
         return Proof(self.orbit, self.certain)
 
     @part
     def regime(self) -> Regime:
-        """What kind of motion it is."""
+        """The regime of the motion."""
         return Regime(self.diagram, self.long)
 
     # ---- the pictures -------------------------------------------------------------------------------------------
@@ -241,11 +241,11 @@ class DiagramState(State, ABC):
 
     @cached_property
     def turning(self) -> Array:
-        """(ω, γ) along it (n,)."""
+        """(ω, γ) along the orbit (n,)."""
         return rate(self.orbit.path.states)
 
     def choose(self, x: float, y: float) -> Values:
-        """Return the parameter and the orbit of the branch at (x, y), or away from it those of the diagram."""
+        """Return the parameter and the orbit at (x, y): of the branch if it is near, else of the diagram."""
         found = self.continuation.chosen(x, y)
         if found is None:
             return self.diagram.choose(x, y)
@@ -253,7 +253,7 @@ class DiagramState(State, ABC):
         return {self.diagram.name: value, "chosen": written([place]), "branch": f"period {period}"}
 
     def start_here(self, x: float, y: float) -> Values:
-        """Return the start of the orbit from a place of the section."""
+        """Return the parameters of an orbit that starts at a place of the section."""
         return {"chosen": written([(x, min(max(y, 1e-6), math.pi - 1e-6))])}
 
     # ---- words --------------------------------------------------------------------------------------------------
@@ -272,7 +272,7 @@ class DiagramState(State, ABC):
         return Caption(f"The body turns round {many}.", f"First at t = {first} ± {error}.")
 
     def derived(self) -> list[str]:
-        """Return the energy, the place on show, the bifurcations of the branch, whether this is a rigid body."""
+        """Return the energy, the chosen place, the bifurcations of the branch and the check of the body."""
         psi, delta = map(digits, self.diagram.place)
         return [
             f"E = {digits(self.E, 6)}",
@@ -286,7 +286,7 @@ S = TypeVar("S", bound=DiagramState)
 
 
 def charts(state: type[S], quantity: str, **more: float) -> tuple[Charted[S]]:
-    """Return what can be charted of such states: the regime of the motion."""
+    """Return the chartable quantity of such states: the regime of the motion."""
 
     def arguments(s: S) -> Mapping[str, float]:
         psi, delta = s.diagram.place
@@ -302,7 +302,7 @@ def charts(state: type[S], quantity: str, **more: float) -> tuple[Charted[S]]:
 
 
 def pictures(state: type[S], ball: bool = False) -> tuple[Picture[S], ...]:
-    """Return the diagram with its branch, the body, its section, its turning, and its Poisson sphere folded."""
+    """Return the pictures: diagram with branch, body, section, reversal and, folded, Poisson sphere."""
 
     def closed(s: S) -> PeriodicOrbit | None:
         found = s.continuation.closed

@@ -72,7 +72,7 @@ _OVER = {"ε": "away", "h": "h", "f": "f", "μ|r|": "m", "I₁": "I1", "I₂": "
 _ALONG, _ABOUT = "along l", "about the middle"
 _LARGEST, _SECOND = "largest G", "second G"
 
-# An example says also along what the rotation number is looked at: else choices stay as they were.
+# Each example sets the line of the rotation number too; unset choices would keep their values.
 _RIS: dict[str, Value] = {
     "turns": _ALONG,
     "sheet": _LARGEST,
@@ -83,7 +83,7 @@ _RIS: dict[str, Value] = {
     "span": 60.0,
 }
 _THERE, _LOW = "2.8,0.3", "-1.54,-0.86"
-"""At the lowest energies the first of these starts is not possible."""
+"""The first of these starts is impossible at the lowest energies."""
 _BELOW, _AT, _ABOVE = "a curve in a regular leaf", "the separatrix", "two layers part"
 _LS = np.array([-2.9, -2.7, -2.5, -2.2, 2.2, 2.5, 2.7, 2.9])
 _ON_HESS = written([*zip(_LS, hess_curve(HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5)), _LS), strict=True)])
@@ -250,12 +250,12 @@ class EulerPoisson(State):
 
     @property
     def start(self) -> Start:
-        """The state from which the orbit on show starts."""
+        """The initial state of the orbit on show."""
         return self.periodic_orbit.start
 
     @property
     def lasts(self) -> float:
-        """The time for which it is followed."""
+        """The length of the orbit in time."""
         return self.periodic_orbit.lasts
 
     def motion(self) -> Motion:
@@ -266,7 +266,7 @@ class EulerPoisson(State):
 
     @part
     def split(self) -> HessSplit:
-        """The split of the separatrices."""
+        """The splitting of the separatrices."""
         return HessSplit(self, HessTorus(self.moments, self.m, self.h, self.f), self.away)
 
     @part
@@ -281,12 +281,12 @@ class EulerPoisson(State):
 
     @part
     def periodic_orbit(self) -> PeriodicOrbit:
-        """The periodic orbit in place of the last chosen one."""
+        """The periodic orbit that replaces the last chosen one."""
         return PeriodicOrbit(self.section, self.periodic, self.reach, self.span)
 
     @part
     def branch(self) -> Branch:
-        """Its branch over a parameter."""
+        """The branch of the periodic orbit over a parameter."""
         return Branch(self, self.periodic_orbit, _OVER, ("sheet",))
 
     @part
@@ -296,12 +296,12 @@ class EulerPoisson(State):
 
     @part
     def proof(self) -> Proof:
-        """Its proved error."""
+        """The proved error of the orbit."""
         return Proof(self.orbit, self.certain)
 
     @part
     def exponent(self) -> Exponent:
-        """Its largest Lyapunov exponent."""
+        """The largest Lyapunov exponent of the orbit."""
         return Exponent(self)
 
     @part
@@ -310,16 +310,16 @@ class EulerPoisson(State):
         return RotationAcross(self, self.section, self.turns == _ABOUT)
 
     def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
-        """Return the computation of so many crossings of the orbits from there."""
+        """Return a task that computes `crossings` crossings of the orbits from `starts`."""
         return Task(_batch, (self.poincare, starts, crossings, level))
 
     def start_at(self, x: float, y: float) -> Values:
-        """Return the start at a place of the section."""
+        """Return the parameters of an orbit that starts at a place of the section."""
         return self.section.start_at(x, y)
 
     @property
     def impossible_here(self) -> str:
-        """What is said where nothing is possible in the window."""
+        """The message for a window that no motion reaches."""
         if self.sheet == _SECOND:
             return (
                 f"No motion crosses a second sheet here with h = {self.h:.6g} and f = {self.f:.6g}: choose the "
@@ -333,7 +333,7 @@ class EulerPoisson(State):
     # ---- what the pictures show ---------------------------------------------------------------------------------
 
     def track(self) -> Columns:
-        """The orbit on show."""
+        """Return the orbit on show."""
         orbit = self.orbit.path
         l, x = self.poincare.places_of(orbit.states).T
         return {"t": column(orbit.times), "l": column(l), "x": column(x), **gamma_columns(orbit.states[:, 3:])}
@@ -344,7 +344,7 @@ class EulerPoisson(State):
         return heavy_solid(self.body, self.orbit.path.times, self.orbit.path.states)
 
     def hess_curve(self) -> tuple[Array, Array]:
-        """The Hess manifold across the window."""
+        """Return the Hess manifold across the window."""
         l = np.linspace(self.section.frame[0][0], self.section.frame[1][0], 241)
         return l, hess_curve(self.body, l)
 
@@ -363,7 +363,7 @@ class EulerPoisson(State):
         )
 
     def derived(self) -> Iterator[str]:
-        """a and r, the start of the orbit on show, whether this is a rigid body."""
+        """Yield a and r, the start of the orbit on show and the check of the body."""
         yield f"a = {digits(self.body.hess_a)}, r = {vector(self.body.r)}"
         yield f"chosen: {self.section.at(self.section.chosen)}"
         yield from super().derived()

@@ -33,19 +33,19 @@ from hess_mechanics.suslov.additional_integral import AdditionalIntegral, of_bod
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
 _LEVELS = (0.25, 0.6, 1.6)
-"""Energies of the other ellipses drawn, in that of the orbit."""
+"""Energies of the other ellipses, relative to the energy of the orbit."""
 _ON_THE_WAY = 4
-"""Circles of F2 between the one that is left and the one that is joined: more would hide the orbits."""
+"""Number of F2 circles between the two limit circles: more would hide the orbits."""
 _ROOM_BELOW = (-1.25, 1.05)
 """The axis of γ₁, with room for the name of the other axis."""
 
-# The figure's caption: tan φ = 0.85/0.28 and 0.53/0.72.
+# The caption of the figure gives tan φ = 0.85/0.28 and 0.53/0.72.
 _ON_CIRCLE: Values = {"w1": 2.0, "w2": 1e-3, "Gamma": -0.44, "phi": 1.2526, "phi2": 0.6346}
 _SLANTING: Values = {"I13": 0.2, "I23": 0.3, "k": 1.2, "w1": 3.0, "w2": -2.001}
 
 
 def _portrait(I13: float, I23: float) -> Values:
-    """Next to the unstable half, whose direction is (I23, −I13)."""
+    """Return a start near the unstable half line, whose direction is (I23, −I13)."""
     return {
         "I13": I13,
         "I23": I23,
@@ -109,7 +109,7 @@ class FreeSuslov(State):
     accuracy: str = accuracy_level()
 
     def limits(self) -> Mapping[str, Slider]:
-        """The slider of k begins where I11 is still positive."""
+        """Return the slider of k, limited to I11 > 0."""
         return free_body.limits_of_k(self.I22, self.I13, self.I23)
 
     @cached_property
@@ -129,7 +129,7 @@ class FreeSuslov(State):
 
     @cached_property
     def h(self) -> float:
-        """The energy.  Raises as `passage`: in the words of ω, for the energy is none of the controls."""
+        """The energy.  Raises like `passage`, in terms of ω, as the energy is not a control."""
         h = 0.5 * (self.body.I11 * self.w1**2 + self.body.I22 * self.w2**2) if self.passage.rate else 0.0
         if h == 0.0:
             raise InvalidParameter("The energy of so small an ω is 0 in double precision: choose a larger one.")
@@ -142,12 +142,12 @@ class FreeSuslov(State):
 
     @cached_property
     def arcs(self) -> tuple[Array, Array]:
-        """Both ways from the unstable to the stable one."""
+        """Both arcs from the unstable to the stable equilibrium."""
         return free.arcs(self.body, self.h)
 
     @cached_property
     def half_width(self) -> float:
-        """Of the frame of the (ω1, ω2)-plane."""
+        """Half width of the (ω1, ω2)-plane."""
         return plane.nice_above(1.3 * math.sqrt(2.0 * self.h / min(self.body.I11, self.body.I22)))
 
     @cached_property
@@ -180,20 +180,20 @@ class FreeSuslov(State):
         return None if found is None else (found, float(found(np.array(self.omega), np.array(self.gamma))))
 
     def motion(self) -> Motion:
-        """The orbit as one of the general system."""
+        """Return the orbit as a motion of the general system."""
         return Motion(
             SYSTEM, (*self.omega, *self.gamma), self.body.parameters, self.span, plane.pixels_per_unit(self.half_width)
         )
 
     @cached_property
     def solid(self) -> Solid:
-        """The body along it."""
+        """The body along the orbit."""
         return constrained_solid(self.work, self.body, self.orbit)
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 
     def orbit_columns(self) -> Columns:
-        """The orbit, and what the moving points of the other pictures follow."""
+        """Return the columns of the orbit and of the moving points in the other pictures."""
         found = self.orbit
         return plane.velocity_columns(
             found.times,
@@ -204,11 +204,11 @@ class FreeSuslov(State):
         )
 
     def ellipses(self) -> list[Array]:
-        """Both arcs of some other energies."""
+        """Return both arcs of some other energies."""
         return [math.sqrt(share) * arc for share in _LEVELS for arc in self.arcs]
 
     def circles(self) -> list[Circle]:
-        """The circle that is left and those that are joined, and what the level of F2 is on the way."""
+        """Return the initial and final limit circles, and the level of F2 between them."""
         xi, limits = self.points.xi, self.orbit.limits
         found = [
             Circle(xi, limits[0], "unstable"),
@@ -223,7 +223,7 @@ class FreeSuslov(State):
         return found
 
     def gamma1(self, one: free.FreeMotion) -> list[Array]:
-        """γ1 of an orbit against the time or the phase."""
+        """Return γ1 of an orbit against time or phase."""
         if self.across == "phase":
             return branches(one.phase, one.gamma[:, 0], 2.0 * math.pi)
         return [np.column_stack([one.times, one.gamma[:, 0]])]
@@ -253,7 +253,7 @@ class FreeSuslov(State):
         return Caption("Γ tends to a constant.", f"From Γ⁻ = {came} to Γ⁺ = {went} and {other} (dotted).")
 
     def derived(self) -> Iterator[str]:
-        """I11 and k², energy, rate and directions, F2."""
+        """Yield I11 and k², the energy, the rate, the directions and F2."""
         points = self.points
         yield from free_body.about_I11(self.k, self.body)
         yield f"E = {digits(self.h, 6)}"
@@ -268,12 +268,12 @@ class FreeSuslov(State):
             yield f"F₂ at the fixed points: ±{digits(abs(integral.at_fixed_points(self.h)[0]), 6)}"
 
     def status(self) -> Iterator[str]:
-        """The orbit."""
+        """Yield the status of the orbit."""
         if self.known("orbit"):
             yield from orbit_status(self.orbit)
 
     def notes(self) -> Iterator[str]:
-        """A curve that is thinned out; a passage that comes later."""
+        """Yield warnings: a thinned curve, a passage beyond the time span."""
         if self.known("orbit") and self.orbit.times.size >= MOST_SAMPLES:
             yield f"So long a motion is drawn with {MOST_SAMPLES} points: its uniform turning is thinned out."
         needed = -self.passage.u0 / self.points.rate

@@ -1,4 +1,4 @@
-"""Leak off the Hess manifold: r·M of an orbit that should keep it 0, its growth, and the exact motion beside."""
+"""Leak off the Hess manifold: growth of r·M, which should stay 0, and the exact motion for comparison."""
 
 from __future__ import annotations
 
@@ -45,9 +45,9 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class HessLeak(State):
-    """One motion, left to itself at the chosen accuracy and at reference, and the exact one at the same times.
+    """One motion, integrated freely at the chosen and at the reference accuracy, and the exact motion.
 
-    A slider that is held keeps the accuracy, which is what is looked at.
+    The accuracy stays the same while a slider is held, as the leak depends on it.
     """
 
     I1: float = parameter(known.I1)
@@ -77,16 +77,16 @@ class HessLeak(State):
         return HeavyHess((self.I1, self.I2, self.I3), self.m, self.h, self.f)
 
     def admitted(self, notes: list[str]) -> HessLeak:
-        """h above the bottom, and f inside the region of this h."""
+        """Clamp h to its minimum and f to the region of this h."""
         return self.changed(self.hess.admitted(notes))
 
     def limits(self) -> Mapping[str, Slider]:
-        """The sliders span what is possible."""
+        """Return sliders over the possible values."""
         return self.hess.limits()
 
     @property
     def bridge(self) -> Bridge:
-        """The heavy body, and the Suslov body of its motions.  Raises `InvalidParameter`, `NoField`."""
+        """The heavy body and the equivalent Suslov body.  Raises `InvalidParameter`, `NoField`."""
         return self.hess.bridge
 
     @cached_property
@@ -96,7 +96,7 @@ class HessLeak(State):
 
     @property
     def period(self) -> float:
-        """One period of n3, in the time of the body."""
+        """The period of n3 in the body's own time unit."""
         return self.map.period / self.bridge.hess.frequency_unit
 
     @property
@@ -117,12 +117,12 @@ class HessLeak(State):
 
     @cached_property
     def states(self) -> Array:
-        """The same (n, 6) as a motion of Euler–Poisson."""
+        """The exact motion in the variables of Euler–Poisson, (n, 6)."""
         return self.bridge.from_reduced(self.bridge.hess.from_units_of_b(self.exact.states))
 
     @cached_property
     def leaks(self) -> dict[str, mechanics.Leak]:
-        """The orbit left to itself: "own" at the accuracy chosen, and "reference"."""
+        """The freely integrated orbit: "own" at the chosen accuracy, and "reference"."""
         end = float(self.exact.times[-1]) / self.bridge.hess.frequency_unit
         asked = (self.bridge.heavy, tuple(self.states[0].tolist()), end, self.exact.times.size)
         runs = {
@@ -133,11 +133,11 @@ class HessLeak(State):
 
     @property
     def run(self) -> mechanics.FreeRun:
-        """The orbit at the accuracy chosen."""
+        """The orbit at the chosen accuracy."""
         return self.leaks["own"].run
 
     def motion(self) -> Motion:
-        """The exact motion, of the reduced system."""
+        """Return the exact motion of the reduced system."""
         return reduced_motion(self.bridge.hess, self.hess.turning, self.phi0, self._periods * self.hess.turning.period)
 
     @cached_property
@@ -148,16 +148,16 @@ class HessLeak(State):
     # ---- what the pictures show --------------------------------------------------------------------------------
 
     def times(self) -> Range:
-        """The axis of time."""
+        """Return the axis of time."""
         return 0.0, float(self.run.times[-1])
 
     def leaking(self) -> Columns:
-        """The chosen orbit."""
+        """Return the columns of the chosen orbit."""
         apart = lg(self.leaks["own"].apart)
         return {"t": column(self.run.times), "apart": column(apart), **gamma_columns(self.run.states[:, 3:])}
 
     def exact_columns(self) -> Columns:
-        """The exact motion, and what the moving points of the graphs follow."""
+        """Return the columns of the exact motion and of the moving points in the graphs."""
         l, x = self.run.andoyer.T
         return {
             **self.leaking(),
@@ -168,7 +168,7 @@ class HessLeak(State):
         }
 
     def heights(self) -> list[Circle]:
-        """The circles between which n3 swings."""
+        """Return the circles that bound n3."""
         r, sign = self.bridge.heavy.r, math.copysign(1.0, self.bridge.hess.b)
         return parallels(r, [sign * n3 for n3 in self.hess.turning.roots[1:]])
 
@@ -202,7 +202,7 @@ class HessLeak(State):
         return Caption("The exact γ and the leaking one.", f"n₃ {ranging(*self.hess.turning.roots[1:])}.")
 
     def derived(self) -> Iterator[str]:
-        """The reduced body and torus, the exact growth, and what was measured of it."""
+        """Yield the reduced body and torus, the exact growth and the measured growth."""
         growth = mechanics.exact_growth(self.map)
         yield f"a = b′/a₁′ = {digits(self.bridge.hess.a, 6)}"
         yield f"b = a₁′μ|r| = {digits(self.bridge.hess.b, 6)}"
@@ -221,7 +221,7 @@ class HessLeak(State):
         yield f"A rigid body? {'yes' if self.bridge.heavy.check.is_body else 'no'}"
 
     def status(self) -> Iterator[str]:
-        """The chosen orbit and the exact one."""
+        """Yield the status of the chosen and the exact orbit."""
         if self.known("leaks"):
             chosen, exact = self.run, self.exact
             yield f"{chosen.level}: orbit {chosen.times.size} points, {chosen.steps} Taylor steps, computed once"
@@ -229,7 +229,7 @@ class HessLeak(State):
             yield f"exact motion error ≤ {digits(exact.error_estimate, 2)} ({exact.status})"
 
     def notes(self) -> Iterator[str]:
-        """No body; a motion that round-off leads astray on the torus too."""
+        """Yield warnings: not a rigid body, a motion that round-off perturbs within the torus."""
         if not self.bridge.heavy.check.is_body:
             yield self.bridge.heavy.check.sentence
         if self.known("exact") and self.exact.error_estimate > UNSURE:

@@ -1,4 +1,4 @@
-"""e on a principal axis, b3 = 0 (Kharlamova's case): parabolas in an ellipse, and what the equator does."""
+"""e on a principal axis, b3 = 0 (Kharlamova's case): parabolas in an ellipse, and the role of the equator."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ class Kharlamova(State):
     accuracy: str = accuracy_level()
 
     def admitted(self, notes: list[str]) -> Kharlamova:
-        """A start outside the domain moves to its edge."""
+        """Move a start outside the domain to its edge."""
         r1, r2 = self.body.axes
         size = math.hypot(self.q1 / r1, self.q2 / r2)
         if size <= 1.0 + 1e-13:
@@ -129,12 +129,12 @@ class Kharlamova(State):
         return state
 
     def limits(self) -> Mapping[str, Slider]:
-        """The sliders of q span the ellipse."""
+        """Return the sliders of q over the ellipse."""
         return dict(zip(("q1", "q2"), map(slider_within, self.body.axes), strict=True))
 
     @cached_property
     def body(self) -> PlaneBody:
-        """Raises `InvalidParameter`, `NotPositiveDefinite`."""
+        """The body.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
         return PlaneBody(self.I11, self.I22, self.b1, self.b2)
 
     @cached_property
@@ -150,7 +150,7 @@ class Kharlamova(State):
 
     @cached_property
     def arc(self) -> Arc:
-        """What of the parabola the orbit runs along."""
+        """The arc of the parabola that the orbit covers."""
         return self.work.get(mechanics.arc, self.body, self.start)
 
     @cached_property
@@ -165,12 +165,12 @@ class Kharlamova(State):
 
     @cached_property
     def missed(self) -> float:
-        """How far from its start a periodic orbit is after one period."""
+        """The distance of a periodic orbit from its start after one period."""
         return self.work.get(mechanics.missed, self.body, self.start, self.arc.period, self.level)
 
     @cached_property
     def periods(self) -> Array:
-        """The directions α in which an orbit may start, and its period T; shape (n, 2)."""
+        """The initial directions α and the periods T, (n, 2)."""
         return self.work.get(mechanics.periods_all_round, self.body, (self.q1, self.q2), self.p)
 
     @cached_property
@@ -189,13 +189,13 @@ class Kharlamova(State):
         return constrained_solid(self.work, self.body, self.orbit)
 
     def motion(self) -> Motion:
-        """The orbit on show."""
+        """Return the orbit on show."""
         return Motion(SYSTEM, self.start, self.body.parameters, self.span, self.body.pixels_per_unit(self.h))
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 
     def orbit_columns(self) -> Columns:
-        """The orbit, and its mirror image for the second moving point."""
+        """Return the columns of the orbit and of its mirror image, the second moving point."""
         orbit, mirror = self.sampled
         q, mirror_q = (mechanics.to_plane(self.body, states)[0] for states in (orbit.states, mirror))
         tau, mirror_tau = (mechanics.rescaled_time(self.arc, states) for states in (orbit.states, mirror))
@@ -210,16 +210,16 @@ class Kharlamova(State):
         )
 
     def half_width(self) -> float:
-        """Of the frame of the domain."""
+        """Half width of the frame of the domain."""
         return nice_above(1.08 * max(self.body.axes))
 
     def fixed_points(self, kind: float) -> list[Array]:
-        """The parts of the domain's edge with fixed points of this energy: 1 for stable ones, −1 for unstable ones."""
+        """Return the parts of the domain's edge with fixed points: stable for kind 1, unstable for −1."""
         boundary, kinds = self.work.get(mechanics.fixed_point_kinds, self.body, self.h)
         return pieces(boundary, kinds == kind)
 
     def path(self) -> list[Array]:
-        """The parabola, also beyond the domain."""
+        """Return the parabola, extended beyond the domain."""
         low, high = self.arc.ends
         more = 0.5 * self.arc.length
         return (
@@ -227,11 +227,11 @@ class Kharlamova(State):
         )
 
     def force(self) -> Direction | None:
-        """The direction of the centre of mass; None without a field."""
+        """Return the direction of the centre of mass; None without a field."""
         return centre_of_mass((self.b1, self.b2, 0.0))
 
     def marks(self) -> list[Mark]:
-        """Where the orbit crosses the equator, touches it, or stays on it."""
+        """Return marks where the orbit crosses the equator, touches it or stays on it."""
         if self.arc.kind != "fixed":
             return [
                 Mark((*u, 0.0), "unstable" if tau == self.arc.touch else "muted")
@@ -240,7 +240,7 @@ class Kharlamova(State):
         return [Mark(self.start[2:], "stable" if self.arc.stable else "unstable")] if self.start[4] == 0.0 else []
 
     def tau_axis(self) -> tuple[float, float]:
-        """Room for both arcs."""
+        """Return an axis of τ with room for both arcs."""
         middle, half = 0.5 * sum(self.arc.ends), nice_above(0.6 * self.arc.length)
         return middle - half, middle + half
 
@@ -285,7 +285,7 @@ class Kharlamova(State):
         )
 
     def derived(self) -> Iterator[str]:
-        """Energy, start, force, period, divergence."""
+        """Yield the energy, start, force, period and divergence."""
         yield f"E = {digits(self.h, 6)}"
         yield f"Start: γ₃ = {digits(self.start[4], 6)}"
         yield f"Force = {vector((-self.b2 / self.body.axes[0], self.b1 / self.body.axes[1]))}"
@@ -300,12 +300,12 @@ class Kharlamova(State):
         yield "In τ: Hamiltonian, measure γ₃ dω dγ"
 
     def status(self) -> Iterator[str]:
-        """The orbit."""
+        """Yield the status of the orbit."""
         if self.known("sampled"):
             yield from orbit_status(self.orbit)
 
     def notes(self) -> Iterator[str]:
-        """An orbit too long for its curves to be drawn."""
+        """Yield a warning if the orbit is too long to draw in detail."""
         if self.known("sampled") and self.orbit.times.size >= MOST_SAMPLES:
             yield f"So long a motion is drawn with {MOST_SAMPLES} points: choose a shorter time span to see its curves."
 

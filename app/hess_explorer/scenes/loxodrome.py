@@ -29,7 +29,7 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.equations import SYSTEM
 
 _TO_THE_POLE = 0.02
-"""The loxodrome never comes to its poles: it is drawn to this distance from them."""
+"""Distance from the poles at which the drawing ends, as the loxodrome never reaches them."""
 _MOST_TURNS = 30.0
 _DRAWN = 2000
 
@@ -50,7 +50,7 @@ class Loxodrome(State):
     I1: float = parameter(known.I1)
     I2: float = parameter(known.I2, 1.5, doc="Middle principal moment: it must lie between I₁ and I₃.")
     I3: float = parameter(known.I3, 2.0)
-    # Of either sign the pendulum is the same.
+    # The sign makes no difference to the pendulum.
     m: float = parameter(
         known.MU_R,
         0.7071,
@@ -70,21 +70,21 @@ class Loxodrome(State):
         return self.I1, self.I2, self.I3
 
     def limits(self) -> Mapping[str, Slider]:
-        """The moments keep their order."""
+        """Return sliders that keep the order of the moments."""
         return limits_of_moments(*self.moments)
 
     @cached_property
     def pendulum(self) -> LoxodromicPendulum:
-        """Raises `InvalidParameter`, `NotPositiveDefinite`, `OutsideRegion`."""
+        """The pendulum.  Raises `InvalidParameter`, `NotPositiveDefinite`, `OutsideRegion`."""
         return LoxodromicPendulum(HeavyBody.hess(self.moments, self.m), self.energy, self.l)
 
     @cached_property
     def found(self) -> LoxodromicMotion:
-        """The motion, from which all pictures are drawn."""
+        """The motion, the source of all pictures."""
         return self.work.get(loxodromic_motion, self.pendulum, self.span, self.level)
 
     def motion(self) -> Motion:
-        """The reduced motion, in units b = 1."""
+        """Return the reduced motion in units b = 1."""
         p = self.pendulum
         return Motion(
             SYSTEM,
@@ -96,20 +96,20 @@ class Loxodrome(State):
         )
 
     def shape(self) -> Shape | None:
-        """The gyration ellipsoid; None where this is no rigid body."""
+        """Return the gyration ellipsoid; None if this is not a rigid body."""
         heavy = self.pendulum.body
         return Shape(np.eye(3), 1.0 / np.array(heavy.a), np.array(heavy.r)) if heavy.check.is_body else None
 
     def rods(self, label: str = "") -> list[Rod]:
-        """The middle axis and the centre of mass."""
+        """Return the middle axis and the centre of mass."""
         return [Rod((0.0, 1.0, 0.0), "orbit", label), Rod(self.pendulum.body.r, "mass")]
 
     def loxodrome(self) -> Array:
-        """All of the loxodrome but its last windings about the poles, (n, 3)."""
+        """Return the loxodrome without its last windings about the poles, (n, 3)."""
         return self.pendulum.middle_axis_at(np.linspace(*self.pendulum.windings(_TO_THE_POLE, _MOST_TURNS), _DRAWN))
 
     def track(self) -> Columns:
-        """Height of the centre of mass and l, over time."""
+        """Return the height of the centre of mass and l over time."""
         return {"t": column(self.found.times), "height": column(-self.found.centre[:, 0]), "l": column(self.found.l)}
 
     # ---- words --------------------------------------------------------------------------------------------------
@@ -148,7 +148,7 @@ class Loxodrome(State):
         return Caption("It rotates.", f"{digits(turns)} turns in this time.")
 
     def derived(self) -> Iterator[str]:
-        """a, the angle of the loxodrome, what follows of the body."""
+        """Yield a, the angle of the loxodrome and the derived data of the body."""
         p, heavy = self.pendulum, self.pendulum.body
         yield f"a = ±√((a₃−a₂)(a₂−a₁))/a₂ = {digits(p.a, 6)}"
         yield f"θ = {digits(p.angle, 6)} = {digits(math.degrees(p.angle), 6)}°"
@@ -160,12 +160,12 @@ class Loxodrome(State):
         yield f"ln of what full equations leave it by in a turn, 2π|a| = {digits(2.0 * math.pi * abs(p.a))}"
 
     def status(self) -> Iterator[str]:
-        """The attitude and its orbit."""
+        """Yield the status of the attitude and of its orbit."""
         yield from orbit_status(self.found.attitude.orbit)
         yield f"γ, e made orthonormal from {power(self.found.attitude.defect)}"
 
     def notes(self) -> Iterator[str]:
-        """No body; a motion that is not shown to its end."""
+        """Yield warnings: not a rigid body, a truncated motion."""
         if not self.pendulum.body.check.is_body:
             yield self.pendulum.body.check.sentence
         if self.found.times[-1] < self.span * (1 - 1e-9):

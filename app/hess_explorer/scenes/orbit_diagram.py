@@ -79,12 +79,12 @@ PRESETS = (
         chosen="1,1",
     ),
 )
-"""All of them are rigid bodies for some I₃₃; all were found in a search of random bodies."""
+"""Each is a rigid body for some I₃₃; all come from a search over random bodies."""
 
 
 @dataclass(frozen=True)
 class SuslovDiagram(DiagramState):
-    """The diagram of the Suslov problem."""
+    """State of the orbit diagram of the Suslov problem."""
 
     I11: float = like(DiagramState, "I11", 1.1)
     I22: float = like(DiagramState, "I22", 2.9)
@@ -116,7 +116,7 @@ class SuslovDiagram(DiagramState):
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """From the variables to the pictures, in pixels for a unit: with room for all motions of this energy."""
+        """Scale of each variable in pixels per unit, with room for all motions of this energy."""
         return pixels_per_unit(nice_above(1.05 * math.sqrt(2.0 * self.h / min(self.I11, self.I22))))
 
 

@@ -80,9 +80,9 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class Quartic(State):
-    """The orbit of one point in the potential, among others of its energy."""
+    """The orbit of a point in the potential, among others of the same energy."""
 
-    # Within narrower bounds than elsewhere: beyond them a section takes too many Taylor steps.
+    # Narrower bounds than in other scenes: beyond them a section takes too many Taylor steps.
     I22: float = parameter(I22, 1.0, softbounds=(0.2, 3.0), bounds=(1e-2, 1e2))
     ratio: float = parameter(RATIO)
     b3: float = parameter(B3, 1.0, bounds=(-1e2, 1e2), doc="b = −mg r; not 0 here, b₁ = b₂ = 0.")
@@ -127,14 +127,14 @@ class Quartic(State):
     accuracy: str = accuracy_level()
 
     def admitted(self, notes: list[str]) -> Quartic:
-        """A start that the energy forbids moves to the edge of the region."""
+        """Move a start that the energy forbids to the edge of the region."""
         q = self.body.inside((self.Q1, self.Q2))
         if q != (self.Q1, self.Q2):
             notes.append(f"With this energy the point cannot be at the start: it is at the edge now, q = {vector(q)}.")
         return self.changed({"Q1": q[0], "Q2": q[1]})
 
     def limits(self) -> Mapping[str, Slider]:
-        """The slider of h begins above −|b3|, those of q span the region."""
+        """Return the sliders: h above −|b3|, q over the region."""
         low, top, step = slider_within(abs(self.body.b3))
         return {
             "h": (0.9 * low, 4.0 * top, step),
@@ -158,12 +158,12 @@ class Quartic(State):
 
     @property
     def start(self) -> Start:
-        """The state from which the orbit on show starts."""
+        """The initial state of the orbit on show."""
         return self.periodic_orbit.start
 
     @property
     def lasts(self) -> float:
-        """The time for which it is followed."""
+        """The length of the orbit in time."""
         return self.periodic_orbit.lasts
 
     def motion(self) -> Motion:
@@ -172,12 +172,12 @@ class Quartic(State):
 
     @property
     def half_width(self) -> float:
-        """Of the plane of the point."""
+        """Half width of the plane of the point."""
         return nice_above(1.05 * max(self.body.axes))
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """From the variables to the pictures, in pixels for a unit."""
+        """Scale of each variable in pixels per unit."""
         return self.body.pixels_per_unit(self.half_width)
 
     # ---- the parts ----------------------------------------------------------------------------------------------
@@ -199,12 +199,12 @@ class Quartic(State):
 
     @property
     def closed(self) -> Closed | None:
-        """The same where it is known."""
+        """The periodic orbit, if known."""
         return self.periodic_orbit.closed
 
     @part
     def branch(self) -> Branch:
-        """Its branch over a parameter."""
+        """The branch of the periodic orbit over a parameter."""
         return Branch(self, self.periodic_orbit, _ALONG, ("I22",))
 
     @part
@@ -214,7 +214,7 @@ class Quartic(State):
 
     @part
     def proof(self) -> Proof:
-        """Its proved error."""
+        """The proved error of the orbit."""
         return Proof(self.orbit, self.certain)
 
     def _crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
@@ -240,19 +240,19 @@ class Quartic(State):
         return model.angular_momentum(self.body, self.orbit.path.states)
 
     def first(self) -> tuple[float, float]:
-        """The q from which the orbit on show starts."""
+        """Return the q from which the orbit on show starts."""
         if self.closed is None:
             return self.Q1, self.Q2
         (q,), _ = self.body.to_plane(np.array([self.start]))
         return float(q[0]), float(q[1])
 
     def impossible(self, axes: Axes) -> list[list[Array]]:
-        """All of the section but the inside of its boundary."""
+        """Return the part of the section outside its boundary."""
         reach = 4.0 * max(axes.x[1], self.body.longest)
         return [] if self.section.own is None else section_plane.outside(self.body.section_boundaries(), reach, 4.0)
 
     def start_at(self, x: float, y: float) -> Values:
-        """A click in the section: the start and its direction; nothing where that is impossible."""
+        """Return the start and direction at a place of the section; nothing if no motion passes there."""
         try:
             return dict(zip(("Q1", "Q2", "beta"), model.start_on_section(self.body, x, y), strict=True))
         except ModelError:
@@ -281,7 +281,7 @@ class Quartic(State):
         return Caption("The motion of the body.", f"γ = (p₁, p₂, γ₃), γ₃ {staying(self.orbit.path.states[:, 4])}.")
 
     def derived(self) -> Iterator[str]:
-        """Moment of inertia, energy, start; how well the point stays on its level."""
+        """Yield the moment of inertia, the energy, the start and the error of H = ½."""
         yield f"I₁₁ = {digits(self.body.I11, 6)}"
         yield from super().derived()
         yield f"h/|b₃| = {digits(self.h / abs(self.b3), 6)}"

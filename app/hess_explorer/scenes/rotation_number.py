@@ -41,7 +41,7 @@ from hess_mechanics.suslov_hess.rotation_number import (
 )
 
 _COARSE, _FINE = (75, 50), (300, 200)
-_ROWS = 25  # of the fine map that are computed together
+_ROWS = 25  # of the fine map in one task
 _ON_LINE = 400
 _ON_CURVE = 48  # points of the boundary of the lock zone
 _RATIONALS = ("−1/2", "−1/3", "−1/4", "−2/5", "−1/5", "−3/7", "−1/6")
@@ -51,7 +51,7 @@ _ITERATES = 40
 
 
 def _corners(plane: str, ranges: Mapping[str, tuple[float, float]]) -> Window:
-    """The lower left and the upper right corner of the map over a plane, with these ranges."""
+    """Return the lower left and upper right corners of the map over a plane."""
     x, y = (ranges[name] for name in plane.split(", "))
     return (x[0], y[0]), (x[1], y[1])
 
@@ -73,9 +73,9 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class RotationNumber(State):
-    """One torus, a map of ρ over two parameters, and a line through the torus along one."""
+    """One torus, a map of ρ over two parameters, and a line through the torus along one parameter."""
 
-    a: float = parameter(known.A_HESS, bounds=_AT_MOST["a"])  # as far as the map goes
+    a: float = parameter(known.A_HESS, bounds=_AT_MOST["a"])  # the range of the map
     h: float = parameter(known.H_HESS, 0.5, step=0.005)
     f: float = parameter(known.F_HESS, 0.8, step=0.005, doc="Area integral in units b = 1.")
     over: str = choice("Map over", PLANES, "h, f", group="State", doc="The two parameters of the map; the third stays.")
@@ -99,13 +99,13 @@ class RotationNumber(State):
         doc="The other family: Θ(φ + ε sin 3φ). It is no Möbius map, and its ρ makes a ladder.",
     )
     accuracy: str = accuracy_level()
-    # Each map has a window of its own.
+    # One window for each map.
     part_hf: str = _window("h, f")
     part_ha: str = _window("h, a")
     part_fa: str = _window("f, a")
 
     def admitted(self, notes: list[str]) -> RotationNumber:
-        """f inside the region of this h, and windows that are some."""
+        """Clamp f to the region of this h, and repair the windows."""
         return replace(
             self,
             f=possible_f(self.h, self.f, notes),
@@ -127,24 +127,24 @@ class RotationNumber(State):
 
     @property
     def place(self) -> tuple[float, float]:
-        """The torus in the plane of the map."""
+        """The coordinates of the torus in the plane of the map."""
         across, up = (vars(self.torus)[name] for name in self.sides)
         return across, up
 
     @property
     def part(self) -> str:
-        """The parameter that holds the window of this map."""
+        """The name of the parameter that holds the window of this map."""
         return "part_" + "".join(self.sides)
 
     @cached_property
     def window(self) -> Window:
-        """The ranges of the map's axes, of the horizontal one and of the vertical one."""
+        """The ranges of the horizontal and the vertical axis of the map."""
         (x0, y0), (x1, y1) = window_of(getattr(self, self.part), _corners(self.over, _FULL))
         return (x0, x1), (y0, y1)
 
     @property
     def beside(self) -> Torus:
-        """Only what the map depends on: it stays while the torus moves in its plane."""
+        """The torus with the map's own parameters set to 0: a cache key that is constant within the plane."""
         return self.torus.at(**dict.fromkeys(self.sides, 0.0))
 
     @cached_property
@@ -172,7 +172,7 @@ class RotationNumber(State):
         return rotation_plane.grids(*self.grid, *self.window)
 
     def lock(self, plan: Plan) -> Task:
-        """What finds |t| = 2 in the map, (n, 2)."""
+        """Return a task that computes |t| = 2 in the map, (n, 2)."""
         return Task(
             mechanics.lock_curve,
             (self.over, self.beside, (*self.window[0], *self.window[1]), plan.level, plan.side(_ON_CURVE)),
@@ -185,7 +185,7 @@ class RotationNumber(State):
 
     @cached_property
     def boundary(self) -> list[Array]:
-        """|t| = 2 in the map, as soon as it is known."""
+        """Return |t| = 2 in the map, once known."""
         found: Array | None = None if self.dragging else self.work.ask(self.lock(self.plan(Computation.CURVE)))
         if found is None or not len(found):
             return []
@@ -193,24 +193,24 @@ class RotationNumber(State):
 
     @cached_property
     def on_line(self) -> ParameterLine:
-        """The tori on the line; as far as the map is seen, where the line lies in its plane."""
+        """The tori on the line, within the window of the map if the line lies in its plane."""
         low, high = dict(zip(self.sides, self.window, strict=True)).get(self.line, _FULL[self.line])
-        # Only what the line depends on: it stays while the torus moves along it.
+        # The line's own parameter is set to 0, so the cache key is constant along the line.
         return possible_part(ParameterLine(self.line, self.torus.at(**{self.line: 0.0}), low, high))
 
     @property
     def x(self) -> Array:
-        """Places (n,) on the line."""
+        """Values of the line's parameter (n,)."""
         return self.on_line.places(_ON_LINE // 4 if self.dragging else self.plan(Computation.LINE).side(_ON_LINE))
 
     @cached_property
     def along(self) -> TorusValues:
-        """ρ and trace at these places."""
+        """ρ and trace at `x`."""
         return self.work.get(mechanics.along, self.on_line, self.x.size, self.plan(Computation.LINE).level)
 
     @cached_property
     def perturbed(self) -> Array | None:
-        """ρ of the other family there, as soon as it is known; NaN where there is no torus."""
+        """ρ of the other family at `x`, once known; NaN where there is no torus."""
         return (
             None
             if self.dragging
@@ -226,13 +226,13 @@ class RotationNumber(State):
 
     @property
     def sought(self) -> Fraction:
-        """The rational number that is looked for on the line: for f < 0 ρ is positive."""
+        """The rational number to find on the line; its sign changes for f < 0, where ρ is positive."""
         rho = Fraction(self.rational.replace("−", "-"))
         return -rho if self.line != "f" and self.f < 0.0 else rho
 
     @cached_property
     def periodic(self) -> PeriodicTorus | None:
-        """The torus of the line with that ρ, as soon as it is known, if there is one."""
+        """The torus on the line with the rational ρ; None if there is none or it is not known yet."""
         if self.dragging:
             return None
         found = self.work.later(_periodic, self.sought, self.on_line)
@@ -246,12 +246,12 @@ class RotationNumber(State):
     # ---- what the pictures show --------------------------------------------------------------------------------
 
     def here(self) -> list[tuple[float, float]]:
-        """The torus on show, in the map if that shows it."""
+        """Return the torus on show if the window of the map contains it."""
         (x0, x1), (y0, y1) = self.window
         return inside([self.place], ((x0, y0), (x1, y1)))
 
     def line_in_map(self) -> list[Array]:
-        """The line through the torus, as far as the map shows it."""
+        """Return the line through the torus within the map."""
         (x, y), (across, up) = self.place, self.sides
         return rotation_plane.across(
             *self.window, y=y if self.line == across else None, x=x if self.line == up else None
@@ -278,7 +278,7 @@ class RotationNumber(State):
         )
 
     def derived(self) -> Iterator[str]:
-        """The circle map, and the ladder of the other family."""
+        """Yield the circle map and the ladder of the other family."""
         if self.map is not None:
             yield circle.riccati_matrix(self.map)
             yield f"|trace| = {digits(self.map.trace, 6)}, ρ = {digits(self.map.rotation_number, 8)}"
@@ -290,7 +290,7 @@ class RotationNumber(State):
             yield f"plateaus of Θ(φ + ε sin 3φ): {steps.replace('-', '−') or 'none seen'}"
 
     def status(self) -> Iterator[str]:
-        """The map and the circle map."""
+        """Yield the status of the map and of the circle map."""
         if self.known("grid"):
             m, n = self.grid[1]
             error = (
@@ -306,12 +306,12 @@ class RotationNumber(State):
 
 
 def _periodic(rho: Fraction, line: ParameterLine) -> tuple[PeriodicTorus | None]:
-    """In a tuple: None by itself would mean that it is not known yet."""
+    """Return the periodic torus in a tuple, as a bare None means "not known yet"."""
     return (mechanics.periodic_torus(rho, line, REFERENCE),)
 
 
 # ---- what each level costs --------------------------------------------------------------------------------------
-# Cells and places found are not those of the truth: the exact ones are computed at those found.
+# Grids differ between levels, so the reference is computed on the grid of each result.
 
 Map = tuple[TorusValues, tuple[int, int]]
 
@@ -328,13 +328,13 @@ def _map_error(s: RotationNumber, found: Map, truth: Map) -> float:
 
 def _map_look(s: RotationNumber, found: Map) -> Cells:
     values, (m, n) = found
-    # What is locked has a tone of its own, as if its ρ were another one than any.
+    # 2 lies outside the range of ρ, so locked cells get a colour of their own.
     shown = np.where(values.possible, np.where(values.locked, 2.0, values.rho), np.nan)
     return Cells(s.frame, shown.reshape(n, m), COLOUR)
 
 
 def _line(s: RotationNumber, places: int, level: Level, turns: int = mechanics.TURNS) -> Array:
-    """ρ of the tori on the line, and that of the other family."""
+    """Return ρ of the tori on the line and of the other family."""
     values = mechanics.along(s.on_line, places, level)
     return np.stack(
         [

@@ -34,7 +34,7 @@ from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.free import Equilibria, FreeMotion, equilibria_of_unit_rate, sampled_motion
 
 _CELLS, _FEW_CELLS = (240, 120), (120, 60)
-"""Of the map; few while a slider is dragged."""
+"""Cells of the map; fewer while a slider is dragged."""
 _PHASES = np.linspace(-math.pi, math.pi, 361)
 _MOST_DIGITS = 12.0
 _RADIUS = 0.5 * PIXELS
@@ -51,7 +51,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class Scattering(State):
-    """One rotation, which gives the curve and the map, and the orbit of the phase chosen."""
+    """The rotation, which gives the curve and the map, and the orbit of the chosen phase."""
 
     I22: float = parameter(free_body.I22)
     I13: float = parameter(free_body.I13)
@@ -73,11 +73,11 @@ class Scattering(State):
     accuracy: str = accuracy_level()
 
     def limits(self) -> Mapping[str, Slider]:
-        """The slider of k begins where I11 is still positive."""
+        """Return the slider of k, limited to I11 > 0."""
         return free_body.limits_of_k(self.I22, self.I13, self.I23)
 
     def admitted(self, notes: list[str]) -> Scattering:
-        """Next to a slanting line a double keeps the start to 1e-16 only; on an axis it may be as close as it likes."""
+        """Limit the distance to 1e-16 beside an oblique line, where doubles round the start."""
         if self.I13 * self.I23 == 0.0 or self.digits <= _MOST_DIGITS:
             return self
         notes.append(f"With I₁₃I₂₃ ≠ 0 a start is known to 1e−16 only: its distance is 1e−{_MOST_DIGITS:g} now.")
@@ -90,32 +90,32 @@ class Scattering(State):
 
     @property
     def distance(self) -> float:
-        """δ."""
+        """The distance δ of the start from its circle."""
         return float(10.0**-self.digits)
 
     @cached_property
     def points(self) -> Equilibria:
-        """The equilibria with the energy that makes ω0 = 1: nothing else depends on it."""
+        """The equilibria with the energy that makes ω0 = 1; nothing else depends on the energy."""
         return equilibria_of_unit_rate(self.body)
 
     @cached_property
     def start(self) -> tuple[tuple[float, float], tuple[float, float, float]]:
-        """ω(0) and γ(0) of the orbit shown.  Raises `InvalidParameter`, `WorkLimit`."""
+        """ω(0) and γ(0) of the orbit on show.  Raises `InvalidParameter`, `WorkLimit`."""
         return model.start(self.body, self.points.h, self.theta, self.phi, self.distance)
 
     @property
     def span(self) -> float:
-        """Until γ has settled on the second circle: as long after the passage as before it."""
+        """The length of the orbit in time: equally long before and after the passage, until γ settles."""
         return 2.0 * math.log(10.0) * self.digits + 8.0
 
     @cached_property
     def map(self) -> model.Scattering:
-        """The rotation from the start that is shown."""
+        """The rotation from the start on show."""
         return self.work.get(model.scattering, self.body, self.level, 1, self.distance)
 
     @cached_property
     def limit(self) -> model.Scattering:
-        """The same for δ → 0."""
+        """The rotation for δ → 0."""
         return self.work.get(model.scattering, self.body, self.level)
 
     @cached_property
@@ -125,12 +125,12 @@ class Scattering(State):
 
     @cached_property
     def theta_plus(self) -> float:
-        """Of the orbit shown."""
+        """θ⁺ of the orbit on show."""
         return float(self.map.theta_plus(self.theta, self.phi))
 
     @cached_property
     def orbit(self) -> FreeMotion:
-        """The orbit shown."""
+        """The orbit on show."""
         return self.work.get(sampled_motion, self.body, *self.start, self.span, (1.0, _RADIUS), self.level)
 
     @property
@@ -140,11 +140,11 @@ class Scattering(State):
 
     @cached_property
     def orders(self) -> Array:
-        """(k, cos χ) in rows."""
+        """The curve (k, cos χ) in rows."""
         return self.work.get(model.cos_chi_over, *self.k_axis, self.I22, self.I13, self.I23)
 
     def motion(self) -> Motion:
-        """The orbit as one of the general system."""
+        """Return the orbit as a motion of the general system."""
         omega, gamma = self.start
         return Motion(SYSTEM, (*omega, *gamma), self.body.parameters, self.span, pixels_per_unit(_RADIUS))
 
@@ -175,7 +175,7 @@ class Scattering(State):
         return Caption(numbers=f"φ = {phi}: from θ⁻ = {before} to θ⁺ = {after}.")
 
     def derived(self) -> Iterator[str]:
-        """I11 and k², the rotation, the start."""
+        """Yield I11 and k², the rotation and the start."""
         yield from free_body.about_I11(self.k, self.body)
         yield f"cos χ = {in_digits(self.limit.cos_chi, 12)}"
         yield f"φ* = {in_digits(self.map.phi_star, 6)}"
@@ -184,7 +184,7 @@ class Scattering(State):
         yield "Time in units of 1/ω₀; θ⁺ does not depend on the energy"
 
     def status(self) -> Iterator[str]:
-        """The rotation and the orbit."""
+        """Yield the status of the rotation and of the orbit."""
         found = self.map
         yield (
             f"{found.level}: rotation {found.cost.steps} Taylor steps, error ≤ {found.error_estimate:.1e} "
@@ -195,7 +195,7 @@ class Scattering(State):
             yield from drift_status([self.orbit.drift])
 
     def notes(self) -> Iterator[str]:
-        """A start that is rounded."""
+        """Yield a warning if the start is rounded."""
         if self.I13 * self.I23 != 0.0 and self.digits > 8.0:
             yield (
                 "With I₁₃I₂₃ ≠ 0 the start of the orbit is rounded to 1e−16: its passage is a little early or late, "

@@ -30,9 +30,9 @@ from hess_mechanics.numerics.accuracy import REFERENCE, Computation, Level
 from hess_mechanics.numerics.results import Array
 
 _FEW = 1000
-"""Points while a slider is dragged, and until all of them are known."""
+"""Number of points while a slider is dragged and until the full cloud is known."""
 
-# An example sets all that it is about: choices stay as they are otherwise.
+# Each example sets all choices that it depends on; unset choices keep their values.
 _CHOICES: Values = {"start": "energy shell", "direction": "forward", "beside": "nothing", "along": "divergence"}
 _PATCH: Values = {"start": "small patch", "direction": "forward", "along": "volume"}
 
@@ -58,7 +58,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class SingularMeasures(State):
-    """One cloud, or two, over the time."""
+    """One or two clouds over time."""
 
     I11: float = parameter(known.I11, 2.0)
     I22: float = parameter(known.I22)
@@ -127,7 +127,7 @@ class SingularMeasures(State):
     accuracy: str = accuracy_level()
 
     def idle(self) -> Mapping[str, float]:
-        """Of a patch, and of a cloud beside, that are not there."""
+        """Return the parameters of an absent patch and of an absent second cloud."""
         return {
             **({} if self.start == "small patch" else {"angle": self.angle}),
             **({} if self.beside == "principal axis" else {"b3": self.b3}),
@@ -140,11 +140,11 @@ class SingularMeasures(State):
 
     @cached_property
     def strip(self) -> Strip:
-        """Where ω may be."""
+        """The strip of admissible ω."""
         return Strip(self.body, self.h)
 
     def task(self, count: int, level: Level) -> Task:
-        """What moves so many points."""
+        """Return a task that moves `count` points."""
         angle = self.angle if self.start == "small patch" else None
         span = -self.span if self.direction == "backward" else self.span
         field = self.b3 if self.beside == "principal axis" else None
@@ -152,7 +152,7 @@ class SingularMeasures(State):
 
     @cached_property
     def clouds(self) -> Clouds:
-        """What moves."""
+        """The moving clouds."""
         plan = self.plan(Computation.CLOUD)
         count = plan.part(int(self.points), _FEW)
         found: Clouds = self.work.sooner(self.task(count, plan.level), self.task(min(count, _FEW), plan.level))
@@ -160,12 +160,12 @@ class SingularMeasures(State):
 
     @cached_property
     def times(self) -> Array:
-        """Of the player, (m,)."""
+        """Times of the player, (m,)."""
         return np.abs(self.clouds.cloud.times)
 
     @property
     def on_show(self) -> Array:
-        """Mean, least and largest of what the fourth picture shows, (3, m)."""
+        """Mean, minimum and maximum of the quantity in the fourth picture, (3, m)."""
         course = self.clouds.course
         return course.divergence if self.along == "divergence" else course.log_growth
 
@@ -175,7 +175,7 @@ class SingularMeasures(State):
         return with_room(np.append(self.on_show, 0.0), 0.08)
 
     def track(self) -> Columns:
-        """The time of the moving clouds, and the mean at it."""
+        """Return the times of the clouds and the mean of the fourth picture."""
         return {"t": column(self.times), "mean": column(self.on_show[0])}
 
     # ---- words --------------------------------------------------------------------------------------------------
@@ -196,7 +196,7 @@ class SingularMeasures(State):
         return cloud.about_course(self.clouds, of_patch=self.along == "volume" and self.start == "small patch")
 
     def derived(self) -> Iterator[str]:
-        """The system, its invariant density, what becomes of volumes."""
+        """Yield the system, its invariant density and the change of volumes."""
         course = self.clouds.course
         yield f"System: {'Chaplygin ball, b = 0' if self.D else 'free Suslov problem'}"
         yield "Invariant density: 1/|I₁₃ω₁ + I₂₃ω₂|"
@@ -211,12 +211,12 @@ class SingularMeasures(State):
             yield f"Beside: I₁₃ = I₂₃ = 0, b₃ = {digits(self.b3)}, div v = 0"
 
     def status(self) -> Iterator[str]:
-        """Size, cost and errors of the clouds."""
+        """Return the size, cost and errors of the clouds."""
         return cloud.status_of(self.clouds)
 
 
 def _exact(s: SingularMeasures, found: Clouds) -> Clouds:
-    """The same points: others are other motions."""
+    """Return the reference clouds of the same points, as other points have other motions."""
     exact: Clouds = s.task(_count(found), REFERENCE.tightened()).now()
     return exact
 

@@ -1,4 +1,4 @@
-"""Speed and accuracy of another scene: its errors and costs at every level, measured here and now."""
+"""Speed and accuracy of another scene: its errors and costs at every level, measured live."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from hess_mechanics.numerics.accuracy import Computation
 __all__ = ["SpeedAccuracy", "speed_and_accuracy"]
 
 _COMPARED = "difference"
-"""The parameter that says what is compared."""
+"""Name of the parameter that selects the compared computation."""
 _COSTLIEST = (
     Computation.ROTATION,
     Computation.BASINS,
@@ -36,14 +36,14 @@ _COSTLIEST = (
     Computation.EXPONENT,
     Computation.ORBIT,
 )
-"""From what takes longest on: as `hess-explorer bench --trade` measures it."""
+"""Kinds of computation by decreasing cost, as measured by `hess-explorer bench --trade`."""
 
 
 @dataclass(frozen=True)
 class Study(State):
-    """What is measured of a state of the other scene.
+    """Measurements of a state of the other scene.
 
-    shown : that state; trials : what is computed there; difference : the name of the kind of those whose levels are
+    shown : state of the other scene; trials : its computations; difference : kind of the computation whose levels are
     compared.
     """
 
@@ -53,13 +53,13 @@ class Study(State):
 
     @cached_property
     def costs(self) -> Costs:
-        """Time and error of all that the state shows."""
+        """Time and error of all computations that the state shows."""
         plain = bare(self.shown)
         return Costs(self.work, plain, tuple(trial for trial in self.trials if trial.shown(plain)))
 
     @cached_property
     def comparison(self) -> Comparison:
-        """What the next level changes."""
+        """The change from the chosen level to the next."""
         compared = next(trial for trial in self.trials if trial.kind == self.difference)
         return Comparison(self.work, bare(self.shown), compared)
 
@@ -70,11 +70,11 @@ class Study(State):
         return None if motion is None else Precision(self.work, motion)
 
     def limits(self) -> Mapping[str, Slider]:
-        """As the other scene has them."""
+        """Return the sliders of the other scene."""
         return self.shown.limits()
 
     def derived(self) -> Iterator[str]:
-        """What was measured and compared in the pictures in sight; the motion, or what is computed without one."""
+        """Yield the results for the visible pictures, and the motion or the kinds of computation."""
         if self.precision is None:
             yield f"Computed: {', '.join(str(trial.kind) for trial in self.trials)}"
         if "trade" in self.seen:
@@ -85,13 +85,13 @@ class Study(State):
             yield from self.precision.derived()
 
     def status(self) -> Iterator[str]:
-        """The level, and what every level costs."""
+        """Yield the chosen level and the cost of every level."""
         yield f"{self.work.chosen} chosen"
         if self.precision is not None:
             yield from self.precision.status()
 
     def notes(self) -> Iterator[str]:
-        """What was left out, and why."""
+        """Yield what was left out and why."""
         if self.precision is not None:
             yield from self.precision.notes()
 
@@ -114,12 +114,12 @@ class SpeedAccuracy(Scene[Study]):
 
     @property
     def name(self) -> str:
-        """As in a link."""
+        """The name in links."""
         return f"{self.origin}-accuracy"
 
     @cached_property
     def specs(self) -> tuple[Spec, ...]:
-        """The parameters of the other scene, and which of its computations is compared, where there are several."""
+        """The parameters of the other scene, and the compared computation if there are several."""
         kinds = tuple(str(trial.kind) for trial in self.other.trials)
         choice = Choice(
             _COMPARED,
@@ -132,22 +132,22 @@ class SpeedAccuracy(Scene[Study]):
 
     @cached_property
     def _costliest(self) -> str:
-        """The kind that takes longest of what a newcomer sees there."""
+        """The most expensive kind of computation in the default state."""
         plain = bare(self.other.of(self.other.defaults()))
         return str(min((trial.kind for trial in self.other.trials if trial.shown(plain)), key=_COSTLIEST.index))
 
     def in_sight(self, state: Study) -> Iterator[tuple[Trial[Any], State]]:
-        """All that the other scene computes."""
+        """Return all computations of the other scene."""
         return ((trial, state.costs.shown) for trial in state.costs.trials)
 
     def of(self, values: Values, seen: Collection[str] = (), dragging: bool = False) -> Study:
-        """The state of these values; nothing is computed yet."""
+        """Return the state with these values; nothing is computed yet."""
         shown = self.other.of(values, seen, dragging)
         difference = str(values.get(_COMPARED, self._costliest))
         return Study(shown, self.other.trials, difference, work=shown.work, seen=shown.seen)
 
     def admit(self, values: Values) -> tuple[dict[str, Value], list[str]]:
-        """As the other scene does."""
+        """Return valid values and notes, by the rules of the other scene."""
         admitted, notes = self.other.admit(values)
         for spec in self.specs[len(self.other.specs) :]:
             admitted[spec.name], note = spec.read(str(values[spec.name]))
@@ -156,7 +156,7 @@ class SpeedAccuracy(Scene[Study]):
 
 
 def speed_and_accuracy(other: Scene[Any]) -> SpeedAccuracy:
-    """The scene "Speed and accuracy" of another one, whether or not that shows a motion."""
+    """Return the scene "Speed and accuracy" of another one, with or without a motion."""
     moving = other.has_motion
     words, about = (
         ("speed_accuracy", "Error, drift and cost of the motion on show")

@@ -180,12 +180,12 @@ class Suslov(State):
 
     @property
     def start(self) -> Start:
-        """The state from which the orbit on show starts."""
+        """The initial state of the orbit on show."""
         return self.periodic_orbit.start
 
     @property
     def lasts(self) -> float:
-        """The time for which it is followed."""
+        """The length of the orbit in time."""
         return self.periodic_orbit.lasts
 
     def motion(self) -> Motion:
@@ -194,18 +194,18 @@ class Suslov(State):
 
     @property
     def half_width(self) -> float:
-        """Half the width of the (ω1, ω2)-plane: room for all motions of this energy."""
+        """Half width of the (ω1, ω2)-plane, with room for all motions of this energy."""
         return nice_above(1.05 * math.sqrt(2.0 * self.h / min(self.I11, self.I22)))
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """From the variables to the pictures, in pixels for a unit."""
+        """Scale of each variable in pixels per unit."""
         return pixels_per_unit(self.half_width)
 
     def orbit_level(self) -> Level:
         """Return the level of the orbit on show.
 
-        Near the bottom the motion is small beside the velocities of which a level promises a part.
+        Near the lowest energy the motion is small compared with the velocity scale of a level's promise.
         """
         share = self.half_width / float(SYSTEM.frequency(np.array(self.start), np.array(self.body.parameters)))
         return max(self.level, cheapest(HALF_A_PIXEL * share), key=lambda rung: rung.order)
@@ -220,7 +220,7 @@ class Suslov(State):
 
     @part
     def megno(self) -> Indicator:
-        """The cells of the section by MEGNO, unless basins are shown."""
+        """The MEGNO of the section's cells, unless basins are shown."""
         return Indicator(self.section, self.indicator == MEGNO and not self.basins.wanted, lambda: self.section.batches)
 
     @part
@@ -235,26 +235,26 @@ class Suslov(State):
 
     @part
     def proof(self) -> Proof:
-        """Its proved error."""
+        """The proved error of the orbit."""
         return Proof(self.orbit, self.certain)
 
     @part
     def exponent(self) -> Exponent:
-        """Its largest Lyapunov exponent."""
+        """The largest Lyapunov exponent of the orbit."""
         return Exponent(self)
 
     @part
     def basins(self) -> Basins:
-        """The cells of the section by where they lead."""
+        """The basin of each cell of the section."""
         return Basins(self, self.section, self.colours == "basins")
 
     def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
-        """Return the computation of so many crossings of the orbits from there."""
+        """Return a task that computes `crossings` crossings of the orbits from `starts`."""
         return Task(_batch, (self.poincare, starts, crossings, forward, level))
 
     @property
     def impossible_here(self) -> str:
-        """What is said where nothing is possible in the window."""
+        """The message for a window that no motion reaches."""
         return (
             f"Nothing is possible in this window with the energy E = {self.E:.6g}: choose a larger h, or press "
             "Clear for the whole section."
@@ -262,7 +262,7 @@ class Suslov(State):
 
     @cached_property
     def course(self) -> MeanDivergence | None:
-        """The mean divergence along the orbit on show, when it is known; not while a slider is held."""
+        """The mean divergence along the orbit on show; None until known and while a slider is held."""
         return (
             None
             if self.exponent.later
@@ -275,9 +275,9 @@ class Suslov(State):
 
     @property
     def rates(self) -> tuple[tuple[Array, Array], ...]:
-        """Times and values of the exponent and of the mean divergence, when both are known.
+        """Times and values of the exponent and of the mean divergence, once both are known.
 
-        Those of a periodic orbit are its own.
+        For a periodic orbit they come from its multipliers.
         """
         if self.exponent.growth is not None:
             return tuple((np.array([0.0, self.long]), np.full(2, rate)) for rate in self.exponent.growth)
@@ -299,7 +299,7 @@ class Suslov(State):
 
     @cached_property
     def _conformal(self) -> tuple[Conformal | None, str]:
-        """The orbit on show in its two times, or why there is none."""
+        """The orbit on show in both times, or None and the reason."""
         if self.I13 != 0.0 or self.I23 != 0.0:
             return None, "Only for I₁₃ = I₂₃ = 0, as in the example “On a principal axis”."
         try:
@@ -345,7 +345,7 @@ class Suslov(State):
         )
 
     def derived(self) -> Iterator[str]:
-        """The energy, the start of the orbit on show, whether this is a rigid body."""
+        """Yield the energy, the start of the orbit on show and the check of the body."""
         yield f"E = {digits(self.E, 6)}"
         yield f"chosen: {self.section.at(self.section.chosen)}"
         yield from super().derived()

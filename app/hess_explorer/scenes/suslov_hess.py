@@ -62,7 +62,7 @@ PRESETS = (
 
 @dataclass(frozen=True)
 class SuslovHess(State):
-    """One orbit on one torus M²(h, f), all tori beside it."""
+    """One orbit on one torus M²(h, f), and the diagram of all tori."""
 
     I22: float = parameter(hess_case.I22)
     I23: float = parameter(hess_case.I23)
@@ -91,11 +91,11 @@ class SuslovHess(State):
     accuracy: str = accuracy_level()
 
     def admitted(self, notes: list[str]) -> SuslovHess:
-        """|a| ≤ 100, and f inside the region of this h."""
+        """Clamp |a| to 100 and f to the region of this h."""
         return replace(self, I23=possible_I23(self.I22, self.I23, notes), f=possible_f(self.h, self.f, notes))
 
     def limits(self) -> Mapping[str, Slider]:
-        """The slider of f spans the region at this h, in round steps."""
+        """Return the slider of f over the region of this h, in round steps."""
         return {"f": slider_within(f_max(self.h))}
 
     @cached_property
@@ -105,7 +105,7 @@ class SuslovHess(State):
 
     @cached_property
     def turning(self) -> TurningPoints | None:
-        """Between which heights n3 swings; None on the separatrix."""
+        """The turning points of n3; None on the separatrix."""
         try:
             return turning_points(self.h, self.f)
         except Separatrix:
@@ -124,12 +124,12 @@ class SuslovHess(State):
 
     @cached_property
     def edge(self) -> Array:
-        """The bifurcation curve as far as the diagram reaches, (n, 2)."""
+        """The bifurcation curve within the diagram, (n, 2)."""
         return self.work.get(curve, diagram.window(self.h).x[1])
 
     @cached_property
     def half_width(self) -> float:
-        """Of the frame of the (ω1, ω2)-plane: it follows the largest ring of this h in steps of 2."""
+        """Half width of the (ω1, ω2)-plane; it follows the largest ring of this h in factors of 2."""
         largest = math.sqrt(2.0 * (diagram.window(self.h).x[1] + 1.0))
         halvings = math.floor(math.log2(largest / math.sqrt(2.0 * (self.h + 1.0))))
         ring = 1.02 * math.hypot(1.0, self.body.a) * largest * 0.5**halvings
@@ -143,23 +143,23 @@ class SuslovHess(State):
 
     @property
     def finding(self) -> Task:
-        """What finds it."""
+        """The task that computes the orbit on show."""
         return Task(track, (self.body, self.h, self.f, self.phi0, self.span, self.level, self.half_width))
 
     @cached_property
     def orbit_proof(self) -> Proof:
-        """Its proved error."""
+        """The proved error of the orbit."""
         unit = self.body.frequency_unit
         return Proof(self, self.certain, (unit, unit * math.hypot(1.0, self.body.a)))
 
     @cached_property
     def cycles(self) -> tuple[Track, Track] | None:
-        """The stable and the unstable limit cycle, where there are two."""
+        """The stable and the unstable limit cycle, if they exist."""
         return limit_cycles(self.work, self.body, self.map, self.level, self.half_width)
 
     @cached_property
     def iterates(self) -> Array | None:
-        """φ0 and its images, as far as the orbit goes."""
+        """φ0 and its images under the circle map, up to the end of the orbit."""
         if self.map is None:
             return None
         returns = math.ceil(self.track.orbit.times[-1] / self.map.period)
@@ -167,7 +167,7 @@ class SuslovHess(State):
 
     @cached_property
     def density(self) -> tuple[Array | None, str]:
-        """The invariant density on the torus, relative to an even one, or why there is none."""
+        """The invariant density on the torus relative to the uniform one, or None and the reason."""
         reason = torus_density.why_none(self.map, self.turning)
         if reason or self.map is None:
             return None, reason
@@ -182,14 +182,14 @@ class SuslovHess(State):
         return hess_solid(self.body, self.track)
 
     def motion(self) -> Motion:
-        """The orbit on show, in units b = 1."""
+        """Return the orbit on show in units b = 1."""
         state, length = start_of_track(self.body, self.h, self.f, self.phi0, self.span)
         weights = pixels_per_unit(self.body, self.half_width)
         return Motion(SYSTEM, tuple(state), (self.body.a, 1.0), length, tuple(weights), 1.0 / self.body.frequency_unit)
 
     @cached_property
     def proof(self) -> Proved | None:
-        """What is proved of this torus, as soon as it is known; not while a slider is dragged."""
+        """Proved statements on this torus; None until known and while a slider is dragged."""
         if self.dragging or self.map is None:
             return None
         if not has_flint():
@@ -198,7 +198,7 @@ class SuslovHess(State):
 
     @cached_property
     def zone(self) -> ProvedZone | None:
-        """What is proved of the diagram, as far as it is known; None where it is not asked for."""
+        """The cells of the diagram proved so far; None if they are not shown."""
         return known_zone(self.work, self.I22, self.I23, diagram.window(self.h).x[1]) if self.cells == SHOWN else None
 
     # ---- what the pictures show --------------------------------------------------------------------------------
@@ -209,7 +209,7 @@ class SuslovHess(State):
         return found if self.zone is None else replace(found, numbers=f"{found.numbers} {self.zone.said}")
 
     def orbit_columns(self) -> Columns:
-        """The orbit, and what the moving points of the other pictures follow."""
+        """Return the columns of the orbit and of the moving points in the other pictures."""
         found, start = self.track, self.track.phi
         if self.map is not None and self.iterates is not None:
             start = torus_plane.phases_at_returns(found, self.map, self.iterates)
@@ -222,12 +222,12 @@ class SuslovHess(State):
         )
 
     def heights(self) -> list[Circle]:
-        """The circles between which n3 swings; where the true γ is."""
+        """Return the circles that bound n3, and the proved enclosure of γ."""
         ends = (-1.0, 1.0) if self.turning is None else self.turning.roots[1:]
         return [*parallels(self.body.n3, ends), *self.orbit_proof.around]
 
     def colours(self, cells: tuple[int, int], level: Level) -> Task:
-        """What finds the rotation number over the diagram."""
+        """Return a task that computes the rotation number over the diagram."""
         axes = diagram.window(self.h)
         return Task(rotation_number_window, (self.body.a, axes.x, axes.y, level, cells))
 
@@ -241,7 +241,7 @@ class SuslovHess(State):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def derived(self) -> Iterator[str]:
-        """a, b, what follows of the body, the integrals in its own units, the period."""
+        """Yield a, b, the derived data of the body, the integrals in its units and the period."""
         body = self.body
         yield f"a = I₂₃/I₂₂ = {digits(body.a, 6)}"
         yield f"b = {digits(body.b, 6)}"
@@ -260,7 +260,7 @@ class SuslovHess(State):
                 yield f"ζ of the invariant density = {digits(invariant_measure(self.map).zeta, 6)}"
 
     def status(self) -> Iterator[str]:
-        """The orbit, the circle map."""
+        """Yield the status of the orbit and of the circle map."""
         if self.known("track"):
             yield from orbit_status(self.track.orbit)
             yield from self.orbit_proof.status()
@@ -270,7 +270,7 @@ class SuslovHess(State):
             yield f"circle map {self.map.cost.steps} steps, error ≤ {self.map.error_estimate:.1e} ({self.map.status})"
 
     def notes(self) -> Iterator[str]:
-        """No body; an orbit that is not shown to its end; an angle that jumps."""
+        """Yield warnings: not a rigid body, a truncated orbit, an angle that jumps."""
         if not self.body.check.is_body:
             yield self.body.check.sentence
         shown = float(self.track.times[-1]) if self.known("track") else math.inf
@@ -293,7 +293,7 @@ _MEASURES: tuple[Trial[SuslovHess], ...] = (
         Computation.COLOURS,
         ("bifurcation",),
         lambda s, plan: s.colours(affordable_cells(s.body.a, plan.grid(CELLS)), plan.level).now(),
-        # At the centres of the cells found, which are not those of the truth.
+        # Grids differ between levels, so the reference is computed on the grid of the result.
         lambda s, found, truth: colour_error(found, s.colours(found.shape[::-1], REFERENCE).now()),
         lambda s, found: Cells(diagram.frame(s.h), found, COLOUR),
         COLOUR_UNIT,

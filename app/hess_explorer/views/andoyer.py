@@ -29,7 +29,7 @@ def picture(
     orbit: Callable[[S], Array],
     color: str = theme.ORBIT,
 ) -> Plot[S]:
-    """The Hess relation and an orbit, (l, L/G) in rows (n, 2) of each, with a ring where the orbit starts."""
+    """Return the Hess relation and an orbit, (l, L/G) in rows (n, 2) of each, with a ring where the orbit starts."""
     return Plot(
         name="andoyer",
         title=title,

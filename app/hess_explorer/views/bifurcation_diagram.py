@@ -35,7 +35,7 @@ S = TypeVar("S")
 
 
 def window(h: float) -> Axes:
-    """The part of the plane shown for this h: the same for all h of the slider, larger ones in steps."""
+    """Return the part of the plane shown for this h: the same for all h of the slider, larger ones in steps."""
     end = 4.0
     while h > end:
         end *= 2.5
@@ -44,7 +44,7 @@ def window(h: float) -> Axes:
 
 
 def frame(h: float) -> Frame:
-    """The axes and their names, for comparisons."""
+    """Return the axes and their names, for comparisons."""
     return Frame(window(h), ("h", "f"))
 
 

@@ -169,7 +169,7 @@ class BodyInSpace(Picture[S]):
         }
 
     def data(self, state: S) -> Sources:
-        """The body, its motion, and what is drawn beside."""
+        """Return the body, its motion, and what is drawn beside."""
         shape = self.shape(state)
         motion = None if self.motion is None else self.motion(state)
         if self.motion is not None and motion is None:

@@ -20,7 +20,7 @@ _SHORT = {"Neimark–Sacker": "N–S"}
 
 
 def strands(branch: Branch, side: int, sign: str) -> list[Array]:
-    """The parts (n, 2) of a branch with one sign, see `sign_of`: the parameter, and a coordinate of each place.
+    """Return the parts (n, 2) of a branch with one sign, see `sign_of`: the parameter, and a coordinate of each place.
 
     Where a sign changes they reach to the bifurcation itself.
     """

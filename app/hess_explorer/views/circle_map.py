@@ -35,12 +35,12 @@ _BEYOND = 100.0
 
 
 def cobweb(iterates: Array) -> tuple[Array, Array]:
-    """The staircase (φ0, φ0) → (φ0, φ1) → (φ1, φ1) → …"""
+    """Return the staircase (φ0, φ0) → (φ0, φ1) → (φ1, φ1) → …"""
     return np.repeat(iterates, 2)[:-1], np.repeat(iterates, 2)[1:]
 
 
 def _copies(circle_map: CircleMap) -> list[Array]:
-    """The graph and its copies one turn up and down: the frame cuts out the square."""
+    """Return the graph and its copies one turn up and down: the frame cuts out the square."""
     phi, theta = circle_map.graph
     return [np.column_stack([phi, theta + turn]) for turn in (0.0, -2 * math.pi, 2 * math.pi)]
 
@@ -51,7 +51,7 @@ def _fixed(circle_map: CircleMap, stable: bool) -> tuple[list[float], list[float
 
 
 def _density(circle_map: CircleMap) -> list[Array]:
-    """The invariant density over the bottom of the frame, if there is a smooth one."""
+    """Return the invariant density over the bottom of the frame, if there is a smooth one."""
     if circle_map.kind != "elliptic":
         return []
     relative = np.minimum(_BEYOND, 2.0 * math.pi * invariant_measure(circle_map).density(_DENSITY))
@@ -159,7 +159,7 @@ def about(theta: CircleMap | None, proof: str = "") -> Caption:
 
 
 def riccati_matrix(theta: CircleMap) -> str:
-    """The two numbers of its matrix."""
+    """Return the two numbers of its matrix."""
     alpha, beta = theta.alpha_beta
     return (
         f"Riccati matrix α = {digits(alpha.real)} {'−' if alpha.imag < 0.0 else '+'} {digits(abs(alpha.imag))} i, "

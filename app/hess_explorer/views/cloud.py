@@ -138,12 +138,12 @@ class CloudPlane(Picture[S]):
         return {**super().describe(), "density": self.density}
 
     def ranges(self, state: S) -> Axes:
-        """The axes that fit a state."""
+        """Return the axes that fit a state."""
         axis = centred(self.half_width(state))
         return Axes(axis, axis)
 
     def data(self, state: S) -> Sources:
-        """The frames of the clouds, and the ends of the halves of the line of equilibria."""
+        """Return the frames of the clouds, and the ends of the halves of the line of equilibria."""
         found, strip = self.clouds(state), self.strip(state)
         cloud, body, log_s = found.cloud, strip.body, found.density.log_s
         count = 2 if body.D else 1
@@ -167,7 +167,7 @@ class CloudPlane(Picture[S]):
         }
 
     def framed(self, state: S, axes: Axes | None) -> Sources:
-        """The axes, σ1 and σ2, and the line of equilibria out of the picture."""
+        """Return the axes, σ1 and σ2, and the line of equilibria out of the picture."""
         assert axes is not None
         strip, half = self.strip(state), axes.x[1]
         xi, _ = line_of_rest(strip.body)
@@ -195,7 +195,7 @@ def density_axes(found: Clouds) -> Axes:
 
 
 def _inside(s: Array, share: Array, axes: Axes) -> tuple[Array, Array]:
-    """The share of the points per unit of |s|, from that per unit of ln|s|, as far as it lies in the frame."""
+    """Return the share of the points per unit of |s|, from that per unit of ln|s|, as far as it lies in the frame."""
     y = np.divide(share, s)
     (x0, x1), (y0, y1) = axes.x, axes.y
     seen = (s >= x0) & (s <= x1) & (y >= y0) & (y <= y1)

@@ -97,7 +97,7 @@ def on_paper(layer: Layer[Any], colour: Colour) -> Options:
 
 
 def _exchanged(style: Style, colour: Colour) -> Options:
-    """The style in other colours, but for those that stand for numbers."""
+    """Return the style in other colours, but for those that stand for numbers."""
     found = {name: colour(value) if name.endswith("color") else value for name, value in style.items()}
     return {**found, "palette": [*map(colour, style["palette"])]} if style.get("kinds") else found
 

@@ -181,7 +181,7 @@ def _layer(
     data: Data[S],
     within: Within[S] = None,
 ) -> Layer[S]:
-    """The layer with its data converted to columns."""
+    """Return the layer with its data converted to columns."""
     return replace(
         layer,
         data=None if data is None else lambda state: convert(data(state)),

@@ -54,7 +54,7 @@ def layers(
     manifolds: Callable[[S], Sequence[Manifold]],
     homoclinic: Callable[[S], Sequence[Intersection]],
 ) -> Layers[S]:
-    """The places of an orbit, over the manifolds of a saddle and where they cross."""
+    """Return the places of an orbit, over the manifolds of a saddle and where they cross."""
 
     def parts(stable: bool) -> Callable[[S, Axes], list[Array]]:
         return lambda s, axes: [
@@ -81,7 +81,7 @@ def layers(
 
 
 def places(orbit: Callable[[S], PeriodicOrbit | None]) -> Layers[S]:
-    """The places of an orbit, by whether it attracts."""
+    """Return the places of an orbit, by whether it attracts."""
 
     def of_sign(sign: str) -> Callable[[S], Array | None]:
         def of(state: S) -> Array | None:

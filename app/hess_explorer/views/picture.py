@@ -50,7 +50,7 @@ class Picture(ABC, Generic[S]):
     """Who draws it in the browser: "plot" is Bokeh, the others draw on canvases of their own."""
 
     def of_part(self, part: Callable[[H], S]) -> Picture[H]:
-        """The same picture of a state that holds what is shown as a part of it."""
+        """Return the same picture of a state that holds what is shown as a part of it."""
         return cast("Picture[H]", adapted(self, part))
 
     @property
@@ -94,19 +94,19 @@ class Picture(ABC, Generic[S]):
         return {"name": self.name, "kind": self.kind, "hands": self.hands}
 
     def ranges(self, state: S) -> Axes | None:
-        """The axes that fit a state."""
+        """Return the axes that fit a state."""
         return None
 
     @abstractmethod
     def data(self, state: S) -> Sources:
-        """The columns of its sources, by the name of the source, but those that depend on the axes."""
+        """Return the columns of its sources, by the name of the source, but those that depend on the axes."""
 
     def framed(self, state: S, axes: Axes | None) -> Sources:
-        """The columns that do, which join those of the same source."""
+        """Return the columns that do, which join those of the same source."""
         return {}
 
     def nothing(self, sentence: str, axes: Axes | None) -> Sources:
-        """The columns of its sources where there is nothing to see; only a plot has room for the reason."""
+        """Return the columns of its sources where there is nothing to see; only a plot has room for the reason."""
         return {self.name: {}}
 
     def said(self, state: S) -> Caption:

@@ -76,7 +76,7 @@ def ground(
 
 
 def orbit(start: Callable[[S], tuple[float, float]], label: str = "") -> Layers[S]:
-    """The track of the orbit, and a ring where it starts."""
+    """Return the track of the orbit, and a ring where it starts."""
     return (
         line("orbit", track="orbit", columns=("q1", "q2"), color=theme.ORBIT, label="orbit"),
         ring("start", lambda s: [start(s)], label=label),

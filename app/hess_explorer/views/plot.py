@@ -112,33 +112,33 @@ class Plot(Picture[S]):
         return self.axes(state) if callable(self.axes) else self.axes
 
     def source_of(self, layer: Layer[S]) -> str:
-        """The name of the source of a layer."""
+        """Return the name of the source of a layer."""
         return f"data-{layer.track}" if layer.track else f"{self.name}-{layer.name}"
 
     def ranges(self, state: S) -> Axes | None:
-        """The axes that fit a state."""
+        """Return the axes that fit a state."""
         x, y = self.x(state) if callable(self.x) else self.x, self.y(state) if callable(self.y) else self.y
         return None if x is None or y is None else Axes(x, y)
 
     def data(self, state: S) -> Sources:
-        """The columns of its own sources, but those that depend on the axes."""
+        """Return the columns of its own sources, but those that depend on the axes."""
         return {self.source_of(layer): layer.data(state) for layer in self.layers if layer.data is not None}
 
     def framed(self, state: S, axes: Axes | None) -> Sources:
-        """The columns of those that do."""
+        """Return the columns of those that do."""
         assert axes is not None
         found = {self.source_of(layer): layer.within(state, axes) for layer in self.layers if layer.within is not None}
         sentence = "" if self.message is None else self.message(state)
         return {**found, **self._words(self.names(state), sentence, axes)}
 
     def nothing(self, sentence: str, axes: Axes | None) -> Sources:
-        """The columns of all its sources where there is nothing to see but the reason."""
+        """Return the columns of all its sources where there is nothing to see but the reason."""
         assert axes is not None
         empty: Sources = {self.source_of(layer): {} for layer in (*self.layers, POINT)}
         return {**empty, **self._words((" ", " "), sentence, axes)}
 
     def _words(self, names: tuple[str, str], sentence: str, axes: Axes) -> Sources:
-        """The columns of the names of its axes, where those depend on the state, and of the message."""
+        """Return the columns of the names of its axes, where those depend on the state, and of the message."""
         message: Columns = (
             {}
             if not sentence

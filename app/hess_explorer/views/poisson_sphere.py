@@ -61,12 +61,12 @@ class Direction:
 
 
 def ends(axis: Array) -> tuple[Mark, Mark]:
-    """Both ends of an axis, a unit vector (3,)."""
+    """Return both ends of an axis, a unit vector (3,)."""
     return Mark(axis, "muted"), Mark(-axis, "muted")
 
 
 def centre_of_mass(b: Sequence[float]) -> Direction | None:
-    """The direction r of the centre of mass, b = −mg r; None without a field."""
+    """Return the direction r of the centre of mass, b = −mg r; None without a field."""
     length = float(np.linalg.norm(b))
     return Direction(-np.array(b) / length, "r") if length > 0.0 else None
 
@@ -82,7 +82,7 @@ def levels_about(axis: Direction | None, heights: Iterable[float]) -> list[Circl
 
 
 def gamma_columns(gamma: Array) -> Columns:
-    """The columns of a track, γ (n, 3) along a motion."""
+    """Return the columns of a track, γ (n, 3) along a motion."""
     return {f"g{i + 1}": column(gamma[:, i]) for i in range(3)}
 
 
@@ -135,7 +135,7 @@ class Sphere(Picture[S]):
 
 
 def along_the_orbit(axis: Callable[[S], Direction | None], circles: Callable[[S], Sequence[Circle]]) -> Sphere[S]:
-    """The vertical along the track "orbit", and the axis of the centre of mass, where there is a field."""
+    """Return the vertical along the track "orbit", and the axis of the centre of mass, where there is a field."""
     return Sphere(
         looks={"orbit": "orbit"},
         axis=axis,
@@ -148,7 +148,7 @@ def along_the_orbit(axis: Callable[[S], Direction | None], circles: Callable[[S]
 
 
 def drawn(axis: Direction | None, circles: Sequence[Circle], marks: Sequence[Mark]) -> Columns:
-    """The columns of what a sphere shows besides tracks."""
+    """Return the columns of what a sphere shows besides tracks."""
     return {
         "axis": [] if axis is None else [float(x) for x in axis.along],
         "label": "" if axis is None else axis.label,

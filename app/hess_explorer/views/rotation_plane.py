@@ -67,7 +67,7 @@ def grids(values: TorusValues, cells: tuple[int, int], x: Range, y: Range) -> tu
 
 @lru_cache(64)
 def _upper(x: Range) -> Array:
-    """The bifurcation curve (n, 2) with f ≥ 0, as far as it is in a window, which stays while a changes."""
+    """Return the bifurcation curve (n, 2) with f ≥ 0, as far as it is in a window, which stays while a changes."""
     energies = np.linspace(max(x[0], -1.0), x[1], _ON_EDGE)
     return frozen(np.array([[h, f_max(h) if h > -1.0 else 0.0] for h in energies.tolist()]))
 
@@ -137,7 +137,7 @@ def layers(
 
 
 def across(x_axis: Range, y_axis: Range, x: float | None, y: float | None) -> list[Array]:
-    """The line of this x, or else of this y, through the window, if it is in sight."""
+    """Return the line of this x, or else of this y, through the window, if it is in sight."""
     if x is not None and x_axis[0] <= x <= x_axis[1]:
         return [np.array([[x, y_axis[0]], [x, y_axis[1]]])]
     if y is not None and y_axis[0] <= y <= y_axis[1]:

@@ -55,7 +55,7 @@ def about(density: Array) -> Caption:
 
 
 def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
-    """The density (n, m) relative to an even one, or why there is none; the track "orbit" on the torus."""
+    """Return the density (n, m) relative to an even one, or why there is none; the track "orbit" on the torus."""
 
     def caption(state: S) -> Caption:
         found, reason = density(state)

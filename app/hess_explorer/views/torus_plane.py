@@ -60,7 +60,7 @@ def phases_at_returns(track: Track, theta: CircleMap, iterates: Array) -> Array:
 
 
 def track_columns(track: Track, **more: Array) -> Columns:
-    """The columns of an orbit, and further ones for the player."""
+    """Return the columns of an orbit, and further ones for the player."""
     return velocity_columns(track.times, track.omega, track.gamma, phi=track.phi, **more)
 
 

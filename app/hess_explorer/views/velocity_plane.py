@@ -91,7 +91,7 @@ def picture(
     title: str = "Angular velocity (ω₁, ω₂)",
     on_click: Callable[[S, float, float], Values] | None = None,
 ) -> Plot[S]:
-    """The plane about 0, in which the moving point follows the orbit."""
+    """Return the plane about 0, in which the moving point follows the orbit."""
     return Plot(
         name="omega",
         title=title,
@@ -106,7 +106,7 @@ def picture(
 
 
 def orbit(label: str) -> Layer[S]:
-    """The track of the orbit, bold."""
+    """Return the track of the orbit, bold."""
     return line("orbit", track="orbit", columns=("omega1", "omega2"), color=theme.ORBIT, width=2.5, label=label)
 
 
@@ -121,14 +121,14 @@ def orbit_alone(
     proved: Callable[[S], Regions],
     label: str = "",
 ) -> Plot[S]:
-    """The plane with nothing but the track of the orbit, which has this energy, and where the true one is."""
+    """Return the plane with nothing but the track of the orbit, which has this energy, and where the true one is."""
     return picture(
         lambda s: Caption("The chosen orbit.", f"E = {digits(energy(s))}."), half_width, (band(proved), orbit(label))
     )
 
 
 def nice_above(value: float) -> float:
-    """The next of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten."""
+    """Return the next of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten."""
     power = 10.0 ** np.floor(np.log10(value))
     return float(power * next(step for step in (1, 1.5, 2, 3, 4, 5, 6, 8, 10) if step * power >= value * (1 - 1e-12)))
 
@@ -149,7 +149,7 @@ def about_origin(half_width: Callable[[S], float]) -> Callable[[S], Range]:
 
 
 def frame(half_width: float) -> Frame:
-    """The plane with its axes, for comparisons."""
+    """Return the plane with its axes, for comparisons."""
     return Frame(Axes(centred(half_width), centred(half_width)), ("ω₁", "ω₂"))
 
 
@@ -178,7 +178,7 @@ def beside(inner: Array, outer: Array, half_width: float) -> Array:
 def halves(
     stable: Callable[[S, Axes], Array], unstable: Callable[[S, Axes], Array], labels: tuple[str, str]
 ) -> Layers[S]:
-    """The stable and the unstable half of the line of equilibria, (2, 2) each, from one end to the other."""
+    """Return the stable and the unstable half of the line of equilibria, (2, 2) each, from one end to the other."""
     return (
         line("stable", within=lambda s, axes: stable(s, axes).T, color=theme.STABLE, width=3, label=labels[0]),
         line(

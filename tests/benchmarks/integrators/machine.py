@@ -1,4 +1,4 @@
-"""What the figures depend on: the day, the machine, the versions."""
+"""Describe the conditions of a run: the day, the machine and the versions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Errors and times: every setting once, the cheapest that keeps each error asked for, and these timed in turn."""
+"""Errors and times: run every setting once, find the cheapest one for each target error, and time these in turn."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class MethodSample:
 
 @dataclass(frozen=True)
 class Timing:
-    """Of one run in the race: minimum and median in seconds, and how many runs there were."""
+    """Timing of one method in the race: minimum and median in seconds, and the number of runs."""
 
     minimum: float
     median: float
@@ -63,7 +63,7 @@ def cheapest(samples: Iterable[MethodSample], target: float) -> MethodSample | N
 
 
 def climb(work: Workload, method: Method, effort: Effort) -> tuple[list[MethodSample], list[str]]:
-    """One sample for each setting, and a sentence for each that was left out because it would take too long."""
+    """Return one sample per setting, and a message for each setting that was skipped as too slow."""
     samples: list[MethodSample] = []
     notes: list[str] = []
     spent = 0.0

@@ -1,4 +1,4 @@
-"""What takes part in the benchmark: one way to do the works, at settings from coarse to fine."""
+"""A method in the benchmark: one way to integrate the test problems, at settings from coarse to fine."""
 
 from __future__ import annotations
 

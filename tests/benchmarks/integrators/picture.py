@@ -13,7 +13,7 @@ __all__ = ["draw"]
 
 
 def _frontier(samples: Sequence[MethodSample]) -> list[MethodSample]:
-    """Those that no other sample beats in both time and error, from the fastest."""
+    """Return the Pareto-optimal samples in time and error, from the fastest."""
     kept: list[MethodSample] = []
     for sample in sorted(samples, key=lambda sample: (sample.seconds, sample.error)):
         if math.isfinite(sample.error) and (not kept or sample.error < kept[-1].error):

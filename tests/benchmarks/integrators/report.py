@@ -31,7 +31,7 @@ class BenchmarkReport:
 
     @property
     def methods(self) -> list[str]:
-        """The names of all methods that did a work, in the order in which they came."""
+        """Return the names of all methods that solved a problem, in order of appearance."""
         return list(dict.fromkeys(name for one in self.measured for name in one.samples))
 
 

@@ -20,7 +20,7 @@ __all__ = ["participants", "run"]
 
 
 def participants() -> tuple[list[Method], dict[str, str]]:
-    """This project and the peers that are here; the others with the reason."""
+    """Return this project and the installed peers; and the other peers with the reason."""
     methods, missing = [METHOD], {}
     for name in PEERS:
         try:

@@ -1,4 +1,4 @@
-"""How much faster two threads are than one."""
+"""Measure the speed-up of two threads over one."""
 
 from __future__ import annotations
 

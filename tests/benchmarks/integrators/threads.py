@@ -1,4 +1,4 @@
-"""Threads: one for every library; work is shared between threads on purpose only."""
+"""Threads: libraries use one each; only deliberate work is shared between threads."""
 
 from __future__ import annotations
 

@@ -46,12 +46,12 @@ class Row:
 
     @property
     def ratio(self) -> float:
-        """How many times as long `reference` takes as `draft`."""
+        """Ratio of the run times at `reference` and at `draft`."""
         return self.samples[-1].ms / self.samples[0].ms
 
 
 def names() -> tuple[str, ...]:
-    """The scenes that compute something at the level chosen."""
+    """Return the scenes whose computations depend on the accuracy level."""
     return tuple(name for name, scene in scenes().items() if scene.origin is None and scene.trials)
 
 
@@ -65,7 +65,7 @@ class Failed:
 
 
 def _states(scene: Scene[Any]) -> Iterator[dict[str, Value]]:
-    """What a newcomer sees, the presets, and each of these with one choice made differently."""
+    """Yield the default state, the presets, and variants of each with a single choice changed."""
     shown = [{**scene.defaults(), **values} for values in ({}, *map(scene.example, scene.presets))]
     yield from shown
     for values in shown:
@@ -75,7 +75,7 @@ def _states(scene: Scene[Any]) -> Iterator[dict[str, Value]]:
 
 
 def _example(scene: Scene[Any], trial: Trial[Any]) -> Any:
-    """The first state that shows it.  Raises `InvalidParameter`."""
+    """Return the first state that shows this computation.  Raises `InvalidParameter`."""
     for values in _states(scene):
         state = bare(scene.of(values))
         if trial.shown(state):
@@ -107,7 +107,7 @@ def trade(chosen: Sequence[str], repeats: int, progress: Callable[[str], None]) 
 
 
 def costliest(rows: Sequence[Row], count: int) -> list[Row]:
-    """Those that take longest at `reference`, the longest first."""
+    """Return the rows that take longest at `reference`, the longest first."""
     return sorted(rows, key=lambda row: -row.samples[-1].ms)[:count]
 
 

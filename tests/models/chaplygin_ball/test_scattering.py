@@ -30,7 +30,7 @@ ROTATIONS = [
 
 
 def harmonics(result):
-    """cos θ⁺ = c0 + c1 cos(φ − φ*) and what of it is left, by least squares."""
+    """Return the least-squares fit cos θ⁺ = c0 + c1 cos(φ − φ*) and its residual."""
     columns = np.stack([np.ones_like(result.phis), np.cos(result.phis), np.sin(result.phis)], axis=1)
     values = np.cos(result.theta_plus)
     (c0, c, s), *_ = np.linalg.lstsq(columns, values, rcond=None)

@@ -1,4 +1,4 @@
-"""The section of the ball with a field: its coordinates, its points, and what the examples of the scene are."""
+"""The section of the ball with a field: its coordinates, its points, and the claims of the scene's examples."""
 
 import math
 
@@ -269,7 +269,7 @@ def test_all_starts_end_in_one_set(name, most, least):
 
 
 def divergence(body, y):
-    """Of the field at states y (5, n), by differences."""
+    """Return the divergence of the field at states y (5, n), by finite differences."""
     step = 1e-5 * np.eye(5)[:, :, None]
     return sum(
         (

@@ -1,4 +1,4 @@
-"""Rotation numbers of orbits whose rotation number is known: turned by hand, in another angle."""
+"""Rotation numbers of orbits with known ones: explicit rotations, seen in another angle."""
 
 from __future__ import annotations
 

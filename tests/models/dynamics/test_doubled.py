@@ -1,4 +1,4 @@
-"""Orbits with 31 digits against decimals, of which more are computed."""
+"""Orbits with 31 digits against decimal arithmetic with more digits."""
 
 import decimal
 import sys

@@ -1,4 +1,4 @@
-"""Many orbits at once are the orbits one by one: for every registered system, on any number of threads."""
+"""Ensembles equal single orbits: for every registered system, on any number of threads."""
 
 import re
 import sys
@@ -40,7 +40,7 @@ def truth(system, count, times):
 
 
 def unit_of(system, states, parameters):
-    """What a promise in units in which the fastest orbit has ω = 1 is worth: for ω more than for γ."""
+    """Return the unit of the error bound per variable; bounds hold in units where the fastest orbit has ω = 1."""
     nu = max(system.frequency(state, np.array(parameters)) for state in np.array(states))
     return np.where(np.arange(len(system.variables)) < system.angular_velocities, nu, 1.0)
 

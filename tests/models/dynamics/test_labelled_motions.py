@@ -1,4 +1,4 @@
-"""`regime` on motions of known kind: by a theorem or other integrations, see `oracle/make_labelled_motions.py`."""
+"""Kinds found by `regime` for motions labelled by theorems or integrations; see `oracle/make_labelled_motions.py`."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ UNDECIDED = {"UNDECIDED", "NO_RETURN", "SETTLING"}
 
 
 def section(system, parameters):
-    """The return map of a row: its parameters have the names of the options of the command `regime`."""
+    """Return the return map of a row, whose parameters are named like the options of the command `regime`."""
     match system:
         case "suslov":
             return return_map(SuslovBody(*parameters["I"], *parameters["b"]), E=parameters["E"])

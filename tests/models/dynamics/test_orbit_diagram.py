@@ -1,4 +1,4 @@
-"""Orbit diagrams of maps whose periods, doublings and hysteresis are known, and of sections."""
+"""Orbit diagrams of sections, and of maps with known periods, doublings and hysteresis."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Periodic orbits of maps with known ones: places, multipliers, types, errors, and what is said where there is none."""
+"""Periodic orbits of maps with known ones: places, multipliers, types, errors, and messages where none is found."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Distances of sets of places that are known: circles, intervals, one set twice."""
+"""Distances between known sets of places: circles, intervals, and a set and itself."""
 
 from __future__ import annotations
 

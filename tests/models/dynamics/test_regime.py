@@ -1,4 +1,4 @@
-"""Kinds of motions and of dynamics that are known by other means: Möbius matrix, integrable cases, long runs."""
+"""Kinds of motions and dynamics known by other means: Möbius matrix, integrable cases, long runs."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ def test_a_slow_motion_is_followed_until_it_returns():
 
 
 def test_the_time_of_a_return_is_waited_for_as_long_as_its_place(monkeypatch):
-    """Newton's method gives up earlier: it tries many places."""
+    """Newton's method gives up earlier, since it tries many places."""
     P = return_map(QuarticBody(1.3, 1.3, 1.0, 0.999))
     monkeypatch.setattr(return_map_module, "_LONGEST", 1.0)
     with pytest.raises(NoReturn):

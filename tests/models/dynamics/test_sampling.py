@@ -1,4 +1,4 @@
-"""Samples of an orbit: few, and so placed that straight lines between them look like the curve, at every time."""
+"""Samples of an orbit: few, but dense enough that the polyline looks like the curve at every time."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ ALMOST = 1.15
 
 
 def half_width(body, h):
-    """Of the frame of the scene's (ω1, ω2)-plane."""
+    """Return the half width of the frame of the scene's (ω1, ω2)-plane."""
     return SuslovHess(I22=body.I22, I23=body.I23, b3=body.b3, h=h).half_width
 
 
 def farthest(times, states, solution, at, weights):
-    """How far the polyline through samples lies from the curve at these times, the larger of the two pictures."""
+    """Return the largest distance between curve and polyline at these times, over both pictures."""
     chords = np.transpose([np.interp(at, times, column) for column in states.T])
     apart = (solution(at) - chords) * weights
     return max(np.linalg.norm(apart[:, :2], axis=1).max(), np.linalg.norm(apart[:, 2:], axis=1).max())

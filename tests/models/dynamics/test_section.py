@@ -1,4 +1,4 @@
-"""Crossings of a plane: all of them, each once, in the right place, for every registered system."""
+"""Crossings of a plane: each found once and in the right place, for every registered system."""
 
 import math
 import sys
@@ -35,7 +35,7 @@ PENDULA = {
 
 @pytest.fixture(scope="module", autouse=True)
 def compiled_kernels():
-    """What takes long from here on is not the compiler."""
+    """Compile all kernels first, so that time limits exclude the compiler."""
     for system in SYSTEMS.values():
         example_section(system)
 

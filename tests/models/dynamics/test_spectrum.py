@@ -1,4 +1,4 @@
-"""All exponents and MEGNO: known spectra, the divergence of a hundred bodies, what is forced to be 0 or a pair."""
+"""All exponents and MEGNO: known spectra, the divergence of a hundred bodies, exponents that are 0 or paired."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Conformance: what holds for every registered system, and the symmetries each one has."""
+"""Conformance: properties of every registered system, and the symmetries of each."""
 
 import re
 import sys
@@ -52,7 +52,7 @@ def taylor_by_kernel(system, y, p, order):
 
 
 def scaled(system, nu):
-    """What multiplies each variable when time is measured in units ν times shorter."""
+    """Return the factor of each variable when the unit of time becomes ν times shorter."""
     return np.where(np.arange(len(system.variables)) < system.angular_velocities, nu, 1.0)
 
 

@@ -1,4 +1,4 @@
-"""Tubes: the motion to many digits lies inside, of every system; orbits are judged by them."""
+"""Tubes of every system enclose the motion computed to many digits; orbits are checked against them."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def test_the_motion_to_thirty_digits_lies_in_its_tube(name, sign):
 
 @pytest.mark.parametrize("name", sample(["suslov", "ball"], 1))
 def test_a_long_motion_lies_in_its_tube(name):
-    """Where radii have grown by more than the digits that are asked for; by decimals, backward in time."""
+    """The tube's radii exceed the requested digits; checked in decimal arithmetic, backward in time."""
     system = systems()[name]
     state, parameters = system.example
     found = tube(system.at(parameters), state, [-6.0, -12.0], digits=15)
@@ -57,7 +57,7 @@ def test_a_long_motion_lies_in_its_tube(name):
 
 
 def test_where_work_is_scarce_the_longest_tube_is_kept():
-    """More bits would make the whole way, which nobody pays for: the tube is as long as with few, or longer."""
+    """More bits would reach the end but exceed the budget: the tube is at least as long as with few bits."""
     system = systems()["suslov"]
     times = np.linspace(0.0, 60.0, 61)
     short = [tube(*system.example_motion, times, digits=15, most_work=work) for work in (1e5, 3e5)]
@@ -175,7 +175,7 @@ def test_steps_that_are_refused_cost_as_much_as_others(monkeypatch):
     radius = _Walk._radius
 
     def refusing(self, along, length, sign):
-        """Every first try of a step is refused."""
+        """Refuse the first attempt of every step."""
         tried.append(length)
         return None if len(tried) % 2 else radius(self, along, length, sign)
 

@@ -1,4 +1,4 @@
-"""Speed against accuracy on one motion: true errors, measured costs, and words that say what the numbers say."""
+"""Speed against accuracy on one motion: true errors, measured costs, and words that agree with the numbers."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ every_preset = pytest.mark.parametrize("values", PRESETS.values(), ids=PRESETS)
 
 
 def asked(motion):
-    """How a motion is asked for, without the weights."""
+    """Return the definition of a motion, without the weights."""
     return motion.system.name, motion.state, motion.parameters, motion.span
 
 
@@ -252,7 +252,7 @@ def test_the_methods_of_scipy_are_left_out_beyond_150_times_the_shortest_period(
 
 
 def test_the_methods_of_scipy_are_left_out_where_the_motion_needs_many_steps():
-    """A body so slender that the shortest period does not tell how hard its motion is."""
+    """For so slender a body the shortest period does not predict the number of steps."""
     motion = HESS.of({**HESS.defaults(), "I22": 1.1, "I23": 107.0, "h": 5e5, "f": -2.2}).motion()
     longest = 149.0 / unit_of(motion)
     steps = {
@@ -326,7 +326,7 @@ def made_up(pixels, error=1e-5, drifts=(1e-6, 2e-7, 3e-8)):
 
 
 def study(accuracy="standard", motion=MOTION, points=WORK, errors=None):
-    """A state of the scene with results that are made up, and what is drawn of them."""
+    """Return a state of the scene with made-up results, and its drawn data."""
     seen = ACCURACY.pictures if errors is not None else ("precision",)
     state = ACCURACY.of({**ACCURACY.defaults(), "accuracy": accuracy}, seen)
     vars(state.precision).update(followed=motion, measured=points, **({} if errors is None else {"growing": errors}))

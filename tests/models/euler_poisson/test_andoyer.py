@@ -395,7 +395,7 @@ def test_the_layers_of_a_picture_are_the_same_on_one_thread_and_on_two():
 
 
 def test_points_of_a_picture_are_the_crossings_of_the_orbit_one_after_the_other():
-    """They are found in parts; the seams show neither a gap nor a point twice."""
+    """Points are computed in parts; no point is missing or repeated where two parts meet."""
     start = AndoyerSection(RIS, 0.0, 0.0).spread(WHOLE, 1)
     points = AndoyerSection(RIS, 0.0, 0.0).points(start, 100, PRECISE).states[0]
     exact = section(RIS, start[0], AndoyerPlane(0.0), AndoyerSection(RIS, 0.0, 0.0).time_for(100), PRECISE, 100)

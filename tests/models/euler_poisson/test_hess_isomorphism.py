@@ -1,4 +1,4 @@
-"""The Hess manifold of Euler–Poisson is the Suslov–Hess case, whatever the signs; and orbits leave it."""
+"""The Hess manifold of Euler–Poisson is the Suslov–Hess case for all signs; and orbits leave it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The separatrices of the Hess manifold: unsplit in the Hess case; how fast they part, against Melnikov's integral."""
+"""Separatrices of the Hess manifold: unsplit in the Hess case; their splitting against Melnikov's integral."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TORI = [HessTorus((1.0, 0.625, 0.375), 9.975, 50.0, 5.0), HessTorus((1.0, 1.5, 2
 
 
 def melnikov(torus, l):
-    """d split/dε at ε = 0: ∫ of what drives (r, M) off 0 along the unsplit separatrix, with the growth off it.
+    """d split/dε at ε = 0: ∫ of the perturbation of (r, M) along the unsplit separatrix, with the transverse growth.
 
     With u = (r, M), |r| = 1, u' = (r, M × A r) u − μ γ2 ε to first order, as dr/dε = (−r3, 0, r1); u of the unstable
     manifold is bounded in the past, that of the stable one in the future.

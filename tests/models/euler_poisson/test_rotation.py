@@ -1,4 +1,4 @@
-"""Rotation numbers along a line of the section: which orbits have one, and which do not go round."""
+"""Rotation numbers along a line of the section: orbits that have one, and orbits that do not rotate."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the levels mean for each kind of computation."""
+"""Effect of the accuracy levels on each kind of computation."""
 
 import dataclasses
 from itertools import pairwise
@@ -31,7 +31,7 @@ def test_a_finer_level_is_never_less_exact_shorter_or_coarser(kind):
 
 @every_kind
 def test_standard_computes_all_that_is_asked_for(kind):
-    """Who chooses 200 crossings gets 200: only the draft leaves some out."""
+    """A request for 200 crossings returns 200; only `draft` computes fewer."""
     for name in ("standard", "precise", "reference"):
         assert PLANS[kind][name].share == 1.0
 
@@ -83,7 +83,7 @@ def test_the_cheapest_level_is_the_first_that_promises_an_error(error, name):
 
 @pytest.mark.parametrize("name", [*LEVELS])
 def test_no_run_is_measured_by_one_that_takes_the_same_steps(name):
-    """Down to the floor and against what measures that: another order, or a third of the tolerance at most."""
+    """Each comparison run, down to the floor, has another order or at most a third of the tolerance."""
     rung = LEVELS[name]
     for _ in range(12):
         finer = rung.tightened()

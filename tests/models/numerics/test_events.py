@@ -1,4 +1,4 @@
-"""The search for the roots of one step's polynomial: none lost, none doubled, each to round-off."""
+"""Roots of one step's polynomial: none lost, none doubled, each accurate to round-off."""
 
 from fractions import Fraction
 from math import comb
@@ -17,7 +17,7 @@ EPS = np.finfo(float).eps
 
 
 class Pieces(np.ndarray):
-    """Scratch for the pieces, which ends a search that does not end by itself."""
+    """Scratch space for the subintervals, which stops an endless search."""
 
     def __setitem__(self, place, value):
         self.written = getattr(self, "written", 0) + 1
@@ -26,9 +26,9 @@ class Pieces(np.ndarray):
 
 
 def found_roots(e, h, below=None, end=None, enough=50_000):
-    """What `roots_on_step` finds, with at most `enough` halvings; the sides of the ends are those of e unless given.
+    """Run `roots_on_step` with at most `enough` bisections; the signs at the ends default to those of e.
 
-    Uncompiled, so that a root too many is an error and not a write into someone else's memory.
+    Uncompiled, so that one root too many raises an error instead of writing outside the array.
     """
     e = np.array(e, float)
     end = value_and_slope(e, h)[0] if end is None else end
@@ -47,7 +47,7 @@ def exactly(e, s):
 
 
 def reach(e, s, h):
-    """How far from a root at s double precision lets one be found on [0, h].
+    """Bound the distance from a root s at which double precision may locate it on [0, h].
 
     Horner's rule errs by at most 2n ε Σ|e_k| h^k, coefficients multiplied out from their roots by about as much
     again; the slope turns that into a distance.  s itself is rounded, and the search may stop at 1e-16 of h.
@@ -130,7 +130,7 @@ def test_simple_roots_are_found_to_round_off(roots, others, h):
 
 @pytest.mark.parametrize("height", [1e-6, 1e-10, 1e-14])
 def test_what_is_flat_at_first_is_not_halved_away(height):
-    """s²⁰ bends by 380 at the end and by nothing at first: pieces as short as that bend asks for would be 2e5."""
+    """s²⁰ bends by 380 at the end and hardly at the start: uniform pieces for the largest bend would be 2e5."""
     e = np.zeros(21)
     e[0], e[20] = height, -1.0
     found = found_roots(e, 1.0, enough=200)

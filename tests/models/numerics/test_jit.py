@@ -1,4 +1,4 @@
-"""The cache of kernels: what makes it stale, whose folder it is, and that no kernel is taken for another."""
+"""The cache of kernels: invalidation, ownership of its folder, and distinct kernels for distinct functions."""
 
 import json
 import os

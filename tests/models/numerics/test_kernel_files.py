@@ -1,4 +1,4 @@
-"""Faults of the files of compiled kernels: what cannot be read or written is compiled anew, and the result is right."""
+"""Damaged kernel files: kernels that cannot be read or written are recompiled, and results stay right."""
 
 import json
 import os
@@ -38,12 +38,12 @@ def files(kernels):
 
 
 def read(kernel):
-    """How many kernels were read from disk."""
+    """Return the number of kernels loaded from disk."""
     return sum(kernel.stats.cache_hits.values())
 
 
 def filled(kernels):
-    """Compile it, and make sure that the next one is read."""
+    """Compile the kernel, and check that the next process reads it."""
     first = kernels()
     assert (first(1.5), read(first)) == (4.0, 0)
     again = kernels()
@@ -84,7 +84,7 @@ def test_a_foreign_file_is_replaced(kernels, which, foreign):
 
 
 def test_a_kernel_for_other_arguments_is_never_called(kernels):
-    """As two processes can leave it that wrote at once: the index names the file of the other."""
+    """Two processes that write at once can leave this behind: the index names the other's file."""
     kernel = kernels()
     assert (kernel(1.5), kernel(10**15)) == (4.0, 2 * 10**15 + 1)
     _, (one, other) = files(kernels)
@@ -157,7 +157,7 @@ def process(folder, *arguments):
 
 
 def ended(running):
-    """The last thing that a process says, which ends well and has nothing to complain of."""
+    """Assert that a process exits successfully without warnings; return its last line of output."""
     out, err = running.communicate(timeout=300)
     assert (running.returncode, err) == (0, "")
     return json.loads(out.splitlines()[-1])

@@ -1,4 +1,4 @@
-"""Traced fields: what is derived is the field itself, exactly; and what cannot be traced is refused."""
+"""Traced fields: the derived code equals the field exactly, and untraceable fields are refused."""
 
 import math
 from fractions import Fraction
@@ -62,7 +62,7 @@ def coefficients(recursion, y, p, order, number=float):
 
 
 def assert_reproduced(field, variables, parameters):
-    """The products and what is linear in them are the field, as rational functions of all symbols."""
+    """Assert that products and linear terms reproduce the field, as rational functions of all symbols."""
     y, p = sympy.symbols(f"y:{variables}"), sympy.symbols(f"p:{parameters}")
     found = coefficients(trace(field, variables, parameters), y, p, 1, sympy.Rational)[1]
     for one, rate in zip(found, field(y, p), strict=True):

@@ -1,7 +1,4 @@
-"""The attitude of a body: orthonormal, against SciPy's rotations, and the loxodromic pendulum against closed forms.
-
-`python tests/test_attitude.py` prints the errors of the extreme cases, for the README.
-"""
+"""Attitude of a body: orthonormal, and against SciPy's rotations; the loxodromic pendulum against closed forms."""
 
 from __future__ import annotations
 

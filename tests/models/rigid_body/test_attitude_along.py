@@ -24,7 +24,7 @@ MOTIONS = {
 
 
 def along(system, parameters, start, omega, span):
-    """The attitude from the samples that the pictures have."""
+    """Return the attitude from the samples that the pictures use."""
     weights = (100.0,) * (len(start) - 3) + (300.0,) * 3
     orbit = sampled_orbit(system.at(parameters), start, span, weights, level("standard"))
     return attitude_along(orbit.times, np.array([omega(y) for y in orbit.states]), orbit.states[:, -3:])

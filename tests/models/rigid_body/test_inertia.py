@@ -1,4 +1,4 @@
-"""Which tensors are rigid bodies: against point masses, and against a scan over I33."""
+"""Tensors that belong to rigid bodies: against point masses, and against a scan over I33."""
 
 import math
 

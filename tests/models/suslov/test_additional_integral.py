@@ -31,7 +31,7 @@ both_cases = pytest.mark.parametrize("case", [case for case, _ in BODIES], ids=[
 
 
 def vector(exact, w1, w2):
-    """V(ω) of the coefficients, in whatever arithmetic ω brings."""
+    """Evaluate V(ω) from the coefficients, in the arithmetic of ω."""
     k, n = exact.k, len(exact.a)
     return (
         sum(exact.a[j] * w1 ** (k - 2 * j) * w2 ** (2 * j) for j in range(n)),

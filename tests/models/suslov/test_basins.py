@@ -1,4 +1,4 @@
-"""Groups of averages, and where volume shrinks: by hand, and by SciPy from the equations written out."""
+"""Groups of averages, and volume contraction: by hand, and by SciPy from the written-out equations."""
 
 from __future__ import annotations
 

@@ -49,7 +49,7 @@ def orbit(body, state, times):
 
 
 def back(body, state, period):
-    """How far from its start the orbit is after a time."""
+    """Return the distance of the orbit from its start after one period."""
     return float(np.abs(orbit(body, state, [period]).states[0] - np.array(state)).max())
 
 

@@ -37,7 +37,7 @@ every_body = pytest.mark.parametrize("body", BODIES, ids=str)
 
 
 def starts(body, count=12, seed=0):
-    """States all over what the energy allows."""
+    """Return states that cover the region allowed by the energy."""
     rng = np.random.default_rng(seed)
     found = []
     while len(found) < count:
@@ -168,7 +168,7 @@ def test_seeds_lie_on_the_section(body):
 
 
 def lyapunov(body, y, span=150.0, pieces=150):
-    """The largest exponent, by two orbits that are brought together again and again."""
+    """Return the largest exponent, by two orbits with repeated renormalization."""
     y, d, total = np.array(y), 1e-7, 0.0
     other = y + d * np.array([0.5, -0.3, 0.2, 0.6, 0.1])
     for _ in range(pieces):

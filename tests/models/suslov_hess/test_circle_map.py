@@ -68,7 +68,7 @@ def stretch(found):
 
 
 def round_off(found):
-    """How far round-off may move Θ."""
+    """Bound the effect of round-off on Θ."""
     return 1e-14 * (1 + stretch(found))
 
 

@@ -1,4 +1,4 @@
-"""Cells of the lock zone: what is proved of all their tori holds for tori inside, and not across the boundary."""
+"""Cells of the lock zone: statements proved for a cell hold for tori inside it, and not across the boundary."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def zones():
 
 
 def around(h, f, radius):
-    """The cell with a torus in its middle."""
+    """Return the cell centred at a torus."""
     grow = math.exp(radius)
     return ZoneCell(*((x / grow, x * grow) for x in alpha_beta(turning_points(h, f).roots)))
 
@@ -61,7 +61,7 @@ def tori(rng, h_end, count):
 
 
 def statement_at(zone, h, f):
-    """Of the cells with this torus; None beyond them all."""
+    """Return the statement of the cells that contain this torus; None outside all cells."""
     place = alpha_beta(turning_points(h, f).roots)
     found = {cell.statement for cell in zone.cells if place in cell}
     return found.pop() if len(found) == 1 else None
@@ -180,7 +180,7 @@ def test_next_to_the_boundary_small_cells_are_decided_and_none_across_it(a):
 
 
 def test_of_a_strong_tilt_most_is_decided_at_once(zones):
-    """By matrices alone 60 cells decided nothing for a = 2."""
+    """With matrices alone, 60 cells left everything undecided for a = 2."""
     assert zones["2.5"].decided > 0.85
     assert lock_zone("3", 4.0, 60).decided > 0.85
 

@@ -1,4 +1,4 @@
-"""Proofs of two limit cycles, or none: held against values with many digits, and refused where anything is changed."""
+"""Proofs of two limit cycles, or none: compared with multiple-precision values; altered certificates are refused."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ STATEMENTS = {True: "two cycles", False: "no cycle"}
 
 
 def rational(number):
-    """The rational that a number of mpmath is."""
+    """Convert an mpmath number to the rational it represents."""
     mantissa, exponent = mpmath.mpf(number).man_exp
     return Fraction(mantissa) * Fraction(2) ** exponent
 
 
 def kept_maps(most):
-    """Tori, as exact rationals, and the 40-digit maps that the oracle keeps of them."""
+    """Return tori, as exact rationals, and the oracle's stored 40-digit maps of them."""
     found = []
     for question, (_, answer) in KEPT.items():
         name, *arguments = json.loads(question)
@@ -171,7 +171,7 @@ def test_what_cannot_be_proved_is_refused_with_a_sentence(torus, error, words):
 
 
 def test_the_edge_is_told_exactly_from_both_sides():
-    """Beyond the edge by 1e-60, where no double can tell, nothing moves; before it a torus; on it a circle."""
+    """Beyond the edge by 1e-60, undetectable in doubles, no motion exists; before it a torus; on it a circle."""
     h, f = Fraction(13, 8), Fraction(15, 8)
     assert (float(h), float(f)) == pytest.approx(curve_point(0.25), abs=1e-15)
     assert f_max(float(h)) == pytest.approx(float(f), abs=1e-15)
@@ -207,7 +207,7 @@ LOCKED, TURNING = ("-0.5", "1.5", "1.7"), ("0.5", "-0.3", "0.6")
 
 
 def certified(torus):
-    """Through JSON."""
+    """Return the certificate after a round trip through JSON."""
     return json.loads(json.dumps(certificate(prove(*torus))))
 
 

@@ -59,7 +59,7 @@ def off_the_line(I23, small, times):
 
 
 def harmonics_error(body, theta, h, distance, cosine, name):
-    """How far θ⁺ is from cos θ⁺ = cos χ cos θ + sin χ sin θ cos(φ − φ*), for any φ*."""
+    """Return the distance of θ⁺ from cos θ⁺ = cos χ cos θ + sin χ sin θ cos(φ − φ*), minimized over φ*."""
     found = ball_scattering(body, theta, PHASES, h, distance, level(name))
     values = np.cos(found.theta_plus)
     mean, wave = values.mean(), 2.0 * np.mean(values * np.exp(-1j * PHASES))
@@ -78,7 +78,7 @@ def a_scattering(Row, name, body, theta, h, distance, cosine, **options):
 
 
 def in_the_strip(Row, name, body, h, span, **options):
-    """How far |ω|² is outside the strip, and E from h, relative to h."""
+    """Return the distance of |ω|² from the strip, and of E from h, relative to h."""
 
     def error(name):
         states = Strip(body, h).spread(6)
@@ -203,7 +203,7 @@ def rows(Row, an_orbit, drift):
 
 
 def refusals(Refusal):
-    """What is refused."""
+    """Return the refused inputs with their errors."""
     plain, slanting = BallBody(2.0, 1.0, 0.0, 0.0, 2.0), BallBody(2.0, 1.0, 0.3, 0.5, 2.0)
     slow, heavy = BallBody(2.0, 1.0, 1e-9, 0.0, 2.0), BallBody(2.0, 1.0, 0.3, 0.5, 2.0, 0.3, -0.5, 1.0)
 

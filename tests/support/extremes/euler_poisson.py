@@ -156,7 +156,7 @@ def rows(Row, drift):
 
 
 def refusals(Refusal):
-    """What is refused."""
+    """Return the refused inputs with their errors."""
 
     def plainly(name, request, error, words):
         return Refusal(f"euler-poisson, {name}", lambda _: request(), error, words)

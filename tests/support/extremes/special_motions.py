@@ -52,7 +52,7 @@ def bridge_row(Row, name, bridge, h, share=0.3, periods=20, samples=801):
 
 
 def leak_row(Row, name, h, f, against, exact, periods=20, samples=96):
-    """How much ln |r·M| grows in a period, measured on an orbit that round-off has led away."""
+    """Return a row for the growth of ln |r·M| in a period, on an orbit that round-off has led off the level."""
     units = GESS1.in_units_of_b(h, f)
     turning = turning_points(*units)
     start = tuple(GESS1.from_reduced(GESS1.hess.from_units_of_b(turning.state_at_lower_turn(0.5))))
@@ -94,7 +94,7 @@ def pendulum_row(Row, name, span, moments=(1.0, 1.5, 2.0), h=1.5, l=0.4, mu=0.7,
 
 
 def arc_row(Row, name, body, q, p, floor=1e-12, because=""):
-    """How far from its start an orbit with b3 = 0 is after the period in closed form, ω relative to its size."""
+    """Return a row for the closure error of an orbit with b3 = 0 after its closed-form period; ω is relative."""
     start = np.array(kharlamova.state_at(body, q, p))
     arc = kharlamova.arc(body, start)
     unit = np.array([arc.rate, arc.rate, 1.0, 1.0, 1.0])

@@ -24,7 +24,7 @@ def body_of(b=1.0, I11=1.5, I22=3.0, I13=0.4, I23=0.4):
 
 
 def crossings(Row, name, body, k, E, count=3, sense=1, **options):
-    """How far the first crossings are from where a Taylor series is at their times, and that from the plane."""
+    """Return a row for the first crossings: distance from a Taylor series, and of the series from the plane."""
     start = SuslovSection(body, E, k).spread(WHOLE, 1)[0]
     nu = float(SYSTEM.frequency(np.array(start), np.array(body.parameters)))
     truth = oracle.Along(SYSTEM, start, body.parameters, 30)
@@ -41,7 +41,7 @@ def crossings(Row, name, body, k, E, count=3, sense=1, **options):
 
 
 def rotation(Row, name, a, h, f, half_trace, against, **options):
-    """ρ, the trace (of its logarithm beyond 700) and whether it locks; half_trace() is an mpmath number."""
+    """Return a row for ρ, the trace (its logarithm beyond 700) and locking; half_trace() is an mpmath number."""
     once = cache(half_trace)
 
     def error(grade):
@@ -165,7 +165,7 @@ def rows(Row):
 
 
 def refusals(Refusal):
-    """What is refused."""
+    """Return the refused inputs with their errors."""
     body = body_of()
 
     def plainly(name, request, words, error=InvalidParameter):

@@ -1,4 +1,4 @@
-"""Starts at unstable equilibria and next to them, where roundings are all that moves a motion at first."""
+"""Starts at and near unstable equilibria, where at first only rounding errors move the motion."""
 
 import math
 
