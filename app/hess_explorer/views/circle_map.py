@@ -137,7 +137,7 @@ def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array 
 def about(theta: CircleMap | None, proof: str = "") -> Caption:
     """Return the kind of a map, its trace and rotation number, and its multipliers; None on the separatrix.
 
-    proof : the proved statement, if known.  It replaces the kind and the numbers that it encloses, and the whole caption
+    proof : the proved statement, if known.  It replaces the kind and the numbers that it encloses, or the whole caption
     if it says that there is no torus.
     """
     if theta is None:
