@@ -210,7 +210,7 @@ class Kharlamova(State):
         )
 
     def half_width(self) -> float:
-        """Half width of the frame of the domain."""
+        """Return half the width of the frame of the domain."""
         return nice_above(1.08 * max(self.body.axes))
 
     def fixed_points(self, kind: float) -> list[Array]:

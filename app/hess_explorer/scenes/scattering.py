@@ -156,7 +156,7 @@ class Scattering(State):
     # ---- what the pictures show --------------------------------------------------------------------------------
 
     def grid(self) -> Array:
-        """θ⁺ over all circles and phases."""
+        """Return θ⁺ over all circles and phases."""
         cells = _FEW_CELLS if self.dragging else self.plan(Computation.MAP).grid(_CELLS)
         return self.work.get(model.theta_plus_grid, self.map, *cells)
 
