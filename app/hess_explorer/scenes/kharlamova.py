@@ -185,7 +185,7 @@ class Kharlamova(State):
 
     @cached_property
     def solid(self) -> Solid:
-        """The body along it."""
+        """The body along the orbit."""
         return constrained_solid(self.work, self.body, self.orbit)
 
     def motion(self) -> Motion:

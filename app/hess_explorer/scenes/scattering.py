@@ -150,7 +150,7 @@ class Scattering(State):
 
     @cached_property
     def solid(self) -> Solid:
-        """The body along it."""
+        """The body along the orbit."""
         return constrained_solid(self.work, self.body, self.orbit)
 
     # ---- what the pictures show --------------------------------------------------------------------------------

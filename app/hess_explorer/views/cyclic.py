@@ -31,4 +31,4 @@ def _scale() -> tuple[str, ...]:
 
 
 TURN = _scale()
-"""From −½ to just below ½, 256 colours."""
+"""256 colours from −½ to just below ½."""

@@ -65,7 +65,7 @@ class Picture(ABC, Generic[S]):
 
     @property
     def followers(self) -> Mapping[str, tuple[str, str]]:
-        """Sources of moving points → the columns of the track "orbit" that they follow."""
+        """Columns of the track "orbit" followed by each moving point, by source."""
         return {}
 
     @property

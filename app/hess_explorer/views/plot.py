@@ -66,7 +66,7 @@ class Plot(Picture[S]):
 
     @property
     def followers(self) -> Mapping[str, tuple[str, str]]:
-        """Sources of moving points → the columns of the track "orbit" that they follow."""
+        """Columns of the track "orbit" followed by each moving point, by source."""
         moving = {**({"point": self.dot} if self.dot else {}), **(self.dots or {})}
         return {f"{self.name}-{layer}": columns for layer, columns in moving.items()}
 
