@@ -27,7 +27,7 @@ from support.dockerfile import Image, instructions
 PROJECT = Path(__file__).resolve().parents[1]
 PACKAGES = "python3,python3-venv,ca-certificates"
 PATH = "/opt/python/bin:/usr/local/bin:/usr/bin:/bin:/usr/sbin"
-# How packages are reached from here: pip's settings, certificates, names of hosts.
+# Network access of this machine: pip's settings, certificates, host names.
 REACHED = (
     "/etc/pip.conf",
     "/etc/resolv.conf",

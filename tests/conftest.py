@@ -120,7 +120,7 @@ def open_page(browser, server):
             outside.append(url)
 
     def open_one(query="", size=(1600, 950), **context_options):
-        # Of a scene at rest.
+        # With the scene at rest.
         options = {"reduced_motion": "reduce", **context_options}
         context = browser.new_context(viewport={"width": size[0], "height": size[1]}, **options)
         contexts.append(context)

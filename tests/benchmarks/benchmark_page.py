@@ -92,7 +92,7 @@ async def body_frame(browser: Browser, url: str) -> tuple[float, float]:
     await page.wait_for_function(READY, timeout=60_000)
     await page.locator(".param-play").click()
     session = await page.context.new_cdp_session(page)
-    # Of the thread, not of the clock.
+    # CPU time of the thread, not wall time.
     await session.send("Performance.enable", {"timeDomain": "threadTicks"})
 
     async def busy() -> float:

@@ -85,7 +85,7 @@ def test_cells_hold_for_a_checker_that_shares_no_code_and_changed_ones_do_not(an
             with pytest.raises(Refused):
                 verify({**zone, "cells": [cell]}, halvings=2)
     assert kinds == {"two cycles", "no cycle"}
-    # Of another body the same cell is no longer proved.
+    # For another body the same cell is no longer proved.
     with pytest.raises(Refused):
         verify({**zone, "a": "0.1", "cells": [cell for cell in proved if cell["statement"] == "two cycles"][:1]})
     undecided = next(cell for cell in zone["cells"] if cell["statement"] == "undecided")

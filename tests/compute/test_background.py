@@ -133,7 +133,7 @@ def test_a_newer_choice_ends_the_older_work(gate):
     work.follow(tasks(20))
     wait_until(lambda: len(gate.calls) == THREADS)
     work.follow(tasks(3, first=100))
-    # Nothing else of the older work is begun.
+    # No other old work is started.
     gate.let(THREADS + 3)
     wait_until(lambda: work.left == 0)
     time.sleep(0.02)
@@ -458,7 +458,7 @@ def test_stop_leaves_what_is_drawn_and_says_how_much(gate):
     wait_until(lambda: browser.session.background.left == 0)
     browser.ask(1)
     state = browser.ask(1)
-    # What had begun has ended too.
+    # Work already started has ended too.
     drawn = 3
     assert state["progress"] is None
     assert browser.texts["notes"] == (f"Stopped: {drawn} of {PIECES} parts are drawn. Change a value to compute again.")
@@ -488,7 +488,7 @@ def test_what_was_stopped_is_not_begun_again_by_a_picture_that_comes_into_sight(
     assert browser.session.background.left == 0
     assert len(gate.calls) == begun
     assert browser.texts["notes"].startswith(f"Stopped: 0 of {PIECES} parts are drawn.")
-    # What is stopped while a new value is on its way is that value's work.
+    # Stop cancels the work of the new value, which is on its way.
     browser.ask(4, values={"h": 45.0})
     browser.ask(5, values={"h": 46.0}, stop=True)
     gate.let(1000)

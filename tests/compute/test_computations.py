@@ -255,7 +255,7 @@ def test_a_drag_is_computed_as_a_draft_and_again_as_chosen_when_it_ends(cache, c
     cache.take()
     for requested, h in enumerate((1.4, 1.3, 1.2), 1):
         browser.ask(requested, values={"h": h}, held=True)
-        # What depends on a alone stays, but for the finest levels, in which a drag of a would be slow.
+        # Results that depend on a alone stay, except for the finest levels, which would slow down a drag of a.
         finest = requested == 1 and chosen in ("precise", "reference")
         zones = dict.fromkeys((BOUNDARY, GRID), "standard") if finest else {}
         assert cache.levels() == {**dict.fromkeys(MOTION, "draft"), **zones}
@@ -416,7 +416,7 @@ def test_what_was_hidden_is_of_the_present_state_when_it_is_seen_again(scene, va
         board.show(compute(scene, scene.defaults()))
         hidden = board.show(compute(scene, values, seen))
         assert hidden.status
-        # What follows from results that nobody asks for is not derived either.
+        # Results derived from unused results are not computed either.
         assert set(hidden.derived) <= set(report.derived)
         board.show(compute(scene, values))
         assert contents(board.sources) == expected, seen

@@ -34,7 +34,7 @@ def test_a_session_does_one_thing_at_a_time_in_order_and_elsewhere():
     def work(n):
         begun.append(n)
         assert threading.current_thread().name.startswith("request")
-        # Nothing of this session was begun before the one before it ended.
+        # This session starts nothing before its previous request has ended.
         assert begun == [*done, n]
         done.append(n)
         if n == 9:
@@ -94,7 +94,7 @@ def test_turns_are_fair_in_seconds_and_not_in_number(monkeypatch):
         assert everything.acquire(timeout=PATIENCE)
     # One of the dear things may come before the cheap ones: until then it has cost nothing.
     assert done[-2:] == ["dear", "dear"]
-    # Who comes later has no more claim than who waits, and the dear one is served where nobody else asks.
+    # Later requests have no priority over waiting ones; the expensive one runs when no other is waiting.
     assert done.count("cheap") == 20
 
 

@@ -48,7 +48,7 @@ def test_the_shading_is_that_of_the_surface_that_is_seen_and_no_other():
     side = 64
     colours, width, height = solid.shaded(AXES, SEMI, ("#FF0000", "#0000FF"), side)
     points = on_surface(200_000)
-    # Of the points in each pixel, the one nearest to the eye.
+    # In each pixel, the point nearest to the viewer.
     columns, rows = ((points[:, i] / half + 1.0) * side / 2.0 for i, half in ((0, width), (1, height)))
     assert max(columns.max(), rows.max()) <= side * (1.0 + 1e-9)
     order = np.argsort(points[:, 2])

@@ -250,7 +250,7 @@ def test_a_number_that_is_not_so_is_found():
     assert [found[0] for found in NUMBER.finditer("−2.187 and F_2, two cycles, n^2")] == ["−2.187", "two"]
 
 
-# What the lessons say in words.
+# Statements of the lessons in words.
 
 
 def test_for_f_0_the_map_is_the_same_at_every_energy_over_the_separatrix():

@@ -49,7 +49,7 @@ def test_a_lesson_is_read_as_it_is_written():
     assert second.at == guess.then
 
 
-# What is written instead → the line of the mistake, and what its sentence says.
+# Faulty text → the line of the mistake, and part of its message.
 MISTAKES = [
     ("title: Two cycles are born\n", "", 1, "no title"),
     ("minutes: 10", "minutes: soon", 1, "like minutes: 20"),

@@ -247,7 +247,7 @@ def test_the_error_of_a_map_of_rotation_numbers_is_that_of_nearly_all_its_cells(
         estimate = rows_error("h, f", torus, window, level)
         assert np.mean(away <= 10.0 * estimate) >= 0.99
         assert np.quantile(away, 0.99) > 1e-3 * estimate
-    # Nothing moves below h = −1.
+    # No motion exists below h = −1.
     assert rows_error("h, f", torus, ((-3.0, -2.0), (0.0, 1.0)), level) == 0.0
 
 

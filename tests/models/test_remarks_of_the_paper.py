@@ -59,7 +59,7 @@ def test_without_a_field_the_solution_of_the_paper_is_one_and_w1_a_repels_it():
         sp.simplify(one.subs(B, 0).subs(on_it, simultaneous=True)) for one in HESS.integrals(STATE, (A, B)).values()
     )
     assert [sp.simplify(E - W1**2 / 2), F1, sp.simplify(F2 - W1 * sp.cos(theta))] == [0, 1, 0]
-    # What is next to it has w2 ~ e^{a w1 t}.
+    # Neighbouring motions have w2 ~ e^{a w1 t}.
     assert sp.diff(V[1].subs(B, 0), W2) == A * W1
 
 
@@ -318,7 +318,7 @@ def test_the_body_is_a_sleigh_on_a_sphere_and_its_track_that_of_the_sleigh_as_th
         end = solve_ivp(body, (0.0, 8.0), [omega, v / rho, *np.eye(3).ravel()], "DOP853", rtol=1e-13, atol=1e-15).y[
             2:, -1
         ]
-        # Where the first axis of the body points: on a sphere of this radius, seen from outside at its start.
+        # Direction of the body's first axis: on a sphere of this radius, seen from outside at its start.
         place = rho * end.reshape(3, 3)[:, 0]
         off.append(math.hypot(-place[2] - x, place[1] - y))
     assert off[0] < 0.05

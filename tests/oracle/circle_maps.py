@@ -98,7 +98,7 @@ def moebius_map_through(images):
     for phi, theta in zip(THREE_PHASES, images, strict=True):
         less, more = (phi - theta) / 2, (phi + theta) / 2
         lines.append([mpmath.sin(less), mpmath.cos(less), -mpmath.sin(more), mpmath.cos(more)])
-    # What is orthogonal to three vectors in four dimensions: their minors.
+    # The vector orthogonal to three vectors in four dimensions: their minors.
     minors = [(-1) ** j * mpmath.det(mpmath.matrix([line[:j] + line[j + 1 :] for line in lines])) for j in range(4)]
     A, B = mpmath.mpc(*minors[:2]), mpmath.mpc(*minors[2:])
     size = mpmath.sqrt(abs(A) ** 2 - abs(B) ** 2)

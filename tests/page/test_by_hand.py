@@ -38,7 +38,7 @@ BLUR = """() => {
 
 def pictures(explorer):
     """All pictures with their captions as they are on the screen, as RGB."""
-    # What comes later has come.
+    # Later results have arrived.
     expect(
         explorer.page.locator(".gallery:not(.away) .caption").filter(
             has_text=re.compile(r"Measured so far|Not compared yet|being computed")
@@ -58,7 +58,7 @@ def assert_same_by_link(explorer, artefacts, name):
     by_link = pictures(explorer.goto(address))
     assert by_hand.size == by_link.size, address
     apart = np.abs(np.asarray(by_hand, int) - np.asarray(by_link, int)).max(axis=2)
-    # Where two edges meet on a canvas the browser rounds by one step of 255, which nobody sees.
+    # Where two edges meet on a canvas the browser rounds by one step of 255, which is invisible.
     apart[apart == 1] = 0
     if apart.any():
         by_hand.save(artefacts / f"{name}-by-hand.png")

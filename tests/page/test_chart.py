@@ -48,7 +48,7 @@ def test_a_chart_from_its_start_to_its_file(explorer, tmp_path):
     explorer.picture("bifurcation").hover()
     page.get_by_role("button", name="Chart").click()
     panel = page.get_by_role("dialog", name="Chart")
-    # What the picture under the mouse shows, over its axes.
+    # The default is the quantity of the picture under the mouse, over its axes.
     assert panel.locator(".param-quantity").input_value() == "rotation-number"
     assert (panel.locator(".param-x").input_value(), panel.locator(".param-y").input_value()) == ("h", "f")
     _, x1, y0, _ = explorer.axes("bifurcation")
@@ -82,7 +82,7 @@ def test_a_chart_from_its_start_to_its_file(explorer, tmp_path):
         )
     explorer.change(lambda: page.locator(".param-undo").click())
     assert explorer.link() == before
-    # Where nothing is possible the server says so.
+    # The server reports places where no motion is possible.
     canvas.focus()
     page.keyboard.press("Escape")
     assert not panel.is_visible()
@@ -118,7 +118,7 @@ def test_a_chart_from_its_start_to_its_file(explorer, tmp_path):
     expect(button).to_have_text("Chart")
     _, _, _, status = numbers(saved(page, panel)[0])
     assert (status == 0).any() and (status > 0).any()
-    # What was kept is shown again, here too; a click leads to its scene.
+    # A saved chart is shown again, here too; a click opens its scene.
     panel.locator("input[type=file]").set_input_files(path)
     expect(said).to_have_text("61 × 61, standard accuracy. ")
     assert numbers(saved(page, panel)[0])[0] == file

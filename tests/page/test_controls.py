@@ -16,7 +16,7 @@ from support.page import DEFAULTS, FIND, MOMENT, POINTS, SLIDERS, wait_frames, w
 from support.painted import yellow
 from support.suslov_hess import assert_orbit, exact_states, rounding
 
-# Where each slider ends at the default state; f at the last hundredth inside the region.
+# Final positions of the sliders from the default state; f at the last hundredth inside the region.
 ENDS = {
     "I22": (0.2, 3.0),
     "I23": (-2.0, 2.0),
@@ -56,7 +56,7 @@ def test_a_slider_reaches_its_ends_and_no_further(explorer, name):
         assert explorer.shown(name)[0] == pytest.approx(end, abs=1e-9)
         slider.press("ArrowRight" if key == "End" else "ArrowLeft")
         assert explorer.shown(name)[0] == pytest.approx(end, abs=1e-9)
-    # What cannot be kept within reach of the other numbers is noted, and f alone depends on another.
+    # Corrections that keep a number compatible with the others are noted; only f depends on another number.
     admitted = {**DEFAULTS, name: ENDS[name][0]}
     admitted["f"] = max(min(admitted["f"], f_max(admitted["h"])), -f_max(admitted["h"]))
     assert_orbit(explorer, admitted)
@@ -117,7 +117,7 @@ def test_a_box_is_read_when_it_is_left_too(explorer):
 def test_what_is_not_a_number_is_marked_and_changes_nothing(explorer):
     for text in ("abc", "", "<b>2</b>", "1/0"):
         explorer.type("h", text)
-        # What is no plain number is read by the server.
+        # The server parses everything that is not a plain number.
         explorer.page.locator(".param-h .exact[aria-invalid=true]").wait_for()
         assert (
             explorer.box("h")

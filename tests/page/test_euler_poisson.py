@@ -47,7 +47,7 @@ def page(tab):
 
 
 def shown_points(explorer):
-    # What has never held anything is not sent.
+    # Sources that have never held data are not sent.
     return sum(len(explorer.data(f"section-{layer}").get("x", ())) for layer in ("first", "second"))
 
 
@@ -66,13 +66,13 @@ def drawn(explorer, name):
 # --- Examples ----------------------------------------------------------------------------------------
 
 
-# Of each kind one; the numbers of all are checked without a browser.  Others on a figure differ in h and f alone.
+# One of each kind; the numbers of all are checked without a browser.  Others on a figure differ in h and f alone.
 SHOWN = [EP.presets[i] for i in (0, 1, 2, 6, 9, 12, 16)]
 
 
 @pytest.mark.parametrize("preset", sample(SHOWN, 4), ids=lambda preset: preset.name)
 def test_an_example_is_drawn_with_the_numbers_of_its_captions(page, preset):
-    # What another scene left may have been refused, and a note says so.
+    # The state of the previous scene may have been corrected, with a note.
     if page.page.url == "about:blank" or page.scene != EP.name or page.text("notes"):
         brought(page, EP)
     if page.chosen("preset") != preset.name:
@@ -232,7 +232,7 @@ def test_a_long_section_fills_and_can_be_stopped(long_section, gate, how, h):
         box.locator("button").click()
     else:
         page.page.keyboard.press("Escape")
-    # What has begun is still drawn.
+    # Pieces already started are still drawn.
     gate.unlink()
     page.page.wait_for_function("document.documentElement.dataset.ready === 'true'")
     found = re.search(r"Stopped: (\d+) of (\d+) parts are drawn\.", page.text("notes"))
@@ -261,7 +261,7 @@ def test_what_is_typed_while_points_arrive_stays_in_its_box(long_section, gate):
     assert box.input_value() == "43.5"
     page.change(box.press, "Enter")
     assert values_of(page)["h"] == 43.5
-    # What was taken in is written as the server has it, in the box that still has the focus too.
+    # The box shows an accepted value as the server has it, even if it still has the focus.
     box = page.box("span")
     box.fill("1e9")
     page.change(box.press, "Enter")

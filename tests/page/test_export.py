@@ -85,7 +85,7 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer):
     assert abs(len(saved) - len(as_html(state, ["body", "omega", "sphere", "bifurcation", "circle"], origin)[1])) < 200
     assert f'<a href="{origin}?'.encode() in saved
     dialog.locator(".param-format").select_option("csv")
-    # What cannot be made is said in the dialog, and nothing is saved.
+    # The dialog reports formats that cannot be made, and nothing is saved.
     page.route("**/export?*", lambda route: route.continue_(url=route.request.url.replace("picture=body", "picture=x")))
     dialog.locator(".param-picture").select_option("body")
     dialog.get_by_role("button", name="Save file").click()

@@ -68,7 +68,7 @@ def test_undo_and_redo_go_through_all_that_was_done_and_one_drag_is_one_step(exp
     assert numbers(explorer, "h", "f") == seen[-2]
     explorer.change(lambda: explorer.slide(h=2.5))
     assert redo.is_disabled()
-    # What is being typed is the browser's to take back.
+    # The browser undoes text that is still being typed.
     explorer.box("h").fill("9")
     explorer.box("h").press("Control+z")
     assert explorer.here()[0] == pytest.approx(2.5)

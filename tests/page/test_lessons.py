@@ -16,7 +16,7 @@ from support.page import HESS, values_of
 from support.pointer import at
 
 NAME = "scattering-by-a-nonholonomic-top"
-# Whether the layers of a source are seen in a picture.
+# Visibility of a source's layers in a picture.
 SEEN = """([picture, source]) => hess.plots.find(({ model }) => model.name === picture).model.renderers
   .filter((one) => one.data_source?.name === source).map((one) => one.visible)"""
 

@@ -156,7 +156,7 @@ PARTS = (
     "h1, .param-reset, .param-share, h2.caption, .bk-Figure, canvas.sphere, canvas.solid, .player[role=group], .reader",
     ".param-scenes, .menu, .number, .text.help, .text.derived",
 )
-# Of those that are to be seen.
+# Visible ones only.
 BOXES = """items => items.filter((item) => item.checkVisibility({ visibilityProperty: true })).map((item) => {
   const { left, top, right, bottom } = item.getBoundingClientRect()
   return [item.className, left, top, right, bottom]
@@ -339,7 +339,7 @@ def test_a_picture_is_enlarged_by_its_key_or_its_corner_and_the_link_keeps_it(lo
     again = Explorer(open_page(tab.link().split("?")[1], size=SIZES["laptop"]), server)
     wait_frames(again, 4)
     assert edges(again.page) == pytest.approx(two, abs=1)
-    # What is typed into a box is for the box.
+    # Keys typed into a box go to the box.
     tab.box("h").fill("1.2")
     tab.box("h").press("2")
     assert edges(page) == two
@@ -412,7 +412,7 @@ def test_no_rule_of_wcag_is_broken(look_at, theme):
     box = tab.page.locator(".param-h input[type=text]")
     box.fill("abc")
     box.press("Enter")
-    # What is no plain number is read by the server.
+    # The server parses everything that is not a plain number.
     tab.page.locator(".param-h .exact[aria-invalid=true]").wait_for()
     assert "number" in box.evaluate("item => item.validationMessage")
     assert tab.page.locator(".text.notes").is_visible()
@@ -468,7 +468,7 @@ def test_every_control_is_reached_by_the_tab_key(look_at):
         *(f"param-{name}" for name in SLIDERS),
     }
     assert wanted <= reached, wanted - reached
-    # None is cut off by the edge of its column.
+    # No element is clipped by the edge of its column.
     right = page.locator("#controls").evaluate("item => item.getBoundingClientRect().left + item.clientWidth")
     for item in page.locator("#controls :is(select, input):visible").all():
         box = item.bounding_box()

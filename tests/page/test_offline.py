@@ -94,7 +94,7 @@ def test_a_state_plays_and_turns_from_the_disk(browser, tmp_path):
         page.keyboard.press("Space")
         stopped = time_of(page)
         assert_point(stopped)
-        # What needs a server is disabled, and says why.
+        # Controls that need a server are disabled, with the reason.
         sliders = page.locator("#controls input")
         assert sliders.count() == 7
         assert all(sliders.nth(i).is_disabled() for i in range(7))
@@ -132,7 +132,7 @@ def test_clouds_move_without_a_server_and_only_the_pictures_asked_for_are_there(
 def test_the_modules_in_the_file_name_each_other_and_nothing_else():
     modules = bundled("page/offline.js")
     assert {"page/offline.js", "page/bus.js", "pictures/sphere.js", "controls/player.js"} <= modules.keys()
-    # What speaks to the server is not among them.
+    # The modules that talk to the server are not included.
     assert not {"page/client.js", "page/requests.js", "page/websocket.js"} & modules.keys()
 
 

@@ -84,7 +84,7 @@ def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_noth
         expect(page.locator(".player[role=group]")).not_to_have_attribute("data-playing", "true")
         assert not moves(explorer)
         assert explorer.time > 0
-    # None begins twice, and a link that names a time is one to that moment.
+    # No animation starts a second time, and a link with a time opens at that time.
     explorer.change(lambda: page.evaluate("name => hess.tell('scene', name)", HESS))
     assert not explorer.playing
     explorer.open(f"scene={HESS}&t=3.5")
@@ -94,7 +94,7 @@ def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_noth
 def test_the_one_handle_says_drag_me_once_and_what_the_mouse_does_is_said_where_it_does_it(fresh_browser):
     explorer = fresh_browser(f"scene={HESS}", "reduce")
     page = explorer.page
-    # Nothing begins to move where less motion is preferred.
+    # Nothing moves by itself if the user prefers reduced motion.
     assert not explorer.playing
     # Beside the ring of the diagram.
     ring, _ = at(explorer, "bifurcation", *explorer.here())
@@ -104,12 +104,12 @@ def test_the_one_handle_says_drag_me_once_and_what_the_mouse_does_is_said_where_
     assert page.locator(".moves").inner_text() == scenes()[HESS].moves
     explorer.change(page.locator(".param-h .hand").press, "ArrowRight")
     assert page.locator(SIGN).count() == 0
-    # Of another scene it is a slider; beside its thumb.
+    # In another scene the hint is beside a slider's thumb.
     explorer.enter("scattering")
     slider, sign = explorer.slider("phi").bounding_box(), page.locator(SIGN).bounding_box()
     assert slider["y"] < sign["y"] + sign["height"] / 2 < slider["y"] + slider["height"]
     assert page.locator(".moves").inner_text() == scenes()["scattering"].moves
-    # What can be dragged, clicked, boxed, turned.
+    # Hints for dragging, clicking, drawing a box and rotating.
     for scene, picture, cursor, word in (
         ("scattering", "curve", "move", "Drag"),
         ("scattering", "body", "grab", "turns"),

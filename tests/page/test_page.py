@@ -89,7 +89,7 @@ def test_the_newest_of_fifty_changes_wins_and_none_arrives_later(explorer, pause
     )
     wait_ready(explorer.page, after=at_the_end)
     painted = explorer.state
-    # Of what came while a state was on its way only the newest is asked for; what is computed later comes in pieces.
+    # Of the changes during a request only the newest is requested; later results arrive in pieces.
     assert painted - at_the_end <= 6
     assert pause_ms > 0 or painted - before <= 6
     assert_orbit(explorer, {**DEFAULTS, "h": 2.0})
@@ -129,7 +129,7 @@ def test_an_answer_that_takes_long_is_said_to_be_under_way(with_websocket):
     wait_ready(page, after=before)
     assert sign.is_hidden()
     assert_orbit(explorer, {**DEFAULTS, "h": 0.9})
-    # What comes in time is not announced.
+    # Responses in time show no progress message.
     page.evaluate("""() => {
       window.said = []
       hess.listen("texts", ({ busy }) => { if (busy) said.push(busy) })
@@ -165,7 +165,7 @@ def test_a_page_that_has_lost_its_server_says_so_and_goes_on_in_the_same_state_w
     websocket.cut()
     sign.wait_for(state="visible")
     assert sign.inner_text().startswith("Connection to the server lost.")
-    # What is chosen now cannot be shown, and is not said to be under way.
+    # Without a connection a new value is neither shown nor announced as in progress.
     explorer.slide(h=0.9)
     page.evaluate("new Promise((done) => setTimeout(done, 600))")
     assert sign.inner_text().startswith("Connection to the server lost.")

@@ -27,7 +27,7 @@ EVERY = 20
 SOME = 1e-4
 """The share of a small patch: some ten pixels."""
 
-# Of each cloud the columns ω1, ω2, γ1, γ2, γ3.
+# The columns ω1, ω2, γ1, γ2, γ3 of each cloud.
 CLOUDS = """slider => JSON.stringify(hess.clouds(hess.source("omega"), Number(slider.value))
   .map(({ w1, w2, g1, g2, g3 }) => [w1, w2, g1, g2, g3].map((one) => Array.from(one))))"""
 DENSITY = "() => { const { x, y } = hess.source('density-now').data; return [Array.from(x), Array.from(y)] }"

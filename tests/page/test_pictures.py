@@ -207,7 +207,7 @@ class Finger:
             self.send("touchMove", (x + dx * share, y + dy * share))
             self.page.evaluate("new Promise((done) => requestAnimationFrame(done))")
         self.send("touchEnd")
-        # What scrolls is moved with the next frame.
+        # Scrolling takes effect in the next frame.
         self.page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
         return self.scrolled - scrolled
 

@@ -15,7 +15,7 @@ from hess_explorer.server.qr_code import drawing
 from support.page import HESS, WIDE, Explorer, wait_frames
 from support.thorough import sample
 
-# Nobody can answer a print dialog.
+# A print dialog cannot be answered by a test.
 NO_DIALOG = "window.printed = 0; window.print = () => { window.printed += 1 }"
 # {text of the head of each row: value}; of each picture its width, the share of its pixels that are white or light
 # grey, and how many have the blue of an orbit on a light page.
@@ -77,7 +77,7 @@ def test_a_handout_has_the_pictures_the_numbers_the_text_and_the_link_dark_on_wh
     assert min(picture["width"] for picture in found["pictures"]) >= 88 / 25.4 * 300
     printed = page.pdf(format="A4", prefer_css_page_size=True)
     assert len(re.findall(rb"/Width (?:1[01]\d\d|[2-9]\d\d\d)\b", printed)) >= len(names)
-    # Nothing of it stays, and the page is as it was.
+    # The page is restored completely.
     page.wait_for_function("document.querySelector('.handout') === null")
     wait_frames(explorer, 4)
     after = Image.open(io.BytesIO(page.screenshot())).convert("RGB")

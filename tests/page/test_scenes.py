@@ -87,7 +87,7 @@ def assert_drawn(explorer, scene, values, *pictures):
     assert seen >= set(pictures or [name for name in SCENES[scene].open_pictures if name not in {"body", "sphere"}])
 
 
-# What would grow if each change of scene left something behind.
+# These counts would grow if a change of scene leaked anything.
 HELD = """[Bokeh.documents.length, Object.keys(Bokeh.index).length, document.querySelectorAll("*").length,
   hess.plots.flatMap((plot) => [...plot.model.references()]).length]"""
 
@@ -171,7 +171,7 @@ def test_the_menu_obeys_the_keyboard_and_is_searched(explorer):
     for _ in range(5):
         keys.press("ArrowUp")
     assert page.evaluate(FOCUSED) == "search"
-    # What is typed is for the search alone.
+    # Typed text goes to the search box only.
     keys.type("f loxo 2 ")
     assert page.get_by_text("No scene matches.").is_visible()
     page.locator(".search").fill("accuracy SPEED")
@@ -252,7 +252,7 @@ def test_the_pictures_of_a_scene_are_built_while_the_mouse_rests_on_it(tab):
     assert not page.page.evaluate(built, passed)
     card(f".param-scene-{passed}").focus()
     page.page.wait_for_function(built, arg=passed)
-    # Nothing of it is seen.
+    # It is not visible.
     assert page.scene == HESS
     assert page.page.locator(".gallery:not(.away)").count() == 1
     assert_drawn(page, HESS, DEFAULTS)
@@ -442,7 +442,7 @@ def test_a_link_leads_into_a_scene(explorer):
     assert_drawn(explorer, STUDY, values)
     assert explorer.time == pytest.approx(12.5)
     assert explorer.text("notes") == ""
-    # What is drawn is the difference of two computations.
+    # The picture shows the difference of two computations.
     truth, drafted = (
         solve(body_of(values).suslov, exact_states(values, [0.0])[0], np.linspace(0.0, 60.0, 400), level(name)).states
         for name in ("reference", "draft")
@@ -584,7 +584,7 @@ def assert_refused(explorer, scene):
     assert explorer.text("derived") == ""
     for name in SCENES[scene].pictures:
         assert explorer.caption(name) == SENTENCE
-    # What is true of every state may stay.
+    # Text that is true of every state may stay.
     general = {"bifurcation-curve", "bifurcation-forbidden", "bifurcation-special"}
     for name in explorer.page.evaluate(SOURCES):
         data = flat(explorer.data(name))
@@ -662,7 +662,7 @@ def test_on_a_phone_what_is_out_of_sight_waits_until_it_is_chosen(phone):
     assert {name: explorer.data(name) for name in waiting} != before
     assert "h = 0.9" in explorer.caption("bifurcation")
     assert_drawn(explorer, HESS, values, "bifurcation")
-    # What comes back into sight and is of this state is not sent again.
+    # A picture that comes back into view with current data is not sent again.
     assert explorer.state <= state + 2
     explorer.assert_quiet()
 
@@ -780,7 +780,7 @@ def test_while_a_slider_is_held_the_slow_methods_are_not_measured(study):
 
 # --- Between two samples -----------------------------------------------------------------------------
 
-# What the player tells the sphere, and where it puts the points of the other pictures, at each of these times.
+# Messages of the player to the sphere, and the points in the other pictures, at each of these times.
 TOLD = """(slider, times) => {
   const of = (name) => { const { x, y } = hess.source(name).data; return [x[0], y[0]] }
   let told = null

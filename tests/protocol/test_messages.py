@@ -99,7 +99,7 @@ def test_each_field_of_a_request_is_read():
         stop=True,
         held=True,
     )
-    # What is empty says something else than what is missing.
+    # Empty and missing have different meanings.
     assert parse({"values": {}, "hidden": []}) == Request(values={}, hidden=[])
     assert parse({}) == Request()
 

@@ -198,6 +198,6 @@ def test_what_is_put_after_packing_does_not_change_what_was_packed():
     wire.show_number("h", 2.0, (0.0, 2.0, 0.1))
     assert tree["texts"] == {"status": "first"}
     assert tree["controls"] == {"h": [1.0, 0.0, 2.0, 0.1]}
-    # What is disabled says so.
+    # A disabled number is sent with the flag True.
     wire.show_number("h", 2.0, (0.0, 2.0, 0.1), idle=True)
     assert wire.pack()[0]["controls"] == {"h": [2.0, 0.0, 2.0, 0.1, True]}

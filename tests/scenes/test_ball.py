@@ -247,7 +247,7 @@ def test_a_map_that_takes_long_is_left_out_and_the_page_says_so(values):
         assert "curve-ball" not in view.data or not len(view.data["curve-ball"]["xs"])
     else:
         assert np.all(np.isfinite(view.result.map.theta_plus))
-        # Where only the draft is possible it stays, and the background's sentence is the note.
+        # If only the draft is possible it stays, and the background's message becomes the note.
         assert view.result.map.phis.size == (33 if view.refused else 65)
         assert all(sentence.endswith("choose larger I13 or I23, or a smaller 𝒟.") for sentence in view.refused)
     assert len(view.data["data-orbit"]["t"]) > 10
@@ -340,7 +340,7 @@ def test_the_numbers_in_the_caption_of_the_section_are_those_of_its_points(name)
     kept = view.values["I13"] == view.values["I23"] == 0.0
     assert ("The flow preserves volume." in view.text["section"]) == kept
     assert len(view.data["section-others"]["x"]) == 20 * expected
-    # What is proved of the motion is said of these bodies, and of no other.
+    # Proved properties of the motion are stated for these bodies only.
     plain = kept and view.values["b3"] == 0.0
     symmetric = kept and view.values["I11"] == view.values["I22"] and view.values["b1"] == view.values["b2"] == 0.0
     assert ("One point: every orbit closes. Proved by the symmetry γ₃ → −γ₃, t → −t" in view.text["returns"]) == plain

@@ -112,7 +112,7 @@ def test_where_periods_double_along_the_ball_inside_another_integrator_finds_the
 
 @pytest.mark.parametrize(("D", "period"), [(1.4, 8), (1.43, 4), (1.44, 4), (1.45, 4), (1.59, 2), (1.6, 2), (1.7, 2)])
 def test_near_a_doubling_the_period_is_that_of_its_side(D, period):
-    # What disturbs an orbit dies out slowly there, in turns to either side, and made it look twice as long, or endless.
+    # A perturbation of the orbit decays slowly and alternates sides, which made its period look doubled, or infinite.
     state = SCENE.compute({**SCENE.defaults(), "D": D}, (), True)
     map_ = ReturnMap(state.poincare, level("standard"))
     assert period_of(map_.turns, map_.orbit(np.array(state.diagram.place), 700)[500:], map_.promise) == (period, True)
@@ -146,7 +146,7 @@ def test_the_strange_attractor_is_what_its_example_says():
     assert float(said[2]) < 1e-3
     values, body, E = at(state, "D", state.D)
     last = state_at(body, E, *state.regime.sets.attractor[-1])
-    # Of six orbits: the error of a single one, 0.004 to 0.015 here, may leave its sign open.
+    # Six orbits: the error of a single one, 0.004 to 0.015 here, may leave its sign open.
     starts = [state_at(body, E, *place) for place in state.regime.sets.attractor[::250]]
     found = [lyapunov_spectrum(body, start, 4000.0) for start in starts]
     assert all(one.signs[1:] == ("0", "0", "0", "-") for one in found)
@@ -190,7 +190,7 @@ def test_a_ball_that_turns_the_wrong_way_turns_round_to_a_permanent_rotation():
     turning = np.array([y[:2] @ y[2:4] for y in integrate(values, orbit.states[before], times)])
     (crossing,) = np.flatnonzero(turning[1:] * turning[:-1] < 0.0)
     assert times[crossing] - 1e-6 <= moment - orbit.times[before] <= times[crossing + 1] + 1e-6
-    # What it comes to, and what it comes from: γ3 = 0, ω = wγ, w²(I13γ1 + I23γ2) = b3, of this energy.
+    # Limits forward and backward in time: γ3 = 0, ω = wγ, w²(I13γ1 + I23γ2) = b3, of this energy.
     for places, sense in ((state.regime.sets.attractor, -1.0), (state.regime.sets.repeller, 1.0)):
         psi = float(places[-1, 0])
         g = np.array([math.cos(psi), math.sin(psi)])

@@ -226,7 +226,7 @@ def test_the_range_is_within_what_is_possible_and_about_the_value_where_none_is_
         "high": 0.0,
     }
     assert scene.carried(defaults, {**defaults, "low": 1.0}) == {}
-    # None of it means anything in another scene.
+    # These values have no meaning in another scene.
     for before in NAMES:
         if before != name:
             left = {**SCENES[before].defaults(), "periodic": "period 1", "over": "h", "low": 1.0, "high": 2.0}

@@ -53,7 +53,7 @@ def test_the_leak_grows_at_the_rate_in_the_caption_which_is_the_exact_one(name):
     assert (y[-1] - y[0]) / (x[-1] - x[0]) == pytest.approx(expected / (period * math.log(10.0)), rel=1e-5)
     straight = (lg > -12.5) & (lg < -4.0) & (t < x[-1])
     assert straight.sum() > 96
-    # What is left is the wiggle within a period.
+    # The remainder is the oscillation within a period.
     assert np.max(np.abs(lg - np.interp(t, x, y))[straight]) < 0.6
     assert lg[-1] > -4.0
 
@@ -307,7 +307,7 @@ def test_what_is_said_with_the_side_is_not_translated():
     assert browser.session.values["I22"] == 0.96
     browser.ask(preset="Figure 11, given in Euler–Poisson")
     assert browser.controls["preset"] == "Figure 11, given in Euler–Poisson"
-    # Where there is no motion nothing can be carried over, and nothing is hidden.
+    # If there is no motion, nothing can be carried over, and nothing is hidden.
     browser.ask(values={"I2": 2.0})
     assert {len(one) for one in browser.controls.values() if not isinstance(one, str)} == {4}
     browser.ask(values={"given": "Suslov–Hess", "I22": 1.0, "h": 1.0, "f": 0.5})
@@ -345,7 +345,7 @@ def test_the_andoyer_picture_of_the_bridge_lies_on_the_hess_relation_and_moves_w
         at, height = view.curve("andoyer-hess")
         order = np.argsort(at)
         assert x == pytest.approx(np.interp(l, at[order], height[order], period=2.0 * math.pi), abs=2e-3)
-        # Nothing is joined across the picture, nor where M passes through 0 and turns round.
+        # No segment crosses the picture, nor a place where M passes through 0 and reverses.
         for part in view.data["andoyer-orbit"]["xs"]:
             assert np.max(np.abs(np.diff(part)), initial=0.0) < 1.0
         orbit = view.data["data-orbit"]

@@ -72,7 +72,7 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
     times, states = crossings_by_scipy(view.body, view.start, 30.0 / slow)
     assert len(times)
     assert own[-int(view.values["count"]) :][: min(2, len(times))] == pytest.approx(coordinates(states)[:2], abs=1e-4)
-    # What is said of the exponent.
+    # Statements about the exponent.
     exponent, _, end = view.numbers("exponent", "λ = # ± # after t = #")
     assert end == view.values["long"]
     series = view.data["exponent-lambda"]
@@ -521,7 +521,7 @@ def test_at_the_ends_of_what_may_be_typed_there_is_a_picture_or_a_sentence(value
     except ModelError as error:
         assert re.search(r"choose|press", str(error))
         return
-    # Where moments differ by 10⁶ some orbits would take too long.
+    # With moments that differ by 10⁶ some orbits would take too long.
     assert all("choose" in one for one in view.refused)
     assert not view.refused or "I3" in values
     view.assert_finite()

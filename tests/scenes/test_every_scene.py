@@ -124,7 +124,7 @@ def test_sliders_have_ends_wherever_the_others_are(scene):
                 assert step > 0
 
 
-# Of the sentence over the pictures: the scene, what is moved, and the pictures that are said to follow.
+# Parts of the sentence over the pictures: the scene, the control, and the pictures that follow it.
 FOLLOWS = [
     ("suslov-hess", "h", "body omega bifurcation circle"),
     ("free-suslov", "k", "omega body sphere gamma1"),
@@ -309,7 +309,7 @@ def test_every_formula_of_the_words_becomes_mathml(scene):
     html = with_formulas(scene.words)
     assert html.count("<math") == len(formulas) > (5 if scene.origin is None else 0)
     assert "$" not in html
-    # What the converter does not know it passes on as a command.
+    # The converter passes on unknown names as commands.
     assert not re.search(r"\\[A-Za-z]+", html)
     # Browsers know no other variant: bold and script letters must be letters of their own.
     assert set(re.findall(r'mathvariant="([^"]*)"', html)) <= {"normal"}
@@ -458,7 +458,7 @@ def assert_within_the_axes(board, in_sight):
                 if logarithmic:
                     assert np.all(values > 0.0), (name, column)
                     values, ends = np.log10(values), np.log10(ends)
-                # What comes by the wire is in single precision.
+                # Data arrive in single precision.
                 room = 1e-6 * np.max(np.abs(ends))
                 assert np.all((values >= ends[0] - room) & (values <= ends[1] + room)), (name, column)
     return seen
@@ -838,7 +838,7 @@ def test_a_computation_that_raises_draws_the_sentence_in_empty_pictures(error, s
         "bifurcation-here-too",
     ):
         assert flat(list(browser.data[name].values())) == [], name
-    # What nobody expected is logged, with the state that makes it happen again.
+    # Unexpected errors are logged with the state that reproduces them.
     expected_error = isinstance(error, InvalidParameter)
     assert len(caplog.records) == (0 if expected_error else 1)
     assert expected_error or "h=3.0" in caplog.text
@@ -978,7 +978,7 @@ def test_from_any_scene_to_any_other_and_back_everything_is_of_the_state():
         scene = SCENES[name]
         assert {*scene.open_pictures, *BESIDE} == set(texts_in(state["tree"]))
         assert set(state["tree"]["controls"]) == {*(spec.name for spec in scene.specs), "preset"}
-        # What arrives later is waited for.
+        # Wait for later results.
         while browser.state["progress"] is not None:
             time.sleep(0.02)
             browser.ask(requested)
@@ -1056,7 +1056,7 @@ def test_a_parameter_that_only_the_new_scene_has_takes_its_default(monkeypatch):
     browser.ask(1, values={"h": 0.5, "I22": 1.25})
     browser.ask(2, scene="other")
     assert browser.session.values == {**HESS.defaults(), "h": 0.5, "I22": 1.25, "extra": 2.0}
-    # What the other scene does not know it does not keep.
+    # A scene drops parameters it does not have.
     browser.ask(3, values={"extra": 3.5, "I22": 2.0})
     assert browser.session.values["extra"] == 3.5
     browser.ask(4, scene=HESS.name)

@@ -290,7 +290,7 @@ def test_the_misprint_of_figure_3_d_is_one_digit():
     # A quarter of a turn apart.
     eta = np.array([2.0, 3.0, 0.0]) / math.sqrt(13.0)
     assert [math.atan2(one[2], one @ eta) for one in (first, read)] == pytest.approx([math.pi, 0.5 * math.pi], abs=1e-3)
-    # What the misprint does: the orbit leaves another circle, and joins another one.
+    # Effect of the misprint: the orbit leaves another circle, and joins another one.
     as_read, as_printed = (View(FREE, one.values) for one in FREE.presets if one.values.get("w1") == 3.0)
     went = [view.numbers("Gamma", "From Γ⁻ = # to Γ⁺ = # and # (dotted)") for view in (as_read, as_printed)]
     assert went[0][0] - went[1][0] > 0.05
@@ -468,7 +468,7 @@ def test_next_to_a_slanting_line_the_start_is_as_close_as_a_double_can_tell():
     assert values["digits"] == 12.0
     assert "1e−12" in note
     result = SCATTERING.compute(values, SCATTERING.pictures, False)
-    # What the sphere shows is where the ring stands, to less than a pixel.
+    # The sphere agrees with the position of the ring to less than a pixel.
     assert result.orbit.limits[1] == pytest.approx(
         math.cos(float(result.map.theta_plus(values["theta"], values["phi"]))), abs=1e-3
     )

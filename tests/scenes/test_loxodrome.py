@@ -101,7 +101,7 @@ def test_the_source_of_the_body_has_its_attitude_its_ellipsoid_and_its_centre_of
     assert np.sum((radius * u / semi) ** 2) == pytest.approx(1.0)
     # The figure's potential γ1/√3 + γ3/√6: r along (√2, 0, 1).
     assert body["rods"][1][:3] == pytest.approx([math.sqrt(2 / 3), 0.0, math.sqrt(1 / 3)])
-    # Where the centre of mass is in space: along (e, −γ × e, −γ).
+    # Position of the centre of mass in space: along (e, −γ × e, −γ).
     r = np.array(normal)
     place = np.stack([e @ r, -np.cross(g, e) @ r, -g @ r], axis=1)
     assert place == pytest.approx(curve_of(view, "body", "stable"), abs=2e-6)

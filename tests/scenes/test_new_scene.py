@@ -75,7 +75,7 @@ def test_the_orbit_is_that_of_scipy():
         atol=1e-12,
         t_eval=data["data-orbit"]["t"],
     ).y
-    # What is sent to the browser has single precision.
+    # Data are sent to the browser in single precision.
     assert np.abs(np.array([data["data-orbit"]["x1"], data["data-orbit"]["x2"]]) - found[3:5]).max() < 1e-6
     assert "section" in report.status
     assert "Taylor steps" in report.status

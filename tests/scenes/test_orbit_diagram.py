@@ -259,7 +259,7 @@ def turns_between(angles):
     turned = np.subtract.outer(angles, angles).T / math.tau
     later = np.triu_indices(len(angles), 1)
     whole, steps = np.floor(turned[later]), later[1] - later[0]
-    # What has gone more than p times round in q steps has a rotation number of p/q at least.
+    # More than p turns in q steps imply a rotation number of at least p/q.
     return (whole / steps).max(), ((whole + 1.0) / steps).min()
 
 
@@ -271,7 +271,7 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     def at(value):
         return moved(state, "I13", value)
 
-    # Where it is born: SciPy's multipliers have the size 1 there, and the orbit closes.
+    # At its birth SciPy's multipliers have modulus 1, and the orbit closes.
     (born,) = (one for part in state.continuation.branches for one in part.bifurcations)
     assert (born.kind, born.value) == ("Neimark–Sacker", pytest.approx(-0.24899620, abs=5e-9))
     found, there = multipliers(at(born.value).body, E, born.places[0])

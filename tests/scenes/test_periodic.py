@@ -141,7 +141,7 @@ def test_points_of_the_manifolds_are_taken_along_them():
     for curve in manifolds:
         sense = -1.0 if curve.stable else 1.0
         others = [one.points for one in manifolds if one.stable is curve.stable and one.side != curve.side]
-        # Of a saddle with reflection one branch is taken to the other.
+        # A saddle with reflection maps one branch to the other.
         # An image is five times as far.
         some = curve.points[(curve.lengths > 0.01) & (curve.lengths < 0.2)]
         assert len(some) > 3
@@ -371,7 +371,7 @@ def test_a_curve_goes_round_an_angle():
         inner = part[1:-1, 0]
         assert np.all((inner >= -math.pi) & (inner <= math.pi))
     assert sum(map(len, parts)) >= len(curve)
-    # What is no angle is only cut.
+    # Lines in coordinates that are not angles are only clipped.
     (part,) = within(curve, math.inf, axes)
     assert part[-1, 0] > math.pi > part[-2, 0]
     assert within(curve + np.array([100.0, 0.0]), math.inf, axes) == []

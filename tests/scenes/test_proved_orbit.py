@@ -85,7 +85,7 @@ def test_a_band_holds_the_true_orbit_where_it_is_wider_than_a_pixel():
     sizes = np.maximum(*(np.linalg.norm(part, axis=1) for part in (errors[:, :2], errors[:, 2:])))
     assert np.all(sizes[times <= until * (1 - 1e-9)] <= 0.5)
     assert sizes[np.searchsorted(times, until * 1.001)] > 0.4
-    # Of the true states there, each lies in a polygon of the band.
+    # Every true state there lies in a polygon of the band.
     late = (np.linalg.norm(errors[:, :2], axis=1) > 0.6) & (np.linalg.norm(errors[:, :2], axis=1) < 100.0)
     assert np.any(late)
     unit = np.array([1.0, math.hypot(1.0, 3.0)]) * state.body.frequency_unit

@@ -78,7 +78,7 @@ def test_the_ellipsoid_is_that_of_a_rigid_body_where_there_is_one(tensor, is_bod
     I11, I22, I13, I23 = tensor
     shape, said = ellipsoid_of_inertia(tensor, check_body(*tensor))
     whole = np.array([[I11, 0.0, I13], [0.0, I22, I23], [I13, I23, free_I33(tensor, check_body(*tensor))]])
-    # What is drawn is the surface (ω, Iω) = const.
+    # The drawn surface is (ω, Iω) = const.
     for axis, half in zip(shape.axes, shape.semi_axes, strict=True):
         if half > 1.01 * min(shape.semi_axes):
             assert half**2 * (axis @ whole @ axis) == pytest.approx(0.64 * shape.moments.min(), rel=1e-6)

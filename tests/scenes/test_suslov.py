@@ -62,7 +62,7 @@ def test_an_example_is_complete_and_counts_its_points(name):
     view = example(name)
     assert view.notes == []
     assert view.report.todo == ()
-    # What another test has asked for is there at once.
+    # Results requested by an earlier test come from the cache at once.
     assert len(view.first.todo) <= view.first.total > 0
     view.assert_finite()
     for picture in SCENE.pictures:
@@ -121,7 +121,7 @@ def test_exponent_and_divergence_of_an_example_are_as_its_name_and_words_say(nam
     assert end == view.values["long"]
     assert 0.0 <= spread < 0.05
     if name == SEA:
-        # Of the mean of a chaotic orbit only the size is known, about 1e-3: another rounding, another orbit.
+        # The mean of a chaotic orbit is known only to about 1e-3: another rounding, another orbit.
         assert exponent > 0.05 > 20.0 * abs(mean)
     if name == REGULAR:
         assert abs(exponent) < 0.01
@@ -207,7 +207,7 @@ def test_basins_come_coarse_at_first_and_then_row_by_row_finer():
     view, final = picture()
     assert not any(task.function is SuslovSection.ends for task in view.report.todo)
     assert final.shape == (12, 18)
-    # Nothing before the coarse ones are known; each of them is what the middle one of nine will be.
+    # No cells before the coarse ones are known; each of those equals the middle one of its nine.
     assert [len(cells) for cells in seen] == 4 * [0] + 12 * [12]
     coarse = seen[4]
     assert np.array_equal(coarse, np.kron(final[1::3, 1::3], np.ones((3, 3))))

@@ -66,7 +66,7 @@ def test_a_finer_level_has_a_smaller_error(name, trial):
     errors = [trial.error(state, trial.run(state, plan), truth) for plan in PLANS[trial.kind].values()]
     # The truth of an unstable motion is not known to more than 1e-4 pixels.
     assert errors[0] > 30.0 * errors[2] > 0.0
-    # Of colours `standard` has the tolerance of `draft`, and smaller cells.
+    # For colours `standard` has the tolerance of `draft`, and smaller cells.
     assert errors[0] >= 0.9 * errors[1]
     assert errors[0] < 1.0
 
@@ -269,7 +269,7 @@ def test_the_cells_that_change_are_those_of_the_finer_grid_with_another_colour()
         pytest.approx(share, rel=0.05)
     )
     assert "difference" in scenes()["rotation-number-accuracy"].open_pictures
-    # Of the same cells more digits change none.
+    # More digits do not change these cells.
     state, _ = difference("rotation-number", "grid", "standard")
     assert state.comparison.about().verdict == "No cell changes."
     assert not state.comparison.found.cells.max()

@@ -31,7 +31,7 @@ BARE = {
     "HOME": "/nonexistent",
 }
 
-# Where root may write whatever the rights say: not without this capability.
+# Root may write anywhere, whatever the permissions, unless this capability is dropped.
 OBEYS_RIGHTS = ("setpriv", "--bounding-set=-dac_override") if os.getuid() == 0 else ()
 
 

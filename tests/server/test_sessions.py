@@ -37,7 +37,7 @@ def test_a_session_that_is_left_is_freed_and_nothing_watches_for_it(monkeypatch)
             await visitor.ask(values={"h": 1.25})
             assert "h=1.25" in visitor.state["query"]
             await visitor.leave()
-        # Who never comes to the websocket has nothing computed.
+        # A session without a websocket computes nothing.
         await AsyncHTTPClient().fetch(base)
 
     with served(unused_session_lifetime_milliseconds=500, check_unused_sessions_milliseconds=50) as base:
@@ -61,7 +61,7 @@ def test_who_finds_no_room_reads_why_and_finds_it_when_another_has_left():
         assert await stray.read_message() is None
         assert (stray.close_code, stray.close_reason) == (1013, "The explorer is full: try again in a minute.")
         stray.close()
-        # Who is inside is served as before.
+        # Connected sessions are served as before.
         await inside[1].ask(values={"h": 1.25})
         await inside[0].leave()
         end = time.monotonic() + 60.0

@@ -134,7 +134,7 @@ class Explorer:
         assert not errors, errors
         assert not outside, outside
 
-    # What the page says.
+    # State of the page.
 
     @property
     def state(self):
@@ -232,7 +232,7 @@ class Explorer:
         )
         return dict(parse_qsl(urlsplit(self.page.url).query))
 
-    # What a user does.
+    # User actions.
 
     def slider(self, name):
         return self.page.locator(f".param-{name} input[type=range]")

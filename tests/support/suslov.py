@@ -43,7 +43,7 @@ def permanent_rotations(body, E):
         squared = body.b3 / (body.I13 * g1 + body.I23 * g2)
         return energy(body, (math.sqrt(squared) * g1, math.sqrt(squared) * g2, g1, g2, 0.0)) - E
 
-    # Where I13γ1 + I23γ2 has the sign of b3, within 90° of its largest size.
+    # I13γ1 + I23γ2 has the sign of b3 within 90° of its maximum.
     middle = math.atan2(body.I23, body.I13) + (0.0 if body.b3 > 0.0 else math.pi)
     psi = np.linspace(middle - 1.56, middle + 1.56, 2001)
     values = np.array([excess(x) for x in psi])

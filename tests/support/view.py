@@ -41,7 +41,7 @@ class View:
         self.refused, self._left_out = [], []
         self.begun = self.result = scene.compute(self.values, seen, dragging)
         self.first = self.report = self.stage.show(self.result, False)
-        # What is found may ask for more; an orbit diagram comes in twenty parts, one after the other.
+        # Results may request more; an orbit diagram comes in twenty parts, one after the other.
         for _ in range(30 if whole else 0):
             if not self._complete(scene, seen, dragging, refusing):
                 break

@@ -230,7 +230,7 @@ def test_a_chart_comes_to_the_browser_piece_by_piece_and_whole():
     assert (head["done"], head["of"], head["said"], head["level"]) == (1200, 1200, "", "standard")
     assert head["x"] == ["h", -0.9, 2.0, 40]
     assert len(page.told) >= 3
-    # What the browser has is not kept.
+    # Cells already sent to the browser are not kept.
     head = page.send({"chart": {"more": 0, "id": 7}})
     assert head == {"id": 7, "said": "", "running": False, "cells": 0}
 

@@ -54,7 +54,7 @@ def test_a_second_run_goes_on_where_the_first_ended(tmp_path, computed, name, ov
     assert seen[0].done == np.count_nonzero(ended.value.dataset.status)
     assert found.identical(in_memory)
     assert found[name.replace("-", "_")].values.tobytes() == in_memory[name.replace("-", "_")].values.tobytes()
-    # Nothing is left to do.
+    # No piece is left.
     assert sweep(name, over, a=0.5, store=str(tmp_path / "rho.zarr")).identical(in_memory)
     assert len(computed) == 2 * pieces
     assert read(tmp_path / "rho.zarr").identical(in_memory)
@@ -79,7 +79,7 @@ def test_pieces_half_written_are_computed_again(tmp_path, computed, monkeypatch)
     flipped.write_bytes(bytes(content))
     status = store / "status" / "c" / "0" / "0"
     status.write_bytes(status.read_bytes()[:5])
-    # What a writer that was killed leaves beside.
+    # Leftovers of a killed writer.
     (status.parent / "0.5e1f.partial").write_bytes(b"\x28\xb5")
     again = sweep("limit-cycles", CYCLES, a=0.5, store=store)
     assert again.identical(whole)

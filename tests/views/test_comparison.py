@@ -22,7 +22,7 @@ def test_a_point_changes_where_it_moves_by_more_than_half_a_pixel():
     found = compared(one, finer)
     assert found.same.tolist() == [[1.0, 1.0], [3.0, 1.0]]
     assert found.changed.tolist() == [[2.0, 1.0]]
-    # What is not seen is not counted.
+    # Invisible points are not counted.
     assert found.added.tolist() == [[4.0, 2.0]]
     assert found.largest == pytest.approx(0.6)
     assert found.share == pytest.approx(1.0 / 3.0)

@@ -40,7 +40,7 @@ def test_time_for_compiling_is_said_apart(monkeypatch):
     one = work.Work()
     now[0] += 0.004
     assert one.summary() == "standard, right to 1e−6 · 4 ms"
-    # Of what has passed since, all but 2 ms went into compiling.
+    # All but 2 ms of the elapsed time was compilation.
     compiling[0] = 10.54
     now[0] += 10.542
     assert one.summary() == "standard, right to 1e−6 · 6 ms"

@@ -42,7 +42,7 @@ def test_lines_stand_out_and_what_is_impossible_is_quiet(page):
     # Points and lines may lie on what is locked, and words on what is impossible.
     assert contrast(shades["ink"], shades["locked"]) >= 4.5
     assert contrast(shades["ink"], shades["forbidden"]) >= 4.5
-    # Nothing else of a picture outshines the orbit on a dark page but what marks the orbit.
+    # On a dark page only markers of the orbit may be brighter than the orbit.
     assert page == 0 or all(
         luminance(shades[name]) < luminance(shades["orbit"]) for name in ("forbidden", "locked", "muted", "unstable")
     )

@@ -185,7 +185,7 @@ class Kharlamova(State):
 
     @cached_property
     def solid(self) -> Solid:
-        """The body along it."""
+        """The body along the orbit."""
         return constrained_solid(self.work, self.body, self.orbit)
 
     def motion(self) -> Motion:
@@ -210,7 +210,7 @@ class Kharlamova(State):
         )
 
     def half_width(self) -> float:
-        """Half width of the frame of the domain."""
+        """Return half the width of the frame of the domain."""
         return nice_above(1.08 * max(self.body.axes))
 
     def fixed_points(self, kind: float) -> list[Array]:

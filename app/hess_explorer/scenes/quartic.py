@@ -184,12 +184,12 @@ class Quartic(State):
 
     @part
     def section(self) -> Section:
-        """The orbit on show among others."""
+        """The section of the orbit on show and of others."""
         return Section(self, lambda: self.given, self._crossing, self.section_axes, lambda: self.closed)
 
     @part
     def megno(self) -> Indicator:
-        """The cells of the section by MEGNO."""
+        """The MEGNO of the section's cells."""
         return Indicator(self.section, self.indicator == MEGNO)
 
     @part

@@ -150,13 +150,13 @@ class Scattering(State):
 
     @cached_property
     def solid(self) -> Solid:
-        """The body along it."""
+        """The body along the orbit."""
         return constrained_solid(self.work, self.body, self.orbit)
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 
     def grid(self) -> Array:
-        """θ⁺ over all circles and phases."""
+        """Return θ⁺ over all circles and phases."""
         cells = _FEW_CELLS if self.dragging else self.plan(Computation.MAP).grid(_CELLS)
         return self.work.get(model.theta_plus_grid, self.map, *cells)
 

@@ -216,7 +216,7 @@ class SingularMeasures(State):
 
 
 def _exact(s: SingularMeasures, found: Clouds) -> Clouds:
-    """Return the reference clouds of the same points, as other points have other motions."""
+    """Return the reference clouds of the same initial points."""
     exact: Clouds = s.task(_count(found), REFERENCE.tightened()).now()
     return exact
 

@@ -322,7 +322,7 @@ class Suslov(State):
             return self.basins.about(self.basins.basin)
         first, second = self.section.first, self.section.second
         backward = f", {len(second)} backward" if len(second) else ""
-        # The later halves of the forward orbits show what attracts.
+        # The later halves of the forward orbits show the attractors.
         later = joined(orbit[len(orbit) // 2 :] for orbit in self.section.kind(True))
         return Caption(
             numbers=f"{len(first)} points forward{backward}; second halves of the forward orbits in "

@@ -1,1 +1,1 @@
-"""Results → pictures."""
+"""Pictures of results, as data."""

@@ -1,4 +1,4 @@
-"""(l, L/G) of a motion on the Hess manifold, the curve of the Hess relation."""
+"""(l, L/G) of a motion on the Hess manifold, and the curve of the Hess relation."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def picture(
     orbit: Callable[[S], Array],
     color: str = theme.ORBIT,
 ) -> Plot[S]:
-    """Return the Hess relation and an orbit, (l, L/G) in rows (n, 2) of each, with a ring where the orbit starts."""
+    """Return the plot of the Hess relation and an orbit, each (l, L/G) in rows (n, 2); a ring marks the start."""
     return Plot(
         name="andoyer",
         title=title,
@@ -53,10 +53,10 @@ def between(
     curve: Callable[[S], tuple[Array, Array]],
     across: Callable[[S], Positions],
 ) -> Layers[S]:
-    """What lies between the orbits of a section and the chosen ones, whose track is drawn too.
+    """Return the layers between the orbits of a section and the chosen orbits, including their track.
 
     elsewhere : points (n, 2) on another sheet; curve : l and L/G of the Hess relation.
-    across : both ends of the line of the rotation number, as far as it is in the window.
+    across : both ends of the line of the rotation number within the window.
     """
     return (
         dots("elsewhere", lambda s: elsewhere(s).T, color=theme.SHEET, size=12, label="on another sheet: another G"),
@@ -74,7 +74,7 @@ def between(
 
 
 def _parts(points: Array) -> list[Array]:
-    """A curve of points (l, L/G), cut where M turns round through 0, and where l passes ±π: there past the edge."""
+    """Split a curve (l, L/G) where M reverses through 0 and where l passes ±π; there parts overlap the edge."""
     l, x = points.T
     s = np.sqrt(np.maximum(0.0, 1.0 - x * x))
     direction = np.column_stack([s * np.sin(l), s * np.cos(l), x])

@@ -1,4 +1,4 @@
-"""The bifurcation diagram in (h, f): region, curve, points, rotation number, lock zone."""
+"""Bifurcation diagram in (h, f): region, curve, points, rotation number, lock zone."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ S = TypeVar("S")
 
 
 def window(h: float) -> Axes:
-    """Return the part of the plane shown for this h: the same for all h of the slider, larger ones in steps."""
+    """Return the axes for this h: the same for all h of the slider, enlarged in steps beyond."""
     end = 4.0
     while h > end:
         end *= 2.5
@@ -49,24 +49,24 @@ def frame(h: float) -> Frame:
 
 
 def _mirrored(half: Array) -> list[Array]:
-    """A curve (n, 2) in the half f ≥ 0, and its mirror image."""
+    """Return a curve (n, 2) with f ≥ 0 and its mirror image."""
     return [half, half * (1.0, -1.0)]
 
 
 def impossible(curve: Array, axes: Axes) -> Regions:
-    """For a `region`: everything outside the curve, whose upper branch (n, 2) is given."""
+    """Return the `region` outside the curve with this upper branch (n, 2)."""
     top = axes.y[1]
     edge = [[axes.x[0], 0.0], *curve, [axes.x[1], top], [axes.x[0], top]]
     return [[one] for one in _mirrored(np.array(edge))]
 
 
 def _locked(boundary: Array, axes: Axes) -> Regions:
-    """The zone right of |t| = 2; where that ends on the curve it goes on along it, and the grey covers the rest."""
+    """Return the zone right of |t| = 2, continued along the curve; the grey region covers the excess."""
     if len(boundary) == 0:
         return []
     h, f = boundary[0]
     far, top = max(axes.x[1], h) + 1.0, 2.0 * max(axes.y[1], f)
-    # One part: two that meet at f = 0 would show a seam.
+    # A single part, as two parts that meet at f = 0 would show a seam.
     mirrored = boundary[::-1] * (1.0, -1.0)
     return [[np.array([*boundary, *mirrored, [h, -top], [far, -top], [far, top], [h, top]])]]
 
@@ -79,7 +79,7 @@ def layers(
     axes: Callable[[S], Axes],
     proved: Callable[[S], Sequence[Array]],
 ) -> Layers[S]:
-    """Colours: rotation number ρ.  One tone where it is locked.  Grey: no motion.  A ring: the torus on show.
+    """Return the layers: rotation number ρ, lock zone in one tone, no motion in grey, a ring at the torus on show.
 
     rotation : over the window; boundary : |t| = 2, (n, 2) with f ≥ 0; curve : upper branch of the edge, (n, 2);
     proved : outlines of the proved cells with f > 0, (n, 2).
@@ -133,7 +133,7 @@ def about(h: float, f: float, theta: CircleMap | None) -> Caption:
 
 
 def about_torus(a: float, h: float, f: float) -> str:
-    """What the torus (h, f) under the mouse does.  Raises `Separatrix`."""
+    """Return a line about the torus (h, f) under the mouse.  Raises `Separatrix`."""
     if h <= -1.0 or abs(f) > f_max(h):
         return f"h = {digits(h)}, f = {digits(f)}: impossible"
     theta = circle_map(a, h, f, DRAFT)

@@ -1,4 +1,4 @@
-"""The body itself as it lies in space, solid, and what of it draws curves on a sphere fixed there: "body.js"."""
+"""The solid body in space, and the curves that its points draw on a fixed sphere; rendered by "body.js"."""
 
 from __future__ import annotations
 
@@ -21,22 +21,22 @@ __all__ = ["BodyInSpace", "Curve", "Rod", "Shape", "Trail", "Wheels", "seen_in_s
 S = TypeVar("S")
 
 LARGEST = 0.8
-"""Half the longest axis of the ellipsoid, in radii of the sphere that the picture turns on."""
+"""Longest semi-axis of the ellipsoid, in radii of the fixed sphere."""
 
 _COLUMNS = ("g1", "g2", "g3", "e1", "e2", "e3")
 
 
 _THINNEST = 0.12
-"""Of the half axes, of the longest: a thinner body would not be seen from the side."""
+"""Smallest semi-axis, relative to the longest: a thinner body would be invisible from the side."""
 
 
 @dataclass(frozen=True)
 class Shape:
-    """A body with a fixed point, in the coordinates in which its attitude is given.
+    """Ellipsoid of a body with a fixed point, in the coordinates of its attitude.
 
-    axes : (3, 3), the principal axes in its rows; moments : (3,); names : of the axes.
-    section : (3,), the normal of a circular section of the gyration ellipsoid, whose radius belongs to the middle
-    moment: then that ellipsoid is drawn, (M, I⁻¹M) = const; None: the ellipsoid of inertia is, (ω, Iω) = const.
+    axes : (3, 3), principal axes in rows; moments : (3,); names : names of the axes.
+    section : (3,), normal of a circular section of the gyration ellipsoid, with the radius of the middle moment;
+    selects the gyration ellipsoid (M, I⁻¹M) = const.  None selects the ellipsoid of inertia (ω, Iω) = const.
     """
 
     axes: Array
@@ -46,15 +46,15 @@ class Shape:
 
     @classmethod
     def of_tensor(cls, tensor: Array, section: Sequence[float] | Array | None = None) -> Shape:
-        """From the tensor of inertia (3, 3), with axes that have no names."""
+        """Return the shape of a tensor of inertia (3, 3), with unnamed axes."""
         moments, vectors = np.linalg.eigh(tensor)
-        # Round-off may leave nothing, or less, of a moment much smaller than the others.
+        # Round-off may make a very small moment zero or negative.
         moments = np.maximum(moments, 1e-9 * moments[-1])
         return cls(vectors.T, moments, None if section is None else np.asarray(section, float), ("", "", ""))
 
     @property
     def semi_axes(self) -> Array:
-        """Half the axes of the picture's ellipsoid, as √I1 : √I2 : √I3 or as their inverses; shape (3,)."""
+        """Semi-axes of the ellipsoid, proportional to √I1 : √I2 : √I3 or to their inverses; shape (3,)."""
         lengths = np.sqrt(self.moments) if self.section is not None else 1.0 / np.sqrt(self.moments)
         return LARGEST * np.maximum(lengths / np.max(lengths), _THINNEST)
 
@@ -63,10 +63,10 @@ class Shape:
 class Wheels:
     """Vagner's wheels for the constraint (ω, e) = 0: they roll on a fixed shell without slipping sideways.
 
-    Their axles are parallel, `at` and −`at` touch the shell, the plane of both is that of `at` and `e`: the velocity
-    ω × at has no part along the axle at × e exactly if (ω, e) = 0.
+    The axles are parallel; `at` and −`at` touch the shell; the wheels lie in the plane of `at` and `e`.  The velocity
+    ω × at has no component along the axle at × e if and only if (ω, e) = 0.
 
-    at : a unit vector of the body across e; e : the unit vector of the constraint.
+    at : unit vector of the body orthogonal to e; e : unit vector of the constraint.
     """
 
     at: Sequence[float] | Array
@@ -75,7 +75,7 @@ class Wheels:
 
 @dataclass(frozen=True)
 class Trail:
-    """What the point of the unit sphere along a direction of the body leaves behind; look as of `Rod`."""
+    """The trace of a body direction on the unit sphere; look as in `Rod`."""
 
     along: Sequence[float] | Array
     look: str
@@ -85,7 +85,7 @@ class Trail:
 class Rod:
     """A rod from the fixed point to the unit sphere, along a direction of the body, with a dot and a label.
 
-    look : "mass", which ends in a ball, "axis", "orbit", "second", "stable", "unstable" or "muted".
+    look : "mass" (ends in a ball), "axis", "orbit", "second", "stable", "unstable" or "muted".
     """
 
     along: Sequence[float] | Array
@@ -95,7 +95,7 @@ class Rod:
 
 @dataclass(frozen=True)
 class Curve:
-    """A curve in space, components (n, 3) along (γ, e, γ × e); look as of `Rod`, or "limit"; its width in pixels."""
+    """A curve in space, components (n, 3) along (γ, e, γ × e); look as in `Rod`, or "limit"; width in pixels."""
 
     points: Array
     look: str
@@ -103,7 +103,7 @@ class Curve:
 
 
 def seen_in_space(points: Array) -> Array:
-    """Components along (γ, e, γ × e) → along the axes of the picture: e, γ × −e and upwards, −γ."""
+    """Convert components along (γ, e, γ × e) to the axes of the picture: e, γ × −e and, upwards, −γ."""
     return np.stack([points[..., 1], -points[..., 2], -points[..., 0]], axis=-1)
 
 
@@ -116,15 +116,15 @@ _WHEELS = Sign(
 
 @dataclass(frozen=True, kw_only=True)
 class BodyInSpace(Picture[S]):
-    """The sphere fixed in space, γ downwards as gravity, and in it the body at the time of the player.
+    """The sphere fixed in space, with γ downwards like gravity, and the body inside at the player's time.
 
-    shape(state) : the body with its ellipsoid, None for none.
-    motion(state) : its attitude, and the times (n,) of that in the player's units; None for none.
-    wheels(state), trail(state) : of its constraint, and of one of its points.
-    hollow : a ball of glass, rolling on a ball inside, stands for the ellipsoid; heavy(state) : whether γ is gravity.
-    attitude : the picture whose attitude it follows, where it has none of its own.
-    rods, curves : drawn with the body, and in space; circles, marks : fixed in the picture's space.
-    bare : without the lines of the sphere.
+    shape(state) : the ellipsoid of the body, or None.
+    motion(state) : its attitude and the times (n,) in the player's units, or None.
+    wheels(state), trail(state) : the wheels of its constraint, the trail of one of its points.
+    hollow : draw a glass ball rolling on an inner ball instead of the ellipsoid; heavy(state) : whether γ is gravity.
+    attitude : the picture whose attitude it follows, if it has none of its own.
+    rods : fixed to the body; curves : in space; circles, marks : fixed in the space of the picture.
+    bare : omit the lines of the sphere.
     """
 
     shape: Callable[[S], Shape | None] = lambda state: None
@@ -149,16 +149,16 @@ class BodyInSpace(Picture[S]):
 
     @property
     def tracks(self) -> frozenset[str]:
-        """The player takes the time from the track of the orbit."""
+        """The track "orbit", which sets the time of the player."""
         return frozenset({"orbit"})
 
     @property
     def legend(self) -> tuple[Sign, ...]:
-        """What it adds to the legend of its scene."""
+        """Entries that the picture adds to the legend of its scene."""
         return (*self.signs, *((_WHEELS,) if self.wheels else ()))
 
     def describe(self) -> dict[str, Any]:
-        """What the browser needs to know."""
+        """Return the description of the picture for the browser."""
         title = self.title if isinstance(self.title, str) else "The body in space"
         return {
             **super().describe(),
@@ -169,7 +169,7 @@ class BodyInSpace(Picture[S]):
         }
 
     def data(self, state: S) -> Sources:
-        """Return the body, its motion, and what is drawn beside."""
+        """Return the columns of the body, its motion and the other marks."""
         shape = self.shape(state)
         motion = None if self.motion is None else self.motion(state)
         if self.motion is not None and motion is None:

@@ -1,8 +1,8 @@
 """A plot as a Bokeh figure: axes by HoloViews, lines and markers as Bokeh's glyphs with empty sources.
 
-It is built once in a process; the browser gets it as JSON and fills it with what goes by the wire.  Cells and dots by
-the thousand are none of Bokeh's glyphs: the page draws them itself.  HoloViews makes the axes alone: it takes four
-times as long to make the glyphs, too, and has as many glyphs again for selections that are never made.
+Each figure is built once per process; the browser gets it as JSON and fills its sources with data.  The page itself
+draws cells and thousands of dots, which are not Bokeh glyphs.  HoloViews makes the axes only: glyphs would take four
+times as long, and as many again would serve selections that nobody makes.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _renderer = hv.renderer("bokeh")
 _renderer.webgl = False  # costs several times the canvas at these sizes
 
 _LETTERS = 26
-"""As many stand side by side under the smallest picture; beside it there is room for any number."""
+"""Number of letters that fit side by side under the smallest picture; beside it any number fits."""
 
 _GLYPHS: Mapping[str, tuple[type[Glyph], tuple[str, ...]]] = {
     "line": (glyphs.Line, ("x", "y")),
@@ -42,20 +42,20 @@ _GLYPHS: Mapping[str, tuple[type[Glyph], tuple[str, ...]]] = {
     "text": (glyphs.Text, ("x", "y", "text")),
     "quad": (glyphs.Quad, ("left", "right", "top", "bottom")),
 }
-"""Those that Bokeh draws, and which of their properties are columns, by the glyph of a layer."""
+"""Bokeh glyphs by name, with those properties that are columns."""
 _BOX: Layer[Any] = Layer(
     "box",
     "quad",
     ("left", "right", "top", "bottom"),
     {"fill_alpha": 0.1, "fill_color": theme.UNSTABLE, "line_color": theme.UNSTABLE},
 )
-"""The box that the mouse draws."""
+"""The selection box of the mouse."""
 
 
 def build(plot: Plot[Any]) -> figure:
     """Return the plot as a Bokeh model, with empty sources."""
     axes, names = plot.first_axes, plot.axes if isinstance(plot.axes, tuple) else (" ", " ")
-    # Plain arrays: any other form of data makes HoloViews import pandas (0.25 s).
+    # Plain arrays, as any other form of data makes HoloViews import pandas (0.25 s).
     point = {"x": np.array([axes.x[0]]), "y": np.array([axes.y[0]])}
     background = hv.Curve(point, "x", "y", datatype=["dictionary"]).opts(
         hv.opts.Curve(
@@ -69,8 +69,8 @@ def build(plot: Plot[Any]) -> figure:
         )
     )
     root: figure = _renderer.get_plot(background).state
-    # The page shines through, whatever its theme.  An invisible background that is painted all the same makes Bokeh
-    # begin a new path for the outline; without one it strokes the ticks of the last painting once more.
+    # Transparent, so that the theme of the page shows.  An invisible background that is still painted makes Bokeh
+    # begin a new path for the outline; without it Bokeh strokes the ticks of the previous painting again.
     root.update(
         name=plot.name,
         min_border=4,
@@ -99,9 +99,11 @@ def build(plot: Plot[Any]) -> figure:
 
 
 def _item(root: figure) -> dict[str, Any]:
-    """What `bokeh.embed.json_item` says of a figure, but for the definitions of all models of Panel that it adds: the
-    page has them already (150 kB), and to write them takes longer than all the rest."""
-    # The serializer knows what it has met by its place in memory: that lives on.
+    """Return `bokeh.embed.json_item` of a figure without the definitions of Panel's models.
+
+    The page has them already (150 kB), and writing them takes longer than all the rest.
+    """
+    # The serializer identifies objects by their address, so this document must stay alive.
     serializer, empty = Serializer(deferred=False), Document()
     config = serializer.encode(empty.config)
     document = {"version": __version__, "title": "", "config": config, "roots": serializer.encode([root])}
@@ -109,7 +111,7 @@ def _item(root: figure) -> dict[str, Any]:
 
 
 def describe(plot: Plot[Any]) -> dict[str, Any]:
-    """What the browser needs to know of a plot, see "plot.js"."""
+    """Return the description of a plot for the browser, see "plot.js"."""
     return {
         "item": _item(build(plot)),
         "renamed": not isinstance(plot.axes, tuple),

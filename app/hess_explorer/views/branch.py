@@ -1,4 +1,4 @@
-"""Branches of periodic orbits over a parameter, by whether they attract, and the bifurcations on them."""
+"""Branches of periodic orbits over a parameter, by stability, with their bifurcations."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ _SHORT = {"Neimark–Sacker": "N–S"}
 
 
 def strands(branch: Branch, side: int, sign: str) -> list[Array]:
-    """Return the parts (n, 2) of a branch with one sign, see `sign_of`: the parameter, and a coordinate of each place.
+    """Return the parts (n, 2) of a branch with one sign of `sign_of`: the parameter and one coordinate of each place.
 
-    Where a sign changes they reach to the bifurcation itself.
+    At a change of sign the parts reach to the bifurcation.
     """
     signs = [sign_of(kind) for kind in branch.kinds]
     found: list[Array] = []
@@ -38,7 +38,7 @@ def strands(branch: Branch, side: int, sign: str) -> list[Array]:
                 met = (one.value, float(one.places[j, side]))
                 run = _ended(found, [*run, met] if run else [])
                 run = [met] if signs[i] == sign else []
-            # Without a bifurcation between, a point that is neither goes with the one before it.
+            # Without a bifurcation between them, a point of neither sign belongs to the previous part.
             if signs[i] == sign or (run and signs[i] == "neither"):
                 run.append(here)
             else:
@@ -56,7 +56,7 @@ def _ended(found: list[Array], run: list[tuple[float, float]]) -> list[tuple[flo
 def layers(
     branches: Callable[[S], Sequence[Branch]], side: Callable[[S], int], turn: Callable[[S], float]
 ) -> Layers[S]:
-    """Branches over their parameter, to the right, with one coordinate of all places, an angle with that turn, or ∞."""
+    """Return the branches over the parameter: one coordinate of all places, with period `turn` or ∞."""
 
     def parts(sign: str) -> Callable[[S, Axes], list[Array]]:
         def of(state: S, axes: Axes) -> list[Array]:
@@ -76,7 +76,7 @@ def layers(
             y = one.places[:, side(state)]
             there = seen(np.column_stack([y, np.full(len(y), one.value)]), turn(state), up)
             inside = [(float(x), float(height)) for height, x in there if axes.x[0] <= x <= axes.x[1]]
-            # One of its places, the highest, has its name: names beside all of them would cover each other.
+            # Only the highest place carries the name, as names at all places would overlap.
             found += [
                 (x, y, _SHORT.get(one.kind, one.kind) if y == max(inside, key=lambda at: at[1])[1] else "")
                 for x, y in inside
@@ -124,7 +124,7 @@ def layers(
 
 
 def bifurcations(branches: Sequence[Branch]) -> list[Bifurcation]:
-    """All of them, each once, by the parameter."""
+    """Return all bifurcations without duplicates, sorted by the parameter."""
     found: list[Bifurcation] = []
     for one in (one for branch in branches for one in branch.bifurcations):
         if not any(

@@ -1,4 +1,4 @@
-"""The words over a picture."""
+"""The text above a picture."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ __all__ = ["Caption"]
 
 @dataclass(frozen=True)
 class Caption:
-    """The words over a picture: title and verdict on one line, the numbers below.
+    """The text above a picture: title and verdict on one line, the numbers below.
 
     Parameters
     ----------
     verdict : the main result, in at most eight words.
     numbers : the numbers behind it.
-    title : the heading, in two to five words.  `Picture.said` adds that of the picture.
+    title : the heading, in two to five words.  `Picture.said` fills in the title of the picture.
     """
 
     verdict: str = ""
@@ -24,5 +24,5 @@ class Caption:
 
     @property
     def words(self) -> str:
-        """Verdict and numbers as one string, for metadata and other places without lines."""
+        """Verdict and numbers as one string, for metadata and other single-line uses."""
         return " ".join(filter(None, (self.verdict, self.numbers)))

@@ -1,4 +1,4 @@
-"""Curves on logarithmic scales, or of logarithms: what is too small for the axis is drawn on its edge."""
+"""Curves on logarithmic scales or of logarithms; values too small for the axis are drawn on its edge."""
 
 from __future__ import annotations
 
@@ -17,27 +17,27 @@ __all__ = ["LG_OF_0", "POWERS", "clipped", "lg", "lg_axis", "limit"]
 S = TypeVar("S")
 
 POWERS = [1e-16, 1e-12, 1e-8, 1e-4, 1.0]
-"""Ticks of errors on a horizontal axis: fewer than Bokeh would set, as powers of ten are wide."""
+"""Ticks of errors on a horizontal axis: fewer than Bokeh's, as labels with powers of ten are wide."""
 
 LG_OF_0 = -17.5
-"""Where lg 0 is drawn."""
+"""Height at which lg 0 is drawn."""
 
 
 def lg(distance: Array) -> Array:
-    """lg of what is not negative, from `LG_OF_0` on."""
+    """Return lg of a non-negative distance, at least `LG_OF_0`."""
     return np.asarray(np.log10(np.maximum(distance, 10.0**LG_OF_0)), float)
 
 
 def lg_axis(largest: float) -> Range:
-    """From lg 0 to above that of the largest value, in steps of one half."""
+    """Return an axis from lg 0 to above lg `largest`, rounded up to halves."""
     return LG_OF_0, math.ceil(2.0 * math.log10(largest)) / 2.0
 
 
 def clipped(values: Array, floor: float) -> Array:
-    """Values (n,), none below the floor of the axis."""
+    """Return values (n,), raised to the floor of the axis."""
     return np.asarray(np.maximum(values, floor), float)
 
 
 def limit(height: Callable[[S], float]) -> Layer[S]:
-    """A dotted line across the picture."""
+    """Return a dotted line across the picture."""
     return line("limit", lambda s: ((-1e30, 1e30), (height(s),) * 2), color=theme.MUTED, dash="dotted")

@@ -26,12 +26,12 @@ S = TypeVar("S")
 Click = Callable[[S, float, float], Values]
 
 _COBWEB = 60
-"""Returns that are drawn."""
+"""Number of returns in the cobweb."""
 EVENLY = 0.25
-"""Where an even density is drawn, as a share of the height of the frame; 0 is at its bottom."""
+"""Height of a uniform density as a share of the frame; 0 is at the bottom."""
 _DENSITY = np.linspace(*ANGLE, 241)
 _BEYOND = 100.0
-"""A density, relative to an even one, that is beyond the frame."""
+"""Density relative to the uniform one that lies beyond the frame."""
 
 
 def cobweb(iterates: Array) -> tuple[Array, Array]:
@@ -40,7 +40,7 @@ def cobweb(iterates: Array) -> tuple[Array, Array]:
 
 
 def _copies(circle_map: CircleMap) -> list[Array]:
-    """Return the graph and its copies one turn up and down: the frame cuts out the square."""
+    """Return the graph and its copies one turn up and down; the frame clips them to the square."""
     phi, theta = circle_map.graph
     return [np.column_stack([phi, theta + turn]) for turn in (0.0, -2 * math.pi, 2 * math.pi)]
 
@@ -51,7 +51,7 @@ def _fixed(circle_map: CircleMap, stable: bool) -> tuple[list[float], list[float
 
 
 def _density(circle_map: CircleMap) -> list[Array]:
-    """Return the invariant density over the bottom of the frame, if there is a smooth one."""
+    """Return the smooth invariant density above the bottom of the frame, if it exists."""
     if circle_map.kind != "elliptic":
         return []
     relative = np.minimum(_BEYOND, 2.0 * math.pi * invariant_measure(circle_map).density(_DENSITY))
@@ -66,7 +66,7 @@ def picture(
     dot: tuple[str, str] | None = None,
     on_click: Click[S] | None = None,
 ) -> Plot[S]:
-    """The map of a torus, None on the separatrix, with fixed points or density and the cobweb of the first iterates."""
+    """Return the plot of a circle map (None on the separatrix), with fixed points or density and a cobweb."""
     return Plot(
         name="circle",
         title=title,
@@ -83,7 +83,7 @@ def picture(
 
 
 def look(phi: Array, theta: Array) -> Curves:
-    """Θ (n,) over the phases (n,) and its copies, for comparisons."""
+    """Return Θ (n,) over the phases (n,) and its copies, for comparisons."""
     lifted = np.unwrap(theta)
     lifted = lifted - 2.0 * math.pi * np.round(lifted[len(lifted) // 2] / (2.0 * math.pi))
     return Curves(
@@ -93,7 +93,7 @@ def look(phi: Array, theta: Array) -> Curves:
 
 
 def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None]) -> Layers[S]:
-    """Θ, the diagonal, fixed points, stable ones filled and unstable ones hollow, or the density; the cobweb."""
+    """Return the layers: diagonal, Θ, stable (filled) and unstable (hollow) fixed points or density, cobweb."""
     here = ("phi", "theta")
     return (
         line(
@@ -159,7 +159,7 @@ def about(theta: CircleMap | None, proof: str = "") -> Caption:
 
 
 def riccati_matrix(theta: CircleMap) -> str:
-    """Return the two numbers of its matrix."""
+    """Return the two entries of the Riccati matrix."""
     alpha, beta = theta.alpha_beta
     return (
         f"Riccati matrix α = {digits(alpha.real)} {'−' if alpha.imag < 0.0 else '+'} {digits(abs(alpha.imag))} i, "

@@ -40,13 +40,13 @@ _ANGLES = np.linspace(0.0, 2.0 * math.pi, 97)
 
 
 def _frames(columns: Sequence[Array]) -> np.ndarray:
-    """Columns (n, m) as one block of numbers [frame][column][point] in single precision."""
-    # Some millions: in double precision they would fill the memory.
+    """Return columns (n, m) as one block [frame][column][point] in single precision."""
+    # Millions of numbers: double precision would take twice the memory.
     return np.stack([one.T for one in columns], axis=1).astype(np.float32).ravel()
 
 
 def room(found: Clouds) -> float:
-    """Half the width of a plane for all of its ω."""
+    """Return half the width of a plane with room for all ω of the clouds."""
     return nice_above(1.1 * found.fastest)
 
 
@@ -59,7 +59,7 @@ def about_ends(found: Clouds) -> Caption:
 
 
 def status_of(found: Clouds) -> Iterator[str]:
-    """For the status line: size, cost and errors of the clouds."""
+    """Yield the size, cost and errors of the clouds for the status line."""
     cloud, other = found.cloud, found.other
     yield (
         f"{cloud.level}: {cloud.signs.size} points, {cloud.times.size} frames, {cloud.cost.steps} Taylor steps, "
@@ -70,7 +70,7 @@ def status_of(found: Clouds) -> Iterator[str]:
 
 
 def about_course(found: Clouds, of_patch: bool) -> Caption:
-    """Return the change of small volumes; of_patch : of the volume of the patch."""
+    """Return the change of small volumes, or with `of_patch` of the volume of the patch."""
     course = found.course
     if of_patch:
         said = f"The patch keeps {digits(course.volume[-1], 3)} of its volume"
@@ -83,7 +83,7 @@ def about_course(found: Clouds, of_patch: bool) -> Caption:
 
 
 def look(found: Clouds) -> Marks:
-    """Where the points are in the end, compared at all times, and on the sphere too."""
+    """Return the final points for comparison at all times, in the plane and on the sphere."""
     half_width = room(found)
     w, radius = 0.5 * PIXELS / half_width, 0.5 * PIXELS
     clouds = [(found.cloud.omega, found.cloud.gamma)]
@@ -98,12 +98,12 @@ def look(found: Clouds) -> Marks:
 
 @dataclass(frozen=True, kw_only=True)
 class CloudPlane(Picture[S]):
-    """The (ω1, ω2)-plane; its source holds the frames of all clouds, for a sphere with `clouds` too.
+    """The (ω1, ω2)-plane; its source holds the frames of all clouds, also for a sphere with `clouds`.
 
-    clouds(state) : what moves; half_width(state) : axes ± half_width.
+    clouds(state) : the moving clouds; half_width(state) : axes ± half_width.
     strip(state) : σ1, σ2 and the line of equilibria at the energy h.
     b3(state) : the field in which the second cloud moves, with I13 = I23 = 0.
-    density : the source of the density over |s| at the moving time, which the browser fills.
+    density : source of the density over |s| at the player's time, filled by the browser.
     """
 
     clouds: Callable[[S], Clouds]
@@ -116,7 +116,7 @@ class CloudPlane(Picture[S]):
 
     @property
     def tracks(self) -> frozenset[str]:
-        """The player takes the time from the track of the orbit."""
+        """The track "orbit", which sets the time of the player."""
         return frozenset({"orbit"})
 
     @property
@@ -126,7 +126,7 @@ class CloudPlane(Picture[S]):
 
     @property
     def legend(self) -> tuple[Sign, ...]:
-        """What it adds to the legend of its scene."""
+        """Entries that the picture adds to the legend of its scene."""
         return (
             Sign("stable half, s = 0", "line", f"border-top: 3px solid {theme.STABLE}"),
             Sign("unstable half, s = 0", "line", f"border-top: 3px dashed {theme.UNSTABLE}"),
@@ -134,7 +134,7 @@ class CloudPlane(Picture[S]):
         )
 
     def describe(self) -> dict[str, Any]:
-        """What the browser needs to know."""
+        """Return the description of the picture for the browser."""
         return {**super().describe(), "density": self.density}
 
     def ranges(self, state: S) -> Axes:
@@ -167,7 +167,7 @@ class CloudPlane(Picture[S]):
         }
 
     def framed(self, state: S, axes: Axes | None) -> Sources:
-        """Return the axes, σ1 and σ2, and the line of equilibria out of the picture."""
+        """Return σ1, σ2 and the line of equilibria, extended beyond the frame."""
         assert axes is not None
         strip, half = self.strip(state), axes.x[1]
         xi, _ = line_of_rest(strip.body)
@@ -186,7 +186,7 @@ class CloudPlane(Picture[S]):
 
 
 def density_axes(found: Clouds) -> Axes:
-    """From whole powers of ten about the |s| of the cloud; the curve c/|s| leaves by the corners."""
+    """Return axes between powers of ten about |s| of the cloud; the curve c/|s| joins the corners."""
     lowest = max(SMALLEST, float(np.quantile(found.cloud.log_s[:, -1], 0.02)))
     low = math.floor(lowest / math.log(10.0))
     high = max(math.ceil(float(found.density.log_s[-1]) / math.log(10.0)), low + 1)
@@ -195,7 +195,7 @@ def density_axes(found: Clouds) -> Axes:
 
 
 def _inside(s: Array, share: Array, axes: Axes) -> tuple[Array, Array]:
-    """Return the share of the points per unit of |s|, from that per unit of ln|s|, as far as it lies in the frame."""
+    """Return the share of points per unit of |s| within the frame, from the share per unit of ln|s|."""
     y = np.divide(share, s)
     (x0, x1), (y0, y1) = axes.x, axes.y
     seen = (s >= x0) & (s <= x1) & (y >= y0) & (y <= y1)
@@ -203,9 +203,9 @@ def _inside(s: Array, share: Array, axes: Axes) -> tuple[Array, Array]:
 
 
 def density_layers(density: Callable[[S], Density]) -> Layers[S]:
-    """Shares of the points over |s| on logarithmic axes: at the start, the end, the moving time, and their mean.
+    """Return the layers of the density over |s| (log–log): at the start, the end and the player's time, and the mean.
 
-    The browser fills "now", the one at the moving time.
+    The browser fills "now", the share at the player's time.
     """
 
     def limit(state: S, axes: Axes) -> tuple[Array, Array]:
@@ -228,9 +228,9 @@ def density_layers(density: Callable[[S], Density]) -> Layers[S]:
 
 
 def course_layers(times: Callable[[S], Array], course: Callable[[S], Array], beside: Callable[[S], bool]) -> Layers[S]:
-    """Mean, least and largest (3, m) of something over the cloud at times (m,); the mean is that of the track "orbit".
+    """Return the layers of mean, minimum, maximum (3, m) over the cloud at times (m,); track "orbit" holds the mean.
 
-    beside : whether there is a cloud on a principal axis, where it is 0.
+    beside : whether there is a cloud on a principal axis, whose values are 0.
     """
 
     def extreme(name: str, i: int) -> Layer[S]:

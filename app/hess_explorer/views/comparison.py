@@ -1,4 +1,4 @@
-"""What of a picture changes from one accuracy to a more exact one: points that move, parts of curves, cells."""
+"""Changes of a picture from one accuracy to a more exact one: moved points, parts of curves, cells."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from hess_mechanics.numerics.results import Array, Mask, frozen
 __all__ = ["Cells", "Curves", "Difference", "Frame", "Look", "Marks", "compared"]
 
 _STEP = 2.0
-"""Pixels from one point of a curve that is compared to the next."""
+"""Spacing of the compared points of a curve, in pixels."""
 _MOST = 4000
-"""Marks of a curve that are compared, and of the curve that they are compared with."""
+"""Largest number of points of a curve in a comparison."""
 _TOGETHER = 256
-"""Marks whose distances from a curve are found together: few enough for the memory of the processor."""
+"""Number of points per distance computation: small enough for the processor's cache."""
 
 
 def _none() -> Array:
@@ -36,12 +36,12 @@ class Frame:
 
     @property
     def pixels(self) -> tuple[float, float]:
-        """Pixels for a unit along each axis."""
+        """Pixels per unit along each axis."""
         (x0, x1), (y0, y1) = self.axes.x, self.axes.y
         return PIXELS / (x1 - x0), PIXELS / (y1 - y0)
 
     def inside(self, points: Array) -> Mask:
-        """Which points (n, 2) it shows."""
+        """Return the mask (n,) of the points (n, 2) inside the frame."""
         (x0, x1), (y0, y1) = self.axes.x, self.axes.y
         return np.asarray((points[:, 0] >= x0) & (points[:, 0] <= x1) & (points[:, 1] >= y0) & (points[:, 1] <= y1))
 
@@ -50,9 +50,9 @@ class Frame:
 class Marks:
     """The points of orbits (n, 2), one after the other.
 
-    periods : of the coordinates, ∞ for one that is no angle.
-    elsewhere : of each orbit, its coordinates (n, …, d) in the pixels of all pictures that show it, where those are
-    more than this one.  crossings : whether its points are crossings of a section.
+    periods : periods of the coordinates, ∞ for a coordinate that is not an angle.
+    elsewhere : coordinates (n, …, d) of each orbit in the pixels of all pictures that show it, if there are others
+    than this one.  crossings : whether the points are crossings of a section.
     """
 
     frame: Frame
@@ -64,9 +64,9 @@ class Marks:
 
 @dataclass(frozen=True)
 class Curves:
-    """Broken lines (n, 2), compared by the distance of one from the other, wherever their points lie.
+    """Polylines (n, 2), compared by their distance, independently of the position of their vertices.
 
-    in_pairs : whether each has its counterpart, in order; else any of them may be that of another.
+    in_pairs : compare curves in order, one by one; else each with the nearest of all others.
     """
 
     frame: Frame
@@ -76,7 +76,7 @@ class Curves:
 
 @dataclass(frozen=True)
 class Cells:
-    """Values (n, m) of cells that fill the frame, NaN where there is nothing; they are seen to differ by `step`."""
+    """Values (n, m) of cells that fill the frame, NaN for none; differences above `step` are visible."""
 
     frame: Frame
     values: Array
@@ -88,12 +88,12 @@ Look = Marks | Curves | Cells
 
 @dataclass(frozen=True)
 class Difference:
-    """What changes.
+    """The differences between two pictures.
 
-    same, changed : points (n, 2) less and more than half a pixel from where the more exact ones lie.
-    added : points that only the more exact one has; cells : (n, m), 1 changed, 0 not, −1 nothing in both.
-    largest : pixels, or the unit of the cells; orbits : of a section; lost : of those that chaos makes other ones, the
-    first crossing, counted from 1, that is elsewhere.
+    same, changed : points (n, 2) at most and more than half a pixel from the more exact ones.
+    added : points of the more exact picture only; cells : (n, m), 1 changed, 0 unchanged, −1 empty in both.
+    largest : in pixels or in the unit of the cells; orbits : number of orbits of a section; lost : for each orbit that
+    chaos separates, its first crossing, counted from 1, in another place.
     """
 
     frame: Frame
@@ -107,7 +107,7 @@ class Difference:
 
     @property
     def share(self) -> float:
-        """Of all cells where there is something, or of the points, the part that changes."""
+        """The changed share of the non-empty cells or of the points."""
         if self.cells is not None:
             there = self.cells >= 0.0
             return float(np.mean(self.cells[there])) if there.any() else 0.0
@@ -116,7 +116,7 @@ class Difference:
 
 
 def compared(one: Look, finer: Look) -> Difference:
-    """What of `one` changes when `finer`, of the same kind, is drawn in its place."""
+    """Return the differences between `one` and a more exact picture `finer` of the same kind."""
     if isinstance(one, Marks) and isinstance(finer, Marks):
         return _points(one, finer)
     if isinstance(one, Curves) and isinstance(finer, Curves):
@@ -130,7 +130,7 @@ def _joined(parts: Sequence[Array]) -> Array:
 
 
 def _sorted(frame: Frame, points: Array, away: Array) -> tuple[Array, Array, float]:
-    """Those of the points in the frame that stay, those that do not; the largest distance of them."""
+    """Return the unchanged and the changed points in the frame, and the largest finite distance."""
     seen = frame.inside(points)
     points, away = points[seen], away[seen]
     return (
@@ -153,7 +153,7 @@ def _points(one: Marks, finer: Marks) -> Difference:
         if one.crossings and wrong.size and torn_away(found):
             lost.append(int(wrong[0]) + 1)
         kept.append(orbit)
-        # What the more exact one has not changes too.
+        # Points that the more exact picture lacks count as changed.
         away.append(np.append(found, np.full(len(orbit) - both, math.inf)))
         added.append(exact[both:])
     same, changed, largest = _sorted(finer.frame, _joined(kept), np.concatenate([np.empty(0), *away]))
@@ -176,7 +176,7 @@ def _distances(left: Sequence[Array], right: Sequence[Array], both: int) -> Iter
 
 
 def _fine(curve: Array, pixels: Array) -> Array:
-    """A curve (n, 2) in pixels, with a point at each step of its way."""
+    """Return a curve (n, 2) in pixels, resampled at equal steps of arc length."""
     places = curve * pixels
     if len(places) < 2:
         return np.asarray(places)
@@ -186,7 +186,7 @@ def _fine(curve: Array, pixels: Array) -> Array:
 
 
 def _from_curves(points: Array, curves: Sequence[Array]) -> Array:
-    """Distances (m,) of points from the nearest of some broken lines."""
+    """Return the distances (m,) of points from the nearest of some polylines."""
     away = np.full(len(points), math.inf)
     for curve in curves:
         if not len(curve):
@@ -199,7 +199,7 @@ def _from_curves(points: Array, curves: Sequence[Array]) -> Array:
 
 
 def _one_way(frame: Frame, curves: Sequence[Array], others: Sequence[Array], in_pairs: bool) -> tuple[Array, Array]:
-    """Marks along curves, and their distances from the others, in pixels; as far as the frame shows them."""
+    """Return points along curves within the frame, and their distances in pixels from the other curves."""
     pixels = np.array(frame.pixels)
     points, away = [np.empty((0, 2))], [np.empty(0)]
     scaled = [other * pixels for other in others]
@@ -220,7 +220,7 @@ def _curves(one: Curves, finer: Curves) -> Difference:
 
 
 def _cells(one: Cells, finer: Cells) -> Difference:
-    """On cells as small as the smaller ones, which tell the colour at a place as the picture does."""
+    """Compare the cells on the finer of both grids, without interpolation, as the picture shows them."""
     shape = tuple(map(max, one.values.shape, finer.values.shape))
     left, right = (_enlarged(each.values, shape) for each in (one, finer))
     nothing, either = np.isnan(left) & np.isnan(right), np.isnan(left) ^ np.isnan(right)

@@ -22,7 +22,7 @@ S = TypeVar("S")
 Found = Callable[[S], Conformal | None]
 
 _LEAST = 2.5
-"""So that the brackets, which are some units large where γ3 is not small, are seen too."""
+"""Half height of the axis at least, so that the brackets, of order 1 away from γ3 = 0, are visible."""
 
 
 def about(found: Conformal) -> Caption:
@@ -35,7 +35,7 @@ def about(found: Conformal) -> Caption:
 
 
 def _bracket(found: Found[S], i: int) -> Callable[[S, Axes], list[Array]]:
-    """Its graph, cut at the equator, where it is infinite."""
+    """Return the graph of a bracket, cut at the equator, where it is infinite."""
 
     def graph(state: S, axes: Axes) -> list[Array]:
         motion = found(state)
@@ -49,7 +49,7 @@ def _bracket(found: Found[S], i: int) -> Callable[[S, Axes], list[Array]]:
 
 
 def picture(found: Found[S], reason: Callable[[S], str], span: Callable[[S], float]) -> Plot[S]:
-    """τ and {ω1, γ3}, {ω2, γ3} against t, or the reason why there is none."""
+    """Return the plot of τ, {ω1, γ3} and {ω2, γ3} against t, or of the reason for their absence."""
 
     def caption(state: S) -> Caption:
         motion = found(state)

@@ -1,6 +1,6 @@
-"""A scale of colours that ends where it begins, for numbers of which −½ and ½ are the same.
+"""A cyclic colour scale, for numbers with −½ and ½ identified.
 
-Darkest at ±½, lightest at 0, blue below and yellow above, even in lightness, and the same order to the colour-blind:
+Darkest at ±½, lightest at 0, blue below and yellow above, uniform in lightness and safe for colour-blind readers:
 CET-CBC1 of P. Kovesi, "Good Colour Maps: How to Design Them" (arXiv:1509.03700), turned so that it begins at its
 darkest colour.  Every eighth colour stands here, as the package that has it (colorcet, CC BY 4.0) takes a second to
 import.
@@ -31,4 +31,4 @@ def _scale() -> tuple[str, ...]:
 
 
 TURN = _scale()
-"""From −½ to just below ½, 256 colours."""
+"""256 colours from −½ to just below ½."""

@@ -1,6 +1,6 @@
-"""A plot as HoloViews elements: the one drawing of its layers for notebooks, figures and films, in either backend.
+"""A plot as HoloViews elements, for notebooks, figures and films, in either backend.
 
-The page has the same looks: a layer names its style in the words of Bokeh's glyphs, which are those of the elements.
+The page looks the same: a layer names its style by properties of Bokeh glyphs, which the elements share.
 """
 
 from __future__ import annotations
@@ -20,26 +20,26 @@ if TYPE_CHECKING:
 __all__ = ["SIDE", "Colour", "as_it_is", "frame", "on_paper", "overlay"]
 
 Colour = Callable[[str], str]
-"""The colour that stands for one of the light page."""
+"""Maps a colour of the light page to the colour to use."""
 Style = Mapping[str, Any]
 Options = dict[str, Any]
 
 SIDE = 420
-"""Pixels of a picture in a notebook."""
+"""Size of a picture in a notebook, in pixels."""
 _PAPER = 0.6
-"""Points of type for a pixel of the page, of lines and markers."""
+"""Points per pixel of the page for lines and markers."""
 _TYPE = 0.75
-"""And of the distance of a word from its place."""
+"""Points per pixel of the page for the offset of labels."""
 _DOT = 0.6
-"""Dots of figures are smaller: they have no pixels to fill."""
+"""Scale of dots in figures, smaller than on the page as no pixels need filling."""
 _MOST_VECTORS = 5000
-"""More markers than these are pixels in a vector file, which would else take a viewer seconds."""
+"""Larger numbers of markers are rasterized in vector files, which would otherwise open slowly."""
 _MARKERS = {"circle": "o", "triangle": "^", "diamond": "D", "square": "s"}
 _DASHES: Mapping[str, Any] = {"solid": "-", "dashed": (0, (6, 3)), "dotted": (0, (2, 4)), "dotdash": (0, (2, 4, 6, 4))}
 
 
 def as_it_is(colour: str) -> str:
-    """Return the colour of the light page."""
+    """Return the colour unchanged."""
     return colour
 
 
@@ -51,15 +51,15 @@ def overlay(
     title: str = "",
     colour: Colour = as_it_is,
 ) -> hv.Overlay:
-    """Return the layers of a plot from the back to the front, with options for all backends that are loaded.
+    """Return the layers of a plot from the back to the front, with options for all loaded backends.
 
     Parameters
     ----------
-    plot : the plot; columns : by the names of its sources; layers without columns are left out.
+    plot : the plot; columns : columns by source; layers without columns are left out.
     axes, names : the ranges and the names of its axes.
-    title : written over it; colour : exchanges the colours of the page.
+    title : the title above the plot; colour : maps the colours of the page.
     """
-    # Cells lie under everything else.
+    # Cells lie below all other layers.
     layers = sorted((*plot.layers, POINT, MESSAGE), key=lambda layer: layer.glyph != "image")
     drawn = [
         _element(layer, columns[plot.source_of(layer)], colour)
@@ -92,12 +92,12 @@ def frame(plot: Plot[Any], axes: Axes, names: tuple[str, str]) -> Options:
 
 
 def on_paper(layer: Layer[Any], colour: Colour) -> Options:
-    """Return Matplotlib's words for the look of a layer."""
+    """Return the style of a layer as Matplotlib options."""
     return _KINDS[layer.glyph].matplotlib(_exchanged(layer.style, colour))
 
 
 def _exchanged(style: Style, colour: Colour) -> Options:
-    """Return the style in other colours, but for those that stand for numbers."""
+    """Return the style with mapped colours, except colours that encode numbers."""
     found = {name: colour(value) if name.endswith("color") else value for name, value in style.items()}
     return {**found, "palette": [*map(colour, style["palette"])]} if style.get("kinds") else found
 
@@ -111,7 +111,7 @@ def _element(layer: Layer[Any], columns: Columns, colour: Colour) -> hv.Element:
 
 
 def _with_options(element: Any, options: Mapping[str, Options]) -> Any:
-    # HoloViews refuses options of a backend that is not loaded.
+    # HoloViews rejects options of a backend that is not loaded.
     for backend in set(options) & set(hv.Store.loaded_backends()):
         element = element.opts(getattr(hv.opts, type(element).__name__)(backend=backend, **options[backend]))
     return element
@@ -157,7 +157,7 @@ def _stroke(style: Style) -> Options:
 
 
 def _area(style: Style) -> Options:
-    # Without a color of its own: HoloViews has one from its cycle, which would win.
+    # Without an explicit colour, the colour of HoloViews' cycle would win.
     return {
         "color": None,
         "facecolor": style["fill_color"],
@@ -195,7 +195,7 @@ def _scale(style: Style) -> Options:
 
 
 def _interpolated(style: Style) -> Options:
-    # Numbers that go round are not to be mixed: −½ and ½ would give 0.
+    # Cyclic numbers must not be interpolated: −½ and ½ would give 0.
     even = style["smooth"] and not style["cyclic"]
     return {**_scale(style), "interpolation": "bilinear" if even else "nearest"}
 
@@ -215,9 +215,9 @@ def _letters(style: Style) -> Options:
 
 
 def _finish(plot: Any, element: hv.Overlay) -> None:
-    """Draw the frame square and over all layers, and words as long as their places are inside."""
+    """Draw the frame square and above all layers, and labels only if their anchors are inside."""
     axis = plot.handles["axis"]
-    # HoloViews measures a square in the numbers of the axes, also where only one of them is logarithmic.
+    # HoloViews computes the aspect from the axis values, even if only one axis is logarithmic.
     axis.set_box_aspect(1.0)
     for spine in axis.spines.values():
         spine.set_zorder(len(element))
@@ -230,7 +230,7 @@ Hook = Callable[[Any, Any], None]
 
 
 def _pixels(style: Style) -> Hook:
-    """Markers point where the layer says, and very many become pixels."""
+    """Return a hook that rotates markers and rasterizes large numbers of them."""
 
     def hook(plot: Any, element: hv.Points) -> None:
         from matplotlib.transforms import Affine2D
@@ -245,7 +245,7 @@ def _pixels(style: Style) -> Hook:
 
 
 def _moved(style: Style) -> Hook:
-    """Words stand beside their places."""
+    """Return a hook that offsets labels from their anchors."""
 
     def hook(plot: Any, element: hv.Labels) -> None:
         from matplotlib.transforms import ScaledTranslation
@@ -259,7 +259,7 @@ def _moved(style: Style) -> Hook:
 
 
 class _Kind(NamedTuple):
-    """Element of the columns of a layer, and its options in the words of each backend."""
+    """The element of a layer's columns, and its options for each backend."""
 
     element: Callable[..., hv.Element]
     bokeh: Callable[[Style], Options]
@@ -277,4 +277,4 @@ _KINDS: Mapping[str, _Kind] = {
     "image": _Kind(_cells, _scale, _interpolated),
     "text": _Kind(_labels, _word, _letters, _moved),
 }
-"""By the glyph of a layer."""
+"""Kinds by the glyph of a layer."""

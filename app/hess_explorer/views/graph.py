@@ -30,18 +30,18 @@ ANGLE: Range = (-math.pi, math.pi)
 """The axis of an angle."""
 ANGLE_TICKS = ((-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi / 2, "π/2"), (math.pi, "π"))
 _POINTS = 600
-"""Of a curve over a long time, as many as a picture shows."""
+"""Number of points of a curve over a long time that a picture resolves."""
 
 
 def over_time(
     name: str, data: Callable[[S], tuple[Array, Array] | None], *, color: str, dash: str = "solid", label: str = ""
 ) -> Layer[S]:
-    """A graph: data(state) = times and values (n,), or None where it is not known."""
+    """Return the layer of a graph; data(state) = times and values (n,), or None if unknown."""
     return curves(name, mapped(data, lambda found: [np.column_stack(found)]), color=color, dash=dash, label=label)
 
 
 def settled_range(curves: Sequence[Array]) -> Range:
-    """An axis for curves (n,) over a long time: room for all but their first tenth, and for 0."""
+    """Return an axis for curves (n,) over a long time, with room for 0 and for all but their first tenth."""
     settled = np.concatenate([y[len(y) // 10 :] for y in curves])
     low, high = float(settled.min()), float(settled.max())
     room = 0.08 * max(1e-6, high - low)
@@ -49,25 +49,25 @@ def settled_range(curves: Sequence[Array]) -> Range:
 
 
 def about_0(values: Array, least: float) -> Range:
-    """A round axis about 0 for values, the largest of which is taken for no less than that."""
+    """Return an axis about 0 with a round limit for values, whose largest counts as at least `least`."""
     return centred(nice_above(1.2 * max(float(np.abs(values).max()), least)))
 
 
 def with_room(values: Array, share: float, least: float = 0.0) -> Range:
-    """An axis for values, with that share of their range, but at least so much, as room on both sides."""
+    """Return an axis for values with a margin on both sides: a share of their range, at least `least`."""
     low, high = float(values.min()), float(values.max())
     room = max(least, share * (high - low))
     return low - room, high + room
 
 
 def thinned(x: Array, y: Array) -> tuple[Array, Array]:
-    """A curve with as many points as a picture shows."""
+    """Return a curve reduced to the number of points that a picture resolves."""
     kept = np.unique(np.linspace(0, len(x) - 1, _POINTS).astype(int))
     return x[kept], y[kept]
 
 
 def branches(x: Array, y: Array, period: float) -> list[Array]:
-    """For `curves`: one over an angle in ±period/2, cut where that passes ±period/2; every part reaches to the edge."""
+    """Return a curve over an angle, cut at ±period/2; each part reaches to the edge."""
     x, y = np.asarray(x, float), np.asarray(y, float)
     cuts = np.flatnonzero(np.abs(np.diff(x)) > period / 2)
     edges = np.copysign(period / 2, x[cuts])
@@ -80,7 +80,7 @@ def branches(x: Array, y: Array, period: float) -> list[Array]:
 
 
 def pieces(curve: Array, kept: Mask, jump: float = math.inf) -> list[Array]:
-    """For `curves`: the parts of one (n, 2) along which `kept` (n,) holds, not joined across jumps in height."""
+    """Return the parts of a curve (n, 2) where `kept` (n,) holds, also cut at jumps in height."""
     cuts = np.flatnonzero((kept[1:] != kept[:-1]) | (np.abs(np.diff(curve[:, 1])) > jump)) + 1
     return [
         part

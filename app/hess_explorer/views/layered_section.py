@@ -1,4 +1,4 @@
-"""A Poincaré section whose points are of two kinds, with a curve that divides them and what is impossible."""
+"""A Poincaré section with points of two kinds, a dividing curve and the impossible region."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ S = TypeVar("S")
 
 _MANY = 50_000
 _ACROSS = 384
-"""Cells across a window: as many as its picture has pixels, on most screens."""
+"""Cells across a window: about one per pixel on most screens."""
 _GROUPS = ("one", "a second", "a third", "a fourth", "any other")
 _CLEAR = theme.FORBIDDEN + "00"
 
 
 def apart(found: Array, window: Window) -> Array:
-    """Points (n, 2); of very many those within the window that can be told apart, one in each of its cells."""
+    """Return points (n, 2), thinned to one per cell of the window if there are very many."""
     if len(found) <= _MANY:
         return found
     low, high = np.array(window)
@@ -51,7 +51,7 @@ def _kinds(
     colors: tuple[str, ...],
     labels: tuple[str, ...],
 ) -> Layer[S]:
-    """Cells (m, n) over the window: 0, 1, … by the kind of each, any others as the last; −1 where there is nothing."""
+    """Return the layer of cells (m, n) by kind 0, 1, …; larger numbers count as the last kind, −1 is empty."""
     shifted = mapped(cells, lambda found: np.minimum(found, len(colors) - 1) + 1.5)
     return image(
         name,
@@ -68,13 +68,13 @@ def _kinds(
 
 
 def basins(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Layer[S]:
-    """Cells (m, n) over the window: 0, 1, … by the group of each; −1 where nothing moves."""
+    """Return the layer of basins, cells (m, n): 0, 1, … by group; −1 without motion."""
     colors = (theme.POINT + "90", theme.STABLE + "70", theme.MAP + "70", theme.ORBIT + "60", theme.MUTED + "70")
     return _kinds("basins", cells, window, colors, tuple(f"basin of {name} group of motions" for name in _GROUPS))
 
 
 def indicator(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Layer[S]:
-    """Cells (m, n) over the window by MEGNO: 0 regular, 1 chaotic, 2 more where volume shrinks; −1 where nothing is."""
+    """Return the layer of MEGNO, cells (m, n): 0 regular, 1 chaotic, 2 more where volume shrinks; −1 empty."""
     colors = (theme.SHEET + "50", theme.UNSTABLE + "60", theme.STABLE + "70", theme.MAP + "80")
     return _kinds(
         "megno", cells, window, colors, ("regular", "chaotic", "regular, volume shrinks", "chaotic, volume shrinks")
@@ -91,10 +91,10 @@ def layers(
     labels: tuple[str, str],
     between: Layers[S] = (),
 ) -> Layers[S]:
-    """Points (n, 2) of either kind, and of the chosen orbits, which start in rings; grey: impossible.
+    """Return the layers: points (n, 2) of both kinds, the chosen orbits with rings at their starts, impossible in grey.
 
-    impossible : cells (m, n) over the window, 1 where nothing is; labels : of the kinds, for the legend; between :
-    further layers, over the points of all orbits and under those of the chosen ones.
+    impossible : cells (m, n) over the window, 1 if impossible; labels : names of the kinds in the legend; between :
+    further layers, above the points of all orbits and below those of the chosen ones.
     """
     return (
         image(

@@ -1,6 +1,6 @@
-"""What a plot is made of: layers of glyphs, each with a look, a word for the legend, and where its data come from.
+"""The layers of a plot: glyphs with a style, a legend entry and a source of data.
 
-A layer is data: `data(state)` gives what it shows of a state, and nothing here remembers anything.
+A layer is immutable: `data(state)` returns its columns for a state, and nothing here keeps state.
 """
 
 from __future__ import annotations
@@ -53,16 +53,16 @@ Range = tuple[float, float]
 Columns = Mapping[str, Any]
 """Columns of a source by name: arrays, or lists of arrays and plain values."""
 Sources = dict[str, Columns]
-"""The columns of sources, by the name of each."""
+"""The columns of sources by name."""
 Positions = Sequence[tuple[float, float]]
 """Points (x, y)."""
 Regions = Sequence[Sequence[Array]]
-"""Filled parts: of each the outer closed curve (n, 2), and those of its holes."""
+"""Filled parts: for each the outer closed curve (n, 2), then the curves of its holes."""
 
 
 @dataclass(frozen=True)
 class Axes:
-    """The axes of a plot as they stand; while a slider is held they may be those of an earlier state."""
+    """The current axes of a plot; while a slider is held they may belong to an earlier state."""
 
     x: Range
     y: Range
@@ -79,9 +79,9 @@ class CellGrid:
 
 @dataclass(frozen=True)
 class Sign:
-    """One entry of a legend: a word, and a sign of that kind ("line", "dot", "dot small", "box") in a CSS style.
+    """One legend entry: a word and a sign of a kind ("line", "dot", "dot small", "box") in a CSS style.
 
-    least : of a layer of cells, the least number of a cell that has it, the greatest being less than one more.
+    least : for layers of cells, the sign stands for numbers in [least, least + 1).
     """
 
     label: str
@@ -91,7 +91,7 @@ class Sign:
 
 
 TURNS = Sign("ρ from −½ to ½, the same", "box rho", f"background: {theme.gradient(theme.TURN_MAP)}")
-"""The scale of rotation numbers."""
+"""Legend entry of the scale of rotation numbers."""
 MOVING_POINT = Sign("moving point", "dot", f"background: {theme.POINT}; border: 1.5px solid")
 
 
@@ -99,11 +99,11 @@ MOVING_POINT = Sign("moving point", "dot", f"background: {theme.POINT}; border: 
 class Layer(Generic[S]):
     """One layer of glyphs.
 
-    name : within the plot; its source is "<plot>-<name>", or "data-<track>" where it draws a track of the scene.
-    glyph : Bokeh's name of it; columns : those of its positions; style : the properties of that glyph.
-    data(state) : its columns, none for nothing; within(state, axes) : the same where it depends on the axes.
-    moving : whether it changes with every state: such layers lie above axes and background, which then stay painted.
-    legend : what it adds to the legend of the scene.
+    name : name within the plot; its source is "<plot>-<name>", or "data-<track>" if it draws a track of the scene.
+    glyph : its name in Bokeh; columns : names of its position columns; style : properties of the glyph.
+    data(state) : its columns, empty for nothing; within(state, axes) : the same if they depend on the axes.
+    moving : whether it changes with every state; such layers lie above axes and background, which are not repainted.
+    legend : its entries in the legend of the scene.
     """
 
     name: str
@@ -121,7 +121,7 @@ Layers = tuple[Layer[S], ...]
 Data = Callable[[S], Any] | None
 """The data of a layer as a function of the state."""
 Within = Callable[[S, Axes], Any] | None
-"""The same where it depends on the axes too."""
+"""The data of a layer as a function of the state and the axes."""
 
 MESSAGE: Layer[Any] = Layer(
     "message",
@@ -135,11 +135,11 @@ MESSAGE: Layer[Any] = Layer(
         "text_baseline": "middle",
     },
 )
-"""A sentence where there is nothing to see."""
+"""The sentence shown instead of an empty plot."""
 
 
 def mapped(get: Callable[[S], T | None], make: Callable[[T], U]) -> Callable[[S], U | None]:
-    """Return the function of a state that makes something of what `get` finds there; None where that is None."""
+    """Return the composition of `make` after `get`, which passes None through."""
 
     def of(state: S) -> U | None:
         found = get(state)
@@ -149,12 +149,12 @@ def mapped(get: Callable[[S], T | None], make: Callable[[T], U]) -> Callable[[S]
 
 
 def column(values: Any) -> Array:
-    """Return numbers as a contiguous array in double precision; the wire sends a screen's single precision."""
+    """Return numbers as a contiguous array in double precision; they are sent in single precision."""
     return np.ascontiguousarray(values, dtype=np.float64)
 
 
 def _positions(columns: Sequence[str], value: Any) -> Columns:
-    """Arrays, one for each column; nothing for None."""
+    """Return arrays by column; empty for None."""
     return {} if value is None else {name: column(one) for name, one in zip(columns, value, strict=True)}
 
 
@@ -194,7 +194,7 @@ def _signed(label: str, kind: str, style: str) -> tuple[Sign, ...]:
 
 
 def _stroked(layer: Layer[S], color: str, width: float, dash: str, alpha: float, label: str) -> Layer[S]:
-    # CSS has no word for dashes and dots.
+    # CSS has no dash-dot line.
     sign = f"border-top: {max(2.0, width):g}px {'dashed' if dash == 'dotdash' else dash} {color}"
     return replace(
         layer,
@@ -216,7 +216,7 @@ def line(
     track: str | None = None,
     within: Within[S] = None,
 ) -> Layer[S]:
-    """One curve: data(state) = (x, y), or None; `track`: columns of a track of the scene."""
+    """Return a layer with one curve: data(state) = (x, y) or None, or the columns of a track of the scene."""
     layer: Layer[S] = Layer(name, "line", columns, track=track, moving=moving)
     return _layer(
         _stroked(layer, color, width, dash, 1.0, label), lambda value: _positions(columns, value), data, within
@@ -235,7 +235,7 @@ def curves(
     moving: bool = True,
     within: Within[S] = None,
 ) -> Layer[S]:
-    """Some curves: data(state) = arrays (n, 2), or None."""
+    """Return a layer of curves: data(state) = arrays (n, 2), or None."""
     layer: Layer[S] = Layer(name, "multi_line", ("xs", "ys"), moving=moving)
     return _layer(_stroked(layer, color, width, dash, alpha, label), _parts, data, within)
 
@@ -250,7 +250,7 @@ def region(
     moving: bool = False,
     within: Within[S] = None,
 ) -> Layer[S]:
-    """Filled parts: data(state) = parts, each an outer closed curve (n, 2) and those of its holes."""
+    """Return a layer of filled parts, each an outer closed curve (n, 2) and the curves of its holes."""
     layer: Layer[S] = Layer(
         name,
         "multi_polygons",
@@ -278,7 +278,7 @@ def points(
     columns: tuple[str, ...] = ("x", "y"),
     within: Within[S] = None,
 ) -> Layer[S]:
-    """Markers: data(state) = (x, y), or (x, y, angle), or None."""
+    """Return a layer of markers: data(state) = (x, y), (x, y, angle) or None."""
     small = size < 10 and not hollow
     look = (
         f"background: none; border: {min(3.0, max(2.0, edge_width)):g}px solid {color}"
@@ -316,7 +316,7 @@ def dots(
     columns: tuple[str, str] = ("x", "y"),
     track: str | None = None,
 ) -> Layer[S]:
-    """Points by the thousand, which the page draws itself: data(state) = (x, y), or None."""
+    """Return a layer of thousands of points, drawn by the page itself: data(state) = (x, y), or None."""
     layer: Layer[S] = Layer(
         name,
         "dots",
@@ -336,7 +336,7 @@ def arrows(
     size: float = 10.0,
     alpha: float = 1.0,
 ) -> Layer[S]:
-    """Triangles that point along a motion: data(state) = (x, y, angle), angle 0 upwards, or None."""
+    """Return a layer of triangles along a motion: data(state) = (x, y, angle) or None; angle 0 points upwards."""
     layer: Layer[S] = points(
         name, data, color=color, size=size, marker="triangle", alpha=alpha, columns=("x", "y", "angle")
     )
@@ -354,13 +354,13 @@ def ring(
     columns: tuple[str, str] = ("x", "y"),
     within: Within[S] = None,
 ) -> Layer[S]:
-    """Rings about some places [(x, y), …]."""
+    """Return a layer of rings about places [(x, y), …]."""
     layer: Layer[S] = points(name, color=color, size=size, hollow=True, edge_width=width, label=label, columns=columns)
     return _layer(layer, lambda value: _rows(columns, value), data, within)
 
 
 def _rows(columns: Sequence[str], value: Sequence[Sequence[Any]]) -> Columns:
-    """Lists, one for each column; nothing without rows."""
+    """Return rows as lists by column; empty without rows."""
     return dict(zip(columns, map(list, zip(*value, strict=True)), strict=False))
 
 
@@ -370,7 +370,7 @@ def target(
     size: float = 21.0,
     columns: tuple[str, str] = ("x", "y"),
 ) -> Layers[S]:
-    """A ring that is seen on any colour: white, and black on it."""
+    """Return a ring visible on any colour: black on white."""
     return (
         ring(name, data, color="white", size=size, width=6.0, columns=columns),
         ring(f"{name}-too", data, color="black", size=size, width=2.5, columns=columns),
@@ -389,10 +389,10 @@ def image(
     kinds: bool = False,
     legend: tuple[Sign, ...] = (),
 ) -> Layer[S]:
-    """Numbers on a grid, under all other layers.
+    """Return a layer of numbers on a grid, below all other layers.
 
-    smooth : of a continuous function, interpolated between the centres of cells; cyclic : so, and `low` and `high` are
-    the same; kinds : numbers that are names, with smooth borders between them.
+    smooth : interpolate between the centres of cells, for continuous functions; cyclic : the same with `low` and `high`
+    identified; kinds : numbers are labels, with smooth borders between them.
     """
     colors = getattr(palettes, palette) if isinstance(palette, str) else palette
     layer: Layer[S] = Layer(
@@ -414,7 +414,7 @@ def image(
 
 
 def levels(name: str, data: Callable[[S], Sequence[float]]) -> Layer[S]:
-    """Dotted lines across the frame at some heights."""
+    """Return a layer of dotted lines across the frame at given heights."""
 
     def across(state: S, axes: Axes) -> Columns:
         heights = [float(y) for y in data(state)]
@@ -434,7 +434,7 @@ def names(
     above: int = 0,
     within: Within[S] = None,
 ) -> Layer[S]:
-    """Words at places, or so many pixels above them: data(state) = [(x, y, word), …]."""
+    """Return a layer of words at places or some pixels above: data(state) = [(x, y, word), …]."""
     layer: Layer[S] = Layer(
         name,
         "text",
@@ -451,7 +451,7 @@ def names(
 
 
 def text(name: str, data: Callable[[S], str]) -> Layer[S]:
-    """A word in the lower right corner of the frame."""
+    """Return a layer with a word in the lower right corner of the frame."""
 
     def there(state: S, axes: Axes) -> Columns:
         said = data(state)

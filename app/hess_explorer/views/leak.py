@@ -1,4 +1,4 @@
-"""How far orbits leak off the Hess manifold, over time."""
+"""Distance of leaking orbits from the Hess manifold over time."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ S = TypeVar("S")
 
 
 def distances(leaks: Callable[[S], Mapping[str, Leak]], distance: Callable[[Leak], Array]) -> Layers[S]:
-    """lg of a distance (n,) over time, of the orbits "own", at the accuracy chosen, and "reference"."""
+    """Return the curves of lg of a distance (n,) over time for the orbits "own" (chosen accuracy) and "reference"."""
 
     def curve(state: S, name: str) -> tuple[Array, Array]:
         leak = leaks(state)[name]

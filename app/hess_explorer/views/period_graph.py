@@ -1,4 +1,4 @@
-"""The period of an orbit over the direction in which it starts."""
+"""The period of an orbit over its initial direction."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ S = TypeVar("S")
 
 
 def has_periods(periods: Array) -> bool:
-    """Whether any of (α, T), (n, 2), is finite."""
+    """Return whether any period of (α, T), (n, 2), is finite."""
     return bool(np.isfinite(periods[:, 1]).any())
 
 
 def period_axis(periods: Array, here: float = 0.0) -> Range:
-    """Room for most of the periods, as some are infinite, and for the one on show, if it is not."""
+    """Return an axis with room for most periods, as some are infinite, and for the period on show if finite."""
     finite = periods[np.isfinite(periods[:, 1]), 1]
     if not finite.size:
         return 0.0, 20.0
@@ -32,7 +32,7 @@ def period_axis(periods: Array, here: float = 0.0) -> Range:
 
 
 def layers(periods: Callable[[S], Array], here: Callable[[S], tuple[float, float] | None]) -> Layers[S]:
-    """T against α from (α, T), (n, 2), and a ring round the one on show; what is infinite is beyond the frame."""
+    """Return the layers: T against α from (α, T), (n, 2), and a ring at the orbit on show; infinite T is clipped."""
 
     def curve(state: S, axes: Axes) -> list[Array]:
         found = periods(state)

@@ -1,4 +1,4 @@
-"""A periodic orbit in a section: its places, by what they are, and the manifolds of a saddle."""
+"""A periodic orbit in a section: its points by stability, and the manifolds of a saddle."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ S = TypeVar("S")
 
 
 def within(curve: Array, turn: float, axes: Axes) -> list[Array]:
-    """The parts of a curve (n, 2) that are seen between the ends of the horizontal axis, an angle with this turn, or ∞.
+    """Return the parts of a curve (n, 2) within the horizontal axis, an angle of period `turn` (∞ if none).
 
-    A part goes one point beyond the end: what is outside of the frame is not painted.
+    A part goes one point beyond the end; the frame clips it.
     """
     low, high = axes.x
     x = curve[:, 0]
@@ -41,7 +41,7 @@ def within(curve: Array, turn: float, axes: Axes) -> list[Array]:
 
 
 def seen(places: Array, turn: float, axes: Axes) -> Array:
-    """Those of the places (n, 2) that lie between the ends of the horizontal axis, an angle with this turn, or ∞."""
+    """Return the points (n, 2) within the horizontal axis, an angle of period `turn` (∞ if none)."""
     low, high = axes.x
     x, y = places.T
     x = x if math.isinf(turn) else low + np.mod(x - low, turn)
@@ -54,7 +54,7 @@ def layers(
     manifolds: Callable[[S], Sequence[Manifold]],
     homoclinic: Callable[[S], Sequence[Intersection]],
 ) -> Layers[S]:
-    """Return the places of an orbit, over the manifolds of a saddle and where they cross."""
+    """Return the layers: manifolds of a saddle, their intersections and, on top, the points of the orbit."""
 
     def parts(stable: bool) -> Callable[[S, Axes], list[Array]]:
         return lambda s, axes: [
@@ -81,7 +81,7 @@ def layers(
 
 
 def places(orbit: Callable[[S], PeriodicOrbit | None]) -> Layers[S]:
-    """Return the places of an orbit, by whether it attracts."""
+    """Return the points of an orbit, styled by stability."""
 
     def of_sign(sign: str) -> Callable[[S], Array | None]:
         def of(state: S) -> Array | None:
@@ -123,7 +123,7 @@ def places(orbit: Callable[[S], PeriodicOrbit | None]) -> Layers[S]:
 
 
 def sign_of(kind: str) -> str:
-    """Whether an orbit of this kind "attracts", "repels", or "neither"."""
+    """Return "attracts", "repels" or "neither" for an orbit of this kind."""
     if kind in ("stable node", "stable focus"):
         return "attracts"
     return "neither" if kind == "elliptic" or kind.startswith("parabolic") else "repels"

@@ -1,4 +1,4 @@
-"""What every picture of a scene is, whoever draws it in the browser."""
+"""Base class of all pictures of a scene, independent of how the browser draws them."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ S = TypeVar("S")
 H = TypeVar("H")
 Values = Mapping[str, float | str]
 Corners = tuple[float, float, float, float]
-"""x0, y0, x1, y1 of two opposite corners."""
+"""Two opposite corners: x0, y0, x1, y1."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Picture(ABC, Generic[S]):
-    """One picture on the page, as data: what it shows of a state of its scene, and what the mouse means in it.
+    """One picture on the page, as data: its content for a state of the scene, and its response to the mouse.
 
     Parameters
     ----------
-    name, title : identifier; what stands over it, of a state where it depends on that.
+    name : identifier; title : heading, or a function of the state.
     caption(state) : verdict and numbers; `said` adds the title.
-    on_click(state, x, y) : the values that a click chooses; on_drag : whether a drag does the same.
-    on_box(state, corners) : the values that a box chooses.
-    on_hover(state, x, y) : a line about the place under the mouse.  Raises `ModelError`.
-    signs : entries of the legend besides those of its layers.
-    drawn_from : names of the pictures whose sources it draws from besides its own.
-    folded : what the button says that shows the picture, if it is not seen at first.
+    on_click(state, x, y) : parameter values set by a click; on_drag : whether a drag does the same.
+    on_box(state, corners) : parameter values set by a box selection.
+    on_hover(state, x, y) : tooltip for the place under the mouse.  Raises `ModelError`.
+    signs : legend entries in addition to those of its layers.
+    drawn_from : names of other pictures whose sources it draws.
+    folded : label of the button that shows the picture, if it is hidden at first.
     """
 
     name: str
@@ -47,50 +47,50 @@ class Picture(ABC, Generic[S]):
     folded: str = ""
 
     kind: ClassVar[str]
-    """Who draws it in the browser: "plot" is Bokeh, the others draw on canvases of their own."""
+    """Renderer in the browser: "plot" is Bokeh, the others draw on their own canvases."""
 
     def of_part(self, part: Callable[[H], S]) -> Picture[H]:
-        """Return the same picture of a state that holds what is shown as a part of it."""
+        """Return this picture for a state that holds the shown object as a part."""
         return cast("Picture[H]", adapted(self, part))
 
     @property
     def needs(self) -> frozenset[str]:
-        """The pictures whose data must be there for it."""
+        """Names of the pictures whose data it requires."""
         return frozenset(self.drawn_from)
 
     @property
     def tracks(self) -> frozenset[str]:
-        """The tracks of the scene that it needs."""
+        """The tracks of the scene that it requires."""
         return frozenset()
 
     @property
     def followers(self) -> Mapping[str, tuple[str, str]]:
-        """Sources of moving points → the columns of the track "orbit" that they follow."""
+        """Columns of the track "orbit" followed by each moving point, by source."""
         return {}
 
     @property
     def legend(self) -> tuple[Sign, ...]:
-        """What it adds to the legend of its scene."""
+        """Entries that the picture adds to the legend of its scene."""
         return self.signs
 
     def there(self, drawn: Mapping[str, Columns]) -> tuple[Sign, ...]:
-        """Those of its legend that are drawn, where these are the columns of all sources."""
+        """Return the legend entries that are visible, given the columns of all sources."""
         return self.legend
 
     @property
     def first_axes(self) -> Axes | None:
-        """Its axes before the first state."""
+        """The axes before the first state."""
         return None
 
     @property
     def hands(self) -> str:
-        """What the mouse chooses in it: "drag", "box", "click", or nothing."""
+        """The mouse gesture that sets values: "drag", "box", "click" or none."""
         if self.on_click is None:
             return ""
         return "drag" if self.on_drag else "box" if self.on_box is not None else "click"
 
     def describe(self) -> dict[str, Any]:
-        """What the browser needs to know before the first data."""
+        """Return the description of the picture, sent to the browser before the first data."""
         return {"name": self.name, "kind": self.kind, "hands": self.hands}
 
     def ranges(self, state: S) -> Axes | None:
@@ -99,14 +99,14 @@ class Picture(ABC, Generic[S]):
 
     @abstractmethod
     def data(self, state: S) -> Sources:
-        """Return the columns of its sources, by the name of the source, but those that depend on the axes."""
+        """Return the columns that are independent of the axes, by source."""
 
     def framed(self, state: S, axes: Axes | None) -> Sources:
-        """Return the columns that do, which join those of the same source."""
+        """Return the columns that depend on the axes, by source; they are merged with those of `data`."""
         return {}
 
     def nothing(self, sentence: str, axes: Axes | None) -> Sources:
-        """Return the columns of its sources where there is nothing to see; only a plot has room for the reason."""
+        """Return the columns of an empty picture; only a plot shows the reason."""
         return {self.name: {}}
 
     def said(self, state: S) -> Caption:
@@ -116,7 +116,7 @@ class Picture(ABC, Generic[S]):
 
 
 def adapted(shown: Any, part: Callable[[Any], Any]) -> Any:
-    """Turn functions of a part into functions of the state that holds it: in a picture, a layer, one field."""
+    """Adapt the functions of a picture, layer or field from a part to the state that holds the part."""
     if is_dataclass(shown) and not isinstance(shown, type):
         return replace(shown, **{one.name: adapted(getattr(shown, one.name), part) for one in fields(shown)})
     if isinstance(shown, tuple):

@@ -1,4 +1,4 @@
-"""The (q1, q2)-plane of a point under a potential: where it may be, equipotentials, its orbit."""
+"""The (q1, q2)-plane of a point in a potential: admissible domain, equipotentials, orbit."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ S = TypeVar("S")
 
 
 def plane_columns(orbit: Orbit, q: Array, **more: Array) -> Columns:
-    """The columns of an orbit, states (ω, γ), for this plane and the sphere: q (m, 2), and more for the player."""
+    """Return the columns of an orbit for this plane and the sphere, with q (m, 2) and more for the player."""
     return {
         "t": column(orbit.times),
         "q1": column(q[:, 0]),
@@ -42,7 +42,7 @@ def picture(
     dots: Mapping[str, tuple[str, str]] | None = None,
     signs: tuple[Sign, ...] = (),
 ) -> Plot[S]:
-    """The plane about 0, in which a moving point follows the orbit; a click chooses the parameters of these names."""
+    """Return the plot of the plane, with a point moving along the orbit; a click sets the parameters `names`."""
     return Plot(
         name="domain",
         title=title,
@@ -61,11 +61,11 @@ def picture(
 def ground(
     edge: Callable[[S], Array], forbidden: Callable[[S], Sequence[Array]], levels: Callable[[S], Sequence[Array]]
 ) -> Layers[S]:
-    """What lies under the orbit: grey outside the edge (n, 2) and inside closed curves; equipotentials."""
+    """Return the layers below the orbit: grey outside the edge (n, 2) and inside closed curves; equipotentials."""
 
     def grey(state: S, axes: Axes) -> Regions:
         outer = edge(state)
-        # Axes that are held may be smaller than the domain, or larger.
+        # While a slider is held, the axes may be smaller or larger than the domain.
         frame = square(2.0 * max(axes.x[1], float(abs(outer).max())))
         return [[frame, outer], *([part] for part in forbidden(state))]
 
@@ -76,7 +76,7 @@ def ground(
 
 
 def orbit(start: Callable[[S], tuple[float, float]], label: str = "") -> Layers[S]:
-    """Return the track of the orbit, and a ring where it starts."""
+    """Return the layers: the track of the orbit and a ring at its start."""
     return (
         line("orbit", track="orbit", columns=("q1", "q2"), color=theme.ORBIT, label="orbit"),
         ring("start", lambda s: [start(s)], label=label),
@@ -86,9 +86,9 @@ def orbit(start: Callable[[S], tuple[float, float]], label: str = "") -> Layers[
 def momentum_picture(
     momentum: Callable[[S], tuple[Array, Array]], least: Callable[[S], float], is_integral: Callable[[S], bool]
 ) -> Plot[S]:
-    """q1p2 − q2p1 over time, (n,) each: an integral of a central force.
+    """Return the plot of q1p2 − q2p1 over time, (n,) each: an integral if the force is central.
 
-    least : half the height of its axis at least; is_integral : whether the force is central.
+    least : minimal half height of the axis; is_integral : whether the force is central.
     """
 
     def about(state: S) -> Caption:

@@ -1,4 +1,4 @@
-"""The motion with e on a principal axis in a potential U(γ1, γ2), in the plane of (q1, q2)."""
+"""The motion with e on a principal axis in a potential U(γ1, γ2), in the (q1, q2)-plane."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ __all__ = ["about", "picture"]
 S = TypeVar("S")
 
 _LEVELS = (0.1, 0.25, 0.5, 0.75, 0.95)
-"""Equipotentials, in units of the largest U on the edge."""
+"""Levels of the equipotentials, in units of the largest U on the edge."""
 
 
 def about(body: PotentialBody, motion: PlaneMotion) -> Caption:
-    """Return whether the motion closes, and why; whether there is another integral."""
+    """Return the caption of a motion: whether and why it closes, and whether a further integral exists."""
     if motion.fixed:
         return Caption("A fixed point: nothing changes.")
     if motion.period is not None:
@@ -65,7 +65,7 @@ def picture(
     motion: Callable[[S], PlaneMotion],
     half_width: Callable[[S], float],
 ) -> Plot[S]:
-    """The domain with equipotentials of U; the motion from the same start as the scene's, and where it starts."""
+    """Return the plot of the domain: equipotentials of U, and the motion from the start of the scene's orbit."""
 
     def edge(state: S) -> Array:
         angle = np.linspace(0.0, 2.0 * np.pi, 241)

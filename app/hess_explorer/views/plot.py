@@ -1,6 +1,6 @@
-"""A planar picture as data: axes, layers, caption, and what a click means.
+"""A planar picture as data: axes, layers, caption and response to clicks.
 
-How it is drawn is for `bokeh_figure` to know; what is told of a state, for the stage of its scene.
+`bokeh_figure` draws it; the stage of its scene sends the data of a state.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ class Plot(Picture[S]):
 
     Parameters
     ----------
-    axes : the names of the axes; x, y : their ranges; each of a state where it depends on that.  Both ranges stay as
-        they are where one is None.
-    layers : what is drawn, from the back to the front.  The moving point and a message come on top.
-    message(state) : a sentence in the middle of the frame where there is nothing to see; empty for none.
+    axes : names of the axes; x, y : their ranges; each may be a function of the state.  Both ranges stay
+        unchanged if one is None.
+    layers : the layers from the back to the front.  The moving point and a message come on top.
+    message(state) : a sentence in the middle of an empty frame; "" for none.
     dot : columns of the track "orbit" that the moving point follows; dots : further layers that follow it.
-    ticks : positions and labels on both axes, where the usual ones would not do; y_ticks : others on the vertical one.
-    log : the axes that are logarithmic, "x", "y" or "xy".
-    first : the axes before the first state, where those depend on it.
-    x_ticks : positions on the horizontal axis; y_tick_count : how many labels the vertical one wants.
+    ticks : positions and labels on both axes, instead of the default; y_ticks : others on the vertical axis.
+    log : the logarithmic axes, "x", "y" or "xy".
+    first : the axes before the first state, if they depend on the state.
+    x_ticks : positions on the horizontal axis; y_tick_count : desired number of labels on the vertical axis.
     """
 
     axes: tuple[str, str] | Callable[[S], tuple[str, str]]
@@ -56,7 +56,7 @@ class Plot(Picture[S]):
 
     @property
     def events(self) -> tuple[str, ...]:
-        """What the browser tells of the mouse: Bokeh's events, "box" and "hover"."""
+        """Mouse events that the browser reports: Bokeh's events, "box" and "hover"."""
         return (
             *(("tap", "doubletap") if self.on_click else ()),
             *(("pan",) if self.on_click and self.on_drag else ()),
@@ -66,23 +66,23 @@ class Plot(Picture[S]):
 
     @property
     def followers(self) -> Mapping[str, tuple[str, str]]:
-        """Sources of moving points → the columns of the track "orbit" that they follow."""
+        """Columns of the track "orbit" followed by each moving point, by source."""
         moving = {**({"point": self.dot} if self.dot else {}), **(self.dots or {})}
         return {f"{self.name}-{layer}": columns for layer, columns in moving.items()}
 
     def describe(self) -> dict[str, Any]:
-        """What the browser needs to know before the first data."""
+        """Return the description of the plot, sent to the browser before the first data."""
         return {**super().describe(), **bokeh_figure.describe(self)}
 
     @property
     def tracks(self) -> frozenset[str]:
-        """The tracks of the scene that it needs."""
+        """The tracks of the scene that it requires."""
         drawn = {layer.track for layer in self.layers if layer.track is not None}
         return frozenset(drawn | ({"orbit"} if self.followers else set()))
 
     @property
     def legend(self) -> tuple[Sign, ...]:
-        """What it adds to the legend of its scene."""
+        """Entries that the plot adds to the legend of its scene."""
         return (
             *(sign for layer in self.layers for sign in layer.legend),
             *self.signs,
@@ -90,7 +90,7 @@ class Plot(Picture[S]):
         )
 
     def there(self, drawn: Mapping[str, Columns]) -> tuple[Sign, ...]:
-        """Those of its legend that are drawn, where these are the columns of all sources."""
+        """Return the legend entries that are visible, given the columns of all sources."""
         found = (
             sign
             for layer in self.layers
@@ -101,7 +101,7 @@ class Plot(Picture[S]):
 
     @property
     def first_axes(self) -> Axes:
-        """The axes before the first state: any that are possible, where they depend on it and none are given."""
+        """The axes before the first state: `first`, the fixed ranges or placeholders."""
         if self.first is not None:
             return self.first
         x, y = ((1.0, 10.0) if side in self.log else (0.0, 1.0) for side in "xy")
@@ -121,24 +121,24 @@ class Plot(Picture[S]):
         return None if x is None or y is None else Axes(x, y)
 
     def data(self, state: S) -> Sources:
-        """Return the columns of its own sources, but those that depend on the axes."""
+        """Return the columns that are independent of the axes, by source."""
         return {self.source_of(layer): layer.data(state) for layer in self.layers if layer.data is not None}
 
     def framed(self, state: S, axes: Axes | None) -> Sources:
-        """Return the columns of those that do."""
+        """Return the columns that depend on the axes, by source."""
         assert axes is not None
         found = {self.source_of(layer): layer.within(state, axes) for layer in self.layers if layer.within is not None}
         sentence = "" if self.message is None else self.message(state)
         return {**found, **self._words(self.names(state), sentence, axes)}
 
     def nothing(self, sentence: str, axes: Axes | None) -> Sources:
-        """Return the columns of all its sources where there is nothing to see but the reason."""
+        """Return the columns of an empty plot with the reason as message."""
         assert axes is not None
         empty: Sources = {self.source_of(layer): {} for layer in (*self.layers, POINT)}
         return {**empty, **self._words((" ", " "), sentence, axes)}
 
     def _words(self, names: tuple[str, str], sentence: str, axes: Axes) -> Sources:
-        """Return the columns of the names of its axes, where those depend on the state, and of the message."""
+        """Return the columns of the message and of state-dependent axis names."""
         message: Columns = (
             {}
             if not sentence
@@ -153,7 +153,7 @@ class Plot(Picture[S]):
 
 
 def _has(columns: Columns, layer: Layer[Any], sign: Sign) -> bool:
-    """Whether a layer with these columns draws what a sign of it means."""
+    """Return whether a layer with these columns draws the content of a legend sign."""
     first = columns.get(layer.columns[0], ())
     if not len(first) or sign.least is None:
         return bool(len(first))

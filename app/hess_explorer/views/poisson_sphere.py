@@ -1,4 +1,4 @@
-"""The Poisson sphere: the vertical γ as seen from the body; the browser draws it on a canvas of its own."""
+"""The Poisson sphere: the vertical γ in the body frame; the browser draws it on a separate canvas."""
 
 from __future__ import annotations
 
@@ -72,12 +72,12 @@ def centre_of_mass(b: Sequence[float]) -> Direction | None:
 
 
 def parallels(axis: Sequence[float] | Array, heights: Iterable[float]) -> list[Circle]:
-    """Circles about an axis at which something ends; a height of ±1 is no circle."""
+    """Return limiting circles about an axis; heights of ±1 are points and left out."""
     return [Circle(axis, height, "limit") for height in heights if abs(height) < 1.0 - 1e-9]
 
 
 def levels_about(axis: Direction | None, heights: Iterable[float]) -> list[Circle]:
-    """Circles of equal height about an axis, as lines of a function of that height; none without an axis."""
+    """Return level circles of a function of the height above an axis; none without an axis."""
     return [] if axis is None else [Circle(axis.along, height, "muted") for height in heights]
 
 
@@ -88,11 +88,11 @@ def gamma_columns(gamma: Array) -> Columns:
 
 @dataclass(frozen=True, kw_only=True)
 class Sphere(Picture[S]):
-    """Draws tracks of the scene that have columns g1, g2, g3.
+    """The sphere with the tracks of the scene that have columns g1, g2, g3.
 
     looks : track → look, "orbit", "second", "stable", "unstable" or "muted".
-    axis(state), circles(state), marks(state) : drawn besides.
-    clouds : the picture whose clouds it shows too.
+    axis(state), circles(state), marks(state) : additional marks.
+    clouds : the picture whose clouds it also shows.
     """
 
     name: str = "sphere"
@@ -107,35 +107,35 @@ class Sphere(Picture[S]):
 
     @property
     def needs(self) -> frozenset[str]:
-        """The pictures whose data must be there for it."""
+        """Names of the pictures whose data it requires."""
         return super().needs | ({self.clouds} if self.clouds else set())
 
     @property
     def tracks(self) -> frozenset[str]:
-        """The tracks of the scene that it needs; clouds move with the time of the orbit."""
+        """The tracks of the scene that it requires; clouds follow the time of the orbit."""
         return frozenset(self.looks) | ({"orbit"} if self.clouds else set())
 
     @property
     def legend(self) -> tuple[Sign, ...]:
-        """What it adds to the legend of its scene."""
+        """Entries that the picture adds to the legend of its scene."""
         return (*self.signs, *((MOVING_POINT,) if "orbit" in self.looks else ()))
 
     def describe(self) -> dict[str, Any]:
-        """What the browser needs to know."""
+        """Return the description of the picture for the browser."""
         clouds = {"clouds": self.clouds} if self.clouds else {}
         return {**super().describe(), "tracks": {f"data-{track}": look for track, look in self.looks.items()}, **clouds}
 
     def data(self, state: S) -> Sources:
-        """Its axis, circles and marks."""
+        """Return the columns of its axis, circles and marks."""
         return {self.name: drawn(self.axis(state), self.circles(state), self.marks(state))}
 
     def nothing(self, sentence: str, axes: Axes | None) -> Sources:
-        """Neither axis nor circles nor marks; the reason is for the caption to say."""
+        """Return empty columns; the caption gives the reason."""
         return {self.name: drawn(None, (), ())}
 
 
 def along_the_orbit(axis: Callable[[S], Direction | None], circles: Callable[[S], Sequence[Circle]]) -> Sphere[S]:
-    """Return the vertical along the track "orbit", and the axis of the centre of mass, where there is a field."""
+    """Return the sphere with the vertical along the track "orbit" and, in a field, the centre of mass."""
     return Sphere(
         looks={"orbit": "orbit"},
         axis=axis,
@@ -148,7 +148,7 @@ def along_the_orbit(axis: Callable[[S], Direction | None], circles: Callable[[S]
 
 
 def drawn(axis: Direction | None, circles: Sequence[Circle], marks: Sequence[Mark]) -> Columns:
-    """Return the columns of what a sphere shows besides tracks."""
+    """Return the columns of an axis, circles and marks."""
     return {
         "axis": [] if axis is None else [float(x) for x in axis.along],
         "label": "" if axis is None else axis.label,

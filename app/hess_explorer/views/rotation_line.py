@@ -1,4 +1,4 @@
-"""Rotation number and trace over the tori of a line through one of them."""
+"""Rotation number and trace along a line of tori."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ LineOf = Callable[[S], ParameterLine]
 ValuesOf = Callable[[S], TorusValues]
 
 RHO, TRACE = (-0.52, 0.52), (0.0, 6.0)
-"""The axes."""
+"""Vertical axes."""
 JUMP = 0.3
-"""ρ jumps from −½ to ½: what differs by more is not joined."""
+"""Points whose ρ differs by more are not joined, as ρ jumps from −½ to ½."""
 _DRAWN_TRACE = 50.0
-"""Larger traces are drawn at this height, which is beyond the frame."""
+"""Larger traces are clipped to this height beyond the frame."""
 
 
 def _curve(line: ParameterLine, values: TorusValues, y: Array, jump: float) -> list[Array]:
@@ -33,7 +33,7 @@ def _curve(line: ParameterLine, values: TorusValues, y: Array, jump: float) -> l
 
 
 def _here(line: LineOf[S], place: Callable[[S], float], curve: Callable[[S], Array]) -> tuple[Layer[S]]:
-    """A ring on a curve at the place of the torus on show, if it is in sight."""
+    """Return a ring on a curve at the torus on show, if it is in the frame."""
 
     def chosen(state: S, axes: Axes) -> list[tuple[float, float]]:
         x, heights = place(state), curve(state)
@@ -53,7 +53,7 @@ def rho_layers(
     rational: Callable[[S], float | None],
     place: Callable[[S], float],
 ) -> Layers[S]:
-    """ρ along a line, that of another family, and the height that is looked for, where there is a torus with it."""
+    """Return the layers: ρ along a line, ρ of another family, and the rational ρ, if a torus has it."""
 
     def other(state: S) -> list[Array]:
         found = perturbed(state)
@@ -74,7 +74,7 @@ def rho_layers(
 
 
 def trace_layers(line: LineOf[S], values: ValuesOf[S], place: Callable[[S], float]) -> Layers[S]:
-    """|t| along a line; above 2 it locks."""
+    """Return the layers of |t| along a line; tori with |t| > 2 are locked."""
 
     def trace(state: S) -> Array:
         return np.minimum(values(state).trace, _DRAWN_TRACE)

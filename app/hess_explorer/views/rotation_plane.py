@@ -1,4 +1,4 @@
-"""The rotation number over two parameters: colours, lock zones, what is impossible, the line through a torus."""
+"""The rotation number over two parameters: colours, lock zones, impossible region, line through a torus."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _CLEAR = theme.LOCKED + "00"
 
 
 def _filled(values: Array, known: Mask) -> Array:
-    """Cells (n, m) with those not known as the nearest known one of their row, else of their column, else 0."""
+    """Fill unknown cells (n, m) with the nearest known value of the row, else of the column, else 0."""
     for axis in (1, 0):
         if not known.any():
             break
@@ -53,9 +53,9 @@ def _filled(values: Array, known: Mask) -> Array:
 
 
 def grids(values: TorusValues, cells: tuple[int, int], x: Range, y: Range) -> tuple[CellGrid, CellGrid]:
-    """ρ, and ln |t|/2, which is positive where it locks, at the centres of cells (m, n) that fill a window.
+    """Return ρ and ln(|t|/2), positive in lock zones, at the centres of cells (m, n) that fill a window.
 
-    Cells without a torus have the value of one beside them, so that both can be interpolated up to the edge.
+    Cells without a torus take the value of a neighbour, so that both can be interpolated up to the edge.
     """
     m, n = cells
     known = values.possible.reshape(n, m)
@@ -67,13 +67,13 @@ def grids(values: TorusValues, cells: tuple[int, int], x: Range, y: Range) -> tu
 
 @lru_cache(64)
 def _upper(x: Range) -> Array:
-    """Return the bifurcation curve (n, 2) with f ≥ 0, as far as it is in a window, which stays while a changes."""
+    """Return the bifurcation curve (n, 2) with f ≥ 0 within a window; it is independent of a."""
     energies = np.linspace(max(x[0], -1.0), x[1], _ON_EDGE)
     return frozen(np.array([[h, f_max(h) if h > -1.0 else 0.0] for h in energies.tolist()]))
 
 
 def edges(plane: str, torus: Torus, x: Range, y: Range) -> list[Array]:
-    """Curves (n, 2) between the tori of a plane of `PLANES` that are possible and those that are not, in a window."""
+    """Return the boundary curves (n, 2) of the possible tori of a plane of `PLANES` within a window."""
     if plane == "h, f":
         if x[1] <= -1.0:
             return []
@@ -88,7 +88,7 @@ def edges(plane: str, torus: Torus, x: Range, y: Range) -> list[Array]:
 
 
 def outside(plane: str, torus: Torus, x: Range, y: Range) -> Regions:
-    """For a `region`: all of the window that is not possible."""
+    """Return the impossible part of the window as a `region`."""
     (x0, x1), (y0, y1) = x, y
     if plane == "h, f":
         return impossible(_upper(x), Axes(x, (min(y0, -y1), max(y1, -y0)))) if x1 > -1.0 else [[_rectangle(x0, x1, y)]]
@@ -112,7 +112,7 @@ def layers(
     across: Callable[[S], Sequence[Array]],
     here: Callable[[S], Positions],
 ) -> Layers[S]:
-    """Colours and zones; curves (n, 2) where |t| = 2; the line, and the torus on show, if it is in sight.
+    """Return the layers: ρ, lock zones, curves |t| = 2 (n, 2), the line, and the torus on show if in the window.
 
     impossible, edges : `outside` and `edges`.
     """
@@ -137,7 +137,7 @@ def layers(
 
 
 def across(x_axis: Range, y_axis: Range, x: float | None, y: float | None) -> list[Array]:
-    """Return the line of this x, or else of this y, through the window, if it is in sight."""
+    """Return the vertical line at x, or else the horizontal line at y, within the window."""
     if x is not None and x_axis[0] <= x <= x_axis[1]:
         return [np.array([[x, y_axis[0]], [x, y_axis[1]]])]
     if y is not None and y_axis[0] <= y <= y_axis[1]:

@@ -34,14 +34,14 @@ S = TypeVar("S")
 
 POLAR: Range = (0.0, math.pi)
 FRAME = Frame(Axes(ANGLE, POLAR), ("φ", "θ⁺"))
-"""Of a curve θ⁺(φ)."""
+"""Frame of a curve θ⁺(φ)."""
 POLAR_TICKS = ((0.0, "0"), (math.pi / 4, "π/4"), (math.pi / 2, "π/2"), (3 * math.pi / 4, "3π/4"), (math.pi, "π"))
 
 
 def over_square(
     caption: Callable[[S], Caption], theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]
 ) -> Plot[S]:
-    """θ⁺ over (φ, θ⁻); a click or a drag chooses both."""
+    """Return the plot of θ⁺ over (φ, θ⁻); a click or drag sets both."""
     return Plot(
         name="map",
         title="θ⁺ over (φ, θ⁻)",
@@ -58,7 +58,7 @@ def over_square(
 
 
 def _layers(theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]) -> Layers[S]:
-    """Colours: θ⁺ from 0 to π, at the centres of cells, rows of equal θ⁻.  A ring: (φ, θ⁻); a line: the curve there."""
+    """Return the layers: θ⁺ at the centres of cells (rows of equal θ⁻), a line at θ⁻ and a ring at (φ, θ⁻)."""
     return (
         image(
             "theta",
@@ -77,7 +77,7 @@ def _layers(theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, f
 def over_phases(
     caption: Callable[[S], Caption], layers: Layers[S], message: Callable[[S], str] | None = None
 ) -> Plot[S]:
-    """Curves θ⁺(φ); a click or a drag chooses the phase."""
+    """Return the plot of curves θ⁺(φ); a click or drag sets the phase."""
     return Plot(
         name="curve",
         title="θ⁺ against the phase φ",
@@ -95,7 +95,7 @@ def over_phases(
 
 
 def spread(theta_plus: Array) -> str:
-    """Between which values a curve θ⁺(φ) lies."""
+    """Return the range of a curve θ⁺(φ) in words."""
     low, high = float(np.min(theta_plus)), float(np.max(theta_plus))
     return f"θ⁺ = {digits(low)} for every φ" if high - low < 1e-4 else f"θ⁺ from {digits(low)} to {digits(high)}"
 
@@ -106,9 +106,9 @@ def over_orders(
     here: Callable[[S], tuple[float, float]],
     closed: Callable[[S], float],
 ) -> Plot[S]:
-    """cos χ over k; a click chooses k.
+    """Return the plot of cos χ over k; a click sets k.
 
-    orders : the closed form, rows (k, cos χ); closed : its value at the body; here : k of that, and what was computed.
+    orders : the closed form, rows (k, cos χ); closed : its value for the body; here : the body's k and computed cos χ.
     """
 
     def about(state: S) -> Caption:
@@ -136,6 +136,6 @@ def over_orders(
 
 
 def cosine_axis(largest: float) -> Range:
-    """An axis from −1, the least cosine, to the largest one."""
+    """Return an axis from −1, the least cosine, to above the largest one."""
     reach = nice_above(max(1e-3, 1.0 + float(largest)))
     return -1.0 - 0.05 * reach, -1.0 + 1.05 * reach

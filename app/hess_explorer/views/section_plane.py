@@ -1,4 +1,4 @@
-"""A Poincaré section: the points of many orbits, those of the chosen one on top."""
+"""A Poincaré section: points of many orbits, the chosen one on top."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["band", "joined", "layers", "outside"]
 S = TypeVar("S")
 Points = Callable[[S], Array | None]
 _CLOSES = 12
-"""An orbit with no more places in the section is one that closes, to the eye."""
+"""An orbit with at most this many distinct crossings looks closed."""
 
 
 def layers(
@@ -25,7 +25,7 @@ def layers(
     forbidden: Callable[[S, Axes], Regions] | None = None,
     start: Callable[[S], Positions] | None = None,
 ) -> Layers[S]:
-    """Points (n, 2) of the chosen orbit and small ones of others, a ring where it starts; grey where all is impossible.
+    """Return the layers: points (n, 2) of the chosen orbit, small points of others, a ring at the start, grey region.
 
     forbidden : parts as of `region`.
     """
@@ -46,7 +46,7 @@ def _points(name: str, of: Points[S], color: str, size: float, label: str) -> La
 
 
 def _few(found: Array | None) -> Array | None:
-    """Places (2, n) of an orbit that closes, which would hardly be seen as dots; None of one with more places."""
+    """Return the distinct crossings (2, n) of a closed orbit, hardly visible as dots; None for other orbits."""
     if found is None or not len(found):
         return None
     places = np.unique(np.round(found, 3), axis=0)
@@ -54,17 +54,17 @@ def _few(found: Array | None) -> Array | None:
 
 
 def joined(parts: Iterable[Array]) -> Array:
-    """All points of some orbits (n, 2)."""
+    """Return all points (n, 2) of some orbits."""
     return np.concatenate([np.empty((0, 2)), *parts])
 
 
 def band(middle: float, half: float, period: float, axes: Axes) -> list[list[Array]]:
-    """For `forbidden`: all heights over middle ± half of the horizontal axis, an angle, also where that goes round."""
+    """Return the vertical band middle ± half of the horizontal angle, with periodic copies, as `forbidden`."""
     low, high = axes.y
     part = np.array([[-half, low], [half, low], [half, high], [-half, high]])
     return [[part + np.array([middle + turn, 0.0])] for turn in (-period, 0.0, period)]
 
 
 def outside(curves: Sequence[Array], x: float, y: float) -> list[list[Array]]:
-    """For `forbidden`: all of the rectangle ± x, ± y but the inside of closed curves (n, 2)."""
+    """Return the rectangle ± x, ± y without the interior of closed curves (n, 2), as `forbidden`."""
     return [[np.array([[-x, -y], [x, -y], [x, y], [-x, y]]), *curves]]

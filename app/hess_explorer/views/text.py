@@ -1,4 +1,4 @@
-"""Numbers and formulas as people read them."""
+"""Numbers and formulas for display."""
 
 from __future__ import annotations
 
@@ -22,33 +22,33 @@ def digits(value: float, count: int = 4) -> str:
 
 
 def ranging(low: float, high: float, count: int = 4) -> str:
-    """From one number to another one; "= …" where both are the same in so many digits."""
+    """Return "from … to …", or "= …" if both numbers agree to `count` digits."""
     first, last = digits(low, count), digits(high, count)
     return f"= {first}" if first == last else f"from {first} to {last}"
 
 
 def staying(values: Array) -> str:
-    """Between which numbers values (n,) lie, or where they stay."""
+    """Return the range of values (n,) in words."""
     low, high = digits(float(values.min())), digits(float(values.max()))
     return f"stays {low}" if low == high else f"between {low} and {high}"
 
 
 def conjugates(value: complex) -> str:
-    """A real number, or a complex one and its conjugate together, a ± bi."""
+    """Return a real number, or a complex pair as a ± bi."""
     return digits(value.real) if not value.imag else f"{digits(value.real)} ± {digits(abs(value.imag))}i"
 
 
 def vector(components: Iterable[float], count: int = 4) -> str:
-    """Its components in brackets, to as many digits."""
+    """Return the components in parentheses, with `count` digits each."""
     return f"({', '.join(digits(one, count) for one in components)})"
 
 
 def with_formulas(text: str) -> str:
-    """Markdown whose $…$ and $$…$$ have become MathML, which browsers set without a script."""
+    """Return Markdown with $…$ and $$…$$ converted to MathML, which browsers render without a script."""
     text = re.sub(r"\$\$(.+?)\$\$", lambda match: convert(match[1], display="block"), text, flags=re.DOTALL)
     return re.sub(r"\$(.+?)\$", lambda match: convert(match[1]), text)
 
 
 def power(value: float) -> str:
-    """An error to one digit."""
+    """Return an error with one digit."""
     return f"{value:.0e}".replace("e-", "e−")

@@ -1,7 +1,7 @@
-"""Colours, lines and sizes: one thing has one look in every picture (Okabe and Ito's palette).
+"""Colours, lines and sizes, the same for one object in every picture (Okabe and Ito's palette).
 
-A colour is named by its value on a light page.  `SHADES` has the shade of the same hue that is as clear on a dark one;
-the browser exchanges them (`looks.js`), in legends by CSS variables.
+A colour is identified by its value on a light page.  `SHADES` holds the equally clear shade for a dark page;
+the browser swaps them (`looks.js`), in legends by CSS variables.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ MAP = "#BF6699"
 SHEET = "#56B4E9"
 POINT = "#F0E442"
 FORBIDDEN = "#ECECEC"
-"""Quiet: nothing happens there."""
+"""A quiet colour for regions without motion."""
 LOCKED = "#B9A7D6"
 MUTED = "#808080"
 INK = "#101010"
-"""Edges and rings: the colour of text."""
+"""The text colour, also for edges and rings."""
 PAPER = "#FFFFFF"
-"""What is behind everything, as a rim about `INK`."""
+"""The background colour, also for the rim of `INK` marks."""
 NUMBER_MAP = "Cividis256"
-"""Of numbers with two ends."""
+"""Scale for numbers in an interval."""
 TURN_MAP = TURN
-"""Of rotation numbers, from −½ to ½, which are the same rotation."""
+"""Cyclic scale for rotation numbers from −½ to ½."""
 LEVELS = {"draft": "#E69F00", "standard": "#8A63B8", "precise": "#9A6B2F", "reference": "#3C9DAF"}
 INTEGRALS = ("#CC6677", "#999933", "#6B7FD7", "#808080")
 CHANGED = "#E0245E"
@@ -48,18 +48,18 @@ SHADES = {
     "ink": (INK, "#F2F2F2"),
     "paper": (PAPER, "#121212"),
 }
-"""Name in CSS → on a light page, on a dark one."""
+"""CSS name → (colour on a light page, colour on a dark page)."""
 
 _NAMES = {light: name for name, (light, _) in SHADES.items()}
 
 
 def gradient(scale: tuple[str, ...], parts: int = 16) -> str:
-    """A scale of colours from left to right, in CSS."""
+    """Return a colour scale as a CSS gradient from left to right."""
     return f"linear-gradient(90deg, {', '.join(scale[i * (len(scale) - 1) // parts] for i in range(parts + 1))})"
 
 
 def in_css(style: str) -> str:
-    """A style in CSS whose colours follow the page's theme: each that has shades becomes its variable."""
+    """Return a CSS style with its colours replaced by variables of the page's theme."""
 
     def variable(found: re.Match[str]) -> str:
         colour, opacity = found[0][:7].upper(), found[0][7:]

@@ -1,4 +1,4 @@
-"""The unrolled torus of the Hess case: where motions are how often, and the orbit on show."""
+"""The unrolled torus of the Hess case: invariant density and the orbit on show."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _SHADES = tuple(f"{theme.STABLE}{round(220 * i / 255):02x}" for i in range(256))
 
 
 def phases(track: Track, theta: CircleMap | None) -> Array:
-    """σ (n,) in [−π, π) along an orbit, which grows by 2π from one return to the next; 0 on the separatrix."""
+    """Return σ (n,) in [−π, π) along an orbit; σ grows by 2π per return.  0 on the separatrix."""
     if theta is None:
         return np.zeros(track.orbit.times.size)
     turns = track.orbit.times / theta.period
@@ -34,7 +34,7 @@ def phases(track: Track, theta: CircleMap | None) -> Array:
 
 
 def why_none(theta: CircleMap | None, turning: TurningPoints | None) -> str:
-    """Why a torus has no density, None on the separatrix; empty where it has one."""
+    """Return the reason for a missing density, "" if it exists; both arguments are None on the separatrix."""
     if theta is None or turning is None:
         return "No density: on the separatrix no motion returns."
     if turning.roots[2] - turning.roots[1] < 1e-6:
@@ -55,7 +55,7 @@ def about(density: Array) -> Caption:
 
 
 def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
-    """Return the density (n, m) relative to an even one, or why there is none; the track "orbit" on the torus."""
+    """Return the plot of the density (n, m) relative to the uniform one, or of the reason for none, and the orbit."""
 
     def caption(state: S) -> Caption:
         found, reason = density(state)

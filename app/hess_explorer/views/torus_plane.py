@@ -1,4 +1,4 @@
-"""A torus M²(h, f) of the Hess case in the (ω1, ω2)-plane: the ring where motions are, an orbit, the limit cycles."""
+"""A torus M²(h, f) of the Hess case in the (ω1, ω2)-plane: admissible ring, an orbit, limit cycles."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def layers(
     half_width: Callable[[S], float],
     proved: Callable[[S], Regions] = lambda s: (),
 ) -> Layers[S]:
-    """The tracks "orbit", "stable" and "unstable" in the ring between two ellipses (n, 2); a band about an orbit."""
+    """Return the layers: tracks "orbit", "stable" and "unstable" in the ring between two ellipses, proved band."""
     return (
         region(
             "forbidden",
@@ -54,18 +54,18 @@ def layers(
 
 
 def phases_at_returns(track: Track, theta: CircleMap, iterates: Array) -> Array:
-    """At each time of an orbit (n,) the phase of its last return to the section; `iterates`: of all its returns."""
+    """Return the phase of the last return at each time of an orbit (n,); `iterates` : phases of all returns."""
     index = np.floor(track.orbit.times / theta.period).astype(int)
     return np.asarray(iterates[np.minimum(index, len(iterates) - 1)])
 
 
 def track_columns(track: Track, **more: Array) -> Columns:
-    """Return the columns of an orbit, and further ones for the player."""
+    """Return the columns of an orbit and further columns for the player."""
     return velocity_columns(track.times, track.omega, track.gamma, phi=track.phi, **more)
 
 
 def cycle_columns(cycles: tuple[Track, Track] | None, i: int) -> Columns | None:
-    """Those of the stable (0) or the unstable (1) limit cycle."""
+    """Return the columns of the stable (0) or the unstable (1) limit cycle."""
     return None if cycles is None else velocity_columns(None, cycles[i].omega, cycles[i].gamma)
 
 

@@ -1,4 +1,4 @@
-"""The (ω1, ω2)-plane: columns of a motion, what the energy forbids, its line of equilibria, arrows, round axes."""
+"""The (ω1, ω2)-plane: columns of a motion, forbidden regions, line of equilibria, arrows, round axes."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ S = TypeVar("S")
 
 
 def velocity_columns(times: Array | None, omega: Array, gamma: Array, **more: Array) -> Columns:
-    """The columns of a motion for this plane and the sphere: ω (m, 2), γ (m, 3), and further ones for the player."""
+    """Return the columns of ω (m, 2) and γ (m, 3) for this plane and the sphere, and more for the player."""
     moving = {} if times is None else {"t": column(times)}
     return {
         **moving,
@@ -73,12 +73,12 @@ def velocity_columns(times: Array | None, omega: Array, gamma: Array, **more: Ar
 
 
 def orbit_columns(orbit: Orbit, **more: Array) -> Columns:
-    """`velocity_columns` of states (ω1, ω2, γ)."""
+    """Return the `velocity_columns` of states (ω1, ω2, γ)."""
     return velocity_columns(orbit.times, orbit.states[:, :2], orbit.states[:, 2:], **more)
 
 
 def pixels_per_unit(half_width: float) -> tuple[float, ...]:
-    """Pixels per unit of ω1, ω2, γ1, γ2, γ3: this plane shows ω within ± half_width, the sphere γ within 1; (5,)."""
+    """Return pixels per unit of ω1, ω2, γ1, γ2, γ3; the plane shows |ω| ≤ half_width, the sphere |γ| ≤ 1."""
     radius = 0.5 * PIXELS
     w = radius / half_width
     return w, w, radius, radius, radius
@@ -91,7 +91,7 @@ def picture(
     title: str = "Angular velocity (ω₁, ω₂)",
     on_click: Callable[[S, float, float], Values] | None = None,
 ) -> Plot[S]:
-    """Return the plane about 0, in which the moving point follows the orbit."""
+    """Return the plot of the plane, with a point moving along the orbit."""
     return Plot(
         name="omega",
         title=title,
@@ -111,7 +111,7 @@ def orbit(label: str) -> Layer[S]:
 
 
 def band(data: Callable[[S], Regions]) -> Layer[S]:
-    """Polygons (n, 2) in which the true orbit is, where they are wider than a pixel."""
+    """Return the layer of polygons (n, 2) that enclose the true orbit where they are wider than a pixel."""
     return region("band", data, color=theme.SHEET, label="the true orbit, as proved", moving=True)
 
 
@@ -121,7 +121,7 @@ def orbit_alone(
     proved: Callable[[S], Regions],
     label: str = "",
 ) -> Plot[S]:
-    """Return the plane with nothing but the track of the orbit, which has this energy, and where the true one is."""
+    """Return the plane with only the track of the orbit and the proved band; `energy` goes to the caption."""
     return picture(
         lambda s: Caption("The chosen orbit.", f"E = {digits(energy(s))}."), half_width, (band(proved), orbit(label))
     )
@@ -134,17 +134,17 @@ def nice_above(value: float) -> float:
 
 
 def room_for(speed: float) -> float:
-    """Half the width of a plane with room for so large an |ω|."""
+    """Return half the width of a plane with room for |ω| = `speed`."""
     return nice_above(1.05 * max(1e-9, speed))
 
 
 def centred(half_width: float) -> Range:
-    """An axis about 0."""
+    """Return the range of an axis about 0."""
     return -half_width, half_width
 
 
 def about_origin(half_width: Callable[[S], float]) -> Callable[[S], Range]:
-    """Return the range of an axis about 0, of a state."""
+    """Return the range of an axis about 0 as a function of the state."""
     return lambda state: centred(half_width(state))
 
 
@@ -154,22 +154,22 @@ def frame(half_width: float) -> Frame:
 
 
 def square(half_width: float) -> Array:
-    """A square (4, 2) about 0."""
+    """Return a square (4, 2) about 0."""
     return half_width * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 
 
 def outside(curve: Array, half_width: float) -> list[Array]:
-    """For a `region`: all but the inside of a closed curve (m, 2)."""
+    """Return the outside of a closed curve (m, 2), as a part of a `region`."""
     return [square(half_width), curve]
 
 
 def ring_outside(inner: Array, outer: Array, half_width: float) -> Regions:
-    """For a `region`: all but the ring between two closed curves (m, 2); axes that are held may be larger ones."""
+    """Return all but the ring between two closed curves (m, 2), as a `region` larger than any held axes."""
     return [outside(outer, 4.0 * half_width), [inner]]
 
 
 def beside(inner: Array, outer: Array, half_width: float) -> Array:
-    """Places (2, 2) for the names of two closed curves: within a point (2,) of one, beyond one of the other."""
+    """Return label places (2, 2): inside a point (2,) of one closed curve and outside a point of the other."""
     gap = 0.09 * half_width
     lengths = np.linalg.norm([inner, outer], axis=1)
     return np.array([inner * (1.0 - min(1.0, gap / lengths[0])), outer * (1.0 + gap / lengths[1])])
@@ -178,7 +178,7 @@ def beside(inner: Array, outer: Array, half_width: float) -> Array:
 def halves(
     stable: Callable[[S, Axes], Array], unstable: Callable[[S, Axes], Array], labels: tuple[str, str]
 ) -> Layers[S]:
-    """Return the stable and the unstable half of the line of equilibria, (2, 2) each, from one end to the other."""
+    """Return the layers of the stable and the unstable half of the line of equilibria, segments (2, 2)."""
     return (
         line("stable", within=lambda s, axes: stable(s, axes).T, color=theme.STABLE, width=3, label=labels[0]),
         line(
@@ -193,13 +193,13 @@ def halves(
 
 
 def to_the_edge(point: Array, half_width: float, axes: Axes) -> Array:
-    """The half line (2, 2) from 0 through a point (2,) out of the picture; axes that are held may be larger ones."""
+    """Return the half line (2, 2) from 0 through a point (2,) beyond the picture and any held axes."""
     far = max(half_width, axes.x[1]) / max(float(np.max(np.abs(point))), 1e-300)
     return np.array([np.zeros(2), far * np.asarray(point)])
 
 
 def equilibria(stable: Callable[[S], Array], unstable: Callable[[S], Array]) -> Layers[S]:
-    """A stable point (2,), filled, and an unstable one, hollow."""
+    """Return the layers of a stable point (2,), filled, and an unstable one, hollow."""
     return (
         points("stable-point", lambda s: stable(s)[:, None], color=theme.STABLE, size=11, edge_width=3),
         points(
@@ -209,7 +209,7 @@ def equilibria(stable: Callable[[S], Array], unstable: Callable[[S], Array]) -> 
 
 
 def energy_levels(data: Callable[[S], Sequence[Array]], half_width: Callable[[S], float], label: str) -> Layers[S]:
-    """Curves (m, 2) of other energies, passed from their first to their last point, with arrows."""
+    """Return the layers of curves (m, 2) of other energies, with arrows from their first to their last point."""
     return (
         curves("levels", data, color=theme.MUTED, width=1, label=label),
         arrows("level-arrows", lambda s: arrows_on(data(s), half_width(s)), color=theme.MUTED, size=8),
@@ -217,12 +217,12 @@ def energy_levels(data: Callable[[S], Sequence[Array]], half_width: Callable[[S]
 
 
 def arcs(data: Callable[[S], Sequence[Array]]) -> Layer[S]:
-    """Thin curves (m, 2) that orbits follow; `arrows` say which way."""
+    """Return the layer of thin curves (m, 2) along orbits; `arrows` show the direction."""
     return curves("arcs", data, color=theme.ORBIT, width=1, alpha=0.5)
 
 
 def arrows_at(places: Sequence[tuple[Array, int]]) -> Array:
-    """For `arrows`: x, y, angle at the i-th point of each curve (m, 2), or the next one that is not its end."""
+    """Return x, y, angle for `arrows` at the i-th point of each curve (m, 2), or the nearest inner point."""
     found = []
     for curve, place in places:
         if len(curve) > 2:
@@ -232,7 +232,7 @@ def arrows_at(places: Sequence[tuple[Array, int]]) -> Array:
 
 
 def arrows_on(curves: Sequence[Array], half_width: float) -> Array:
-    """For `arrows`: x, y, angle in the middle of each curve (m, 2) that is long enough for one."""
+    """Return x, y, angle for `arrows` in the middle of each curve (m, 2) that is long enough."""
     found = []
     for curve in curves:
         length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
@@ -244,5 +244,5 @@ def arrows_on(curves: Sequence[Array], half_width: float) -> Array:
 
 
 def _arrows(found: Sequence[tuple[Array, Array]]) -> Array:
-    """x, y, angle (3, n) of triangles at these places along these steps, which point upwards at angle 0."""
+    """Return x, y, angle (3, n) of triangles at (place, step); angle 0 points upwards."""
     return np.array([(*place, np.arctan2(*step[::-1]) - np.pi / 2) for place, step in found]).reshape(-1, 3).T

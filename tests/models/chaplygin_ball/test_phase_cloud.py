@@ -376,7 +376,7 @@ def test_the_entropy_gains_the_mean_of_the_logarithm(direction):
     density = first * np.exp(found.log_s[:, :1] - found.log_s)
     entropy = -np.log(density).mean(axis=0)
     assert entropy - entropy[0] == pytest.approx(found.log_growth.mean(axis=0), abs=1e-12)
-    # What Liouville's equation says of its rate: the mean divergence.
+    # Liouville's equation gives its rate: the mean divergence.
     rates = np.gradient(entropy, found.times)
     assert rates[2:-2] == pytest.approx(found.divergence.mean(axis=0)[2:-2], rel=0.1, abs=0.02)
     # The cloud gathers either way, as the scene says.

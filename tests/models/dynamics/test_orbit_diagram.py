@@ -38,7 +38,7 @@ def test_the_doublings_of_the_map_of_henon_are_its_own_and_their_ratios_tend_to_
         assert np.linalg.eigvals(M).min() == pytest.approx(-1.0, abs=1e-8)
     assert np.all(found.ratio_errors < 1e-9)
     assert abs(found.ratios[-1] - 4.669201609) < abs(found.ratios[-2] - 4.669201609) < 0.2
-    # Where it ends is known: 1.058 (Derrida, Gervois and Pomeau 1979).
+    # The accumulation point is known: 1.058 (Derrida, Gervois and Pomeau 1979).
     assert found.limit == pytest.approx(1.058, abs=5e-4)
 
 

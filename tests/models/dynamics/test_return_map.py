@@ -139,7 +139,7 @@ def test_the_separatrices_of_the_hess_manifold_split_in_proportion_to_what_is_of
     for epsilon in (0.0, 2e-4, 4e-4):
         body = HeavyBody.hess((1.0, 1.6, 4.0), 1.0, away=epsilon)
         P = return_map(body, h=h, f=f)
-        # Of the two saddles one repels along the Hess manifold, the other attracts along it.
+        # One of the two saddles repels along the Hess manifold, the other attracts along it.
         repels, attracts = (periodic_orbit(P, place, 1) for place in ((-0.122, 0.1206), (-2.836, 0.2879)))
         unstable = manifold(P, repels, 1.9, side=-1, sagitta=3e-3, longest=0.3)
         stable = manifold(P, attracts, 1.9, side=1, stable=True, sagitta=3e-3, longest=0.3)

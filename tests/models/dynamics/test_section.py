@@ -301,7 +301,7 @@ def test_a_motion_from_rest_does_not_cross_the_plane_it_is_released_from(system,
         found = ended(lambda plane=plane: section(system.at(parameters), state, plane, end, level("reference")))
         expected = section(system.at(parameters), later, plane, end - soon, level("reference"))
         assert np.all(np.abs(found.times) > 0.05)
-        # Where it comes back to rest it may touch the plane again: there round-off decides.
+        # On return to rest it may touch the plane again: there round-off decides.
         times, others = (
             one.times[[abs(rate(system, parameters, plane.normal, y)) > 1e-6 for y in one.states]]
             for one in (found, expected)
@@ -330,7 +330,7 @@ def test_a_span_that_ends_at_a_crossing(system, sense, name):
     def until(end):
         return len(ended(lambda: section(*system.example_motion, plane, end, level(name))).times)
 
-    # What the level may err in the height, over the slope there.
+    # Height error allowed by the level, divided by the slope there.
     for i, (t, y) in enumerate(zip(found.times, found.states, strict=True)):
         little = 4 * level(name).promise / abs(rate(system, system.example[1], plane.normal, y))
         assert until(t - little) == i

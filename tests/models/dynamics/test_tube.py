@@ -157,7 +157,7 @@ def test_a_divisor_that_vanishes_ahead_ends_a_tube_and_raises_nothing():
     for t, (x, y) in zip(found.times, found.states, strict=True):
         assert Fraction(1 - t) in x
         assert Fraction(t) in y
-    # Where it vanishes at once there is no first step.
+    # If it vanishes at the start there is no first step.
     assert tube(system.at(()), (0.0, 0.0), [0.5], digits=15).states == ()
 
 

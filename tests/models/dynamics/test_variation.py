@@ -175,7 +175,7 @@ def test_multipliers_of_limit_cycles_are_those_of_the_moebius_map():
         start = turning.state_at_lower_turn(point.phi)
         found = transition_matrix(hess.at((a, 1.0)), start, turning.period, REFERENCE)
         assert found.states[0] == pytest.approx(start, abs=1e-12)
-        # Of the five multipliers four are 1: those of the motion itself and of three integrals.
+        # Four of the five multipliers are 1: those of the motion itself and of three integrals.
         assert found.log_volume[0] == pytest.approx(point.log_multiplier, abs=1e-11)
         assert np.trace(found.matrices[0]) - 4.0 == pytest.approx(point.multiplier, rel=1e-9)
         crossing = section(hess.at((a, 1.0)), start, plane, turning.period, REFERENCE, 1).states[0]

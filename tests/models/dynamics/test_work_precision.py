@@ -413,7 +413,7 @@ def test_every_way_to_compute_is_a_point_of_its_line():
     drawn |= {f"{method}-marks": drawn[method] for method in ("DOP853", "LSODA")}
     drawn |= {f"at-{name}": [point for point in drawn["Taylor"] if point.setting == name] for name in LEVELS}
     for layer, own in drawn.items():
-        # What has no error at all is drawn on the edge of the logarithmic axis.
+        # Zero errors are drawn on the edge of the logarithmic axis.
         assert flat(data[f"precision-{layer}"]["x"]) == pytest.approx([max(point.error, 1e-17) for point in own])
         assert flat(data[f"precision-{layer}"]["y"]) == pytest.approx([point.ms for point in own])
 
@@ -434,7 +434,7 @@ def test_each_chart_shows_its_curves_over_the_time_of_the_page():
     # The dotted lines: what is promised, and one pixel.
     assert flat(data["growth-limit"]["y"]) == pytest.approx([DRAFT.promise] * 2)
     assert flat(data["pixels-limit"]["y"]) == [1.0] * 2
-    # What the moving points follow.
+    # Paths of the moving points.
     orbit = data["data-orbit"]
     assert orbit["t"] == pytest.approx(2.0 * TIMES)
     assert orbit["growth"][1:] == pytest.approx(errors.errors["draft"][1:])

@@ -337,7 +337,7 @@ def test_points_are_on_the_plane_and_on_their_levels_at_precise(body, h, f):
         assert np.max(np.abs(energy(body, result.states) - h)) < 1e-9 * size
         assert np.max(np.abs(area(result.states) - f)) < 1e-9 * max(1.0, abs(f))
         g = angles(result.states)[1]
-        # Where M is along the vertical g means nothing: the distance from the plane is what counts.
+        # If M is vertical g is undefined: the distance from the plane counts.
         G = np.linalg.norm(result.states[:, :3], axis=1)
         tilt = np.sqrt(np.maximum(0.0, 1.0 - (f / G) ** 2)) * np.sqrt(1.0 - coordinates(result.states)[:, 1] ** 2)
         assert np.max(np.abs(np.cos(g)) * tilt) < 1e-9

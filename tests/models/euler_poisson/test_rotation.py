@@ -90,7 +90,7 @@ def test_in_gess_ris1_a_and_b_the_curves_through_the_line_do_not_go_round(h, f):
     found = rotation_along(line, [share for share, _ in starts], places, about_first=False, count=24)
     assert found.standing.size >= 8
     assert np.all(np.abs(found.numbers) > RESOLVED)
-    # Of those without a number the points stay in a part of the circle of l.
+    # Orbits without a rotation number stay in a part of the circle of l.
     gaps = []
     for (share, _), points in zip(starts, places, strict=True):
         l = np.sort(points[:, 0])

@@ -97,7 +97,7 @@ def test_the_largest_bend_bounds_the_second_derivative(coefficients, h):
     bend = largest_bend(e, h)
     # Round-off of the two sums.
     assert bend >= sampled.max() * (1 - 100 * EPS)
-    # Where no coefficient is negative it is no more than the second derivative at h.
+    # If no coefficient is negative it is at most the second derivative at h.
     assert largest_bend(np.abs(e), h) == pytest.approx(Polynomial(np.abs(e)).deriv(2)(h), rel=100 * EPS)
     assert bend == largest_bend(np.abs(e), h)
 
@@ -200,7 +200,7 @@ def test_a_touch_within_round_off_gives_nothing_or_pairs_in_its_place():
         found = found_roots(e, 1.0)
         assert len(found) % 2 == 0
         assert len(found) <= e.size - 1, "more than a polynomial has"
-        # Where e is within round-off of 0: √(Σ|e_k| s^k · 10 ε / e″).
+        # Half width of the zone where e is within round-off of 0: √(Σ|e_k| s^k · 10 ε / e″).
         assert found == pytest.approx(root, abs=1e-5)
 
 
@@ -211,7 +211,7 @@ def test_a_root_of_high_multiplicity_ends_the_search_with_the_right_parity(power
     # Flatter than its own round-off over a ten-thousandth of the step, which is looked at in pieces of 1e-8.
     found = found_roots(e, 1.0, enough=200_000)
     assert len(found) % 2 == power % 2
-    # Where the polynomial is within round-off of 0.
+    # Zone where the polynomial is within round-off of 0.
     assert found == pytest.approx(root, abs=2 * (100 * EPS) ** (1 / power))
 
 

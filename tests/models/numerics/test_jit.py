@@ -89,7 +89,7 @@ def test_a_change_makes_stale_what_it_is_part_of_and_nothing_else(copied, hashes
     assert change(text) != text
     path.write_text(change(text), encoding="utf-8")
     after = hashes()
-    # What comes back is as it was.
+    # Restoring the text restores the hashes.
     path.write_text(text, encoding="utf-8")
     assert hashes() == before
     changed = {part for part in PARTS if before[part] != after[part]}

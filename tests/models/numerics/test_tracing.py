@@ -322,7 +322,7 @@ def test_the_jacobian_that_is_observed_along_is_the_derivative_of_the_field(name
     assert (found == exact).all()
     assert seen[0, -1] == sum(exact[i, i] for i in range(n))
     assert list(c[1]) == [rate.subs(at) for rate in rates]
-    # Where an entry does not move, neither does its second derivative exist.
+    # A constant entry has no second derivatives.
     assert all(not sympy.diff(rates[i], y[j]).free_symbols & set(y) for i, j in of.fixed)
 
 

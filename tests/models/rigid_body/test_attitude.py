@@ -88,7 +88,7 @@ def test_a_steady_rotation_turns_by_its_angle():
     )
     turn = Rotation.from_rotvec(found.times[:, None] * w).as_matrix()
     assert np.max(np.abs(found.axes - found.axes[0] @ turn)) < 1e-14
-    # What is fixed in the body is seen in space where the rotation has brought it.
+    # The rotation takes a vector fixed in the body to its direction in space.
     body = np.array([0.2, 0.5, -0.7])
     assert found.in_space(body) == pytest.approx((turn @ body) @ found.axes[0].T, abs=1e-14)
 
@@ -153,7 +153,7 @@ print(json.dumps(ensemble(WITH_ATTITUDE.at(parameters), starts, times, level("pr
 
 def test_attitudes_of_many_are_those_of_each():
     starts = [[*start, *across(start[2:])] for start in (START, -START, START[[1, 0, 4, 3, 2]])]
-    # Nothing else needs this kernel: it is not compiled, which would take ten seconds.
+    # Only this test needs the kernel: compiling it would take ten seconds.
     found = without_jit(MANY, json.dumps([np.array(starts).tolist(), P, [1.0, 5.0]]))
     for start, states in zip(starts, found, strict=True):
         exact = solve(WITH_ATTITUDE.at(P), start, [1.0, 5.0], level("precise")).states

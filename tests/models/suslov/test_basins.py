@@ -59,7 +59,7 @@ def starts(body, E, count=3):
 
 def test_the_mean_divergence_is_that_of_scipy():
     body, E = TWO
-    # Of a quadratic field it is linear.
+    # It is linear, since the field is quadratic.
     slopes = [divergence(body, one) for one in np.eye(5)]
 
     def rates(_, y):

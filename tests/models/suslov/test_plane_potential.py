@@ -139,7 +139,7 @@ def test_the_integrable_one_is_regular_and_the_others_have_chaos(name, E, chaoti
     body = body_of(name)
     assert equator_energy(body) > E
     exponents = [lyapunov_exponent(body, state_at(body, E, g2, 0.1), 1500.0).value for g2 in (-0.2, 0.1, 0.25)]
-    # Of a regular motion it falls as ln(t)/t, 0.005 by now.
+    # For a regular motion it falls as ln(t)/t, to 0.005 here.
     assert (max(exponents) > 0.05) is chaotic
     assert chaotic or max(exponents) < 0.008
 

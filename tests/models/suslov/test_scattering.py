@@ -111,7 +111,7 @@ def test_the_start_leads_to_the_predicted_circle(body, distance, arc):
         span = 2.0 * abs(passage(body, omega).u0) + 35.0
         end = solve(body, [*omega, *gamma], [span / points.rate], level("reference"))
         Gamma = float(end.states[0, 2:] @ points.xi)
-        # Where I13 I23 ≠ 0 the double next to ω(0) has another passage, by 1e-16/1e-5.
+        # If I13 I23 ≠ 0 the double next to ω(0) has another passage, by 1e-16/1e-5.
         assert found.Gamma_plus(theta, phi) == pytest.approx(Gamma, abs=1e-10)
         assert math.cos(found.theta_plus(theta, phi)) == pytest.approx(Gamma, abs=1e-10)
         # ω and γ at the start are what was asked for.

@@ -104,7 +104,7 @@ def test_theta_is_where_the_orbit_comes_back_on_every_torus(torus, phi):
     assume(abs(share) > 1e-4 or h > 1)
     found, turning = circle_map(a, h, f, REFERENCE), turning_points(h, f)
     end = solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(phi), [turning.period], REFERENCE).states[0]
-    # Where |w| is small an error of the orbit turns w by so much more.
+    # For small |w| an error of the orbit rotates w by more, in inverse proportion.
     lever = 1.0 / min(1.0, turning.initial_rho) ** 2
     # Next to the edge the lower turn itself is known to √ε only.
     edge = 1e-7 if abs(share) > 1 - 1e-6 else 0.0

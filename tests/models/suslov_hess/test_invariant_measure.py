@@ -169,7 +169,7 @@ def test_the_unrolled_density_is_normalised_and_carried_along_by_the_flow(a, h, 
     theta, turning = circle_map(a, h, f, REFERENCE), turning_points(h, f)
     density = density_on_torus(theta, REFERENCE, (64, 128))
     assert density.shape == (128, 64)
-    # Of a smooth periodic function the mean over even places is exact.
+    # The mean of a smooth periodic function over equidistant points is exact.
     assert density.mean(axis=0) == pytest.approx(1.0, abs=1e-6)
     # Neighbours at σ = 0 are carried to the middle of a column: density there times how far they have spread.
     step = 1e-5

@@ -61,7 +61,7 @@ def turns_of_the_motion(a, h, f, count):
 
 @pytest.mark.parametrize("torus", ELLIPTIC + HYPERBOLIC)
 def test_the_rotation_number_is_that_of_ten_thousand_iterations(torus):
-    # Of N returns less than one turn is not counted.
+    # Counting N returns loses less than one turn.
     assert rho_of(*torus) == pytest.approx(iterated(*torus), abs=1e-4)
 
 

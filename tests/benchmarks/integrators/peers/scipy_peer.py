@@ -68,7 +68,7 @@ def _crossings(work: MotionWorkload, setting: Setting) -> Run:
     def height(t: float, y: Array) -> float:
         return float(y[4])
 
-    # How solve_ivp is told: upward crossings only.
+    # solve_ivp's option for upward crossings only.
     setattr(height, "direction", 1.0)  # noqa: B010
     solve = _solve(work, work.initial[0], work.times, setting, events=height)
     return lambda: solve().y_events[0]
