@@ -15,6 +15,16 @@ const LARGE = 0.82
 const STEP = 2
 
 /**
+ * Return the height of a caption in a column of this width, whose cells are no wider than their captions and pictures need.
+ * @param {Place["caption"]} caption
+ * @param {number} wide
+ * @param {number} high room for caption and picture
+ */
+function captionIn(caption, wide, high) {
+  return caption(Math.min(wide, Math.max(high - caption(caption.wide), caption.wide)))
+}
+
+/**
  * Return the arrangement of equal pictures in columns.
  * @param {Place} place
  * @param {number} columns
@@ -24,17 +34,18 @@ function grid({ width, height, count, gap, caption }, columns) {
   const rows = Math.ceil(count / columns)
   const wide = (width - gap * (columns - 1)) / columns
   const high = (height - gap * (rows - 1)) / rows
-  const edge = Math.floor(Math.min(wide, high - caption(wide)))
+  const above = captionIn(caption, wide, high)
+  const edge = Math.floor(Math.min(wide, high - above))
   const cell = Math.min(wide, Math.max(edge, caption.wide))
   const left = (width - columns * cell - gap * (columns - 1)) / 2
-  const row = edge + caption(wide) + gap
+  const row = edge + above + gap
   const top = (height - rows * row + gap) / 2
   // A last row that is not full is centred.
   /** @param {number} i */
   const aside = (i) => (i < columns * (rows - 1) ? 0 : (rows * columns - count) / 2)
   const boxes = Array.from({ length: count }, (_, i) => ({
     x: left + ((i % columns) + aside(i)) * (cell + gap), y: top + Math.floor(i / columns) * row,
-    width: cell, edge, caption: caption(wide), small: false,
+    width: cell, edge, caption: above, small: false,
   }))
   return { boxes, smallest: edge }
 }
@@ -55,7 +66,7 @@ function strip({ width, height, count, gap, caption }, leading, lead, isBeside, 
   const [wide, high] = isBeside
     ? [width - row - gap, (height - gap * (rest - 1)) / rest]
     : [(width - gap * (rest - 1)) / rest, height - lead - over - gap]
-  const above = titlesOnly ? caption.title : caption(wide)
+  const above = titlesOnly ? caption.title : isBeside ? caption(wide) : captionIn(caption, wide, high)
   const edge = Math.floor(Math.min(wide, high - above, lead))
   const cell = isBeside || titlesOnly ? wide : Math.min(wide, Math.max(edge, caption.wide))
   const left = isBeside ? 0 : (width - rest * cell - gap * (rest - 1)) / 2

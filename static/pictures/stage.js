@@ -46,10 +46,11 @@ function captions(type) {
   const linesOf = (length, width) => Math.ceil(length / Math.max(1, width / own(width) - SIDES))
   /** @param {number} width */
   const lines = (width) => {
-    // In a narrow cell the numbers follow the verdict on the same line.
-    if (isNarrow(width, type)) return Math.min(most, Math.max(2, linesOf(LONGEST, width)))
+    const together = linesOf(LONGEST, width)
+    // In a narrow cell the numbers follow the verdict on the same line; elsewhere they begin a new one.
+    if (isNarrow(width, type)) return Math.min(most, Math.max(2, together))
     const head = linesOf(HEAD, width)
-    const all = head + linesOf(NUMBERS, width)
+    const all = Math.min(together + 1, head + linesOf(NUMBERS, width))
     return Math.min(most, isPresenting() && all > most ? head : all)
   }
   /** @param {number} count @param {number} size */
