@@ -129,7 +129,7 @@ def roots_hold(h, f, roots):
 
 @cache
 def step(a, h, f, roots, start, end, radius, bound, terms, bits):
-    """(A, B, C, D) of one Taylor step, after its disc and its bound are found right; at a precision of so many bits."""
+    """Return (A, B, C, D) of one Taylor step after checking its disc and bound, at a precision of this many bits."""
     with precision(bits):
         n0, n1, n2 = (interval(*root) for root in roots)
         s, r, K = map(interval, (start, radius, bound))
@@ -295,7 +295,7 @@ def verify_turning(certificate, square, turns):
 
 
 def verify_edge(certificate, a, h, f):
-    """A circle of states: its double root, in rationals, and what follows from the sign of n²(1 + a²) − a²."""
+    """Verify a circle of states: its double root, in rationals, and the sign of n²(1 + a²) − a²."""
     n = rational(part(certificate, "n", str), "n")
     need(0 < n < 1 and 2 * n * h == 1 - 3 * n * n and f * f * n == (1 - n * n) ** 2, "this is not on the edge")
     radicand = n * n * (1 + a * a) - a * a

@@ -113,8 +113,8 @@ def _row(times):
 
 async def measure(base, pid, counts, seconds):
     """Yield one line of the table for each count."""
-    # What a process loads once, the first time that it is asked for, is no part of a session: each of them should have
-    # had each scene, with what is filled in behind it.
+    # Warm up: every process should first have computed each scene with its background work, which is loaded once and
+    # is not part of a session.
     warm = Crowd(base)
     await warm.open(5 * len(warm.names))
     await warm.use(4.0 * EVERY, 99)

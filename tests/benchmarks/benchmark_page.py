@@ -208,7 +208,7 @@ def map_milliseconds() -> float:
 
 
 def state_milliseconds() -> tuple[float, float, float]:
-    """Medians of 20: the computation of a new state with all pictures; with a new φ0 only; of one asked for before."""
+    """Medians of 20: a new state with all pictures; a new φ0 only; a cached state."""
     scene = scenes()[SCENE]
     values = scene.defaults()
     medians = []

@@ -1,4 +1,4 @@
-"""The commands `orbit-diagram` and `regime`: against the Möbius matrix and Newton's method, and what is refused."""
+"""The commands `orbit-diagram` and `regime`: against the Möbius matrix and Newton's method, and refused inputs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command `periodic`: periodic orbits, branches and manifolds against exact ones, and what is refused."""
+"""The command `periodic`: periodic orbits, branches and manifolds against exact ones, and refused inputs."""
 
 from __future__ import annotations
 

@@ -202,7 +202,7 @@ def random_parameters(system, random):
 
 
 def random_state(system, random):
-    """Angular velocities of every size; what is a unit vector in the example is one here."""
+    """Return a random state: angular velocities of every size; unit vectors of the example stay unit vectors."""
     state, count = np.array(system.example[0]), system.angular_velocities
     slow, vertical = random.normal(size=count) * 10 ** random.uniform(-1.0, 0.5), random.normal(size=state.size - count)
     return np.concatenate((slow, vertical / np.linalg.norm(vertical) * np.linalg.norm(state[count:])))

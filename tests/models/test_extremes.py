@@ -85,7 +85,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Refusal:
-    """request(level) must raise this error; `words` say what is wrong, what is allowed or what to do."""
+    """request(level) must raise this error; `words` name the fault, the allowed range or the remedy."""
 
     name: str
     request: Callable

@@ -170,7 +170,7 @@ def orbits_in_long_double(system, states, parameters, times):
 
 @kept(as_decimals)
 def orbit_in_decimals(system, state, parameters, times, digits):
-    """One orbit (n, d) with so many digits in each step; an unstable motion loses some of them."""
+    """Return one orbit (n, d) with this many digits in each step; an unstable motion loses some of them."""
     with decimal.localcontext(prec=digits):
         y, p = (as_decimals(np.reshape(values, (-1, 1)).tolist()) for values in (state, parameters))
         t = as_decimals(np.reshape(times, (-1, 1)).tolist())
@@ -178,7 +178,7 @@ def orbit_in_decimals(system, state, parameters, times, digits):
 
 
 class Along:
-    """One orbit with so many digits at any times, each from the nearest where it is known already.
+    """One orbit with this many digits at any times, each computed from the nearest known time.
 
     What is asked for at each level of accuracy, whose times differ by little, takes hardly longer than for one.
     """

@@ -1,4 +1,4 @@
-"""The table of app/README.md with the parts of the paper: all are in it, and what it names is on the page."""
+"""The table of app/README.md with the parts of the paper: it is complete, and the page has everything it names."""
 
 from __future__ import annotations
 

@@ -56,7 +56,7 @@ def points(explorer, source):
 
 
 def assert_follows(explorer, values, times):
-    """The orbit in the browser is that of `eq29`, to half a pixel."""
+    """Assert that the orbit in the browser is that of `eq29`, to half a pixel."""
     data, found = explorer.data("data-orbit"), track(explorer)
     exact = integrate(values, start_of(values), times)
     scale = explorer.axes("omega")[1]

@@ -1,4 +1,4 @@
-"""The solid body: where its edge is, what it hides, and the moving point behind a sphere."""
+"""The solid body: its outline, hidden lines, and the moving point behind a sphere."""
 
 from __future__ import annotations
 

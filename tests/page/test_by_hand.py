@@ -52,7 +52,7 @@ def pictures(explorer):
 
 
 def assert_same_by_link(explorer, artefacts, name):
-    """Open the link of what is on the screen, and compare."""
+    """Open the link to the current state, and compare."""
     address = explorer.link().removeprefix(explorer.base)
     by_hand = pictures(explorer)
     by_link = pictures(explorer.goto(address))

@@ -100,7 +100,7 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer):
 
 
 def filming():
-    """The processes that make films of half a minute."""
+    """Return the processes that make films of half a minute."""
     found = []
     for one in Path("/proc").glob("[0-9]*/cmdline"):
         try:

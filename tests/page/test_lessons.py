@@ -1,4 +1,4 @@
-"""A lesson is given: step by step, by the keys of a clicker, with guesses and what they are told."""
+"""A lesson in class: step by step, by the keys of a presenter, with guesses and the responses to them."""
 
 from __future__ import annotations
 

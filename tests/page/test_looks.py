@@ -210,7 +210,7 @@ TEXTS = """names => {
 
 
 def assert_readable(page, scene, is_phone):
-    """Every text of the pictures in sight stands out from what is behind it."""
+    """Assert that every text of the visible pictures contrasts with its background."""
     names = [name for name in planar(scene) if not is_phone or name == scenes()[scene].open_pictures[0]]
     if not names:
         return

@@ -1,4 +1,4 @@
-"""The first ten seconds: what moves by itself, what is to be dragged, what the mouse does where."""
+"""The first ten seconds: automatic motion, the suggested drag, and the effect of the mouse."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The page as a whole: when it is ready, what its link restores, what it refuses, and what it survives.
+"""The page as a whole: when it is ready, restoring links, refusals, and recovery from failures.
 
 `Explorer` is what all tests of the page drive it with; the expected numbers come from `models` or from closed forms.
 """

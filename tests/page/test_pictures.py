@@ -1,4 +1,4 @@
-"""The four pictures: what is drawn is what the mechanics says, and each answers to the hand."""
+"""The four pictures: they show the computed results, and each responds to the mouse."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Present mode: what is said of a page that is shown in a lecture hall."""
+"""Present mode for a lecture hall."""
 
 from __future__ import annotations
 

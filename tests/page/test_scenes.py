@@ -1,4 +1,4 @@
-"""Scenes in each other's place, what is in sight, what is drawn during a drag, and the player between two samples."""
+"""Changes of scene, visible pictures, drawing during a drag, and the player between two samples."""
 
 from __future__ import annotations
 
@@ -343,7 +343,7 @@ def test_the_spheres_of_all_scenes_are_seen_from_the_same_side_as_the_link_says(
 
 
 def clicks(explorer, *names, change=None):
-    """Change values and click on scenes before the browser does anything else; returns what it says of being ready."""
+    """Change values and click on scenes before the browser does anything else; return its `data-ready`."""
     return explorer.page.locator(".scenes").evaluate(
         """(menu, [names, detail]) => {
           if (detail) hess.tell("change", detail)

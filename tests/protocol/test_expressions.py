@@ -1,4 +1,4 @@
-"""Expressions in the box of a number: their values, and what is refused."""
+"""Expressions in the box of a number: their values, and refused ones."""
 
 from __future__ import annotations
 

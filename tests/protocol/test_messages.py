@@ -1,4 +1,4 @@
-"""Messages: whatever JSON comes, what is parsed has its types and bounds; a frame holds what was told."""
+"""Messages: any JSON is parsed into valid types and bounds; a frame holds the complete response."""
 
 from __future__ import annotations
 

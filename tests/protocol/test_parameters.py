@@ -1,4 +1,4 @@
-"""The link: what it says is read key by key and never trusted; and which states a scene admits."""
+"""The link: each key is validated by itself; and the states that a scene admits."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The wire: what is packed can be read back number by number, and nothing is sent twice."""
+"""The wire: packed data can be read back exactly, and nothing is sent twice."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from support.wire import read
 
 
 def unpack(wire):
-    """The columns by source, the texts and what controls show, after a journey as JSON."""
+    """Return the columns by source, the texts and the controls after a round trip through JSON."""
     tree, block = wire.pack()
     assert isinstance(block, bytes)
     tree = json.loads(json.dumps(tree, allow_nan=False))

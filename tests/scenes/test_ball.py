@@ -1,4 +1,4 @@
-"""The scenes "Chaplygin ball" and "ball with a field": every example shows what its name and its captions promise.
+"""The scenes "Chaplygin ball" and "ball with a field": names and captions of the examples agree with the results.
 
 The numbers are held against `eq29` integrated by SciPy, its field solved as a matrix equation here, and against closed
 forms.

@@ -1,4 +1,4 @@
-"""The scenes "leak off the Hess manifold" and "bridge": every example shows what its captions promise.
+"""The scenes "leak off the Hess manifold" and "bridge": captions of the examples agree with the results.
 
 The numbers are held against the reduced equations written out here and integrated by SciPy, and against closed forms.
 """

@@ -1,4 +1,4 @@
-"""The scene of the Euler–Poisson sections: every example shows what its name and its captions promise.
+"""The scene of the Euler–Poisson sections: names and captions of the examples agree with the results.
 
 The numbers are held against orbits followed by SciPy or for longer, and against the energy written out here.
 """

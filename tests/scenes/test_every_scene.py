@@ -441,7 +441,7 @@ def in_sight(scene):
 
 
 def assert_within_the_axes(board, in_sight):
-    """Every line and marker of what is fresh lies in its picture; so on a logarithmic axis it is positive."""
+    """Assert that new lines and markers lie inside their picture, and are positive on logarithmic axes."""
     seen = set()
     for plot, figure in plots_of(board.scene.name).items():
         # A hidden plot keeps its axes, though a track that it shares may be sent for another picture.

@@ -1,4 +1,4 @@
-"""The scene "loxodromic pendulum", and the body on the Suslov–Hess page: pictures and captions say what is so."""
+"""The scene "loxodromic pendulum", and the body on the Suslov–Hess page: pictures and captions are correct."""
 
 from __future__ import annotations
 

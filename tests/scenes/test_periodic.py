@@ -1,4 +1,4 @@
-"""Periodic orbits in the four scenes with a section: against SciPy and closed forms, what is drawn and what is said."""
+"""Periodic orbits in the four scenes with a section: against SciPy and closed forms, drawings and captions."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def drawn(view):
 
 
 def returned(body, E, place, count, sense=1.0):
-    """(ψ, δ) of γ3 = 0 after so many returns, by SciPy, and the time."""
+    """Return (ψ, δ) of γ3 = 0 after this many returns, by SciPy, and the time."""
     psi, delta = place
     gamma, u = np.array([math.cos(psi), math.sin(psi), 0.0]), np.array([math.cos(psi + delta), math.sin(psi + delta)])
     kinetic = E - np.dot((body.b1, body.b2, body.b3), gamma)

@@ -1,4 +1,4 @@
-"""The scene "rotation number": every example shows what its captions promise.
+"""The scene "rotation number": captions of the examples agree with the results.
 
 Rotation numbers are counted by iterating the circle map, and tori looked for by SciPy.
 """

@@ -1,4 +1,4 @@
-"""The scene "Suslov problem with gravity": every example shows what its captions promise.
+"""The scene "Suslov problem with gravity": captions of the examples agree with the results.
 
 Orbits are computed again by SciPy; exponents, divergences and basins are in `models/suslov/test_section.py`.
 """

@@ -1,4 +1,4 @@
-"""Answers of a session to requests, without a server: descriptions, links, scenes that are entered and left."""
+"""Responses of a session, without a server: descriptions, links, changes of scene."""
 
 from __future__ import annotations
 

@@ -72,7 +72,7 @@ compile_beside()
 
 @pytest.mark.thorough
 def test_the_compiler_beside_a_server_holds_none_of_its_pipes_and_ends_with_it(tmp_path):
-    """Whoever reads the output of a server to its end waited for minutes while kernels were compiled."""
+    """Otherwise a reader of the server's output waited for minutes while kernels were compiled."""
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
     with subprocess.Popen([sys.executable, "-c", COMPILES], env=environment, stdout=subprocess.PIPE) as server:
         assert server.stdout.readline() == b"begun\n"

@@ -1,4 +1,4 @@
-"""A server where much is not as it should be starts and serves, or says in one sentence what to do."""
+"""A server in a faulty environment starts and serves, or exits with a one-sentence remedy."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def read_only(tmp_path):
 
 
 def kernels(shared, package):
-    """Kernels of this package; two that the first picture needs, and that are soon compiled, are spoiled."""
+    """Copy the kernels of this package; corrupt two that the first picture needs and that compile quickly."""
     copy_kernels(shared, package)
     # On a full disk derived source cannot be written, and what was compiled of it is not looked for.
     for source in CACHE_FOLDER.glob("*/*.py"):

@@ -1,4 +1,4 @@
-"""Full collections, which stop all threads, come when nobody waits, or when they are overdue."""
+"""Full garbage collections, which stop all threads, run when the server is idle, or when they are overdue."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Circle:
 
 @pytest.fixture
 def started():
-    """Calls `collect_when_quiet` with the words given, and ends it."""
+    """Run `collect_when_quiet` with these arguments, and stop it afterwards."""
     end, threads = threading.Event(), []
 
     def start(garbage, asked, **more):
@@ -57,7 +57,7 @@ class Rounds:
 
 
 def set_aside(rounds):
-    """A circle that has survived, and is dropped then; a weak reference to it."""
+    """Create a circle that survives a collection, drop it, and return a weak reference to it."""
     circle = Circle()
     found = weakref.ref(circle)
     rounds.wait(3)

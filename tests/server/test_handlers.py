@@ -1,4 +1,4 @@
-"""The handlers that are replaced: all of them, or the server does not start."""
+"""All request handlers are replaced, or the server does not start."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ def base():
 
 
 async def cut_off(visitor):
-    """Why the server ends the line, which it does while it is spoken to."""
+    """Return the reason for which the server closes the connection."""
     with pytest.raises(Closed) as why:
         while True:
             await visitor.hear()
@@ -92,7 +92,7 @@ def test_a_message_of_hundred_kilobytes_is_none_too_large(base):
 
 
 def answer(base, path, **options):
-    """Status and text of what a server says, also where it refuses."""
+    """Return the status and text of a response, including refusals."""
 
     async def fetch():
         try:
@@ -143,7 +143,7 @@ def test_of_too_many_files_at_once_the_last_are_refused_with_a_sentence(base, mo
 
 
 def test_of_who_reads_no_answers_nothing_more_is_taken(base, monkeypatch):
-    """Else they would be kept until there is no memory left."""
+    """Otherwise unread responses would fill the memory."""
     unread = []
 
     def write(socket, frame, binary, send=StateSocket.write_message):

@@ -1,4 +1,4 @@
-"""A scene without a browser: what its stage sends, as the browser has it."""
+"""A scene without a browser: the messages of its stage, as the browser receives them."""
 
 from __future__ import annotations
 
@@ -145,7 +145,7 @@ class Screen:
 
 
 class Board(Screen):
-    """A stage and what is to be seen of it in the browser."""
+    """A stage and its visible state in the browser."""
 
     def __init__(self, scene):
         super().__init__(scene.name)
@@ -213,7 +213,7 @@ def elsewhere(scene):
 
 
 class Browser:
-    """The other end of a session: sends what it likes, reads the frames that come, as a browser does."""
+    """Client side of a session: sends arbitrary messages and decodes the responses, as a browser does."""
 
     def __init__(self, scene, values=None, notes=()):
         self.state = None

@@ -12,7 +12,7 @@ __all__ = ["local_cluster"]
 
 @contextmanager
 def local_cluster(processes):
-    """The address of a cluster of so many workers, of one thread each; 0: a scheduler alone."""
+    """Yield the address of a cluster with this many single-threaded workers; 0: a scheduler alone."""
     environment = {
         **os.environ,
         "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),

@@ -129,19 +129,19 @@ class _Heard(logging.Handler):
 
 @contextmanager
 def _watched(findings, given, budget=True, told=lambda: False):
-    """Count what is raised, warned of and logged meanwhile, and the time it takes; told : whether it said so."""
+    """Count exceptions, warnings and log messages, and measure the time; told() : whether a long run was announced."""
     heard, logger = _Heard(), logging.getLogger("hess_explorer")
     logger.addHandler(heard)
     propagate, logger.propagate = logger.propagate, False
-    # What is worked: others may keep the machine busy.  A kernel is compiled once, and apart; so are pieces that are
-    # filled in behind an answer, and have limits of their own.
+    # CPU time, as the machine may be busy.  Not counted: compilation, which happens once, and background pieces, which
+    # have their own limits.
     start = time.process_time() - seconds_compiling()
     spent = None
     try:
         # A session answers within this budget.
         with warnings.catch_warnings(record=True) as caught, limited(Event()) if budget else nullcontext() as spent:
             warnings.simplefilter("always")
-            # What an earlier test has left open is found by the collector at any time.
+            # The garbage collector may find resources of an earlier test at any time.
             warnings.simplefilter("ignore", ResourceWarning)
             yield
         for one in caught:

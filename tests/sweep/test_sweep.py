@@ -24,7 +24,7 @@ TORI = {"h": (-1.2, 2.0, 12), "f": (0.0, 1.2, 9)}
 
 @pytest.fixture
 def in_pieces(monkeypatch):
-    """Pieces of about so many cells."""
+    """Use pieces of about this many cells."""
 
     def choose(cells):
         monkeypatch.setattr(running, "_cells_of_a_piece", lambda *_: cells)

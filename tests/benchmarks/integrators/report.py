@@ -36,7 +36,7 @@ class BenchmarkReport:
 
 
 def _digits(x: float, digits: int) -> str:
-    """At least so many digits, and never an exponent."""
+    """Format with at least this many digits, without an exponent."""
     return f"{x:.{max(0, digits - 1 - math.floor(math.log10(x)))}f}"
 
 
@@ -63,7 +63,7 @@ def _ratio(chosen: Chosen, ours: Chosen) -> float:
 
 
 def as_text(report: BenchmarkReport) -> str:
-    """Markdown: machine and versions, the works, the table, threads, and what is not in it and why."""
+    """Return Markdown: machine and versions, the problems, the table, threads, and omissions with reasons."""
     facts = report.facts
     versions = ", ".join(f"{name} {version}" for name, version in report.versions.items())
     methods = report.methods

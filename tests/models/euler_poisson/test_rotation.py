@@ -14,7 +14,7 @@ from support.andoyer import RIS
 
 
 def circle(turn, count=400, centre=(0.0, 0.0), radius=0.3):
-    """Points that go round a circle by so many turns each."""
+    """Return points that rotate on a circle by this many turns each."""
     angle = 2.0 * math.pi * turn * np.arange(count) + 0.2
     return np.column_stack([centre[0] + radius * np.cos(angle), centre[1] + radius * np.sin(angle)])
 

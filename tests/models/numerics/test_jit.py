@@ -198,7 +198,7 @@ print(json.dumps(found))
 
 @pytest.fixture(scope="module")
 def two_systems(tmp_path_factory):
-    """A cache folder, and what the process said that filled it."""
+    """Return a cache folder, and the output of the process that filled it."""
     folder = tmp_path_factory.mktemp("kernels")
     return folder, run(TWO_OF_ONE_NAME, folder, PACKAGE.parent, "grows", "falls")
 

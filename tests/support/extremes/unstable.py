@@ -84,7 +84,7 @@ def growth_rate(system, state, parameters):
 
 
 def unstable_starts(system, count, seed=1):
-    """(state, parameters, times) of so many motions: every third next to an equilibrium, the others at one."""
+    """Return (state, parameters, times) of this many motions: every third near an equilibrium, the others at one."""
     random, found = np.random.default_rng(seed), []
     while len(found) < count:
         parameters = np.array(system.example[1]) * random.uniform(0.7, 1.3, len(system.parameters))
