@@ -139,7 +139,7 @@ def test_what_has_no_manifolds_is_refused():
     saddle = find_periodic(m, (0.1, 0.2), 1)
     with pytest.raises(InvalidParameter, match="positive"):
         grown(m, saddle, -1.0)
-    with pytest.raises(InvalidParameter, match="side 1"):
+    with pytest.raises(InvalidParameter, match="The side must be 1"):
         grown(m, saddle, 1.0, side=2)
     assert grown(m, saddle, 1e9, most=40).ended == "After 40 points."
     with pytest.raises(NoReturn):
