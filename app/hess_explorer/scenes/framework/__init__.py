@@ -1,1 +1,1 @@
-"""What all scenes share."""
+"""Framework shared by all scenes."""

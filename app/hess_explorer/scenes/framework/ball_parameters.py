@@ -1,4 +1,4 @@
-"""The parameters of a ball in a field, as its sections have them."""
+"""The parameters of a ball in a field, for its sections."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from hess_mechanics import parameters
 
 __all__ = ["B1", "B2", "B3", "I11", "I13", "I22", "I23", "PARAMETERS", "D"]
 
-# Within narrower bounds than elsewhere: beyond them a section takes too many Taylor steps.
+# Narrower bounds than elsewhere: beyond them a section takes too many Taylor steps.
 _MOMENT, _PRODUCT, _FIELD = (1e-2, 1e2), (-20.0, 20.0), (-1e2, 1e2)
 _NEAR_0 = (-1.0, 1.0)
 
@@ -50,4 +50,4 @@ PARAMETERS = {
     "b₂": "b2",
     "b₃": "b3",
 }
-"""What its section depends on: symbols → names."""
+"""Symbols of the parameters of its section → their names."""

@@ -1,4 +1,4 @@
-"""Cells of a section, computed row by row: coarse ones all over it first, then finer ones."""
+"""Cells of a section, computed row by row: first coarse cells all over it, then finer ones."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from hess_mechanics.numerics.results import Array
 __all__ = ["CELLS", "COARSE", "Arguments", "changed", "found_by_rows", "look"]
 
 CELLS = (36, 24)
-"""Across and up a section at `standard`."""
+"""Cells across and up a section at the level `standard`."""
 COARSE = 3
-"""Cells along each side of one of those that are seen first: odd, so that its middle is that of one of them."""
+"""Fine cells along each side of a coarse one: odd, so that the middle of the coarse cell is that of a fine one."""
 
 Arguments = tuple[Any, ...]
 
@@ -29,15 +29,14 @@ def found_by_rows(
     fine: Sequence[Arguments],
     sooner: Callable[[], object],
 ) -> tuple[Array, int] | None:
-    """The cells (n, …, m), and how many of their rows are still coarse.
+    """Return the cells (n, …, m), and the number of rows that are still coarse; None until all coarse ones are known.
 
-    row_of : a row of cells (…, m) from its arguments, of a coarse or of a fine one; sooner : asks for what is to come
-    between the coarse and the fine ones.  None before all coarse ones are known, of which each is the middle one of
-    `COARSE`² cells.
+    row_of : computes a coarse or fine row of cells (…, m) from its arguments; sooner : requests results that are
+    computed between the coarse and the fine cells.  Each coarse cell is the middle one of `COARSE`² fine cells.
     """
     first = [work.later(row_of, *row) for row in coarse]
     sooner()
-    # Every third one first: all over the window it becomes finer.
+    # Every third row first, so that the whole window becomes finer.
     found = {i: work.later(row_of, *fine[i]) for begun in range(COARSE) for i in range(begun, len(fine), COARSE)}
     known = [row for row in first if row is not None]
     if len(known) < len(first):
@@ -50,11 +49,11 @@ def found_by_rows(
 
 
 def changed(cells: Array, truth: Array) -> float:
-    """How many of 100 cells (n, m) are others among finer ones, which are these or divide them."""
+    """Return the percentage of cells (n, m) that differ from finer cells, which are as many or subdivide them."""
     rows, columns = (np.arange(fine) * coarse // fine for coarse, fine in zip(cells.shape, truth.shape, strict=True))
     return 100.0 * float(np.mean(cells[np.ix_(rows, columns)] != truth))
 
 
 def look(frame: Window, names: Sequence[str], cells: Array) -> Cells:
-    """How cells whose numbers are names, −1 where there is nothing, are compared: any other one is another colour."""
+    """Return cells of categories, −1 for none, for a comparison in which any change counts."""
     return Cells(frame_of(frame, names), np.where(cells < 0.0, np.nan, cells), step=0.5)

@@ -1,4 +1,4 @@
-"""What can be charted in a scene: a quantity of the table of sweeps, by its name, and its arguments in a state."""
+"""Quantities that can be charted in a scene: the name in the table of sweeps, and the arguments in a state."""
 
 from __future__ import annotations
 
@@ -36,11 +36,11 @@ class _Embodied(Protocol):
 
 @dataclass(frozen=True)
 class Charted(Generic[S]):
-    """One quantity.
+    """One quantity that can be charted.
 
     quantity : its name in `hess_explorer.sweep.QUANTITIES`.
-    arguments(state) : its parameters there that are not the defaults.  Raises `ModelError`.
-    pictures : those that show it, for whom it is the first to be chosen.
+    arguments(state) : its arguments other than the defaults.  Raises `ModelError`.
+    pictures : the pictures that show it and offer it as their first choice.
     """
 
     quantity: str
@@ -50,9 +50,9 @@ class Charted(Generic[S]):
 
 @dataclass(frozen=True)
 class Placed:
-    """The coordinates of the last of some places, which are sides of a chart as numbers are.
+    """The coordinates of the last place of a parameter, over which a chart can be drawn as over numbers.
 
-    places : the name of the parameter; symbols : of its coordinates, as the axes of the picture have them.
+    places : the name of the parameter; symbols : symbols of the coordinates, as on the axes of the picture.
     """
 
     places: str
@@ -60,12 +60,12 @@ class Placed:
 
     @property
     def names(self) -> tuple[str, str]:
-        """Of the sides."""
+        """The names of the two coordinates as sides of a chart."""
         return f"{self.places}:0", f"{self.places}:1"
 
 
 def of_torus(torus: Callable[[Any], Torus], **pictures: tuple[str, ...]) -> tuple[Charted[Any], ...]:
-    """The quantities of a Suslov–Hess torus (a, h, f); pictures : by the quantity, its name with _ for -."""
+    """Return the quantities of a Suslov–Hess torus (a, h, f); pictures : by quantity, with _ for - in its name."""
 
     def arguments(s: Any) -> Mapping[str, float]:
         return dict(zip("ahf", torus(s), strict=True))
@@ -80,7 +80,7 @@ def of_torus(torus: Callable[[Any], Torus], **pictures: tuple[str, ...]) -> tupl
 
 
 def tensor_of(body: _Tensor) -> Mapping[str, float]:
-    """Its inertia, as arguments."""
+    """Return the inertia tensor of a body, as arguments."""
     return {"I11": body.I11, "I22": body.I22, "I13": body.I13, "I23": body.I23}
 
 
@@ -96,10 +96,10 @@ def exponents(
     pictures: tuple[str, ...] = (),
     time: Callable[[B], float] | None = None,
 ) -> tuple[Charted[B], ...]:
-    """Return Lyapunov exponents, MEGNO and crossings of the chosen motion of a system of that name.
+    """Return Lyapunov exponents, MEGNO and crossings of the chosen motion of a system.
 
-    start(state) : where it starts, raises `ModelError` where no motion is possible; time(state) : to average over;
-    pictures : those that ask for MEGNO first, which tells regular from chaotic motions soonest.
+    start(state) : its initial state, raises `ModelError` if no motion is possible; time(state) : the averaging time;
+    pictures : pictures that offer MEGNO first, which tells regular from chaotic motions soonest.
     """
 
     def motion(s: B) -> Mapping[str, float]:

@@ -1,4 +1,4 @@
-"""The start of an orbit next to the unstable half of the line of rest: where on which circle γ is, how far ω is off."""
+"""The start of an orbit near the unstable half of the line of equilibria: phase of γ on a circle, distance of ω."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ CIRCLES = (
     Sign("circle left", "line", f"border-top: 3px dashed {theme.UNSTABLE}"),
     Sign("fixed points Γ = ±1", "dot", f"background: {theme.MUTED}"),
 )
-"""Of the legend."""
+"""Entries of the legend."""
 
 PHI = replace(CIRCLE_PHASE, label="Phase φ of the chosen orbit", bounds=ONE_TURN)
 DIGITS = Parameter(
@@ -46,7 +46,7 @@ def sphere(
     joined: Callable[[S], float],
     signs: tuple[Sign, ...] = (),
 ) -> Sphere[S]:
-    """The sphere with the orbit on show, the axis ξ, and two circles about it: left(state) = θ⁻, joined(state) = Γ."""
+    """Return the sphere with the orbit, the axis ξ and two circles about it: left(state) = θ⁻, joined(state) = Γ."""
     return Sphere(
         caption=caption,
         looks={"orbit": "orbit"},

@@ -1,4 +1,4 @@
-"""A section over one of the parameters of its scene, and where the branch of a periodic orbit begins on it."""
+"""A section over one parameter of its scene, and the start of a branch of periodic orbits."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ __all__ = ["Begin", "Family"]
 
 @dataclass(frozen=True)
 class Family:
-    """A scene's section, and its return map, over one of its parameters.
+    """A scene's section and its return map over one parameter.
 
-    state : of the scene; name, symbol : of the parameter; others : what else the section depends on, by name.
+    state : class of the scene's states; name, symbol : of the parameter; others : all other parameters of the section.
     """
 
     state: Callable[..., Sectioned]
@@ -29,21 +29,21 @@ class Family:
 
     @classmethod
     def of(cls, state: Sectioned, name: str, symbol: str, names: tuple[str, ...]) -> Family:
-        """About a state; names : of all that the section depends on."""
+        """Return the family through a state; names : names of all parameters of the section."""
         return cls(type(state), name, symbol, tuple((one, getattr(state, one)) for one in names if one != name))
 
     def __call__(self, value: float) -> PoincareSection:
-        """The section at a value of the parameter.  Raises `ModelError`."""
+        """Return the section at a value of the parameter.  Raises `ModelError`."""
         return self.state(**dict(self.others), **{self.name: value}).poincare
 
     def map_at(self, value: float) -> ReturnMap:
-        """The return map there.  Raises `ModelError`."""
+        """Return the return map at a value of the parameter.  Raises `ModelError`."""
         return ReturnMap(self(value), PRECISE)
 
 
 @dataclass(frozen=True)
 class Begin:
-    """Where a branch begins: the value of the parameter, the place and the period, and the ends of the range."""
+    """The start of a branch: value of the parameter, place, period, and ends of the range."""
 
     family: Family
     value: float
@@ -53,15 +53,15 @@ class Begin:
 
     @property
     def map(self) -> ReturnMap:
-        """The return map there.  Raises `ModelError`."""
+        """The return map at the start.  Raises `ModelError`."""
         return self.family.map_at(self.value)
 
     @property
     def search(self) -> Task:
-        """What finds the orbit there.  Raises `ModelError`."""
+        """The computation that searches for the orbit at the start.  Raises `ModelError`."""
         return Task(sought, (self.map, self.place, self.period, False))
 
     def orbit(self) -> Closed | Missed:
-        """Return the orbit there.  Raises `ModelError`."""
+        """Return the orbit at the start, or the reason why there is none.  Raises `ModelError`."""
         found: Closed | Missed = CACHE.get(self.search.function, *self.search.arguments)[0]
         return found

@@ -1,4 +1,4 @@
-"""The body of the free Suslov problem, whose I11 is chosen by k: for the motion of one orbit and for the scattering."""
+"""The body of the free Suslov problem with I11 set by k, for the scenes of one orbit and of the scattering."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ I23 = replace(parameters.I23, default=0.5, softbounds=(-1.0, 1.0), doc="Product 
 
 
 def free_body(k: float, I22: float, I13: float, I23: float) -> SuslovBody:
-    """Return the body.  Raises `NotPositiveDefinite`, `InvalidParameter`, in the words of the controls."""
+    """Return the body.  Raises `NotPositiveDefinite`, `InvalidParameter`, with messages that name the controls."""
     if I13 == I23 == 0.0:
         raise InvalidParameter(
             "I₁₃ = I₂₃ = 0: without a field ω does not change, and there is no ξ. Choose one of them other than 0."
@@ -40,9 +40,9 @@ def free_body(k: float, I22: float, I13: float, I23: float) -> SuslovBody:
 
 
 def limits_of_k(I22: float, I13: float, I23: float) -> Mapping[str, Slider]:
-    """Return the range of the slider of k, which begins where I11 is still positive."""
+    """Return the range of the slider of k; I11 is positive at its lower end."""
     J = math.hypot(I13, I23)
-    # Below −2.2 it makes no difference; −I₂₂/J may be beyond double range.
+    # The slider ends at −2, so −3 is low enough; −I₂₂/J may overflow.
     lowest = max(-3.0, -I22 / J) if J > 0.0 else -3.0
     return {"k": (max(-2.0, math.ceil(lowest * 19.0) / 20.0), 7.0, 0.05)}
 

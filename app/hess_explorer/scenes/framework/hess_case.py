@@ -1,4 +1,4 @@
-"""What the scenes of the Hess case have in common: parameters, what is possible, words."""
+"""Shared by the scenes of the Hess case: parameters, their limits and texts."""
 
 from __future__ import annotations
 
@@ -50,10 +50,10 @@ __all__ = [
 
 _MAX_A = 100.0
 _MOST_BITS, _MOST_WORK = 256, 1e6
-"""Of a proof in the background: less than a second."""
+"""Limits of a background proof: it takes less than a second."""
 
 _INSIDE = 1.0 - 1e-12
-"""Room for the round-off of the translation at the edge of what is possible."""
+"""Margin for the round-off of the translation at the edge of the possible region."""
 
 UNSURE = 1e-9
 BY_THE_UNSTABLE_CYCLE = "This motion starts next to the unstable cycle: on the torus too any round-off grows there."
@@ -80,18 +80,18 @@ B3 = replace(
 PHI0 = replace(known.PHI0, bounds=ONE_TURN)
 
 RIS = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": math.sqrt(0.5)}
-"""The body of figures 13 and 14, after half a turn about its middle axis."""
+"""The body of figures 13 and 14, turned by π about its middle axis."""
 
 
 def reduced_motion(hess: HessBody, turning: TurningPoints, phi0: float, length: float) -> Motion:
-    """The motion of a torus with phase φ0, over a length of time in units b = 1, for "Speed and accuracy"."""
+    """Return the motion of a torus from phase φ0, over a time span in units b = 1, for "Speed and accuracy"."""
     start = tuple(turning.state_at_lower_turn(phi0).tolist())
     weights = pixels_per_unit(math.sqrt(2.0 * (turning.h + 1.0)))
     return Motion(SYSTEM, start, (hess.a, 1.0), length, weights, 1.0 / hess.frequency_unit)
 
 
 def possible_f(h: float, f: float, notes: list[str]) -> float:
-    """f, in units b = 1, inside the region of this h; what was changed is said in the notes."""
+    """Clamp f, in units b = 1, to the region of this h; append a note for a change."""
     largest = f_max(h)
     if abs(f) <= largest:
         return f
@@ -100,7 +100,7 @@ def possible_f(h: float, f: float, notes: list[str]) -> float:
 
 
 def possible_I23(I22: float, I23: float, notes: list[str]) -> float:
-    """I23 with |a| ≤ 100; what was changed is said in the notes."""
+    """Clamp I23 to |a| ≤ 100; append a note for a change."""
     bound = _MAX_A * I22
     if abs(I23) <= bound:
         return I23
@@ -110,7 +110,7 @@ def possible_I23(I22: float, I23: float, notes: list[str]) -> float:
 
 
 def map_or_none(work: Work, a: float, h: float, f: float, level: Level) -> CircleMap | None:
-    """The circle map of a torus in units b = 1; None on the separatrix."""
+    """Return the circle map of a torus in units b = 1; None on the separatrix."""
     try:
         return work.get(circle_map, a, h, f, level)
     except Separatrix:
@@ -120,7 +120,7 @@ def map_or_none(work: Work, a: float, h: float, f: float, level: Level) -> Circl
 def limit_cycles(
     work: Work, hess: HessBody, theta: CircleMap | None, level: Level, half_width: float
 ) -> tuple[Track, Track] | None:
-    """The stable and the unstable limit cycle on the torus of a circle map, where there are two; see `torus.cycles`."""
+    """Return the stable and the unstable limit cycle on the torus of a circle map, see `torus.cycles`; None without."""
     if theta is None or theta.kind != "hyperbolic":
         return None
     return work.get(cycles, hess, theta.h, theta.f, theta.fixed_points[0], level, half_width)
@@ -128,14 +128,14 @@ def limit_cycles(
 
 @dataclass(frozen=True)
 class Proved:
-    """What is proved of a torus: a short sentence for the caption of its map, and one with more digits."""
+    """The proved statement on a torus: a short sentence for the caption of its map, and one with more digits."""
 
     badge: str
     said: str
 
 
 def proved(I22: float, I23: float, h: float, f: float) -> Proved:
-    """What is proved of the torus of a body, whose doubles stand for exactly the decimals that its boxes show."""
+    """Return the proved statement on a torus; each double stands for exactly the decimal number that its box shows."""
     try:
         found = prove(exact("I23", I23) / exact("I22", I22), h, f, _MOST_BITS, _MOST_WORK)
     except ModelError as error:
@@ -144,7 +144,7 @@ def proved(I22: float, I23: float, h: float, f: float) -> Proved:
         moves = "two equilibria" if found.statement == TWO_EQUILIBRIA else "one periodic orbit"
         return Proved(f"Proved: no torus, but a circle with n₃ constant: {moves}.", claim(found))
     if found.statement == NO_CYCLE:
-        # To as many digits as show that it is less than 2.
+        # With enough digits to show that it is less than 2.
         least = next(count for count in itertools.count(4) if Fraction(found.trace.decimals(count)[1]) < 2)
         return Proved(
             f"Proved: no cycle, |trace| in {_within(found.trace, least)}.",
@@ -178,14 +178,14 @@ class HeavyHess:
 
     @property
     def _least_weight(self) -> float:
-        """So that h in units of μ|r| is a number to compute with."""
+        """The least μ|r| for which h in units of μ|r| is not too large to compute with."""
         return max(1e-3, 1e-9 * abs(self.h))
 
     def _largest_f(self, h: float) -> float:
         return largest_area_integral(self.m, self.moments[1], h) * _INSIDE
 
     def admitted(self, notes: list[str]) -> Values:
-        """Return h above the bottom, and f inside the region of this h; append a note for each change."""
+        """Clamp h to values above its minimum and f to the region of this h; append a note for each change."""
         if abs(self.m) < self._least_weight:
             return {}
         h, f = max(self.h, -abs(self.m) * _INSIDE), self.f
@@ -201,7 +201,7 @@ class HeavyHess:
         return {"h": h, "f": f}
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return ranges of h and f that span what is possible, in round steps; the moments keep their order."""
+        """Return slider ranges of h and f over the possible region, and of the moments in their order."""
         m, moments = abs(self.m), limits_of_moments(*self.moments)
         if m < self._least_weight or self.h <= -m:
             return moments
@@ -211,7 +211,7 @@ class HeavyHess:
 
     @cached_property
     def bridge(self) -> Bridge:
-        """The heavy body, and the Suslov body of its motions.  Raises `InvalidParameter`, `NoField`."""
+        """The heavy body and the Suslov body with the same motions.  Raises `InvalidParameter`, `NoField`."""
         if abs(self.m) < self._least_weight:
             raise NoField(
                 f"μ|r| = {digits(self.m)}: without weight there is no Hess case. Choose μ|r| of at least "
@@ -221,7 +221,7 @@ class HeavyHess:
 
     @cached_property
     def turning(self) -> TurningPoints:
-        """(h, f) in units b = 1, and where n3 turns.  Raises `Separatrix`, `OutsideRegion`."""
+        """(h, f) in units b = 1, with the turning points of n3.  Raises `Separatrix`, `OutsideRegion`."""
         try:
             return turning_points(*self.bridge.in_units_of_b(self.h, self.f))
         except Separatrix:

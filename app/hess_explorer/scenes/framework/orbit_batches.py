@@ -11,17 +11,19 @@ from hess_mechanics.numerics.results import Array
 __all__ = ["OrbitBatch", "in_batches"]
 
 _TOGETHER = 4
-"""Orbits that are computed together: few enough for points to arrive soon."""
+"""Orbits computed together: few enough that points arrive soon."""
 
 T = TypeVar("T")
 
 
 @dataclass(frozen=True)
 class OrbitBatch:
-    """Some orbits: points (n, 2) of each, as they are passed, and of which of two kinds it is; the largest drifts.
+    """Some orbits of a section.
 
-    kept : whether all its points lie on its side of the curve that divides the kinds, where there is one;
-    elsewhere : those of the points (m, 2) that are drawn apart from the others.
+    orbits : points (n, 2) of each orbit, in order of time; firsts : True for orbits of the first of two kinds.
+    drift : the largest drift of each integral.
+    kept : True if all points of an orbit lie on its side of the curve that divides the kinds, if there is one.
+    elsewhere : points (m, 2) that are drawn separately.
     """
 
     orbits: tuple[Array, ...]
@@ -32,5 +34,5 @@ class OrbitBatch:
 
 
 def in_batches(items: Sequence[T]) -> Iterator[tuple[T, ...]]:
-    """Return the items, as many at a time as are computed together."""
+    """Return the items in batches of the size computed together."""
     return (tuple(items[i : i + _TOGETHER]) for i in range(0, len(items), _TOGETHER))

@@ -1,4 +1,4 @@
-"""How a scene declares its parameters: fields of its state, in the words of the library param."""
+"""Declarations of a scene's parameters: fields of its state, in the terms of the library param."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ Slider = tuple[float, float, float]
 """(low, high, step)."""
 
 ONE_TURN = (-math.pi, math.pi)
-"""Bounds of an angle that a click chooses: a picture shows one turn."""
+"""Bounds of an angle that a click sets: a picture shows one turn."""
 
 TURN = 3.14159
-"""Half a turn, as a place in a link is written."""
+"""Half a turn, with the digits of a place in a link."""
 _SPEC = "spec"
 
 
@@ -49,7 +49,7 @@ def parameter(known: Parameter, default: float | None = None, **changes: Any) ->
     ----------
     known : its description there.
     default : another default.
-    changes : other fields of `Parameter`, as softbounds, step or doc.  Other bounds need a reason beside them.
+    changes : other fields of `Parameter`, such as softbounds, step or doc.  State a reason beside other bounds.
     """
     return _field(Number(**known.changed(default=known.default if default is None else default, **changes)))
 
@@ -66,22 +66,22 @@ def number(
     group: Group = "State",
     means: str = "",
 ) -> Any:
-    """A number: its slider covers `softbounds` in steps; what is typed, or comes by a link, lies within `bounds`."""
+    """Declare a number: its slider covers `softbounds` in steps; typed values and links are limited to `bounds`."""
     return _field(Number("", symbol, label, default, softbounds, step, bounds, doc, group, means=means))
 
 
 def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, group: Group = "Computation") -> Any:
-    """One of a fixed list of names."""
+    """Declare a choice from a fixed list of names."""
     return _field(Choice("", label, options, default, doc, group))
 
 
 def places(label: str, most: int, low: tuple[float, float], high: tuple[float, float], default: str = "") -> Any:
-    """Points chosen with the mouse, at most so many, between two corners; they have no control."""
+    """Declare points set with the mouse, at most `most`, between two corners; they have no control."""
     return _field(Places("", label, most, low, high, default))
 
 
 def accuracy_level() -> Any:
-    """The accuracy level, by its name: in the same words in every scene."""
+    """Declare the level of accuracy, with the same description in every scene."""
     return choice(
         "Accuracy",
         (*LEVELS, AUTO),
@@ -96,7 +96,7 @@ def accuracy_level() -> Any:
 
 
 def exponent_time(default: float, longest: float, most: float, what: str) -> Any:
-    """How long something is averaged along the orbit on show."""
+    """Declare the averaging time along the orbit on show."""
     return number(
         "T",
         default,
@@ -110,7 +110,7 @@ def exponent_time(default: float, longest: float, most: float, what: str) -> Any
 
 
 def time_span(default: float, longest: float, *, step: float = 1.0, most: float = 1e4, what: str = "the orbit") -> Any:
-    """How long something is followed; the slider goes to `longest`, and what is typed to `most`."""
+    """Declare a time span; the slider ends at `longest`, typed values at `most`."""
     return number(
         "t",
         default,
@@ -124,13 +124,13 @@ def time_span(default: float, longest: float, *, step: float = 1.0, most: float 
 
 
 def like(state: type[Any], name: str, default: Value | None = None, **changes: Any) -> Any:
-    """The parameter of that name of another state; another default, and other words of `number`, where given."""
+    """Declare a parameter like that of another state, with another default or other arguments of `number` if given."""
     spec: Any = next(one for one in specs_of(state) if one.name == name)
     return _field(replace(spec, default=spec.default if default is None else default, **changes))
 
 
 def slider_within(largest: float) -> Slider:
-    """A slider from −largest to largest, with round ends and some hundreds of round steps."""
+    """Return a slider from −largest to largest, with round ends and some hundreds of round steps."""
     digits = 2 - math.floor(math.log10(largest))
     step = float(f"1e{-digits}")
     end = round(math.floor(largest / step) * step, digits)
@@ -138,5 +138,5 @@ def slider_within(largest: float) -> Slider:
 
 
 def specs_of(state: type[Any]) -> tuple[Spec, ...]:
-    """The specifications of all parameters of a state, in the order in which they are declared."""
+    """Return the specifications of all parameters of a state, in the order of their declarations."""
     return tuple(replace(one.metadata[_SPEC], name=one.name) for one in fields(state) if _SPEC in one.metadata)

@@ -1,4 +1,4 @@
-"""A part of a scene: one thing that it computes, with the words on it."""
+"""Parts of a scene: each is one result with its texts."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from hess_mechanics.dynamics.return_map import PoincareSection
 __all__ = ["Host", "Part", "Sectioned", "Start", "part"]
 
 Start = tuple[float, ...]
-"""A state in which a motion starts."""
+"""The initial state of a motion."""
 
 
 class Host(Protocol):
-    """What every part needs: a state, or another part, that computes."""
+    """The state or part that a part belongs to."""
 
     @property
     def work(self) -> Work:
@@ -38,10 +38,10 @@ H_co = TypeVar("H_co", bound=Host, covariant=True)
 
 @dataclass(frozen=True, eq=False)
 class Part(Generic[H_co]):
-    """One thing that a scene computes, with the words on it; its state declares each with `@part`.
+    """One result of a scene with its texts; the state declares it with `@part`.
 
-    host : the state or the part that it is made from.  Each class of parts names what it needs of it in a `Protocol`.
-    Results are cached properties, computed when a picture in sight asks for them.
+    host : the state or part that it belongs to.  Each class of parts declares in a `Protocol` the members of the host
+    that it needs.  Results are cached properties, computed when a picture in sight needs them.
     """
 
     host: H_co
@@ -52,7 +52,7 @@ class Part(Generic[H_co]):
         return self.host.work
 
     def asked(self, name: str) -> bool:
-        """Return whether a picture in sight has asked for this cached property; words never ask for one first."""
+        """Return whether a picture in sight has computed this cached property; texts never compute one."""
         return name in vars(self)
 
     def admitted(self, notes: list[str]) -> Values:
@@ -60,7 +60,7 @@ class Part(Generic[H_co]):
         return {}
 
     def idle(self) -> Mapping[str, float]:
-        """Return the numbers without effect in this state, and what their disabled controls show."""
+        """Return the numbers without effect in this state, with the values that their disabled controls show."""
         return {}
 
     def means(self) -> Mapping[str, str]:
@@ -80,7 +80,7 @@ class Part(Generic[H_co]):
         return ()
 
     def notes(self) -> Iterable[str]:
-        """Return what the user should know of this state."""
+        """Return the notes on this state."""
         return ()
 
 
@@ -88,4 +88,4 @@ P = TypeVar("P", bound=Part[Host])
 
 
 class part(cached_property[P]):  # noqa: N801 — used as a decorator, like cached_property
-    """Declares a part of a state; the order of the declarations is the order of their words."""
+    """Declare a part of a state; its texts appear in the order of the declarations."""

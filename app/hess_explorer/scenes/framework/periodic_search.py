@@ -1,5 +1,4 @@
-"""What is computed of a periodic orbit behind an answer, each a piece of its own: the orbit, its manifolds, where they
-cross."""
+"""Background computations of a periodic orbit: the orbit, its manifolds and their crossings, as separate pieces."""
 
 from __future__ import annotations
 
@@ -33,21 +32,21 @@ __all__ = [
 
 Place = tuple[float, ...]
 Search = tuple[ReturnMap, Place, int | None, bool]
-"""The map, where it is begun, the period where one is given, and whether that is all that is tried."""
+"""The map, the starting point, the period if one is given, and whether to search near that point only."""
 BranchChoice = tuple[int, bool, int]
-"""Of a manifold: from which of the places of the orbit, whether stable, which side."""
+"""A branch of a manifold: index of the place of the orbit, True if stable, side ±1."""
 
 NONE, ANY = "none", "any period"
 _MOST = 12
 PERIODS: Mapping[str, int | None] = {ANY: None, **{f"period {m}": m for m in range(1, _MOST + 1)}}
 MOST_POINTS, _RETURNS = 2000, 20_000
-"""Of each branch, at most: returns of the map, for all of its points together."""
+"""Largest numbers of points of a branch, and of returns of the map for all its points together."""
 MOST_CROSSINGS = 25
-"""Of two branches."""
+"""Largest number of crossings of two branches."""
 _SAGITTA, _CHORD = 0.25, 10.0
-"""Of the curves drawn, in pixels."""
+"""Largest sagitta and chord of the drawn curves, in pixels."""
 _PARTS = (1.0, 0.5, 0.25)
-"""Of the length wanted, where the whole is not known to half a pixel."""
+"""Shares of the requested length, tried in order until the branch is right to half a pixel."""
 AT_ITS_LENGTH = "At its length."
 _UNKNOWN = "What follows is not known to half a pixel: a more exact level may show it."
 
@@ -63,18 +62,18 @@ class Closed:
 
 @dataclass(frozen=True)
 class Missed:
-    """Why none was found."""
+    """The reason why no result was found."""
 
     reason: str
 
 
 def none_closed() -> Closed | None:
-    """Return None: no periodic orbit is shown in place of the chosen one."""
+    """Return None: the default if no periodic orbit replaces the chosen one."""
     return None
 
 
 def sought(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> Closed | Missed:
-    """The periodic orbit."""
+    """Search for a periodic orbit; return it, or the reason why none was found."""
     try:
         orbit = find_periodic(map_, aim, period, _MOST, near)
         first = orbit.places[0]
@@ -84,13 +83,13 @@ def sought(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> Close
             map_.time_of(first, orbit.period),
         )
     except ModelError as error:
-        # Where time is up nothing is known of the orbit.
+        # A cancelled request or one over its budget must not cache a result.
         go_on()
         return Missed(str(error))
 
 
 def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float) -> Manifold | Missed:
-    """One branch of a manifold, as far as it is right to half a pixel."""
+    """Return one branch of a manifold, as far as it is right to half a pixel."""
     found, _ = CACHE.get(sought, *search)
     place, stable, side = branch
     for part in _PARTS:
@@ -118,7 +117,7 @@ def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float)
 def crossings_between(
     search: Search, unstable: BranchChoice, stable: BranchChoice, length: float, pixel: float
 ) -> tuple[Intersection, ...]:
-    """Where two branches cross, as far as they are drawn."""
+    """Return the crossings of two branches, as far as they are drawn."""
     one, other = (CACHE.get(branch_of, search, branch, length, pixel)[0] for branch in (unstable, stable))
     if isinstance(one, Missed) or isinstance(other, Missed):
         return ()

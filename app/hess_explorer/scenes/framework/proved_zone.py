@@ -1,4 +1,4 @@
-"""The cells of the bifurcation diagram that are proved, more and more while one looks."""
+"""The proved cells of the bifurcation diagram, whose number grows in the background."""
 
 from __future__ import annotations
 
@@ -19,33 +19,33 @@ __all__ = ["HIDDEN", "ROUNDS", "SHOWN", "ProvedZone", "known_zone", "zone_after"
 
 HIDDEN, SHOWN = "not shown", "shown"
 ROUNDS = (30, 50, 75, 110, 160, 230, 320, 450, 600, 800, 1000)
-"""Proofs of cells after which the picture grows; the last takes some 20 s."""
+"""Numbers of proofs of cells after which the picture is updated; the last takes some 20 s."""
 
 
 @dataclass(frozen=True)
 class ProvedZone:
-    """What is known at a moment: a sentence for a caption, and outlines (n, 2) of proved cells for f > 0."""
+    """The known zone: a sentence for a caption, and outlines (n, 2) of proved cells for f > 0."""
 
     said: str
     outlines: tuple[Array, ...] = ()
 
 
 def zone_after(a: Fraction, h_end: float, count: int) -> LockZone:
-    """The zone after so many proofs, one of `ROUNDS`."""
+    """Return the zone after `count` proofs, one of `ROUNDS`."""
     done = ROUNDS.index(count)
     before: LockZone = lock_zone(a, h_end, 0) if done == 0 else CACHE.get(zone_after, a, h_end, ROUNDS[done - 1])[0]
     return refined(before, count - before.tried)
 
 
 def outlined(a: Fraction, h_end: float, count: int) -> tuple[float, tuple[Array, ...]]:
-    """The decided share of that zone, and closed outlines of its proved cells."""
+    """Return the decided share of the zone after `count` proofs, and closed outlines of its proved cells."""
     zone: LockZone = CACHE.get(zone_after, a, h_end, count)[0]
     found = (cell_outline(cell, h_end) for cell in zone.cells if cell.statement != UNDECIDED)
     return zone.decided, tuple(np.vstack([outline, outline[:1]]) for outline in found if len(outline) > 2)
 
 
 def known_zone(work: Work, I22: float, I23: float, h_end: float) -> ProvedZone:
-    """What is known of the zone, or why nothing can be; unless a slider is held, the next round is to be computed."""
+    """Return the known zone, or the reason why there is none; request the next round unless a slider is held."""
     if not has_flint():
         return ProvedZone("Proofs need python-flint.")
     a = exact("I23", I23) / exact("I22", I22)

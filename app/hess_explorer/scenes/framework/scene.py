@@ -1,4 +1,4 @@
-"""What a scene is: a state with its parameters, pictures of it, words about it."""
+"""Scenes: a state with its parameters, its pictures and its texts."""
 
 from __future__ import annotations
 
@@ -40,11 +40,11 @@ class Preset:
 
 @dataclass(frozen=True)
 class Motion:
-    """One motion of a system: what "Speed and accuracy" looks into.
+    """One motion of a system, as "Speed and accuracy" measures it.
 
     system, state, parameters, span : as for `hess_mechanics.solve`, in the units of the computation.
-    weights : (d,) from the variables to the scene's pictures, in pixels for a unit.
-    unit : the time of the page in these units of time, so that t = time of the computation × unit.
+    weights : (d,) pixels of the scene's pictures per unit of each variable.
+    unit : factor from the time of the computation to the time t of the page.
     """
 
     system: System
@@ -56,15 +56,15 @@ class Motion:
 
     @property
     def named(self) -> tuple[str, tuple[float, ...], tuple[float, ...], float]:
-        """System by name, state, parameters and span, as `work_precision` asks for them."""
+        """System by name, state, parameters and span: the arguments of `work_precision`."""
         return self.system.name, self.state, self.parameters, self.span
 
 
 @dataclass(frozen=True)
 class Report:
-    """What the page says beside the pictures: derived quantities, the status line and what it sums up, notes.
+    """The texts beside the pictures: derived quantities, the status line and its summary, notes.
 
-    todo : what is still to be computed before the state is complete; total : of how many pieces.
+    todo : computations that the state still needs; total : the number of its background computations.
     """
 
     derived: Sequence[str]
@@ -77,11 +77,11 @@ class Report:
 
 @dataclass(frozen=True)
 class State:
-    """One state of a scene: its fields are the parameters, its cached properties what follows from them.
+    """One state of a scene: its fields are the parameters, its cached properties the results.
 
-    work : level and cache; seen : the pictures in sight; drawn : the columns that they show, by source.
-    A property is computed when a picture in sight asks for it, and once.  What is worth keeping for later states
-    goes through `work` into the process-wide cache.
+    work : level and cache; seen : the pictures in sight; drawn : their columns, by source.
+    A property is computed once, when a picture in sight needs it.  Results that later states can use go through
+    `work` into the process-wide cache.
     """
 
     work: Work = field(default_factory=Work, kw_only=True, compare=False, repr=False)
@@ -90,28 +90,28 @@ class State:
 
     @property
     def level(self) -> Level:
-        """The accuracy to compute with; while a slider is dragged, the cheapest that is right to half a pixel."""
+        """The level of accuracy; while a slider is dragged, the cheapest one that is right to half a pixel."""
         return self.work.level
 
     @property
     def dragging(self) -> bool:
-        """Whether a slider is held."""
+        """True while a slider is held."""
         return self.work.dragging
 
     def plan(self, kind: Computation, steady: bool = False) -> Plan:
-        """What the level means for a kind of computation; steady : for what hardly any slider changes."""
+        """Return the plan of the level for a kind of computation; steady : hardly any slider changes the result."""
         return self.work.plan(kind, steady)
 
     def known(self, name: str) -> Any | None:
-        """A cached property, if a picture in sight has asked for it."""
+        """Return a cached property if a picture in sight has computed it, else None."""
         return vars(self).get(name)
 
     def awaited(self, what: str = "It is") -> str:
-        """Return what a caption says of a result that is not known yet."""
+        """Return the caption of a result that is not known yet."""
         return self.work.awaited(what)
 
     def parts(self) -> tuple[Part[Host], ...]:
-        """Return the parts that the scene is composed of, in the order in which it declares them with `@part`."""
+        """Return the parts declared with `@part`, in the order of their declarations."""
         declared = (
             name for base in reversed(type(self).__mro__) for name, one in vars(base).items() if isinstance(one, part)
         )
@@ -131,9 +131,9 @@ class State:
         return {}
 
     def idle(self) -> Mapping[str, float]:
-        """Return the numbers without effect in this state, and what their disabled controls show.
+        """Return the numbers without effect in this state, with the values that their disabled controls show.
 
-        Raises `ModelError` where that cannot be told.
+        Raises `ModelError` if they cannot be determined.
         """
         return {name: value for one in self.parts() for name, value in one.idle().items()}
 
@@ -144,7 +144,7 @@ class State:
     def carried(self, before: Self) -> Mapping[str, float]:
         """Return the parameter changes that keep the motion continuous after a different choice in the state before.
 
-        Raises `ModelError` where that cannot be told.
+        Raises `ModelError` if they cannot be determined.
         """
         return {
             name: value
@@ -153,7 +153,7 @@ class State:
         }
 
     def motion(self) -> Motion | None:
-        """Return the motion on show, for "Speed and accuracy"; None where there is none.  Raises `ModelError`."""
+        """Return the motion on show, for "Speed and accuracy"; None without one.  Raises `ModelError`."""
         return None
 
     def derived(self) -> Iterable[str]:
@@ -165,7 +165,7 @@ class State:
         return (entry for one in self.parts() for entry in one.status())
 
     def notes(self) -> Iterable[str]:
-        """Return what the user should know of this state."""
+        """Return the notes on this state."""
         return (note for one in self.parts() for note in one.notes())
 
 
@@ -175,18 +175,19 @@ class Scene(Generic[S]):
 
     Parameters
     ----------
-    state : the class of its states; module : the file that declares it: words and thumbnail are the Markdown and SVG
-        of the same name beside it.
+    state : the class of its states; module : the file that declares it; its text and thumbnail are the Markdown and
+        SVG files of the same name.
     title, summary : a few words; a sentence for the menu.
-    presets : named states; the first one is that of a newcomer.
-    views : its pictures.  What no picture in sight asks for is not computed.
-    tracks : columns that several pictures and the player share; the player follows "orbit", by its column t.
-    angles : those of its columns that are angles.
-    measures : what it computes besides the motion, to be measured at each level.
-    charts : what can be charted over its parameters; placed : and over the coordinates of which places.
-    place : its place in the menu; the first one opens the page; group : under which heading it stands there.
-    essential : the parameters whose controls are open; the others are folded by their groups.
-    handle : what a newcomer should drag: one of those, or "picture/layer"; the first of them where nothing is said.
+    presets : named states; a new visitor sees the first one.
+    views : its pictures.  Only the results that pictures in sight need are computed.
+    tracks : columns shared by several pictures and the player; the player follows the column t of "orbit".
+    angles : the columns of "orbit" that are angles.
+    measures : computations besides the motion whose cost and error are measured at each level.
+    charts : quantities that can be charted over its parameters; placed : coordinates over which they can be charted.
+    place : its position in the menu, the first scene opens the page; group : its heading there.
+    essential : the parameters whose controls are open; the others are folded into their groups.
+    handle : the control that a new visitor should drag: an essential parameter (the first by default) or
+        "picture/layer".
     """
 
     state: type[S]
@@ -207,17 +208,17 @@ class Scene(Generic[S]):
 
     @property
     def name(self) -> str:
-        """As in a link."""
+        """The name in links."""
         return Path(self.module).stem.replace("_", "-")
 
     @property
     def origin(self) -> str | None:
-        """The name of the scene whose motion this one looks into."""
+        """The name of the scene whose motion this one measures; None for ordinary scenes."""
         return None
 
     @cached_property
     def _text(self) -> tuple[str, str]:
-        """What the front matter of its Markdown says, and the rest, with its lines where they are in the file."""
+        """The front matter of the Markdown file and its body; the body keeps the line numbers of the file."""
         text = Path(self.module).with_suffix(".md").read_text(encoding="utf-8")
         found = re.match(r"---\nmoves: (.+)\n---\n", text)
         assert found is not None, self.module
@@ -225,29 +226,29 @@ class Scene(Generic[S]):
 
     @property
     def words(self) -> str:
-        """Markdown with formulas."""
+        """The text: Markdown with formulas."""
         return self._text[1]
 
     @property
     def moves(self) -> str:
-        """A sentence that says what moves what."""
+        """A sentence on the controls: which one moves what."""
         return self._text[0]
 
     @cached_property
     def thumbnail(self) -> str:
-        """The inside of an SVG of 48 × 32."""
+        """The content of the 48 × 32 SVG thumbnail."""
         drawing = Path(self.module).with_suffix(".svg").read_text(encoding="utf-8")
         found = re.search(r"<svg[^>]*>(.*)</svg>", drawing, re.DOTALL)
         assert found is not None, self.module
         return found[1]
 
     def drawing(self, name: str) -> str:
-        """An SVG beside the words, which name it as Markdown names a picture."""
+        """Return an SVG file that the Markdown text refers to as an image."""
         return Path(self.module).with_name(name).read_text(encoding="utf-8")
 
     @cached_property
     def signs(self) -> Mapping[tuple[str, str], Sequence[Sign]]:
-        """The entries of the legend: signs of all pictures that look alike, by kind and style."""
+        """The entries of the legend: the signs of all pictures, grouped by kind and style."""
         found: dict[tuple[str, str], list[Sign]] = {}
         for sign in (sign for view in self.views for sign in view.legend):
             alike = found.setdefault((sign.kind, sign.style), [])
@@ -256,13 +257,13 @@ class Scene(Generic[S]):
         return found
 
     def shown_signs(self, there: Collection[Sign]) -> str:
-        """The numbers of the entries of which a sign is there, with a comma between them."""
+        """Return the indices of the legend entries with a visible sign, separated by commas."""
         known = {(sign.kind, sign.style) for sign in there}
         return ",".join(str(i) for i, look in enumerate(self.signs) if look in known)
 
     @cached_property
     def legend(self) -> str:
-        """HTML: a list of the signs of all pictures; one sign has one entry."""
+        """The legend of all pictures as an HTML list, one entry per sign."""
         items = (
             f'<li><span class="{kind}" style="{in_css(style)}"></span>'
             f"{escape(', '.join(sign.label for sign in signs))}</li>"
@@ -282,12 +283,12 @@ class Scene(Generic[S]):
 
     @property
     def folded(self) -> Mapping[str, str]:
-        """Those that are not seen until a button is pressed, and what it says."""
+        """Pictures that open at the press of a button → the label of the button."""
         return {view.name: view.folded for view in self.views if view.folded}
 
     @property
     def open_pictures(self) -> tuple[str, ...]:
-        """The pictures that are seen at first."""
+        """The names of the pictures that are open at first."""
         return tuple(view.name for view in self.views if not view.folded)
 
     @property
@@ -297,25 +298,25 @@ class Scene(Generic[S]):
 
     @property
     def has_motion(self) -> bool:
-        """Whether "Speed and accuracy" has something to look into."""
+        """True if "Speed and accuracy" can measure its motion."""
         return self.state.motion is not State.motion
 
     @property
     def trials(self) -> tuple[Trial[S], ...]:
-        """All that it computes, the motion first."""
+        """The trials of all its computations, the motion first."""
         return (orbit_trial(), *self.measures) if self.has_motion else self.measures
 
     def defaults(self) -> dict[str, Value]:
-        """The state a newcomer sees."""
+        """Return the default value of each parameter."""
         return {spec.name: spec.default for spec in self.specs}
 
     def example(self, preset: Preset) -> dict[str, Value]:
-        """All numbers and places of a preset; choices such as the accuracy stay as they are."""
+        """Return all numbers and places of a preset; choices such as the accuracy are left out unless it sets them."""
         numbers = {spec.name: spec.default for spec in self.specs if not isinstance(spec, Choice)}
         return {**numbers, **preset.values}
 
     def of(self, values: Values, seen: Collection[str] = (), dragging: bool = False) -> S:
-        """The state of these values; nothing is computed yet."""
+        """Return the state of these values, without computing anything."""
         work = Work(str(values.get("accuracy", "standard")), dragging)
         typed: dict[str, Any] = {
             spec.name: float(values[spec.name]) if isinstance(spec, Number) else str(values[spec.name])
@@ -324,7 +325,7 @@ class Scene(Generic[S]):
         return self.state(**typed, work=work, seen=frozenset(seen))
 
     def admit(self, values: Values) -> tuple[dict[str, Value], list[str]]:
-        """Values that are possible together, each within its bounds, and notes on what was changed."""
+        """Clamp the values to a valid state; return them with a note for each change."""
         within: dict[str, Value] = {}
         notes: list[str] = []
         for spec in self.specs:
@@ -336,7 +337,7 @@ class Scene(Generic[S]):
         try:
             state = self.of(within).admitted(notes)
         except ModelError:
-            # What is impossible says so when it is computed.
+            # An impossible state raises its error when it is computed.
             return within, notes
         return {spec.name: cast(Value, getattr(state, spec.name)) for spec in self.specs}, notes
 
@@ -345,15 +346,15 @@ class Scene(Generic[S]):
         return _or_nothing(lambda: self.of(values).limits())
 
     def idle(self, values: Values) -> Mapping[str, float]:
-        """Return the numbers without effect in the state of admitted values, and what they show."""
+        """Return the numbers without effect in the state of admitted values, with what their controls show."""
         return _or_nothing(lambda: self.of(values).idle())
 
     def carried(self, before: Values, values: Values) -> Mapping[str, float]:
-        """Return the changes with which the motion of the values before goes on with these, of other choices."""
+        """Return the parameter changes that keep the motion of the values before continuous after other choices."""
         return _or_nothing(lambda: self.of(values).carried(self.of(self.admit(before)[0])))
 
     def _meanings(self, values: Values) -> Mapping[str, str]:
-        """What each number and choice of a state means, by its name; without those that nothing depends on."""
+        """Return the meaning of each number and choice of a state by name, without those that have no effect."""
         labels = {
             spec.name: (isinstance(spec, Number) and spec.means) or spec.label
             for spec in self.specs
@@ -363,9 +364,9 @@ class Scene(Generic[S]):
         return {name: said for name, said in {**labels, **self.of(values).means()}.items() if name not in idle}
 
     def taken_over(self, there: Values, before: Scene[Any], left: Values) -> dict[str, Value]:
-        """The values of this scene, `there`, with those changed in the scene before that mean the same here.
+        """Return the values `there` of this scene, updated with changed values of the same meaning in the scene before.
 
-        left : its values, of which those are taken that are possible here.
+        left : the values of the scene before; those that are impossible here are not taken over.
         """
         defaults, mine, its = before.defaults(), self._meanings(there), before._meanings(left)
         taken = {
@@ -379,11 +380,11 @@ class Scene(Generic[S]):
         return {**there, **taken}
 
     def compute(self, values: Values, seen: Collection[str], dragging: bool) -> S:
-        """The state of admitted values, with all that the pictures `seen` ask for.  Raises `ModelError`."""
+        """Return the state of admitted values with the results for the pictures `seen`.  Raises `ModelError`."""
         return self.draw(self.of(values, seen, dragging))
 
     def draw(self, state: S) -> S:
-        """The state with the columns of all that is in sight.  Raises `ModelError`."""
+        """Return the state with the columns of all pictures in sight.  Raises `ModelError`."""
         self._settle(state)
         views = [view for view in self.views if view.name in state.seen]
         shown = state.seen.union(*(view.needs for view in views))
@@ -395,7 +396,7 @@ class Scene(Generic[S]):
         return state
 
     def in_sight(self, state: S) -> Iterator[tuple[Trial[Any], State]]:
-        """What is computed for the pictures in sight, and of which state."""
+        """Return the trials of the pictures in sight, each with the `bare` state to compute."""
         plain = bare(state)
         return (
             (trial, plain)
@@ -404,7 +405,7 @@ class Scene(Generic[S]):
         )
 
     def _settle(self, state: S) -> None:
-        """Find the level that "auto" stands for: the cheapest whose error is not seen in any picture in sight."""
+        """Set the level of "auto": the cheapest one whose error is invisible in every picture in sight."""
         if not state.work.auto or state.dragging:
             return
         found = [state.work.later(needed, trial, plain) for trial, plain in self.in_sight(state)]
@@ -414,7 +415,7 @@ class Scene(Generic[S]):
 
 
 def _or_nothing(found: Callable[[], Mapping[str, T]]) -> Mapping[str, T]:
-    """Return the mapping, or an empty one where it cannot be told."""
+    """Return the mapping, or an empty one if it raises `ModelError`."""
     try:
         return found()
     except ModelError:

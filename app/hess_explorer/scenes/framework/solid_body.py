@@ -1,4 +1,4 @@
-"""The body of the orbit on show as it lies in space: of the Suslov problem with its wheels, or a heavy one."""
+"""The body in space along the orbit on show: a Suslov body with its wheels, or a heavy body."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ from hess_mechanics.suslov_hess.torus import Track
 __all__ = ["Solid", "constrained_solid", "ellipsoid_of_inertia", "free_I33", "heavy_solid", "hess_solid", "solid_body"]
 
 _LOST = 0.02
-"""The largest step of γ, in radians, between a sample and the one that follows from it, of a motion that is drawn."""
+"""Largest `Lying.defect` of a motion that is drawn, in radians."""
 _TOO_LONG = Caption("Not drawn: the motion is too long.", "Its samples are too far apart to follow the rotation.")
 _WHEEL = (math.sqrt(0.5), math.sqrt(0.5), 0.0)
-"""Where a wheel touches: across e; about ω1 or ω2 alone a body would turn that one without rolling it."""
+"""Direction of a wheel's contact, normal to e; off the axes of ω1 and ω2, about which it would pivot, not roll."""
 _MASS = Sign("centre of mass", "dot", "background: #F0E442; border: 1.5px solid black")
 _TRAIL = Sign("trail of the centre of mass", "line", "border-top: 3px solid #0072B2")
 _SECTION = Sign("circular section of the gyration ellipsoid", "line", "border-top: 2.5px solid #BF6699")
@@ -42,9 +42,9 @@ _SECTION = Sign("circular section of the gyration ellipsoid", "line", "border-to
 class Solid:
     """A body along an orbit.
 
-    times : (n,) of the player; omega : (n, 2) with ω3 = 0, or (n, 3); gamma : (n, 3) in its axes.
-    mass : the direction of the centre of mass, None without a field; shape : its ellipsoid, None where none is drawn.
-    about_shape : the caption; drawn : whether there is anything to be drawn.
+    times : (n,) times of the player; omega : (n, 2) with ω3 = 0, or (n, 3); gamma : (n, 3) in the body's axes.
+    mass : the direction of the centre of mass, None without a field; shape : its ellipsoid, None if none is drawn.
+    about_shape : the caption; drawn : False if the picture stays empty.
     """
 
     times: Array
@@ -57,12 +57,12 @@ class Solid:
 
     @cached_property
     def lying(self) -> Lying:
-        """How it lies."""
+        """The attitude along the orbit."""
         omega = self.omega if self.omega.shape[1] == 3 else np.column_stack([self.omega, np.zeros(len(self.times))])
         return attitude_along(self.times, omega, self.gamma)
 
     def in_space(self, held: bool = False) -> tuple[Lying, Array] | None:
-        """Return how it lies and its times, every second one while a slider is held; None where nothing is drawn."""
+        """Return attitude and times, every second sample while a slider is held; None if nothing is drawn."""
         if not self.drawn or self.lying.defect > _LOST:
             return None
         found = self.lying.every_second() if held else self.lying
@@ -75,7 +75,7 @@ class Solid:
 
 
 def free_I33(tensor: tuple[float, float, float, float], check: BodyCheck) -> float:
-    """Return the middle I33 of rigid bodies with I11, I22, I13, I23; without any, one that is positive definite."""
+    """Return the middle I33 of the rigid bodies with this tensor; if there are none, a positive definite choice."""
     I11, I22, I13, I23 = tensor
     if check.I33 is None:
         return max(0.5 * (I11 + I22), 2.0 * (I13**2 / I11 + I23**2 / I22))
@@ -83,7 +83,7 @@ def free_I33(tensor: tuple[float, float, float, float], check: BodyCheck) -> flo
 
 
 def ellipsoid_of_inertia(tensor: tuple[float, float, float, float], check: BodyCheck) -> tuple[Shape, Caption]:
-    """Return the ellipsoid of inertia for I11, I22, I13, I23 and a chosen I33, and its caption."""
+    """Return the ellipsoid of inertia for I11, I22, I13, I23 and the I33 of `free_I33`, and its caption."""
     (I11, I22, I13, I23), I33 = tensor, free_I33(tensor, check)
     chosen = f"I₃₃ = {digits(I33)}"
     if check.is_body:
@@ -99,7 +99,7 @@ def ellipsoid_of_inertia(tensor: tuple[float, float, float, float], check: BodyC
 def constrained_solid(work: Work, body: Body, orbit: Orbit | FreeMotion) -> Solid:
     """Return a body of the Suslov problem, e = e3, or a ball, along its orbit.
 
-    Its parameters are I11, I22, I13, I23, …, b1, b2, b3, the states (ω1, ω2, γ).
+    Its parameters are I11, I22, I13, I23, …, b1, b2, b3, its states (ω1, ω2, γ).
     """
     I11, I22, I13, I23, *_, b1, b2, b3 = body.parameters
     omega, gamma = (
@@ -110,12 +110,12 @@ def constrained_solid(work: Work, body: Body, orbit: Orbit | FreeMotion) -> Soli
 
 
 def hess_solid(body: HessBody, track: Track) -> Solid:
-    """Return a body of the Suslov–Hess case with its gyration ellipsoid, which has a section across n3."""
+    """Return a body of the Suslov–Hess case with its gyration ellipsoid and its section normal to n3."""
     mass = centre_of_mass((0.0, body.b2, body.b3))
     if body.middle_I33 is None:
         said = Caption("Not drawn: no such rigid body.", "|a| ≥ 1 violates the triangle inequalities for every I₃₃.")
         return Solid(track.times, track.omega, track.gamma, mass, None, said, drawn=False)
-    # In the axes of (n1, n2, n3).
+    # In the axes n1, n2, n3.
     tensor = body.tensor(body.middle_I33)
     moments = ", ".join(map(digits, np.linalg.eigvalsh(tensor)))
     return Solid(
@@ -162,8 +162,8 @@ def solid_body(
 ) -> BodyInSpace[S]:
     """Return the picture of a body.
 
-    ball : whether it rolls on another one; field : whether there may be one; wheels : whether (ω, e) = 0.
-    section : whether its circular section is drawn, and the trail is that of the centre of mass, not that of a wheel.
+    ball : it rolls on another ball; field : there may be a field; wheels : they impose (ω, e) = 0.
+    section : draw its circular section, and the trail of the centre of mass instead of a wheel's.
     """
 
     def rods(state: S) -> list[Rod]:

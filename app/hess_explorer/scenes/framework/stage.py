@@ -1,4 +1,4 @@
-"""The pictures of a scene in one session: what of a state goes by the wire, and what the mouse chooses."""
+"""The pictures of a scene in one session: sends the changes of a state, and handles the mouse."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ S = TypeVar("S", bound=State)
 
 
 class Stage(Generic[S]):
-    """The same for all scenes: sends what pictures in sight show, and nothing that has not changed."""
+    """The pictures of any scene in one session; sends the changed columns of pictures in sight."""
 
     def __init__(self, scene: Scene[S], wire: Wire) -> None:
         self.scene, self.wire = scene, wire
@@ -32,8 +32,8 @@ class Stage(Generic[S]):
         self._state: S | None = None
 
     def show(self, state: S, hold_axes: bool) -> Report:
-        """Draw what `Scene.compute` has found; axes stay while a slider is held.  Raises `ModelError`."""
-        # All that can fail comes first: then nothing of a state that is refused is drawn.
+        """Draw a state from `Scene.compute`; `hold_axes` keeps the axes, for a held slider.  Raises `ModelError`."""
+        # Everything that can fail comes first, so that a refused state is not drawn in part.
         views = [view for view in self.scene.views if view.name in state.seen]
         captions = {view.name: view.said(state) for view in views}
         axes = {view.name: (None if hold_axes else view.ranges(state)) or self._axes[view.name] for view in views}
@@ -53,11 +53,11 @@ class Stage(Generic[S]):
         return Report(derived, status, notes, tuple(state.work.todo), state.work.pieces, state.work.summary())
 
     def _name_signs(self, views: Sequence[Picture[S]], drawn: Mapping[str, Columns]) -> None:
-        """Say which entries of the legend are there."""
+        """Send the visible entries of the legend."""
         self.wire.say("signs", self.scene.shown_signs({sign for view in views for sign in view.there(drawn)}))
 
     def fail(self, sentence: str, hold_axes: bool = False) -> None:
-        """Clear all pictures, and show the sentence in their captions; the axes are those of an empty page."""
+        """Clear all pictures and show the sentence in their captions; reset the axes unless `hold_axes`."""
         self._state = None
         for name in self.scene.tracks:
             self._put(f"data-{name}", {})
@@ -68,36 +68,36 @@ class Stage(Generic[S]):
             self.wire.caption(name, asdict(Caption(title=sentence)))
 
     def pick(self, picture: str, x: float, y: float) -> Values:
-        """The values that a click at (x, y) of a picture chooses.  Raises `ModelError`."""
+        """Return the values that a click at (x, y) of a picture sets.  Raises `ModelError`."""
         state, view = self._seen(picture)
         return {} if state is None or view is None or view.on_click is None else view.on_click(state, x, y)
 
     def box(self, picture: str, corners: Corners) -> Values:
-        """The values that a box from (x0, y0) to (x1, y1) of a picture chooses.  Raises `ModelError`."""
+        """Return the values that a box from (x0, y0) to (x1, y1) of a picture sets.  Raises `ModelError`."""
         state, view = self._seen(picture)
         return {} if state is None or view is None or view.on_box is None else view.on_box(state, corners)
 
     def hover(self, picture: str, x: float, y: float) -> str:
-        """One line on the place (x, y) of a picture.  Raises `ModelError`."""
+        """Return the tooltip at (x, y) of a picture.  Raises `ModelError`."""
         state, view = self._seen(picture)
         return "" if state is None or view is None or view.on_hover is None else view.on_hover(state, x, y)
 
     def _seen(self, picture: str) -> tuple[S, Picture[S]] | tuple[None, None]:
-        """The state on show and the picture of that name, if it is in sight: what is hidden computes nothing."""
+        """Return the state on show and a picture, if it is in sight: hidden pictures compute nothing."""
         state = self._state
         return (None, None) if state is None or picture not in state.seen else (state, self._views[picture])
 
     def _set_axes(self, view: Picture[S], axes: Axes | None) -> None:
         if axes is not None and axes != self._axes[view.name]:
             self._axes[view.name] = axes
-            # The others have their axes among their columns.
+            # Canvases have their axes among their columns.
             if view.name not in self._canvases:
                 self.wire.put_ranges(view.name, axes.x, axes.y)
 
     def _put(self, source: str, columns: Columns) -> None:
         """Send columns that differ from those in the browser."""
         before = self._sent.get(source, {})
-        # Bokeh wants the columns of a glyph to stay: what is not there any more has no entries.
+        # Bokeh requires all columns of a glyph: columns without data are sent empty.
         whole = columns if source in self._canvases else {**{name: [] for name in before}, **columns}
         if not _same(whole, before):
             self._sent[source] = whole
@@ -105,7 +105,7 @@ class Stage(Generic[S]):
 
 
 def _same(left: Any, right: Any) -> bool:
-    """Whether two columns, or mappings and lists of them, are equal number by number."""
+    """Return whether two columns, or mappings and lists of them, have equal numbers."""
     if left is right:
         return True
     if isinstance(left, np.ndarray) or isinstance(right, np.ndarray):

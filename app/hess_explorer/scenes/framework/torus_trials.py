@@ -1,4 +1,4 @@
-"""What scenes of the Suslov–Hess tori compute over parameters: the boundary of the lock zone."""
+"""The trial of the boundary of the lock zone, for scenes of the Suslov–Hess tori."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ S = TypeVar("S", bound=State)
 
 
 def boundary(picture: str, run: Callable[[S, Plan], Array], frame: Callable[[S], Frame]) -> Trial[S]:
-    """Return the trial of the curve |t| = 2 (n, 2) in that picture, run(state, plan)."""
+    """Return the trial of the curve |t| = 2 (n, 2) in a picture; run(state, plan) computes the curve."""
 
     def look(s: S, found: Array) -> Curves:
         return Curves(frame(s), (found,) if len(found) else ())

@@ -1,4 +1,4 @@
-"""What a scene computes at the level that is chosen, kind by kind, so that cost and error can be measured at each."""
+"""Trials: the computations of a scene by kind, to measure their cost and error at each level of accuracy."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ T = TypeVar("T")
 
 _SAMPLES = 400
 COLOUR = 1.0 / 256.0
-"""One step of a colour map that covers one turn."""
+"""One step of a colour map that covers one turn of an angle."""
 COLOUR_UNIT = "steps of the colour, 99 of 100 cells"
 
 
@@ -59,14 +59,14 @@ def _always(shown: object) -> bool:
 
 @dataclass(frozen=True)
 class Trial(Generic[H]):
-    """One kind of computation of a scene, of a state or of a part of one.
+    """One kind of computation of a scene, for a state or a part of it.
 
-    kind, pictures : which, and the pictures that show it; none: all of them.
-    run(state, plan) : computes it as the scene does, by itself; error(state, result, truth) : in the `unit`.
-    look(state, result) : how a picture shows it.
-    seen : the largest error that cannot be seen; shown(state) : whether the pictures have it now.
-    alike : whether levels are compared where they compute as many points, as other points are those of other motions.
-    most : the largest values of parameters, with which it is computed in about a second.
+    kind, pictures : the kind, and the pictures that show it; empty means all pictures.
+    run(state, plan) : computes it as the scene does; error(state, result, truth) : its error in `unit`.
+    look(state, result) : the result as a picture shows it, for comparisons.
+    seen : the largest invisible error; shown(state) : True if the pictures show it in this state.
+    alike : compare levels with the same number of points, because other points belong to other motions.
+    most : limits of parameters for which it takes about a second.
     """
 
     kind: Computation
@@ -81,24 +81,24 @@ class Trial(Generic[H]):
     most: tuple[tuple[str, float], ...] = ()
 
     def of_part(self, part: Callable[[S], H]) -> Trial[S]:
-        """Return the same of a state that holds what is computed as a part of it."""
+        """Return the trial of a state, from this trial of a part of it."""
         return cast("Trial[S]", adapted(self, part))
 
     def small(self, state: S) -> S:
-        """Return the state with no more of it than is computed in about a second."""
+        """Return the state with parameters limited to `most`, so that it is computed in about a second."""
         less = {name: min(float(getattr(state, name)), most) for name, most in self.most}
         return state.changed(less) if less else state
 
 
 @dataclass(frozen=True)
 class Refused:
-    """Why something could not be measured: a sentence, kept in the cache as a result is."""
+    """The reason why something could not be measured: a sentence, cached like a result."""
 
     reason: str
 
 
 def bare(state: S) -> S:
-    """The state whatever its accuracy and pictures in sight, for the cache."""
+    """Return the state without its accuracy and pictures in sight, as a cache key."""
     typed: Any = state
     accuracy = {"accuracy": STANDARD.name} if hasattr(state, "accuracy") else {}
     found: S = replace(typed, **accuracy, work=Work(), seen=frozenset(), drawn={})
@@ -106,7 +106,7 @@ def bare(state: S) -> S:
 
 
 def _unless_refused(found: Callable[[], T]) -> T | Refused:
-    """What the mechanics refuses it will refuse again; what only took too long is not known yet."""
+    """Return the result, or `Refused` for a model error; `OverBudget` is raised because a later attempt may succeed."""
     try:
         return found()
     except OverBudget:
@@ -116,7 +116,7 @@ def _unless_refused(found: Callable[[], T]) -> T | Refused:
 
 
 def measured(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refused:
-    """Time and error of each level, for a `bare` state.  Raises `OverBudget`."""
+    """Return time and error of each level, for a `bare` state.  Raises `OverBudget`."""
 
     def found() -> tuple[LevelCost, ...]:
         less = trial.small(state)
@@ -126,7 +126,7 @@ def measured(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refused:
 
 
 def needed(trial: Trial[S], state: S) -> str:
-    """The cheapest level whose error cannot be seen; `standard` for what cannot be computed.  Raises `OverBudget`."""
+    """Return the cheapest level with an invisible error; `standard` if it cannot be computed.  Raises `OverBudget`."""
     try:
         less = trial.small(state)
         return measure_until(
@@ -139,13 +139,13 @@ def needed(trial: Trial[S], state: S) -> str:
 
 
 def next_level(name: str) -> str | None:
-    """The next more exact level; None after the last one."""
+    """Return the next more exact level; None after the last one."""
     names = [*LEVELS]
     return next(iter(names[names.index(name) + 1 :]), None)
 
 
 def differing(trial: Trial[S], state: S, name: str, finer: str) -> Difference | Refused:
-    """What a more exact level changes in the picture of a level, for a `bare` state.  Raises `OverBudget`."""
+    """Return the changes that a more exact level makes in a picture, for a `bare` state.  Raises `OverBudget`."""
 
     def found() -> Difference:
         less, plan, other = trial.small(state), PLANS[trial.kind][name], PLANS[trial.kind][finer]
@@ -171,20 +171,20 @@ def _orbit(state: State, plan: Plan) -> Array:
 def _orbit_error(state: State, states: Array, truth: object) -> float:
     motion = state.motion()
     assert motion is not None
-    # With more digits than a run of any level has.
+    # The reference has more digits than any level.
     exact = exactly(*motion.named[:3], _measured_span(motion), _SAMPLES)
     away, first = exact.away(states) * np.asarray(motion.weights), motion.system.angular_velocities
     return float(max(np.linalg.norm(part, axis=1).max() for part in (away[:, :first], away[:, first:])))
 
 
 def _orbit_look(state: State, states: Array) -> Marks:
-    """In the plane of the angular velocities, or else of γ where no picture of the scene has that."""
+    """Return the orbit in the plane of the angular velocities, or of γ if no picture of the scene shows that plane."""
     motion = state.motion()
     assert motion is not None
     weights, first = np.asarray(motion.weights), motion.system.angular_velocities
     i = 0 if weights[0] > 0.0 else first
     places = states[:, i : i + 2]
-    # Half a picture, whose width these weights have.
+    # Half the width of a picture in these units, or more if the orbit needs it.
     x, y = np.maximum(0.5 * PIXELS / weights[i : i + 2], 1.02 * np.abs(places).max(axis=0))
     pixels = states * weights
     one, other = motion.system.variables[i : i + 2]
@@ -193,12 +193,12 @@ def _orbit_look(state: State, states: Array) -> Marks:
 
 
 def orbit_trial() -> Trial[Any]:
-    """The motion on show."""
+    """Return the trial of the motion on show."""
     return Trial(Computation.ORBIT, (), _orbit, _orbit_error, _orbit_look)
 
 
 def curve_error(values: Array, exact: Array, height: float, period: float = math.inf) -> float:
-    """The largest error of a curve (n,) in pixels of an axis of that length; period : of an angle, ∞ for none."""
+    """Return the largest error of a curve (n,) in pixels of an axis of length `height`; period : ∞ if not an angle."""
     away = values - exact
     if math.isfinite(period):
         away = away - period * np.round(away / period)
@@ -206,14 +206,14 @@ def curve_error(values: Array, exact: Array, height: float, period: float = math
 
 
 def colour_error(values: Array, exact: Array) -> float:
-    """The error that 99 of 100 values are below, in steps of a colour map that covers one turn; 0.0 without values."""
+    """Return the 99th percentile of the error, in steps of a colour map that covers one turn; 0.0 without values."""
     return float(np.percentile(np.abs(values - exact), 99.0)) / COLOUR if values.size else 0.0
 
 
 def section_error(
     orbits: Sequence[Array], truth: Sequence[Array], pixels: Sequence[float], periods: Sequence[float] = (math.inf,) * 2
 ) -> float:
-    """The largest error of orbits (n, 2) in pixels, chaotic ones aside: no level keeps those to their end."""
+    """Return the largest error of orbits (n, 2) in pixels, without chaotic ones: no level is right to their end."""
     worst = 0.0
     for one, other in zip(orbits, truth, strict=True):
         away = errors_in_pixels(one, other, pixels, periods)

@@ -1,4 +1,4 @@
-"""Windows of a picture: what of its plane is seen, as a text in the link."""
+"""Windows: the visible part of a picture's plane, as text in a link."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["Window", "boxed", "frame_of", "inside", "tidy_window", "window_of"]
 
 
 def tidy_window(text: Value) -> str:
-    """The text of a window with its corners in order; empty where it is none."""
+    """Return the text of a window with its corners in order; an empty string if it is invalid."""
     corners = places(text)
     if len(corners) != 2 or corners[0][0] == corners[1][0] or corners[0][1] == corners[1][1]:
         return ""
@@ -22,7 +22,7 @@ def tidy_window(text: Value) -> str:
 
 
 def window_of(text: Value, full: Window) -> Window:
-    """The window that an admitted text means; `full` where it is empty."""
+    """Return the window of an admitted text; `full` if the text is empty."""
     corners = places(text)
     return (corners[0], corners[1]) if len(corners) == 2 else full
 
@@ -34,13 +34,13 @@ def frame_of(window: Window, names: Sequence[str]) -> Frame:
 
 
 def inside(points: Sequence[tuple[float, float]], window: Window) -> list[tuple[float, float]]:
-    """Those of the points that lie in the window."""
+    """Return the points within the window."""
     (x0, y0), (x1, y1) = window
     return [(x, y) for x, y in points if x0 <= x <= x1 and y0 <= y <= y1]
 
 
 def boxed(corners: tuple[float, float, float, float], bounds: Window, name: str = "window") -> Values:
-    """The window, of that name, of a box, as far as it lies within the bounds; nothing where it has no size."""
+    """Return the window parameter `name` for a box, clipped to the bounds; an empty mapping if it has no area."""
     (x0, y0), (x1, y1) = bounds
     left, right = max(x0, min(corners[0], corners[2])), min(x1, max(corners[0], corners[2]))
     low, high = max(y0, min(corners[1], corners[3])), min(y1, max(corners[1], corners[3]))

@@ -1,4 +1,4 @@
-"""The computation of one state: at which level, what comes from the cache, what can wait."""
+"""The computation of one state: its level, the cache, and the background computations."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ __all__ = ["AUTO", "Work", "drift_status", "kept_status", "orbit_status"]
 
 
 _NOTED = 0.1
-"""Seconds for compiling that are worth a word."""
+"""Least compile time, in seconds, that the status line reports."""
 
 AUTO = "auto"
-"""The accuracy that is chosen by measurement."""
+"""The accuracy that is set by measurement."""
 
 P = ParamSpec("P")
 T = TypeVar("T")
 
 
 class Work:
-    """The computation of one state: at which level, and what came from the cache.
+    """The computation of one state at a level, through the cache.
 
-    chosen : the name of the level chosen, whether or not a slider is held.
-    auto : whether it is chosen by measurement, see `settle`.
+    chosen : the name of the chosen level, which a held slider does not change.
+    auto : True if the level is set by measurement, see `settle`.
     """
 
     def __init__(self, accuracy: str = "standard", dragging: bool = False) -> None:
@@ -44,17 +44,17 @@ class Work:
         self.todo: list[Task] = []
         self.pieces = 0
         chosen = level(self.chosen)
-        # While a slider is dragged, the cheapest that is right to half a pixel.
+        # While a slider is dragged, use the cheapest level that is right to half a pixel.
         self.level: Level = min(chosen, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order) if dragging else chosen
 
     def settle(self, name: str) -> None:
-        """The level that "auto" stands for, once it is measured; before that it is `standard`."""
+        """Set the measured level of "auto"; until then it is `standard`."""
         self._settled, self.chosen, self.level = True, name, level(name)
 
     def plan(self, kind: Computation, steady: bool = False) -> Plan:
-        """What the level means for a kind of computation; a scene itself says how few it asks for during a drag.
+        """Return the plan of the level for a kind of computation; scenes set their own numbers of points for a drag.
 
-        steady : for what hardly any slider changes: during a drag it stays as it is, but is no finer than `standard`.
+        steady : hardly any slider changes the result; during a drag it keeps its plan, but no finer than `standard`.
         """
         if steady:
             return plan(
@@ -64,17 +64,17 @@ class Work:
         return replace(found, share=1.0, cells=1.0) if self.dragging else found
 
     def awaited(self, what: str = "It is") -> str:
-        """Return what a caption says of a result that is not known yet."""
+        """Return the caption of a result that is not known yet."""
         return f"{what} found when a slider is let go." if self.dragging else f"{what} being computed."
 
     def get(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T:
-        """The cached result of function(*arguments)."""
+        """Return the result of function(*arguments), from the cache if it is known."""
         value, hit = CACHE.get(function, *arguments)
         self._misses += not hit
         return cast(T, value)
 
     def later(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T | None:
-        """The same if it is known already; else None, and it is left `todo`."""
+        """Return the result if it is cached; else None, and add the computation to `todo`."""
         self.pieces += 1
         value = CACHE.peek(function, *arguments)
         if value is None:
@@ -82,16 +82,19 @@ class Work:
         return cast("T | None", value)
 
     def known(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T | None:
-        """The same if it is known already; nothing is left to do."""
+        """Return the result if it is cached, else None."""
         return cast("T | None", CACHE.peek(function, *arguments))
 
     def soon(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T | None:
-        """At once while a slider is held, when little is asked for; else later."""
+        """Return the result as `get` while a slider is held, when it is small; else as `later`."""
         get = self.get if self.dragging else self.later
         return get(function, *arguments, **none)
 
     def sooner(self, whole: Task, few: Task) -> Any:
-        """The result of `whole` if it is known and no slider is dragged; for now that of `few`."""
+        """Return the result of `whole` if it is cached; else that of `few`, and add `whole` to `todo`.
+
+        While a slider is held, return that of `few` and leave `todo` as it is.
+        """
         known = None if self.dragging else CACHE.peek(whole.function, *whole.arguments)
         if known is not None:
             self.pieces += 1
@@ -102,22 +105,22 @@ class Work:
         return found
 
     def ask(self, task: Task) -> Any:
-        """Return the result of `task` if it is known; else None, and it is left `todo` unless a slider is held."""
+        """Return the result of `task` if it is cached; else None, and add it to `todo` unless a slider is held."""
         return (self.known if self.dragging else self.later)(task.function, *task.arguments)
 
     def _spent(self) -> tuple[float, float]:
-        """Seconds until now, those for compiling kernels apart: that happens once."""
+        """Return the seconds spent so far, and those spent compiling kernels, which happens once."""
         compiling = seconds_compiling() - self._compiled
         return time.perf_counter() - self._start - compiling, compiling
 
     def summary(self) -> str:
-        """The status line in short: the level, what it promises, how long it took until now."""
+        """Return a short status line: the level, its promised error, the time spent."""
         chosen = f"{AUTO}: {self.level.name}" if self.auto else self.level.name
         right = "the floor of double precision" if self.level.is_floor else f"1e−{-math.log10(self.level.promise):.0f}"
         return f"{chosen}, right to {right} · {1e3 * self._spent()[0]:.0f} ms"
 
     def ended(self) -> str:
-        """For the status line: how long it took until now, and whether anything was computed."""
+        """Return the end of the status line: the time spent, and "computed" or "cached"."""
         spent, compiling = self._spent()
         once = f"{compiling:.1f} s to compile, once · " if compiling > _NOTED else ""
         said = f"{once}{1e3 * spent:.1f} ms, {'computed' if self._misses else 'cached'}"
@@ -127,7 +130,7 @@ class Work:
 
 
 def orbit_status(orbit: Orbit | FreeMotion) -> list[str]:
-    """For the status line: size, cost, error and drift of an orbit."""
+    """Return status entries of an orbit: size, cost, error and drift."""
     return [
         f"{orbit.level}: orbit {orbit.times.size} points, {orbit.cost.steps} Taylor steps, "
         f"error ≤ {orbit.error_estimate:.1e} ({orbit.status})",
@@ -136,7 +139,7 @@ def orbit_status(orbit: Orbit | FreeMotion) -> list[str]:
 
 
 def kept_status(kept: tuple[int, int | None] | None, crossings: int) -> Iterator[str]:
-    """For the status line: up to which of so many crossings the orbits of a section are right to half a pixel."""
+    """Yield the status entry of a section: the last crossings that are right to half a pixel."""
     if kept is not None:
         own, others = (
             "to the end" if count is not None and count >= crossings else f"up to crossing {count}" for count in kept
@@ -146,7 +149,7 @@ def kept_status(kept: tuple[int, int | None] | None, crossings: int) -> Iterator
 
 
 def drift_status(drifts: Iterable[Mapping[str, float]]) -> Iterator[str]:
-    """For the status line: the largest drift of each integral."""
+    """Yield the status entry of the largest drift of each integral."""
     largest: dict[str, float] = {}
     for drift in drifts:
         largest |= {name: max(largest.get(name, 0.0), value) for name, value in drift.items()}

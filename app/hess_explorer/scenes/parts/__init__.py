@@ -1,1 +1,1 @@
-"""What scenes are composed of: one part in each file, and no part imports another."""
+"""Parts that scenes are composed of: one in each file, and no part imports another."""

@@ -1,4 +1,4 @@
-"""The basins of a section of the Suslov problem: to what the orbits from its cells come, and whether that attracts."""
+"""Basins on a section of the Suslov problem: the motions that the orbits from its cells tend to."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ _NUMBERS = {2: "Two", 3: "Three", 4: "Four"}
 class _Window(Protocol):
     @property
     def frame(self) -> Window:
-        """What of the section is seen."""
+        """The visible window."""
 
     @property
     def batches(self) -> object:
-        """The orbits of the section, which come before finer cells."""
+        """The orbits of the section, computed before the finer cells."""
 
 
 class _Host(Host, Protocol):
@@ -46,14 +46,14 @@ class _Host(Host, Protocol):
 
     @property
     def long(self) -> float:
-        """The time over which the divergence is averaged."""
+        """The averaging time of the divergence."""
 
 
 @dataclass(frozen=True, eq=False)
 class Basins(Part[_Host]):
-    """The cells of a section of the Suslov problem by the group of motions that they lead to.
+    """The cells of a section of the Suslov problem, grouped by the motions that their orbits tend to.
 
-    wanted : whether they are shown.
+    wanted : show them.
     """
 
     section: _Window
@@ -61,9 +61,9 @@ class Basins(Part[_Host]):
 
     @cached_property
     def _found(self) -> tuple[Array, int] | None:
-        """`SuslovSection.ends` of all cells (n, m), ∞ where nothing moves, and how many of their rows are still coarse.
+        """`SuslovSection.ends` of all cells (n, m), ∞ without motion, and the number of rows that are still coarse.
 
-        None before the coarse ones are known, of which each is the middle one of `COARSE`² cells.
+        None until all coarse cells are known; each is the middle one of `COARSE`² cells.
         """
         if not self.wanted or self.work.dragging:
             return None
@@ -74,17 +74,17 @@ class Basins(Part[_Host]):
 
     @property
     def ends(self) -> Array | None:
-        """`SuslovSection.ends` of all cells (n, m), ∞ where nothing moves; None before all are known."""
+        """`SuslovSection.ends` of all cells (n, m), ∞ without motion; None until all are known."""
         return None if self._found is None or self._found[1] else self._found[0]
 
     @cached_property
     def basin(self) -> Array | None:
-        """Cells (n, m): the group of each, 0, 1, …; −1 where nothing moves; coarse ones where no finer are known."""
+        """The group 0, 1, … of each cell (n, m), −1 without motion; coarse until the finer cells are known."""
         return None if self._found is None else groups_of_cells(self._found[0])
 
     @cached_property
     def contractions(self) -> list[Contraction] | None:
-        """Of a motion of each group, when all are known."""
+        """The contraction of one motion of each group; None until all are known."""
         ends = self.ends
         if self.basin is None or ends is None:
             return None
@@ -126,7 +126,7 @@ class Basins(Part[_Host]):
         )
 
     def status(self) -> Iterator[str]:
-        """Yield how much depends on the size of the cells, when all of them are known."""
+        """Yield how much the basins depend on the size of the cells, once all are known."""
         if self.asked("basin") and self.basin is not None and self.ends is not None:
             n, m = self.basin.shape
             yield f"basins {m} × {n}, twice as many cells would change {digits(100.0 * unsure(self.basin), 2)} % of it"
@@ -145,7 +145,7 @@ S = TypeVar("S", bound=State)
 
 
 def basins_trial(of: Callable[[S], Basins]) -> Trial[S]:
-    """Return how the basins of a state are computed at each level."""
+    """Return the trial of the basins, computed at each level."""
     return Trial[Basins](
         Computation.BASINS,
         ("section",),

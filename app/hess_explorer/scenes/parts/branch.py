@@ -1,4 +1,4 @@
-"""The branch of a periodic orbit over a parameter of a scene: computed in pieces, chosen from with the mouse."""
+"""The branch of a periodic orbit over a parameter of a scene, computed in pieces; a click selects an orbit on it."""
 
 from __future__ import annotations
 
@@ -46,27 +46,27 @@ __all__ = [
 ]
 
 _TOGETHER = 60
-"""Places on a branch that are computed at once: few enough for them to arrive soon."""
+"""Places of a branch computed at once: few enough to arrive soon."""
 _PARTS = 16
-"""Of a branch in each direction, at most."""
+"""Largest number of pieces of a branch in each direction."""
 _STEP = 0.02
-"""Of the width of the range, at most: lines between points are then half a pixel off, as directions differ by 0.3."""
+"""Largest step, as a share of the range: chords are then half a pixel off, as directions differ by 0.3."""
 _CREEPING = 1e-4
-"""Of the width of the range, and of the coordinates: with parts that are shorter nobody sees a branch go on."""
+"""Least advance of a piece, as a share of the range or in a coordinate: shorter pieces show no progress."""
 _NEAR = 12.0
-"""Pixels from a branch within which the mouse means it."""
+"""Largest distance of the mouse from a branch that it selects, in pixels."""
 _SAID = 8
-"""Bifurcations that are listed."""
+"""Largest number of bifurcations listed."""
 _AROUND = 0.125
-"""Of a slider's range, to each side of the value, where no other range is chosen."""
+"""Half-width of the default range, as a share of the slider's."""
 _ROOM = 0.08
 _LEAST = 1e-3
-"""Of the section, upwards."""
+"""Least height of the picture, as a share of the section's."""
 _FARTHEST = (-1e5, 1e5)
 
 
 def parameter_of_branch(symbols: tuple[str, ...]) -> Any:
-    """Over what the branch is continued; the first one at first."""
+    """Declare the parameter over which the branch is continued; the default is the first symbol."""
     return choice(
         "Branch over",
         symbols,
@@ -76,7 +76,7 @@ def parameter_of_branch(symbols: tuple[str, ...]) -> Any:
 
 
 def end_of_branch(word: str) -> Any:
-    """One end of the range; the other end."""
+    """Declare one end of the range of the branch."""
     return number(
         word,
         0.0,
@@ -90,7 +90,7 @@ def end_of_branch(word: str) -> Any:
 
 
 def coordinate_of_branch(names: tuple[str, str]) -> Any:
-    """What of the section is drawn upwards."""
+    """Declare the coordinate of the section that is drawn upwards."""
     return choice(
         "Branch upwards", names, names[0], doc="In “Branch of the periodic orbit”: which coordinate of the section."
     )
@@ -98,7 +98,10 @@ def coordinate_of_branch(names: tuple[str, str]) -> Any:
 
 @dataclass(frozen=True)
 class _Nearest:
-    """The place of a branch that is nearest to the mouse: how far, in pixels, between which points of it, and where."""
+    """The point of a branch nearest to the mouse.
+
+    away : its distance in pixels; i, share : its segment and the position there; j : its place on the periodic orbit.
+    """
 
     away: float
     branch: mechanics.Branch
@@ -108,7 +111,7 @@ class _Nearest:
 
     @property
     def value(self) -> float:
-        """Of the parameter."""
+        """The parameter at this point."""
         a, b = self.branch.values[self.i : self.i + 2]
         return float(a + self.share * (b - a))
 
@@ -116,20 +119,20 @@ class _Nearest:
 class _Host(Host, Protocol):
     @property
     def begin(self) -> Begin | None:
-        """Where the branch begins; None where none is asked for."""
+        """The start of the branch; None if no branch is requested."""
 
     @property
     def side(self) -> int:
-        """Which coordinate of the section is drawn, upwards."""
+        """Index of the coordinate drawn upwards."""
 
     @property
     def seen(self) -> Window | None:
-        """What of the picture is seen; None before anything is."""
+        """The visible window; None while the picture is empty."""
 
 
 @dataclass(frozen=True, eq=False)
 class Continuation(Part[_Host]):
-    """What is known of a branch; while a slider is held, nothing more is computed."""
+    """The known pieces of a branch; no more are computed while a slider is held."""
 
     @property
     def _symbol(self) -> str:
@@ -137,7 +140,7 @@ class Continuation(Part[_Host]):
 
     @property
     def turns(self) -> tuple[float, ...]:
-        """The period of each coordinate, ∞ where it is no angle.  Raises `ModelError`."""
+        """The period of each coordinate, ∞ if it is not an angle.  Raises `ModelError`."""
         return self._begin.map.turns
 
     @property
@@ -147,7 +150,7 @@ class Continuation(Part[_Host]):
 
     @cached_property
     def _found(self) -> Closed | Missed | None:
-        """The orbit from which it is continued; None while that is not known."""
+        """The orbit that is continued, or why there is none; None until known."""
         if self.host.begin is None:
             return None
         found: Closed | Missed | None = self.work.ask(self.host.begin.search)
@@ -155,12 +158,12 @@ class Continuation(Part[_Host]):
 
     @property
     def closed(self) -> Closed | None:
-        """The same where there is one."""
+        """The orbit that is continued, if there is one."""
         return self._found if isinstance(self._found, Closed) else None
 
     @cached_property
     def _known(self) -> tuple[list[mechanics.Branch], list[str], bool]:
-        """What is known of the branch, why parts of it could not be computed, and whether that is all."""
+        """The known pieces of the branch, the reasons for missing ones, and whether none is pending."""
         found: list[mechanics.Branch] = []
         failed: list[str] = []
         whole = True
@@ -182,20 +185,20 @@ class Continuation(Part[_Host]):
         return found, failed, whole
 
     def _creeps(self, part: mechanics.Branch) -> bool:
-        """Whether it hardly gets on, as where orbits begin to touch the section and the map has no derivative."""
+        """Return whether a piece hardly advances, as near a tangency with the section."""
         low, high = self._begin.ends
         return max(float(np.ptp(part.values)) / (high - low), float(np.ptp(part.places, axis=0).max())) < _CREEPING
 
     @property
     def branches(self) -> list[mechanics.Branch]:
-        """What is known of the branch."""
+        """The known pieces of the branch."""
         return self._known[0]
 
-    # ---- what the mouse does ------------------------------------------------------------------------------------
+    # ---- the mouse ----------------------------------------------------------------------------------------------
 
     @property
     def turn(self) -> float:
-        """The period of the coordinate that is drawn."""
+        """The period of the coordinate drawn upwards."""
         return self.turns[self.host.side]
 
     def _nearest(self, x: float, y: float) -> _Nearest | None:
@@ -220,7 +223,7 @@ class Continuation(Part[_Host]):
         return best if best is not None and best.away <= _NEAR else None
 
     def chosen(self, x: float, y: float) -> tuple[float, Place, int] | None:
-        """Of the orbit of the branch at (x, y): the parameter, a place and the period; None away from the branch."""
+        """Return parameter, place and period of the branch's orbit at (x, y); None away from the branch."""
         near = self._nearest(x, y)
         if near is None:
             return None
@@ -232,7 +235,7 @@ class Continuation(Part[_Host]):
         except ModelError:
             go_on()
             value, place = float(near.branch.values[near.i]), a[near.j]
-        # Angles as the section has them.
+        # The section has angles between −turn/2 and turn/2.
         return (
             value,
             tuple(
@@ -268,7 +271,7 @@ class Continuation(Part[_Host]):
 
     @property
     def caption(self) -> Caption | None:
-        """The caption of the branch; None while the orbit itself is not known."""
+        """The caption of the branch; None until the orbit itself is known."""
         if self._found is None:
             return None
         if self.closed is None:
@@ -289,7 +292,7 @@ class Continuation(Part[_Host]):
             yield f"and {len(found) - _SAID} more bifurcations of the branch"
 
     def status(self) -> Iterator[str]:
-        """Yield how exact it is."""
+        """Yield the size and the error of the branch."""
         if self.asked("_known") and self.branches:
             yield (
                 f"branch {sum(len(one.values) for one in self.branches)} points, places to "
@@ -297,7 +300,7 @@ class Continuation(Part[_Host]):
             )
 
     def notes(self) -> Iterator[str]:
-        """Why there is no branch, or why it ends within the range."""
+        """Yield the reasons why there is no branch, or why it ends within the range."""
         if not self.asked("_known"):
             return
         if isinstance(self._found, Missed):
@@ -317,19 +320,19 @@ class Continuation(Part[_Host]):
 
 
 class _Orbit(Protocol):
-    """The periodic orbit of a section, in place of its chosen one."""
+    """The periodic orbit shown in place of the chosen orbit of a section."""
 
     @property
     def closing(self) -> bool:
-        """Whether one is asked for."""
+        """True if a periodic orbit is requested."""
 
     @property
     def looking(self) -> bool:
-        """Whether it is not known yet."""
+        """True while the search runs."""
 
     @property
     def closed(self) -> Closed | None:
-        """The orbit."""
+        """The orbit; None without one."""
 
     @property
     def period(self) -> str:
@@ -365,7 +368,7 @@ class _Section(Sectioned, Protocol):
 class Branch(Part[_Section]):
     """The branch of the periodic orbit of a section over a parameter.
 
-    along : symbols of the parameters of the section → their names; besides : choices on which it depends, too.
+    along : symbols of the section's parameters → their names; besides : choices that the section also depends on.
     """
 
     orbit: _Orbit
@@ -379,17 +382,17 @@ class Branch(Part[_Section]):
 
     @property
     def at(self) -> float:
-        """Its value."""
+        """The value of the parameter in this state."""
         return float(getattr(self.host, self.name))
 
     @property
     def side(self) -> int:
-        """Which coordinate of the section is drawn, upwards."""
+        """Index of the coordinate drawn upwards."""
         return self.host.poincare.names.index(self.host.upwards)
 
     @cached_property
     def ends(self) -> tuple[float, float]:
-        """From where to where the parameter goes, within its bounds."""
+        """The range of the parameter, within its bounds."""
         spec = next(one for one in specs_of(type(self.host)) if one.name == self.name)
         assert isinstance(spec, Number)
         least, most = spec.bounds
@@ -397,14 +400,14 @@ class Branch(Part[_Section]):
         low, high = (min(max(one, least), most) for one in sorted((self.host.low, self.host.high)))
         if low == high:
             away, at = _AROUND * (last - first), self.at
-            # Beyond the ends of the slider there may be no motion at all.
+            # Below the slider's range there may be no motion.
             low, high = (max(at - away, first) if at > first else at - away), at + away
             low, high = max(low, least), min(high, most)
         return low, high
 
     @cached_property
     def begin(self) -> Begin | None:
-        """Where it begins; None while there is no periodic orbit."""
+        """The start of the branch; None without a periodic orbit."""
         if self.orbit.aim is None or self.orbit.closed is None:
             return None
         low, high = self.ends
@@ -415,18 +418,18 @@ class Branch(Part[_Section]):
 
     @cached_property
     def continuation(self) -> Continuation:
-        """What is known of it."""
+        """The branch as far as it is known."""
         return Continuation(self)
 
     @property
     def here(self) -> Array | None:
-        """The orbit on show in the picture (2, m)."""
+        """The places (2, m) of the orbit on show in the picture; None without one."""
         closed = self.orbit.closed
         return None if closed is None else np.array([(self.at, place[self.side]) for place in closed.orbit.places]).T
 
     @cached_property
     def upwards_range(self) -> tuple[float, float] | None:
-        """Room for what is known of the branch; None before anything is."""
+        """The vertical range that fits the known branch; None before any piece is known."""
         branches = self.continuation.branches
         if not branches:
             return None
@@ -440,13 +443,13 @@ class Branch(Part[_Section]):
 
     @property
     def seen(self) -> Window | None:
-        """What of the picture is seen; None before anything is."""
+        """The visible window; None while the picture is empty."""
         if self.upwards_range is None:
             return None
         return (self.ends[0], self.upwards_range[0]), (self.ends[1], self.upwards_range[1])
 
     def choose(self, x: float, y: float) -> Values:
-        """Return the parameter and the orbit of the branch at (x, y), in the range that is seen."""
+        """Return the parameter values that show the branch's orbit at (x, y) and keep the visible range."""
         found = self.continuation.chosen(x, y)
         if found is None:
             return {}
@@ -462,7 +465,7 @@ class Branch(Part[_Section]):
         }
 
     def boxed(self, corners: Corners) -> Values:
-        """Return the range of a box."""
+        """Return the range that a box selects."""
         x0, _, x1, _ = corners
         return {} if x0 == x1 or not self.continuation.branches else {"low": min(x0, x1), "high": max(x0, x1)}
 
@@ -480,25 +483,25 @@ class Branch(Part[_Section]):
 
     @property
     def message(self) -> str:
-        """Why there is nothing to be seen."""
+        """The reason why the picture is empty; an empty string if it is not."""
         if not self.orbit.closing:
             return "Choose a Periodic orbit, and its branch is continued here"
         found = self.orbit.looking or self.orbit.closed is not None
         return "" if found else "No periodic orbit is found from here"
 
     def means(self) -> Mapping[str, str]:
-        """Return what the range means: in each scene its own."""
+        """Return the meanings of the choices of the branch: each scene has its own."""
         own = type(self.host).__name__
         return {
             name: f"{name} of the branch of {own} over {self.host.over}" for name in ("over", "low", "high", "upwards")
         }
 
     def idle(self) -> Mapping[str, float]:
-        """Return the ends of the range where there is no branch."""
+        """Return the ends of the range if there is no branch."""
         return {} if self.orbit.closing else {"low": self.host.low, "high": self.host.high}
 
     def carried(self, before: Self) -> Mapping[str, float]:
-        """Return another range over another parameter."""
+        """Return the default range after a change of the parameter."""
         return {} if self.host.over == before.host.over else {"low": 0.0, "high": 0.0}
 
     def derived(self) -> Iterator[str]:
@@ -506,11 +509,11 @@ class Branch(Part[_Section]):
         return self.continuation.derived()
 
     def status(self) -> Iterator[str]:
-        """Yield how exact it is."""
+        """Yield the size and the error of the branch."""
         return self.continuation.status()
 
     def notes(self) -> Iterator[str]:
-        """Yield why it ends within the range."""
+        """Yield the reasons why the branch ends within the range."""
         return self.continuation.notes()
 
 
@@ -561,7 +564,7 @@ def _symmetries(map_: Map, places: Array) -> tuple[str, ...]:
 
 
 def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | Missed:
-    """The part of this number of the branch, from its beginning towards larger values of the parameter, or smaller."""
+    """Return piece k of the branch, towards larger values of the parameter (`upwards`) or smaller ones."""
     found = begin.orbit()
     if isinstance(found, Missed):
         return found

@@ -1,4 +1,4 @@
-"""What the next more exact level changes in the picture of one kind of computation."""
+"""Comparison of two levels of accuracy: the changes that the next more exact level makes in a picture."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ _NO_AXIS = (-1.0, 1.0)
 
 @dataclass(frozen=True)
 class Comparison:
-    """The picture of one trial at the chosen level against the next more exact one; found in the background.
+    """The picture of one trial at the chosen level and the next more exact one, compared in the background.
 
-    shown : the state, `bare`.
+    shown : the `bare` state.
     """
 
     work: Work
@@ -44,24 +44,24 @@ class Comparison:
 
     @cached_property
     def found(self) -> Difference | Refused | None:
-        """The difference, or the reason why there is none; None until it is known, or with nothing to compare."""
+        """The difference, or the reason why there is none; None until known, and if there is nothing to compare."""
         if self.work.dragging or self.finer is None or not self.trial.shown(self.shown):
             return None
         return self.work.later(differing, self.trial, self.shown, self.work.chosen, self.finer)
 
     @property
     def difference(self) -> Difference | None:
-        """The difference, where it is known."""
+        """The difference; None if unknown."""
         return self.found if isinstance(self.found, Difference) else None
 
     # ---- words --------------------------------------------------------------------------------------------------
 
     def title(self) -> str:
-        """Which levels are compared."""
+        """Return the title: the kind of computation and the two levels."""
         return f"{self.trial.kind.capitalize()}: {self.work.chosen}" + (f" and {self.finer}" if self.finer else "")
 
     def about(self) -> Caption:
-        """Return the caption: how much changes, and the first crossing after which orbits differ."""
+        """Return the caption: the size of the change, and the first crossing after which orbits differ."""
         if self.finer is None:
             return Caption("Nothing to compare with.", f"No level is more accurate than {self.work.chosen}.")
         if self.work.dragging:
@@ -73,16 +73,16 @@ class Comparison:
         return _said(self.found)
 
     def message(self) -> str:
-        """Why there is nothing to see; empty where there is something."""
+        """Return the reason why the picture is empty; an empty string if it is not."""
         if self.finer is None:
             return f"{self.work.chosen} is the last level"
-        # Only what a state shows is compared: basins, where they are asked for.
+        # Basins, for example, are compared only if the state shows them.
         if not self.trial.shown(self.shown):
             return f"No {self.trial.kind} in this state"
         return f"The {self.trial.kind} cannot be compared" if isinstance(self.found, Refused) else ""
 
     def rows(self) -> Iterator[str]:
-        """What was compared, and where chaos takes orbits away."""
+        """Yield the limits of the comparison, and the orbits lost to chaos."""
         found = self.difference
         if found is None:
             return
@@ -103,17 +103,17 @@ class Comparison:
     # ---- the picture --------------------------------------------------------------------------------------------
 
     def axes(self) -> tuple[Range, Range] | tuple[None, None]:
-        """The axes of the picture that is compared; as they were while that is being found."""
+        """Return the axes of the compared picture; (None, None) keeps the axes until the difference is known."""
         if self.message():
             return _NO_AXIS, _NO_AXIS
         return (None, None) if self.difference is None else (self.difference.frame.axes.x, self.difference.frame.axes.y)
 
     def axis_names(self) -> str:
-        """What the axes are."""
+        """Return the names of the axes as one text; empty without a difference."""
         return "" if self.difference is None else "{} across, {} up".format(*self.difference.frame.names)
 
     def cells(self) -> CellGrid | None:
-        """1 where a cell changes, 0 where it does not, −1 where nothing is."""
+        """Return a grid of cells: 1 changed, 0 unchanged, −1 empty; None if the picture has no cells."""
         found = self.difference
         if found is None or found.cells is None:
             return None
@@ -121,7 +121,7 @@ class Comparison:
 
     @staticmethod
     def picture(folded: bool) -> Plot[Comparison]:
-        """What the next more exact level changes in the picture of one kind of computation."""
+        """Return the picture of the changes that the next more exact level makes."""
         clear = theme.MUTED + "00"
 
         def of(part: Callable[[Difference], Array]) -> Callable[[Comparison], Array | None]:

@@ -1,4 +1,4 @@
-"""Time and error of all that a state computes, at every level of accuracy."""
+"""Time and error of all computations of a state, at every level of accuracy."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ __all__ = ["Costs"]
 _ERRORS, _MS = (1e-9, 1e3), (1e-2, 1e5)
 _TICKS = [1e-8, 1e-6, 1e-4, 1e-2, 1.0, 100.0]
 _LINES = (("solid", 1.5), ("dashed", 2.0), ("dotted", 3.0), ("solid", 4.0))
-"""Dash and width: the page's legend has no line of dots and dashes."""
+"""Dash and width of each line: the page's legend cannot show dash-dotted lines."""
 
 
 @dataclass(frozen=True)
 class Costs:
     """Time and error of every level, for each kind of computation; measured in the background.
 
-    shown : the state, `bare`; trials : what it computes.
+    shown : the `bare` state; trials : its computations.
     """
 
     work: Work
@@ -42,23 +42,23 @@ class Costs:
 
     @cached_property
     def found(self) -> dict[Trial[Any], tuple[LevelCost, ...] | Refused | None]:
-        """A sample for each level, or the reason why there is none; None until it is known."""
+        """The samples of each trial, one per level, or the reason why there are none; None until known."""
         return {
             trial: None if self.work.dragging else self.work.later(measured, trial, self.shown) for trial in self.trials
         }
 
     @cached_property
     def samples(self) -> dict[Trial[Any], tuple[LevelCost, ...]]:
-        """What is measured so far."""
+        """The samples measured so far."""
         return {trial: found for trial, found in self.found.items() if isinstance(found, tuple)}
 
     @cached_property
     def enough(self) -> dict[Trial[Any], str]:
-        """The first level whose error is not seen."""
+        """The first level of each trial whose error is invisible."""
         return {trial: enough(samples, trial.seen) for trial, samples in self.samples.items()}
 
     def curve(self, trial: Trial[Any]) -> tuple[Array, Array] | None:
-        """Errors, as multiples of what can just not be seen, and milliseconds of the levels."""
+        """Return the errors, in units of the largest invisible error, and the milliseconds of the levels."""
         samples = self.samples.get(trial)
         return (
             None
@@ -70,7 +70,7 @@ class Costs:
         )
 
     def _at(self, levels: dict[Trial[Any], str]) -> list[tuple[float, float]]:
-        """One point of the curve of each kind."""
+        """Return the point of each trial's curve at its level."""
         return [
             (float(xy[0][i]), float(xy[1][i]))
             for trial, name in levels.items()
@@ -79,11 +79,11 @@ class Costs:
         ]
 
     def level(self, name: str) -> Sequence[Sequence[float]] | None:
-        """Errors and milliseconds of one level, for each kind."""
+        """Return the errors and milliseconds of one level for all kinds; None without samples."""
         return [*zip(*self._at(dict.fromkeys(self.trials, name)), strict=True)] or None
 
     def rings(self) -> list[tuple[float, float]]:
-        """The points beyond which more accuracy changes nothing that is seen."""
+        """Return the point of each curve beyond which more accuracy is invisible."""
         return self._at(self.enough)
 
     def about(self) -> Caption:
@@ -105,7 +105,7 @@ class Costs:
         return Caption(numbers=sentence[:1].upper() + sentence[1:])
 
     def rows(self) -> Iterator[str]:
-        """Milliseconds and errors of the levels, a line for each kind."""
+        """Yield the milliseconds and errors of the levels, a line for each kind."""
         for trial, samples in self.samples.items():
             times, errors = (
                 ", ".join(digits(value, 2) for value in values)
@@ -115,7 +115,7 @@ class Costs:
 
     @staticmethod
     def picture(trials: Sequence[Trial[Any]], folded: bool) -> Plot[Costs]:
-        """All that is computed, measured when the picture is asked for."""
+        """Return the picture of cost and error of all computations."""
 
         def kind(trial: Trial[Any], dash: str, width: float) -> Layer[Costs]:
             name = str(trial.kind)

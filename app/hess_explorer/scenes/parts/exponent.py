@@ -35,11 +35,11 @@ _LONG = 2000.0
 class _Periodic(Protocol):
     @property
     def growth(self) -> tuple[float, float] | None:
-        """ln|μ₁|/T and ln|μ₁μ₂|/T of the periodic orbit on show; None where none is."""
+        """ln|μ₁|/T and ln|μ₁μ₂|/T of the periodic orbit on show; None without one."""
 
     @property
     def looking(self) -> bool:
-        """Whether a periodic orbit is asked for and not known yet."""
+        """True while a requested periodic orbit is not known yet."""
 
 
 class _Host(Host, Protocol):
@@ -53,7 +53,7 @@ class _Host(Host, Protocol):
 
     @property
     def long(self) -> float:
-        """The time over which it is averaged."""
+        """The averaging time."""
 
     @property
     def periodic_orbit(self) -> _Periodic:
@@ -62,21 +62,21 @@ class _Host(Host, Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Exponent(Part[_Host]):
-    """The largest Lyapunov exponent; that of a periodic orbit is known from its multipliers."""
+    """The largest Lyapunov exponent; for a periodic orbit it follows from the multipliers."""
 
     @property
     def growth(self) -> tuple[float, float] | None:
-        """ln|μ₁|/T and ln|μ₁μ₂|/T of the periodic orbit on show; None where none is."""
+        """ln|μ₁|/T and ln|μ₁μ₂|/T of the periodic orbit on show; None without one."""
         return self.host.periodic_orbit.growth
 
     @property
     def later(self) -> bool:
-        """Whether nothing is computed now: a slider is held, or a periodic orbit is shown or looked for."""
+        """True if nothing is computed now: a slider is held, or a periodic orbit is shown or searched for."""
         return self.work.dragging or self.host.periodic_orbit.looking or self.growth is not None
 
     @cached_property
     def found(self) -> lyapunov.Exponent | None:
-        """The exponent of any other orbit, when it is known."""
+        """The exponent of an orbit that is not periodic; None until known."""
         if self.later:
             return None
         plan = self.work.plan(Computation.EXPONENT)
@@ -85,19 +85,19 @@ class Exponent(Part[_Host]):
         )
 
     def at(self, plan: Plan) -> lyapunov.Exponent:
-        """Return it, computed here and now."""
+        """Return the exponent, computed at once."""
         return lyapunov.lyapunov_exponent(self.host.body, self.host.start, plan.share * self.host.long, plan.level)
 
     @property
     def rates(self) -> tuple[Array, Array] | None:
-        """The mean growth rate over time."""
+        """Times and mean growth rates; None until known."""
         if self.growth is not None:
             return np.array([0.0, self.host.long]), np.full(2, self.growth[0])
         return None if self.found is None else thinned(self.found.times, self.found.rates)
 
     @property
     def axis(self) -> Range | None:
-        """Room for it; None while it is not known."""
+        """The vertical range of the picture; None until the exponent is known."""
         if self.growth is not None:
             return with_room(np.array([0.0, self.growth[0]]), 0.1, 1e-6)
         if self.found is None:
@@ -137,10 +137,10 @@ def exponent_picture(of: Callable[[S], Exponent], folded: str = "") -> Picture[S
 
 
 def exponent_trial(of: Callable[[S], Exponent]) -> Trial[S]:
-    """Return how the exponent of a state is computed at each level."""
+    """Return the trial of the exponent, computed at each level."""
 
     def look(s: Exponent, found: lyapunov.Exponent) -> Curves:
-        # With room for all but the first tenth of the time.
+        # The range fits all but the first tenth of the time.
         axes = Axes((0.0, s.host.long), settled_range([found.rates]))
         return Curves(Frame(axes, ("t", "λ")), (np.column_stack(thinned(found.times, found.rates)),))
 

@@ -1,4 +1,4 @@
-"""A section whose window is filled with orbits, batch by batch, besides those that clicks start."""
+"""A section filled with orbits, computed in batches, in addition to the orbits started by clicks."""
 
 from __future__ import annotations
 
@@ -37,19 +37,19 @@ from hess_mechanics.numerics.results import Array
 __all__ = ["FilledSection", "filled_picture", "filled_trial", "orbits_spread", "points_of_each"]
 
 _FEWEST = 20
-"""Crossings of each orbit, whatever the level."""
+"""Least number of crossings of each orbit, at any level."""
 _COMPARED = 3
-"""Batches besides the orbit on show that are computed twice."""
+"""Batches that are computed twice for an error estimate, in addition to the orbit on show."""
 _PERIODS = (2.0 * math.pi, math.inf)
-"""The first coordinate of these sections is an angle."""
+"""Periods of the coordinates: the first is an angle."""
 _LARGE = (("orbits", 40.0), ("count", 400.0))
-"""The largest section for which levels are compared."""
+"""Limits of the section for which levels are compared."""
 
 Place = tuple[float, float]
 
 
 def orbits_spread(default: float, longest: float, most: float) -> Any:
-    """Declare how many orbits fill a window."""
+    """Declare the number of orbits that fill a window."""
     return number(
         "n",
         default,
@@ -63,7 +63,7 @@ def orbits_spread(default: float, longest: float, most: float) -> Any:
 
 
 def points_of_each(default: float) -> Any:
-    """Declare how many points each orbit leaves in a window, which come batch by batch."""
+    """Declare the number of crossings of each orbit of a filled section."""
     return number(
         "N",
         default,
@@ -78,20 +78,20 @@ def points_of_each(default: float) -> Any:
 
 class _Filled(PoincareSection, Protocol):
     def spread(self, window: Window, count: int) -> tuple[Start, ...]:
-        """Return at most `count` states, spread over what is possible of the window."""
+        """Return at most `count` states, spread over the possible part of the window."""
 
     def impossible(self, window: Window) -> Array:
-        """Return cells (m, n) over the window: 1 where no motion is possible."""
+        """Return cells (m, n) over the window: 1 if no motion is possible."""
 
 
 class _Periodic(Protocol):
     @property
     def closed(self) -> Closed | None:
-        """The periodic orbit in place of the last chosen one; None where none is asked for, or known."""
+        """The periodic orbit shown in place of the last chosen one; None if none is requested or known."""
 
     @property
     def looking(self) -> bool:
-        """Whether one is asked for and not known yet."""
+        """True while a requested periodic orbit is not known yet."""
 
 
 class _Host(Host, Protocol):
@@ -101,7 +101,7 @@ class _Host(Host, Protocol):
 
     @property
     def orbits(self) -> float:
-        """The number of orbits all over the window."""
+        """The number of orbits that fill the window."""
 
     @property
     def count(self) -> float:
@@ -113,25 +113,25 @@ class _Host(Host, Protocol):
 
     @property
     def window(self) -> str:
-        """What of the section is seen; empty for all of it."""
+        """The visible window, as in a link; empty for the whole section."""
 
     @property
     def impossible_here(self) -> str:
-        """What is said where nothing is possible in the window."""
+        """The message if no motion is possible in the window."""
 
     @property
     def periodic_orbit(self) -> _Periodic:
-        """The periodic orbit in place of the last chosen one."""
+        """The periodic orbit shown in place of the last chosen one."""
 
     def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
-        """Return the computation of an `OrbitBatch`, so many crossings of the orbits from there."""
+        """Return the computation of an `OrbitBatch`: so many crossings of the orbits from these states."""
 
 
 @dataclass(frozen=True)
 class _Chosen:
-    """Where the orbits of clicks start, the last of which is the one on show.
+    """The starts of the orbits chosen by clicks; the last orbit is on show.
 
-    refused : the chosen place of that one, where no motion is possible there.
+    refused : the place chosen for the orbit on show, if no motion is possible there.
     """
 
     places: Sequence[Place]
@@ -141,13 +141,12 @@ class _Chosen:
 
 @dataclass(frozen=True, eq=False)
 class FilledSection(Part[_Host]):
-    """A section whose window is filled with orbits, besides those started by clicks; all come batch by batch.
+    """A section filled with orbits, in addition to those started by clicks; all are computed in batches.
 
-    excuse : why at some places no orbit starts.
-    bounds : the whole section, as places in a link are written; held : how many orbits and crossings there are at most
+    excuse : the reason why some places have no orbit.
+    bounds : the whole section, as places in a link are written; held : the largest numbers of orbits and of crossings
     while a slider is held.
-    ways : whether orbits are followed forward in time, or both forward and backward; later : whether only the later
-    half of their crossings is drawn.
+    ways : directions of time, True is forward; later : draw only the later half of the crossings.
     """
 
     excuse: str
@@ -162,7 +161,7 @@ class FilledSection(Part[_Host]):
         return self.host.poincare
 
     def shown(self, orbit: Array) -> Array:
-        """Return those points (m, 2) of an orbit that are drawn."""
+        """Return the drawn points (m, 2) of an orbit."""
         return orbit[len(orbit) // 2 :] if self.later else orbit
 
     def admitted(self, notes: list[str]) -> Values:
@@ -174,13 +173,13 @@ class FilledSection(Part[_Host]):
 
     @cached_property
     def frame(self) -> Window:
-        """What of the section is seen."""
+        """The visible window."""
         (x0, x1), (y0, y1) = self.host.poincare.window
         return window_of(self.host.window, ((x0, y0), (x1, y1)))
 
     @property
     def wanted(self) -> tuple[int, int]:
-        """How many orbits, and crossings of each."""
+        """The number of orbits, and of crossings of each."""
         orbits, crossings = int(self.host.orbits), int(self.host.count)
         if self.work.dragging:
             return min(orbits, self.held[0]), min(crossings, self.held[1])
@@ -193,9 +192,9 @@ class FilledSection(Part[_Host]):
 
     @cached_property
     def picked(self) -> _Chosen:
-        """The chosen starts where motions are possible; where the last one is not, another one instead of all.
+        """The chosen starts with a motion; if the last one has none, a single other start replaces them all.
 
-        Raises `InvalidParameter` where nothing is possible in the window.
+        Raises `InvalidParameter` if no motion is possible in the window.
         """
         wanted = places(self.host.starts)
         states, possible = self.host.poincare.states_at(*np.array(wanted).T)
@@ -209,12 +208,12 @@ class FilledSection(Part[_Host]):
 
     @property
     def given(self) -> Start:
-        """The last of them."""
+        """The initial state of the last chosen orbit."""
         return self.picked.states[-1]
 
     @property
     def asked_start(self) -> Start:
-        """The last chosen place.  Raises `OutsideRegion` where no motion is possible there."""
+        """The state at the last chosen place.  Raises `OutsideRegion` if no motion is possible there."""
         place = places(self.host.starts)[-1]
         states, possible = self.host.poincare.states_at(*np.array([place]).T)
         if not possible[0]:
@@ -223,12 +222,12 @@ class FilledSection(Part[_Host]):
 
     @property
     def aim(self) -> Place:
-        """Its place."""
+        """The place of the last chosen orbit."""
         return self.picked.places[-1]
 
     @property
     def first_chosen(self) -> Place:
-        """The place of the first of them."""
+        """The place of the first chosen orbit."""
         return self.picked.places[0]
 
     @property
@@ -242,12 +241,12 @@ class FilledSection(Part[_Host]):
 
     @cached_property
     def impossible(self) -> Array:
-        """Cells (m, n) over the window: 1 where no motion is possible."""
+        """Cells (m, n) over the window: 1 if no motion is possible."""
         return self.work.get(_impossible, self.host.poincare, self.frame)
 
     @cached_property
     def _followed(self) -> tuple[list[OrbitBatch | None], list[OrbitBatch | None]]:
-        """Pieces of the chosen orbits, which come first, and of those all over the window; None where not known yet."""
+        """Batches of the chosen orbits, computed first, and of those that fill the window; None if not known yet."""
         seeds = self._spread(self.wanted[0])
         own = self.picked.states if self.host.periodic_orbit.closed is None else self.picked.states[:-1]
         return (
@@ -257,17 +256,17 @@ class FilledSection(Part[_Host]):
 
     @cached_property
     def _known(self) -> tuple[list[OrbitBatch], list[OrbitBatch]]:
-        """Those that are known."""
+        """The known batches of the chosen orbits, and of those that fill the window."""
         own, others = ([batch for batch in some if batch is not None] for some in self._followed)
         return own, others
 
     @property
     def batches(self) -> list[OrbitBatch]:
-        """What is known of the orbits all over the window."""
+        """The known batches of the orbits that fill the window."""
         return self._known[1]
 
     def kind(self, first: bool) -> list[Array]:
-        """The orbits of one kind, all their points."""
+        """Return the orbits of one kind, with all their points."""
         return [
             orbit
             for batch in self.batches
@@ -277,34 +276,34 @@ class FilledSection(Part[_Host]):
 
     @cached_property
     def first(self) -> Array:
-        """Marks (n, 2) of orbits of the first kind."""
+        """Points (n, 2) of the orbits of the first kind."""
         return joined(map(self.shown, self.kind(True)))
 
     @cached_property
     def second(self) -> Array:
-        """Marks (n, 2) of orbits of the second kind."""
+        """Points (n, 2) of the orbits of the second kind."""
         return joined(map(self.shown, self.kind(False)))
 
     @cached_property
     def elsewhere(self) -> Array:
-        """Marks (n, 2) of all these orbits and of the chosen ones that are drawn apart from the others."""
+        """Points (n, 2) of all orbits, chosen ones too, that are drawn separately."""
         own, others = self._known
         return joined(batch.elsewhere for batch in (*own, *others) if batch.elsewhere is not None)
 
     @cached_property
     def own(self) -> Array:
-        """Marks (n, 2) of the chosen orbits."""
+        """Points (n, 2) of the chosen orbits."""
         return joined(self.shown(orbit) for batch in self._known[0] for orbit in batch.orbits)
 
-    # ---- how exact it is ----------------------------------------------------------------------------------------
+    # ---- accuracy -----------------------------------------------------------------------------------------------
 
     @property
     def pixels(self) -> tuple[float, ...]:
-        """Pixels of the picture for a unit of each coordinate."""
+        """Pixels per unit of each coordinate."""
         return tuple(PIXELS / (high - low) for low, high in zip(*self.frame, strict=True))
 
     def orbits_at(self, plan: Plan) -> list[Array]:
-        """All orbits of the section (n, 2), the chosen ones first, computed here and now."""
+        """Return all orbits of the section (n, 2), the chosen ones first; computed at once."""
         crossings = plan.part(self.host.count, _FEWEST)
         seeds = self._spread(int(self.host.orbits))
         tasks = [self.host.batch((start,), crossings, True, plan.level) for start in self.picked.states]
@@ -315,9 +314,9 @@ class FilledSection(Part[_Host]):
 
     @cached_property
     def kept(self) -> tuple[int, int | None] | None:
-        """Up to which crossing the orbit on show is right to half a pixel, and the median of some others, if any.
+        """The last crossing right to half a pixel: of the orbit on show, and the median of some others, if any.
 
-        From a second run, with a hundredth of the tolerance; None until it is known, and while a slider is held.
+        Compares with a second run at a hundredth of the tolerance; None until it is known, and while a slider is held.
         """
         if self.work.dragging or self.host.periodic_orbit.looking or self.host.periodic_orbit.closed is not None:
             return None
@@ -340,11 +339,11 @@ class FilledSection(Part[_Host]):
     # ---- what is shown ------------------------------------------------------------------------------------------
 
     def rings(self) -> list[Place]:
-        """Where the chosen orbits start, as far as that is seen."""
+        """Return the starts of the chosen orbits within the visible window."""
         return inside([*self.picked.places[:-1], self.chosen], self.frame)
 
     def nothing_seen(self) -> str:
-        """What is said in the frame where no point lies in it and no more are to come."""
+        """Return the message for a window without points, once all are computed; else an empty string."""
         (x0, y0), (x1, y1) = self.frame
         if (
             self.work.dragging
@@ -358,11 +357,11 @@ class FilledSection(Part[_Host]):
         return "None of the points lies in this window: choose more crossings, or press Undo"
 
     def start_here(self, x: float, y: float) -> Values:
-        """Return the starts with an orbit at (x, y), besides those that there are."""
+        """Return the starts with another orbit added at (x, y)."""
         return {"starts": written([*self.picked.places, self._inside(x, y)])}
 
     def start_at(self, x: float, y: float) -> Values:
-        """The orbit on show at (x, y), in place of the one there was."""
+        """Return the starts with the orbit on show moved to (x, y)."""
         return {"starts": written([*places(self.host.starts)[:-1], self._inside(x, y)])}
 
     def _inside(self, x: float, y: float) -> Place:
@@ -370,16 +369,16 @@ class FilledSection(Part[_Host]):
         return min(max(x, x0), x1), min(max(y, y0), y1)
 
     def look_closer(self, corners: tuple[float, float, float, float]) -> Values:
-        """A box: the new window."""
+        """Return the window that a box selects."""
         return boxed(corners, self.bounds)
 
     def at(self, place: Place) -> str:
-        """A place in words."""
+        """Return a place in words."""
         names = self.host.poincare.names
         return ", ".join(f"{name} = {digits(value)}" for name, value in zip(names, place, strict=True))
 
     def notes(self) -> Iterator[str]:
-        """A start that is not possible."""
+        """Yield a note if no motion is possible at the chosen start."""
         if self.picked.refused is not None:
             yield (
                 f"At {self.at(self.picked.refused)} {self.excuse}: the chosen orbit starts at "
@@ -387,7 +386,7 @@ class FilledSection(Part[_Host]):
             )
 
     def status(self) -> Iterator[str]:
-        """Size and drift of the section, the orbit on show."""
+        """Yield the size and drift of the section, and the accuracy of the orbit on show."""
         if self.asked("_known"):
             yield f"section {len(self.first) + len(self.second) + len(self.own)} points"
             yield from drift_status(batch.drift for batch in self.batches)
@@ -402,7 +401,7 @@ def _place(found: Array) -> Place:
 
 
 def filled_trial(of: Callable[[S], FilledSection]) -> Trial[S]:
-    """Return how the section of a state is computed at each level."""
+    """Return the trial of the section, computed at each level."""
 
     return Trial[FilledSection](
         Computation.SECTION,
@@ -426,10 +425,10 @@ def filled_picture(
     between: tuple[Layer[S], ...] = (),
     over: tuple[Layer[S], ...] = (),
 ) -> Plot[S]:
-    """Return the picture of such a section.
+    """Return the picture of a filled section.
 
-    full : the whole section; labels : of the two kinds of orbits; under, over : layers below all points, and above;
-    between : as of `layered_section.layers`.
+    full : the whole section; labels : labels of the two kinds of orbits; under, over : layers below and above all
+    points; between : as in `layered_section.layers`.
     """
     (x0, y0), (x1, y1) = full
     return Plot(

@@ -1,4 +1,4 @@
-"""How far apart the separatrices of the Hess manifold are off the Hess case, over ε, in parts."""
+"""The splitting of the separatrices of the Hess manifold near the Hess case, over ε, computed in pieces."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ __all__ = ["HessSplit", "split_picture"]
 
 _QUARTERS = np.arange(-4, 5) / 4.0
 _WIDE = 0.02
-"""How far the graph goes where ε = 0."""
+"""Half-width of the graph if ε = 0."""
 _CLOSE = (1e-3, -1e-3, 2e-3, -2e-3)
-"""Where the slope at ε = 0 is taken from."""
+"""Values of ε for the slope at ε = 0."""
 
 
 @dataclass(frozen=True, eq=False)
 class HessSplit(Part[Host]):
-    """How far apart the separatrices of the Hess manifold are, near the Hess case.
+    """The splitting of the separatrices of the Hess manifold near the Hess case.
 
-    torus : of the Hess case itself; away : ε of the state on show.
+    torus : the torus of the Hess case itself; away : ε of the state on show.
     """
 
     torus: HessTorus
@@ -46,15 +46,15 @@ class HessSplit(Part[Host]):
 
     @property
     def reach(self) -> float:
-        """How far the graph goes."""
+        """The half-width of the graph."""
         return abs(self.away) or _WIDE
 
     @cached_property
     def _splits(self) -> list[Split | Missed] | None:
-        """At the values of the graph and those for the slope; None until all are known."""
+        """The splits at the values of ε of the graph and of the slope; None until all are known."""
         asked = dict.fromkeys([*(self.reach * _QUARTERS).tolist(), *_CLOSE])
         ask = self.work.known if self.work.dragging else self.work.later
-        # Where it fails at ε = 0 there is nothing to be split.
+        # Without separatrices at ε = 0 nothing can split.
         first = ask(_split, self.torus, 0.0)
         if first is None or isinstance(first, Missed):
             return None if first is None else [first]
@@ -63,18 +63,18 @@ class HessSplit(Part[Host]):
         return known if len(known) == len(found) else None
 
     def splits(self) -> list[Split]:
-        """Those that are known and drawn, by ε."""
+        """Return the known splits within the graph, sorted by ε."""
         found = [one for one in self._splits or () if isinstance(one, Split) and abs(one.away) <= self.reach]
         return sorted(found, key=lambda one: one.away)
 
     @property
     def split(self) -> Split | None:
-        """That of this state, where it is known."""
+        """The split of this state; None if unknown."""
         return next((one for one in self.splits() if one.away == self.away), None)
 
     @property
     def slope(self) -> tuple[float, float] | None:
-        """Of the split at ε = 0, and its error."""
+        """The slope of the split at ε = 0 and its error; None if unknown."""
         close = {one.away: one for one in self._splits or () if isinstance(one, Split) and one.away in _CLOSE}
         return slope_of([close[value] for value in _CLOSE]) if len(close) == len(_CLOSE) else None
 
@@ -91,17 +91,17 @@ class HessSplit(Part[Host]):
         return Caption("The separatrices are split.", f"By {digits(value, 5)} ± {power(error)} {place}")
 
     def message(self) -> str:
-        """Why there is nothing to be seen."""
+        """Return the reason why the graph is empty; an empty string if it is not."""
         reasons = [one.reason for one in self._splits or () if isinstance(one, Missed)]
         return reasons[0] if reasons and not self.splits() else ""
 
     def derived(self) -> Iterator[str]:
-        """How fast the split begins."""
+        """Yield the slope of the split at ε = 0."""
         if self.asked("_splits") and self.slope is not None:
             yield f"split/ε → {digits(self.slope[0], 7)} ± {power(self.slope[1])}"
 
     def notes(self) -> Iterator[str]:
-        """Where on the graph nothing is known."""
+        """Yield the reasons why splits on the graph are missing."""
         if self.asked("_splits") and self.splits():
             reasons = {one.reason for one in self._splits or () if isinstance(one, Missed)}
             yield from (f"Some splits are not known. {reason}" for reason in sorted(reasons))

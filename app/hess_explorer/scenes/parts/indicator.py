@@ -1,4 +1,4 @@
-"""A section whose cells are coloured by MEGNO: regular, chaotic, and where volume about the motion shrinks."""
+"""A section with cells coloured by MEGNO: regular, chaotic, and shrinking phase-space volume."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ __all__ = ["MEGNO", "Indicator", "colouring", "indicator_layer", "indicator_tria
 
 NOTHING, MEGNO = "nothing", "MEGNO"
 _TURNS = 300.0
-"""Time of the indicator in 1/ν: some fifty returns."""
+"""Time of the indicator, in units of 1/ν: some fifty returns."""
 
 
 def colouring() -> Any:
-    """What lies under the points of a section."""
+    """Declare the colouring under the points of a section."""
     return choice(
         "Under the points",
         (NOTHING, MEGNO),
@@ -46,7 +46,7 @@ def colouring() -> Any:
 class _Host(Sectioned, Protocol):
     @property
     def frame(self) -> Window:
-        """What of the section is seen."""
+        """The visible window."""
 
 
 def _nothing() -> object:
@@ -57,7 +57,7 @@ def _nothing() -> object:
 class Indicator(Part[_Host]):
     """The cells of a section coloured by MEGNO.
 
-    wanted : whether they are shown; sooner() : asks for what is computed before the finer cells.
+    wanted : show them; sooner() : requests results that are computed before the finer cells.
     """
 
     wanted: bool
@@ -65,7 +65,7 @@ class Indicator(Part[_Host]):
 
     @cached_property
     def time(self) -> float:
-        """How long the motion from each cell is followed."""
+        """The time span of the motion from each cell."""
         return self.work.get(time_of, self.host.poincare, _TURNS)
 
     def rows(self, plan: Plan, coarse: int = 1) -> list[Arguments]:
@@ -76,7 +76,7 @@ class Indicator(Part[_Host]):
 
     @cached_property
     def _cells(self) -> tuple[Array, int] | None:
-        """Ȳ and kind of the cells, (n, 2, m), and how many of their rows are still coarse; None before any is known."""
+        """Ȳ and kind of the cells, (n, 2, m), and the number of rows still coarse; None until coarse ones are known."""
         if not self.wanted or self.work.dragging:
             return None
         plan = self.work.plan(Computation.INDICATOR)
@@ -84,7 +84,7 @@ class Indicator(Part[_Host]):
 
     @property
     def kinds(self) -> Array | None:
-        """Cells (n, m): 0 regular, 1 chaotic, 2 more where volume shrinks, −1 where nothing moves."""
+        """Cells (n, m): 0 regular, 1 chaotic, plus 2 if volume shrinks; −1 without motion."""
         return None if self._cells is None else self._cells[0][:, 1]
 
     @property
@@ -105,7 +105,7 @@ class Indicator(Part[_Host]):
         )
 
     def status(self) -> Iterator[str]:
-        """How many cells lie between what is regular and what is chaotic, when all are known."""
+        """Yield the share of cells between regular and chaotic, once all are known."""
         if self.asked("_cells") and self._cells is not None and not self._cells[1]:
             values = self._cells[0][:, 0]
             n, m = values.shape
@@ -117,12 +117,12 @@ S = TypeVar("S", bound=State)
 
 
 def indicator_layer(of: Callable[[S], Indicator]) -> Layer[S]:
-    """Return the cells, to be drawn under all points."""
+    """Return the layer of cells, drawn under all points."""
     return layered_section.indicator(lambda s: of(s).kinds, lambda s: of(s).host.frame)
 
 
 def indicator_trial(of: Callable[[S], Indicator]) -> Trial[S]:
-    """Return how the cells of a state are computed at each level."""
+    """Return the trial of the cells, computed at each level."""
 
     def look_of(s: Indicator, cells: Array) -> Cells:
         host = s.host

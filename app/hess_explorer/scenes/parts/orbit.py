@@ -37,18 +37,18 @@ class _Host(Host, Protocol):
 
     @property
     def lasts(self) -> float:
-        """The time for which the orbit is followed."""
+        """The time span of the orbit."""
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """From the variables to the pictures, in pixels for a unit."""
+        """Pixels of the pictures per unit of each variable."""
 
 
 @dataclass(frozen=True, eq=False)
 class Orbit(Part[_Host]):
     """The orbit on show, from `start`.
 
-    accuracy : its level, where that is not the one chosen; most : the largest number of samples.
+    accuracy : its level, if it is not the chosen one; most : the largest number of samples.
     """
 
     accuracy: Callable[[], Level] | None = None
@@ -68,12 +68,12 @@ class Orbit(Part[_Host]):
         return found
 
     def motion(self) -> Motion:
-        """Return the same for "Speed and accuracy"."""
+        """Return the motion of the orbit, for "Speed and accuracy"."""
         host = self.host
         return Motion(host.body.system, host.start, host.body.parameters, host.lasts, host.weights)
 
     def status(self) -> Iterator[str]:
-        """Yield size, cost and error."""
+        """Yield the size, cost and error."""
         if self.asked("path"):
             yield orbit_status(self.path)[0]
 

@@ -1,4 +1,4 @@
-"""An orbit diagram of a section over one parameter, computed in pieces, one after the other."""
+"""An orbit diagram of a section over one parameter, computed piece by piece."""
 
 from __future__ import annotations
 
@@ -42,14 +42,14 @@ FOLLOWED, ANEW = "where it was at the value before", "at the chosen place"
 FARTHEST = (-1e3, 1e3)
 BOUNDS = ((FARTHEST[0], -TURN), (FARTHEST[1], TURN))
 _TOGETHER = 30
-"""Values of the parameter that are computed at once: few enough for points to arrive soon."""
+"""Values of the parameter computed at once: few enough that points arrive soon."""
 _FEW = 30
-"""Values while a slider is held."""
+"""Largest number of values while a slider is held."""
 _DOUBLINGS = 4
 
 
 def edges(one: float, other: float) -> tuple[float, float]:
-    """Return the edges of a diagram, the left one first; of equal ones a diagram of length 1 within their bounds."""
+    """Return the edges of a diagram, left one first; equal edges give a diagram of width 1 within the bounds."""
     first, last = sorted((one, other))
     if first == last:
         first = min(first, FARTHEST[1] - 1.0)
@@ -59,7 +59,7 @@ def edges(one: float, other: float) -> tuple[float, float]:
 
 class _Section(PoincareSection, Protocol):
     def somewhere(self) -> Start | None:
-        """Return a state of it; None where no motion crosses."""
+        """Return a state on the section; None if no motion crosses it."""
 
 
 class _Host(Host, Protocol):
@@ -106,15 +106,15 @@ class _Host(Host, Protocol):
 
 @dataclass(frozen=True, eq=False)
 class OrbitDiagram(Part[_Host]):
-    """Where the orbits of a section settle over one of its parameters.
+    """The points to which the orbits of a section settle, over one of its parameters.
 
-    symbols : of all on which the section depends → their names.
+    symbols : symbols of all parameters of the section → their names.
     """
 
     symbols: Mapping[str, str]
 
     def admitted(self, notes: list[str]) -> Values:
-        """Return a valid window within the diagram, a place, and edges in their order."""
+        """Return a valid window within the diagram, a place, and the edges in order."""
         first, last = edges(self.host.first, self.host.last)
         default = next(spec.default for spec in specs_of(type(self.host)) if spec.name == "chosen")
         window = tidy_window(self.host.window)
@@ -133,7 +133,7 @@ class OrbitDiagram(Part[_Host]):
 
     @cached_property
     def place(self) -> tuple[float, float]:
-        """Where the orbit on show starts; where nothing moves at the chosen place, another one.
+        """The start of the orbit on show: the chosen place, or another one if no motion is possible there.
 
         Raises `OutsideRegion`.
         """
@@ -148,12 +148,12 @@ class OrbitDiagram(Part[_Host]):
 
     @property
     def start(self) -> Start:
-        """Its state."""
+        """The initial state of the orbit on show."""
         return tuple(map(float, self.host.poincare.states_at(*np.array(self.place)[:, None])[0][0]))
 
     @property
     def begin(self) -> Begin | None:
-        """Where the branch of a periodic orbit begins; None where none is asked for."""
+        """The start of the branch of a periodic orbit; None if no branch is requested."""
         if self.host.branch == NONE:
             return None
         (low, _), (high, _) = self.frame
@@ -163,7 +163,7 @@ class OrbitDiagram(Part[_Host]):
 
     @property
     def seen(self) -> Window:
-        """What of the picture is seen."""
+        """The visible window, for the branch."""
         return self.frame
 
     @property
@@ -174,45 +174,45 @@ class OrbitDiagram(Part[_Host]):
 
     @cached_property
     def frame(self) -> Window:
-        """What of it is seen."""
+        """The visible window."""
         return window_of(self.host.window, self.full)
 
     @property
     def name(self) -> str:
-        """The parameter of the diagram."""
+        """The name of the parameter of the diagram."""
         return self.symbols[self.host.along]
 
     @property
     def at(self) -> float:
-        """Its value in this state."""
+        """The value of the parameter in this state."""
         return float(getattr(self.host, self.name))
 
     @property
     def family(self) -> Family:
-        """The sections over it: what the parameter itself is in this state does not matter."""
+        """The sections over the parameter; they do not depend on its value in this state."""
         return Family.of(self.host, self.name, self.host.along, tuple(self.symbols.values()))
 
     @property
     def side(self) -> int:
-        """Which coordinate of the section the diagram shows."""
+        """Index of the section's coordinate that the diagram shows."""
         return ("ψ", "δ").index(self.host.shown)
 
     @cached_property
     def along_values(self) -> Array:
-        """The values of the parameter, rising (n,)."""
+        """The values of the parameter (n,), increasing."""
         share = self.work.plan(Computation.SECTION).share
         steps = min(int(self.host.steps), _FEW) if self.work.dragging else max(2, round(share * self.host.steps))
         return np.linspace(self.frame[0][0], self.frame[1][0], steps)
 
     @cached_property
     def branches(self) -> dict[str, list[Diagram]]:
-        """What is known of each way, in parts, one after the other."""
+        """The known pieces of each way, in order."""
         rising = self._followed(self.along_values, self.place, False)
         found = {_RISING: rising}
         asked = WAYS[self.host.ways]
         if _BACKWARD in asked:
             found[_BACKWARD] = self._followed(self.along_values, self.place, True)
-        # The way back begins where the way there ended.
+        # The way back starts at the end of the way there.
         if _FALLING in asked and sum(len(one.values) for one in rising) == self.along_values.size:
             found[_FALLING] = self._followed(self.along_values[::-1], _end(rising) or self.place, False)
         elif _FALLING in asked:
@@ -243,7 +243,7 @@ class OrbitDiagram(Part[_Host]):
         return found
 
     def points(self, way: str) -> Array | None:
-        """What is drawn of a way (2, n)."""
+        """Return the drawn points (2, n) of a way."""
         parts = [
             np.column_stack([np.full(len(some), value), some[:, self.side]])
             for one in self.branches.get(way, ())
@@ -254,7 +254,7 @@ class OrbitDiagram(Part[_Host]):
 
     @cached_property
     def cascade(self) -> Cascade | str | None:
-        """The doublings, from the first that the way there shows; None while they are sought or none is seen."""
+        """The period doublings from the first one seen, or why none was located; None if unknown or none is seen."""
         known = self.branches[_RISING]
         missing = sum(len(one.values) for one in known) < self.along_values.size
         if missing or self.work.dragging or self.work.level.name == "draft":
@@ -269,11 +269,11 @@ class OrbitDiagram(Part[_Host]):
 
     @property
     def flips(self) -> Array:
-        """Where periods double (k,)."""
+        """The parameter values (k,) of the period doublings."""
         return self.cascade.values if isinstance(self.cascade, Cascade) else np.empty(0)
 
     def choose(self, x: float, y: float) -> Values:
-        """A click in the diagram: the value of the parameter, and a motion that is there."""
+        """Return the parameter value and the place that a click at (x, y) selects."""
         found = nearest_place([one for way in self.branches.values() for one in way], self.side, x, y)
         if found is None:
             return {self.name: x}
@@ -306,18 +306,18 @@ class OrbitDiagram(Part[_Host]):
         return Caption(numbers=f"Periods seen: {', '.join(map(str, periods[:8]))}.")
 
     def status(self) -> Iterator[str]:
-        """Yield how exact the doublings are."""
+        """Yield the error of the doublings."""
         if self.asked("cascade") and self.flips.size and isinstance(self.cascade, Cascade):
             yield f"doublings to {digits(self.cascade.error_estimate, 1)}"
 
     def notes(self) -> Iterator[str]:
-        """Yield why a doubling could not be located."""
+        """Yield the reason why a doubling could not be located."""
         if self.asked("cascade") and isinstance(self.cascade, str):
             yield f"The doubling that is seen was not located: {self.cascade}"
 
 
 def _end(parts: list[Diagram]) -> tuple[float, ...] | None:
-    """Where the orbit was at the last value at which it came back."""
+    """Return the last known place of the orbit; None if it never returned to the section."""
     ends = [end for one in parts for end in one.ends if np.isfinite(end).all()]
     return tuple(ends[-1].tolist()) if ends else None
 
@@ -333,7 +333,10 @@ def diagram_picture(
     on_hover: Callable[[S, float, float], str],
     over: tuple[Layer[S], ...] = (),
 ) -> Plot[S]:
-    """Return the diagram; first : its edges before the first state; over : layers on top."""
+    """Return the picture of the diagram.
+
+    first : its horizontal range before the first state; over : layers on top.
+    """
 
     def upright(values: Callable[[S], Sequence[float]]) -> Callable[[S, Axes], list[Array]]:
         return lambda s, axes: [np.array([[x, axes.y[0]], [x, axes.y[1]]]) for x in values(s)]

@@ -1,4 +1,4 @@
-"""The periodic orbit that Newton's method finds from the chosen place, and the manifolds of a saddle."""
+"""The periodic orbit found by Newton's method from the chosen place, and the manifolds of a saddle."""
 
 from __future__ import annotations
 
@@ -41,11 +41,11 @@ from hess_mechanics.numerics.accuracy import PRECISE, Status
 __all__ = ["NONE", "PeriodicOrbit", "layers", "length_of_manifolds", "plain", "which"]
 
 _WHOLE = 3
-"""Periods up to which the manifolds of all places are drawn: those of one are images of those of another."""
+"""Largest period for which the manifolds of all places are drawn: they are images of one another."""
 
 
 def which() -> Any:
-    """Whether the periodic orbit next to the chosen place takes its place, and of which period."""
+    """Declare the choice of a periodic orbit in place of the chosen one, with its period."""
     return choice(
         "Periodic orbit",
         (NONE, *PERIODS),
@@ -57,7 +57,7 @@ def which() -> Any:
 
 
 def length_of_manifolds() -> Any:
-    """How long the manifolds of a saddle are drawn."""
+    """Declare the length of the manifolds of a saddle."""
     return number(
         "s",
         5.0,
@@ -71,7 +71,7 @@ def length_of_manifolds() -> Any:
 
 
 def plain(preset: Preset) -> Preset:
-    """An example without a periodic orbit, whatever was chosen before."""
+    """Return the preset without a periodic orbit, whatever the state before."""
     values: dict[str, Value] = {"periodic": NONE, **preset.values}
     return Preset(preset.name, **values)
 
@@ -79,23 +79,23 @@ def plain(preset: Preset) -> Preset:
 class _Host(Sectioned, Protocol):
     @property
     def given(self) -> tuple[float, ...]:
-        """The state from which the chosen orbit starts.  Raises `ModelError`."""
+        """The initial state of the chosen orbit.  Raises `ModelError`."""
 
     @property
     def aim(self) -> Place | None:
-        """The first place of the chosen orbit in the section; None where that is not known."""
+        """The first place of the chosen orbit in the section; None if unknown."""
 
     @property
     def pixels(self) -> tuple[float, ...]:
-        """Pixels of the picture for a unit of each coordinate."""
+        """Pixels per unit of each coordinate."""
 
 
 @dataclass(frozen=True, eq=False)
 class PeriodicOrbit(Part[_Host]):
-    """A periodic orbit in place of the chosen one of a section.
+    """A periodic orbit shown in place of the chosen orbit of a section.
 
-    period : one of `PERIODS`, or `NONE`; reach : the length of the manifolds of a saddle; span : the time for which
-    the chosen orbit is followed.
+    period : one of `PERIODS`, or `NONE`; reach : the length of the manifolds of a saddle; span : the time span of the
+    chosen orbit.
     """
 
     period: str
@@ -104,20 +104,20 @@ class PeriodicOrbit(Part[_Host]):
 
     @property
     def closing(self) -> bool:
-        """Whether a periodic orbit is asked for."""
+        """True if a periodic orbit is requested."""
         return self.period != NONE
 
     @property
     def aim(self) -> Place | None:
-        """The first place of the chosen orbit in the section; None where that is not known."""
+        """The first place of the chosen orbit in the section; None if unknown."""
         return self.host.aim
 
     @property
     def _search(self) -> Search | None:
-        """The arguments of `sought`."""
+        """The arguments of `sought`; None if there is nothing to search for."""
         if not self.closing or self.aim is None:
             return None
-        # What an unstable orbit is off grows while it is drawn.
+        # The error of an unstable orbit grows along it.
         level, held = self.work.level, self.work.dragging
         level = level if held else max(level, PRECISE, key=lambda rung: rung.order)
         return ReturnMap(self.host.poincare, level), self.aim, PERIODS[self.period], held
@@ -128,22 +128,22 @@ class PeriodicOrbit(Part[_Host]):
 
     @property
     def looking(self) -> bool:
-        """Whether a periodic orbit is asked for and not known yet."""
+        """True while a requested periodic orbit is not known yet."""
         return self._search is not None and self._result is None
 
     @property
     def closed(self) -> Closed | None:
-        """The periodic orbit; None where none is asked for, or known."""
+        """The periodic orbit; None if none is requested or known."""
         return self._result if isinstance(self._result, Closed) else None
 
     @property
     def start(self) -> tuple[float, ...]:
-        """The state from which the orbit on show starts.  Raises `ModelError`."""
+        """The initial state of the orbit on show.  Raises `ModelError`."""
         return self.host.given if self.closed is None else self.closed.state
 
     @property
     def lasts(self) -> float:
-        """How long it is followed: a periodic one once round."""
+        """The time span of the orbit on show: one period of a periodic orbit."""
         return self.span if self.closed is None else self.closed.time
 
     @property
@@ -166,7 +166,7 @@ class PeriodicOrbit(Part[_Host]):
 
     @cached_property
     def _branches(self) -> tuple[Manifold | Missed, ...] | None:
-        """Of the manifolds of a saddle, when all are known; of no other orbit."""
+        """The branches of a saddle's manifolds, empty for any other orbit; None until all are known."""
         if self._drawn is None:
             return ()
         if self.work.dragging:
@@ -178,12 +178,12 @@ class PeriodicOrbit(Part[_Host]):
 
     @property
     def manifolds(self) -> list[Manifold]:
-        """Those branches of a saddle that are drawn."""
+        """The drawn branches of the manifolds of a saddle."""
         return [one for one in self._branches or () if isinstance(one, Manifold)]
 
     @cached_property
     def _met(self) -> list[tuple[Intersection, ...]] | None:
-        """Where each unstable branch meets each stable one, when that is known of all."""
+        """The crossings of each unstable branch with each stable one; None until all are known."""
         if self._drawn is None or not self._branches:
             return None
         search, branches, pixel = self._drawn
@@ -199,35 +199,35 @@ class PeriodicOrbit(Part[_Host]):
 
     @property
     def homoclinic(self) -> list[Intersection]:
-        """Where the drawn manifolds of a saddle cross for certain."""
+        """The certain crossings of the drawn manifolds of a saddle."""
         return [one for some in self._met or () for one in some if one.certain]
 
     @property
     def _saddle(self) -> mechanics.PeriodicOrbit | None:
-        """The orbit, where manifolds of it are to be drawn."""
+        """The periodic orbit, if its manifolds are drawn."""
         wanted = self.closed is not None and self.closed.orbit.kind.startswith("saddle") and self.reach > 0.0
         return self.closed.orbit if self.closed is not None and wanted else None
 
     @property
     def growth(self) -> tuple[float, float] | None:
-        """ln|μ₁|/T and ln|μ₁μ₂|/T of the periodic orbit: the growth next to it, and its mean divergence; else None."""
+        """ln|μ₁|/T and ln|μ₁μ₂|/T of the periodic orbit, its growth rate and mean divergence; None without one."""
         if self.closed is None:
             return None
         sizes = np.abs(self.closed.orbit.multipliers)
         with np.errstate(divide="ignore"):
             logarithms = np.log(sizes) / self.closed.time
-        # Where volume is kept, their sum is what round-off leaves.
+        # If the flow preserves volume, the sum is round-off only.
         return float(logarithms[0]), round(float(logarithms.sum()), 9) + 0.0
 
     # ---- words --------------------------------------------------------------------------------------------------
 
     def idle(self) -> Mapping[str, float]:
-        """Return the length of manifolds where there are none."""
+        """Return the length of the manifolds if no periodic orbit is requested."""
         return {} if self.closing else {"reach": self.reach}
 
     @property
     def caption(self) -> Caption | None:
-        """The caption of the section where a periodic orbit is chosen, else None."""
+        """The caption of the section if a periodic orbit is requested, else None."""
         if not self.closing or self.aim is None:
             return None
         if self.looking:
@@ -236,7 +236,7 @@ class PeriodicOrbit(Part[_Host]):
             which = "No periodic orbit" if self.period == ANY else f"No orbit of {self.period}"
             return Caption(f"{which} found from here.", "The chosen orbit is shown.")
         orbit = self.closed.orbit
-        # An imaginary part within the error is none: at a double multiplier 1 its sign is left to roundings.
+        # An imaginary part within the error counts as 0: at a double multiplier 1 its sign depends on round-off.
         first = complex(orbit.multipliers[0])
         multipliers = (
             conjugates(first)
@@ -249,7 +249,7 @@ class PeriodicOrbit(Part[_Host]):
         )
 
     def derived(self) -> Iterator[str]:
-        """Period in time, how exact its places are, symmetries; what is drawn of its manifolds."""
+        """Yield the period T, the error of the places, the symmetries and the drawn manifolds."""
         if self.closed is None:
             return
         orbit = self.closed.orbit
@@ -263,7 +263,7 @@ class PeriodicOrbit(Part[_Host]):
             yield self._about_crossings()
 
     def status(self) -> Iterator[str]:
-        """What Newton's method took, and how exact the manifolds are."""
+        """Yield the cost of Newton's method and the error of the manifolds."""
         if self.closed is not None:
             orbit = self.closed.orbit
             yield (f"Newton's method: {orbit.iterations} steps, condition {orbit.condition:.2g} ({orbit.status})")
@@ -274,7 +274,7 @@ class PeriodicOrbit(Part[_Host]):
             )
 
     def notes(self) -> Iterator[str]:
-        """Why there is no periodic orbit, or why its manifolds end."""
+        """Yield the reasons why there is no periodic orbit, or why its manifolds end."""
         if isinstance(self._result, Missed):
             yield self._result.reason
         reasons = {_ended(one) for one in self._branches or ()} - {AT_ITS_LENGTH}
@@ -295,7 +295,7 @@ class PeriodicOrbit(Part[_Host]):
             yield f"Of its {orbit.period} places, one has its manifolds drawn: those of the others are their images."
 
     def _about_crossings(self) -> str:
-        """How many homoclinic points there are, and how exact."""
+        """Return the number of homoclinic points and their error, in words."""
         if self._met is None:
             return self.work.awaited("Where they cross is")
         found = self.homoclinic
@@ -316,7 +316,7 @@ S = TypeVar("S", bound=State)
 
 
 def layers(of: Callable[[S], PeriodicOrbit]) -> tuple[Layer[S], ...]:
-    """Return what is drawn of it in a section."""
+    """Return the layers of the periodic orbit in a section."""
 
     def orbit(s: S) -> mechanics.PeriodicOrbit | None:
         closed = of(s).closed

@@ -1,4 +1,4 @@
-"""Errors, drift and cost of a motion at every level of accuracy, measured here and now."""
+"""Errors, drift and cost of a motion, measured at every level of accuracy."""
 
 from __future__ import annotations
 
@@ -31,19 +31,19 @@ Curve = tuple[Array, Array]
 
 @dataclass(frozen=True)
 class Precision:
-    """What is measured of a motion, at every level of accuracy."""
+    """Errors, drift and cost of a motion at every level of accuracy."""
 
     work: Work
     motion: Motion
 
     @cached_property
     def followed(self) -> Motion:
-        """The motion, as far as it is measured."""
+        """The measured motion: its span is limited."""
         return replace(self.motion, span=min(self.motion.span, mechanics.longest_span(*self.motion.named[:3])))
 
     @cached_property
     def measured(self) -> tuple[mechanics.WorkPoint, ...]:
-        """Error and cost of every level, and of SciPy's methods where they do not take long."""
+        """Error and cost of every level, and of SciPy's methods unless they take long."""
         others = (
             ()
             if self.work.dragging or mechanics.others_take_long(*self.followed.named)
@@ -58,7 +58,7 @@ class Precision:
 
     @cached_property
     def times(self) -> Array:
-        """When errors are measured, (n,), in the units of the scene."""
+        """The times (n,) of the measured errors, in the units of the scene."""
         return self.growing.times * self.followed.unit
 
     @property
@@ -73,7 +73,7 @@ class Precision:
     def _drifts(self) -> Mapping[str, Array]:
         return self.growing.drifts[self.work.chosen]
 
-    # ---- what the pictures show ---------------------------------------------------------------------------------
+    # ---- pictures -----------------------------------------------------------------------------------------------
 
     def _of_method(self, method: str) -> Curve:
         own = [point for point in self.measured if point.method == method]
@@ -98,7 +98,7 @@ class Precision:
         return 0.0, float(self.times[-1])
 
     def track(self) -> Columns:
-        """What the moving points follow."""
+        """Return the columns that the moving points follow."""
         return {
             "t": column(self.times),
             "growth": column(clipped(self.growing.errors[self.work.chosen], _FLOOR)),
@@ -107,7 +107,7 @@ class Precision:
         }
 
     def choose(self, x: float, y: float) -> Mapping[str, str]:
-        """The level whose point lies nearest to the error x."""
+        """Return the level whose point lies nearest to the error x."""
         if not x > 0.0:
             return {}
         return {"accuracy": min(self._taylor, key=lambda point: abs(math.log10(max(point.error, _FLOOR) / x))).setting}
@@ -144,7 +144,7 @@ class Precision:
         )
 
     def derived(self) -> Iterator[str]:
-        """The system, its parameters and the initial state."""
+        """Yield the system, its parameters and the initial state."""
         motion, system = self.followed, self.followed.system
         yield f"System: {system.title}"
         yield f"Equations: {system.source} ({', '.join(system.labels)} in the LaTeX source)"
@@ -153,12 +153,12 @@ class Precision:
             yield from (f"{name}{when} = {digits(value, 6)}" for name, value in zip(names, values, strict=True))
 
     def status(self) -> Iterator[str]:
-        """Cost and error of every level, where that picture is in sight."""
+        """Yield the cost and error of every level, if they have been measured."""
         for point in self._taylor if "measured" in vars(self) else ():
             yield f"{point.setting} {digits(point.ms, 2)} ms, error {digits(point.error, 2)}"
 
     def notes(self) -> Iterator[str]:
-        """What was left out, and why."""
+        """Yield the limits of the measurement and their reasons."""
         motion = self.followed
         if motion.span < self.motion.span:
             yield f"Measured up to t = {digits(motion.span * motion.unit)}: a longer span takes seconds."
@@ -167,7 +167,7 @@ class Precision:
 
     @staticmethod
     def pictures() -> tuple[Plot[Precision], ...]:
-        """Cost against error, error over time, drift, and what it means for the pictures."""
+        """Return the pictures: cost against error, error over time, drift, and error in pixels."""
         return (
             Plot(
                 name="precision",

@@ -1,4 +1,4 @@
-"""What is proved of the orbit on show: how far it can be from the true one, at the moments of its samples."""
+"""Proved error bounds of the orbit on show: its distance from the true orbit at each sample."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ __all__ = ["HIDDEN", "SHOWN", "Proof", "ProvedError", "hull", "judged", "proved_
 
 HIDDEN, SHOWN = "not shown", "shown"
 _DIGITS, _MOST_WORK = 16, 1e6
-"""Of a tube: far below the error of a double, and some 1.5 s of a core; 4 s for the ball."""
+"""Digits and work limit of a tube: far below double round-off; about 1.5 s of CPU time, 4 s for the ball."""
 _HALF, _FAR = 0.5, 150.0
-"""Pixels from which an error is drawn, and beyond which it would fill the picture."""
+"""Smallest and largest error that is drawn, in pixels: a larger one would fill the picture."""
 _BOXES, _CIRCLES = 300, 16
 
 
 def proved_error_shown() -> Any:
-    """Whether the orbit on show is judged by its tube."""
+    """Declare whether the proved error of the orbit on show is computed."""
     return choice(
         "Proved error",
         (HIDDEN, SHOWN),
@@ -44,9 +44,9 @@ def proved_error_shown() -> Any:
 
 @dataclass(frozen=True)
 class ProvedError:
-    """What is proved: said in the status line; where the true orbit is, if it may be half a pixel off.
+    """A proved error: its entry in the status line, and regions that hold the true orbit where it is visibly off.
 
-    band : convex polygons (n, 2) of (ω1, ω2); around : centres γ (m, 3) and radii (m,).
+    band : convex polygons (n, 2) of (ω1, ω2); around : pairs of a centre γ and an angular radius.
     """
 
     said: str
@@ -60,14 +60,14 @@ class _Host(Host, Protocol):
         """The computation of the orbit on show, an `Orbit` or a `Track`.  Raises `ModelError`."""
 
     def motion(self) -> Motion:
-        """Return the motion that it follows.  Raises `ModelError`."""
+        """Return the motion of the orbit.  Raises `ModelError`."""
 
 
 @dataclass(frozen=True, eq=False)
 class Proof(Part[_Host]):
     """The proved error of the orbit on show, for a traced system.
 
-    certain : whether it is shown; units : of ω1 and ω2 in the computation, in those of the picture.
+    certain : `SHOWN` or `HIDDEN`; units : factors from ω1 and ω2 of the computation to those of the picture.
     """
 
     certain: str
@@ -75,7 +75,7 @@ class Proof(Part[_Host]):
 
     @cached_property
     def error(self) -> ProvedError | None:
-        """The proved error when it is known; None where it is not asked for, and while a slider is held."""
+        """The proved error; None until known, if it is hidden, and while a slider is held."""
         if self.work.dragging or self.certain != SHOWN:
             return None
         if not has_flint():
@@ -84,23 +84,23 @@ class Proof(Part[_Host]):
 
     @property
     def band(self) -> list[list[Array]]:
-        """Where the true orbit is, for a `region`, if that is wider than a pixel."""
+        """Polygons that hold the true orbit, for a `region`, where its error is visible."""
         return [] if self.error is None else [[one] for one in self.error.band]
 
     @property
     def around(self) -> list[Circle]:
-        """The same on the sphere, at some moments."""
+        """Circles on the sphere that hold the true orbit at some samples."""
         found = () if self.error is None else self.error.around
         return [Circle(gamma, float(np.cos(radius)), "muted") for gamma, radius in found]
 
     def status(self) -> Iterator[str]:
-        """Yield what is proved."""
+        """Yield the proved error."""
         if self.error is not None:
             yield self.error.said
 
 
 def judged(finding: Task, motion: Motion, units: tuple[float, float]) -> ProvedError:
-    """What the tube of a motion proves of the orbit found."""
+    """Return the error of the computed orbit that the tube of its motion proves."""
     found: Orbit | Track = CACHE.get(finding.function, *finding.arguments)[0]
     orbit, omega, gamma = (
         (found.orbit, found.omega, found.gamma)
@@ -137,36 +137,36 @@ def judged(finding: Task, motion: Motion, units: tuple[float, float]) -> ProvedE
     seen = _drawn(sizes[1])
     for i in seen[:: max(1, -(-len(seen) // _CIRCLES))]:
         x, y, z = (float(value) for value in gamma[i] / np.linalg.norm(gamma[i]))
-        # An angle is a little more than its chord, and the computed γ a little off the sphere.
+        # An angle is a little larger than its chord, and the computed γ is slightly off the sphere.
         around.append(((x, y, z), 1.05 * float(np.linalg.norm(errors[i, first:]))))
     return ProvedError(said, tuple(band), tuple(around))
 
 
 def _drawn(sizes: Array) -> list[int]:
-    """The samples from the first that may be seen to be off up to the first whose error would fill the picture."""
+    """Return the samples with a visible error, up to the first one whose error would fill the picture."""
     far = np.flatnonzero(sizes > _FAR)
     end = int(far[0]) if far.size else len(sizes)
     return [int(i) for i in np.flatnonzero(sizes[:end] > _HALF)]
 
 
 def _band(omega: Array, errors: Array, sizes: Array) -> list[Array]:
-    """Hulls of the boxes of neighbouring samples."""
+    """Return the convex hulls of the error boxes of neighbouring samples."""
     seen = _drawn(sizes)
     step = max(1, -(-len(seen) // _BOXES))
     found = []
     for begin in range(0, len(seen), step):
         some = seen[begin : begin + step + 1]
         corners = [omega[some] + errors[some] * np.array(signs) for signs in ((1, 1), (1, -1), (-1, -1), (-1, 1))]
-        # Those of two pieces of an orbit are not neighbours.
+        # Samples of different pieces of an orbit are not neighbours.
         if some[-1] - some[0] == len(some) - 1:
             found.append(hull(np.vstack(corners)))
     return found
 
 
 def hull(points: Array) -> Array:
-    """The convex hull (m, 2) of points (n, 2), closed."""
-    from scipy.spatial import ConvexHull  # a band is drawn in few states
+    """Return the closed convex hull (m, 2) of points (n, 2)."""
+    from scipy.spatial import ConvexHull  # slow import, and few states draw a band
 
-    # Joggled in the last digits (QJ), so that points on a line are no error.
+    # QJ joggles the last digits, so that collinear points raise no error.
     corners = ConvexHull(points, qhull_options="QJ").vertices
     return np.asarray(points[[*corners, corners[0]]])

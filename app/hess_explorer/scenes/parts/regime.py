@@ -1,4 +1,4 @@
-"""The regime of a motion: what kind it is, and what attracts and repels next to it."""
+"""The regime of a motion: its kind, its attractor and its repeller."""
 
 from __future__ import annotations
 
@@ -19,27 +19,27 @@ __all__ = ["Regime"]
 
 _NOTHING = np.empty((0, 2))
 _MANY = 24
-"""Places that are drawn large, as dots would hardly be seen."""
+"""Largest number of places drawn as large marks: so few dots would be hard to see."""
 
 
 class _Host(Sectioned, Protocol):
     @property
     def place(self) -> tuple[float, float]:
-        """Where the motion starts.  Raises `ModelError`."""
+        """The start of the motion.  Raises `ModelError`."""
 
 
 @dataclass(frozen=True, eq=False)
 class Regime(Part[_Host]):
-    """What kind of motion starts at a place of a section, with its attractor and its repeller.
+    """The kind of motion that starts at a place of a section, with its attractor and its repeller.
 
-    long : the time over which the divergence is averaged.
+    long : the averaging time of the divergence.
     """
 
     long: float
 
     @cached_property
     def sets(self) -> Sets | None:
-        """Attractor and repeller, when they are known."""
+        """Attractor and repeller; None until known."""
         few = (60, 120) if self.work.dragging else (500, 1500)
         return self.work.soon(
             sets_of, self.host.poincare, self.host.place, *few, self.work.plan(Computation.SECTION).level
@@ -57,7 +57,7 @@ class Regime(Part[_Host]):
 
     @cached_property
     def kind(self) -> AtState | None:
-        """What kind of motion and of dynamics this is, when it is known."""
+        """The kind of motion and of dynamics; None until known."""
         if self.work.dragging:
             return None
         t = self.work.plan(Computation.EXPONENT).share * self.long
@@ -67,7 +67,7 @@ class Regime(Part[_Host]):
 
     @property
     def caption(self) -> Caption:
-        """The caption: the kind of motion, and whether it is dissipative."""
+        """The caption: the kind of motion, conservative or dissipative."""
         found = self.kind
         if found is None:
             return Caption(self.work.awaited())
@@ -87,6 +87,6 @@ class Regime(Part[_Host]):
 
 
 def few(found: Array) -> Array | None:
-    """Return places (2, m) that would hardly be seen as dots; None of more."""
+    """Return the distinct places (2, m) if there are few, to be drawn as large marks; else None."""
     _, first = np.unique(np.round(found, 4), axis=0, return_index=True)
     return found[first].T if 0 < len(first) <= _MANY else None

@@ -1,4 +1,4 @@
-"""Rotation numbers of the orbits that start on a line across a section g = π/2, as they become known."""
+"""Rotation numbers of orbits that start on a line across a section g = π/2, shown as they become known."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ from hess_mechanics.numerics.results import Array
 __all__ = ["RotationAcross", "rotation_picture", "rotation_trial"]
 
 _ACROSS = 48
-"""Orbits on the line along which the rotation number is looked at."""
+"""Number of orbits on the line."""
 _ON_LINE = 3000
-"""Crossings of each: with fewer the rotation number in a chain of islands is not known to `RESOLVED`."""
+"""Crossings of each orbit: fewer do not resolve the rotation number in a chain of islands to `RESOLVED`."""
 _HELD = (16, 40, 1e-2)
-"""While a slider is held: orbits, crossings of each, and to what both halves of a closed curve then agree."""
+"""While a slider is held: orbits, crossings of each, and the resolution of the rotation number."""
 
 
 class _Window(Protocol):
     @property
     def frame(self) -> Window:
-        """What of the section is seen."""
+        """The visible window."""
 
     @property
     def first_chosen(self) -> tuple[float, float]:
@@ -58,15 +58,15 @@ class _Host(Host, Protocol):
         """The number of crossings of each orbit of the section."""
 
     def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
-        """Return the computation of an `OrbitBatch`, so many crossings of the orbits from there."""
+        """Return the computation of an `OrbitBatch`: so many crossings of the orbits from these states."""
 
 
 @dataclass(frozen=True, eq=False)
 class RotationAcross(Part[_Host]):
     """Rotation numbers along a line across the Andoyer–Deprit section.
 
-    about_middle : whether turns are counted about the middle of the window, on a line from there to the right; else by
-    the angle l, on a vertical line through the first chosen start: another one leaves it where it is.
+    about_middle : True counts turns about the middle of the window, on a line from there to the right; False counts
+    them by the angle l, on a vertical line through the first chosen start, which further starts do not move.
     """
 
     section: _Window
@@ -79,7 +79,7 @@ class RotationAcross(Part[_Host]):
 
     @cached_property
     def ends(self) -> Window:
-        """Of the line along which the rotation number is looked at."""
+        """The ends of the line."""
         (l0, x0), (l1, x1) = self.section.frame
         if not self.about_middle:
             l = self.section.first_chosen[0]
@@ -89,7 +89,7 @@ class RotationAcross(Part[_Host]):
 
     @cached_property
     def _orbits_on_line(self) -> tuple[list[tuple[float, Array]], bool]:
-        """Shares of the way along the line, with the orbits from there that are known; whether these are all."""
+        """The known orbits with the positions of their starts along the line, and whether they are complete."""
         plan = self.work.plan(Computation.ROTATION)
         count, crossings = _HELD[:2] if self.work.dragging else (plan.side(_ACROSS), self._crossings_on_line(plan))
         starts = self.work.get(on_line, self.host.poincare, self.ends, count)
@@ -106,7 +106,7 @@ class RotationAcross(Part[_Host]):
 
     @cached_property
     def found(self) -> RotationProfile:
-        """Rotation numbers along the line, as far as they are known; of few and short orbits while a slider is held."""
+        """The known rotation numbers along the line; of few, short orbits while a slider is held."""
         count = _HELD[0] if self.work.dragging else self.work.plan(Computation.ROTATION).side(_ACROSS)
         return self._rotation_of(self._orbits_on_line[0], count)
 
@@ -125,7 +125,7 @@ class RotationAcross(Part[_Host]):
         )
 
     def at(self, plan: Plan) -> RotationProfile:
-        """Rotation numbers along the line, computed here and now."""
+        """Return the rotation numbers along the line, computed at once."""
         count = plan.side(_ACROSS)
         starts = on_line(self.host.poincare, self.ends, count)
         orbits = [
@@ -140,7 +140,7 @@ class RotationAcross(Part[_Host]):
         return self._rotation_of([(share, orbit) for (share, _), orbit in zip(starts, orbits, strict=True)], count)
 
     def message(self) -> str:
-        """Why there is nothing to see, when all is known."""
+        """Return the reason why the picture is empty; an empty string if it is not, or until all is known."""
         if self.found.numbers.size or not self._orbits_on_line[1]:
             return ""
         return (
@@ -151,7 +151,7 @@ class RotationAcross(Part[_Host]):
 
     @property
     def along(self) -> Range:
-        """From where to where the line goes, in its coordinate."""
+        """The range of the coordinate along the line."""
         return self.ends[0][self.axis], self.ends[1][self.axis]
 
     @property
@@ -160,7 +160,7 @@ class RotationAcross(Part[_Host]):
         return ("L/G" if self.axis else "l"), "ρ"
 
     def parts_at_sea(self, axes: Axes) -> list[list[Array]]:
-        """Those of the line, as rectangles."""
+        """Return the chaotic parts of the line as rectangles."""
         low, high = axes.y
         return [[np.array([[a, low], [b, low], [b, high], [a, high]])] for a, b in self.found.sea]
 
@@ -169,7 +169,7 @@ class RotationAcross(Part[_Host]):
         if not self.found.numbers.size:
             return Caption(self.message() + "." if self._orbits_on_line[1] else self.work.awaited())
         rho = self.found.numbers
-        # A line through all of the section meets orbits of many kinds, whose numbers are no one function of the place.
+        # A line across the whole section meets orbits of many kinds: ρ is no single function of the place.
         turning = self.found.extremum if self.about_middle else None
         still = self.found.standing.size
         standing = f"; {still} without rotation" if still else ""
@@ -184,7 +184,7 @@ class RotationAcross(Part[_Host]):
         )
 
     def _turns(self, rho: float) -> str:
-        """A rotation number, to what is known of it."""
+        """Return a rotation number, rounded to its resolution."""
         return digits(round(float(rho) / self._resolved) * self._resolved)
 
 
@@ -197,7 +197,7 @@ S = TypeVar("S", bound=State)
 
 
 def rotation_trial(of: Callable[[S], RotationAcross]) -> Trial[S]:
-    """Return how the rotation numbers of a state are computed at each level."""
+    """Return the trial of the rotation numbers, computed at each level."""
 
     def look(s: RotationAcross, found: RotationProfile) -> Curves:
         return Curves(Frame(Axes(s.along, _axis_of(found)), s.names), tuple(_branches(found)))
@@ -218,7 +218,7 @@ def _branches(found: RotationProfile) -> list[Array]:
 
 
 def rotation_picture(of: Callable[[S], RotationAcross]) -> Picture[S]:
-    """Return ρ along the line, in branches, the orbits that it is known from, and where on the line there is none."""
+    """Return the picture of ρ along the line: its branches, the orbits it comes from, and the parts without it."""
     return Plot[RotationAcross](
         name="rotation",
         title="Rotation number across the section",
@@ -246,7 +246,7 @@ def rotation_picture(of: Callable[[S], RotationAcross]) -> Picture[S]:
                 label="does not go round: 0 turns",
             ),
             curves("rho", lambda s: _branches(s.found), color=theme.ORBIT),
-            # An orbit between two gaps is a curve of one point.
+            # An orbit between two gaps is a curve of one point, which only a mark shows.
             points("orbits", lambda s: (s.found.places, s.found.numbers), size=4, color=theme.ORBIT),
         ),
     ).of_part(of)

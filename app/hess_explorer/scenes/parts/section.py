@@ -1,4 +1,4 @@
-"""A Poincaré section: the orbit on show among others, of which a few crossings come first."""
+"""A Poincaré section with the orbit on show and other orbits; a few crossings of the others are computed first."""
 
 from __future__ import annotations
 
@@ -38,19 +38,19 @@ from hess_mechanics.numerics.results import Array
 __all__ = ["Section", "crossings_of_each", "section_picture", "section_trial", "start_on"]
 
 _FEW = 30
-"""Crossings of each orbit, while a slider is dragged and until all are known."""
+"""Crossings of each orbit while a slider is dragged, and until all are known."""
 _ON = 1e-9
-"""A start that is so close to the section, beside its size, is on it."""
+"""Largest relative distance of a start that counts as on the section."""
 _ORBITS, _MOST_STEPS = 20, 100_000
-"""Of the default section: orbits besides the one on show; Taylor steps of each."""
+"""Of the default section: number of other orbits; largest number of Taylor steps of each."""
 _TURNS = 60.0
-"""Time allowed for a crossing, in units of 1/ν times the slowness of the section."""
+"""Time limit per crossing, in units of 1/ν times the slowness of the section."""
 _MOST_COMPARED = 400.0
-"""Crossings of each orbit for which levels are compared."""
+"""Largest number of crossings of each orbit for which levels are compared."""
 
 
 def crossings_of_each() -> Any:
-    """Declare how many crossings of a section each orbit leaves, at once."""
+    """Declare the number of crossings of each orbit."""
     return number(
         "n",
         200.0,
@@ -64,7 +64,7 @@ def crossings_of_each() -> Any:
 
 
 def start_on(section: PoincareSection, text: str) -> Start:
-    """Return the state at the last of some places, written as in a link.  Raises `OutsideRegion`, without any too."""
+    """Return the state at the last place of a link's text.  Raises `OutsideRegion`, also if there is no place."""
     states, there = section.states_at(*np.array(places(text)[-1:]).reshape(-1, 2).T)
     if not there.any():
         names = " and ".join(section.names)
@@ -80,7 +80,7 @@ class _Host(Sectioned, Protocol):
 
 @dataclass(frozen=True)
 class _Crossed:
-    """Crossings of the orbit on show and of the others; None where they are left out, for that reason."""
+    """Crossings of the orbit on show and of the others; None if they are left out for that reason."""
 
     own: SectionPoints | None
     others: SectionPoints | None
@@ -89,14 +89,14 @@ class _Crossed:
 
 @dataclass(frozen=True, eq=False)
 class Section(Part[_Host]):
-    """A section with the orbit on show, and others; of the others a few crossings come first.
+    """A section with the orbit on show and other orbits; a few crossings of the others are computed first.
 
-    start() : the state from which the chosen orbit starts, raises `ModelError`.
-    crossing(crossings, level) : finds so many crossings of the orbit on show, and of the others; without it those are
-        spread over the window of the section.
-    axes() : of its picture, where that shows more than that window; closed() : the periodic orbit that is shown in
-        place of the chosen one, if any; later : whether only the later half of the crossings is drawn.
-    periods : of the coordinates when two runs are compared.
+    start() : the initial state of the chosen orbit, raises `ModelError`.
+    crossing(crossings, level) : the computations of so many crossings of the orbit on show, and of the others; by
+        default the others are spread over the window of the section.
+    axes() : the axes of the picture, if it shows more than that window; closed() : the periodic orbit shown in place
+        of the chosen one, if any; later : draw only the later half of the crossings.
+    periods : periods of the coordinates when two runs are compared.
     """
 
     start: Callable[[], Start]
@@ -113,18 +113,18 @@ class Section(Part[_Host]):
 
     @property
     def given(self) -> Start:
-        """The state from which the chosen orbit starts.  Raises `ModelError`."""
+        """The initial state of the chosen orbit.  Raises `ModelError`."""
         return self.start()
 
     @property
     def frame(self) -> Window:
-        """All of the picture."""
+        """The window of the whole picture."""
         (x0, x1), (y0, y1) = self.poincare.window if self.axes is None else (self.axes().x, self.axes().y)
         return (x0, y0), (x1, y1)
 
     @property
     def pixels(self) -> tuple[float, ...]:
-        """Pixels of the picture for a unit of each coordinate."""
+        """Pixels per unit of each coordinate."""
         return tuple(PIXELS / (high - low) for low, high in zip(*self.frame, strict=True))
 
     @property
@@ -142,7 +142,7 @@ class Section(Part[_Host]):
 
     @cached_property
     def crossed(self) -> _Crossed:
-        """The crossings that are known."""
+        """The known crossings."""
         level = self.work.plan(Computation.SECTION).level
         few, whole = (self._tasks(count, level) for count in (min(self.wanted, _FEW), self.wanted))
         mine = few[0] if self.work.dragging else whole[0]
@@ -154,18 +154,18 @@ class Section(Part[_Host]):
 
     @property
     def reason(self) -> str:
-        """Why the section is left out; empty where it is not."""
+        """The reason why the section is left out; an empty string if it is not."""
         return self.crossed.reason
 
     @cached_property
     def own(self) -> Array | None:
-        """Places (n, 2) of the orbit on show; None where the section is left out."""
+        """Places (n, 2) of the orbit on show; None if the section is left out."""
         closed = self.closed()
         return self._places(self.crossed.own) if closed is None else closed.orbit.places
 
     @property
     def points(self) -> Array | None:
-        """The same; None of a periodic orbit, which has signs of its own."""
+        """Places (n, 2) of the orbit on show; None for a periodic orbit, which has its own marks."""
         return self.own if self.closed() is None else None
 
     @cached_property
@@ -182,7 +182,7 @@ class Section(Part[_Host]):
 
     @cached_property
     def others(self) -> Array | None:
-        """Places (n, 2) of the others; None where the section is left out."""
+        """Places (n, 2) of the other orbits; None if the section is left out."""
         return self._places(self.crossed.others)
 
     def _places(self, points: SectionPoints | None) -> Array | None:
@@ -192,15 +192,15 @@ class Section(Part[_Host]):
         return joined(self.poincare.places_of(states[first:]) for states in points.states)
 
     def orbits_at(self, plan: Plan) -> list[Array]:
-        """Return all orbits of the section (n, 2), that on show first, computed here and now."""
+        """Return all orbits of the section (n, 2), the one on show first; computed at once."""
         tasks = self._tasks(plan.part(self.host.count, _FEW), plan.level)
         return [self.poincare.places_of(states) for task in tasks for states in task.now().states]
 
     @cached_property
     def kept(self) -> tuple[int, int | None] | None:
-        """Up to which crossing the orbit on show is right to half a pixel, and the median of the others.
+        """The last crossing right to half a pixel: of the orbit on show, and the median of the others.
 
-        From a second run, with a hundredth of the tolerance; None until it is known, and while a slider is held.
+        Compares with a second run at a hundredth of the tolerance; None until it is known, and while a slider is held.
         """
         crossed = self.crossed
         if self.work.dragging or self.closed() is not None or crossed.own is None or crossed.others is None:
@@ -210,7 +210,7 @@ class Section(Part[_Host]):
             for task in self._tasks(self.wanted, self.work.plan(Computation.SECTION).level.tightened())
         ]
         if self.work.todo:
-            # Of the others a few crossings are shown so far.
+            # So far only a few crossings of the others are known.
             return None
         at = self.poincare.places_of
         own, others = (
@@ -222,13 +222,13 @@ class Section(Part[_Host]):
 
     @property
     def caption(self) -> Caption:
-        """The number of crossings, or why nothing is drawn."""
+        """The caption: the number of crossings, or the reason why the section is left out."""
         if self.own is None or self.others is None:
             return Caption(numbers=self.reason)
         return Caption(numbers=f"{len(self.own)} crossings of the chosen orbit, {len(self.others)} of others.")
 
     def status(self) -> Iterator[str]:
-        """Yield size, cost and drift."""
+        """Yield the size, cost, drift and accuracy."""
         if self.asked("crossed") and self.crossed.own and self.crossed.others:
             own, others = self.crossed.own, self.crossed.others
             points = sum(len(one) for one in (self.own, self.others) if one is not None)
@@ -237,7 +237,7 @@ class Section(Part[_Host]):
             yield from kept_status(self.kept, self.wanted)
 
     def notes(self) -> Iterator[str]:
-        """Yield why the section is left out."""
+        """Yield the reason why the section is left out."""
         if self.asked("crossed") and self.reason:
             yield self.reason
 
@@ -262,9 +262,9 @@ S = TypeVar("S", bound=State)
 
 
 def section_picture(of: Callable[[S], Section], start: str, title: str = "Poincaré section") -> Picture[S]:
-    """Return the picture of a section, in which a click chooses where the orbit starts.
+    """Return the picture of a section, in which a click sets the start of the orbit.
 
-    start : the name of the parameter with its place, see `places`.
+    start : the name of the parameter that holds its place, see `places`.
     """
 
     def range_of(axis: int) -> Callable[[Section], Range]:
@@ -288,7 +288,7 @@ def section_picture(of: Callable[[S], Section], start: str, title: str = "Poinca
 
 
 def section_trial(of: Callable[[S], Section]) -> Trial[S]:
-    """Return how the section of a state is computed at each level."""
+    """Return the trial of the section, computed at each level."""
 
     def look(s: Section, orbits: list[Array]) -> Marks:
         section = s
