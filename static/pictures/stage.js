@@ -49,9 +49,8 @@ function captions(type) {
     const together = linesOf(LONGEST, width)
     // In a narrow cell the numbers follow the verdict on the same line; elsewhere they begin a new one.
     if (isNarrow(width, type)) return Math.min(most, Math.max(2, together))
-    const head = linesOf(HEAD, width)
-    const all = Math.min(together + 1, head + linesOf(NUMBERS, width))
-    return Math.min(most, isPresenting() && all > most ? head : all)
+    const all = Math.min(together + 1, linesOf(HEAD, width) + linesOf(NUMBERS, width))
+    return isPresenting() && all > most ? 1 : Math.min(most, all)
   }
   /** @param {number} count @param {number} size */
   const high = (count, size) => Math.ceil((count * LINE + AIR) * size)
