@@ -76,7 +76,7 @@ export function sphere(el, options, source, isShown) {
   let point = null
 
   const own = source(options.name)
-  // What is drawn besides.
+  // Additional layers.
   /** @type {SphereGuest | null} */
   const guest = options.clouds !== undefined ? sphereClouds(source(options.clouds))
     : inSpace ? bodyIn(own, source(options.attitude)) : null

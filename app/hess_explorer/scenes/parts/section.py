@@ -42,7 +42,7 @@ _FEW = 30
 _ON = 1e-9
 """Largest relative distance of a start that counts as on the section."""
 _ORBITS, _MOST_STEPS = 20, 100_000
-"""Of the default section: number of other orbits; largest number of Taylor steps of each."""
+"""Default section: number of other orbits, and largest number of Taylor steps of each."""
 _TURNS = 60.0
 """Time limit per crossing, in units of 1/ν times the slowness of the section."""
 _MOST_COMPARED = 400.0
