@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import quad
 
 from hess_mechanics import (
     circle_map,
@@ -23,7 +23,7 @@ from hess_mechanics import (
     trace_on_curve,
     turning_points,
 )
-from hess_mechanics.errors import InvalidParameter, ModelError, OutsideRegion, Separatrix, WorkLimit
+from hess_mechanics.errors import InvalidParameter, Separatrix, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
 from hess_mechanics.suslov_hess.mode_locking import lock_boundary_end, rotation_number_window
 from support.mechanics import angle_between, lifted_return
@@ -79,21 +79,6 @@ def slope(found, phases):
 
 
 # ---- Θ by brute force -------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(("a", "h", "f"), TORI[:4])
-def test_theta_is_where_the_orbit_comes_back_by_scipy_alone(a, h, f):
-    found, turning = circle_map(a, h, f, REFERENCE), turning_points(h, f)
-    for phi in (-2.0, 0.3, 1.7):
-        end = solve_ivp(
-            lambda _, y: HESS.field(y, (a, 1.0)),
-            (0.0, turning.period),
-            turning.state_at_lower_turn(phi),
-            method="DOP853",
-            rtol=1e-12,
-            atol=1e-13,
-        ).y[:, -1]
-        assert angle_between(math.atan2(end[0], end[1]), found.theta(phi)) < 1e-8
 
 
 @given(tori, st.floats(-math.pi, math.pi))
@@ -271,9 +256,9 @@ def test_orbits_of_a_locked_map_go_to_the_stable_fixed_point(a, h, f):
     assert circle_map(a, h, f, REFERENCE).iterate(0.4 + 2 * math.pi, 1)[0] == pytest.approx(0.4, abs=1e-14)
 
 
-@pytest.mark.parametrize("shape", [(), (1,), (2, 3)])
-def test_theta_keeps_the_shape_of_its_argument(shape):
-    assert np.shape(circle_map(0.5, 1.5, 0.6, DRAFT).theta(np.full(shape, 0.3))) == shape
+def test_theta_keeps_the_shape_of_its_argument():
+    for shape in ((), (1,), (2, 3)):
+        assert np.shape(circle_map(0.5, 1.5, 0.6, DRAFT).theta(np.full(shape, 0.3))) == shape
 
 
 def test_integers_and_signed_zeros_are_the_numbers_they_are():
@@ -305,7 +290,8 @@ def lift_of(found):
     return lambda phi: phi + 2 * cmath.phase(alpha) + 2 * cmath.phase(1 + ratio * cmath.exp(-1j * phi))
 
 
-def check_rotation_number(a, h, f, iterations=20_000):
+@every_torus
+def test_the_rotation_number_is_the_mean_turn_of_the_integrated_lift(a, h, f):
     found = circle_map(a, h, f, REFERENCE)
     lift = lift_of(found)
     phases = np.linspace(-3.0, 3.0, 4)
@@ -313,16 +299,11 @@ def check_rotation_number(a, h, f, iterations=20_000):
     turns = round((brute[0] - lift(phases[0])) / (2 * math.pi))
     # The one whole number settled by one phase, the others must agree without reduction modulo 2π.
     assert [lift(phi) + 2 * math.pi * turns for phi in phases] == pytest.approx(brute, abs=1e-7)
-    phi = 0.0
+    phi, iterations = 0.0, 20_000
     for _ in range(iterations):
         phi = lift(phi) + 2 * math.pi * turns
     # |F^N(φ) − φ − 2πNρ| < 2π for every lift of a circle map.
     assert abs(phi / (2 * math.pi * iterations) - found.rotation_number) < 1.0 / iterations
-
-
-@every_torus
-def test_the_rotation_number_is_the_mean_turn_of_the_integrated_lift(a, h, f):
-    check_rotation_number(a, h, f)
 
 
 @given(tori)
@@ -454,33 +435,9 @@ def test_exactly_on_the_lock_boundary_the_map_is_parabolic_with_one_fixed_point(
 
 
 @pytest.mark.parametrize(
-    ("a", "h", "f", "error", "words"),
-    [
-        (math.nan, 1.5, 0.6, InvalidParameter, "a is not a finite number"),
-        (math.inf, 1.5, 0.6, InvalidParameter, "a is not a finite number"),
-        (0.5, math.nan, 0.6, InvalidParameter, "h is not a finite number"),
-        (0.5, 1.5, math.nan, InvalidParameter, "f is not a finite number"),
-        (0.5, 1.5, -math.inf, InvalidParameter, "f is not a finite number"),
-        (1e7, 1.5, 0.6, InvalidParameter, "choose .a. ≤ 1e"),
-        (-1e7, 1.5, 0.6, InvalidParameter, "choose .a. ≤ 1e"),
-        (0.5, -1.0, 0.0, OutsideRegion, "Choose h > −1"),
-        (0.5, 0.0, 2.0, OutsideRegion, r"choose .f. ≤ 0\.87738267"),
-        (0.5, 1.0, 0.0, Separatrix, "no return"),
-        (1e6, 1e8, 0.6, WorkLimit, "choose smaller a"),
-    ],
-)
-def test_a_torus_that_has_no_map_raises_a_sentence(a, h, f, error, words):
-    assert issubclass(error, ModelError)
-    with pytest.raises(error, match=words):
-        circle_map(a, h, f, STANDARD)
-
-
-@pytest.mark.parametrize(
     ("h", "f", "error"),
     [
         ([math.nan], [0.0], InvalidParameter),
-        ([0.0], [math.inf], InvalidParameter),
-        ([-1.0], [0.0], InvalidParameter),
         ([1e13], [0.0], InvalidParameter),
         ([[0.0]], [0.0], WorkLimit),
         (np.zeros(1001), np.zeros(1000), WorkLimit),
@@ -500,13 +457,14 @@ def test_a_grid_never_hides_a_point_that_took_too_many_steps():
 @pytest.mark.parametrize(
     "use",
     [
+        lambda a: circle_map(a, 1.5, 0.6, DRAFT),
         lambda a: lock_boundary(a, DRAFT),
         lambda a: lock_boundary_f(a, 0.5, DRAFT),
         lambda a: critical_a(1.5, 0.6, DRAFT, high=a),
         lambda a: rotation_number_grid(a, [0.5], [0.1], DRAFT),
         lambda a: trace_on_curve(a, 0.5),
     ],
-    ids=["boundary", "f", "critical a", "grid", "on curve"],
+    ids=["map", "boundary", "f", "critical a", "grid", "on curve"],
 )
 def test_a_without_meaning_raises_a_sentence_everywhere(use, bad):
     with pytest.raises(InvalidParameter, match=r"^a (is not a finite number|= 1e\+07 is too large)"):
@@ -518,13 +476,9 @@ def test_a_without_meaning_raises_a_sentence_everywhere(use, bad):
     [
         (lambda: lock_boundary_f(0.5, -0.5, DRAFT), InvalidParameter, "no f between"),
         (lambda: lock_boundary_f(0.0, 0.5, DRAFT), InvalidParameter, "no f between"),
-        (lambda: lock_boundary_f(0.5, -2.0, DRAFT), OutsideRegion, "Choose h > −1"),
-        (lambda: lock_boundary_f(0.5, math.nan, DRAFT), InvalidParameter, "h is not"),
         (lambda: lock_boundary_f(1e6, 1e8, DRAFT), WorkLimit, "choose smaller a"),
         (lambda: critical_a(0.0, 1e-9, DRAFT), InvalidParameter, "no a between"),
-        (lambda: critical_a(0.0, 5.0, DRAFT), OutsideRegion, "choose .f. ≤"),
         (lambda: critical_a(1.0, 0.0, DRAFT), Separatrix, "no return"),
-        (lambda: critical_a(math.nan, 0.5, DRAFT), InvalidParameter, "h is not"),
         (lambda: trace_on_curve(0.5, math.nan), InvalidParameter, "n is not"),
     ],
 )
@@ -539,7 +493,7 @@ def test_a_trace_on_the_curve_beyond_double_range_is_infinite():
 
 @pytest.mark.parametrize(("a", "h", "f"), [(0.5, 1.5, 0.6), (0.3, 0.2, 0.5), (3.0, 1.5, 0.6)])
 def test_the_graph_is_theta_without_jumps_and_close_together_also_where_it_is_steep(a, h, f):
-    theta = circle_map(a=a, h=h, f=f, level=level("reference"))
+    theta = circle_map(a, h, f, REFERENCE)
     phi, image = theta.graph
     assert (phi[0], phi[-1]) == pytest.approx((-math.pi, math.pi))
     assert np.all(np.diff(phi) > 0.0)
@@ -549,19 +503,19 @@ def test_the_graph_is_theta_without_jumps_and_close_together_also_where_it_is_st
 
 
 def test_the_graph_is_evaluated_once_and_cannot_be_changed():
-    theta = circle_map(a=0.5, h=1.5, f=0.6, level=level("draft"))
+    theta = circle_map(0.5, 1.5, 0.6, DRAFT)
     assert theta.graph is theta.graph
     with pytest.raises(ValueError, match="read-only"):
         theta.graph[1][0] = 0.0
 
 
 def test_alpha_and_beta_are_the_coefficients_of_the_moebius_map():
-    theta = circle_map(a=0.5, h=1.5, f=0.6, level=level("reference"))
+    theta = circle_map(0.5, 1.5, 0.6, REFERENCE)
     alpha, beta = theta.alpha_beta
     z = np.exp(1j * PHASES)
     image = (alpha * z + beta) / (np.conj(beta) * z + np.conj(alpha))
     assert angle_between(np.angle(image), theta.theta(PHASES)) == pytest.approx(0.0, abs=1e-12)
     assert abs(alpha) ** 2 - abs(beta) ** 2 == pytest.approx(1.0, rel=1e-9)
-    far = circle_map(a=400.0, h=4.0, f=0.1, level=level("draft"))
+    far = circle_map(400.0, 4.0, 0.1, DRAFT)
     assert far.log_scale > 710.0  # e^710 is beyond double range
     assert all(math.isfinite(abs(one)) for one in far.alpha_beta)

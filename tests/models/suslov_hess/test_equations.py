@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hess_mechanics import HessBody, level, solve, systems
+from hess_mechanics import HessBody, systems
 from hess_mechanics.errors import InvalidParameter, NoField, NotPositiveDefinite
 
 SUSLOV, HESS = systems()["suslov"], systems()["hess"]
@@ -20,7 +20,7 @@ states = st.lists(st.floats(-3.0, 3.0), min_size=5, max_size=5).map(np.array)
 bodies = st.builds(HessBody, moment, product, field_strength)
 bodies_in_a_field = st.builds(HessBody, moment, product, with_field)
 
-BODIES = [HessBody(1.0, 0.5, -1.0), HessBody(2.0, -0.6, 3.0), HessBody(0.7, 1.1, 0.4), HessBody(1.0, 0.0, -2.0)]
+BODY = HessBody(1.0, 0.5, -1.0)
 START = np.array([0.8, -0.4, 0.6, 0.0, 0.8])
 
 
@@ -69,7 +69,7 @@ def test_the_change_of_units_has_an_inverse(body, y):
 
 
 def test_maps_take_whole_orbits():
-    body, many = BODIES[0], np.arange(30.0).reshape(3, 2, 5)
+    body, many = BODY, np.arange(30.0).reshape(3, 2, 5)
     for change in (body.to_reduced, body.from_reduced, body.in_units_of_b, body.from_units_of_b):
         assert change(many).shape == many.shape
         assert np.array_equal(change(many)[1, 0], change(many[1, 0]))
@@ -116,18 +116,6 @@ def test_in_units_of_b_the_field_and_the_integrals_have_b_one(body, y):
     assert in_units["F2"] == pytest.approx(sign * own["F2"] / nu, abs=1e-13 * size)
 
 
-@pytest.mark.parametrize("body", BODIES, ids=lambda body: f"a={body.a:.3g},b={body.b:.3g}")
-def test_orbits_of_the_body_and_of_the_reduced_system_are_the_same_motion(body):
-    assert {math.copysign(1.0, each.b) for each in BODIES} == {1.0, -1.0}
-    times = np.linspace(0.0, 10.0, 41)
-    full = solve(body.suslov, START, times, level("reference")).states
-    own_units = solve(HESS.at((body.a, body.b)), body.to_reduced(START), times, level("reference")).states
-    start = body.in_units_of_b(body.to_reduced(START))
-    unit = solve(HESS.at((body.a, 1.0)), start, times * body.frequency_unit, level("reference")).states
-    assert np.max(np.abs(body.to_reduced(full) - own_units)) < 1e-11
-    assert np.max(np.abs(body.from_reduced(body.from_units_of_b(unit)) - full)) < 1e-11
-
-
 @pytest.mark.parametrize("b3", [0.0, -0.0])
 def test_without_a_field_there_are_no_units_of_b(b3):
     body = HessBody(1.0, 0.5, b3)
@@ -139,26 +127,23 @@ def test_without_a_field_there_are_no_units_of_b(b3):
 
 
 @pytest.mark.parametrize(
-    "values", [(1e-200, 1e200, 1.0), (1.0, 1e200, 1.0), (5e-324, 1.0, 1.0), (1e308, 1e308, 1.0), (1e-320, 0.0, 1e300)]
+    ("values", "error", "words"),
+    [
+        ((1e-200, 1e200, 1.0), InvalidParameter, "choose"),
+        ((1e308, 1e308, 1.0), InvalidParameter, "choose"),
+        ((1e-320, 0.0, 1e300), InvalidParameter, "choose"),
+        ((math.nan, 0.5, 1.0), InvalidParameter, "I22 is not a finite number"),
+        ((1.0, math.inf, 1.0), InvalidParameter, "I23 is not a finite number"),
+        ((1.0, 0.5, -math.inf), InvalidParameter, "b3 is not a finite number"),
+        ((-0.0, 0.5, 1.0), NotPositiveDefinite, "choose I22 > 0"),
+        ((-1.0, 0.5, 1.0), NotPositiveDefinite, "choose I22 > 0"),
+    ],
 )
-def test_bodies_beyond_double_precision_raise_a_sentence(values):
-    with pytest.raises(InvalidParameter, match="choose"):
+def test_numbers_that_make_no_body_are_refused(values, error, words):
+    with pytest.raises(error, match=words):
         HessBody(*values)
-
-
-@pytest.mark.parametrize("name", ["I22", "I23", "b3"])
-@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
-def test_a_value_that_is_not_finite_is_named(name, bad):
-    with pytest.raises(InvalidParameter, match=f"{name} is not a finite number"):
-        HessBody(**{"I22": 1.0, "I23": 0.5, "b3": 1.0, name: bad})
-
-
-@pytest.mark.parametrize("I22", [0.0, -0.0, -1.0])
-def test_a_body_needs_a_positive_moment(I22):
-    with pytest.raises(NotPositiveDefinite, match="choose I22 > 0"):
-        HessBody(I22, 0.5, 1.0)
 
 
 def test_a_body_cannot_be_changed_after_it_was_checked():
     with pytest.raises(AttributeError):
-        BODIES[0].I22 = -1.0
+        BODY.I22 = -1.0

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 
 import numpy as np
 import pytest
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import quad
 
 from hess_mechanics import circle_map, level, solve, systems, turning_points
 from hess_mechanics.errors import InvalidParameter
@@ -18,6 +17,7 @@ from hess_mechanics.suslov_hess.invariant_measure import (
     poisson_kernel,
     seen_from,
 )
+from support.mechanics import angle_between
 
 HESS = systems()["hess"]
 REFERENCE = level("reference")
@@ -33,11 +33,6 @@ ELLIPTIC = [
 ]
 every_torus = pytest.mark.parametrize(("a", "h", "f"), ELLIPTIC)
 PHASES = np.linspace(-3.1, 3.1, 41)
-
-
-def apart(first, second):
-    """The largest difference of angles."""
-    return float(np.max(np.abs(np.angle(np.exp(1j * (np.asarray(first) - second))))))
 
 
 # ---- on the circle ----------------------------------------------------------------------------------------------
@@ -60,31 +55,18 @@ def test_in_the_angle_of_the_measure_the_map_is_a_rotation(a, h, f):
     theta = circle_map(a, h, f, REFERENCE)
     measure = invariant_measure(theta)
     turned = measure.angle(theta.theta(PHASES)) - measure.angle(PHASES)
-    assert apart(turned, 2.0 * math.pi * theta.rotation_number) <= 1e-10
+    assert angle_between(turned, 2.0 * math.pi * theta.rotation_number) <= 1e-10
     # The density is the slope of that angle.
     step = 1e-5
     slope = np.angle(np.exp(1j * (measure.angle(PHASES + step) - measure.angle(PHASES - step)))) / (2.0 * step)
     assert slope / (2.0 * math.pi) == pytest.approx(measure.density(PHASES), rel=1e-7)
 
 
-@pytest.mark.parametrize(("a", "h", "f"), [torus for torus in ELLIPTIC if torus[0]])
-def test_a_long_orbit_of_the_map_is_spread_as_the_density_says(a, h, f):
-    theta = circle_map(a, h, f, REFERENCE)
-    measure = invariant_measure(theta)
-    orbit = np.sort(theta.iterate(0.3, 20_000))
-    edges = np.linspace(-math.pi, math.pi, 13)
-    expected = [quad(lambda phi: float(measure.density([phi])[0]), low, high)[0] for low, high in pairwise(edges)]
-    shares = np.diff(np.searchsorted(orbit, edges)) / orbit.size
-    # A quasi-periodic orbit is spread better than a random one.
-    assert shares == pytest.approx(expected, abs=2e-3)
-    assert np.ptp(expected) > 0.01
-
-
 @every_torus
 def test_the_density_and_its_angle_are_those_of_the_kernel_of_zeta(a, h, f):
     measure = invariant_measure(circle_map(a, h, f, REFERENCE))
     assert measure.density(PHASES) == pytest.approx(poisson_kernel(PHASES, measure.zeta), rel=1e-10)
-    assert apart(measure.angle(PHASES), seen_from(PHASES, measure.zeta)) <= 1e-12
+    assert angle_between(measure.angle(PHASES), seen_from(PHASES, measure.zeta)) <= 1e-12
     assert np.all(np.abs(measure.angle(PHASES)) <= math.pi)
 
 
@@ -120,36 +102,6 @@ def test_where_there_are_limit_cycles_there_is_none(a, h, f):
 
 
 @every_torus
-def test_inside_the_disk_the_fixed_point_follows_the_riccati_equation(a, h, f):
-    measure = invariant_measure(circle_map(a, h, f, REFERENCE))
-    turning = turning_points(h, f)
-    times = np.linspace(0.0, turning.period, 9)
-    found = on_torus(measure, times, REFERENCE)
-
-    def rate(_, y):
-        # ż = −i f z/|w|² − (ia|w|/2)(z² + 1), |w|² = 2(h + n3); n̈3 from ṅ3² = |w|²(1 − n3²) − f².
-        zeta, n, slope = complex(y[0], y[1]), y[2], y[3]
-        square = 2.0 * (h + n)
-        turned = -1j * f * zeta / square - 0.5j * a * math.sqrt(square) * (zeta * zeta + 1.0)
-        return [turned.real, turned.imag, slope, 1.0 - 2.0 * h * n - 3.0 * n * n]
-
-    run = solve_ivp(
-        rate,
-        (0.0, turning.period),
-        [measure.zeta, 0.0, turning.roots[1], 0.0],
-        method="DOP853",
-        rtol=1e-12,
-        atol=1e-13,
-        t_eval=times,
-    )
-    assert found.zeta == pytest.approx(run.y[0] + 1j * run.y[1], abs=1e-8)
-    assert found.zeta[-1] == pytest.approx(measure.zeta, abs=1e-10)
-    assert np.max(np.abs(found.zeta)) < 1.0
-    assert apart(found.turned[-1], 2.0 * math.pi * measure.rotation_number) <= 1e-9
-    assert abs(found.turned[0]) <= 1e-12
-
-
-@every_torus
 def test_in_its_angles_the_flow_is_linear(a, h, f):
     measure = invariant_measure(circle_map(a, h, f, REFERENCE))
     turning = turning_points(h, f)
@@ -158,10 +110,10 @@ def test_in_its_angles_the_flow_is_linear(a, h, f):
     for phi0 in (-2.5, 0.4, 1.9):
         states = solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(phi0), times, REFERENCE).states
         phi = np.arctan2(states[:, 0], states[:, 1])
-        assert apart(found.angle(phi), float(measure.angle([phi0])[0])) <= 1e-9
-        # All return after the same time.
-        back = solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(phi0), [turning.period], REFERENCE).states[0]
-        assert back[4] == pytest.approx(turning.roots[1], abs=1e-11)
+        assert angle_between(found.angle(phi), float(measure.angle([phi0])[0])) <= 1e-9
+    once = on_torus(measure, [0.0, turning.period], REFERENCE)
+    assert once.zeta == pytest.approx(np.full(2, measure.zeta), abs=1e-10)
+    assert angle_between(once.turned, [0.0, 2.0 * math.pi * measure.rotation_number]) <= 1e-9
 
 
 @every_torus
@@ -204,8 +156,3 @@ def test_at_f_0_the_angle_jumps_and_is_refused():
     measure = invariant_measure(circle_map(0.5, 0.3, 0.0, REFERENCE))
     with pytest.raises(InvalidParameter, match="Choose another f"):
         on_torus(measure, [0.0, 1.0], REFERENCE)
-
-
-def test_the_kernel_of_the_middle_is_even():
-    assert poisson_kernel(PHASES, 0.0) == pytest.approx(1.0 / (2.0 * math.pi))
-    assert np.argmax(poisson_kernel(PHASES, 0.7 * np.exp(1j * PHASES[30]))) == 30

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import mpmath
 import pytest
 
 from hess_mechanics import prove
@@ -20,19 +19,6 @@ def test_the_period_of_the_reference_is_enclosed(row):
     slack = known / 10**20
     assert found.low - slack <= known <= found.high + slack
     assert found.width < Fraction(1, 10**29)
-
-
-def test_the_period_is_that_of_a_quadrature():
-    """T = 2∫dn/√p between the turning points, to 25 digits; n = m − d cos x takes the roots out of the ends."""
-    found = proved_torus_period("0.3", "0.7")
-    with mpmath.workdps(40):
-        h, f = mpmath.mpf("0.3"), mpmath.mpf("0.7")
-        n0, n1, n2 = sorted(
-            map(mpmath.re, mpmath.polyroots([-2, -2 * h, 2, 2 * h - f * f], maxsteps=200, extraprec=200))
-        )
-        m, d = (n1 + n2) / 2, (n2 - n1) / 2
-        known = 2 * mpmath.quad(lambda x: 1 / mpmath.sqrt(2 * (m - d * mpmath.cos(x) - n0)), [0, mpmath.pi])
-        assert abs(mpmath.mpf(found.low.numerator) / found.low.denominator - known) < mpmath.mpf(10) ** -25
 
 
 @pytest.mark.parametrize(
