@@ -6,8 +6,12 @@ import math
 import re
 
 import numpy as np
+import pytest
 
+from hess_explorer.scenes import scenes
+from support.board import contents
 from support.page import flat
+from support.view import View
 
 
 def yellow(explorer):
@@ -28,6 +32,7 @@ def yellow(explorer):
 
 
 SOURCES = "hess.plotted()"
+MEASURED = ("precision-DOP", "precision-LSO")
 
 
 def track(explorer, source="data-orbit"):
@@ -43,6 +48,30 @@ def assert_captions_fit(explorer, scene):
     for picture in scene.pictures:
         words = explorer.picture(picture).locator(".caption")
         assert words.evaluate("words => words.scrollHeight <= words.clientHeight"), words.inner_text()
+
+
+def alike(found, expected, within=2e-6):
+    """Return whether two lists have the same texts, and the same numbers up to rounding."""
+    texts, numbers = (
+        [[x for x in items if isinstance(x, str) == kind] for items in (found, expected)] for kind in (True, False)
+    )
+    return texts[0] == texts[1] and numbers[0] == pytest.approx(numbers[1], rel=within, abs=within)
+
+
+def assert_drawn(explorer, name, values, *pictures):
+    """Assert that these pictures (else all open ones) of a scene show the data that it computes; return its view."""
+    scene = scenes()[name]
+    view = View(scene, values, seen=set(pictures or scene.open_pictures), noted=True)
+    for source, columns in contents(view.data).items():
+        # The player moves the points.
+        if source.endswith("-point"):
+            continue
+        data = explorer.data(source)
+        for key, column in columns.items():
+            # Measured times differ.
+            if not (source.startswith("precision-") and (key == "y" or source.startswith(MEASURED))):
+                assert alike(flat(data[key]), column), (source, key)
+    return view
 
 
 def assert_painted(explorer, scene):
