@@ -1,4 +1,4 @@
-"""Extreme inputs: the result meets the level's error bound, or a message refuses the input.
+"""Extreme inputs: the result meets the level's error bound, or says that it does not.
 
 One row for each extreme.  `python tests/models/test_extremes.py` prints what was measured as a table.
 """
@@ -35,12 +35,7 @@ from hess_mechanics import (
 )
 from hess_mechanics.errors import (
     InvalidParameter,
-    ModelError,
-    NoField,
-    NotPositiveDefinite,
     OutsideRegion,
-    Separatrix,
-    WorkLimit,
 )
 from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.suslov.additional_integral import I11_of, additional_integral
@@ -53,7 +48,6 @@ from support.extremes import special_motions
 from support.extremes import suslov as extremes_suslov
 from support.extremes.unstable import unstable_starts
 from support.measured import write_measured
-from support.thorough import sample
 
 HESS, SUSLOV = systems()["hess"], systems()["suslov"]
 # What each level promises; `reference` goes to the floor of double precision, wherever the motion puts that.
@@ -81,16 +75,6 @@ class Row:
 
     def bound(self, name):
         return PROMISE[name] if name in ("draft", "standard") else max(PROMISE.get(name, 0.0), self.floor)
-
-
-@dataclass(frozen=True)
-class Refusal:
-    """request(level) must raise this error; `words` name the fault, the allowed range or the remedy."""
-
-    name: str
-    request: Callable
-    error: type
-    words: str
 
 
 # ---- how each kind of result is measured ------------------------------------------------------------------------
@@ -368,13 +352,6 @@ def free(name, tensor, omega, times, truth=None, against="Taylor series of `Biz1
     return Row(f"free Suslov: {name}", against, error, **options)
 
 
-def free_refusal(name, tensor, omega, words, error=InvalidParameter, times=(1.0,)):
-    """Return the refusal of a motion without a field."""
-    return Refusal(
-        f"free Suslov, {name}", lambda grade: free_motion(SuslovBody(*tensor), omega, UP, times, grade), error, words
-    )
-
-
 def free_F2(name, k, omega, **options):
     """F2, in units of its value where |Γ| = 1."""
     body = SuslovBody(I11_of(k, 1.0, 0.5), 1.0, 0.0, 0.5)
@@ -463,8 +440,6 @@ def with_field(tensor, b=1.0):
 
 ROWS = [
     # f
-    vanishing("f = 0, h = 1.5", 0.5, 1.5, 0.0),
-    vanishing("f = 0, h = 0.3", 0.5, 0.3, 0.0),
     vanishing("f = 1e-300, h = 1.5", 0.5, 1.5, 1e-300),
     vanishing("f = 1e-300, h = 0.3", 0.5, 0.3, 1e-300),
     vanishing(
@@ -477,9 +452,7 @@ ROWS = [
     ),
     by_orbits("f = 1e-12, h = 1.5", 0.5, 1.5, 1e-12, digits=60),
     by_orbits("f = 1e-12, h = 0.3", 0.5, 0.3, 1e-12, digits=60),
-    by_orbits("f = −1e-12, h = −0.5", 0.5, -0.5, -1e-12, digits=60),
     by_orbits("f = f_max (1 − 1e-12), h = 0.3", 0.5, 0.3, f_max(0.3) * (1 - 1e-12), floor=1e-10, because=DEPTH),
-    by_orbits("f = f_max (1 − 1e-12), h = 1.5", 0.5, 1.5, f_max(1.5) * (1 - 1e-12), floor=1e-10, because=DEPTH),
     by_orbits("f = f_max (1 − 1e-12), h = −0.99", 0.5, -0.99, f_max(-0.99) * (1 - 1e-12), floor=1e-10, because=DEPTH),
     a_map(
         "f = f_max, n3 = 0.4",
@@ -501,20 +474,14 @@ ROWS = [
     by_orbits("h = 1 − 1e-12, f = 0.5", 0.5, 1 - 1e-12, 0.5),
     by_orbits("h = 1 + 1e-12, f = 1e-12", 0.5, 1 + 1e-12, 1e-12, digits=60),
     by_orbits("h = 1 − 1e-12, f = 1e-12", 0.5, 1 - 1e-12, 1e-12, digits=60),
-    by_orbits("h = 1 + 1e-9, f = 1e-9", 0.5, 1 + 1e-9, 1e-9, digits=55),
-    by_orbits("h = 1 − 1e-9, f = 1e-9", 0.5, 1 - 1e-9, 1e-9, digits=55),
-    by_orbits("h = 1 + 1e-9, f = 1e-3", 0.5, 1 + 1e-9, 1e-3),
     by_orbits("h = 1 − 1e-9, f = −1e-3", 0.5, 1 - 1e-9, -1e-3),
     vanishing("h = 1e8, f = 0", 0.5, 1e8, 0.0),
-    by_orbits("h = 1e8, f = 1000", 0.5, 1e8, 1000.0),
     by_orbits("h = 1e8, f = 0.9 f_max", 0.5, 1e8, 0.9 * f_max(1e8)),
     # a
     without_a("a = 0", 1.5, 0.6),
     without_a("a = 0, h = 1 + 1e-9, f = 1e-9", 1 + 1e-9, 1e-9),
     without_a("a = 0, h = 1e8, f = 1e4", 1e8, 1e4),
-    by_orbits("a = 1e-8, h = 1.5", 1e-8, 1.5, 0.6),
     by_orbits("a = 1e-8, h = 0.3", 1e-8, 0.3, 0.6),
-    vanishing("a = 3, h = 0.3, f = 0", 3.0, 0.3, 0.0),
     vanishing("a = 10, h = 0.3, f = 0", 10.0, 0.3, 0.0, floor=1e-7, because="|α| = 7e7 cancels to a trace of 0"),
     by_orbits(
         "a = 10, h = 0.3, f = 1e-12",
@@ -543,10 +510,6 @@ ROWS = [
         admitted=says_so(50.0, 0.3, 0.0, 1.0),
         because="|α| = 1e40 cancels to a trace of 0",
     ),
-    vanishing("a = 50, h = 1.5, f = 0", 50.0, 1.5, 0.0),
-    vanishing("a = 50, h = 1.5, f = 1e-300", 50.0, 1.5, 1e-300),
-    by_cycle("a = 50, h = 1.5, f = 0.6", 50.0, 1.5, 0.6),
-    by_cycle("a = 50, h = 0.2, f = 0.5", 50.0, 0.2, 0.5),
     by_cycle("a = 50, h = 1e8, f = 1e4", 50.0, 1e8, 1e4),
     vanishing("a = 1e4, h = 1.5, f = 0", 1e4, 1.5, 0.0),
     by_cycle("a = 1e4, h = 1.5, f = 0.6", 1e4, 1.5, 0.6),
@@ -554,7 +517,6 @@ ROWS = [
     # pictures of (h, f)
     on_the_grid("h = 1e8, f = 1000", 0.5, 1e8, 1000.0),
     on_the_grid("h = −0.99, f = f_max (1 − 1e-9)", 0.5, -0.99, f_max(-0.99) * (1 - 1e-9)),
-    on_the_grid("h = 1 − 1e-12, f = 1e-12", 0.5, 1 - 1e-12, 1e-12),
     on_the_grid("h = 1 − 1e-12, f = 1e-14", 0.5, 1 - 1e-12, 1e-14, digits=60),
     on_the_lock_boundary("a = 1e-3", 1e-3),
     on_the_lock_boundary("a = 50", 50.0),
@@ -607,15 +569,12 @@ ROWS = [
         floor=1e-11,
         because="the last place of the start changes the period, 1e3/2π times over",
     ),
-    a_pendulum("a = 50", 50.0, 1.5, 0.4, [0.1, 1.0, 3.0]),
     a_pendulum("a = 1e4", 1e4, 1.5, 0.4, [0.001, 0.01, 0.1]),
     an_orbit("a = 0", HESS, HESS_START, (0.0, 1.0), [1.0, 5.0, 20.0]),
-    an_orbit("a = 1e-8", HESS, HESS_START, (1e-8, 1.0), [1.0, 5.0, 20.0]),
     an_orbit("b = 0", HESS, HESS_START, (0.75, 0.0), [1.0, 5.0, 20.0]),
     an_orbit("n = (0, 0, −1)", HESS, (0.6, 1.2, 0.0, 0.0, -1.0), (0.75, 1.0), [1.0, 5.0, 10.0]),
     an_orbit("n3 = 0", HESS, (0.6, 1.2, 0.6, -0.8, 0.0), (0.75, 1.0), [1.0, 5.0, 10.0]),
     an_orbit("t = 1e-6", HESS, HESS_START, (0.75, 1.0), [1e-6]),
-    an_orbit("t = −1e-6", HESS, HESS_START, (0.75, 1.0), [-1e-6]),
     at_rest("at rest, n3 = 1, t = 1e6", HESS, 1.0, (0.75, 1.0)),
     at_rest("at rest, n3 = −1, t = −1e6", HESS, -1.0, (0.75, 1.0)),
     # orbits of Biz131
@@ -631,7 +590,6 @@ ROWS = [
     ),
     an_orbit("I11/I22 = 1e-6", SUSLOV, (1.0, 1e-3, 0.6, 0.0, 0.8), with_field(swapped(HEAVY)), [1.0, 10.0]),
     an_orbit("I22 = 1e-6", SUSLOV, (0.1, 10.0, 0.6, 0.0, 0.8), with_field(LIGHT), [0.001, 0.02]),
-    an_orbit("I11 = 1e-6", SUSLOV, (10.0, 0.1, 0.6, 0.0, 0.8), with_field(swapped(LIGHT)), [0.001, 0.02]),
     an_orbit("a body all but flat", SUSLOV, START, with_field(FLAT), [1.0, 5.0, 20.0]),
     an_orbit("no body (triangle inequality)", SUSLOV, START, with_field(NO_BODY), [1.0, 5.0, 20.0]),
     an_orbit("I13 = I23 = 0", SUSLOV, START, with_field((2.0, 1.0, 0.0, 0.0)), [1.0, 5.0, 20.0]),
@@ -645,16 +603,13 @@ ROWS = [
         against="closed form, rotation",
     ),
     an_orbit("b = 0", SUSLOV, START, (*GENERIC[:4], 0, 0, 0), [1.0, 10.0, 100.0]),
-    an_orbit("b = 0, backward", SUSLOV, START, (*GENERIC[:4], 0, 0, 0), [-1.0, -10.0, -100.0]),
     an_orbit("b = 1e6", SUSLOV, (800.0, -400.0, 0.6, 0.0, 0.8), with_field(GENERIC[:4], 1e6), [0.001, 0.02]),
     an_orbit("b = 1e-6", SUSLOV, (8e-4, -4e-4, 0.6, 0.0, 0.8), with_field(GENERIC[:4], 1e-6), [1e3, 2e4]),
     an_orbit("γ = (0, 0, 1)", SUSLOV, (0.8, -0.4, 0.0, 0.0, 1.0), GENERIC, [1.0, 5.0, 20.0]),
-    an_orbit("γ = (0, 0, −1)", SUSLOV, (0.8, -0.4, 0.0, 0.0, -1.0), GENERIC, [1.0, 5.0, 20.0]),
     an_orbit("γ3 = 0", SUSLOV, (0.8, -0.4, 0.6, -0.8, 0.0), GENERIC, [1.0, 5.0, 20.0]),
     an_orbit("ω = 0", SUSLOV, (0.0, 0.0, 0.6, -0.8, 0.0), GENERIC, [1.0, 5.0, 20.0]),
     an_orbit("backward", SUSLOV, START, GENERIC, [-1.0, -5.0, -20.0]),
     an_orbit("t = 1e-6", SUSLOV, START, GENERIC, [1e-6]),
-    an_orbit("t = −1e-6", SUSLOV, START, GENERIC, [-1e-6]),
     at_rest("at rest, γ3 = 1, t = 1e6", SUSLOV, 1.0, (*GENERIC[:4], 0, 0, 1)),
     # bodies of the Hess case on their tori
     on_a_torus("b3 = −1e6", HessBody(1.0, 0.5, -1e6), 1.7, 0.4, 20.0),
@@ -676,15 +631,12 @@ ROWS = [
     # integrals after a long time
     drift("t = 1e5", HESS, HESS_START, (0.75, 1.0), 1e5, floor=1e-11),
     drift("t = 1e5", SUSLOV, START, GENERIC, 1e5, floor=1e-11),
-    drift("t = −1e5", SUSLOV, START, GENERIC, -1e5, floor=1e-11),
     # motions without a field
     free("1e-300 off the line", FIGURE_3, (2.0, 1e-300), [1.0, 690.0, 692.0, 740.0]),
-    free("1e-300 off the line, the other arc", FIGURE_3, (2.0, -1e-300), [1.0, 690.0, 692.0, 740.0]),
     free("5e-324 off the line", FIGURE_3, (2.0, 5e-324), [700.0, 746.0, 760.0]),
     free("1e-300 off the line, I23 = 0", (1.0, 2.44, 0.5, 0.0), (1e-300, -2.0), [1.0, 690.0, 692.0, 740.0]),
     free("1e-300 off the stable half, backward", FIGURE_3, (-2.0, 1e-300), [-1.0, -690.0, -692.0, -720.0]),
     free("1e-16 off a slanting line", SLANTING, (0.5, -0.3 + 1e-16), [1.0, 100.0, 130.0, 160.0]),
-    free("k = 15", (57.25, 1.0, 0.0, 0.5), (2.0, 1e-3), [1.0, 10.0, 30.0]),
     free("k = 50", (626.0, 1.0, 0.0, 0.5), (2.0, 1e-3), [1.0, 10.0, 30.0]),
     free("I11/I22 = 1e6", (1e6, 1.0, 0.3, 0.5), (1e-3, 1.0), [1.0, 10.0]),
     free("I11/I22 = 1e-6", (1e-6, 1.0, 0.3, 0.5), (0.1, 10.0), [0.001, 0.002]),
@@ -692,7 +644,6 @@ ROWS = [
     free("ω = 1e6", SLANTING, (0.8e6, -0.2e6), [1e-6, 1e-5, 2e-5]),
     free("ω = 1e-6", SLANTING, (0.8e-6, -0.2e-6), [1e6, 1e7, 2e7]),
     free("I13, I23 = 0.01", (1.0, 1.0, 0.006, 0.008), (0.7, 0.7), [1.0, 100.0, 300.0]),
-    free("t = 1e3", SLANTING, (0.8, -0.2), [1e3], settled_turning, "closed form, after the passage"),
     free(
         "t = 1e8",
         SLANTING,
@@ -703,26 +654,13 @@ ROWS = [
         floor=1e-7,
         because="the last place of ω times 1e8 radians",
     ),
-    free(
-        "t = −1e8",
-        SLANTING,
-        (0.8, -0.2),
-        [-1e8],
-        settled_turning,
-        "closed form, before the passage",
-        floor=1e-7,
-        because="the last place of ω times 1e8 radians",
-    ),
     free_F2("k = 15", 15, (2.0, 1e-3)),
     free_F2("k = 15, 1e-300 off the line", 15, (2.0, 1e-300)),
     free_F2("k = 15, ω = 1e6", 15, (1e6, 0.3e6)),
-    free_F2("k = 15, ω = 1e-6", 15, (1e-6, 0.3e-6)),
     the_angle("k = 14.5", (1.0 + 14.5**2 * 0.25, 1.0, 0.0, 0.5)),
-    the_angle("k = 15", (57.25, 1.0, 0.0, 0.5)),
     the_angle("I11/I22 = 1e6", (1e6, 1.0, 0.0, 1.0)),
     the_angle("I11/I22 = 1e-6", (1e-6, 1.0, 0.0, 1.0)),
     the_angle("I11/I22 = 1e6, slanting", (1e6, 1.0, 300.0, 0.5)),
-    the_angle("I11/I22 = 1e-6, slanting", (1.0, 1e6, 0.5, 300.0)),
     the_angle("I23 = 1e-3", (2.0, 1.0, 0.0, 1e-3)),
     the_angle("I23 = 3e-4, slanting", (2.0, 1.0, 2e-4, 3e-4)),
     the_angle("I13, I23 = 1e6", (1.0, 2.0, 1e6, -1e6)),
@@ -734,121 +672,13 @@ ROWS = [
     *special_motions.rows(Row),
 ]
 
-REFUSALS = [
-    Refusal("h = −1", lambda grade: circle_map(0.5, -1.0, 0.0, grade), OutsideRegion, "h = -1 .*Choose h > −1"),
-    Refusal("h = −1 − 1e-12", lambda grade: circle_map(0.5, -1 - 1e-12, 0.0, grade), OutsideRegion, "Choose h > −1"),
-    Refusal("h = 1e13", lambda grade: circle_map(0.5, 1e13, 0.0, grade), InvalidParameter, "choose h ≤ 1e12"),
-    Refusal(
-        "f = f_max (1 + 1e-12)",
-        lambda grade: circle_map(0.5, 0.3, f_max(0.3) * (1 + 1e-12), grade),
-        OutsideRegion,
-        "choose .f. ≤ 1.095.*, or a larger h",
-    ),
-    Refusal("h = 1, f = 0", lambda grade: circle_map(0.5, 1.0, 0.0, grade), Separatrix, "no return. Move h or f"),
-    Refusal("h = 1, f = 1e-300", lambda grade: circle_map(0.5, 1.0, 1e-300, grade), Separatrix, "Move h or f a little"),
-    Refusal("a = 1e6", lambda grade: circle_map(1e6, 1.5, 0.6, grade), WorkLimit, "too many steps: choose smaller a"),
-    Refusal("a = 1.1e6", lambda grade: circle_map(1.1e6, 1.5, 0.6, grade), InvalidParameter, "choose .a. ≤ 1e.06"),
-    Refusal("grid, h = −1", lambda grade: rotation_number_grid(0.5, [-1.0], [0.0], grade), InvalidParameter, "−1 < h"),
-    Refusal("lock boundary, a = 1.1e6", lambda grade: lock_boundary(1.1e6, grade), InvalidParameter, "choose .a. ≤ 1e"),
-    Refusal(
-        "eq01, t = 1e6",
-        lambda grade: solve(HESS.at((0.75, 1.0)), HESS_START, [1e6], grade),
-        WorkLimit,
-        "more than 1000000 steps: choose a shorter time span",
-    ),
-    Refusal(
-        "eq01, t = −1e6",
-        lambda grade: solve(HESS.at((0.75, 1.0)), HESS_START, [-1e6], grade),
-        WorkLimit,
-        "choose a shorter time span",
-    ),
-    Refusal(
-        "eq01, a = 1e6, t = 100",
-        lambda grade: solve(HESS.at((1e6, 1.0)), HESS_START, [100.0], grade),
-        WorkLimit,
-        "choose a shorter time span",
-    ),
-    Refusal(
-        "Biz131, t = 1e6",
-        lambda grade: solve(SUSLOV.at(GENERIC), START, [1e6], grade),
-        WorkLimit,
-        "choose a shorter time span",
-    ),
-    Refusal(
-        "Biz131, I11 = 0",
-        lambda grade: solve(SUSLOV.at((0.0, *GENERIC[1:])), START, [1.0], grade),
-        NotPositiveDefinite,
-        "I11 = 0.*choose I11 > 0",
-    ),
-    Refusal(
-        "Biz131, I22 = −1e-12",
-        lambda grade: solve(SUSLOV.at((2.0, -1e-12, *GENERIC[2:])), START, [1.0], grade),
-        NotPositiveDefinite,
-        "I22 = -1e-12.*choose I22 > 0",
-    ),
-    Refusal(
-        "Biz131, I11 = 1e-300",
-        lambda grade: solve(SUSLOV.at((1e-300, *GENERIC[1:])), START, [1.0], grade),
-        InvalidParameter,
-        "choose a ratio",
-    ),
-    Refusal("a body with I22 = 0", lambda _: SuslovBody(1.0, 0.0, 0.0, 0.0), NotPositiveDefinite, "choose I22 > 0"),
-    Refusal(
-        "check_body, I11 = −1e-12", lambda _: check_body(-1e-12, 1.0, 0.0, 0.0), NotPositiveDefinite, "choose I11 > 0"
-    ),
-    free_refusal("I13 = I23 = 0", (2.0, 1.0, 0.0, 0.0), (1.0, 0.5), "Choose I13 or I23 other than 0"),
-    free_refusal("on the line of equilibria", FIGURE_3, (2.0, 0.0), "on the line of equilibria.*Move ω off the line"),
-    free_refusal("ω = 0", FIGURE_3, (0.0, 0.0), "at rest.*Choose ω1 or ω2 other than 0"),
-    free_refusal("ω = 1e160", FIGURE_3, (1e160, 1e160), "choose a less extreme ω", times=[1e-160]),
-    free_refusal("t = 1e308", SLANTING, (1.0, 0.5), "choose a shorter one", times=[1e308, 1.7e308]),
-    free_refusal("b3 = 1e-300", (*SLANTING, 0.0, 0.0, 1e-300), (1.0, 0.5), "Set b1 = b2 = b3 = 0"),
-    free_refusal("I23 = 1e-5", (2.0, 1.0, 0.0, 1e-5), (1.0, 0.5), "choose larger I13, I23", WorkLimit),
-    Refusal("free Suslov, h = 0", lambda _: equilibria(SuslovBody(*FIGURE_3), 0.0), InvalidParameter, "choose h > 0"),
-    Refusal(
-        "F2, k = 17",
-        lambda _: additional_integral(17, SuslovBody(*FIGURE_3)),
-        InvalidParameter,
-        "choose an odd k from 1 to 15",
-    ),
-    Refusal(
-        "scattering, I13 = I23 = 0",
-        lambda grade: scattering(SuslovBody(2.0, 1.0, 0.0, 0.0), grade),
-        InvalidParameter,
-        "Choose I13 or I23 other than 0",
-    ),
-    Refusal(
-        "scattering, I23 = 1e-300",
-        lambda grade: scattering(SuslovBody(2.0, 1.0, 0.0, 1e-300), grade),
-        WorkLimit,
-        "choose larger I13, I23",
-    ),
-    Refusal(
-        "scattering, δ = 0",
-        lambda grade: scattering(SuslovBody(*SLANTING), grade, 1, 0.0),
-        InvalidParameter,
-        "choose one above 0 and up to",
-    ),
-    Refusal(
-        "track, b3 = 0",
-        lambda grade: track(HessBody(1.0, 0.5, 0.0), 1.5, 0.6, 0.0, 10.0, grade, 4.0),
-        NoField,
-        "b3 = 0.*Choose b3 other than 0",
-    ),
-    *extremes_ball.refusals(Refusal),
-    *extremes_euler_poisson.refusals(Refusal),
-    *extremes_suslov.refusals(Refusal),
-]
-
 
 # ---- tests ------------------------------------------------------------------------------------------------------
 
-every_row = pytest.mark.parametrize(
+
+@pytest.mark.parametrize(
     ("row", "name"), [pytest.param(row, name, id=f"{row.name} [{name}]") for row in ROWS for name in row.levels]
 )
-every_refusal = pytest.mark.parametrize("row", REFUSALS, ids=lambda row: row.name)
-
-
-@every_row
 def test_an_extreme_case_is_right_within_the_promise_of_its_level(row, name):
     error = row.error(name)
     assert error <= row.bound(name) or row.admitted(name)
@@ -921,15 +751,6 @@ def test_moments_so_different_that_the_unit_of_time_says_nothing_are_refused(rat
         solve(SUSLOV.at(parameters), state, [1.0, 5.0], level(name))
 
 
-@every_refusal
-@pytest.mark.parametrize("name", sample(["draft", "reference"], 1))
-def test_a_request_beyond_the_extremes_is_refused_in_a_sentence(row, name):
-    assert issubclass(row.error, ModelError)
-    with pytest.raises(row.error, match=row.words) as refused:
-        row.request(level(name))
-    assert re.fullmatch(r"[^\n]*\.", str(refused.value)), "one line, with a full stop"
-
-
 @pytest.mark.parametrize("h", [-0.999, -0.5, 0.3, 0.5, 1.5, 2.0, 30.0])
 def test_the_largest_f_that_a_refusal_names_is_accepted(h):
     with pytest.raises(OutsideRegion) as refused:
@@ -981,41 +802,22 @@ def test_next_to_its_limit_the_triangle_inequality_is_decided_right(tensor):
     assert check_body(*tensor).is_body == (best_second_moment(*tensor) > 0)
 
 
-def measured_rows():
-    """(name, level or "refusal", true error or the refusal's class) for every row."""
-    rows = [(row.name, name, row.error(name)) for row in ROWS for name in row.levels]
-    for row in REFUSALS:
-        try:
-            row.request(level("draft"))
-            rows.append((row.name, "refusal", "none"))
-        except ModelError as error:
-            rows.append((row.name, "refusal", type(error).__name__))
-    return rows
-
-
 def main():
     """Write the measured rows as a table, with a column for each level."""
-    cells = {}
-    for name, column, value in measured_rows():
-        cells.setdefault(name, {})[column] = value
-    rows = {row.name: row for row in ROWS}
     lines = [
         "| what is extreme | checked against | draft | standard | precise | reference |",
         "|---|---|---|---|---|---|",
     ]
-    for name, values in cells.items():
-        if "refusal" in values:
-            lines.append(f"| {name} | refused: `{values['refusal']}` | | | | |")
-            continue
-        row, shown = rows[name], []
+    for row in ROWS:
+        shown = []
         for column in PROMISE:
-            key = "any" if "any" in values else column
-            error = values.get(key)
+            key = "any" if row.levels == ANY else column
+            error = row.error(key) if key in row.levels else None
             mark = "" if error is None or error <= row.bound(key) else " admitted" if row.admitted(key) else " ✗"
             shown.append("" if error is None else f"{error:.0e}{mark}")
-        escaped = name.replace("|", r"\|")
+        escaped = row.name.replace("|", r"\|")
         lines.append(f"| {escaped}{' ¹' if row.because else ''} | {row.against} | {' | '.join(shown)} |")
-    lines += ["", *(f"¹ {row.name}: {row.because}.  " for row in rows.values() if row.because)]
+    lines += ["", *(f"¹ {row.name}: {row.because}.  " for row in ROWS if row.because)]
     write_measured(Path(__file__).with_name("README.md"), "\n".join(lines))
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from hess_explorer.scenes import scenes
+from hess_mechanics.chaplygin_ball.equations import SYSTEM
 
 
 def occupied(points, across=32):
@@ -49,6 +50,12 @@ def energy_of(values, state):
     across = np.cross(np.stack([g1, g2, g3], -1), np.stack([w1, w2, 0.0 * w1], -1))
     potential = sum(values.get(name, 0.0) * g for name, g in (("b1", g1), ("b2", g2), ("b3", g3)))
     return 0.5 * (I11 * w1**2 + I22 * w2**2 + D * np.sum(across**2, axis=-1)) + potential
+
+
+def divergence(body, y):
+    """Return the divergence of the field at states y (5, …), by complex steps: exact but for round-off."""
+    steps = 1e-30j * np.eye(5).reshape(5, 5, *(1,) * (np.ndim(y) - 1))
+    return sum(SYSTEM.field(y + step, body.parameters)[i].imag for i, step in enumerate(steps)) / 1e-30
 
 
 def xi_of(values):

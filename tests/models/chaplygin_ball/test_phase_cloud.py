@@ -1,14 +1,11 @@
-"""Clouds: Liouville's equation in exact fractions, orbits in decimals, volumes by finite differences, captions."""
+"""Clouds: orbits in decimals, volumes by finite differences, captions.  Liouville's equation: `test_equations`."""
 
 import dataclasses
 import math
 import re
-from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 import oracle
 from hess_explorer.protocol.wire import Wire
@@ -27,10 +24,12 @@ from hess_mechanics.chaplygin_ball.phase_cloud import (
 from hess_mechanics.chaplygin_ball.phase_cloud_density import sides
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
+from support.ball import divergence as divergence_of
+from support.ball import energy_of
 from support.phase_cloud import SCENE, captions, complete
 from support.thorough import sample
 
-BALL, SUSLOV = systems()["ball"], systems()["suslov"]
+BALL = systems()["ball"]
 FREE = BallBody(2.0, 1.5, 0.5, 0.7, 0.0)
 HEAVY = BallBody(1.0, 1.5, 0.7, 1.2, 3.0)
 PRINCIPAL = BallBody(1.0, 1.5, 0.0, 0.0, 3.0, 0.4, -0.3, 1.0)
@@ -39,101 +38,10 @@ both_bodies = pytest.mark.parametrize("body", [FREE, HEAVY], ids=["Suslov", "bal
 every_level = pytest.mark.parametrize("name", LEVELS)
 
 
-# ---- Liouville's equation, exactly ------------------------------------------------------------------------------
-
-
-class Dual:
-    """A number and its five partial derivatives, in exact fractions."""
-
-    def __init__(self, value, slopes=(0,) * 5):
-        self.value, self.slopes = Fraction(value), slopes
-
-    def of(self, other):
-        return other if isinstance(other, Dual) else Dual(other)
-
-    def __add__(self, other):
-        other = self.of(other)
-        return Dual(self.value + other.value, [a + b for a, b in zip(self.slopes, other.slopes, strict=True)])
-
-    def __mul__(self, other):
-        other = self.of(other)
-        return Dual(
-            self.value * other.value,
-            [a * other.value + self.value * b for a, b in zip(self.slopes, other.slopes, strict=True)],
-        )
-
-    def __truediv__(self, other):
-        other = self.of(other)
-        return self * Dual(1 / other.value, [-b / other.value**2 for b in other.slopes])
-
-    def __rtruediv__(self, other):
-        return self.of(other) / self
-
-    def __pow__(self, power):
-        assert power == 2
-        return self * self
-
-    def __neg__(self):
-        return self * -1
-
-    def __sub__(self, other):
-        return self + -self.of(other)
-
-    def __rsub__(self, other):
-        return -self + other
-
-    __radd__, __rmul__ = __add__, __mul__
-
-
-def flow(system, state, parameters):
-    """v, the matrix ∂v_i/∂y_j at a state, in fractions."""
-    y = [Dual(value, [int(i == j) for j in range(5)]) for i, value in enumerate(state)]
-    v = system.field(y, parameters)
-    return [one.value for one in v], [one.slopes for one in v]
-
-
-def fractions(count):
-    return st.tuples(*[st.fractions(-3, 3, max_denominator=60)] * count)
-
-
-tensors = st.tuples(
-    *[st.fractions(Fraction(1, 5), 4, max_denominator=30)] * 2, *[st.fractions(-2, 2, max_denominator=30)] * 2
-)
-
-
-@given(state=fractions(5), tensor=tensors, D=st.fractions(0, 5, max_denominator=20))
-def test_without_a_field_the_rate_of_s_is_s_times_the_divergence(state, tensor, D):
-    # That is div(v/|s|) = 0, Liouville's equation for the density 1/|s|.
-    for system, parameters in ((SUSLOV, (*tensor, 0, 0, 0)), (BALL, (*tensor, D, 0, 0, 0))):
-        v, slopes = flow(system, state, parameters)
-        div = sum(slopes[i][i] for i in range(5))
-        assert tensor[2] * v[0] + tensor[3] * v[1] == (tensor[2] * state[0] + tensor[3] * state[1]) * div
-
-
-@given(state=fractions(5), tensor=tensors, D=st.fractions(0, 5, max_denominator=20), b=fractions(3))
-def test_on_a_principal_axis_the_divergence_is_zero_in_every_field(state, tensor, D, b):
-    for system, parameters in ((SUSLOV, (*tensor[:2], 0, 0, *b)), (BALL, (*tensor[:2], 0, 0, D, *b))):
-        _, slopes = flow(system, state, parameters)
-        assert sum(slopes[i][i] for i in range(5)) == 0
-
-
-def test_in_the_general_case_neither_density_is_invariant():
-    state = [Fraction(n, 7) for n in (3, -5, 2, 6, 4)]
-    tensor, b = [Fraction(n, 3) for n in (4, 5, 2, 1)], [Fraction(1), Fraction(-2), Fraction(3)]
-    for system, parameters in ((SUSLOV, (*tensor, *b)), (BALL, (*tensor, Fraction(5, 4), *b))):
-        v, slopes = flow(system, state, parameters)
-        div = sum(slopes[i][i] for i in range(5))
-        assert div != 0
-        assert tensor[2] * v[0] + tensor[3] * v[1] != (tensor[2] * state[0] + tensor[3] * state[1]) * div
-
-
 @pytest.mark.parametrize("body", [FREE, HEAVY, PRINCIPAL, GENERAL])
 def test_the_divergence_is_the_sum_of_the_exact_slopes(body):
-    # γ with fractions and length 1.
-    for omega, gamma in (((0.5, -0.75), (0.6, 0.0, 0.8)), ((-2.0, 1.25), (2 / 3, -1 / 3, 2 / 3))):
-        _, slopes = flow(BALL, [*omega, *gamma], [Fraction(value) for value in body.parameters])
-        exact = float(sum(slopes[i][i] for i in range(5)))
-        assert float(divergence(body, np.array(omega), np.array(gamma))) == pytest.approx(exact, rel=1e-14, abs=1e-15)
+    for y in np.array([[0.5, -0.75, 0.6, 0.0, 0.8], [-2.0, 1.25, 2 / 3, -1 / 3, 2 / 3]]):
+        assert float(divergence(body, y[:2], y[2:])) == pytest.approx(divergence_of(body, y), rel=1e-14, abs=1e-15)
 
 
 # ---- volumes ----------------------------------------------------------------------------------------------------
@@ -157,20 +65,6 @@ def test_small_volumes_grow_by_the_ratio_of_s(body, t):
     found = carried(body, START[None], np.array([0.0, t]), level("reference"))
     assert jacobian(body, START, t) == pytest.approx(math.exp(found.log_growth[0, 1]), rel=1e-9)
     assert abs(found.log_growth[0, 1]) > 0.3
-
-
-@pytest.mark.parametrize("body", [PRINCIPAL, BallBody(2.0, 1.5, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)])
-def test_on_a_principal_axis_volumes_stay(body):
-    assert jacobian(body, START, 2.0) == pytest.approx(1.0, abs=1e-9)
-
-
-def test_in_the_general_case_volumes_follow_neither_density():
-    s = [
-        state[0] * 0.7 + state[1] * 1.2 for state in (START, solve(GENERAL, START, [1.5], level("reference")).states[0])
-    ]
-    found = jacobian(GENERAL, START, 1.5)
-    assert abs(found - 1.0) > 0.01
-    assert abs(found - s[1] / s[0]) > 0.01
 
 
 def growth_in_closed_form(body, states, t):
@@ -242,17 +136,11 @@ def test_a_cloud_of_another_energy_is_the_same_at_other_times(scale):
 # ---- points and densities ---------------------------------------------------------------------------------------
 
 
-def energy(body, states):
-    w1, w2, g1, g2, g3 = np.asarray(states).T
-    across = (g1 * w2 - g2 * w1) ** 2 + g3**2 * (w1**2 + w2**2)
-    return 0.5 * (body.I11 * w1**2 + body.I22 * w2**2 + body.D * across)
-
-
 @both_bodies
 def test_a_shell_is_evenly_filled(body):
     count, h, spread = 20_000, 2.0, 0.2
     states = shell(body, h, spread, count)
-    E = energy(body, states)
+    E = energy_of(vars(body), states)
     assert np.all((h * (1 - spread) < E) & (h * (1 + spread) > E))
     assert np.linalg.norm(states[:, 2:], axis=1) == pytest.approx(np.ones(count), abs=1e-14)
     # Points of a box, evenly spread, of which those in the shell are kept.
@@ -261,25 +149,12 @@ def test_a_shell_is_evenly_filled(body):
     gamma = random.normal(size=(2_000_000, 3))
     gamma /= np.linalg.norm(gamma, axis=1)[:, None]
     box = np.column_stack([random.uniform(-most, most, (len(gamma), 2)), gamma])
-    kept = box[(energy(body, box) > h * (1 - spread)) & (energy(body, box) < h * (1 + spread))]
+    kept = box[np.abs(energy_of(vars(body), box) - h) < h * spread]
 
     def moments(points):
-        w1, w2, g1, g2, g3 = points.T
-        return np.array(
-            [
-                w1,
-                w2 * g3,
-                w1**2,
-                w2**2,
-                g1**2,
-                g2**2,
-                g3**2,
-                w1 * w2 * g1 * g2,
-                w1**2 * g1**2,
-                w2**2 * g3**2,
-                energy(body, points),
-            ]
-        )
+        w1, w2, g1, _, g3 = points.T
+        mixed = np.array([w1, w2 * g3, w1 * w2 * points[:, 2] * points[:, 3], w1**2 * g1**2, w2**2 * g3**2])
+        return np.vstack([mixed, points.T**2, energy_of(vars(body), points)])
 
     found, expected = moments(states), moments(kept)
     sigma = np.sqrt(found.var(axis=1) / count + expected.var(axis=1) / len(kept))
@@ -290,7 +165,7 @@ def test_a_shell_is_evenly_filled(body):
 def test_a_patch_is_evenly_filled(body):
     count, spread, angle = 20_000, 0.4, 2.0
     states = patch(body, 2.0, angle, spread, count)
-    speed = math.sqrt(2.0 / energy(body, [[math.cos(angle), math.sin(angle), 0.0, 0.0, 1.0]])[0])
+    speed = math.sqrt(2.0 / energy_of(vars(body), [math.cos(angle), math.sin(angle), 0.0, 0.0, 1.0]))
     out = (states[:, :2] - speed * np.array([math.cos(angle), math.sin(angle)])) / (spread * speed)
     radius2 = (out**2).sum(axis=1)
     assert radius2.max() < 1.0
@@ -420,10 +295,8 @@ ONE, DRAFT = np.array([1.0]), LEVELS["draft"]
         (InvalidParameter, lambda: carried(GENERAL, START[None], ONE, DRAFT)),
         (InvalidParameter, lambda: carried(FREE, np.array([[0.0, 0.0, 0.0, 0.0, 1.0]]), ONE, DRAFT)),
         (InvalidParameter, lambda: carried(FREE, START[None], np.array([0.0, 1.0, -1.0]), DRAFT)),
-        (WorkLimit, lambda: carried(FREE, START[None], 3e3 * ONE, DRAFT)),
         (WorkLimit, lambda: carried(HEAVY, np.repeat(START[None], 10_000, 0), 3e3 * ONE, DRAFT)),
         (InvalidParameter, lambda: shell(FREE, 0.0, 0.1, 10)),
-        (InvalidParameter, lambda: shell(FREE, math.nan, 0.1, 10)),
         (InvalidParameter, lambda: shell(FREE, 1.0, 1.0, 10)),
         (InvalidParameter, lambda: patch(FREE, 1.0, math.inf, 0.1, 10)),
         (InvalidParameter, lambda: patch(FREE, 1.0, 0.0, 0.0, 10)),
@@ -450,12 +323,9 @@ def test_the_captions_say_what_the_general_equations_give(preset):
     body = BallBody(*(values[name] for name in ("I11", "I22", "I13", "I23", "D")))
     beside = values["beside"] != "nothing"
     count = 5000 if beside else 10_000
-    make = (
-        (shell, (values["h"], values["spread"]))
-        if values["start"] == "energy shell"
-        else (patch, (values["h"], values["angle"], values["spread"]))
-    )
-    states = make[0](body, *make[1], count)
+    is_patch = values["start"] == "small patch"
+    make, where = (patch, ("h", "angle", "spread")) if is_patch else (shell, ("h", "spread"))
+    states = make(body, *(values[name] for name in where), count)
     span = values["span"] * (-1.0 if values["direction"] == "backward" else 1.0)
     # The captions have three digits.
     end = ensemble(body, states, [span], level("standard")).states[:, 0]
@@ -467,15 +337,14 @@ def test_the_captions_say_what_the_general_equations_give(preset):
     # A mean that stays is said once.
     assert spread * (3 - len(spread)) == pytest.approx([((y[:, 2:] @ xi) ** 2).mean() for y in (states, end)], rel=6e-3)
     growth = s[1] / s[0]
-    if values["start"] == "small patch" and values["along"] == "volume":
+    if is_patch and values["along"] == "volume":
         assert numbers_in(said["divergence"])[0] == pytest.approx(growth.mean(), rel=6e-3)
         assert growth.mean() < 0.01
         assert ("the second cloud preserves volume" in said["divergence"]) == beside
     else:
         mean = [float(divergence(body, y[:, :2], y[:, 2:]).mean()) for y in (states, end)]
-        assert numbers_in(said["divergence"])[0] == pytest.approx(mean[0], rel=6e-3)
-        assert numbers_in(said["divergence"])[1] == pytest.approx(mean[1], rel=6e-3)
-        assert numbers_in(said["divergence"])[-1] == pytest.approx(np.log(growth).mean(), rel=6e-3)
+        numbers = numbers_in(said["divergence"])
+        assert [*numbers[:2], numbers[-1]] == pytest.approx([*mean, np.log(growth).mean()], rel=6e-3)
     place, share, height = numbers_in(said["density"])
     assert s[1].min() < place < s[0].max()
     assert share == pytest.approx(height, rel=0.03)
@@ -499,12 +368,9 @@ def test_fewer_points_while_a_slider_is_dragged():
 def test_fewer_points_until_all_of_them_are_known(beside):
     values = {**SCENE.defaults(), "I11": 2.015, "beside": beside, "b3": 1.0, "points": "3000"}
     clouds = 2 if beside == "principal axis" else 1
-    first = SCENE.compute(values, SCENE.pictures, False)
-    assert first.clouds.cloud.signs.size == 1000 // clouds
+    first, whole = SCENE.compute(values, SCENE.pictures, False), complete(values)
     assert (len(first.work.todo), first.work.pieces) == (1, 1)
-    whole = complete(values)
-    assert whole.work.todo == []
-    assert whole.clouds.cloud.signs.size == 3000 // clouds
+    assert [one.clouds.cloud.signs.size for one in (first, whole)] == [1000 // clouds, 3000 // clouds]
     if clouds == 2:
         assert (first.clouds.other.states.shape[0], whole.clouds.other.states.shape[0]) == (500, 1500)
     # So few are computed at once.

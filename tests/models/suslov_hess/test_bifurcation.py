@@ -254,6 +254,7 @@ def test_the_special_points_are_the_two_equilibria():
         (2.0, 1e300, OutsideRegion, r"choose \|f\|"),
         (1.0, 0.0, Separatrix, "no return"),
         (1.0, -0.0, Separatrix, "no return"),
+        (1.0, 1e-300, Separatrix, "no return. Move h or f a little"),
         (math.nan, 0.0, InvalidParameter, "h is not a finite number"),
         (math.inf, 0.0, InvalidParameter, "h is not a finite number"),
         (0.0, math.nan, InvalidParameter, "f is not a finite number"),

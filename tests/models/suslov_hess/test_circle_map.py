@@ -474,6 +474,7 @@ def test_a_without_meaning_raises_a_sentence_everywhere(use, bad):
 @pytest.mark.parametrize(
     ("use", "error", "words"),
     [
+        (lambda: circle_map(1e6, 1e8, 0.6, DRAFT), WorkLimit, "too many steps: choose smaller a"),
         (lambda: lock_boundary_f(0.5, -0.5, DRAFT), InvalidParameter, "no f between"),
         (lambda: lock_boundary_f(0.0, 0.5, DRAFT), InvalidParameter, "no f between"),
         (lambda: lock_boundary_f(1e6, 1e8, DRAFT), WorkLimit, "choose smaller a"),

@@ -7,21 +7,17 @@ import numpy as np
 
 import oracle
 from hess_mechanics import level, solve
-from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest, omega_of_energy
+from hess_mechanics.chaplygin_ball.energy_surface import Strip
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.scattering import ball_scattering
-from hess_mechanics.chaplygin_ball.section import ball_section, seeds, state_at
-from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, OutsideRegion, WorkLimit
 
-__all__ = ["refusals", "rows"]
+__all__ = ["rows"]
 
 TENSOR = (2.0, 1.0, 0.3, 0.5)
 FIELD = np.array([0.3, -0.5, 1.0])
 OMEGA, GAMMA = (0.8, -0.4), (0.6, 0.0, 0.8)
 START = (*OMEGA, *GAMMA)
 PHASES = np.linspace(0.0, 2.0 * math.pi, 32, endpoint=False)
-
-ROUNDED = "the distance 1e-7 is rounded to 1e-16, which changes the phase by 1e-9"
 
 
 def with_field(D, b=1.0, tensor=TENSOR):
@@ -68,15 +64,6 @@ def harmonics_error(body, theta, h, distance, cosine, name):
     return float(max(abs(mean - cosine * math.cos(theta)), abs(abs(wave) - amplitude), np.max(np.abs(rest))))
 
 
-def a_scattering(Row, name, body, theta, h, distance, cosine, **options):
-    return Row(
-        f"ball, θ⁺: {name}",
-        "closed form of the free Suslov problem",
-        lambda name: harmonics_error(body, theta, h, distance, cosine, name),
-        **options,
-    )
-
-
 def in_the_strip(Row, name, body, h, span, **options):
     """Return the distance of |ω|² from the strip, and of E from h, relative to h."""
 
@@ -111,7 +98,15 @@ def rows(Row, an_orbit, drift):
         )
 
     # cos χ of the free Suslov problem, by an independent computation with 40 digits.
-    slanting, steep = (1.0, 1.5, 0.7, 1.2), (1.64, 1.0, 0.0, 0.8)
+    def theta_plus(name, theta=1.0, h=10.0, distance=1e-7, tensor=(1.0, 1.5, 0.7, 1.2), cosine=-0.47889450360074):
+        return Row(
+            f"ball, θ⁺: {name}",
+            "closed form of the free Suslov problem",
+            lambda name: harmonics_error(BallBody(*tensor, 0.0), theta, h, distance, cosine, name),
+            floor=1e-9,
+            because="the distance 1e-7 is rounded to 1e-16, which changes the phase by 1e-9",
+        )
+
     return [
         ball("𝒟 = 0", START, with_field(0.0), [1.0, 5.0, 20.0]),
         ball("𝒟 = 1e-6", START, with_field(1e-6), [1.0, 5.0, 20.0]),
@@ -121,8 +116,6 @@ def rows(Row, an_orbit, drift):
         # The energy allows ω = √(2E/I22) = 880 for γ along ω: that is the unit in which the state is O(1).
         ball("𝒟 = 1e6, γ3 = 0", (*OMEGA, 0.6, 0.8, 0.0), with_field(1e6), [1.0, 5.0], speed=880.0),
         near("1e-300 off the line", 1.0, 1e-300, [1.0, 1085.0, 1100.0]),
-        near("1e-300 off the line, the other side", 1.0, -1e-300, [1.0, 1085.0, 1100.0]),
-        near("1e-300 off the line, I23 = 5", 5.0, 1e-300, [1.0, 216.0, 220.0]),
         near("1e-12 off the line", 1.0, 1e-12, [1.0, 43.0, 60.0]),
         ball("on the line", (1.0, 0.0, *GAMMA), (2.0, 1.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0), [1.0, 20.0]),
         ball("I11/I22 = 1e6", (1e-3, 1.0, *GAMMA), with_field(2.0, tensor=(1e6, 1.0, 0.3, 0.5)), [1.0, 5.0]),
@@ -130,9 +123,7 @@ def rows(Row, an_orbit, drift):
         ball("I22 = 1e-6, 𝒟 = 1e-6", (0.1, 1.0, *GAMMA), with_field(1e-6, 1.0, (1.0, 1e-6, 0.5, 1e-3)), [1e-3, 0.02]),
         ball("I13 = I23 = 0", START, with_field(2.0, tensor=(2.0, 1.0, 0.0, 0.0)), [1.0, 5.0, 20.0]),
         ball("backward", START, with_field(2.0), [-1.0, -5.0, -20.0]),
-        ball("backward, no field", START, free(2.0), [-1.0, -10.0, -100.0]),
         ball("γ = (0, 0, 1)", (*OMEGA, 0.0, 0.0, 1.0), with_field(2.0), [1.0, 5.0, 20.0]),
-        ball("γ = (0, 0, −1)", (*OMEGA, 0.0, 0.0, -1.0), with_field(2.0), [1.0, 5.0, 20.0]),
         ball("γ3 = 0", (*OMEGA, 0.6, -0.8, 0.0), with_field(2.0), [1.0, 5.0, 20.0]),
         ball("ω = 0", (0.0, 0.0, *GAMMA), with_field(2.0), [1.0, 5.0, 20.0]),
         ball("ω = 1e-300", (1e-300, 1e-300, *GAMMA), with_field(2.0), [1.0, 5.0]),
@@ -142,116 +133,16 @@ def rows(Row, an_orbit, drift):
         ball("ω = 1e-6", (0.8e-6, -0.4e-6, *GAMMA), free(2.0), [1e6, 1e8]),
         ball("t = 1e-6", START, with_field(2.0), [1e-6]),
         ball("t = 300, no field", START, free(2.0), [300.0]),
-        drift("t = 1e5, no field", SYSTEM, START, free(2.0), 1e5, floor=1e-11),
         drift("t = 3e4", SYSTEM, START, with_field(2.0), 3e4, floor=1e-11),
         drift("t = −1e3, 𝒟 = 1e6", SYSTEM, START, with_field(1e6), -1e3, floor=1e-11),
         in_the_strip(Row, "𝒟 = 1e6", BallBody(2.0, 1.0, 0.3, 0.5, 1e6), 1.0, 20.0),
         in_the_strip(Row, "𝒟 = 1e-6", BallBody(2.0, 1.0, 0.3, 0.5, 1e-6), 1.0, 20.0),
         in_the_strip(Row, "h = 1e6", BallBody(2.0, 1.0, 0.3, 0.5, 2.0), 1e6, 0.02),
         in_the_strip(Row, "h = 1e-6", BallBody(2.0, 1.0, 0.3, 0.5, 2.0), 1e-6, 2e4),
-        a_scattering(
-            Row, "𝒟 = 0", BallBody(*slanting, 0.0), 1.0, 10.0, 1e-7, -0.47889450360074, floor=1e-9, because=ROUNDED
-        ),
-        a_scattering(
-            Row,
-            "𝒟 = 0, θ⁻ = 0",
-            BallBody(*slanting, 0.0),
-            0.0,
-            10.0,
-            1e-7,
-            -0.47889450360074,
-            floor=1e-9,
-            because=ROUNDED,
-        ),
-        a_scattering(
-            Row,
-            "𝒟 = 0, θ⁻ = π, δ = −1e-7",
-            BallBody(*slanting, 0.0),
-            math.pi,
-            10.0,
-            -1e-7,
-            -0.47889450360074,
-            floor=1e-9,
-            because=ROUNDED,
-        ),
-        a_scattering(
-            Row, "𝒟 = 0, complete reversal", BallBody(*steep, 0.0), 1.0, 10.0, 1e-7, -1.0, floor=1e-9, because=ROUNDED
-        ),
-        a_scattering(
-            Row,
-            "𝒟 = 0, h = 1e6",
-            BallBody(*slanting, 0.0),
-            1.0,
-            1e6,
-            1e-7,
-            -0.47889450360074,
-            floor=1e-9,
-            because=ROUNDED,
-        ),
-        a_scattering(
-            Row,
-            "𝒟 = 0, h = 1e-6",
-            BallBody(*slanting, 0.0),
-            1.0,
-            1e-6,
-            1e-7,
-            -0.47889450360074,
-            floor=1e-9,
-            because=ROUNDED,
-        ),
-    ]
-
-
-def refusals(Refusal):
-    """Return the refused inputs with their errors."""
-    plain, slanting = BallBody(2.0, 1.0, 0.0, 0.0, 2.0), BallBody(2.0, 1.0, 0.3, 0.5, 2.0)
-    slow, heavy = BallBody(2.0, 1.0, 1e-9, 0.0, 2.0), BallBody(2.0, 1.0, 0.3, 0.5, 2.0, 0.3, -0.5, 1.0)
-
-    def orbit(name, parameters, error, words, times=(1.0,)):
-        return Refusal(f"ball, {name}", lambda grade: solve(SYSTEM.at(parameters), START, times, grade), error, words)
-
-    def theta_plus(name, body, distance, error, words):
-        return Refusal(
-            f"ball, θ⁺ {name}", lambda grade: ball_scattering(body, 1.0, PHASES, 1.0, distance, grade), error, words
-        )
-
-    def plainly(name, request, error, words):
-        return Refusal(f"ball, {name}", lambda _: request(), error, words)
-
-    return [
-        orbit("𝒟 = −1e-12", with_field(-1e-12), InvalidParameter, "𝒟 = -1e-12.*choose 𝒟 ≥ 0"),
-        orbit("𝒟 = 1e300", with_field(1e300), InvalidParameter, "𝒟 is too large: choose it below"),
-        orbit("I11 = 0", with_field(1.0, tensor=(0.0, 1.0, 0.3, 0.5)), NotPositiveDefinite, "choose I11 > 0"),
-        orbit(
-            "I11/I22 = 1e300", with_field(1.0, tensor=(1e300, 1.0, 0.3, 0.5)), InvalidParameter, "choose a ratio below"
-        ),
-        orbit("t = 1e7", with_field(2.0), WorkLimit, "choose a shorter time span", [1e7]),
-        plainly("a body with 𝒟 = −1", lambda: BallBody(1.0, 1.0, 0.1, 0.1, -1.0), InvalidParameter, "choose 𝒟 ≥ 0"),
-        plainly(
-            "ξ for I13 = I23 = 0",
-            lambda: line_of_rest(plain),
-            InvalidParameter,
-            "no line of equilibria. Choose I13 or I23 other than 0",
-        ),
-        plainly("strip with h = 0", lambda: Strip(slanting, 0.0), InvalidParameter, "choose h > 0"),
-        plainly("strip with a field", lambda: Strip(heavy, 1.0), InvalidParameter, "set b1 = b2 = b3 = 0"),
-        plainly(
-            "E below (b, γ)",
-            lambda: omega_of_energy(heavy, (1.0, 0.0), (0.0, 0.0, 1.0), 0.9),
-            OutsideRegion,
-            "has the energy 1: choose h above it",
-        ),
-        theta_plus("for I13 = I23 = 0", plain, 1e-4, InvalidParameter, "Choose I13 or I23 other than 0"),
-        theta_plus("from the line itself", slanting, 0.0, InvalidParameter, "choose it from 1e-10 to 0.1"),
-        theta_plus("for I13 = 1e-9", slow, 1e-7, WorkLimit, "choose larger I13 or I23, or a smaller 𝒟"),
-        plainly(
-            "section with E below the plane", lambda: seeds(heavy, -0.6, 3), InvalidParameter, "choose h above -0.58"
-        ),
-        plainly("section with δ = 0", lambda: state_at(heavy, 1.0, 0.0, 0.0), InvalidParameter, "between 0 and π"),
-        Refusal(
-            "ball, section of 1e7 crossings",
-            lambda grade: ball_section(heavy, 1.0, seeds(heavy, 1.0, 1), 10**7, grade),
-            WorkLimit,
-            "choose fewer of them",
-        ),
+        theta_plus("𝒟 = 0"),
+        theta_plus("𝒟 = 0, θ⁻ = 0", theta=0.0),
+        theta_plus("𝒟 = 0, θ⁻ = π, δ = −1e-7", theta=math.pi, distance=-1e-7),
+        theta_plus("𝒟 = 0, complete reversal", tensor=(1.64, 1.0, 0.0, 0.8), cosine=-1.0),
+        theta_plus("𝒟 = 0, h = 1e6", h=1e6),
+        theta_plus("𝒟 = 0, h = 1e-6", h=1e-6),
     ]

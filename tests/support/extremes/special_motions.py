@@ -158,14 +158,11 @@ def rows(Row):
         ),
         leak_row(Row, "f = 0", 20.0, 0.0, "2π|a|", lambda h, f: 2.0 * math.pi * abs(GESS1.hess.a)),
         pendulum_row(Row, "h = −1 + 1e-4", 50.0, h=-1.0 + 1e-4),
-        pendulum_row(Row, "h = 0.3", 50.0, h=0.3),
         pendulum_row(Row, "h = 1, to the top", 20.0, h=1.0, because=SADDLE),
         pendulum_row(Row, "h = 1 − 1e-6", 30.0, h=1.0 - 1e-6, because=SADDLE),
-        pendulum_row(Row, "h = 1 + 1e-6", 30.0, h=1.0 + 1e-6, because=SADDLE),
         pendulum_row(Row, "h = 1e4", 1.0, h=1e4),
         pendulum_row(Row, "t = 500", 500.0, h=0.3),
         pendulum_row(Row, "l = 1e-3", 30.0, l=1e-3),
-        pendulum_row(Row, "l = π − 1e-3", 30.0, l=math.pi - 1e-3),
         pendulum_row(Row, "a = 1e-6", 30.0, (1.0, 1.0 + 1e-6, 1.0 + 2e-6)),
         pendulum_row(Row, "a = 9 (not a body)", 30.0, (1.0, 10.0, 1000.0)),
         pendulum_row(Row, "I1 > I3", 30.0, (1.0, 0.625, 0.375), mu=9.975),
@@ -174,7 +171,6 @@ def rows(Row):
         arc_row(Row, "b = 1e-10", weak, (0.3, -0.2), (1.0, 0.5)),
         arc_row(Row, "b = 1e-10, from rest, T = 6e5", weak, (0.3, -0.2), (0.0, 0.0)),
         arc_row(Row, "|p| = 1e3", plane, (0.3, -0.2), (1e3, 10.0)),
-        arc_row(Row, "b = 100", PlaneBody(1.5, 1.0, 100.0, 70.0), (0.3, -0.2), (1.0, 0.5)),
         arc_row(Row, "1e-12 inside the edge", plane, (0.0, -math.sqrt(1.0 - 1e-11)), (1.0, 0.5)),
         arc_row(
             Row, "1e-6 from the asymptotic orbit", round_body, *beside_asymptotic(1e-6), floor=1e-9, because=SADDLE

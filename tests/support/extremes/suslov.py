@@ -8,13 +8,11 @@ import numpy as np
 
 import oracle
 from hess_mechanics import SuslovBody, f_max, level, section
-from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
-from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
 from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.section import SuslovSection
-from hess_mechanics.suslov_hess.rotation_number import MAX_POINTS, Torus, closed_after, perturbed_rotation, values_at
+from hess_mechanics.suslov_hess.rotation_number import perturbed_rotation, values_at
 
-__all__ = ["refusals", "rows"]
+__all__ = ["rows"]
 
 WHOLE = ((-math.pi, 0.0), (math.pi, math.pi))
 
@@ -161,51 +159,4 @@ def rows(Row):
         ),
         shifted(Row, "ε = 0.33", (0.5, 0.5, 0.5), 0.33),
         shifted(Row, "ε = −0.33, f < 0", (0.5, 0.5, -0.5), -0.33),
-    ]
-
-
-def refusals(Refusal):
-    """Return the refused inputs with their errors."""
-    body = body_of()
-
-    def plainly(name, request, words, error=InvalidParameter):
-        return Refusal(name, lambda _: request(), error, words)
-
-    def tori(name, request, words, error=InvalidParameter):
-        return Refusal(f"rotation number, {name}", request, error, words)
-
-    start = SuslovSection(body, 0.3, 3).state_at(-0.3, 1.0)
-    return [
-        plainly("Suslov section, γ4 = 0", lambda: SuslovSection(body, 0.0, 4).surface, "choose 1, 2 or 3"),
-        plainly(
-            "Suslov section, E below the plane",
-            lambda: SuslovSection(body, SuslovSection(body, 0.0, 3).lowest_energy, 3).state_at(0.7, 1.0),
-            "choose a larger energy",
-        ),
-        plainly("Suslov section, δ = π", lambda: SuslovSection(body, 1.0, 3).state_at(0.7, math.pi), "0 < δ < π"),
-        plainly("Suslov section, E = ∞", lambda: SuslovSection(body, math.inf, 3).states_at(0.7, 1.0), "E is not"),
-        plainly("Suslov section, a body with I22 = 0", lambda: body_of(I22=0.0), "choose", NotPositiveDefinite),
-        Refusal(
-            "Suslov section of 1e6 crossings",
-            lambda grade: SuslovSection(body, 0.0, 3).points([start], 10**6, True, grade),
-            WorkLimit,
-            "number of crossings",
-        ),
-        plainly(
-            "Lyapunov exponent, t = 1e7",
-            lambda: lyapunov_exponent(body, start, 1e7),
-            "choose a shorter time span",
-            WorkLimit,
-        ),
-        plainly("Lyapunov exponent, t = 0", lambda: lyapunov_exponent(body, start, 0.0), "finite number other than 0"),
-        tori(
-            "1e6 + 1 tori",
-            lambda grade: values_at(0.5, np.full(MAX_POINTS + 1, 0.5), 0.1, grade),
-            "choose fewer points",
-            WorkLimit,
-        ),
-        tori("h = 1e13", lambda grade: values_at(0.5, 1e13, 0.1, grade), "1e12"),
-        tori("a = 1.1e6", lambda grade: values_at(1.1e6, 0.5, 0.1, grade), "a = "),
-        tori("ε = 1/3", lambda grade: perturbed_rotation(0.5, 0.5, 0.1, 1.0 / 3.0, grade), "choose .ε. < 1/3"),
-        tori("q = 0", lambda grade: closed_after(Torus(0.5, 0.5, 0.1), 0, grade), "between 1 and 1000"),
     ]
