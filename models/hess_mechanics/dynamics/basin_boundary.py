@@ -1,4 +1,4 @@
-"""How much of a picture of basins hangs on its cells: those that a finer grid would change lie along the boundary."""
+"""Discretisation error of a picture of basins: a finer grid changes the cells along the boundary."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ __all__ = ["unsure"]
 
 
 def unsure(cells: Array) -> float:
-    """About which share of the cells (m, n) twice as many along each side would change, from the cells themselves.
+    """Estimate the fraction of the area of the cells (m, n) that a grid twice as fine would assign to another basin.
 
-    cells : a number for each basin.  A straight boundary passes through a cell for each pair of neighbours that differ,
-    more or less, and takes a quarter of the area of such a cell from the basin of its centre.
+    cells : number of the basin at the centre of each cell.  A straight boundary passes through about one cell for each
+    pair of neighbours that differ; about a quarter of that cell lies in another basin than its centre.
     """
     across, up = np.abs(np.diff(cells, axis=1)) > 0, np.abs(np.diff(cells, axis=0)) > 0
     return 0.25 * float(across.sum() + up.sum()) / cells.size

@@ -1,4 +1,4 @@
-"""Weighted Birkhoff averages along orbits of a section: rotation numbers, and whether averages converge at all."""
+"""Weighted Birkhoff averages along orbits of a section: rotation numbers and a test of convergence."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from hess_mechanics.numerics.results import Array
 __all__ = ["agreeing_digits", "rotation_number"]
 
 _ALL_ROUND = 0.85
-"""Turns from one point to the next that scatter by more have no direction about which to count them."""
+"""Largest spread of the turns between successive points, in turns, for which a rotation number is defined."""
 
 
 def weighted_mean(values: Array) -> float:
-    """Mean with the weight exp(−1/(t(1 − t))), which converges super-polynomially for quasi-periodic sequences."""
+    """Return the mean with weight exp(−1/(t(1 − t))), which converges super-polynomially on quasi-periodic sequences."""
     t = (np.arange(values.size) + 0.5) / values.size
     weight = np.exp(-1.0 / (t * (1.0 - t)))
     return float(weight @ values / weight.sum())
 
 
 def agreeing_digits(series: Array) -> float:
-    """Return to how many decimal digits weighted averages over the two halves of an orbit agree.
+    """Return the number of decimal digits to which weighted averages over the two halves of an orbit agree.
 
-    On quasi-periodic orbits with smooth invariant curves the averages converge faster than any power of n, on chaotic
-    ones like 1/√n, so that 2000 crossings agree to more than four digits or to about one.
+    On a quasi-periodic orbit with a smooth invariant curve the averages converge faster than any power of n, on a
+    chaotic one like 1/√n.  For 2000 crossings they agree to more than four digits or to about one.
 
     Parameters
     ----------
@@ -48,11 +48,11 @@ def agreeing_digits(series: Array) -> float:
 
 
 def rotation_number(points: Array, centre: tuple[float, float] | None = None) -> tuple[float, float]:
-    """Rotation number of an orbit (n, 2) in turns per point, in (−½, ½], and its estimated error.
+    """Return the rotation number of an orbit (n, 2), in turns per point in (−½, ½], and its estimated error.
 
-    centre : of the turns; without one, the first coordinate is the angle.  The error is by how
-    much the orbit and its halves differ, large where it is no invariant curve, and ½ where the turns cannot be counted.
-    Raises `InvalidParameter` for fewer than five points.
+    centre : point about which turns are counted; None if the first coordinate is the angle.  The error is the spread of
+    the values for the orbit and its two halves.  It is large if the orbit has no invariant curve, and ½ if the turns
+    cannot be counted.  Raises `InvalidParameter` for fewer than five points.
     """
     if len(points) < 5:
         raise InvalidParameter(
@@ -68,11 +68,11 @@ def rotation_number(points: Array, centre: tuple[float, float] | None = None) ->
     turns = middle + np.asarray(_within_half(turns - middle))
     half = turns.size // 2
     means = [weighted_mean(some) for some in (turns, turns[:half], turns[half:])]
-    # Turns all round the circle may each be one more or one less: nothing is known then.
+    # Turns spread over the whole circle are ambiguous by ±1, so nothing is known.
     error = 0.5 if np.ptp(turns) > _ALL_ROUND else float(np.ptp(means))
     return float(_within_half(means[0])), error
 
 
 def _within_half(turns: Array | float) -> Array | float:
-    """The same up to whole turns, in (−½, ½]."""
+    """Return turns modulo 1 in (−½, ½]."""
     return turns - np.ceil(turns - 0.5)

@@ -13,7 +13,7 @@ Window = tuple[tuple[float, float], tuple[float, float]]
 
 
 def centres(low: float, high: float, count: int) -> Array:
-    """Of `count` equal cells between two ends, (count,)."""
+    """Return the centres of `count` equal cells between two ends, (count,)."""
     return low + (np.arange(count) + 0.5) * (high - low) / count
 
 
@@ -22,11 +22,13 @@ _PLASTIC = np.array([[0.7548776662466927], [0.5698402909980532]])
 
 
 def evenly(count: int, origin: float = 0.0) -> Array:
-    """Return points (2, count) of the unit square: each beginning of them fills it evenly (Roberts, 2018).
+    """Return the R2 low-discrepancy sequence (2, count) in the unit square (Roberts, 2018).
+
+    Any initial segment of it fills the square evenly.
 
     Parameters
     ----------
-    count : how many.
+    count : number of points.
     origin : both coordinates of the point before the first.
     """
     return np.asarray((origin + _PLASTIC * np.arange(1, count + 1)) % 1.0)

@@ -1,4 +1,4 @@
-"""One orbit with twice the digits of a double: what errors of the levels are measured against."""
+"""An orbit in double-double arithmetic, the reference against which errors of the levels are measured."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ["Doubled", "doubled"]
 
 _MOST_STEPS = 100_000
 _AT_ONCE = 20
-"""Times between which nobody is asked whether to go on."""
+"""Number of times integrated between two calls of `go_on`."""
 
 
 @dataclass(frozen=True)
@@ -42,10 +42,11 @@ class Doubled:
 
 
 def doubled(body: Body, state: Sequence[float] | Array, times: Sequence[float] | Array) -> Doubled:
-    """Return the orbit from just this `state` (d,), with just these parameters, at times (n,) monotonic from 0.
+    """Return the orbit from `state` (d,) at times (n,), monotonic from 0, in double-double arithmetic.
 
-    A Taylor series of order 36 in pairs of doubles (`numerics.doubled_kernels`), of some 40 µs for each step.
-    Nothing is rescaled by numbers that would round it.  Raises `InvalidParameter`, `WorkLimit`.
+    The integrator is a Taylor series of order 36 in pairs of doubles (`numerics.doubled_kernels`), about 40 µs per
+    step.  State and parameters are rescaled only by powers of two, which is exact.
+    Raises `InvalidParameter`, `WorkLimit`.
 
     >>> from hess_mechanics import level, solve, systems
     >>> from hess_mechanics.dynamics.doubled import doubled

@@ -1,7 +1,7 @@
-"""Orbit diagrams of a section over a parameter, with their doublings, and what there is at one value of it.
+"""Orbit diagrams of a section over a parameter, period doublings, and the dynamics at one value of it.
 
-A family gives the section at each value: what stays beside the parameter, an energy or its height above the lowest, is
-for the family to say.
+A family gives the section at each value of the parameter; it also decides what is held fixed, for example the energy
+or its height above the minimum.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def diagram(
     backward: bool,
     level: Accuracy,
 ) -> Diagram:
-    """`orbit_diagram` of the sections of a family."""
+    """Return the orbit diagram of the sections of a family; parameters as in `orbit_diagram`."""
     level = as_level(level)
     return diagram_over(
         lambda value: ReturnMap(family(value), level, backward), name, values, start, transient, kept, follow, again
@@ -48,7 +48,10 @@ def diagram(
 def doublings(
     family: SectionFamily, name: str, at: float, places: tuple[Place, ...], end: float, most: int
 ) -> Cascade | str:
-    """The cascade of the orbit with these places at a value of the parameter, towards another; or why there is none."""
+    """Return the period-doubling cascade of a periodic orbit, or the reason why there is none.
+
+    places : points of the orbit on the section at the value `at` of the parameter; end : last value followed.
+    """
 
     def map_at(value: float) -> ReturnMap:
         return ReturnMap(family(value), PRECISE)
@@ -63,14 +66,14 @@ def doublings(
 
 @dataclass(frozen=True)
 class Sets:
-    """Where an orbit is after its transient (n, d), forward and backward in time, empty where it does not come back."""
+    """Points (n, d) of an orbit after its transient, forward and backward in time; empty if it does not return."""
 
     attractor: Array
     repeller: Array
 
 
 def sets_of(section: PoincareSection, start: Place, transient: int, kept: int, level: Accuracy) -> Sets:
-    """Of the orbit from a place.  Raises `OutsideRegion`, `WorkLimit`."""
+    """Return the attractor and repeller that the orbit from `start` reaches.  Raises `OutsideRegion`, `WorkLimit`."""
     level = as_level(level)
     found = (
         ReturnMap(section, level, backward).orbit(np.array(start), transient + kept)[transient:]
@@ -81,17 +84,14 @@ def sets_of(section: PoincareSection, start: Place, transient: int, kept: int, l
 
 @dataclass(frozen=True)
 class AtState:
-    """The kind of a motion, and of the dynamics about it; None where an orbit is not seen to come back."""
+    """Regime of a motion, and the dynamics near it; None if the orbit does not return to the section."""
 
     regime: Regime
     dynamics: Dynamics | None
 
 
 def at_state(section: PoincareSection, start: Place, transient: int, kept: int, t: float, level: Accuracy) -> AtState:
-    """Return both for the orbit from a place; t : the time of the averages.
-
-    Raises `OutsideRegion`, `WorkLimit`.
-    """
+    """Classify the orbit from `start`; t : averaging time.  Raises `OutsideRegion`, `WorkLimit`."""
     level = as_level(level)
     map_ = ReturnMap(section, level)
     found = regime(map_, start, transient, min(kept, 400), t)
@@ -102,7 +102,7 @@ def at_state(section: PoincareSection, start: Place, transient: int, kept: int, 
 
 
 def nearest_place(diagrams: Sequence[Diagram], i: int, value: float, y: float) -> tuple[float, Place] | None:
-    """Of the places over the value nearest to `value` that whose coordinate i is nearest to y; None if none is."""
+    """Return the value nearest to `value` that has points, and its point with coordinate i nearest to y; or None."""
     found: list[tuple[float, float, float, Place]] = []
     for one in diagrams:
         there = [k for k in range(len(one.values)) if len(one.places[k])]

@@ -1,6 +1,7 @@
-"""Numbers to run a plain field over, in balls: polynomials with a bound of what they are off, and dual numbers.
+"""Number types in ball arithmetic on which a vector field can be evaluated: Taylor models and dual numbers.
 
-Both are used by `tube`, and know just the operations that fields have.
+A Taylor model is a polynomial with a bound of its error.  `tube` uses both types; they have only the operations that
+fields use.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ __all__ = ["Along", "Slope"]
 
 
 class _Number(ABC):
-    """What follows from sums and products."""
+    """Base class: differences and reflected operations, derived from sums and products."""
 
     __slots__ = ()
 
@@ -41,9 +42,9 @@ class _Number(ABC):
 
 
 class Along(_Number):
-    """A function of s in [0, δ]: a polynomial, and a bound of how far it is off there.
+    """A Taylor model: a function of s in [0, δ] as a polynomial and a bound of its error there.
 
-    Polynomials have up to twice `terms` coefficients; what goes beyond goes into the bound.
+    Polynomials have at most 2 `terms` coefficients; higher terms are added to the bound.
     """
 
     __slots__ = ("_most", "delta", "polynomial", "rest", "terms")
@@ -54,7 +55,7 @@ class Along(_Number):
 
     @classmethod
     def number(cls, value: Any, delta: ArbBall, terms: int) -> Along:
-        """A constant."""
+        """Return a constant."""
         from flint import arb_poly
 
         return cls(arb_poly([value]), delta, terms)
@@ -71,13 +72,13 @@ class Along(_Number):
 
     @property
     def most(self) -> ArbBall:
-        """A bound of the polynomial."""
+        """A bound of |polynomial| on [0, δ]."""
         if self._most is None:
             self._most = _size(self.polynomial.coeffs(), self.delta)
         return self._most
 
     def distance(self, other: ArbBall) -> ArbBall:
-        """A bound of the distance from a polynomial."""
+        """Return a bound of the distance from a polynomial on [0, δ]."""
         found = _size((self.polynomial - other).coeffs(), self.delta)
         return found if self.rest is None else found + self.rest
 
@@ -115,14 +116,14 @@ class Along(_Number):
         return found
 
     def inverse(self) -> Along:
-        """1/b: from a series q of it, 1/b = q/(1 − η), η = 1 − qb.  Raises `ZeroDivisionError`."""
+        """Return 1/b from its truncated series q: 1/b = q/(1 − η), η = 1 − qb.  Raises `ZeroDivisionError`."""
         from flint import arb, arb_poly, arb_series, ctx
 
         before, ctx.cap = ctx.cap, self.terms
         try:
             q = arb_poly([c.mid() for c in (1 / arb_series(self.polynomial.coeffs()[: self.terms])).coeffs()])
         except ValueError:
-            # The first coefficient may be 0 or is not finite.
+            # The first coefficient may be zero, or it is not finite.
             raise ZeroDivisionError("a divisor that may vanish where a step begins") from None
         finally:
             ctx.cap = before
@@ -140,7 +141,7 @@ class Along(_Number):
 
 
 def _size(coefficients: list[ArbBall], delta: ArbBall) -> ArbBall:
-    """Σ|c_k| δ^k."""
+    """Return Σ|c_k| δ^k."""
     from flint import arb_poly
 
     return arb_poly([abs(c) for c in coefficients])(delta).abs_upper()
@@ -156,7 +157,7 @@ class Slope(_Number):
 
     @classmethod
     def of(cls, value: ArbBall, i: int, count: int) -> Slope:
-        """The i-th of so many variables."""
+        """Return the i-th of `count` variables."""
         return cls(value, [value * 0 + (1 if i == j else 0) for j in range(count)])
 
     def __neg__(self) -> Slope:

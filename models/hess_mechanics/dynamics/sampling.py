@@ -1,7 +1,7 @@
-"""Where to sample an orbit so that straight lines between the samples look like the curve.
+"""Sampling times for which the polyline through the samples looks like the curve.
 
-Between two samples Δt apart a curve x(t) stays within |ẍ| Δt²/8 of its chord, at every time: that bounds the error of
-the line drawn and of a point that moves along it.  So the density of samples is √(|ẍ|/(8 sagitta)).
+Between two samples Δt apart, a curve x(t) stays within |ẍ| Δt²/8 of its chord at every time.  This bounds the error of
+the drawn line and of a point that moves along it; hence the density of samples is √(|ẍ|/(8 sagitta)).
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from hess_mechanics.numerics.results import Array, Orbit
 __all__ = ["HALF_A_PIXEL", "MOST_SAMPLES", "PIXELS", "SAGITTA", "sample_times", "sampled_orbit"]
 
 PIXELS = 600.0
-"""Width, in pixels, of the pictures that orbits are sampled for; a wider one shows proportionally more."""
+"""Width, in pixels, of the pictures for which orbits are sampled; in a wider picture errors grow in proportion."""
 SAGITTA = 0.25
 """The largest distance between an orbit and its chords in those pictures, in pixels."""
 MOST_SAMPLES = 4000
-"""Of one orbit in those pictures."""
+"""Maximum number of samples of one orbit in those pictures."""
 HALF_A_PIXEL = 1.0 / PIXELS
 """Half a pixel where the state is O(1) and spans the picture from −1 to 1."""
 
@@ -33,10 +33,10 @@ _SAMPLES_PER_STEP = 16
 
 
 def sample_times(body: Body, state: Array, span: float, weights: Array, sagitta: float, most: int) -> Array:
-    """At most `most` times from 0 to `span` (not 0), both included, at which to sample the orbit from `state`.
+    """Return at most `most` times from 0 to `span` (nonzero), both included, at which to sample the orbit from `state`.
 
     weights (d,) : pixels per unit of each variable; sagitta : largest distance between curve and chord, in pixels.
-    Where the orbit cannot be computed the times are even; computing the orbit itself then raises the error.
+    If the orbit cannot be computed, the times are evenly spaced, and computing the orbit at them raises the error.
     Raises `InvalidParameter`.
     """
     problem = Problem.of(body, np.array(state, float, ndmin=2))
@@ -76,9 +76,9 @@ def sample_times(body: Body, state: Array, span: float, weights: Array, sagitta:
 def sampled_orbit(
     body: Body, state: Sequence[float], span: float, weights: Sequence[float], level: Accuracy, most: int = MOST_SAMPLES
 ) -> Orbit:
-    """The orbit from `state` over `span`, sampled as `sample_times` says for pictures of these weights, in pixels.
+    """Return the orbit from `state` over `span` at the times that `sample_times` chooses.
 
-    Raises as `solve`.
+    weights (d,) : pixels per unit of each variable.  Raises the same errors as `solve`.
     """
     times = sample_times(body, np.array(state), span, np.array(weights), SAGITTA, most)
     return solve(body, state, times, level)

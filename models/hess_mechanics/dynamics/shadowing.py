@@ -1,8 +1,8 @@
-"""Up to which crossing a computed orbit of a section is the orbit of its start.
+"""Number of crossings for which a computed orbit of a section follows the exact orbit of its initial point.
 
-Where neighbours part, errors grow e-fold in some number of crossings, whatever the steps.  A chaotic orbit is then soon
-another one: its points still lie on the section of its integrals, near an orbit from a start that is a little off
-(shadowing), but they are not where the orbit of this start crosses.  Two runs of different accuracy tell up to where.
+If neighbouring orbits separate exponentially, so do errors, however small the steps.  A computed chaotic orbit soon
+leaves the exact orbit of its initial point.  Its points still lie on the section, near the exact orbit of a slightly
+different initial point (shadowing).  Comparing two runs of different accuracy shows how many crossings are correct.
 """
 
 from __future__ import annotations
@@ -18,16 +18,17 @@ __all__ = ["HALF_A_PIXEL", "away_from", "errors_in_pixels", "right_crossings", "
 
 HALF_A_PIXEL = 0.5
 _LOST, _CHAOTIC, _NOTHING = 30.0, 30.0, 1e-6
-"""Pixels by which an orbit is another one; by what the errors of the second half of an orbit exceed those of the first,
-where neighbours part exponentially; and pixels that are round-off."""
+"""An error in pixels beyond which an orbit counts as a different one; the ratio of the errors of the second half of an
+orbit to those of the first that indicates exponential separation; and an error in pixels that is only round-off."""
 
 
 def errors_in_pixels(
     orbit: Array, exact: Array, pixels: Sequence[float], periods: Sequence[float] = (math.inf,) * 2
 ) -> Array:
-    """Distances (m,) of the points of an orbit (n, 2) from those of a more exact run, as far as both go.
+    """Return distances (m,), in pixels, between the points of an orbit (n, 2) and those of a more accurate run.
 
-    pixels : per unit of each coordinate; periods : of each, ∞ for one that is no angle.
+    m is the length of the shorter run.  pixels : pixels per unit of each coordinate; periods : period of each
+    coordinate, ∞ if it is not an angle.
     """
     both = min(len(orbit), len(exact))
     away = np.asarray(orbit[:both] - exact[:both])
@@ -38,13 +39,13 @@ def errors_in_pixels(
 
 
 def torn_away(away: Array) -> bool:
-    """Whether chaos makes an orbit another one, from its errors (n,) in pixels, one after the other."""
+    """Return True if the errors (n,) along an orbit, in pixels, show that chaos makes it a different orbit."""
     early, late = (float(part.max(initial=0.0)) for part in np.array_split(away, 2))
     return max(early, late) >= _LOST or late > max(_CHAOTIC * early, _NOTHING)
 
 
 def away_from(points: Array, curve: Array) -> Array:
-    """Distances (m,) of points (m, 2) from a broken line (n, 2), or from a single point (1, 2)."""
+    """Return the distances (m,) of points (m, 2) from a polyline (n, 2), or from a single point (1, 2)."""
     if len(curve) == 1:
         return np.asarray(np.linalg.norm(points - curve, axis=1), float)
     start, along = curve[:-1], np.diff(curve, axis=0)
@@ -56,7 +57,7 @@ def away_from(points: Array, curve: Array) -> Array:
 def right_crossings(
     orbits: Sequence[Array], exact: Sequence[Array], pixels: Sequence[float], periods: Sequence[float] = (math.inf,) * 2
 ) -> tuple[int, ...]:
-    """For each orbit (n, 2), how many of its first points lie within half a pixel of those of a more exact run."""
+    """Count, for each orbit (n, 2), the first points that lie within half a pixel of those of a more accurate run."""
     counts = []
     for one, other in zip(orbits, exact, strict=True):
         wrong = np.flatnonzero(errors_in_pixels(one, other, pixels, periods) > HALF_A_PIXEL)
@@ -65,5 +66,5 @@ def right_crossings(
 
 
 def typical(counts: Sequence[int]) -> int:
-    """The median of counts, the lower one of two."""
+    """Return the lower median of the counts, 0 if there are none."""
     return sorted(counts)[(len(counts) - 1) // 2] if counts else 0

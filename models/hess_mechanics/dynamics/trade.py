@@ -1,4 +1,4 @@
-"""What accuracy costs: time and error of one computation at each level, measured here and now."""
+"""Trade between speed and accuracy: time and error of a computation at each level, measured on this machine."""
 
 from __future__ import annotations
 
@@ -17,7 +17,11 @@ R = TypeVar("R")
 
 @dataclass(frozen=True)
 class LevelCost:
-    """One level: milliseconds, error, and whether all that was asked for is computed, none left out, no cell larger."""
+    """Cost of a computation at one level.
+
+    level : name; ms : milliseconds; error : distance from the reference result; complete : True if the level computes
+    all points at full resolution.
+    """
 
     level: str
     ms: float
@@ -26,7 +30,7 @@ class LevelCost:
 
 
 def beyond(kind: Computation) -> Plan:
-    """More exact than `reference`, with other steps, and as fine: what errors are measured against."""
+    """Return the plan against which errors are measured: finer tolerance than `reference`, same resolution."""
     finest = PLANS[kind][REFERENCE.name]
     return replace(finest, level=finest.level.tightened())
 
@@ -44,24 +48,24 @@ def _sample(plan: Plan, run: Callable[[Plan], R], error: Callable[[R, R], float]
 def measure(
     kind: Computation, run: Callable[[Plan], R], error: Callable[[R, R], float], repeats: int = 1
 ) -> tuple[LevelCost, ...]:
-    """A computation at each level, from the cheapest on.
+    """Measure a computation at each level, cheapest first.
 
-    error(result, truth) : how far a result is from that of the plan `beyond`; repeats : of which the fastest counts.
-    Raises what `run` raises.
+    error(result, truth) : distance of a result from that of the plan `beyond`; repeats : number of runs, of which the
+    fastest counts.  Raises what `run` raises.
     """
     truth = run(beyond(kind))
     return tuple(_sample(PLANS[kind][name], run, error, truth, repeats) for name in LEVELS)
 
 
 def measure_until(kind: Computation, run: Callable[[Plan], R], error: Callable[[R, R], float], largest: float) -> str:
-    """The level that `enough` finds, without the cost of those above it."""
+    """Return the level that `enough` would choose, without running the levels above it."""
     truth = run(beyond(kind))
     return enough((_sample(PLANS[kind][name], run, error, truth, 1) for name in LEVELS), largest)
 
 
 def enough(samples: Iterable[LevelCost], largest: float) -> str:
-    """The first level that computes all that was asked for with an error of at most `largest`, or the last level.
+    """Return the first complete level whose error is at most `largest`, or the last level.
 
-    More accuracy than that changes nothing that can be seen, if `largest` is what can just not be seen.
+    If `largest` is the largest invisible error, more accuracy would make no visible difference.
     """
     return next((one.level for one in samples if one.complete and one.error <= largest), REFERENCE.name)

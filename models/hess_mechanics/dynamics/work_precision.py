@@ -37,20 +37,20 @@ SLOW_METHODS = ("DOP853", "LSODA")
 _TOLERANCES = (1e-4, 1e-7, 1e-10)
 _LONGEST_FOR_OTHERS = 150.0
 _LONGEST = 5000.0
-"""Time spans, in units of 1/ν, that SciPy's methods and the levels integrate in about a second."""
+"""Longest time spans, in units of 1/ν: SciPy's methods and the levels integrate them in about a second."""
 _LONG_RUN = 0.1
-"""Seconds of a run beside which what disturbs it is short."""
+"""A run longer than this many seconds is not repeated: disturbances are short compared with it."""
 _EVALUATIONS = 1000
-"""Of the plain field, some 10 ms, after which SciPy's methods ask whether to go on."""
+"""Number of evaluations of the field, about 10 ms, between two calls of `go_on` by SciPy's methods."""
 _MOST_STEPS_FOR_OTHERS = 1500
-"""Steps of the level `reference`; for each of them SciPy's methods take about 0.16 ms together."""
+"""Largest number of steps of `reference` for which SciPy's methods run; together they take 0.16 ms per such step."""
 
 
 @dataclass(frozen=True)
 class ErrorGrowth:
     """Errors along one motion, each by level.
 
-    times : (n,); errors : (n,), largest error of any variable where the state is O(1);
+    times : (n,); errors : (n,), largest error of any variable in units in which the state is O(1);
     pixels : (n,), error in the pictures; drifts : relative change (n,) of each integral.
     """
 
@@ -62,7 +62,7 @@ class ErrorGrowth:
 
 @dataclass(frozen=True)
 class WorkPoint:
-    """One way to compute the motion: method, setting, milliseconds, and largest error where the state is O(1)."""
+    """One method at one setting: milliseconds, and the largest error in units in which the state is O(1)."""
 
     method: str
     setting: str
@@ -72,9 +72,9 @@ class WorkPoint:
 
 @lru_cache(maxsize=8)
 def truth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float, samples: int) -> Doubled:
-    """Return the motion with 31 digits at so many even times up to `span`; the last few are remembered.
+    """Return the motion with 31 digits at `samples` evenly spaced times up to `span`; the last few are cached.
 
-    name : of the system.  Raises `InvalidParameter`, `WorkLimit`.
+    name : name of the system.  Raises `InvalidParameter`, `WorkLimit`.
     """
     return doubled(systems()[name].at(parameters), state, np.linspace(0.0, span, samples))
 
@@ -87,9 +87,9 @@ def growth(
     weights: tuple[float, ...],
     samples: int,
 ) -> ErrorGrowth:
-    """Errors of all levels at `samples` even times up to `span`.
+    """Return the errors of all levels at `samples` evenly spaced times up to `span`.
 
-    name : of the system; weights (d,) : pixels per unit of each variable.
+    name : name of the system; weights (d,) : pixels per unit of each variable.
     Raises `InvalidParameter`, `WorkLimit`.
     """
     system, exact = systems()[name], truth(name, state, parameters, span, samples)
@@ -111,7 +111,7 @@ def growth(
 
 
 def _best_of(run: Callable[[], T], repeats: int) -> tuple[float, T]:
-    """Milliseconds of the fastest of `repeats` runs, and the result; what takes long is run once."""
+    """Return the milliseconds of the fastest of `repeats` runs, and the result; a long run is not repeated."""
     best = np.inf
     for _ in range(repeats):
         if _LONG_RUN < best < np.inf:
@@ -126,7 +126,7 @@ def _best_of(run: Callable[[], T], repeats: int) -> tuple[float, T]:
 def measure_levels(
     name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float, samples: int
 ) -> tuple[WorkPoint, ...]:
-    """Cost and error of each level, measured now; the cost includes the error estimate.  Raises as `growth`."""
+    """Measure cost and error of each level; the cost includes the error estimate.  Raises the errors of `growth`."""
     body, exact = systems()[name].at(parameters), truth(name, state, parameters, span, samples)
     points = []
     for level in LEVELS.values():
@@ -136,14 +136,14 @@ def measure_levels(
 
 
 def longest_span(name: str, state: Sequence[float], parameters: Sequence[float]) -> float:
-    """The longest time span that all levels integrate in about a second.  Raises `InvalidParameter`."""
+    """Return the longest time span that all levels integrate in about a second.  Raises `InvalidParameter`."""
     return _LONGEST / Problem.of(systems()[name].at(parameters), [state]).nu
 
 
 def others_take_long(name: str, state: Sequence[float], parameters: Sequence[float], span: float) -> bool:
-    """Whether SciPy's methods would take long for this motion.  Raises as `growth`.
+    """Return True if SciPy's methods would take long for this motion.  Raises the errors of `growth`.
 
-    Decided by steps and not by a clock, so that equal states always show the same.
+    The decision counts steps and reads no clock, so that equal states always show the same.
     """
     body = systems()[name].at(parameters)
     return (
@@ -178,6 +178,6 @@ def measure_others(
 
 
 def quickest_other(points: Sequence[WorkPoint], error: float) -> WorkPoint | None:
-    """The quickest of SciPy's methods with at most this error; None where there is none."""
+    """Return the fastest of SciPy's methods with at most this error, or None."""
     good = [point for point in points if point.method in SLOW_METHODS and point.error <= error]
     return min(good, key=lambda point: point.ms, default=None)

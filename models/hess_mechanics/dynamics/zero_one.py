@@ -15,7 +15,7 @@ _FREQUENCIES = math.pi * (0.2 + 0.6 * (np.arange(1, 33) * (math.sqrt(5.0) - 1.0)
 """Frequencies c, away from 0 and π, spread by the golden ratio; the median over them ignores resonances."""
 _LAGS = 50
 LEAST = 100
-"""Crossings that the test needs."""
+"""Minimum number of crossings."""
 
 
 def zero_one_test(series: Array) -> float:

@@ -1,7 +1,7 @@
-"""Balls: midpoint and radius, every operation of which encloses the true result, by Arb (python-flint).
+"""Ball arithmetic by Arb (python-flint): numbers with midpoint and radius, whose operations enclose the exact result.
 
-Numbers that go in are exact rationals, and so are the ends of intervals that come out: between them lies what is
-proved, given that Arb's operations enclose.
+Input numbers are exact rationals, and so are the ends of the resulting intervals.  A result is proved to lie between
+them, provided that Arb's operations are correct.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ __all__ = [
 ]
 
 ArbBall = Any
-"""An `arb` of python-flint, which is imported only where it is needed."""
+"""An `arb` of python-flint, an optional dependency that is imported on demand."""
 
 ExactNumber = str | float | Fraction
 """A number that proofs take as exact, see `exact`."""
@@ -45,7 +45,7 @@ _LOCK = threading.RLock()
 
 
 def flint() -> Any:
-    """The library python-flint.  Raises `MissingLibrary`, which says what to install."""
+    """Return the library python-flint.  Raises `MissingLibrary`, which says what to install."""
     try:
         return importlib.import_module("flint")
     except ImportError as error:
@@ -53,13 +53,13 @@ def flint() -> Any:
 
 
 def has_flint() -> bool:
-    """Whether the library is there."""
+    """Return True if python-flint is installed."""
     return importlib.util.find_spec("flint") is not None
 
 
 @contextmanager
 def working(bits: int) -> Iterator[Any]:
-    """Compute with so many bits; yields the library.  One thread at a time: its precision is one for all threads."""
+    """Set the precision to `bits` and yield the library; one thread at a time, since its precision is global."""
     library = flint()
     with _LOCK, library.ctx.workprec(bits):
         before = library.ctx.cap
@@ -70,7 +70,7 @@ def working(bits: int) -> Iterator[Any]:
 
 
 def exact(name: str, value: ExactNumber | Decimal) -> Fraction:
-    """The rational that a text (1.5, -2e-3, 3/4) or number is; of a double its shortest decimal, as a box shows it.
+    """Return a text (1.5, -2e-3, 3/4) or a number as a rational; a double is taken as its shortest decimal.
 
     Raises `InvalidParameter`.
 
@@ -92,7 +92,10 @@ def exact(name: str, value: ExactNumber | Decimal) -> Fraction:
 
 
 def _decimal(text: str) -> Fraction:
-    """Raises `ValueError`, `InvalidOperation`.  The bounds come first: the rational 1e999999999 fills the memory."""
+    """Return a decimal text as a rational.  Raises `ValueError`, `InvalidOperation`.
+
+    The bounds are checked first: the rational 1e999999999 would fill the memory.
+    """
     if len(text) > 3 * _MOST_DIGITS or not text.isascii() or "_" in text:
         raise ValueError
     found = Decimal(text)
@@ -106,7 +109,7 @@ def _decimal(text: str) -> Fraction:
 
 
 def rational(value: Fraction | int) -> Any:
-    """The same rational, as the library has it."""
+    """Return a rational as python-flint's `fmpq`."""
     return flint().fmpq(value.numerator, value.denominator)
 
 
@@ -119,7 +122,7 @@ class Enclosure:
 
     @property
     def width(self) -> Fraction:
-        """The difference of its ends."""
+        """Length of the interval."""
         return self.high - self.low
 
     @property

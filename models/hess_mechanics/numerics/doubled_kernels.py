@@ -1,10 +1,10 @@
 # mypy: allow-untyped-defs
-"""Taylor series with twice the digits of a double, from the same traced fields: the truth that errors are measured by.
+"""Taylor series in double-double arithmetic, from the same traced fields: the reference for measured errors.
 
-A number is the sum of two doubles, high + low, |low| at most half a unit in the last place of high, and has 31 digits;
-a complex number carries the pair, so that arrays, tuples and assignments stay as they are.  Its arithmetic is that of
-Dekker (1971) and Knuth (The Art of Computer Programming 2, 4.2.2).  In the source of a `Recursion` every operation is
-replaced by a call of it.
+A number with 31 digits is the sum of two doubles, high + low, |low| at most half a unit in the last place of high.  The
+pair is stored as a complex number, so that arrays, tuples and assignments need no change.  The arithmetic is that of
+Dekker (1971) and Knuth (The Art of Computer Programming 2, 4.2.2).  It replaces every operation in the source of a
+`Recursion`.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from hess_mechanics.numerics.unrolled import compiled, items
 __all__ = ["ORDER", "TOLERANCE", "doubled_integrator"]
 
 ORDER, TOLERANCE = 36, 1e-31
-"""Of its series, where the state is O(1)."""
+"""Order of the Taylor series, and tolerance in units in which the state is O(1)."""
 
 _SPLITTER = 134217729.0
 """2^27 + 1: splits a double into two halves, whose products are exact."""
@@ -32,7 +32,7 @@ _SPLITTER = 134217729.0
 
 @as_written
 def add(a, b):
-    """a + b, to 31 digits of the larger one."""
+    """Return a + b, to 31 digits of the larger operand."""
     total = a.real + b.real
     part_of_b = total - a.real
     low = (a.real - (total - part_of_b)) + (b.real - part_of_b)
@@ -43,13 +43,13 @@ def add(a, b):
 
 @as_written
 def subtract(a, b):
-    """a − b."""
+    """Return a − b."""
     return add(a, -b)
 
 
 @as_written
 def multiply(a, b):
-    """a · b."""
+    """Return a · b."""
     product = a.real * b.real
     scaled = _SPLITTER * a.real
     a_high = scaled - (scaled - a.real)
@@ -65,7 +65,7 @@ def multiply(a, b):
 
 @as_written
 def divide(a, b):
-    """a/b, by long division."""
+    """Return a/b, by long division."""
     first = complex(a.real / b.real, 0.0)
     left = subtract(a, multiply(first, b))
     second = complex(left.real / b.real, 0.0)
@@ -78,7 +78,7 @@ _NAMES = {"add": add, "subtract": subtract, "multiply": multiply, "divide": divi
 
 
 class _Doubled(ast.NodeTransformer):
-    """Calls in the place of operations, pairs in the place of numbers; indices stay as they are."""
+    """Replace operations by calls and numbers by pairs; leave indices unchanged."""
 
     def visit_Subscript(self, node: ast.Subscript) -> ast.AST:
         return node
@@ -89,7 +89,7 @@ class _Doubled(ast.NodeTransformer):
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
         left, right = self.visit(node.left), self.visit(node.right)
         if any(isinstance(side, ast.Tuple) for side in (left, right)):
-            # A long tuple is a sum of short ones.
+            # A sum of tuples is one long tuple, see `items`.
             return ast.BinOp(left, node.op, right)
         return _call(_OPERATIONS[type(node.op)], left, right)
 
@@ -100,9 +100,9 @@ def _call(name: str, *arguments: ast.expr) -> ast.Call:
 
 @cache
 def _expansion(recursion: Recursion) -> Callable[..., Any]:
-    """expand(c, p, steps): from the state in c[0] the coefficients c[1 … order, series]; steps[k] = unit of time/(k+1).
+    """Return expand(c, p, steps), which computes the coefficients c[1 … order, series] from the state in c[0].
 
-    Auxiliary series that are not known yet are 0, so that products lack just what they have to.
+    steps[k] = unit of time/(k+1).  Auxiliary series that are still unknown are 0, so that products omit their terms.
     """
     tree = ast.fix_missing_locations(_Doubled().visit(ast.parse(recursion.source)))
     functions = compiled(compile(tree, "<doubled>", "exec"), **_NAMES)
@@ -121,7 +121,7 @@ def _expansion(recursion: Recursion) -> Callable[..., Any]:
     def inside(c, k, inner):
         for j in range(left.size):
             inner[j] = 0.0
-        # Products inside: none waits for the sum of another.
+        # Products of inner orders: the sums are independent of each other.
         for m in range(1, k):
             for j in range(left.size):
                 inner[j] = add(inner[j], multiply(c[m, left[j]], c[k - m, right[j]]))
@@ -153,12 +153,12 @@ def expand(c, p, steps, inner, q):
 
 
 def doubled_integrator(recursion: Recursion) -> Callable[..., Any]:
-    """The compiled solver of ẏ = f(y, p) with 31 digits.
+    """Return the compiled solver of ẏ = f(y, p) with 31 digits.
 
-    integrate(state, start, parameters, scale, unit, times, max_steps, out): from the state (d,) at the time `start`,
-    writes the states at the times (n,), which run on from there, into `out` (n, d).  Times are doubles, states and
-    parameters pairs.  unit : of time, a power of two, in which the motion is O(1); scale : (d,), of the state.
-    Returns the number of steps, or `STEP_LIMIT_REACHED`.
+    integrate(state, start, parameters, scale, unit, times, max_steps, out) starts from the state (d,) at the time
+    `start` and writes the states at the times (n,), monotonic from `start`, into `out` (n, d).  Times are doubles,
+    states and parameters are pairs.  unit : unit of time, a power of two, in which the motion is O(1); scale : (d,),
+    units of the state.  It returns the number of steps, or `STEP_LIMIT_REACHED`.
     """
     n, parameters_count = recursion.variables, recursion.parameters
     expand = _expansion(recursion)

@@ -1,10 +1,10 @@
 # mypy: allow-untyped-defs
 """Taylor series of traced fields: steps, dense output, compensated sums.
 
-From the `Recursion` of a field (see `tracing`) all kernels are made: one orbit here, many orbits in `batch_kernels`,
-crossings of a surface in `events_kernels`.
+All kernels are generated from the `Recursion` of a field (see `tracing`): one orbit here, many orbits in
+`batch_kernels`, crossings of a surface in `events_kernels`.
 
-The state is expected in units in which it is O(1), so tolerances are absolute.
+The state must be in units in which it is O(1); tolerances are absolute.
 """
 
 from __future__ import annotations
@@ -37,35 +37,36 @@ __all__ = [
 
 STEP_LIMIT_REACHED = -1
 FALL = 0.64
-"""Of e^{λh} the terms of order 6 to 12 fall so if λh = 6; what a series of order 12 lacks there is 1 in 100 of it."""
+"""Ratio of successive terms of e^{λh}, from order 6 to 12, for λh = 6; there the error of order 12 is 1 %."""
 
 
 @cache
 def parts(recursion: Recursion) -> dict[str, Callable[..., Any]]:
-    """The compiled functions of its source."""
+    """Return the compiled functions of the source of a recursion."""
     return compiled(recursion.source)
 
 
 @cache
 def expansion(recursion: Recursion) -> Callable[..., Any]:
-    """The compiled recursion of one orbit.
+    """Return the compiled recursion of one orbit.
 
-    expand(c, left, right, inverses, parameters): from the state in c[0] the Taylor coefficients c[1 … order, variable].
-    left, right : those of the factors of the products once more, side by side; inverses : 1/(k+1) for k = 0 … order−1.
-    A field that returns more than its rates has one argument more, seen[0 … order−1, which], for these series.
+    expand(c, left, right, inverses, parameters) computes the Taylor coefficients c[1 … order, variable] from the state
+    in c[0].  left, right : copies of the coefficients of the factors of the products, one column per product;
+    inverses : 1/(k+1) for k = 0 … order−1.  If the field returns more than its rates, the last argument
+    seen[0 … order−1, i] receives these series.
     """
     convolve = compiled(convolution_source(columns_of(recursion)))
     return compiled(expansion_source(recursion), **parts(recursion), **convolve)["expand"]
 
 
 def expansion_source(recursion: Recursion) -> str:
-    """Python source of `expand`, which calls the functions of `recursion.source` and `convolve`."""
+    """Return the Python source of `expand`, which calls the functions of `recursion.source` and `convolve`."""
     pairs, known = recursion.pairs, recursion.known
     variables = range(recursion.variables)
     observed = range(recursion.observed)
 
     def keep(order: str, y: str, since: int, count: int) -> str:
-        """Of the `count` series known now, `since` of them before."""
+        """Store the factors that became known: `count` series are known now, `since` were known before."""
         return (
             "; ".join(
                 f"left[{order}, {j}] = {y}[{a}]; right[{order}, {j}] = {y}[{b}]"
@@ -119,10 +120,10 @@ def expand(c, left, right, inverses, parameters{", seen" if observed else ""}):
 
 
 def convolution_source(columns: int) -> str:
-    """Python source of convolve(left, right, k): Σ_{0<m<k} left[m, j] right[k−m, j] for each column j, as a tuple.
+    """Return the source of convolve(left, right, k): Σ_{0<m<k} left[m, j] right[k−m, j] for each column j, as a tuple.
 
-    From the middle outwards: the orders computed last, for which the processor still waits, come last.
-    The two ends are left to the caller, who has them in registers.
+    The sum runs from the middle outwards, because the processor still waits for the orders computed last.
+    The caller adds the two ends, which it has in registers.
     """
     each = range(columns)
     return f"""
@@ -141,14 +142,14 @@ def convolve(left, right, k):
 
 
 def columns_of(recursion: Recursion) -> int:
-    """The products in whole vectors of four numbers, at least one: what is too many stays 0."""
+    """Return the number of products, padded to a multiple of four (at least four); the padding stays 0."""
     m = len(recursion.pairs)
     return max(4, m + -m % 4)
 
 
 @part
 def workspace(order, n, columns):
-    """c, left, right, inverses for `expansion`, with n variables."""
+    """Return the arrays c, left, right, inverses for `expansion` with n variables."""
     rows = order + 1
     inverses = 1.0 / (1.0 + np.arange(order))
     return np.zeros((rows, n + -n % 4)), np.zeros((rows, columns)), np.zeros((rows, columns)), inverses
@@ -156,19 +157,19 @@ def workspace(order, n, columns):
 
 @inner
 def step_size(last, previous, order, tolerance):
-    """The step at which the terms of the two highest orders fall below the tolerance (Jorba and Zou, 2005).
+    """Return the step for which the terms of the two highest orders equal the tolerance (Jorba and Zou, 2005).
 
-    `last`, `previous`: the largest coefficient of order N and N−1.
+    last, previous : largest coefficient of order N and N−1.
     """
     return np.exp2(min(math.log2(tolerance / last) / order, math.log2(tolerance / previous) / (order - 1.0)))
 
 
 @inner
 def step_of(c, n, tolerance):
-    """`step_size` from the coefficients of one orbit with n variables, at most as long as its series converges.
+    """Return `step_size` for the coefficients of one orbit with n variables, limited by the convergence of the series.
 
-    Of a motion smaller than the tolerance the last terms are below that also where those that follow still grow, and
-    make up nearly all of the series.  From the middle to the last one terms have to fall by `FALL` for each order.
+    If a motion is smaller than the tolerance, its last terms are too, even where the omitted terms grow and dominate
+    the series.  Therefore the terms from the middle order to the last must decrease by the factor `FALL` per order.
     """
     order = c.shape[0] - 1
     half = order // 2

@@ -1,20 +1,21 @@
-"""From a field as the paper prints it to the recursion of its Taylor series.
+"""Derivation of the Taylor recursion of a vector field, written in Python as the paper prints it.
 
-`trace` calls field(y, p) once with symbols that record what is done with them.  The Taylor coefficients of sums are
-sums; those of a product are Cauchy products, q_k = Σ_m a_m b_(k−m); so what was recorded is brought into the form
+`trace` calls field(y, p) once with symbols that record the operations.  Taylor coefficients of sums are sums, those of
+a product are Cauchy products q_k = Σ_m a_m b_(k−m).  Hence the recorded field is brought into the form
 
     ẏ = rates(y, q),   linear in the series y and in products q of two of them,
 
 which holds at every order k and gives (k+1) y_(k+1).  Factors that are sums of variables are multiplied out.  Any other
-factor and every quotient become auxiliary series, found at each order in stages: a stage is linear in the variables, in
-what earlier stages found, and in products of these.  For z = r/d that is z_k = (r_k − (d z)_k)/d_0, where (d z)_k lacks
-the term d_0 z_k, which is not known by then.
+factor and every quotient become auxiliary series, computed at each order in stages.  A stage is linear in the
+variables, in the results of earlier stages, and in products of these.  For z = r/d it is z_k = (r_k − (d z)_k)/d_0,
+where (d z)_k is taken without the still unknown term d_0 z_k.
 
-What depends on parameters only is computed once, and so is `constant(x)`, which says that x does not change along
-the motion.  The expressions keep the shape in which they were written, so that round-off in a common factor stays one.
+Expressions in the parameters alone are computed once, and so is `constant(x)`, by which the author of a field declares
+that x does not change along a motion.  Expressions keep the form in which they were written, so that a common factor
+has the same round-off everywhere.
 
-All this asks of a field is plain arithmetic.  What it computes can be differentiated (`derivative`), and a field may
-return more than its rates: the series of what it returns beyond them are found along with the motion.
+A field may use only plain arithmetic.  Its expressions can be differentiated (`derivative`).  A field may return
+further expressions after its rates; their series are computed along with the motion.
 """
 
 from __future__ import annotations
@@ -48,13 +49,13 @@ class NotTraceable(TypeError):
 class Recursion:
     """The Taylor recursion of a field.
 
-    variables, parameters : how many y and p hold.
-    stages : how many auxiliary series each stage finds; they follow the variables in y.
-    pairs : the indices into y of the two factors of each product.
-    constants : how many numbers stay the same during a step; they follow the parameters in p.
-    observed : how many further series the field returns after its rates.
-    source : Python source of `rates(y, q, p, one)`, `stage0(y, q, p, one)`, … and `constants(y, p)`, where there are
-        any; each returns a tuple.  one : 1 at order 0 and 0 at all others, the series of the number 1.
+    variables, parameters : lengths of y and p.
+    stages : number of auxiliary series of each stage; they follow the variables in y.
+    pairs : indices into y of the two factors of each product.
+    constants : number of values that are constant during a step; they follow the parameters in p.
+    observed : number of series that the field returns after its rates.
+    source : Python source of `rates(y, q, p, one)` and, if needed, of `stage0(y, q, p, one)`, … and `constants(y, p)`;
+        each returns a tuple.  one : the series of the number 1, which is 1 at order 0 and 0 at all others.
     """
 
     variables: int
@@ -67,27 +68,27 @@ class Recursion:
 
     @property
     def known(self) -> list[int]:
-        """How many series, variables first, are known before the first stage and after each."""
+        """Number of series known before the first stage and after each stage; the variables come first."""
         return [self.variables + sum(self.stages[:i]) for i in range(len(self.stages) + 1)]
 
     @property
     def is_quadratic(self) -> bool:
-        """Whether products of variables are all it takes."""
+        """True if the recursion needs products of variables only."""
         return not self.stages and not self.constants
 
 
 def constant(x: Any) -> Any:
-    """x, of which the field's author knows that it does not change along a motion.
+    """Return x and declare that it does not change along a motion.
 
-    In a traced field its value at the start of a step is taken for the whole step.
+    A traced field uses its value at the start of a step for the whole step.
     """
     return x.at_start() if isinstance(x, Symbol) else x
 
 
 def derivative(x: Any, y: Symbol) -> Any:
-    """∂x/∂y of what a traced field has computed, y one of its variables: a symbol, or the number 0.
+    """Return ∂x/∂y for an expression x of a traced field and one of its variables y: a symbol, or the number 0.
 
-    What is constant along a motion (`constant`) still depends on where the motion starts.
+    An expression that is constant along a motion (`constant`) still depends on the initial state.
     """
     if not isinstance(x, Symbol):
         return 0
@@ -96,9 +97,10 @@ def derivative(x: Any, y: Symbol) -> Any:
 
 
 def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> Recursion:
-    """The Taylor recursion of a field of so many variables and parameters.
+    """Return the Taylor recursion of a field.
 
-    observed : how much it returns after its rates.  Raises `NotTraceable` where the field does anything but arithmetic.
+    variables, parameters : lengths of y and p; observed : number of expressions that it returns after its rates.
+    Raises `NotTraceable` if the field uses anything but arithmetic.
     """
     tape = _Tape()
     y = tuple(Symbol(tape, tape.leaf("variable", i)) for i in range(variables))
@@ -125,10 +127,10 @@ _ALLOWED = (
 
 @dataclass(frozen=True, eq=False)
 class _Node:
-    """One operation; equal ones on a tape are the same object.
+    """An operation; equal operations on a tape are the same object.
 
-    value : of a "number", the index of a "variable", "parameter" or "series"; moves : whether it depends on the
-    variables other than by their values at the start of a step; started : whether it depends on those.
+    value : value of a "number", index of a "variable", "parameter" or "series"; moves : True if the result changes
+    during a step; started : True if it depends on the values of the variables at the start of a step.
     """
 
     operation: str
@@ -139,7 +141,7 @@ class _Node:
 
 
 class _Tape:
-    """All operations of a trace, each once."""
+    """The operations of a trace, each stored once."""
 
     def __init__(self) -> None:
         self._nodes: dict[tuple[Any, ...], _Node] = {}
@@ -153,11 +155,11 @@ class _Tape:
         return self._node(operation, (), value, operation not in ("number", "parameter"), False)
 
     def number(self, value: float) -> _Node:
-        # 0.0 stands for −0.0 too, and a whole number for the same float.
+        # −0.0 and 0.0 are one number, and so are an integer and the equal float.
         return self.leaf("number", int(value) if value == int(value) and abs(value) < 2**53 else float(value))
 
     def lifted(self, x: Any) -> _Node:
-        """The node of a symbol or a number.  Raises `NotTraceable` for anything else."""
+        """Return the node of a symbol or a number.  Raises `NotTraceable` for anything else."""
         if isinstance(x, Symbol):
             return x.node
         if isinstance(x, _Number) and math.isfinite(x):
@@ -168,7 +170,7 @@ class _Tape:
         return self._node("start", (a,), None, False, True) if a.moves else a
 
     def apply(self, operation: str, a: _Node, b: _Node) -> _Node:
-        """a + b, a − b, a b or a/b, without sums with 0 and products with 0 or 1.  Raises `NotTraceable` for a/0."""
+        """Return a + b, a − b, a b or a/b, simplified if an operand is 0 or 1.  Raises `NotTraceable` for a/0."""
         zero, one = self.number(0), self.number(1)
         if operation == "/" and b is zero:
             raise NotTraceable("This field cannot be traced: it divides by 0.")
@@ -203,7 +205,7 @@ class _Tape:
         return self.apply("*", square, a) if exponent % 2 else square
 
     def derivative(self, x: _Node, y: _Node) -> _Node:
-        """∂x/∂y, y a variable."""
+        """Return ∂x/∂y for a variable y."""
         if (x, y) not in self._derivatives:
             self._derivatives[x, y] = self._derive(x, y)
         return self._derivatives[x, y]
@@ -224,7 +226,7 @@ class _Tape:
         return self.apply("/", self.apply("-", da, self.apply("*", x, db)), b)
 
     def linear(self, operation: str, *arguments: _Node, signs: tuple[int, ...] = ()) -> _Node:
-        """A node of the recursion: "one", "product", "scaled", or "sum" with a sign, 1 or −1, for each term."""
+        """Return a node of the recursion: "one", "product", "scaled", or "sum" with a sign, 1 or −1, for each term."""
         return self._node(operation, arguments, signs, True, False)
 
 
@@ -234,10 +236,10 @@ def _operators(sign: str) -> tuple[Callable[[Symbol, Any], Any], Callable[[Symbo
 
 
 class Symbol:
-    """A variable, a parameter, or what a field has made of them so far."""
+    """A variable, a parameter, or an expression in them, as a traced field sees it."""
 
     __slots__ = ("node", "tape")
-    __array_ufunc__ = None  # arithmetic with NumPy's numbers comes here too
+    __array_ufunc__ = None  # NumPy's numbers leave arithmetic with symbols to this class
     __hash__ = None  # type: ignore[assignment]
 
     def __init__(self, tape: _Tape, node: _Node) -> None:
@@ -265,11 +267,11 @@ class Symbol:
 
     @property
     def moves(self) -> bool:
-        """Whether it changes during a step."""
+        """True if the expression changes during a step."""
         return self.node.moves
 
     def at_start(self) -> Symbol:
-        """Its value at the start of a step, see `constant`."""
+        """Return its value at the start of a step, see `constant`."""
         return Symbol(self.tape, self.tape.start(self.node))
 
     def _refuse(self, *_: Any) -> NoReturn:
@@ -284,7 +286,7 @@ class Symbol:
 
 
 class _Series:
-    """What a tape says, in terms of series and their products."""
+    """The expressions of a tape, rewritten in terms of series and their products."""
 
     def __init__(self, tape: _Tape, variables: int, multiplies_out: bool) -> None:
         self._tape, self._variables, self._multiplies_out = tape, variables, multiplies_out
@@ -295,7 +297,7 @@ class _Series:
         self._divided: set[_Node] = set()  # the products d·z of the quotients
 
     def lowered(self, node: _Node) -> _Node:
-        """The node as a sum of series and products with constant factors."""
+        """Return the node as a sum of series and products with constant factors."""
         if node not in self._lowered:
             self._lowered[node] = self._lower(node)
         return self._lowered[node]
@@ -342,7 +344,7 @@ class _Series:
                 return self._scaled(factor.arguments[0], self._product(factor.arguments[1], other))
         for factor, other in ((a, b), (b, a)):
             if factor.operation == "sum" and factor.value[0] < 0:
-                # So x and −x are one factor.
+                # Normalise the sign, so that x and −x are the same factor.
                 return self._sum((-1, self._product(self._sum((-1, factor)), other)))
         for factor, other in ((a, b), (b, a)):
             if factor.operation == "sum" and self._multiplies_out and self._is_of_variables(factor):
@@ -358,7 +360,7 @@ class _Series:
         return form is self._one or (form.operation == "sum" and all(map(self._is_of_variables, form.arguments)))
 
     def _series(self, form: _Node) -> _Node:
-        """A series that has this form."""
+        """Return a series that has this form."""
         if form.operation == "series":
             return form
         if form not in self._places:
@@ -376,7 +378,7 @@ class _Series:
         return z
 
     def _levels(self) -> list[int]:
-        """The stage of each auxiliary series: after all that its rule needs."""
+        """Return the stage of each auxiliary series, later than those of all series that its rule needs."""
         levels: list[int] = []
         for i, rule in enumerate(self._rules):
             needed = [node.value - self._variables for node in _below([rule]) if node.operation == "series"]
@@ -384,9 +386,9 @@ class _Series:
         return levels
 
     def recursion(self, rates: Sequence[_Node], parameters: int) -> Recursion:
-        """The recursion of a field with these rates."""
+        """Return the recursion of a field with these rates."""
         forms = [self.lowered(rate) for rate in rates]
-        # Only what the rates need, stage by stage: an unused intermediate result costs nothing.
+        # Keep only the series that the rates need: an unused intermediate result costs nothing.
         used = self._used(forms)
         levels = self._levels()
         order = sorted(used, key=lambda i: (levels[i], i))
@@ -410,14 +412,14 @@ class _Series:
                 late[node] = 0 if node.value < self._variables else 2 + 2 * levels[node.value - self._variables]
         for node in everything:
             if node.operation == "product":
-                # The product in the rule of a quotient waits for the divisor only.
+                # The product in the rule of a quotient depends on the divisor only.
                 late[node] = 1 + (min if node in self._divided else max)(late[factor] for factor in node.arguments)
         names |= {node: f"q[{j}]" for j, node in enumerate(products)} | {self._one: "one"}
         names |= {node: f"p[{parameters + j}]" for j, node in enumerate(kept)}
         functions = []
         for i, (stage, rule) in enumerate(zip(stages, rules, strict=True)):
             functions.append(_function(f"stage{i}(y, q, p, one)", rule, names, late))
-            # From here on what the stage has found need not be found again.
+            # Later stages use these results instead of computing them again.
             names |= {self._rules[j]: f"y[{places[self._variables + j]}]" for j in stage}
         functions.insert(0, _function("rates(y, q, p, one)", forms, names, late))
         if kept:
@@ -446,7 +448,7 @@ class _Series:
 
 
 def _below(roots: Iterable[_Node]) -> list[_Node]:
-    """All nodes of these expressions, each once and after its arguments."""
+    """Return all nodes of these expressions, each once and after its arguments."""
     found: dict[_Node, None] = {}
 
     def visit(node: _Node) -> None:
@@ -461,15 +463,15 @@ def _below(roots: Iterable[_Node]) -> list[_Node]:
 
 
 def _terms(form: _Node) -> list[tuple[int, _Node]]:
-    """A form as terms with their signs."""
+    """Return the terms of a form with their signs."""
     return list(zip(form.value, form.arguments, strict=True)) if form.operation == "sum" else [(1, form)]
 
 
 def _function(head: str, results: Sequence[_Node], names: dict[_Node, str], late: dict[_Node, int]) -> str:
-    """The source of a function that returns these expressions.
+    """Return the source of a function that returns these expressions.
 
-    names : those that are at hand; late : when which series and product becomes known.  The processor waits for what is
-    found last, so that comes last in a sum.
+    names : names of known expressions; late : stage at which each series and product becomes known.  In a sum the term
+    that is known last comes last, so that the processor need not wait for it earlier.
     """
     latest = dict(late)
 
@@ -507,14 +509,14 @@ def _function(head: str, results: Sequence[_Node], names: dict[_Node, str], late
 
 
 def _written(node: _Node, text: Callable[[_Node], str], when: Callable[[_Node], int]) -> str:
-    """An expression of names; every number a float, so that Numba sees one type."""
+    """Return the source of an expression; every number is written as a float, so that Numba sees one type."""
     if node.operation in ("variable", "parameter"):
         return f"{'y' if node.operation == 'variable' else 'p'}[{node.value}]"
     if node.operation == "number":
         return f"({float(node.value)!r})" if node.value < 0 else repr(float(node.value))
     if node.operation == "sum":
         terms = sorted(_terms(node), key=lambda term: when(term[1]))
-        # A sum that begins with a minus costs a sign: among what is known as early, a plus goes first.
+        # A leading minus costs a negation: among the terms known first, put a positive one in front.
         first = next((term for term in terms if term[0] > 0 and when(term[1]) == when(terms[0][1])), terms[0])
         terms.remove(first)
         rest = "".join(f" {'+' if sign > 0 else '-'} {text(term)}" for sign, term in terms)

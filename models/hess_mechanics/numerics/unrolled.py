@@ -1,7 +1,7 @@
-"""Functions written out item by item.
+"""Generated source with unrolled loops.
 
-LLVM keeps numbers in registers, and packs them into vectors, when it sees each of them by name;
-Numba's loops over tuples hide them.  So the few loops that matter are written out here.
+LLVM keeps numbers in registers and packs them into vectors if each of them has a name.  Numba's loops over tuples
+prevent this, so the few loops that matter are unrolled here.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ __all__ = ["compiled", "evaluation", "items"]
 
 
 _LONGEST = 30
-"""Longer tuples Python itself makes of lists."""
+"""Length beyond which Python builds a tuple display from a list."""
 
 
 def compiled(source: str | CodeType, **names: Callable[..., Any]) -> dict[str, Callable[..., Any]]:
-    """The functions of this source by name, compiled; they may call each other and what `names` holds."""
+    """Return the compiled functions of a source by name; they may call each other and the functions `names`."""
     namespace: dict[str, Any] = dict(names)
     exec(source, namespace)
     found = {
@@ -32,14 +32,14 @@ def compiled(source: str | CodeType, **names: Callable[..., Any]) -> dict[str, C
 
 
 def items(texts: Iterable[str]) -> str:
-    """What stands between the parentheses of a tuple; a long one is a sum of tuples, for Numba stumbles over others."""
+    """Return the source between the parentheses of a tuple; a long tuple is a sum of short ones, as Numba requires."""
     each = [f"{text}, " for text in texts]
     return ") + (".join("".join(each[i : i + _LONGEST]).rstrip() for i in range(0, len(each), _LONGEST))
 
 
 @cache
 def evaluation(count: int) -> Callable[..., Any]:
-    """The function of (c, s, increments) that sets increments[i] = Σ_{k≥1} c[k, i] s^k for i = 0 … count−1."""
+    """Return a function (c, s, increments) that sets increments[i] = Σ_{k≥1} c[k, i] s^k for i = 0 … count−1."""
     each = range(count)
     return compiled(f"""
 def evaluate(c, s, increments):
