@@ -1,1 +1,1 @@
-"""What can be computed for any system: orbits, ensembles, sections, exponents."""
+"""Computations for any system: orbits, ensembles, sections, exponents."""

@@ -14,7 +14,7 @@ _ALL_ROUND = 0.85
 
 
 def weighted_mean(values: Array) -> float:
-    """Return the mean with weight exp(−1/(t(1 − t))), which converges super-polynomially on quasi-periodic sequences."""
+    """Return the mean with weight exp(−1/(t(1 − t))); it converges super-polynomially on quasi-periodic sequences."""
     t = (np.arange(values.size) + 0.5) / values.size
     weight = np.exp(-1.0 / (t * (1.0 - t)))
     return float(weight @ values / weight.sum())

@@ -283,7 +283,7 @@ def grown(
 def _followed(
     curve: _Curve, length: float, sagitta: float, longest: float, most: int, returns: int
 ) -> tuple[Array, Array, str]:
-    """Points and parameters, adaptively, from the saddle up to the length; and why the curve ends."""
+    """Return points and parameters with adaptive density, from the saddle to the length, and why the curve ends."""
     turns = curve.map_.turns
     points, parameters = [curve.saddle.copy(), curve.at(0.0)], [-math.inf, 0.0]
     total = float(np.linalg.norm(curve.away))
@@ -346,12 +346,12 @@ def _followed(
 
 
 def _cross(u: Array, v: Array) -> Array:
-    """The signed area u₁v₂ − u₂v₁ of vectors (2,), or (2, n)."""
+    """Return the signed area u₁v₂ − u₂v₁ of vectors (2,) or (2, n)."""
     return np.asarray(u[0] * v[1] - u[1] * v[0])
 
 
 def _error(curve: _Curve, points: Array, parameters: Array) -> float:
-    """The largest distance across the curve of some of its points from those of a more accurate map, from its own δ."""
+    """Return the largest distance, across the curve, of sampled points from those of a more accurate map."""
     better = replace(curve, map_=curve.map_.tightened())
     off = 0.0
     for i in np.unique(np.linspace(1, len(points) - 2, _CHECKED).astype(int)) if len(points) > 3 else ():
@@ -371,10 +371,10 @@ def _error(curve: _Curve, points: Array, parameters: Array) -> float:
 
 @dataclass(frozen=True)
 class Intersection:
-    """Where a manifold crosses another: the place (2,), τ on both, the angle between them, error of the place.
+    """Crossing of two manifolds: the point (2,), τ on both, the angle between them, and the error of the point.
 
-    certain : whether a chord before and a chord after it they are on other sides of each other, by more than their
-    errors; where they run together they meet nowhere for certain.
+    certain : True if the manifolds change sides between one chord before and one chord after the crossing, by more than
+    their errors.  It is False where they run together.
     """
 
     place: Array
@@ -385,10 +385,10 @@ class Intersection:
 
 
 def crossings_of(one: Manifold, other: Manifold, most: int = 100) -> list[Intersection]:
-    """Homoclinic or heteroclinic points: where two manifolds cross, in the order of the first one, at most so many.
+    """Return at most `most` homoclinic or heteroclinic points, in the order of the first manifold.
 
-    Segments of the polylines that meet are the beginning, Newton's method on W_1(τ_1) = W_2(τ_2) ends it.  The saddles
-    themselves do not count; places closer together than their errors are one.
+    Intersecting segments of the two polylines are the initial guesses for Newton's method on W_1(τ_1) = W_2(τ_2).
+    The saddles themselves are excluded; points closer together than their errors count once.
     """
     found: list[Intersection] = []
     for i, j in _meeting(one, other):
@@ -404,7 +404,7 @@ def crossings_of(one: Manifold, other: Manifold, most: int = 100) -> list[Inters
 
 
 def _meeting(one: Manifold, other: Manifold) -> list[tuple[int, int]]:
-    """The pairs of segments that meet, but for the first ones, at the saddles."""
+    """Return the pairs of segments that intersect, except the first segments at the saddles."""
     a, b = one.points[1:], other.points[1:]
     pairs = []
     da, db = np.diff(a, axis=0), np.diff(b, axis=0)
@@ -454,7 +454,7 @@ def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Intersect
 
 
 def _changes_sides(one: Manifold, other: Manifold, tau: Array, chord: float, along: Array) -> bool:
-    """Whether the first curve is on other sides of the second, by more than the errors, a chord before and after."""
+    """Return True if the first curve changes sides of the second within one chord either way, beyond the errors."""
     speed = float(np.linalg.norm(along))
     u = along / speed
     gaps = []
@@ -476,9 +476,9 @@ def _changes_sides(one: Manifold, other: Manifold, tau: Array, chord: float, alo
 
 
 def heights_at(curve: Manifold, axis: int, value: float) -> Array:
-    """The other coordinate (n,) wherever the manifold takes this value of the coordinate `axis`, in its order.
+    """Return the other coordinate (n,) at all points where the coordinate `axis` has this value, along the manifold.
 
-    Raises `NotConverged` where it nowhere does.
+    Raises `NotConverged` if there is no such point.
     """
     along = curve.points[:, axis] - value
     change = np.flatnonzero((along[1:-1] <= 0.0) != (along[2:] <= 0.0)) + 1
@@ -490,7 +490,7 @@ def heights_at(curve: Manifold, axis: int, value: float) -> Array:
 
 
 def _height_on(curve: Manifold, axis: int, value: float, i: int) -> float:
-    """The other coordinate on the segment i."""
+    """Return the other coordinate on the segment i."""
     from scipy.optimize import brentq  # imported here because it takes 0.3 s
 
     reference = curve.points[i]
@@ -503,10 +503,10 @@ def _height_on(curve: Manifold, axis: int, value: float, i: int) -> float:
 
 
 def split(unstable: Manifold, stable: Manifold, axis: int, value: float) -> tuple[float, float]:
-    """How far apart two manifolds pass where the coordinate `axis` has this value, and the error of that.
+    """Return the distance between two manifolds where the coordinate `axis` has this value, and its error.
 
-    Where they come there more than once, the two passages that are closest together are compared.
-    Raises `NotConverged` where one of them does not come there.
+    If they pass there more than once, the two closest passages are compared.
+    Raises `NotConverged` if one of them never has this value.
     """
     gaps = heights_at(unstable, axis, value)[:, None] - heights_at(stable, axis, value)
     closest = gaps.ravel()[int(np.argmin(np.abs(gaps)))]

@@ -259,10 +259,10 @@ def diagram_over(
 
 
 def doubling_seen(parts: Sequence[Diagram]) -> tuple[float, Array, float] | None:
-    """After which value of a diagram periods first double, the least first, going over it or, if there is none, back.
+    """Return the first doubling of the smallest period in a diagram, or None if no period doubles between neighbours.
 
-    parts : of the diagram, in their order.  The value, the places (m, d) there, and the value at the end of that way;
-    None where no period doubles between neighbours.
+    parts : the parts of the diagram, in order.  They are searched forward, and backward if nothing is found.
+    The result is the value before the doubling, the points (m, d) there, and the last value in that direction.
     """
     known = [
         one for part in parts for one in zip(part.values.tolist(), part.periods.tolist(), part.places, strict=True)
@@ -276,10 +276,10 @@ def doubling_seen(parts: Sequence[Diagram]) -> tuple[float, Array, float] | None
 
 
 def hysteresis(turns: Sequence[float], there: Diagram, back: Diagram) -> tuple[tuple[float, float], ...]:
-    """The intervals of values (low, high) over which a diagram and the one of the same values backwards differ.
+    """Return the intervals of values (low, high) over which a diagram and the diagram of the way back differ.
 
-    They differ where the two sets of places are farther apart than their halves are from each other, by three times
-    the error; an interval ends at the outermost values where they do.  Of fewer than 16 places nothing is said.
+    They differ at a value if the distance between the two sets of points exceeds the distance between the halves of
+    each set, by three times the error.  Sets of fewer than 16 points are not compared.
     """
     differ: list[tuple[float, bool]] = []
     for value, one, other in zip(there.values, there.places, reversed(back.places), strict=True):

@@ -38,14 +38,14 @@ from hess_mechanics.numerics.results import Array, frozen
 __all__ = ["Dynamics", "MotionKind", "Regime", "compared", "dynamics_of", "regime"]
 
 _MEMBERS = 8
-"""Orbits of an ensemble: that all of them agree by chance has a probability of 1/2⁸."""
+"""Number of orbits of an ensemble; the probability that all agree by chance is 1/2⁸."""
 _ENOUGH = 6
-"""Orbits of an ensemble whose sets have settled: the others are still on their way and tell nothing."""
+"""Number of orbits of an ensemble whose sets must have settled; transient orbits carry no information."""
 _SHIFT = 1e-8
-"""How far apart the orbits of an ensemble start: less than a picture shows, enough to part chaotic ones."""
+"""Initial distance between the orbits of an ensemble: invisible, but large enough for chaotic orbits to separate."""
 _ROUNDS = 4
 _LONGER = 4
-"""How many times as long an undecided motion is followed in the next round."""
+"""Factor by which the next round follows an undecided motion longer."""
 _RETURNS = 30
 """The indicator takes at least this many returns, so that it sees more than one passage of a slow motion."""
 _GROWS = 1.25
@@ -54,15 +54,15 @@ _CHAOTIC_SERIES = 0.8
 """K of the 0–1 test above which crossings are chaotic.  Below it nothing follows: K of slowly modulated quasi-periodic
 motions stays close to 1 for long, while averages along them agree to many digits."""
 _DIGITS = 4.0
-"""To which averages over halves of the crossings agree on quasi-periodic motions; on chaotic ones at most to two."""
+"""Digits to which averages over halves of the crossings agree on quasi-periodic motions; at most 2 on chaotic ones."""
 _FEWEST = 800
-"""Crossings without a period that a quasi-periodic motion has: a third of them is the longest period looked for."""
+"""Crossings that a motion without a period needs to count as quasi-periodic; the longest period tried is a third."""
 _INDEPENDENT = 400
 """Crossings after which orbits of an ensemble are taken for independent."""
 _MOST_CROSSINGS = 20_000
 _TOUCHING = 0.005
-"""Share of the places from which on two sets touch.  Of 1500 places of sets that touch it was 0.015 to 0.2 from orbit
-to orbit, of sets that are apart 0."""
+"""Fraction of common points from which two sets count as touching.  It was 0.015 to 0.2 in samples of 1500 points of
+sets that touch, and 0 for sets that do not."""
 
 
 class MotionKind(IntEnum):

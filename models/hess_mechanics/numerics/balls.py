@@ -127,14 +127,14 @@ class Enclosure:
 
     @property
     def precision(self) -> float:
-        """Its width, relative where the number exceeds 1."""
+        """Width of the interval, divided by the magnitude of the number if that exceeds 1."""
         return float(self.width / max(Fraction(1), abs(self.low), abs(self.high)))
 
     def __contains__(self, number: Fraction) -> bool:
         return self.low <= number <= self.high
 
     def decimals(self, digits: int | None = None) -> tuple[str, str]:
-        """Two decimals that enclose it: with so many digits, or so that they are hardly farther apart than its ends.
+        """Return two decimals that enclose the interval, with `digits` digits, or enough to be hardly wider than it.
 
         >>> Enclosure(Fraction(1, 3), Fraction(1, 3)).decimals(4)
         ('0.3333', '0.3334')
@@ -147,7 +147,7 @@ class Enclosure:
         return _rounded(self.low, digits, ROUND_FLOOR), _rounded(self.high, digits, ROUND_CEILING)
 
     def outside_doubles(self) -> tuple[str, str]:
-        """Two decimals of at most 17 digits that enclose it also as doubles, if these reach so far."""
+        """Return two decimals of at most 17 digits that enclose the interval, also after conversion to doubles."""
         low, high = self.decimals(16)
         if not math.isfinite(float(low)) or not math.isfinite(float(high)):
             return low, high
@@ -166,7 +166,7 @@ def _rounded(number: Fraction, digits: int, rounding: str) -> str:
 
 
 def enclosure(ball: ArbBall) -> Enclosure:
-    """The interval of a ball, exactly.  Raises `ArithmeticError` for one that is not finite."""
+    """Return the exact interval of a ball.  Raises `ArithmeticError` if it is not finite."""
     if not ball.is_finite():
         raise ArithmeticError("a ball without end")
     low, high = (end.man_exp() for end in (ball.lower(), ball.upper()))
@@ -179,7 +179,10 @@ def _dyadic(mantissa: Any, exponent: Any) -> Fraction:
 
 
 def to_digits(digits: int, compute: Callable[[Any], ArbBall]) -> Enclosure:
-    """What `compute` encloses, to so many digits.  Raises `WorkLimit`."""
+    """Return the enclosure that `compute` yields, with the precision raised until it has `digits` digits.
+
+    Raises `WorkLimit`.
+    """
     bits = 128
     while bits <= _MOST_BITS:
         with working(bits) as library:

@@ -1,8 +1,8 @@
 # mypy: allow-untyped-defs
-"""Many orbits of one system: eight at a time, each with its own steps, on as many threads as wanted.
+"""Ensembles of orbits of one system: eight orbits at a time with their own step sizes, on any number of threads.
 
-The recursion of `taylor_kernels` with eight orbits in the place of one number, which the processor computes
-together.  A lane whose orbit is done takes the next one, so that no lane waits for another.
+The recursion is that of `taylor_kernels`, with eight lanes in place of each number, which become vector instructions.
+A lane takes the next orbit as soon as its orbit is complete, so that no lane waits for another.
 """
 
 from __future__ import annotations
@@ -23,22 +23,22 @@ __all__ = ["LANES", "ensemble_integrator", "one_by_one"]
 LANES = 8
 
 _ONE = int(np.float64(1.0).view(np.int64))
-"""The bits of 1.0, whose logarithm is 0."""
+"""Bits of 1.0, which stand for the logarithm 0."""
 _FALL = math.log2(FALL) * 2.0**52
 _TINY = 1e-280
-"""In the place of the coefficients of a motion at rest."""
+"""Lower bound of the coefficients, which replaces the zeros of a motion at rest."""
 
 
 def expansion_of_lanes(recursion: Recursion) -> Callable[..., Any]:
-    """expand(c, q, parameters, order): the Taylor coefficients c[k, variable, lane]; q[product, lane] is scratch.
+    """Return expand(c, q, parameters, order), which computes the Taylor coefficients c[k, variable, lane].
 
-    For recursions without auxiliary series.
+    q[product, lane] is scratch space.  Only for recursions without auxiliary series.
     """
     m, n = len(recursion.pairs), recursion.variables
     states = [items(f"c[k, {i}, {lane}]" for i in range(n)) for lane in range(LANES)]
     products = [items(f"q[{j}, {lane}]" for j in range(m)) for lane in range(LANES)]
     results = [f"c[k + 1, {i}, {lane}] = y{lane}[{i}] * s" for i in range(n) for lane in range(LANES)]
-    # Of all lanes first everything is read, then everything written: so the compiler may do it together.
+    # All lanes are read before any is written, so that the compiler can vectorise the loop.
     return compiled(
         f"""
 def expand(c, q, parameters, order):
@@ -60,9 +60,9 @@ def _for_lanes(statement: Callable[[int], str]) -> str:
 
 
 def convolution_of_lanes(recursion: Recursion) -> Callable[..., Any]:
-    """The function of (c, q, k) that sets q[j, lane] = Σ_m c[m, left, lane] c[k−m, right, lane] for each product j.
+    """Return a function (c, q, k) that sets q[j, lane] = Σ_m c[m, left, lane] c[k−m, right, lane] for each product j.
 
-    Every coefficient is read once for all products; of a square half the sum is enough.
+    Every coefficient is read once for all products; a square needs only half of the sum.
     """
     rows = sorted({row for pair in recursion.pairs for row in pair})
     lanes = range(LANES)
@@ -101,10 +101,10 @@ def convolve(c, q, k):
 
 @inner
 def steps_of_lanes(last, previous, middle, order, tolerance, ratios, bits, h, h_bits):
-    """`step_of` of every lane into h, to 3 %, by arithmetic that the processor can do for all lanes at once.
+    """Write `step_of` of every lane to h, within 3 %, using only operations that exist as vector instructions.
 
-    The bits of a double, read as a whole number, are its binary logarithm to 0.09, times 2^52; the N-th root
-    divides that by N.  bits, h_bits : ratios (3, lanes) and h (lanes,) seen as whole numbers.
+    The bits of a double, read as an integer, are 2^52 times its binary logarithm to within 0.09.  Taking the N-th root
+    divides them by N.  bits, h_bits : integer views of the ratios (3, lanes) and of h (lanes,).
     """
     for lane in range(LANES):
         ratios[0, lane] = tolerance / max(last[lane], _TINY)
@@ -119,11 +119,11 @@ def steps_of_lanes(last, previous, middle, order, tolerance, ratios, bits, h, h_
 
 
 def ensemble_integrator(recursion: Recursion) -> Callable[..., Any]:
-    """The compiled solver of many orbits.
+    """Return the compiled solver of many orbits.
 
-    integrate(states, parameters, times, order, tolerance, max_steps, out): the orbits that start at the rows of
-    `states` (orbits, d), at the given times (n,), monotonic, all ≥ 0 or all ≤ 0, into `out` (orbits, n, d).
-    Returns the number of steps of all orbits, or `STEP_LIMIT_REACHED` when one took more than `max_steps`.
+    integrate(states, parameters, times, order, tolerance, max_steps, out) writes the orbits that start at the rows of
+    `states` (orbits, d), at the times (n,), monotonic and all ≥ 0 or all ≤ 0, into `out` (orbits, n, d).
+    It returns the total number of steps, or `STEP_LIMIT_REACHED` if an orbit took more than `max_steps`.
     """
     n, m = recursion.variables, len(recursion.pairs)
     expand = expansion_of_lanes(recursion)
@@ -225,9 +225,9 @@ def add(y, low, s, compensated):
 
 
 def one_by_one(orbit: Callable[..., Any]) -> Callable[..., Any]:
-    """The compiled solver of `ensemble_integrator` from one of single orbits (`taylor_kernels.orbit_integrator`).
+    """Return the solver of `ensemble_integrator`, made from the solver of one orbit (`orbit_integrator`).
 
-    For fields with stages: lanes of these take three times as long to compile and are a third faster.
+    It serves fields with stages, for which lanes would be a third faster but take three times as long to compile.
     """
 
     @part

@@ -1,11 +1,11 @@
 # mypy: allow-untyped-defs
-"""Crossings of a plane by one orbit: the roots of each step's own polynomial, none lost, none doubled.
+"""Crossings of a surface by an orbit: roots of the Taylor polynomial of each step, each found exactly once.
 
-On a step the height e(s) over the plane is a polynomial, |e″| ≤ D up to the end of a piece.  A piece of width w
-lies within D w²/8 of its chord, and its slope within D w/2 of the chord's.  So a piece that ends on the
-side where it began, farther away than that, holds no root; one that changes sides more steeply than that
-holds exactly one; any other is halved.  The side of the plane is carried from step to step, so that a
-crossing where two steps meet is seen exactly once.
+During a step the height e(s) over a plane is a polynomial.  Let |e″| ≤ D on a piece of width w.  The piece lies within
+D w²/8 of its chord, and its slope within D w/2 of the slope of the chord.  A piece that starts and ends on the same
+side, farther from the plane than D w²/8, has no root.  A piece that changes sides more steeply than D w/2 has exactly
+one.  Any other piece is bisected.  The side of the plane is carried from step to step, so that a crossing between two
+steps is found exactly once.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ from hess_mechanics.numerics.unrolled import evaluation
 __all__ = ["PLANE", "SurfaceKernels", "crossing_finder"]
 
 _DEPTH = 45
-"""Halvings after which a piece is a point, for double precision."""
+"""Number of bisections after which a piece is a point in double precision."""
 
 
 @inner
 def value_and_slope(e, s):
-    """e(s) and e′(s) of the polynomial with coefficients e[0 …]."""
+    """Return e(s) and e′(s) of the polynomial with coefficients e[0 …]."""
     value = 0.0
     slope = 0.0
     for k in range(e.size - 1, -1, -1):
@@ -47,7 +47,7 @@ def value_and_slope(e, s):
 
 @inner
 def largest_bend(e, h):
-    """D: a bound of |e″| on [0, h], Σ k(k−1)|e_k| h^(k−2)."""
+    """Return the bound D = Σ k(k−1)|e_k| h^(k−2) of |e″| on [0, h]."""
     even = 0.0
     odd = 0.0
     last = e.size - 1
@@ -60,9 +60,9 @@ def largest_bend(e, h):
 
 @inner
 def root_between(e, low, high, s, below, bend):
-    """The one root of e in [low, high], from s on: Newton's method, kept inside by bisection.
+    """Return the only root of e in [low, high], by Newton's method from s, safeguarded by bisection.
 
-    below : whether e is negative at `low`.
+    below : True if e is negative at `low`.
     """
     first, end = low, high
     width = high - low
@@ -73,7 +73,7 @@ def root_between(e, low, high, s, below, bend):
         else:
             high = s
         step = -value / slope if slope != 0.0 else width
-        # What Newton's next step would still find is about D step²/(2 |e′|).
+        # The next Newton step would be about D step²/(2 |e′|).
         if bend * step * step <= 1e-16 * abs(slope) * width:
             return min(max(s + step, first), end)
         s = s + step if low < s + step < high else 0.5 * (low + high)
@@ -84,18 +84,18 @@ def root_between(e, low, high, s, below, bend):
 
 @inner
 def roots_on_step(e, h, below, end, below_at_end, roots, pieces):
-    """The roots of e on [0, h] from left to right into `roots`; how many.
+    """Write the roots of e on [0, h], in increasing order, to `roots` and return their number.
 
-    below, below_at_end : whether the orbit is below the plane at the two ends; end : e(h).
-    pieces : scratch (`_DEPTH` + 2, 2), the right ends of the pieces not yet looked at, and e there.
+    below, below_at_end : True if the orbit is below the plane at the two ends; end : e(h).
+    pieces : scratch (`_DEPTH` + 2, 2) for the right ends of the remaining pieces, and e there.
     """
     bend = largest_bend(e, h)
     if below == below_at_end and min(abs(e[0]), abs(end)) > 0.125 * bend * h * h:
         return 0
-    # Coefficients beyond double range: no piece would ever be clear, and there are 2^_DEPTH.
+    # With coefficients beyond double range no piece could be decided, and all 2^_DEPTH pieces would be visited.
     if not bend * h * h < np.inf:
         return 0
-    # What is lower than this may be round-off: it is on the side on which the orbit was.
+    # A smaller |e| may be round-off: the orbit counts as still on its previous side.
     noise = 0.0
     for k in range(e.size - 1, -1, -1):
         noise = noise * h + abs(e[k])
@@ -114,7 +114,7 @@ def roots_on_step(e, h, below, end, below_at_end, roots, pieces):
             below_right = at_right < 0.0 if abs(at_right) > noise else below
         width = right - left
         rise = at_right - at_left
-        # Its bound on [0, right] alone: where e is flat at first, what bends it at the end must not halve that away.
+        # The bound holds on [0, right] only, so that curvature near the end does not force bisections at the start.
         bend = largest_bend(e, right)
         same_side = below == below_right
         if same_side:
@@ -138,13 +138,13 @@ def roots_on_step(e, h, below, end, below_at_end, roots, pieces):
 
 @dataclass(frozen=True)
 class SurfaceKernels:
-    """A surface e(y) = offset, by compiled functions with a vector `normal` of constants.
+    """A surface e(y) = offset, given by compiled functions with a vector `normal` of constants.
 
-    along(c, normal, e, scratch) : the Taylor coefficients of e from those of the state, c[k, variable], into e (n,);
-        scratch is (n,).
-    height(y, normal) : e(y).
-    counted(y, normal) : whether a crossing at y counts.
-    curved : whether e is more than linear, so that its series ends later than those of the state.
+    along(c, normal, e, scratch) : writes the Taylor coefficients of e, from those of the state c[k, variable], to
+        e (n,); scratch is (n,).
+    height(y, normal) : returns e(y).
+    counted(y, normal) : returns True if a crossing at y counts.
+    curved : True if e is nonlinear, so that its truncated series is less accurate than those of the state.
     """
 
     along: Callable[..., Any]
@@ -179,13 +179,13 @@ PLANE = SurfaceKernels(_along_plane, _height_over_plane, _always, curved=False)
 
 
 def crossing_finder(recursion: Recursion, surface: SurfaceKernels = PLANE) -> Callable[..., Any]:
-    """The compiled search for the crossings of a plane, or of another surface, by one orbit.
+    """Return the compiled search for crossings of a plane, or of another surface, by an orbit.
 
-    cross(state, parameters, normal, offset, sense, end, order, tolerance, max_steps, times, states): the
-    crossings of normal·y = offset after t = 0 and up to t = `end` (of either sign) into `times` (n,) and
-    `states` (n, d), until those are full; sense 1: from below, −1: from above (as time grows), 0: both.
-    An orbit that starts on the plane has not crossed it there.
-    Returns (crossings, steps); crossings is `STEP_LIMIT_REACHED` when that is so.
+    cross(state, parameters, normal, offset, sense, end, order, tolerance, max_steps, times, states) writes the
+    crossings of normal·y = offset between t = 0 and t = `end` (of either sign) to `times` (n,) and `states` (n, d),
+    until these are full.  sense : 1 for crossings from below, −1 from above (as time increases), 0 for both.
+    The start does not count, even if it lies on the plane.
+    It returns (crossings, steps); crossings may be `STEP_LIMIT_REACHED`.
     """
     n, columns = recursion.variables, columns_of(recursion)
     expand, evaluate = expansion(recursion), evaluation(n)
@@ -218,7 +218,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels = PLANE) -> Ca
                 for k in range(1, order + 1, 2):
                     e[k] = -e[k]
             if steps == 0:
-                # Round-off must not make a crossing of a start that was meant to be on the plane.
+                # A start on the plane must not become a crossing by round-off.
                 on_plane = abs(e[0]) <= 1e-14 * (1.0 + abs(offset))
                 below = e[0] < 0.0
                 if on_plane:
@@ -245,7 +245,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels = PLANE) -> Ca
                     s = direction * roots[root]
                     evaluate(c, s, increments)
                     if curved:
-                        # What the cut series of e leaves, one step of Newton's method takes away.
+                        # One Newton step removes the truncation error of the series of e.
                         for i in range(n):
                             found[i] = c[0, i] + increments[i]
                         slope = value_and_slope(e, roots[root])[1]

@@ -188,14 +188,14 @@ def step_of(c, n, tolerance):
 
 @inner
 def compensated(total, low, increment):
-    """total + low + increment as a sum and what the sum cannot hold."""
+    """Return total + low + increment as a rounded sum and its round-off."""
     increment += low
     new = total + increment
     return new, increment - (new - total)
 
 
 def orbit_integrator(recursion: Recursion) -> Callable[..., Any]:
-    """The compiled solver of ẏ = f(y, p) for one orbit with dense output.
+    """Return the compiled solver of ẏ = f(y, p) for one orbit with dense output.
 
     integrate(state, parameters, times, order, tolerance, max_steps, out): from t = 0, writes the state (d,)
     at the given times (n,), monotonic, all ≥ 0 or all ≤ 0, into `out` (n, d).  Returns the number

@@ -1,12 +1,12 @@
 # mypy: allow-untyped-defs
-"""Variational equations V̇ = J(y(t)) V along an orbit, by Taylor series with those of the orbit.
+"""Variational equations V̇ = J(y(t)) V, solved by Taylor series along with the orbit.
 
-The Jacobian J of a traced field is found by differentiating what was recorded.  Its entries that are not 0 are observed
-along with the motion, one series each, quotients included; then
+The Jacobian J is derived symbolically from the traced field.  The series of its nonzero entries, quotients included,
+are computed along with the motion.  The recursion
 
     (k+1) V_(k+1) = Σ_m J_m V_(k−m)
 
-takes all columns of V together, side by side, so that the processor does the same with each at once.
+treats all columns of V side by side, so that it uses vector instructions.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ __all__ = ["Variation", "variation", "variation_integrator"]
 class Variation:
     """A field with its Jacobian.
 
-    recursion : of the field, which also returns the entries of J that are not 0 and, last, the divergence tr J.
-    moving, fixed : row and column of the entries, in this order; those that are fixed depend on parameters only.
+    recursion : recursion of the field, extended by the nonzero entries of J and, last, the divergence tr J.
+    moving, fixed : rows and columns of the entries, in this order; fixed entries depend on parameters only.
     """
 
     recursion: Recursion
@@ -46,7 +46,7 @@ class Variation:
 
 
 def variation(field: Field, variables: int, parameters: int) -> Variation:
-    """The field and its Jacobian, derived.  Raises `NotTraceable`."""
+    """Return the recursion of a field and its Jacobian.  Raises `NotTraceable`."""
     moving: list[tuple[int, int]] = []
     fixed: list[tuple[int, int]] = []
 
@@ -61,25 +61,25 @@ def variation(field: Field, variables: int, parameters: int) -> Variation:
         divergence = sum(entries[i, i] for i in range(len(rates)))
         return *rates, *(entries[place] for place in (*moving, *fixed)), divergence
 
-    # Which entries there are is known only when the field has run.
+    # The nonzero entries are known only after the field has been called.
     trace(lambda y, p: with_jacobian(y, p)[: len(y)], variables, parameters)
     recursion = trace(with_jacobian, variables, parameters, len(moving) + len(fixed) + 1)
     return Variation(recursion, tuple(moving), tuple(fixed))
 
 
 def _lanes(columns: int) -> int:
-    """The numbers in a row of V: whole vectors of four, or one alone."""
+    """Return the length of a row of V, padded to a multiple of four unless it is one."""
     return 1 if columns == 1 else columns + -columns % 4
 
 
 def carrying_source(of: Variation, lanes: int) -> str:
-    """Python source of carry(seen, v, inverses): the coefficients v[1 … order, row, lane] from v[0] and those of J."""
+    """Return the source of carry(seen, v, inverses), which computes v[1 … order, row, lane] from v[0] and J."""
     n = of.recursion.variables
     entries = [*of.moving, *of.fixed]
     each = range(lanes)
 
     def sums(row: int) -> tuple[str, ...]:
-        """Two for a row with many terms: the processor need not wait for one sum."""
+        """Return two partial sums for a row with many terms, so that additions overlap."""
         return ("s", "t") if sum(i == row for i, _ in of.moving) > 2 else ("s",)
 
     beginnings, used = [], {j for _, j in of.moving}
@@ -119,7 +119,7 @@ def carry(seen, v, inverses):
 
 @inner
 def largest_entry(v, rows, columns):
-    """max |v| of v[row, column]."""
+    """Return max |v| over v[row, column]."""
     largest = 0.0
     for i in range(rows):
         for j in range(columns):
@@ -129,7 +129,7 @@ def largest_entry(v, rows, columns):
 
 @inner
 def length_of(rates, rows):
-    """|f|."""
+    """Return |f|."""
     square = 0.0
     for i in range(rows):
         square += rates[i] * rates[i]
@@ -138,9 +138,9 @@ def length_of(rates, rows):
 
 @inner
 def orthonormalised(v, rates, speed, rows, columns, growth):
-    """Gram and Schmidt's method on the columns of v[row, column]; adds the logarithms of their lengths to growth.
+    """Orthonormalise the columns of v[row, column] by Gram–Schmidt and add the logarithms of their lengths to growth.
 
-    rates : where their length `speed` is not 0, they come before all columns.
+    rates : if their length `speed` is not 0, the columns are made orthogonal to them first.
     """
     for j in range(columns):
         if speed > 0.0:
@@ -167,11 +167,11 @@ def orthonormalised(v, rates, speed, rows, columns, growth):
 
 @inner
 def is_bent(v, rows, columns, known, volume, limit):
-    """Whether columns that began orthonormal have come so close to each other, or so far from length 1.
+    """Return True if the condition number of the columns, or their length, may have passed the limit.
 
-    known : 1 where there is a column of length 1 before them, else 0.
+    known : 1 if a column of length 1 comes before them, else 0; volume : ln det v.
     The condition number of a square matrix of d columns is at most 2 (|v|²/d)^(d/2)/det v (Guggenheimer, Edelman,
-    Johnson 1995); volume : ln det v.  Where they are no basis, only their length is looked at.
+    Johnson 1995).  If the columns do not form a basis, only their length is tested.
     """
     square = float(known)
     for i in range(rows):
@@ -184,17 +184,18 @@ def is_bent(v, rows, columns, known, volume, limit):
 
 
 def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Callable[..., Any]:
-    """The compiled solver of ẏ = f(y, p), V̇ = J V for V of so many columns.
+    """Return the compiled solver of ẏ = f(y, p), V̇ = J V for V with `columns` columns.
 
-    ahead : whether the column before them is that along the motion, f(y), which is known and not followed.
+    ahead : True if f(y), the column along the motion, precedes the columns of V; it is known and not integrated.
 
-    vary(state, frame, parameters, times, order, tolerance, max_steps, limit, states, frames, growth, divergence):
-    from t = 0, at the given times (n,), monotonic, all ≥ 0 or all ≤ 0, writes y into `states` (n, d), V into `frames`
-    (n, d, c), and ∫ tr J dt into `divergence` (n,).  Returns the number of steps, or `STEP_LIMIT_REACHED`.
+    vary(state, frame, parameters, times, order, tolerance, max_steps, limit, states, frames, growth, divergence)
+    integrates from t = 0.  At the times (n,), monotonic and all ≥ 0 or all ≤ 0, it writes y into `states` (n, d), V
+    into `frames` (n, d, c), and ∫ tr J dt into `divergence` (n,).  It returns the number of steps, or
+    `STEP_LIMIT_REACHED`.
 
-    limit : where finite, V is orthonormalised after the step at which its condition, or the length of its columns,
-    may have passed it, and made orthogonal to a column ahead; `growth` (n, c) holds the logarithms of the lengths
-    taken away before each time.
+    limit : if finite, V is orthonormalised (also against f(y) with `ahead`) after a step at which its condition number,
+    or the length of its columns, may have passed the limit.  `growth` (n, c) receives the logarithms of the lengths
+    removed before each time.
     """
     recursion = of.recursion
     n, width, lanes, last_seen = recursion.variables, columns_of(recursion), _lanes(columns), recursion.observed - 1
@@ -236,7 +237,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
                 rise = np.log(speed) if ahead else 0.0
                 if steps == 0:
                     speed_then = rise
-                # As if the column ahead had length 1.
+                # The column f(y) counts with length 1.
                 if is_bent(v[0], n, columns, known, (volume - volume_then) - (rise - speed_then), limit):
                     orthonormalised(v[0], c[1], speed, n, columns, grown)
                     speed_then, volume_then = rise, volume
@@ -282,7 +283,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
 
 @inner
 def spread_over(seen, which, inverses, s):
-    """∫ of one of the observed series from 0 to s."""
+    """Return the integral of an observed series from 0 to s."""
     total = 0.0
     for k in range(inverses.size - 1, -1, -1):
         total = (total + seen[k, which] * inverses[k]) * s
