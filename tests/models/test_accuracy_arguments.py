@@ -76,16 +76,12 @@ def public():
     for package in (hm, importlib.import_module("hess_explorer.sweep")):
         for found in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
             module = importlib.import_module(found.name)
-            for name in getattr(module, "__all__", ()):
-                one = getattr(module, name)
-                if getattr(one, "__module__", None) != module.__name__:
-                    continue
-                members = [one] if inspect.isfunction(one) else vars(one).values() if inspect.isclass(one) else ()
-                yield from (
-                    (f"{module.__name__}.{member.__qualname__}", member)
-                    for member in members
-                    if inspect.isfunction(member) and not member.__name__.startswith("_")
-                )
+            own = (getattr(module, name) for name in getattr(module, "__all__", ()))
+            for one in own:
+                if getattr(one, "__module__", None) == module.__name__:
+                    for member in vars(one).values() if inspect.isclass(one) else [one]:
+                        if inspect.isfunction(member) and not member.__name__.startswith("_"):
+                            yield f"{module.__name__}.{member.__qualname__}", member
 
 
 def test_every_function_of_the_package_that_takes_an_accuracy_is_called_here():
@@ -94,14 +90,10 @@ def test_every_function_of_the_package_that_takes_an_accuracy_is_called_here():
 
 
 @pytest.mark.parametrize("name", CALLS)
-def test_the_name_of_a_level_and_the_level_mean_the_same(name):
+def test_a_level_and_its_name_mean_the_same_and_a_name_that_no_level_has_is_refused(name):
     by_name, by_level = (np.asarray(CALLS[name](one)) for one in ("draft", level("draft")))
     assert by_name.size
     assert np.array_equal(by_name, by_level, equal_nan=True)
-
-
-@pytest.mark.parametrize("name", CALLS)
-def test_a_name_that_no_level_has_is_refused(name):
     with pytest.raises(InvalidParameter, match="choose one of draft, standard, precise, reference"):
         CALLS[name]("exact")
 

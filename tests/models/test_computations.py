@@ -83,20 +83,9 @@ def test_orbits_of_a_section_are_those_of_its_return_map_forward_and_backward(P)
     found = hm.section_orbits(P, orbits=3, crossings=6)
     assert [len(orbit) for orbit in found.orbits] == [6, 6, 6]
     start = found.orbits[0][1]
-    apart = np.abs(
-        np.exp(1j * hm.section_orbits(P, starts=[start], crossings=4).orbits[0]) - np.exp(1j * found.orbits[0][2:6])
-    )
+    again = np.exp(1j * hm.section_orbits(P, starts=[start], crossings=5).orbits[0])
     # A start on the plane may be its own first crossing.
-    assert (
-        min(
-            apart.max(),
-            np.abs(
-                np.exp(1j * hm.section_orbits(P, starts=[start], crossings=5).orbits[0][1:])
-                - np.exp(1j * found.orbits[0][2:6])
-            ).max(),
-        )
-        < 1e-3
-    )
+    assert min(np.abs(one - np.exp(1j * found.orbits[0][2:6])).max() for one in (again[:4], again[1:])) < 1e-3
     back = hm.section_orbits(P.inverse(), starts=[found.orbits[0][3]], crossings=3).orbits[0]
     assert np.abs(np.exp(1j * back) - np.exp(1j * start)).max(axis=1).min() < 1e-3
 
@@ -159,7 +148,6 @@ def test_free_motions_periods_and_tori_hand_on_their_arrays():
         (lambda: hm.solve(SUSLOV, "abc", 5.0), "a state consists of 5 numbers"),
         (lambda: hm.solve(SUSLOV, STATE, "long"), "t = 'long' is not a number; write it like 1.5 or -2e-3."),
         (lambda: hm.solve(SUSLOV, STATE, ["a", "b"]), "one or more finite numbers"),
-        (lambda: hm.solve(SUSLOV, STATE, 5.0, accuracy="best"), "choose one of draft, standard, precise, reference"),
         (lambda: hm.solve(SUSLOV, STATE, 5.0, accuracy=[]), "choose one of draft, standard, precise, reference"),
         (lambda: hm.solve(SUSLOV, STATE, 5.0, samples=1.5), "is not a whole number from 2 to 200000"),
         (lambda: hm.SuslovBody("2", 1.0, 0.3, 0.5), "I11 = '2' is not a number"),
@@ -169,24 +157,19 @@ def test_free_motions_periods_and_tori_hand_on_their_arrays():
             "'body' is not a body with equations of motion: give a SuslovBody",
         ),
         (lambda: hm.solve(hm.SuslovBody, (1.0,), 3.0), "is not a body with equations of motion"),
-        (lambda: hm.lyapunov_spectrum(None, (1.0,), 3.0), "None is not a body with equations of motion"),
-        (lambda: hm.circle_map(0.5, 1.5, "x", hm.level("draft")), "f = 'x' is not a number; write it like 1.5"),
         (lambda: hm.rotation_numbers("a", 1.0, 0.2), "a = 'a' is neither a number nor an array of numbers"),
         (
             lambda: hm.section_orbits(hm.return_map(hm.HessBody(2.0, 1.0, -1.0), h=1.5, f=0.6)),
             "single coordinate φ: this needs a section with two",
         ),
         (lambda: hm.return_map(2.0, h=2.0, f=0.5), "is not a HessBody: give a hess_mechanics.HessBody"),
-        (lambda: hm.section_orbits(hm.return_map(HEAVY, h=-5.0, f=0.5)), "choose a larger energy"),
         (lambda: hm.return_map(SUSLOV, E=-5.0), "reaches γ3 = 0: choose E above"),
         (
             lambda: hm.section_orbits(hm.return_map(SUSLOV, E=1.8), starts=[1.0, 2.0]),
             "is not a list of points; write them like [(0.0, 0.5)",
         ),
-        (lambda: hm.section_orbits(hm.return_map(SUSLOV, E=1.8), starts=[("x", 2.0)]), "starts = 'x' is not a number"),
         (lambda: hm.basins(SUSLOV, 1.8, cells=(1000, 1000)), "at most 100000 are allowed"),
         (lambda: hm.basins(SUSLOV, 1.8, window=((1.0, 0.0), (0.0, 1.0))), "ψ0 < ψ1"),
-        (lambda: hm.period(BALL, STATE), "set these to 0"),
         (lambda: hm.rotation_along_line(HEAVY, -0.99, 0.0, ((0.0, 0.9), (0.1, 0.9))), "choose another line"),
     ],
 )

@@ -7,7 +7,6 @@ level.  Nor may it cry wolf: where the true error is more than round-off, half o
 import math
 from decimal import Decimal
 
-import mpmath
 import numpy as np
 import pytest
 
@@ -58,21 +57,6 @@ def agree(found, kept, within):
     return abs(Decimal(found) - Decimal(kept)) <= within if isinstance(found, str) else found == kept
 
 
-@in_long_double
-@pytest.mark.parametrize("row", REFERENCE["trajectories"], ids=lambda row: row["name"])
-def test_orbits_in_long_double_agree_with_the_reference(row):
-    times = [state["t"] for state in row["states"]]
-    exact = oracle.as_long_doubles([state["y"] for state in row["states"]])
-    found = oracle.orbits_in_long_double(
-        SYSTEMS[row["system"]],
-        oracle.as_long_doubles([row["y0"]]),
-        oracle.as_long_doubles([parameters_of(row)]),
-        oracle.as_long_doubles([times]),
-    )
-    # The most unstable of these motions makes 1e-19 to 2e-14 by t = 100, and the 2e-16 of a double to 4e-11.
-    assert np.max(np.abs(found[0] - exact)) < 1e-13
-
-
 @pytest.mark.parametrize("row", REFERENCE["trajectories"], ids=lambda row: row["name"])
 def test_orbits_in_decimals_agree_with_all_digits_of_the_reference(row):
     times, exact = [state["t"] for state in row["states"]], np.array([state["y"] for state in row["states"]])
@@ -86,94 +70,6 @@ def test_maps_by_three_orbits_agree_with_all_digits_of_the_reference(row):
     assert math.exp(found.log_trace) == pytest.approx(float(row["abs_trace"]), rel=1e-15, abs=1e-15)
     for phi, theta in enumerate(row["theta_of_phi_0_1_2"]):
         assert abs(found.theta(phi) - float(theta)) < 2e-15
-
-
-@pytest.mark.parametrize(
-    ("torus", "digits", "closed", "bound"),
-    [
-        ((0.0, 1.5, 0.6), 40, lambda: oracle.map_without_a(1.5, 0.6), 1e-15),
-        ((0.0, 0.3, -0.5), 40, lambda: oracle.map_without_a(0.3, -0.5), 1e-15),
-        ((0.7, 1.5, "1e-20"), 70, lambda: oracle.map_of_vanishing_f(0.7, 1.5), 1e-15),
-        ((0.7, 0.3, "1e-20"), 80, lambda: oracle.map_of_vanishing_f(0.7, 0.3), 1e-15),
-        # Next to the saddle the limit is approached as √f.
-        ((0.7, 1.0, "1e-14"), 55, lambda: oracle.map_of_vanishing_f(0.7, 1.0, "1e-14"), 1e-6),
-        (
-            (0.7, "1.00000000000001", "1e-14"),
-            55,
-            lambda: oracle.map_of_vanishing_f(0.7, "1.00000000000001", "1e-14"),
-            1e-6,
-        ),
-        (
-            (0.7, "0.99999999999999", "1e-14"),
-            55,
-            lambda: oracle.map_of_vanishing_f(0.7, "0.99999999999999", "1e-14"),
-            1e-6,
-        ),
-        # On the curve at n3 = 1/4, and inside it by 1e-20: the torus has the width of the square root of that.
-        ((0.7, 1.625, "1.87499999999999999999"), 60, lambda: oracle.map_on_the_curve(0.7, 0.25), 1e-9),
-        ((0.1, 1.625, "1.87499999999999999999"), 60, lambda: oracle.map_on_the_curve(0.1, 0.25), 1e-9),
-    ],
-    ids=lambda x: ", ".join(map(str, x)) if isinstance(x, tuple) else "",
-)
-def test_closed_forms_of_maps_agree_with_three_orbits(torus, digits, closed, bound):
-    left, right = oracle.map_by_three_orbits(*torus, digits), closed()
-    for phi in np.linspace(-3.0, 3.0, 7):
-        assert abs(math.remainder(left.theta(phi) - right.theta(phi), 2 * math.pi)) <= bound * max(1.0, left.slope(phi))
-    assert math.exp(left.log_trace) == pytest.approx(math.exp(right.log_trace), rel=bound, abs=bound)
-
-
-@pytest.mark.parametrize(("h", "f"), [(0.5, 0.5), (1.0, 1e-12), (0.3, 1e-100), (-1 + 2**-53, 0.0), (1e8, 14000.0)])
-def test_the_turning_roots_are_those_of_mpmath(h, f):
-    with mpmath.workdps(250):
-        h, f = mpmath.mpf(h), mpmath.mpf(f)
-        roots = mpmath.polyroots([-2, -2 * h, 2, 2 * h - f * f], maxsteps=5000, extraprec=2 * mpmath.mp.prec)
-        for found, exact in zip(oracle.turning_roots(h, f), sorted(map(mpmath.re, roots)), strict=True):
-            assert abs(found - exact) < mpmath.mpf(10) ** -240 * (1 + abs(exact))
-
-
-def test_the_cycle_by_collocation_agrees_with_three_orbits():
-    whole = oracle.map_by_three_orbits(3.0, 0.3, 0.6, digits=60)
-    phi, log_trace = oracle.stable_cycle(3.0, 0.3, 0.6)
-    assert whole.theta(phi) == pytest.approx(phi, abs=1e-13)
-    assert whole.slope(phi) < 1
-    assert log_trace == pytest.approx(whole.log_trace, abs=1e-12)
-
-
-@pytest.mark.parametrize("h", [0.3, 1.0, 1.7])
-@pytest.mark.parametrize("direction", [1, -1])
-def test_the_loxodromic_pendulum_agrees_with_a_taylor_series(h, direction):
-    phi, fast, times = 0.4, 2 * math.sqrt((h + 1) / 2), direction * np.array([0.5, 2.0, 5.0])
-    start = [fast * math.sin(phi), fast * math.cos(phi), 0.0, 0.0, 1.0]
-    exact = oracle.orbit_in_decimals(SYSTEMS["hess"], start, [0.7, 1.0], times, digits=25)
-    assert np.max(oracle.distances(oracle.pendulum(0.7, h, phi, times), exact)) < 1e-13
-    # The same orbit, begun half a time unit later.
-    later = oracle.pendulum(0.7, h, math.atan2(*map(float, exact[0][:2])), times[1:] - times[0], since=times[0])
-    if direction > 0:
-        assert np.max(oracle.distances(later, exact[1:])) < 1e-12
-
-
-def test_the_steady_rotation_agrees_with_a_taylor_series():
-    state, times = [0.3, -0.8, 0.6, 0.0, 0.8], [1.0, 5.0]
-    exact = oracle.orbit_in_decimals(SYSTEMS["suslov"], state, [2, 1, 0, 0, 0, 0, 0], times, digits=25)
-    assert np.max(oracle.distances(oracle.steady_rotation(state[:2], state[2:], times), exact)) < 1e-15
-
-
-@pytest.mark.parametrize(
-    ("field", "solution"),
-    [
-        (lambda y, p: (-(y[0] ** 2),), lambda t: 1 / (1 + t)),
-        (lambda y, p: (1 / y[0],), lambda t: math.sqrt(1 + 2 * t)),
-        (lambda y, p: ((p[0] - y[0] ** 3 / y[0]) / 2 + y[0] * (y[0] - 1) / 2,), lambda t: 2 - math.exp(-t / 2)),
-        (lambda y, p: (3 - y[0] * p[0],), lambda t: 1.5 - math.exp(-2 * t) / 2),
-        (lambda y, p: (2,), lambda t: 1 + 2 * t),
-    ],
-    ids=["power", "quotient", "all of them", "linear", "constant"],
-)
-def test_the_arithmetic_of_series_solves_equations_with_closed_solutions(field, solution):
-    # y(0) = 1, p = 2; the third is ẏ = 1 − y/2.
-    one, two = oracle.as_decimals([[1]]), oracle.as_decimals([[2]])
-    (((found,),),) = oracle.taylor(field, one, two, oracle.as_decimals([[0.7]]), order=40, tolerance=1e-30)
-    assert float(found) == pytest.approx(solution(0.7), rel=1e-15)
 
 
 # ---- orbits -----------------------------------------------------------------------------------------------------

@@ -308,16 +308,8 @@ def test_a_cloud_is_as_exact_as_the_points_that_are_computed_twice_say(clouds, n
     for body, states, times, exact in clouds:
         found = carried(body, states, times, level)
         fastest = float(np.abs(exact.omega).max())
-        errors.append(
-            max(
-                float(np.abs(left - right).max()) / unit
-                for left, right, unit in (
-                    (found.log_s, exact.log_s, 1.0),
-                    (found.gamma, exact.gamma, 1.0),
-                    (found.along, exact.along, fastest),
-                )
-            )
-        )
+        units = {"log_s": 1.0, "gamma": 1.0, "along": fastest}
+        errors.append(max(np.abs(getattr(found, one) - getattr(exact, one)).max() / units[one] for one in units))
         estimates.append(found.error_estimate)
     assert within_a_factor_of_ten(errors, estimates)
     # Of a few points only the estimate may be missed by a little.

@@ -21,10 +21,8 @@ CAPTION = BallBody(1.0, 1.5, 0.7, 1.2, 10.0)
 ROTATIONS = [
     ((3.56, 1.0, 0.0, 0.8), -0.8484094045578246168641),
     ((2.44, 1.0, 0.0, 0.5), -0.9902583607917886898757),
-    ((0.8, 1.0, 0.0, 0.5), -0.9305335004052719694923),
     ((1.64, 1.0, 0.0, 0.8), -1.0),
     ((1.0, 1.5, 0.7, 1.2), -0.47889450360074),
-    ((2.0, 1.0, 0.3, 0.5), -0.95659283876095),
     ((3.0, 2.0, -0.4, 0.9), -0.98973299253727),
 ]
 
@@ -39,25 +37,19 @@ def harmonics(result):
 
 @pytest.mark.parametrize(("tensor", "cosine"), ROTATIONS)
 @pytest.mark.parametrize("theta", [0.4, 1.0, 2.2])
-@pytest.mark.parametrize("side", [1.0, -1.0])
-def test_without_the_inner_ball_scattering_is_the_rotation_of_the_free_suslov_problem(tensor, cosine, theta, side):
+@pytest.mark.parametrize(("distance", "h"), [(1e-7, 1.5), (-1e-7, 1e6), (1e-7, 1e-6)])
+def test_without_the_inner_ball_scattering_is_the_rotation_of_the_free_suslov_problem(
+    tensor, cosine, theta, distance, h
+):
     # Γ⁺ = cos χ Γ⁻ + sin χ √(1 − Γ⁻²) cos(φ − φ*), the same at every energy.
     for D, slack in ((0.0, 0.0), (1e-5, 2e-4)):
-        found = ball_scattering(BallBody(*tensor, D), theta, PHASES, 1.5, side * 1e-7, level("standard"))
+        found = ball_scattering(BallBody(*tensor, D), theta, PHASES, h, distance, level("standard"))
         assert found.status is Status.OK
         mean, amplitude, rest = harmonics(found)
         error = found.errors.max() + slack
         assert mean == pytest.approx(cosine * math.cos(theta), abs=error)
         assert amplitude == pytest.approx(math.sqrt(1.0 - cosine**2) * math.sin(theta), abs=error)
         assert rest <= error
-
-
-def test_what_the_inner_ball_does_falls_with_it():
-    rests = []
-    for D in (1e-1, 1e-2, 1e-3):
-        body = BallBody(1.0, 1.5, 0.7, 1.2, D)
-        rests.append(harmonics(ball_scattering(body, 1.0, PHASES, 1.5, 1e-7, level("standard")))[2])
-    assert rests[0] > 5 * rests[1] > 25 * rests[2] > 0.0
 
 
 @cache

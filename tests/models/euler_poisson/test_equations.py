@@ -136,21 +136,22 @@ def orbits(body, count=4, span=30.0):
         yield solve(body, state, np.linspace(0.0, span, 100), level("reference")).states
 
 
-def test_a_free_body_keeps_the_length_of_its_momentum():
-    for states in orbits(HeavyBody((1.0, 1.6, 2.3), (0.0, 0.0, 0.0), 1.0)):
-        assert np.ptp(np.sum(states[:, :3] ** 2, axis=1)) < 1e-11
-
-
-def test_lagranges_top_keeps_its_spin():
-    for states in orbits(HeavyBody((1.5, 1.5, 0.9), (0.0, 0.0, 0.7), 2.0)):
-        assert np.ptp(states[:, 2]) < 1e-12
-
-
-def test_kovalevskayas_top_keeps_her_integral():
+def kovalevskaya(y):
     """a3 = 2a1 = 2a2, r = (1, 0, 0): |(M1 + iM2)²/2 + μ(γ1 + iγ2)/a1|²."""
-    for states in orbits(HeavyBody((1.0, 1.0, 2.0), (1.0, 0.0, 0.0), 0.8)):
-        z = 0.5 * (states[:, 0] + 1j * states[:, 1]) ** 2 + 0.8 * (states[:, 3] + 1j * states[:, 4])
-        assert np.ptp(np.abs(z) ** 2) < 1e-11
+    return np.abs(0.5 * (y[0] + 1j * y[1]) ** 2 + 0.8 * (y[3] + 1j * y[4])) ** 2
+
+
+@pytest.mark.parametrize(
+    ("body", "integral"),
+    [
+        pytest.param(HeavyBody((1.0, 1.6, 2.3), (0.0, 0.0, 0.0), 1.0), lambda y: np.sum(y[:3] ** 2, 0), id="Euler"),
+        pytest.param(HeavyBody((1.5, 1.5, 0.9), (0.0, 0.0, 0.7), 2.0), lambda y: 10.0 * y[2], id="Lagrange"),
+        pytest.param(HeavyBody((1.0, 1.0, 2.0), (1.0, 0.0, 0.0), 0.8), kovalevskaya, id="Kovalevskaya"),
+    ],
+)
+def test_the_integrable_tops_keep_their_integrals(body, integral):
+    for states in orbits(body):
+        assert np.ptp(integral(states.T)) < 1e-11
 
 
 def test_goryachev_and_chaplygin_keep_theirs_at_f_0():
@@ -172,14 +173,12 @@ def test_goryachev_and_chaplygin_keep_theirs_at_f_0():
     ("request_", "error", "words"),
     [
         (lambda: HeavyBody((0.0, 1.0, 2.0), (1.0, 0.0, 0.0), 1.0), NotPositiveDefinite, "a1 = 0.*choose a1 > 0"),
-        (lambda: HeavyBody((1.0, 1.0, -2.0), (1.0, 0.0, 0.0), 1.0), NotPositiveDefinite, "choose a3 > 0"),
         (lambda: HeavyBody((1.0, 1e-25, 2.0), (1.0, 0.0, 0.0), 1.0), InvalidParameter, "choose ratios below"),
         (lambda: HeavyBody((1.0, 1.0, 2.0), (math.nan, 0.0, 0.0), 1.0), InvalidParameter, "r1 is not a finite number"),
         (lambda: HeavyBody((1.0, 1.0, 2.0), (0.0, 0.0, 0.0), math.inf), InvalidParameter, "μ is not a finite number"),
         (lambda: HeavyBody.hess((1.0, 2.0, 1.5), 1.0), InvalidParameter, "I2 = 2 must lie between I1 = 1 and I3 = 1.5"),
         (lambda: HeavyBody.hess((1.0, 1.0, 1.0), 1.0), InvalidParameter, "which differ"),
         (lambda: HeavyBody.hess((1.0, -1.0, 2.0), 1.0), NotPositiveDefinite, "choose I2 > 0"),
-        (lambda: HeavyBody.hess((1.0, math.inf, 2.0), 1.0), InvalidParameter, "I2 is not a finite number"),
         (lambda: HeavyBody.hess((1.0, 1.5, 2.0), 1.0, math.nan), InvalidParameter, "away is not a finite number"),
         (lambda: solve(GESS1, [1e200, 0.0, 0.0, 0.0, 0.0, 1.0], [1.0], level("draft")), ModelError, "less extreme"),
     ],

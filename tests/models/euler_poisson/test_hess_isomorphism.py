@@ -150,13 +150,11 @@ def test_the_same_motion_in_the_general_suslov_problem_has_the_same_energy_and_a
 
 
 @every_body
-def test_states_and_bodies_come_back(body):
+def test_states_come_back(body):
     bridge = Bridge.of_heavy(body)
     states = np.array([bridge.from_reduced(somewhere(seed)) for seed in range(4)])
     room = 1e-14 * (1.0 + np.max(np.abs(states)))
     assert bridge.from_suslov(bridge.to_suslov(states)) == pytest.approx(states, abs=room)
-    again = hess_body(heavy_body(bridge.hess))
-    assert (again.a, again.b, again.I11) == pytest.approx((bridge.hess.a, bridge.hess.b, bridge.hess.I11), rel=1e-13)
     assert abs(bridge.hess.a) == pytest.approx(body.hess_a, rel=1e-13)
 
 
@@ -187,13 +185,11 @@ def test_a_heavy_body_made_from_a_suslov_body_is_in_the_hess_case_and_rigid_wher
         assert body.check.is_body == (abs(hess.a) < 1.0)
         again = hess_body(body)
         assert (again.I22, again.I23, again.b3) == pytest.approx((hess.I22, hess.I23, hess.b3), rel=1e-12, abs=1e-15)
+        assert share_of(body) == pytest.approx(share, rel=1e-12)
     assert Bridge.of_suslov(hess).hess is hess
 
 
-@every_suslov
-def test_the_share_of_a_heavy_body_gives_its_moments_back(hess):
-    for share in (0.05, 0.5, 1.0):
-        assert share_of(heavy_body(hess, share)) == pytest.approx(share, rel=1e-12)
+def test_the_share_of_a_heavy_body_gives_its_moments_back():
     for moments in ((1.0, 0.625, 0.375), (1.0, 1.5, 2.0)):
         heavy = HeavyBody.hess(moments, 9.975)
         again = Bridge.of_suslov(hess_body(heavy), min(share_of(heavy), 1.0)).heavy
@@ -211,7 +207,6 @@ def test_more_than_the_whole_share_is_no_body_any_more():
 @pytest.mark.parametrize(
     ("body", "error", "words"),
     [
-        (HeavyBody((1.0, 1.6, 2.5), (3.0, 0.0, 4.0), 1.0), InvalidParameter, "not in the Hess case"),
         (HeavyBody.hess((1.0, 0.625, 0.375), 1.0, 0.01), InvalidParameter, "not in the Hess case"),
         (HeavyBody((1.0, 1.6, 2.5), (0.0, 0.0, 0.0), 1.0), NoField, "Choose r other than 0"),
     ],
@@ -285,15 +280,12 @@ def test_growth_sees_through_a_wiggle_and_refuses_what_is_not_straight():
 
     t = np.arange(0, 20 * 8 + 1) / 8.0
     wiggle = 2.0 * np.sin(2.0 * np.pi * t)
-    growth = growth_of(run_of(math.log(1e-15) + 1.7 * t + wiggle), 8)
+    seen = math.log(1e-15) + 1.7 * t + wiggle
+    growth = growth_of(run_of(seen), 8)
     assert growth.per_period == pytest.approx(1.7, rel=1e-12)
     # From the first period that is all above 3e-14 to the last that is all below 1e-3.
-    inside = [
-        k
-        for k in range(20)
-        if math.log(3e-14) <= np.min((math.log(1e-15) + 1.7 * t + wiggle)[8 * k : 8 * k + 8])
-        and np.max((math.log(1e-15) + 1.7 * t + wiggle)[8 * k : 8 * k + 8]) <= math.log(1e-3)
-    ]
+    periods = seen[:-1].reshape(20, 8)
+    inside = np.flatnonzero(np.all((periods >= math.log(3e-14)) & (periods <= math.log(1e-3)), axis=1))
     assert (growth.first, growth.periods) == (inside[0], len(inside))
     assert growth_of(run_of(math.log(1e-16) + 0.0 * t), 8) is None
     assert growth_of(run_of(math.log(1e-15) + 20.0 * t), 8) is None

@@ -5,13 +5,12 @@ from __future__ import annotations
 from fractions import Fraction
 
 import mpmath
-import numpy as np
 import pytest
 
 import oracle
 from hess_mechanics.errors import InvalidParameter, Separatrix
 from hess_mechanics.euler_poisson import proved_manifold
-from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
+from hess_mechanics.euler_poisson.equations import SYSTEM
 from hess_mechanics.euler_poisson.proved_manifold import cofactor, unsplit_separatrices
 
 
@@ -37,24 +36,6 @@ def evaluated(polynomial, values):
             term *= value ** int(power)
         total += term
     return total
-
-
-def test_the_hess_condition_of_the_library_is_that_of_the_identity():
-    body = HeavyBody.hess((1.0, 1.5, 2.0), 0.7)
-    a1, a2, a3 = body.a
-    s, t = np.sqrt(a1 - a2), np.sqrt(a2 - a3)
-    assert abs(body.r[1]) < 1e-15
-    assert abs(body.r[0]) / abs(body.r[2]) == pytest.approx(s / t, rel=1e-12)
-    assert abs(body.hess_a) == pytest.approx(s * t / a2, rel=1e-12)
-
-
-def test_off_the_hess_condition_there_is_no_such_factor():
-    """With r turned by ε, (r·M)˙ does not vanish on r·M = 0."""
-    s, t, a2, e = 0.7, 0.4, 1.3, 0.1
-    r1, r3 = s * np.cos(e) - t * np.sin(e), t * np.cos(e) + s * np.sin(e)
-    M1, M2 = 0.8, 0.5
-    rates = SYSTEM.field([M1, M2, -r1 * M1 / r3, 0.1, 0.2, 0.3], [a2 - s * s, a2, a2 + t * t, r1, 0.0, r3, 0.9])
-    assert abs(r1 * rates[0] + r3 * rates[2]) > 1e-3
 
 
 @pytest.mark.parametrize("torus", [("0.5", "5.01253", "2.0025"), ("-0.7", "1.5", "0.6")])

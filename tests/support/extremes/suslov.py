@@ -10,7 +10,7 @@ import oracle
 from hess_mechanics import SuslovBody, f_max, level, section
 from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.section import SuslovSection
-from hess_mechanics.suslov_hess.rotation_number import perturbed_rotation, values_at
+from hess_mechanics.suslov_hess.rotation_number import values_at
 
 __all__ = ["rows"]
 
@@ -77,34 +77,6 @@ def by_cycle(a, h, f):
     return mpmath.exp(log_trace) / 2
 
 
-def shifted(Row, name, torus, epsilon, **options):
-    """ρ of the other family against 10⁴ plain iterations of the map, of which less than one turn is not counted."""
-
-    @cache
-    def exact():
-        truth = oracle.map_by_three_orbits(*torus, 30)
-        grid = np.linspace(-math.pi, math.pi, 4001)
-        A, B = complex(truth.A), complex(truth.B)
-        z = np.exp(1j * grid)
-        turn = np.unwrap(np.angle((A * z + B) ** 2 / z) - grid)
-        turn -= 2.0 * math.pi * round(turn.mean() / (2.0 * math.pi))
-        phi = 0.3
-        for _ in range(10_000):
-            first = phi + epsilon * math.sin(3.0 * phi)
-            phi = first + float(np.interp((first + math.pi) % (2.0 * math.pi) - math.pi, grid, turn))
-        return (phi - 0.3) / (2.0e4 * math.pi)
-
-    return Row(
-        f"Θ(φ + ε sin 3φ): {name}",
-        "10⁴ iterations",
-        lambda grade: abs(float(perturbed_rotation(*torus, epsilon, level(grade))[0]) - exact()),
-        floor=2e-4,
-        levels=("precise", "reference"),
-        because="10⁴ iterations say no more",
-        **options,
-    )
-
-
 def rows(Row):
     """The rows."""
     plain, strong, weak = body_of(), body_of(1e6), body_of(1e-6)
@@ -157,6 +129,4 @@ def rows(Row):
             lambda: by_orbits(0.5, 1.0 + 1e-6, 1e-6),
             "three orbits, 40 digits",
         ),
-        shifted(Row, "ε = 0.33", (0.5, 0.5, 0.5), 0.33),
-        shifted(Row, "ε = −0.33, f < 0", (0.5, 0.5, -0.5), -0.33),
     ]
