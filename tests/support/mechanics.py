@@ -32,6 +32,41 @@ def angle_between(left, right):
     return float(np.max(np.abs(np.angle(np.exp(1j * (np.asarray(left) - np.asarray(right)))))))
 
 
+def scipy_states(system, state, parameters, times, rtol=1e-12, atol=1e-13):
+    """Return the states (n, d) of a motion by SciPy's DOP853 and the plain field."""
+
+    def rates(_, y):
+        return system.field(y.tolist(), parameters)
+
+    return solve_ivp(rates, (0.0, times[-1]), state, "DOP853", times, rtol=rtol, atol=atol).y.T
+
+
+def scipy_crossings(rates, state, height, end, direction=0, **options):
+    """Return times and states where SciPy's DOP853 finds the height 0, in one direction (of the run) or both.
+
+    A crossing within 1e-6 of the start is the start itself.
+    """
+
+    def event(_, y):
+        return height(y)
+
+    event.direction = direction
+    options = {"rtol": 1e-12, "atol": 1e-13, **options}
+    run = solve_ivp(lambda _, y: rates(y), (0.0, end), state, "DOP853", events=event, **options)
+    times, states = run.t_events[0], run.y_events[0].reshape(-1, len(state))
+    later = np.abs(times) > 1e-6
+    return times[later], states[later]
+
+
+def differences(function, place, step=1e-6):
+    """Return the Jacobian matrix of a function at a place by central differences."""
+    place = np.asarray(place, float)
+    shifts = step * np.eye(place.size)
+    return np.column_stack(
+        [(np.array(function(place + one)) - np.array(function(place - one))) / (2.0 * step) for one in shifts]
+    )
+
+
 def lifted_return(a, h, f, phases):
     """The lifted Θ by brute force: n̈3 = ½ p'(n3) and φ̇ = −a|w| cos φ − f/|w|² over one n3-period.
 

@@ -2,19 +2,17 @@
 
 import math
 import sys
-import threading
 from functools import cache
 from itertools import product
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from hess_mechanics import LEVELS, Level, Plane, Status, level, section, sections, solve, systems
 from hess_mechanics.dynamics.section import MAX_CROSSINGS
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
-from support.mechanics import EQUILIBRIA
+from support.mechanics import EQUILIBRIA, scipy_crossings
 from support.thorough import sample
 
 SYSTEMS = systems()
@@ -38,24 +36,6 @@ def compiled_kernels():
     """Compile all kernels first, so that time limits exclude the compiler."""
     for system in SYSTEMS.values():
         example_section(system)
-
-
-ENDLESS = []
-
-
-def ended(work):
-    """work(), which must come to an end: kernels release the interpreter's lock, so that one can wait for them."""
-    if ENDLESS:
-        pytest.fail("an earlier search is still running")
-    results = []
-    thread = threading.Thread(target=lambda: results.append(work()), daemon=True)
-    thread.start()
-    # Ten thousand times what it takes.
-    thread.join(60.0)
-    if thread.is_alive():
-        ENDLESS.append(thread)
-    assert not thread.is_alive(), "the search does not end"
-    return results[0]
 
 
 def axis(system, component, sign=1.0):
@@ -89,29 +69,6 @@ def random_motions(system, count, seed, end=10.0):
         yield random, state, parameters, normal, along.states @ normal
 
 
-def crossings_by_scipy(system, state, parameters, normal, offset, end):
-    run = solve_ivp(
-        lambda _, y: system.field(y.tolist(), parameters),
-        (0.0, end),
-        state,
-        method="DOP853",
-        rtol=1e-12,
-        atol=1e-13,
-        dense_output=True,
-        max_step=0.1,
-    )
-    # Looked for every 0.002, and found between.
-    times = np.linspace(0.0, end, 5001)
-    above = np.sign(normal @ run.sol(times) - offset)
-    found = np.array(
-        [
-            brentq(lambda t: normal @ run.sol(t) - offset, times[i], times[i + 1], xtol=1e-14)
-            for i in np.flatnonzero(above[1:] != above[:-1])
-        ]
-    )
-    return found, run.sol(found).T if found.size else np.empty((0, len(state)))
-
-
 def turning_heights(system, state, parameters, normal, heights, end):
     """The heights at which the orbit turns, to round-off."""
 
@@ -128,11 +85,17 @@ def turning_heights(system, state, parameters, normal, heights, end):
 
 @pytest.mark.parametrize("system", sample(SYSTEMS.values(), 2))
 def test_crossings_are_those_that_an_integrator_of_another_family_finds(system):
-    end, found = 10.0, 0
+    found = 0
     for random, state, parameters, normal, heights in random_motions(system, 20, seed=1):
         offset = float(np.quantile(heights, random.uniform(0.05, 0.95)))
-        result = section(system.at(parameters), state, Plane(tuple(normal), offset, 0), end, level("precise"))
-        times, states = crossings_by_scipy(system, state, parameters, normal, offset, end)
+        result = section(system.at(parameters), state, Plane(tuple(normal), offset, 0), 10.0, level("precise"))
+        times, states = scipy_crossings(
+            lambda y, p=parameters: system.field(y.tolist(), p),
+            state,
+            lambda y, normal=normal, offset=offset: normal @ y - offset,
+            10.0,
+            max_step=0.05,
+        )
         assert len(result.times) == len(times)
         for t, other, y, expected in zip(result.times, times, result.states, states, strict=True):
             # A height that is wrong by 1e-9 moves the crossing by that over the speed.
@@ -264,27 +227,15 @@ def test_the_equation_of_a_plane_may_be_multiplied_by_any_number(system, factor)
 
 @every_system
 @pytest.mark.parametrize("direction", [1.0, -1.0])
-def test_a_start_at_a_crossing_is_not_counted_and_the_next_ones_are(system, direction):
-    plane, found = example_section(system)
-    parameters = system.example[1]
-    for i, start in enumerate(found.states):
-        others = (found.times[i + 1 :] if direction > 0 else found.times[:i][::-1]) - found.times[i]
-        # As far as the first and the last of them, and a little more.
-        end = (others[-1] if others.size else 0.0) + direction * 1e-3
-        again = section(system.at(parameters), start, plane, end, level("reference"))
-        assert again.times == pytest.approx(others, rel=0, abs=1e-11)
-
-
-@every_system
-def test_a_start_on_an_oblique_plane_is_not_a_crossing(system):
-    for _, state, parameters, normal, _ in random_motions(system, 50, seed=6):
+def test_a_start_on_a_plane_is_not_a_crossing_and_the_next_ones_are(system, direction):
+    for _, state, parameters, normal, _ in random_motions(system, 25, seed=6):
         plane = Plane(tuple(normal), float(normal @ state), 0)
-        on_it = section(system.at(parameters), state, plane, 10.0, level("reference"))
+        on_it = section(system.at(parameters), state, plane, 10.0 * direction, level("reference"))
         # The same orbit from a little earlier crosses the plane there, and then where it does from there.
-        before = solve(system.at(parameters), state, [-1e-3], level("reference")).states[0]
-        earlier = section(system.at(parameters), before, plane, 10.001, level("reference"))
+        before = solve(system.at(parameters), state, [-1e-3 * direction], level("reference")).states[0]
+        earlier = section(system.at(parameters), before, plane, 10.001 * direction, level("reference"))
         slow = min(abs(rate(system, parameters, normal, y)) for y in (state, *on_it.states))
-        assert earlier.times - 1e-3 == pytest.approx([0.0, *on_it.times], rel=0, abs=1e-12 / min(1.0, slow))
+        assert earlier.times - 1e-3 * direction == pytest.approx([0.0, *on_it.times], rel=0, abs=1e-12 / min(1.0, slow))
 
 
 @every_system
@@ -298,7 +249,7 @@ def test_a_motion_from_rest_does_not_cross_the_plane_it_is_released_from(system,
     later = solve(system.at(parameters), state, [soon], level("reference")).states[0]
     for component in range(system.angular_velocities, state.size):
         plane = Plane(axis(system, component, sign), sign * state[component], 0)
-        found = ended(lambda plane=plane: section(system.at(parameters), state, plane, end, level("reference")))
+        found = section(system.at(parameters), state, plane, end, level("reference"))
         expected = section(system.at(parameters), later, plane, end - soon, level("reference"))
         assert np.all(np.abs(found.times) > 0.05)
         # On return to rest it may touch the plane again: there round-off decides.
@@ -328,7 +279,7 @@ def test_a_span_that_ends_at_a_crossing(system, sense, name):
     plane, found = example_section(system, name=name, sense=sense)
 
     def until(end):
-        return len(ended(lambda: section(*system.example_motion, plane, end, level(name))).times)
+        return len(section(*system.example_motion, plane, end, level(name)).times)
 
     # Height error allowed by the level, divided by the slope there.
     for i, (t, y) in enumerate(zip(found.times, found.states, strict=True)):
@@ -339,28 +290,13 @@ def test_a_span_that_ends_at_a_crossing(system, sense, name):
 
 
 @every_system
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_a_span_of_length_zero_has_no_crossings(system, sign):
-    state, parameters = system.example
-    for component in range(len(state)):
-        for height in (0.0, 0.5):
-            plane = Plane(axis(system, component, sign), sign * state[component] + height, 0)
-            result = ended(lambda plane=plane: section(system.at(parameters), state, plane, 0.0, level("draft")))
-            assert len(result.times) == 0
-
-
-# The momentum of a body with equal moments of inertia stays too, but has three components.
-@pytest.mark.parametrize("system", [SYSTEMS[name] for name in FREE], ids=FREE)
 @pytest.mark.parametrize("height", [0.0, 0.5, -0.5])
-@pytest.mark.parametrize("end", [10.0, -10.0, 1e200])
-def test_an_equilibrium_crosses_nothing(system, height, end):
-    state, parameters = EQUILIBRIA[system.name]
-    assert not any(system.field(state, parameters))
-    for component in (0, len(state) - 1):
-        plane = Plane(axis(system, component), state[component] + height, 0)
-        result = ended(lambda plane=plane: section(system.at(parameters), state, plane, end, level("precise")))
-        assert len(result.times) == 0
-        assert result.status is Status.OK
+def test_nothing_is_crossed_at_an_equilibrium_nor_in_a_span_of_length_zero(system, height):
+    for (state, parameters), ends in ((EQUILIBRIA[system.name], (10.0, -10.0, 1e200)), (system.example, (0.0,))):
+        for component, end in product(range(len(state)), ends):
+            plane = Plane(axis(system, component), state[component] + height, 0)
+            result = section(system.at(parameters), state, plane, end, level("precise"))
+            assert (len(result.times), result.status) == (0, Status.OK)
 
 
 @every_system
@@ -370,8 +306,7 @@ def test_a_motion_inside_the_plane_crosses_nothing(system):
     along = solve(body, state, np.linspace(0.0, 10.0, 101), level("reference")).states
     assert not np.any(along[:, 0])
     assert np.ptp(along[:, 1]) > 0.1
-    result = ended(lambda: section(body, state, Plane(axis(system, 0), 0.0, 0), 10.0, level("precise")))
-    assert len(result.times) == 0
+    assert len(section(body, state, Plane(axis(system, 0), 0.0, 0), 10.0, level("precise")).times) == 0
 
 
 @cache
@@ -392,30 +327,21 @@ def test_a_run_that_finds_other_crossings_than_the_more_exact_one_is_replaced_by
     careless = Level("draft", 1e-3, 1e-4, 10)
     state, parameters = (np.array(values) for values in system.example)
     nu = system.frequency(state, parameters)
-    times, states = np.empty(100), np.empty((100, state.size))
+    scaled = system.rescale(state, parameters, nu)
+    room = np.empty(100), np.empty((100, state.size))
     differing = 0
     for component, turning in turnings(system):
         normal = np.array(axis(system, component))
         height = nu if component < system.angular_velocities else 1.0
         for depth in (1e-3, -1e-3, 1e-4, -1e-4, 1e-5, -1e-5):
-            runs = [
+            offset = turning + depth
+            (count, steps), (other_count, other_steps) = (
                 system.cross(
-                    *system.rescale(state, parameters, nu),
-                    normal,
-                    (turning + depth) / height,
-                    sense,
-                    20.0 * nu,
-                    rung.order,
-                    rung.tolerance,
-                    10_000,
-                    times,
-                    states,
+                    *scaled, normal, offset / height, sense, 20.0 * nu, rung.order, rung.tolerance, 10_000, *room
                 )
                 for rung in (careless, careless.tightened())
-            ]
-            (count, steps), (other_count, other_steps) = runs
-            plane = Plane(tuple(normal), turning + depth, sense)
-            result = section(system.at(parameters), state, plane, 20.0, careless)
+            )
+            result = section(system.at(parameters), state, Plane(tuple(normal), offset, sense), 20.0, careless)
             assert result.cost.steps >= steps + other_steps
             if count != other_count:
                 differing += 1
@@ -445,14 +371,14 @@ def test_a_level_that_cannot_keep_its_promise_says_so(system):
 @every_system
 def test_sections_of_many_orbits_are_those_of_each(system):
     state, parameters = system.example
+    body = system.at(parameters)
     states = np.array(state) * np.random.default_rng(7).uniform(0.7, 1.3, (9, len(state)))
     plane, _ = example_section(system, sense=1)
     for name in ("draft", "precise"):
-        alone = [section(system.at(parameters), start, plane, 20.0, level(name)) for start in states]
+        alone = [section(body, start, plane, 20.0, level(name)) for start in states]
         assert len({one.times.size for one in alone}) > 1, "they differ"
         for threads in (1, 2):
-            together = sections(system.at(parameters), states, plane, 20.0, level(name), threads=threads)
-            assert len(together) == 9
+            together = sections(body, states, plane, 20.0, level(name), threads=threads)
             # Together they are computed in the unit of time of the fastest: other steps, within the errors.
             for one, other in zip(together, alone, strict=True):
                 assert one.times.shape == other.times.shape
@@ -460,29 +386,15 @@ def test_sections_of_many_orbits_are_those_of_each(system):
                 assert np.max(np.abs(one.states - other.states), initial=0.0) <= errors
                 assert one.status == other.status
     # Whoever computes them, they are the same.
-    one_by_one = sections(system.at(parameters), states, plane, 20.0, level("precise"), threads=1)
-    for one, other in zip(one_by_one, together, strict=True):
+    for one, other in zip(sections(body, states, plane, 20.0, level("precise"), threads=1), together, strict=True):
         assert np.array_equal(one.times, other.times)
         assert np.array_equal(one.states, other.states)
         assert (one.error_estimate, one.drift) == (other.error_estimate, other.drift)
-    first = sections(system.at(parameters), states, plane, 20.0, level("draft"), crossings=1)
-    assert all(one.times.size <= 1 for one in first)
-    assert sections(system.at(parameters), np.empty((0, len(state))), plane, 20.0, level("draft")) == []
-
-
-@every_system
-@pytest.mark.parametrize("threads", [1, 2])
-def test_an_orbit_of_many_that_is_wrong_raises_its_sentence(system, threads):
-    state, parameters = system.example
-    with pytest.raises(InvalidParameter, match="finite number"):
-        sections(
-            system.at(parameters),
-            [state, (np.nan, *state[1:])],
-            Plane(axis(system, 0)),
-            1.0,
-            level("draft"),
-            threads=threads,
-        )
+    assert all(one.times.size <= 1 for one in sections(body, states, plane, 20.0, level("draft"), crossings=1))
+    assert sections(body, np.empty((0, len(state))), plane, 20.0, level("draft")) == []
+    for threads in (1, 2):
+        with pytest.raises(InvalidParameter, match="finite number"):
+            sections(body, [state, (np.nan, *state[1:])], plane, 1.0, level("draft"), threads=threads)
 
 
 @every_system
@@ -490,9 +402,7 @@ def test_results_are_read_only_and_say_what_they_are(system):
     _, result = example_section(system, name="standard")
     assert (result.system, result.level) == (system.name, "standard")
     assert result.states.shape == (len(result.times), len(system.variables))
-    assert set(result.drift) == set(system.integrals(*system.example))
-    assert result.cost.steps > 0
-    assert result.cost.wall_ms > 0
+    assert min(result.cost.steps, result.cost.wall_ms) > 0
     for array in (result.times, result.states):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0.0
@@ -500,53 +410,20 @@ def test_results_are_read_only_and_say_what_they_are(system):
         result.status = Status.FLOOR
 
 
-@pytest.mark.parametrize("normal", [(0.0,) * 5, (), (np.nan, 0.0, 0.0, 0.0, 1.0), (1.0, 0.0, -np.inf, 0.0, 0.0)])
-def test_a_plane_without_direction_raises_a_sentence(normal):
-    with pytest.raises(InvalidParameter, match="finite normal other than 0"):
-        Plane(normal)
-
-
-@pytest.mark.parametrize("offset", [np.nan, np.inf, -np.inf])
-def test_a_plane_infinitely_far_away_raises_a_sentence(offset):
-    with pytest.raises(InvalidParameter, match="finite offset"):
-        Plane((1.0, 0.0), offset)
-
-
-@pytest.mark.parametrize("sense", [2, -2, 0.5, np.nan])
-def test_a_sense_that_is_none_raises_a_sentence(sense):
-    with pytest.raises(InvalidParameter, match=r"1 \(from below\), −1 \(from above\) or 0 \(both\)"):
-        Plane((1.0, 0.0), 0.0, sense)
-
-
-@every_system
-def test_a_normal_of_the_wrong_length_raises_a_sentence(system):
-    dimension = len(system.variables)
-    for length in (1, dimension - 1, dimension + 1):
-        with pytest.raises(InvalidParameter, match=f"has {dimension} components"):
-            section(*system.example_motion, Plane((1.0,) * length), 1.0, level("draft"))
-
-
-@every_system
-@pytest.mark.parametrize("end", [np.nan, np.inf, -np.inf])
-def test_an_end_that_is_not_finite_raises_a_sentence(system, end):
-    with pytest.raises(InvalidParameter, match="end of the time span must be finite"):
-        section(*system.example_motion, Plane(axis(system, 0)), end, level("draft"))
-
-
-@every_system
-@pytest.mark.parametrize("crossings", [0, -1, MAX_CROSSINGS + 1])
-def test_a_number_of_crossings_outside_its_limits_raises_a_sentence(system, crossings):
-    with pytest.raises(WorkLimit, match=f"between 1 and {MAX_CROSSINGS}"):
-        section(*system.example_motion, Plane(axis(system, 0)), 1.0, level("draft"), crossings)
-
-
-@every_system
-@pytest.mark.parametrize("end", [1e5, -1e5, 1e308, -1e308])
-@pytest.mark.parametrize("offset", [0.0, 100.0])
-def test_a_span_that_is_too_long_raises_a_sentence(system, end, offset, monkeypatch):
-    monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.section"], "MAX_STEPS", 10_000)
-    with pytest.raises(WorkLimit, match="more than 10000 steps: choose a shorter time span"):
-        section(*system.example_motion, Plane(axis(system, 0), offset), end, level("draft"))
+@pytest.mark.parametrize(
+    ("plane", "words"),
+    [
+        (((0.0,) * 5,), "finite normal other than 0"),
+        (((),), "finite normal other than 0"),
+        (((np.nan, 1.0),), "finite normal other than 0"),
+        (((1.0, 0.0), -np.inf), "finite offset"),
+        (((1.0, 0.0), 0.0, -2), r"1 \(from below\), −1 \(from above\) or 0 \(both\)"),
+        (((1.0, 0.0), 0.0, np.nan), r"1 \(from below\), −1 \(from above\) or 0 \(both\)"),
+    ],
+)
+def test_a_plane_that_is_none_raises_a_sentence(plane, words):
+    with pytest.raises(InvalidParameter, match=words):
+        Plane(*plane)
 
 
 @every_system
@@ -562,21 +439,26 @@ def test_all_runs_of_one_section_share_one_budget_of_steps(system, monkeypatch):
 
 
 @every_system
-def test_states_and_parameters_that_cannot_be_computed_raise_a_sentence(system):
-    state, parameters = system.example
-    plane = Plane(axis(system, 0))
-    for wrong in (state[:-1], (*state, 0.0), (np.nan, *state[1:]), (*state[:-1], np.inf)):
-        with pytest.raises(InvalidParameter, match=r"takes \d numbers|finite number"):
-            section(system.at(parameters), wrong, plane, 1.0, level("draft"))
-    for wrong in (parameters[:-1], (*parameters, 0.0), (*parameters[:-1], np.nan)):
-        with pytest.raises(InvalidParameter, match=r"takes \d numbers|finite number"):
-            section(system.at(wrong), state, plane, 1.0, level("draft"))
-
-
-@every_system
-@pytest.mark.parametrize("huge", [1e155, 1e200, 1e308])
-def test_motions_too_fast_for_double_precision_raise_a_sentence(system, huge, monkeypatch):
+def test_states_and_parameters_that_cannot_be_computed_raise_a_sentence(system, monkeypatch):
     monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.section"], "MAX_STEPS", 10_000)
     state, parameters = system.example
-    with pytest.raises(ModelError, match=r"choose (less extreme parameters|a shorter time span)"):
-        section(system.at(parameters), (huge, *state[1:]), Plane(axis(system, 1)), 1.0, level("draft"))
+    given = {"body": system.at(parameters), "state": state, "plane": Plane(axis(system, 0)), "end": 1.0}
+    too_long = "more than 10000 steps: choose a shorter time span"
+    too_fast = "choose (less extreme parameters|a shorter time span)"
+    for wrong, error, words in (
+        ({"state": state[:-1]}, InvalidParameter, r"takes \d numbers"),
+        ({"body": system.at((*parameters[:-1], np.nan))}, InvalidParameter, "finite number"),
+        ({"plane": Plane((1.0,) * (len(state) + 1))}, InvalidParameter, f"has {len(state)} components"),
+        ({"plane": Plane((1.0,))}, InvalidParameter, f"has {len(state)} components"),
+        ({"end": np.nan}, InvalidParameter, "end of the time span must be finite"),
+        ({"end": -np.inf}, InvalidParameter, "end of the time span must be finite"),
+        ({"crossings": 0}, WorkLimit, f"between 1 and {MAX_CROSSINGS}"),
+        ({"crossings": MAX_CROSSINGS + 1}, WorkLimit, f"between 1 and {MAX_CROSSINGS}"),
+        ({"end": -1e5}, WorkLimit, too_long),
+        ({"end": 1e308}, WorkLimit, too_long),
+        ({"end": 1e5, "plane": Plane(axis(system, 0), 100.0)}, WorkLimit, too_long),
+        ({"state": (1e155, *state[1:]), "plane": Plane(axis(system, 1))}, ModelError, too_fast),
+        ({"state": (1e308, *state[1:]), "plane": Plane(axis(system, 1))}, ModelError, too_fast),
+    ):
+        with pytest.raises(error, match=words):
+            section(**{**given, **wrong}, level=level("draft"))
