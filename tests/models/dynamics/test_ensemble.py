@@ -6,15 +6,13 @@ from functools import cache
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from hess_mechanics import LEVELS, Level, Status, ensemble, level, solve, systems
 from hess_mechanics.dynamics.ensemble import MAX_NUMBERS
-from hess_mechanics.dynamics.orbit import MAX_SAMPLES
-from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit
+from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
 from hess_mechanics.numerics.batch_kernels import LANES
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
-from support.mechanics import EQUILIBRIA
+from support.mechanics import EQUILIBRIA, scipy_states
 
 SYSTEMS = systems()
 every_system = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
@@ -75,16 +73,7 @@ def test_an_ensemble_agrees_with_an_integrator_of_another_family(system):
     states = starts(system, LANES + 3, seed=2)
     result = ensemble(system.at(system.example[1]), states, FORWARD, level("reference"))
     for state, found in zip(states, result.states, strict=True):
-        other = solve_ivp(
-            lambda _, y: system.field(y, system.example[1]),
-            (0.0, 10.0),
-            state,
-            t_eval=FORWARD,
-            method="DOP853",
-            rtol=1e-12,
-            atol=1e-13,
-        )
-        assert np.max(np.abs(found - other.y.T)) < 1e-9
+        assert np.max(np.abs(found - scipy_states(system, state, system.example[1], FORWARD))) < 1e-9
 
 
 @every_system
@@ -92,23 +81,18 @@ def test_an_ensemble_agrees_with_an_integrator_of_another_family(system):
 def test_the_result_depends_neither_on_the_threads_nor_on_the_order_of_the_orbits(system, name):
     # Three pieces of work for the threads, the last of them small; each orbit meets other neighbours in its lanes.
     states = starts(system, 150, seed=3)
-    parameters = system.example[1]
-    one = ensemble(system.at(parameters), states, FORWARD, level(name), threads=1)
-    two = ensemble(system.at(parameters), states, FORWARD, level(name), threads=2)
+    states[[7, 20, 149]] = states[0]
+    body = system.at(system.example[1])
+    one, two = (ensemble(body, states, FORWARD, level(name), threads=threads) for threads in (1, 2))
     assert np.array_equal(one.states, two.states)
     assert np.array_equal(one.errors, two.errors)
     assert (one.drift, one.status, one.cost.steps) == (two.drift, two.status, two.cost.steps)
+    for i in (7, 20, 149):
+        assert np.array_equal(one.states[i], one.states[0])
     for order in (np.random.default_rng(4).permutation(150), np.arange(150)[::-1]):
-        other = ensemble(system.at(parameters), states[order], FORWARD, level(name), threads=2)
+        other = ensemble(body, states[order], FORWARD, level(name), threads=2)
         assert np.array_equal(other.states, one.states[order])
         assert np.array_equal(other.errors, one.errors[order])
-
-
-@every_system
-def test_equal_orbits_are_equal_in_every_lane(system):
-    result = ensemble(system.at(system.example[1]), [system.example[0]] * 21, FORWARD, level("standard"))
-    assert np.array_equal(result.states, np.broadcast_to(result.states[:1], result.states.shape))
-    assert np.ptp(result.errors) == 0.0
 
 
 @every_system
@@ -208,14 +192,11 @@ def test_results_are_read_only_and_share_nothing_with_the_caller(system):
     for array in (result.times, result.states, result.errors):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0.0
-    with pytest.raises(AttributeError):
-        result.status = Status.OK
     assert np.array_equal(states, given)
     times[0] = states[0, 0] = 7.0
     assert result.times[0] == 0.0
     assert result.states[0, 0] == pytest.approx(given[0], abs=1e-15)
     assert (result.system, result.level) == (system.name, "draft")
-    assert result.cost.steps >= 6
     assert result.cost.wall_ms > 0
 
 
@@ -232,72 +213,38 @@ def test_states_may_be_lists_or_tables_of_any_layout(system):
 
 
 @every_system
-def test_an_ensemble_without_orbits_raises_a_sentence(system):
-    with pytest.raises(InvalidParameter, match="at least one initial state"):
-        ensemble(system.at(system.example[1]), np.empty((0, len(system.variables))), [1.0], level("draft"))
-    with pytest.raises(InvalidParameter, match=re.escape(", ".join(system.variables))):
-        ensemble(system.at(system.example[1]), [], [1.0], level("draft"))
-
-
-@every_system
-def test_states_and_parameters_of_the_wrong_shape_raise_a_sentence(system):
+def test_states_and_parameters_that_cannot_be_computed_raise_a_sentence(system):
     state, parameters = system.example
-    for wrong in ([state[:-1]] * 2, [(*state, 0.0)], [[state]], [[]]):
-        with pytest.raises(InvalidParameter, match=re.escape(", ".join(system.variables))):
-            ensemble(system.at(parameters), wrong, [1.0], level("draft"))
-    for wrong in (parameters[:-1], (*parameters, 0.0), (), [parameters]):
-        with pytest.raises(InvalidParameter, match=re.escape(", ".join(system.parameters))):
-            ensemble(system.at(wrong), [state], [1.0], level("draft"))
-
-
-@every_system
-@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
-@pytest.mark.parametrize("place", [0, -1])
-@pytest.mark.parametrize("row", [0, 9])
-def test_one_number_that_is_not_finite_raises_a_sentence(system, bad, place, row):
-    states, parameters = starts(system, 10), np.array(system.example[1])
-    states[row, place] = bad
-    with pytest.raises(InvalidParameter, match="finite number"):
-        ensemble(system.at(parameters), states, [1.0], level("draft"))
-    parameters[place] = bad
-    with pytest.raises(InvalidParameter, match="finite number"):
-        ensemble(system.at(parameters), starts(system, 10), [1.0], level("draft"))
-
-
-BAD_TIMES = [
-    pytest.param([], InvalidParameter, "one or more finite numbers", id="none"),
-    pytest.param([[1.0, 2.0]], InvalidParameter, "one or more finite numbers", id="a table"),
-    pytest.param([np.nan], InvalidParameter, "finite", id="nan"),
-    pytest.param([1.0, np.inf], InvalidParameter, "finite", id="inf"),
-    pytest.param([2.0, 1.0], InvalidParameter, "monotonic and start at 0", id="out of order"),
-    pytest.param([-2.0, -3.0, -1.0], InvalidParameter, "monotonic and start at 0", id="back and forth"),
-    pytest.param([-1.0, 1.0], InvalidParameter, "monotonic and start at 0", id="both sides of 0"),
-    pytest.param(np.zeros(MAX_SAMPLES + 1), WorkLimit, f"at most {MAX_SAMPLES}", id="too many samples"),
-]
-
-
-@every_system
-@pytest.mark.parametrize(("times", "error", "words"), BAD_TIMES)
-def test_times_that_cannot_be_computed_raise_a_sentence(system, times, error, words):
-    with pytest.raises(error, match=words):
-        ensemble(system.at(system.example[1]), starts(system, 3), times, level("draft"))
-
-
-@every_system
-def test_more_numbers_than_one_request_may_have_raise_a_sentence(system):
-    times = np.linspace(0.0, 1.0, 100_000)
-    count = MAX_NUMBERS // (times.size * len(system.variables)) + 1
-    with pytest.raises(WorkLimit, match=f"{count} orbits at {times.size} times are too many: choose fewer"):
-        ensemble(system.at(system.example[1]), starts(system, count), times, level("draft"))
+    names, others = (re.escape(", ".join(some)) for some in (system.variables, system.parameters))
+    broken = starts(system, 10)
+    broken[9, -1] = np.nan
+    for states, given, words in (
+        (np.empty((0, len(state))), parameters, "at least one initial state"),
+        *((wrong, parameters, names) for wrong in ([], [state[:-1]] * 2, [(*state, 0.0)], [[state]], [[]])),
+        *(([state], wrong, others) for wrong in (parameters[:-1], (*parameters, 0.0), (), [parameters])),
+        (broken, parameters, "finite number"),
+        ([state], (*parameters[:-1], np.inf), "finite number"),
+    ):
+        with pytest.raises(InvalidParameter, match=words):
+            ensemble(system.at(given), states, [1.0], level("draft"))
 
 
 @every_system
 @pytest.mark.parametrize("threads", [1, 2])
-@pytest.mark.parametrize("end", [1e5, -1e5, 1e308])
-def test_a_span_that_needs_too_many_steps_raises_a_sentence(system, threads, end, monkeypatch):
+def test_more_work_than_one_request_may_have_raises_a_sentence(system, threads, monkeypatch):
     monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.ensemble"], "MAX_STEPS", 1000)
-    with pytest.raises(WorkLimit, match="more than 1000 steps: choose a shorter time span"):
-        ensemble(system.at(system.example[1]), starts(system, 70), [end], level("draft"), threads=threads)
+    body, states = system.at(system.example[1]), starts(system, 70)
+    for end in (1e5, -1e5, 1e308):
+        with pytest.raises(WorkLimit, match="more than 1000 steps: choose a shorter time span"):
+            ensemble(body, states, [end], level("draft"), threads=threads)
+    for huge in (1e155, 1e308):
+        states[8, 0] = huge
+        with pytest.raises(ModelError, match=r"choose (less extreme parameters|a shorter time span)"):
+            ensemble(body, states, [1.0], level("draft"), threads=threads)
+    times = np.linspace(0.0, 1.0, 100_000)
+    count = MAX_NUMBERS // (times.size * len(system.variables)) + 1
+    with pytest.raises(WorkLimit, match=f"{count} orbits at {times.size} times are too many: choose fewer"):
+        ensemble(body, starts(system, count), times, level("draft"))
 
 
 @every_system
@@ -312,19 +259,3 @@ def test_the_limit_of_steps_is_for_each_orbit_and_the_cost_is_of_all(system):
     assert min(each) < max(each)
     assert steps(states, max(each)) == sum(each)
     assert steps(states, max(each) - 2) == STEP_LIMIT_REACHED
-
-
-@every_system
-@pytest.mark.parametrize("huge", [1e155, 1e200, 1e308])
-def test_motions_too_fast_for_double_precision_raise_a_sentence(system, huge, monkeypatch):
-    monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.ensemble"], "MAX_STEPS", 1000)
-    states = starts(system, 10)
-    states[8, 0] = huge
-    with pytest.raises(ModelError, match=r"choose (less extreme parameters|a shorter time span)"):
-        ensemble(system.at(system.example[1]), states, [1.0], level("draft"))
-
-
-def test_moments_of_inertia_that_are_not_positive_raise_a_sentence():
-    suslov = SYSTEMS["suslov"]
-    with pytest.raises(NotPositiveDefinite, match="choose I"):
-        ensemble(suslov.at((-1.0, *suslov.example[1][1:])), starts(suslov, 10), [1.0], level("draft"))
