@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from scipy.integrate import simpson
 
 from hess_mechanics import SuslovBody, solve
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
@@ -17,6 +17,7 @@ from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, PRECISE, REFERENCE, STANDARD
 from hess_mechanics.suslov.basins import groups
 from hess_mechanics.suslov.section import SuslovSection, divergence
+from support.mechanics import differences, scipy_crossings
 from support.suslov import divergence as divergence_of_field
 from support.suslov import energy, field, permanent_rotations
 from support.thorough import sample
@@ -26,27 +27,8 @@ SEA = SuslovBody(1.5, 3.0, 0.4, 0.4, -0.5, -0.5, 0.7), 0.005
 STRANGE = SuslovBody(1.0, 2.5, 0.6, 0.6, -1.0, -0.5, 0.7), 0.681
 TWO = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842
 CYCLE = SuslovBody(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3), 1.743
+SEEN = SuslovSection(BODY, 0.6, 3)
 WHOLE = ((-math.pi, 0.0), (math.pi, math.pi))
-
-
-def crossings_by_scipy(body, start, k, count, direction=1):
-    """The first crossings (n, 5) of γ_k = 0, growing in t, followed forward or backward by SciPy."""
-
-    def height(t, y):
-        return y[k + 1]
-
-    # Along a backward run γ_k falls where it grows in t.
-    height.direction = direction
-    found = []
-    y, span = np.array(start), 20.0
-    while len(found) < count:
-        run = solve_ivp(
-            lambda t, y: field(body, y), (0.0, direction * span), y, "DOP853", events=height, rtol=1e-12, atol=1e-13
-        )
-        # The start itself is on the plane.
-        found += [state for t, state in zip(run.t_events[0], run.y_events[0], strict=True) if abs(t) > 1e-6]
-        y = run.y[:, -1]
-    return np.array(found[:count])
 
 
 def random_places(count, seed):
@@ -101,22 +83,20 @@ def test_below_the_lowest_energy_nothing_is_possible_and_above_it_something(k):
         SuslovSection(BODY, lowest - 1e-9, k).state_at(0.0, 1.0)
 
 
-@pytest.mark.parametrize("delta", [0.0, math.pi, -1.0, 4.0, math.nan])
-def test_a_delta_outside_is_no_point(delta):
-    with pytest.raises(InvalidParameter, match="0 < δ < π"):
-        SuslovSection(BODY, 10.0, 3).state_at(0.5, delta)
-
-
-@pytest.mark.parametrize("k", [0, 4, 5, 7, 9])
-def test_only_three_planes_are_known(k):
-    with pytest.raises(InvalidParameter, match="choose 1, 2 or 3"):
-        SuslovSection(BODY, 1.0, k)
-
-
-@pytest.mark.parametrize("E", [math.nan, math.inf])
-def test_an_energy_must_be_finite(E):
-    with pytest.raises(InvalidParameter):
-        SuslovSection(BODY, E, 3).states_at(np.zeros(1), np.ones(1))
+@pytest.mark.parametrize(
+    ("call", "error", "words"),
+    [
+        *((lambda delta=delta: SEEN.state_at(0.5, delta), InvalidParameter, "0 < δ < π") for delta in (0.0, math.pi)),
+        (lambda: SEEN.state_at(0.5, math.nan), InvalidParameter, "0 < δ < π"),
+        *((lambda k=k: SuslovSection(BODY, 1.0, k), InvalidParameter, "choose 1, 2 or 3") for k in (0, 4)),
+        (lambda: SuslovSection(BODY, math.nan, 3).states_at(np.zeros(1), np.ones(1)), InvalidParameter, "E"),
+        (lambda: SEEN.points(SEEN.spread(WHOLE, 2), 1000, True, PRECISE, most_steps=500), WorkLimit, "a shorter"),
+        (lambda: SEEN.points(SEEN.spread(WHOLE, 2), 10**7, True, PRECISE), WorkLimit, "number of crossings"),
+    ],
+)
+def test_what_is_no_point_or_too_much_is_refused(call, error, words):
+    with pytest.raises(error, match=words):
+        call()
 
 
 # ---- seeds -------------------------------------------------------------------------------------------------------
@@ -182,9 +162,11 @@ def test_the_first_points_are_those_of_scipy(k, forward, count):
     body = SEA[0]
     start = SuslovSection(body, 0.4, k).state_at(-0.3, 0.9)
     found = SuslovSection(body, 0.0, k).points([start], 8, forward, PRECISE).states[0][:count]
-    exact = crossings_by_scipy(body, start, k, count, 1 if forward else -1)
+    # Along a backward run γ_k falls where it grows in t.
+    sense = 1 if forward else -1
+    _, exact = scipy_crossings(lambda y: field(body, y), start, lambda y: y[k + 1], 120.0 * sense, sense)
     # A sea: neighbours part between crossings.
-    assert found == pytest.approx(exact, abs=1e-6)
+    assert found == pytest.approx(exact[:count], abs=1e-6)
 
 
 def test_what_attracts_forward_are_permanent_rotations_and_their_mirror_images_attract_backward():
@@ -193,32 +175,15 @@ def test_what_attracts_forward_are_permanent_rotations_and_their_mirror_images_a
     assert max(np.max(np.abs(field(body, state))) for state in at_rest) < 1e-12
     starts = SuslovSection(body, E, 3).spread(WHOLE, 8)
     for forward in (True, False):
-        ends = [orbit[-1] for orbit in SuslovSection(body, 0.0, 3).points(starts, 600, forward, STANDARD).states]
-        for end in ends:
-            distances = np.linalg.norm(at_rest - end, axis=1)
+        for orbit in SuslovSection(body, 0.0, 3).points(starts, 600, forward, STANDARD).states:
+            distances = np.linalg.norm(at_rest - orbit[-1], axis=1)
             assert distances.min() < 2e-5
             # It attracts if its linear motion decays in the direction of time: all but two eigenvalues, as E and F1
             # of neighbours stay.
-            state = at_rest[np.argmin(distances)]
-            small = 1e-6
-            jacobian = np.column_stack(
-                [(field(body, state + small * e) - field(body, state - small * e)) / (2.0 * small) for e in np.eye(5)]
-            )
+            jacobian = differences(lambda y: field(body, y), at_rest[np.argmin(distances)])
             rates = np.sort(np.linalg.eigvals(jacobian).real * (1.0 if forward else -1.0))
             assert rates[2] < -1e-3
             assert rates[3:] == pytest.approx([0.0, 0.0], abs=1e-4)
-
-
-def test_too_many_steps_are_refused():
-    with pytest.raises(WorkLimit, match="choose a shorter"):
-        SuslovSection(BODY, 0.0, 3).points(
-            SuslovSection(BODY, 0.6, 3).spread(WHOLE, 2), 1000, True, PRECISE, most_steps=500
-        )
-
-
-def test_too_many_crossings_are_refused():
-    with pytest.raises(WorkLimit, match="number of crossings"):
-        SuslovSection(BODY, 0.0, 3).points(SuslovSection(BODY, 0.6, 3).spread(WHOLE, 2), 10**7, True, PRECISE)
 
 
 # ---- divergence --------------------------------------------------------------------------------------------------
@@ -226,51 +191,19 @@ def test_too_many_crossings_are_refused():
 
 def test_the_divergence_is_that_of_the_field():
     states = np.random.default_rng(3).normal(size=(40, 5))
-    # The field is quadratic: central differences are exact.
-    exact = [sum((field(BODY, y + e) - field(BODY, y - e))[i] / 2.0 for i, e in enumerate(np.eye(5))) for y in states]
-    assert divergence(BODY, states) == pytest.approx(exact, abs=1e-12)
-
-
-def test_without_products_of_inertia_volume_is_kept():
-    assert not divergence(SuslovBody(1.0, 2.0, 0.0, 0.0, 1.0), np.random.default_rng(3).normal(size=(9, 5))).any()
+    assert divergence(BODY, states) == pytest.approx([divergence_of_field(BODY, y) for y in states], abs=1e-12)
+    assert not divergence(SuslovBody(1.0, 2.0, 0.0, 0.0, 1.0), states).any()
 
 
 @pytest.mark.parametrize("span", [5.0, -5.0])
 def test_volume_grows_by_the_integral_of_the_divergence(span):
     # Liouville: the determinant of five neighbours' differences against ∫ div dt.
-    start = np.array(SuslovSection(BODY, 0.6, 3).state_at(1.2, 0.9))
-    small = 1e-6
-
-    def end(state):
-        return solve(BODY, state, [span], REFERENCE).states[0]
-
-    matrix = np.column_stack([(end(start + small * e) - end(start - small * e)) / (2.0 * small) for e in np.eye(5)])
+    start = SuslovSection(BODY, 0.6, 3).state_at(1.2, 0.9)
+    matrix = differences(lambda state: solve(BODY, state, [span], REFERENCE).states[0], start)
     times = np.linspace(0.0, span, 2001)
-    rates = divergence(BODY, solve(BODY, start, times, REFERENCE).states)
-    weights = np.where(np.arange(2001) % 2, 4.0, 2.0)
-    weights[[0, -1]] = 1.0
-    integral = weights @ rates * span / 2000 / 3.0
+    integral = simpson(divergence(BODY, solve(BODY, start, times, REFERENCE).states), x=times)
     assert abs(integral) > 0.01
     assert math.log(np.linalg.det(matrix)) == pytest.approx(integral, abs=1e-7)
-
-
-def mean_divergence(problem, span, start=(1.0, 1.0)):
-    body, E = problem
-    times = np.linspace(0.0, span, 8001)
-    rates = divergence(body, solve(body, SuslovSection(body, E, 3).state_at(*start), times, STANDARD).states)
-    return float(np.mean(0.5 * (rates[1:] + rates[:-1])))
-
-
-def test_the_mean_divergence_is_negative_along_what_attracts_and_positive_along_what_repels():
-    for problem in (STRANGE, TWO, CYCLE):
-        assert mean_divergence(problem, 600.0) < -0.1
-        assert mean_divergence(problem, -600.0) > 0.1
-
-
-def test_the_mean_divergence_of_a_sea_goes_to_zero():
-    # A chaotic orbit is another one for every rounding: of the mean over t = 1000 only its size is known, about 1e-3.
-    means = [abs(mean_divergence(SEA, span)) for span in (30.0, 1000.0)]
-    assert means[1] < 2e-3 < means[0]
 
 
 # ---- exponents ---------------------------------------------------------------------------------------------------
@@ -340,24 +273,15 @@ def test_a_periodic_attractor_has_no_positive_exponent():
 
 def test_the_basins_of_the_example_are_those_that_scipy_finds():
     body, E = TWO
-    starts = np.array(SuslovSection(body, E, 3).spread(WHOLE, 6))
-    found = SuslovSection(body, 0.0, 3).points(starts.tolist(), 240, True, STANDARD).states
+    starts = SuslovSection(body, E, 3).spread(WHOLE, 6)
+    found = SuslovSection(body, 0.0, 3).points(starts, 240, True, STANDARD).states
     ends = np.array([orbit[160:, 0].mean() for orbit in found])
     which = groups(ends)
     assert set(which) == {0, 1}
     exact = []
     for start in starts:
-        run = solve_ivp(
-            lambda t, y: field(body, y),
-            (0.0, 400.0),
-            start,
-            "DOP853",
-            rtol=1e-8,
-            atol=1e-9,
-            t_eval=np.linspace(300.0, 400.0, 2001),
-        )
-        up = np.flatnonzero((run.y[4][1:] > 0.0) & (run.y[4][:-1] <= 0.0))
-        exact.append(run.y[0][up].mean())
+        times, states = scipy_crossings(lambda y: field(body, y), start, lambda y: y[4], 400.0, 1, rtol=1e-8, atol=1e-9)
+        exact.append(states[times > 300.0, 0].mean())
     assert np.array_equal(np.array(exact) > np.mean([min(exact), max(exact)]), which == 1.0)
     assert np.ptp(exact) > 0.1
     # Far apart, beside how closely those of one group agree.
