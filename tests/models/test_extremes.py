@@ -8,6 +8,7 @@ import re
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cache
 from pathlib import Path
 
@@ -38,6 +39,7 @@ from hess_mechanics.errors import (
 from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.suslov.additional_integral import I11_of, additional_integral
 from hess_mechanics.suslov.free import equilibria, free_motion
+from hess_mechanics.suslov.proved_forms import proved_cos_chi
 from hess_mechanics.suslov.scattering import scattering
 from hess_mechanics.suslov_hess.torus import track
 from support.extremes import ball as extremes_ball
@@ -277,28 +279,11 @@ def free_F2(name, k, omega, **options):
     return Row(f"free Suslov, drift of F2: {name}", "its start", error, **options)
 
 
-def cos_chi_in_decimals(I11, I22, I13, I23):
-    """From the monodromy round the singular points of the passage, as in the README; 60 digits."""
-    with mpmath.workdps(60):
-        I11, I22, I13, I23 = map(mpmath.mpf, (I11, I22, I13, I23))
-        J = mpmath.hypot(I13, I23)
-        w, kappa = (I22 * I13**2 + I11 * I23**2) / J**2, mpmath.sqrt(I11 * I22) / J
-        K, c = kappa**2 * J / w, kappa * I13 * I23 * (I22 - I11) / (J**2 * w)
-        if c == 0:
-            # The notes' formula.
-            k = mpmath.sqrt(mpmath.mpc(kappa**2 - K**2))
-            return float(mpmath.re(2 * mpmath.cos(mpmath.pi * k / 2) ** 2 / mpmath.cosh(mpmath.pi * K / 2) ** 2) - 1)
-        C = mpmath.cos(mpmath.pi / 2 * mpmath.sqrt(kappa**2 - (K + 1j * c) ** 2))
-        return float(
-            2 * ((C.real / mpmath.cosh(mpmath.pi * K / 2)) ** 2 + (C.imag / mpmath.sinh(mpmath.pi * K / 2)) ** 2) - 1
-        )
-
-
 def the_angle(name, tensor, **options):
-    """cos χ on both arcs."""
+    """cos χ on both arcs, against an enclosure of its closed form."""
 
     def error(grade):
-        exact = cos_chi_in_decimals(*tensor)
+        exact = float(proved_cos_chi(*map(Fraction, tensor)).low)
         return max(abs(scattering(SuslovBody(*tensor), level(grade), arc).cos_chi - exact) for arc in (1, -1))
 
     return Row(f"scattering, cos χ: {name}", "closed form", error, **options)

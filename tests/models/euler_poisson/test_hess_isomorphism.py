@@ -273,22 +273,25 @@ def test_without_cycles_nothing_grows():
     assert growth_of(run, 96) is None
 
 
-def test_growth_sees_through_a_wiggle_and_refuses_what_is_not_straight():
-    def run_of(exponents):
-        off = np.exp(exponents)
-        return FreeRun("draft", np.arange(off.size) * 1.0, np.zeros((off.size, 6)), off, 0, {})
+def leak_of(off, samples=8):
+    """A leak that is this, a period of n3 in a unit of time, beside a motion that stands still."""
+    times = np.arange(off.size) / samples
+    run = FreeRun("draft", times, np.zeros((off.size, 6)), off, 0, {})
+    return Leak(GESS1, run, None, samples)
 
+
+def test_growth_sees_through_a_wiggle_and_refuses_what_is_not_straight():
     t = np.arange(0, 20 * 8 + 1) / 8.0
     wiggle = 2.0 * np.sin(2.0 * np.pi * t)
     seen = math.log(1e-15) + 1.7 * t + wiggle
-    growth = growth_of(run_of(seen), 8)
+    growth = leak_of(np.exp(seen)).growth
     assert growth.per_period == pytest.approx(1.7, rel=1e-12)
     # From the first period that is all above 3e-14 to the last that is all below 1e-3.
     periods = seen[:-1].reshape(20, 8)
     inside = np.flatnonzero(np.all((periods >= math.log(3e-14)) & (periods <= math.log(1e-3)), axis=1))
     assert (growth.first, growth.periods) == (inside[0], len(inside))
-    assert growth_of(run_of(math.log(1e-16) + 0.0 * t), 8) is None
-    assert growth_of(run_of(math.log(1e-15) + 20.0 * t), 8) is None
+    assert leak_of(np.full(t.size, 1e-16)).growth is None
+    assert leak_of(np.exp(math.log(1e-15) + 20.0 * t)).growth is None
 
 
 @pytest.mark.parametrize("run", [run_free, on_manifold])
@@ -296,13 +299,6 @@ def test_too_long_a_run_is_refused(run):
     start, _ = on_torus(GESS1, 50.0, 5.0)
     with pytest.raises(WorkLimit, match=r"choose a shorter (time span|one)"):
         run(GESS1.heavy, start, 1e9, 3, level("draft"))
-
-
-def leak_of(off, samples=8):
-    """A leak that is this, a period of n3 in a unit of time, beside a motion that stands still."""
-    times = np.arange(off.size) / samples
-    run = FreeRun("draft", times, np.zeros((off.size, 6)), off, 0, {})
-    return Leak(GESS1, run, None, samples)
 
 
 def test_the_side_of_a_leak_is_the_sign_that_is_seen_first():

@@ -5,10 +5,10 @@ from functools import cache
 
 import numpy as np
 
-from hess_mechanics import HessBody, circle_map, f_max, level, solve, systems, turning_points
+from hess_mechanics import HessBody, f_max, level, solve, systems, turning_points
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
-from hess_mechanics.euler_poisson.hess_manifold import growth_of, on_manifold, run_free
+from hess_mechanics.euler_poisson.hess_manifold import on_manifold
 from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicPendulum, loxodromic_motion
 from hess_mechanics.suslov import kharlamova, quartic
 from hess_mechanics.suslov.kharlamova import PlaneBody
@@ -49,26 +49,6 @@ def bridge_row(Row, name, bridge, h, share=0.3, periods=20, samples=801):
         )
 
     return Row(f"bridge: {name}", f"Suslov's motion, {periods} periods", error, floor=2e-11)
-
-
-def leak_row(Row, name, h, f, against, exact, periods=20, samples=96):
-    """Return a row for the growth of ln |r·M| in a period, on an orbit that round-off has led off the level."""
-    units = GESS1.in_units_of_b(h, f)
-    turning = turning_points(*units)
-    start = tuple(GESS1.from_reduced(GESS1.hess.from_units_of_b(turning.state_at_lower_turn(0.5))))
-    end = periods * turning.period / GESS1.hess.frequency_unit
-
-    def error(grade):
-        found = growth_of(run_free(GESS1.heavy, start, end, periods * samples + 1, level(grade)), samples)
-        return abs(found.per_period / exact(*units) - 1.0)
-
-    return Row(
-        f"leak, growth in a period: {name}",
-        against,
-        error,
-        floor=1e-5,
-        because="between round-off and the size of the motion only some periods are straight",
-    )
 
 
 def pendulum_row(Row, name, span, moments=(1.0, 1.5, 2.0), h=1.5, l=0.4, mu=0.7, because=""):
@@ -146,17 +126,6 @@ def rows(Row):
         bridge_row(Row, "μ|r| = −1e-6", heavy((1.0, 0.625, 0.375), -1e-6), 1.5),
         bridge_row(Row, "a = 50", Bridge.of_suslov(HessBody(1.0, 50.0, -1.0)), 1.5),
         bridge_row(Row, "I2 = I3, a = 0", heavy((1.0, 0.5, 0.5), 1.0), 1.5),
-        leak_row(
-            Row,
-            "gess1",
-            50.0,
-            5.0,
-            "logarithm of the multiplier",
-            lambda h, f: math.log(
-                max(point.multiplier for point in circle_map(GESS1.hess.a, h, f, level("reference")).fixed_points)
-            ),
-        ),
-        leak_row(Row, "f = 0", 20.0, 0.0, "2π|a|", lambda h, f: 2.0 * math.pi * abs(GESS1.hess.a)),
         pendulum_row(Row, "h = −1 + 1e-4", 50.0, h=-1.0 + 1e-4),
         pendulum_row(Row, "h = 1, to the top", 20.0, h=1.0, because=SADDLE),
         pendulum_row(Row, "h = 1 − 1e-6", 30.0, h=1.0 - 1e-6, because=SADDLE),
