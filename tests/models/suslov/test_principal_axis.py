@@ -18,9 +18,12 @@ from hess_mechanics.suslov.principal_axis import (
     poisson_matrix,
 )
 from hess_mechanics.suslov.section import SuslovSection
+from support.mechanics import differences
 
 SUSLOV = systems()["suslov"]
 FLOOR = level("reference")
+GENERAL = SuslovBody(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.8)
+START = (0.7, -0.2, 0.48, 0.6, 0.64)
 STATE = sympy.symbols("w1 w2 g1 g2 g3", real=True)
 BODY = sympy.symbols("I11 I22 I13 I23 b1 b2 b3", real=True)
 PRINCIPAL = tuple(0 if str(symbol) in ("I13", "I23") else symbol for symbol in BODY)
@@ -76,20 +79,12 @@ def test_liouvilles_equation():
 
 @pytest.mark.parametrize(("I23", "kept"), [(0.0, True), (0.4, False)])
 def test_the_flow_keeps_volume_on_a_principal_axis_only(I23, kept):
-    p, y = [1.5, 1.0, 0.0, I23, 0.4, -0.3, 0.8], np.array([0.7, -0.2, 0.48, 0.6, 0.64])
-    d = 1e-5
-
-    def end(start):
-        return solve(SUSLOV.at(p), start, [3.0], FLOOR).states[0]
-
-    columns = [(end(y + d * e) - end(y - d * e)) / (2.0 * d) for e in np.eye(5)]
-    assert bool(abs(np.linalg.det(np.array(columns)) - 1.0) < 1e-7) is kept
+    body = SUSLOV.at([1.5, 1.0, 0.0, I23, 0.4, -0.3, 0.8])
+    matrix = differences(lambda y: solve(body, y, [3.0], FLOOR).states[0], START, 1e-5)
+    assert bool(abs(np.linalg.det(matrix) - 1.0) < 1e-7) is kept
 
 
 # ---- both times along a motion ----------------------------------------------------------------------------------
-
-GENERAL = SuslovBody(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.8)
-START = (0.7, -0.2, 0.48, 0.6, 0.64)
 
 
 @pytest.mark.parametrize("span", [30.0, -7.0])
@@ -145,30 +140,17 @@ def test_the_brackets_with_the_energy_are_the_rates_of_the_motion():
 
 @pytest.mark.parametrize("k", [1, 2, 3])
 def test_the_return_map_keeps_its_density(k):
-    E, p = 1.5, GENERAL.parameters
-    step = 1e-5
-    plane = SuslovSection(GENERAL, 0.0, k).surface
+    at = SuslovSection(GENERAL, 1.5, k)
 
-    def image(psi, delta):
-        start = SuslovSection(GENERAL, E, k).state_at(psi, delta)
-        return SuslovSection(GENERAL, 0.0, k).places_of(section(SUSLOV.at(p), start, plane, 100.0, FLOOR, 1).states)[0]
+    def image(place):
+        return at.places_of(section(GENERAL, at.state_at(*place), at.surface, 100.0, FLOOR, 1).states)[0]
 
-    def slope(psi, delta, x, y):
-        return (image(psi + x, delta + y) - image(psi - x, delta - y)) / (2.0 * (x + y))
-
-    for psi, delta in ((0.3, 1.2), (-1.7, 0.8), (2.4, 2.0)):
-        columns = [
-            (4.0 * slope(psi, delta, x, y) - slope(psi, delta, 2.0 * x, 2.0 * y)) / 3.0
-            for x, y in ((step, 0.0), (0.0, step))
-        ]
-        there = image(psi, delta)
-        before, after = (
-            float(SuslovSection(GENERAL, E, k).invariant_density(np.array([x]), np.array([y]))[0])
-            for x, y in ((psi, delta), there)
-        )
-        assert after * abs(np.linalg.det(np.array(columns))) == pytest.approx(before, rel=1e-5)
+    for place in ((0.3, 1.2), (-1.7, 0.8), (2.4, 2.0)):
+        determinant = np.linalg.det((4.0 * differences(image, place, 1e-5) - differences(image, place, 2e-5)) / 3.0)
+        before, after = at.invariant_density(*np.transpose([place, image(place)]))
+        assert after * abs(determinant) == pytest.approx(before, rel=1e-5)
         # The area dψ dδ alone is not kept.
-        assert abs(abs(np.linalg.det(np.array(columns))) - 1.0) > 1e-3
+        assert abs(abs(determinant) - 1.0) > 1e-3
 
 
 def test_the_density_is_the_closed_form_and_0_where_nothing_is_possible():
