@@ -20,7 +20,6 @@ from urllib.request import urlopen
 import numpy as np
 import pytest
 from PIL import Image
-from scipy.integrate import solve_ivp
 
 import hess_explorer.headless.screenshot
 import oracle
@@ -33,6 +32,7 @@ from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.suslov.equations import unit_vector
 from support.andoyer import GESS1, crossings_by_scipy, start_by_hand
+from support.ball import rates, upward_crossings
 from support.command_line import replaced, run, strict_json, table, typed, without_patience
 from support.kernels import copy_kernels
 from support.mechanics import ROOT
@@ -50,58 +50,52 @@ HEAVY = typed(
 
 # 40-digit Taylor series, rounded to double.
 THETA = [-1.846842405836762766371, -1.713101969292905477533, 2.57889487639795195168]
-TRACE = 4.381325585713531995065
-PERIOD = 3.668400280441695618498
 SUSLOV_STATES = [
     [
-        -1.437197555806966721106,
-        1.00029044540894224644,
-        -0.2723685171956202063664,
-        -0.1991797232879835602478,
-        -0.9413515967329005595151,
+        -1.4371975558069667,
+        1.0002904454089423,
+        -0.2723685171956202,
+        -0.19917972328798356,
+        -0.9413515967329006,
     ],
-    [
-        -1.180814258848206004989,
-        0.2923916318266687823268,
-        0.5081246282330512229384,
-        0.7480548120598404007528,
-        0.4268762822377700812319,
-    ],
+    [-1.180814258848206, 0.2923916318266688, 0.5081246282330513, 0.7480548120598404, 0.4268762822377701],
 ]
 HESS_STATES = [
     [
-        1.231216102505553058911,
-        -0.3986347517424707304828,
-        0.5235841786319873283607,
-        -0.3427344987202433343617,
-        0.779995302084089929648,
+        1.231216102505553,
+        -0.3986347517424707,
+        0.5235841786319874,
+        -0.3427344987202433,
+        0.77999530208409,
     ],
     [
-        -0.5966567344671923263117,
-        -0.5537390503841238802927,
-        -0.7455067905108669931377,
-        -0.6076138321417659484657,
-        0.273907021253899493733,
+        -0.5966567344671924,
+        -0.5537390503841239,
+        -0.745506790510867,
+        -0.6076138321417659,
+        0.2739070212538995,
     ],
 ]
 HEAVY_STATES = [
     [
-        1.303171576431794886461,
-        1.939239401930229263521,
-        0.7288273636200425098267,
-        0.2690968985733379125361,
-        -0.4076103299371850479799,
-        0.8726056830589116870152,
+        1.3031715764317948,
+        1.9392394019302293,
+        0.7288273636200425,
+        0.2690968985733379,
+        -0.40761032993718505,
+        0.872605683058911,
     ],
     [
-        1.09336915106861076365,
-        1.355414217337625118592,
-        1.014041313101284483508,
-        0.239288243300533307289,
-        -0.6121309258568160022675,
-        0.7536822050624666347255,
+        1.0933691510610686,
+        1.3554142173376251,
+        1.0140413131012844,
+        0.2392882433005333,
+        -0.612130925856816,
+        0.753682205062467,
     ],
 ]
+TRACE = 4.381325585713531995065
+PERIOD = 3.668400280441695618498
 
 
 # Values
@@ -109,7 +103,6 @@ HEAVY_STATES = [
 
 def test_circle_map(answer):
     found = answer(*CIRCLE_MAP)
-    assert found["phi"] == [0.0, 1.0, 2.0]
     assert found["theta"] == pytest.approx(THETA, abs=1e-12)
     assert found["trace"] == pytest.approx(TRACE, rel=1e-12)
     assert found["period"] == pytest.approx(PERIOD, rel=1e-12)
@@ -117,21 +110,12 @@ def test_circle_map(answer):
     assert found["rotation_number"] == 0.0
     assert (found["status"], found["level"], found["notes"]) == ("ok", "reference", [])
     assert 0 < found["error_estimate"] < 1e-12
-    assert found["steps"] > 0
-    assert found["wall_ms"] > 0
     stable, unstable = found["multipliers"]
     assert stable < 1 < unstable
     # The multipliers are the squares of the eigenvalues of a matrix with determinant 1.
     assert stable**0.5 + unstable**0.5 == pytest.approx(TRACE, rel=1e-12)
     fixed = ",".join(map(repr, found["fixed_points"]))
     assert answer(*replaced(CIRCLE_MAP, "--phi", fixed))["theta"] == pytest.approx(found["fixed_points"], abs=1e-12)
-
-
-def test_circle_map_without_cycles(answer):
-    found = answer("circle-map", "--h", "0.5", "--f", "0.5", "--a", "0.5")
-    assert found["kind"] == "elliptic"
-    assert found["fixed_points"] == found["multipliers"] == found["theta"] == []
-    assert found["level"] == "precise"
 
 
 def test_circle_map_beyond_double_range(answer):
@@ -141,30 +125,6 @@ def test_circle_map_beyond_double_range(answer):
     assert found["multipliers"][1] is None
     assert found["log_multipliers"][1] == pytest.approx(2 * found["log_trace"], rel=1e-12)
     assert [note.partition(":")[0] for note in found["notes"]] == ["trace", "multipliers"]
-
-
-@pytest.mark.parametrize(
-    ("words", "states", "variables", "integrals"),
-    [
-        (SUSLOV, SUSLOV_STATES, ["ω1", "ω2", "γ1", "γ2", "γ3"], {"E", "F1"}),
-        (HESS, HESS_STATES, ["w1", "w2", "n1", "n2", "n3"], {"E", "F1", "F2"}),
-    ],
-)
-def test_orbit(answer, words, states, variables, integrals):
-    found = answer(*words)
-    assert found["t"] == [10.0, 50.0]
-    for state, expected in zip(found["y"], states, strict=True):
-        assert state == pytest.approx(expected, abs=1e-11)
-    assert found["variables"] == variables
-    assert set(found["drift"]) == integrals
-    assert max(found["drift"].values()) < 1e-12
-    assert found["status"] in ("ok", "double-precision floor")
-    assert found["level"] == "reference"
-    assert 0 < found["error_estimate"] < 1e-10
-    assert found["is_body"] is True
-    assert found["body"].startswith("A rigid body")
-    assert len(found["notes"]) == 1
-    assert "normalised" in found["notes"][0]
 
 
 def test_an_orbit_that_rests_at_an_unstable_equilibrium_knows_how_wrong_it_is(answer):
@@ -182,50 +142,43 @@ def test_an_orbit_that_rests_at_an_unstable_equilibrium_knows_how_wrong_it_is(an
     assert found["status"] == "promise not met"
 
 
-def test_orbit_of_euler_poisson(answer):
-    found = answer(*HEAVY)
-    assert found["t"] == [5.0, 20.0]
-    for state, expected in zip(found["y"], HEAVY_STATES, strict=True):
-        assert state == pytest.approx(expected, abs=1e-12)
-    assert found["variables"] == ["M1", "M2", "M3", "γ1", "γ2", "γ3"]
-    assert set(found["drift"]) == {"H", "F1", "F2"}
+def test_range_of_times(answer):
+    assert answer(*replaced(HESS, "--t", "0:1:5"))["t"] == [0.0, 0.25, 0.5, 0.75, 1.0]
+    assert answer(*replaced(HESS, "--t", "-0.1:-0.3:3"))["t"] == pytest.approx([-0.1, -0.2, -0.3], abs=1e-16)
+
+
+@pytest.mark.parametrize(
+    ("words", "states", "variables", "integrals", "notes"),
+    [
+        (SUSLOV, SUSLOV_STATES, ["ω1", "ω2", "γ1", "γ2", "γ3"], {"E", "F1"}, 1),
+        (HESS, HESS_STATES, ["w1", "w2", "n1", "n2", "n3"], {"E", "F1", "F2"}, 1),
+        (HEAVY, HEAVY_STATES, ["M1", "M2", "M3", "γ1", "γ2", "γ3"], {"H", "F1", "F2"}, 0),
+    ],
+)
+def test_orbit(answer, words, states, variables, integrals, notes):
+    found = answer(*words)
+    assert found["t"] == [float(t) for t in words[words.index("--t") + 1].split(",")]
+    assert np.array(found["y"]) == pytest.approx(np.array(states), abs=1e-11)
+    assert (found["variables"], set(found["drift"])) == (variables, integrals)
     assert max(found["drift"].values()) < 1e-12
-    assert 0 < found["error_estimate"] < 1e-11
-    assert (found["is_body"], found["notes"]) == (True, [])
+    assert found["status"] in ("ok", "double-precision floor")
+    assert found["level"] == "reference"
+    assert 0 < found["error_estimate"] < 1e-10
+    assert found["is_body"] is True
+    assert ["normalised" in note for note in found["notes"]] == [True] * notes
 
 
-def test_moments_that_are_no_body_are_said_and_computed(answer):
-    found = answer(*replaced(HEAVY, "--A", "1,4,4"))
+@pytest.mark.parametrize("words", [replaced(HEAVY, "--A", "1,4,4"), replaced(HESS, "--a", "3")])
+def test_moments_of_no_body_are_reported_and_computed(answer, words):
+    found = answer(*words)
     assert found["is_body"] is False
     assert found["body"].startswith("Not a rigid body")
     assert len(found["y"]) == 2
 
 
-def test_a_unit_vector_needs_no_note(answer):
-    assert answer(*replaced(SUSLOV, "--gamma", "0.6,0,0.8"))["notes"] == []
-
-
-def test_what_is_no_body_is_said_and_computed(answer):
-    found = answer(*replaced(HESS, "--a", "3"))
-    assert found["is_body"] is False
-    assert found["body"].startswith("Not a rigid body")
-
-
-def test_the_field_of_the_suslov_problem_is_optional(answer):
-    free = [word for word in SUSLOV if word not in ("--b", "0.3,-0.5,1")]
-    assert answer(*free)["y"] == answer(*replaced(SUSLOV, "--b", "0,0,0"))["y"]
-
-
-def test_negative_values(answer):
-    joined = [*SUSLOV[:6], "--omega=-0.4,0.2", *SUSLOV[8:]]
-    apart = replaced(SUSLOV, "--omega", "-0.4,0.2")
-    assert answer(*joined)["y"] == answer(*apart)["y"]
-    assert answer(*replaced(SUSLOV, "--omega", "-.4,0.2"))["y"] == answer(*apart)["y"]
-
-
-def test_range_of_times(answer):
-    assert answer(*replaced(HESS, "--t", "0:1:5"))["t"] == [0.0, 0.25, 0.5, 0.75, 1.0]
-    assert answer(*replaced(HESS, "--t", "-0.1:-0.3:3"))["t"] == pytest.approx([-0.1, -0.2, -0.3], abs=1e-16)
+def test_negative_values_need_no_equals_sign(answer):
+    joined = answer(*SUSLOV[:6], "--omega=-0.4,0.2", *SUSLOV[8:])["y"]
+    assert answer(*replaced(SUSLOV, "--omega", "-.4,0.2"))["y"] == joined
 
 
 # Formats
@@ -233,21 +186,6 @@ def test_range_of_times(answer):
 
 def without_cost(found):
     return {key: value for key, value in found.items() if key != "wall_ms"}
-
-
-@pytest.mark.parametrize("words", [CIRCLE_MAP, SUSLOV, HESS, HEAVY])
-def test_csv_and_json_say_the_same(answer, capsys, words):
-    expected = answer(*words)
-    assert main([*words, "--format", "csv"]) == 0
-    facts, header, rows = table(capsys.readouterr().out)
-    numbers = [[float(cell) for cell in row] for row in rows]
-    if words is CIRCLE_MAP:
-        assert header == ["phi", "theta"]
-        assert numbers == [list(pair) for pair in zip(expected.pop("phi"), expected.pop("theta"), strict=True)]
-    else:
-        assert header == ["t", *expected["variables"]]
-        assert numbers == [[t, *y] for t, y in zip(expected.pop("t"), expected.pop("y"), strict=True)]
-    assert without_cost(facts) == without_cost(expected)
 
 
 def test_out_writes_a_file_and_prints_nothing(answer, capsys, tmp_path):
@@ -265,42 +203,28 @@ def test_out_writes_a_file_and_prints_nothing(answer, capsys, tmp_path):
     ("words", "part"),
     [
         (replaced(CIRCLE_MAP, "--h", "nan"), "--h: 'nan' is not a finite number"),
-        (replaced(CIRCLE_MAP, "--h", "-inf"), "--h: '-inf' is not a finite number"),
-        (replaced(CIRCLE_MAP, "--f", "1e999"), "--f: '1e999' is not a finite number"),
         (replaced(CIRCLE_MAP, "--phi", "0,x"), "--phi: 'x' is not a number"),
         (replaced(CIRCLE_MAP, "--h", "-1"), "Choose h > −1"),
-        (replaced(CIRCLE_MAP, "--h", "-7"), "Choose h > −1"),
         (replaced(CIRCLE_MAP, "--f", "9"), "choose |f| ≤ 1.81"),
         (typed("circle-map --h 1 --f 0 --a 0.5"), "separatrix"),
-        (replaced(CIRCLE_MAP, "--a", "1e7"), "--a: a = 1e+07 is not between -1000 and 1000"),
         (replaced(CIRCLE_MAP, "--accuracy", "best"), "draft, standard, precise, reference"),
         (replaced(CIRCLE_MAP, "--phi", f"0:1:{MAX_SAMPLES + 1}"), f"from 2 to {MAX_SAMPLES}"),
         ([*CIRCLE_MAP, "--format", "xml"], "invalid choice: 'xml'"),
         (CIRCLE_MAP[:3], "required: --f, --a"),
         (replaced(SUSLOV, "--I", "0,1,0,0"), "--I: I11 = 0 is not between 0.001 and 1000"),
-        (replaced(SUSLOV, "--I", "2,-1,0,0"), "--I: I22 = -1 is not between 0.001 and 1000"),
-        (replaced(HEAVY, "--A", "1,-1.6,2"), "--A: a2 = -1.6 is not between 0.001 and 1000"),
-        (replaced(HEAVY, "--A", "1,1.6"), "--A: '1,1.6' has length 2; write 3 numbers a1,a2,a3"),
-        (replaced(HEAVY, "--M", "1,2"), "--M: '1,2' has length 2; write 3 numbers M1,M2,M3"),
-        (replaced(HEAVY, "--gamma", "0,0,0"), "γ must be"),
-        (HEAVY[:8], "required: --M, --gamma, --t"),
         (replaced(SUSLOV, "--I", "2,1,0"), "--I: '2,1,0' has length 3; write 4 numbers I11,I22,I13,I23"),
         (replaced(SUSLOV, "--gamma", "0,0,0"), "γ must be"),
         (replaced(SUSLOV, "--t", "0:1"), "lo:hi:n"),
-        (replaced(SUSLOV, "--t", f"0:1:{10**9}"), f"from 2 to {MAX_SAMPLES}"),
         (replaced(SUSLOV, "--t", "0," * MAX_SAMPLES + "1"), f"at most {MAX_SAMPLES}"),
         (replaced(SUSLOV, "--t", "-1,1"), "must be monotonic"),
         (replaced(SUSLOV, "--t", "1e9"), "shorter"),
         (replaced(SUSLOV, "--omega", "1e200,0"), "--omega: w1 = 1e+200 is not between -1000 and 1000"),
         (replaced(SUSLOV, "--omega", "x" * 5000), "x…'"),
-        (["orbit", "pendulum"], "invalid choice: 'pendulum'"),
-        (["draw"], "invalid choice: 'draw'"),
         (["serve", "--port", "0"], "from 1 to 65535"),
         (["serve", "--allow-origin", "*"], "not a host"),
         (["serve", "--embed-in", "example.org; script-src *"], "not a host"),
         (["serve", "--workers", "0"], "not a whole number from 1 to 64"),
         (["serve", "--address", "203.0.113.7", "--no-browser"], "--address 127.0.0.1"),
-        (["shot", "--size", "100x100", "out.png"], "each side from 200 to 8000"),
         (["shot", "--size", "9000x300", "out.png"], "each side from 200 to 8000"),
         (["shot", "--size", "big", "out.png"], "like 1600x950"),
         (["shot", "--state", "h", "out.png"], "like 'h=1.2&f=0.3'"),
@@ -335,11 +259,6 @@ def test_in_a_terminal_it_counts_and_leaves_nothing(monkeypatch):
     said = sys.stderr.getvalue()
     assert said.startswith("\rStill computing; Ctrl-C ends it. 0 s")
     assert said.endswith("\r\x1b[K"), "the line is not cleared"
-
-
-def test_a_quick_command_says_nothing_else(capsys):
-    assert main(CIRCLE_MAP) == 0
-    assert capsys.readouterr().err == ""
 
 
 @pytest.mark.parametrize("where", ["missing/orbit.json", "."])
@@ -412,49 +331,6 @@ def free_port():
     return hess_explorer.headless.screenshot.free_port()
 
 
-def test_serve(served, free_port, capsys):
-    assert main(["serve", "--port", str(free_port), "--no-browser", "--allow-origin", "a.org:80", "b.org"]) == 0
-    assert served == [
-        {
-            "port": free_port,
-            "address": "127.0.0.1",
-            "show": False,
-            "origins": ["a.org:80", "b.org"],
-            "lesson": None,
-            "embedders": ["*"],
-            "workers": 1,
-            "sessions": 1000,
-        }
-    ]
-    assert f"http://localhost:{free_port}" in capsys.readouterr().out
-
-
-def test_serve_is_told_who_may_show_it_and_how_many_processes_serve(served, free_port):
-    assert (
-        main(
-            [
-                "serve",
-                "--port",
-                str(free_port),
-                "--no-browser",
-                "--workers",
-                "2",
-                "--sessions",
-                "300",
-                "--embed-in",
-                "example.org",
-                "*.example.com",
-            ]
-        )
-        == 0
-    )
-    assert main(["serve", "--port", str(free_port), "--no-browser", "--embed-in", "none"]) == 0
-    assert [(call["workers"], call["sessions"], call["embedders"]) for call in served] == [
-        (2, 300, ["example.org", "*.example.com"]),
-        (1, 1000, []),
-    ]
-
-
 def test_a_lesson_that_cannot_be_read_is_no_lesson(served, free_port, capsys, tmp_path):
     wrong = tmp_path / "wrong.md"
     wrong.write_text("A lesson without a title.")
@@ -482,6 +358,22 @@ def test_the_address_is_printed_only_when_the_server_is_ready(monkeypatch, free_
     finally:
         gc.enable()
     assert said == [f"{words}\n", f"Hess Explorer is running at http://localhost:{free_port} (press Ctrl-C to stop).\n"]
+
+
+@pytest.mark.parametrize(
+    ("words", "changed"),
+    [
+        ("--allow-origin a.org:80 b.org", {"origins": ["a.org:80", "b.org"]}),
+        ("--workers 2 --sessions 300", {"workers": 2, "sessions": 300}),
+        ("--embed-in example.org *.example.com", {"embedders": ["example.org", "*.example.com"]}),
+        ("--embed-in none", {"embedders": []}),
+    ],
+)
+def test_serve(served, free_port, capsys, words, changed):
+    assert main(typed(f"serve --port {free_port} --no-browser {words}")) == 0
+    assert f"http://localhost:{free_port}" in capsys.readouterr().out
+    usual = {"address": "127.0.0.1", "lesson": None, "embedders": ["*"], "workers": 1, "sessions": 1000}
+    assert served == [{"port": free_port, "show": False, "origins": [], **usual, **changed}]
 
 
 def test_options_alone_mean_serve_with_a_browser(served, free_port, monkeypatch):
@@ -641,33 +533,12 @@ def test_section_of_a_heavy_body(answer):
 
 
 def test_section_of_the_suslov_problem(answer):
-    def rates(_, y):
-        omega = np.array([y[0], y[1], 0.0])
-        gamma = y[2:]
-        # Biz131, I12 = 0: I ω̇ = Iω × ω + γ × b + λe3.
-        inertia = np.array([[2.0, 0.0, 0.3], [0.0, 1.0, 0.5], [0.3, 0.5, 1.0]])
-        torque = np.cross(inertia @ omega, omega) + np.cross(gamma, [0.3, -0.5, 1.0])
-        return [torque[0] / 2.0, torque[1] / 1.0, *np.cross(gamma, omega)]
-
     found = answer(*SUSLOV_SECTION)
-
-    def event(_, y):
-        return y[3]
-
-    event.direction = 1
-    run = solve_ivp(
-        rates,
-        (0.0, 20.0),
-        [0.8, -0.4, 0.6, 0.0, 0.8],
-        method="DOP853",
-        rtol=1e-12,
-        atol=1e-13,
-        events=event,
-        max_step=0.02,
-    )
-    later = run.t_events[0] > 1e-9
-    assert found["t"] == pytest.approx(run.t_events[0][later].tolist(), abs=1e-9)
-    assert np.array(found["y"]) == pytest.approx(run.y_events[0][later], abs=1e-8)
+    # The ball without an inner ball.
+    body = {"I11": 2.0, "I22": 1.0, "I13": 0.3, "I23": 0.5, "D": 0.0, "b1": 0.3, "b2": -0.5, "b3": 1.0}
+    times, states = upward_crossings(rates(body), [0.8, -0.4, 0.6, 0.0, 0.8], 20.0, 3)
+    assert found["t"] == pytest.approx(times.tolist(), abs=1e-9)
+    assert np.array(found["y"]) == pytest.approx(states, abs=1e-8)
     assert found["notes"] == [f"There are only {len(found['t'])} of 100 crossings up to t = 20."]
     both, down = (answer(*SUSLOV_SECTION, "--sense", sense)["t"] for sense in ("0", "-1"))
     assert both == pytest.approx(sorted(found["t"] + down), abs=1e-9)
@@ -676,40 +547,14 @@ def test_section_of_the_suslov_problem(answer):
     assert np.array(moved["y"])[:, 3] == pytest.approx(0.25, abs=1e-12)
 
 
-@pytest.mark.parametrize("words", [HEAVY_SECTION, SUSLOV_SECTION])
-def test_csv_and_json_say_the_same_of_a_section(answer, capsys, words):
-    expected = answer(*words)
-    assert main([*words, "--format", "csv"]) == 0
-    facts, header, rows = table(capsys.readouterr().out)
-    numbers = [[float(cell) for cell in row] for row in rows]
-    if words is HEAVY_SECTION:
-        assert header == ["t", "l", "x", "M1", "M2", "M3", "γ1", "γ2", "γ3"]
-        series = [expected.pop(name) for name in ("t", "l", "x", "M", "gamma")]
-        assert numbers == [[t, l, x, *M, *gamma] for t, l, x, M, gamma in zip(*series, strict=True)]
-    else:
-        assert header == ["t", *expected["variables"]]
-        assert numbers == [[t, *y] for t, y in zip(expected.pop("t"), expected.pop("y"), strict=True)]
-    assert without_cost(facts) == without_cost(expected)
-
-
 @pytest.mark.parametrize(
     ("words", "part"),
     [
-        (replaced(HEAVY_SECTION, "--A", "0,1,2"), "--A: a1 = 0 is not between 0.001 and 1000"),
-        (replaced(HEAVY_SECTION, "--A", "1,2"), "write 3 numbers a1,a2,a3"),
         (replaced(HEAVY_SECTION, "--h", "-30"), "choose a larger h, or another point"),
         (replaced(HEAVY_SECTION, "--f", "30"), "no real G ≥ |f|"),
-        (replaced(HEAVY_SECTION, "--f", "nan"), "--f: 'nan' is not a finite number"),
         (replaced(HEAVY_SECTION, "--start", "0,1.5"), "--start: x = 1.5 is not between -1 and 1"),
-        (replaced(HEAVY_SECTION, "--start", "0"), "write 2 numbers l,x"),
         (replaced(HEAVY_SECTION, "--crossings", "0"), "from 1 to 100000"),
-        (replaced(HEAVY_SECTION, "--crossings", "1e9"), "from 1 to 100000"),
         (replaced(SUSLOV_SECTION, "--plane", "0,0,0,0,0"), "normal other than 0"),
-        (replaced(SUSLOV_SECTION, "--plane", "0,1"), "write 5 numbers n1,n2,n3,n4,n5"),
-        (replaced(SUSLOV_SECTION, "--t", "inf"), "--t: 'inf' is not a finite number"),
-        ([*SUSLOV_SECTION, "--sense", "2"], "invalid choice: 2"),
-        ([*SUSLOV_SECTION, "--accuracy", "best"], "draft, standard, precise, reference"),
-        (["section", "hess"], "invalid choice: 'hess'"),
     ],
 )
 def test_refusals_of_sections(refusal, words, part):

@@ -86,24 +86,12 @@ def test_on_a_torus_the_mean_divergence_is_that_of_the_multiplier_and_attractor_
         (replaced(DIAGRAM, "--over", "mass=1:2:3"), "There is no mass here to change: choose one of a, h, f"),
         (replaced(DIAGRAM, "--over", "h"), "write it like E=1:2:50"),
         (replaced(DIAGRAM, "--over", "h=1:2:3000"), "1 to 2000 finite values"),
-        (replaced(DIAGRAM, "--crossings", "20001"), "from 1 to 20000"),
         (replaced(DIAGRAM, "--crossings", "20000"), "At most 20000 crossings"),
         (replaced(replaced(DIAGRAM, "--over", "h=1:2:100"), "--crossings", "19000"), "at most 1000000 places"),
         ([*DIAGRAM, "--doublings", "7"], "from 0 to 6"),
         (replaced(DIAGRAM, "--at", "1,2"), "write 1 numbers phi"),
         (["regime", "suslov", *replaced(SUSLOV, "--E", "-9")], "choose E above"),
-        (["regime", "suslov", *replaced(SUSLOV, "--at", "0.83,4")], "No motion crosses the section at ψ = 0.83"),
-        (["regime", "hess", *TORUS, "--t", "0"], "other than 0"),
     ],
 )
 def test_what_is_wrong_is_one_sentence(refusal, words, said):
     assert said in refusal(*words)
-
-
-@pytest.mark.parametrize("command", ["orbit-diagram", "regime"])
-@pytest.mark.parametrize("system", ["suslov", "quartic", "ball", "euler-poisson", "hess"])
-def test_help_has_an_example_that_runs(example, capsys, command, system):
-    found = example(command, system)
-    assert found[:2] == [command, system]
-    assert main(found) == 0
-    assert capsys.readouterr().out

@@ -42,11 +42,6 @@ def test_a_tube_that_takes_too_much_work_ends_early_and_says_what_to_do(answer, 
     assert "--seconds 0 is not positive: choose a number above 0" in refusal(*hard, "2", "--seconds", "0")
 
 
-def test_the_example_of_the_help_works(answer, example):
-    found = answer(*example("tube"))
-    assert found["orbit"]["right_until"] == 2.0
-
-
 @pytest.mark.parametrize(
     ("words", "said"),
     [

@@ -72,15 +72,21 @@ def shown(value, digits=4):
     return float(f"{value:.{digits}g}")
 
 
-def first_returns(values, start, count):
-    """The first crossings (count, 5) of γ3 = 0 from below, by SciPy."""
+def upward_crossings(field, start, end, i=4):
+    """Times (n,) and states (n, 5), by SciPy, where component i, or γ3, grows through 0; the start is no crossing."""
 
     def height(_, y):
-        return y[4]
+        return y[i]
 
     height.direction = 1.0
-    run = solve_ivp(rates(values), (0.0, 40.0 * count), start, method="DOP853", rtol=1e-11, atol=1e-13, events=height)
-    return run.y_events[0][run.t_events[0] > 1e-6][:count]
+    run = solve_ivp(field, (0.0, end), start, method="DOP853", rtol=1e-12, atol=1e-13, events=height)
+    later = run.t_events[0] > 1e-6
+    return run.t_events[0][later], run.y_events[0][later]
+
+
+def first_returns(values, start, count):
+    """The first crossings (count, 5) of γ3 = 0 from below."""
+    return upward_crossings(rates(values), start, 40.0 * count)[1][:count]
 
 
 def angles(states):

@@ -115,7 +115,7 @@ COMMAND = Command(
             "--A 1,1.6,2.6666666666666665 --r 3,0,4 --mu 1.995 --h 50 --f 5 --start 0,0.2 --crossings 20",
             "a heavy body with a fixed point, in Andoyer–Deprit variables",
         ),
-        "suslov": _plane("suslov", None, "--plane 0,0,0,1,0 --t 50"),
+        "suslov": _plane("suslov", None, "--plane 0,0,0,0,1 --t 50"),
         "ball": _plane("ball", (0.0, 0.0, 0.0, 0.0, 1.0), "--t 100"),
     }
 )
