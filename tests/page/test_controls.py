@@ -88,12 +88,9 @@ def test_a_slider_follows_the_mouse(explorer, name):
     [
         ("I22", " 1.375 ", 1.375),
         ("I23", "−0.5", -0.5),
-        ("b3", "-2e0", -2.0),
         ("h", "0,7", 0.7),
         ("h", "7.25", 7.25),
-        ("f", "1e-8", 1e-8),
         ("f", "−1e−8", -1e-8),
-        ("phi0", "−0.5", -0.5),
         ("span", "12.34567890123", 12.34567890123),
     ],
 )
@@ -138,13 +135,8 @@ def test_what_is_not_a_number_is_marked_and_changes_nothing(explorer):
 @pytest.mark.parametrize(
     ("name", "text", "value", "note"),
     [
-        ("I22", "0", 1e-3, "I₂₂ must lie between"),
         ("I23", "5000", 96.0, "within ±100"),
-        ("b3", "0", -1e-3, "b₃ must lie between"),
-        ("h", "-5", -1 + 1e-9, "h must lie between"),
-        ("f", "99", None, "f is at that edge"),
         ("f", "-99", None, "f is at that edge"),
-        ("phi0", "4", math.pi, "φ₀ must lie between"),
         ("span", "-1", 0.01, "t must lie between"),
     ],
 )

@@ -15,7 +15,6 @@ import pytest
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import server_process
 from hess_explorer.scenes import scenes
-from hess_mechanics import level, solve
 from hess_mechanics.numerics.accuracy import LEVELS
 from support.page import (
     DEFAULTS,
@@ -32,7 +31,7 @@ from support.page import (
 from support.painted import SOURCES, alike, assert_drawn
 from support.pointer import HOME, STEP, assert_turned, at, frame
 from support.serving import UNWARMED
-from support.suslov_hess import assert_defaults, assert_orbit, body_of, exact_states
+from support.suslov_hess import assert_defaults, assert_orbit, exact_states
 from support.thorough import sample
 
 SCENES = scenes()
@@ -403,16 +402,6 @@ def test_a_link_leads_into_a_scene(explorer):
     assert_drawn(explorer, STUDY, values)
     assert explorer.time == pytest.approx(12.5)
     assert explorer.text("notes") == ""
-    # The picture shows the difference of two computations.
-    truth, drafted = (
-        solve(body_of(values).suslov, exact_states(values, [0.0])[0], np.linspace(0.0, 60.0, 400), level(name)).states
-        for name in ("reference", "draft")
-    )
-    error = np.max(np.abs(drafted - truth))
-    shown = explorer.data("growth-draft")
-    assert (shown["x"][0], shown["x"][-1]) == (0.0, pytest.approx(60.0))
-    # In other variables: of the same size.
-    assert error / 10 < max(shown["y"]) < 10 * error
     explorer.enter(HESS)
     assert_orbit(explorer, values, within=1e-3)
 
@@ -426,25 +415,6 @@ def test_a_link_into_no_scene_opens_the_first_one_and_says_so(explorer):
 
 
 # --- Speed and accuracy ------------------------------------------------------------------------------
-
-
-def test_every_slider_of_the_accuracy_scene_draws_its_state(study):
-    for name, value in CHANGED.items():
-        before = study.state
-        study.change(lambda name=name, value=value: study.slide(**{name: value}))
-        assert study.state == before + 1
-    assert_drawn(study, STUDY, {**DEFAULTS, **CHANGED})
-    assert study.text("notes") == ""
-
-
-def test_an_example_and_reset_set_the_state_of_the_accuracy_scene(study):
-    study.change(study.choose, "preset", "No cycle: every orbit winds")
-    assert_drawn(study, STUDY, {**DEFAULTS, "h": 0.2, "f": 0.5})
-    study.change(study.choose, "accuracy", "draft")
-    assert study.text("status").startswith("draft chosen")
-    study.change(study.page.locator(".param-reset").click)
-    assert_drawn(study, STUDY, DEFAULTS)
-    assert (study.accuracy, study.scene) == ("standard", STUDY)
 
 
 def test_the_caption_and_the_status_say_what_is_drawn(study):
@@ -643,14 +613,6 @@ def test_on_a_phone_the_costs_are_measured_only_where_they_are_seen(phone):
     explorer.assert_quiet()
 
 
-def test_where_all_pictures_are_in_sight_each_change_draws_all_of_them(explorer):
-    values = {}
-    for name, value in {"I23": 0.6, "h": 0.9, "phi0": -1.0}.items():
-        explorer.change(lambda name=name, value=value: explorer.slide(**{name: value}))
-        values[name] = value
-        assert_drawn(explorer, HESS, values)
-
-
 def test_on_a_phone_one_control_is_at_hand_and_the_picture_stays_while_it_moves(phone):
     explorer = phone()
     send(explorer, h=0.75)
@@ -781,18 +743,3 @@ def test_the_moving_point_is_right_to_half_a_pixel_at_any_time(explorer, values)
     assert np.max(pixels_off(explorer, found, exact)) < 0.5
     points = np.array([moment["points"][0] for moment in told])
     assert points == pytest.approx(found[:, :2])
-
-
-def test_at_the_default_state_the_point_is_right_in_the_other_planes_too(explorer):
-    samples = explorer.data("data-orbit")["t"]
-    times = np.sort(np.random.default_rng(6).uniform(0.0, samples[-1], 200))
-    told = explorer.page.locator("input.param-t").evaluate(TOLD, times.tolist())
-    body = body_of(DEFAULTS)
-    w1, w2, n1, n2, _ = body.in_units_of_b(body.to_reduced(exact_states(DEFAULTS, times))).T
-    reach = np.hypot(DEFAULTS["f"], n1 * w2 - n2 * w1)
-    _, _, low, high = explorer.axes("bifurcation")
-    _, top, _, bottom = frame(explorer, "bifurcation")
-    off = np.abs([moment["points"][1][1] for moment in told] - reach)
-    assert np.max(off) < 0.5 * (high - low) / (bottom - top)
-    turned = np.array([moment["points"][2][1] for moment in told]) - np.arctan2(w1, w2)
-    assert np.max(np.abs(np.angle(np.exp(1j * turned)))) < 0.5 * 2 * math.pi / PIXELS

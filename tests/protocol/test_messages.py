@@ -149,8 +149,3 @@ def test_where_there_is_nothing_to_tell_no_frame_is_sent():
 def test_a_click_or_box_with_a_number_that_is_not_finite_is_none(place):
     assert parse({"requested": 1, "picked": ["section", *place]}).picked is None
     assert parse({"requested": 1, "picked": ["section", *(1.0 for _ in place)]}).picked is not None
-
-
-def test_the_reason_of_a_cell_is_asked_at_a_finite_place_only():
-    assert isinstance(parse({"chart": {"why": {}, "at": [0.5, 1.0]}}), ExplainCell)
-    assert parse({"chart": {"why": {}, "at": [math.nan, 1.0]}}) is None
