@@ -337,7 +337,8 @@ def state(scene: str = "suslov-hess", /, **parameters: Any) -> SceneState:
     """
     known = scenes()
     if scene not in known:
-        raise InvalidParameter(f"There is no scene {scene!r}: choose one of {', '.join(known)}.")
+        public = ", ".join(name for name, one in known.items() if one.origin is None)
+        raise InvalidParameter(f"There is no scene {scene!r}: choose one of {public}.")
     found = known[scene]
     looks = {spec.name: spec for spec in CLIENT_KEPT}
     specs: dict[str, Spec] = {**{spec.name: spec for spec in found.specs}, **looks}

@@ -156,7 +156,7 @@ class BallSection(State):
         0.01,
         bounds=(-math.pi, math.pi),
         label="Start: ψ, direction of γ",
-        doc="On the section γ = (cos ψ, sin ψ, 0). A click in the section chooses ψ and δ.",
+        doc="On the section γ = (cos ψ, sin ψ, 0). Click the section to set ψ and δ.",
     )
     delta: float = number(
         "δ",
@@ -176,7 +176,7 @@ class BallSection(State):
     high: float = end_of_branch("to")
     upwards: str = coordinate_of_branch(_NAMES)
     span: float = time_span(40.0, 200.0, what="the chosen orbit")
-    drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows what attracts.")
+    drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows the attractor.")
     certain: str = proved_error_shown()
     accuracy: str = accuracy_level()
 

@@ -70,7 +70,7 @@ class BothSides(State):
         (SUSLOV, HEAVY),
         HEAVY,
         group="State",
-        doc="Whose parameters and integrals the sliders mean; those of the other side show its body. A "
+        doc="Side whose parameters and integrals the sliders set; the other sliders show the other body. A "
         "change of sides keeps the motion.",
     )
     I22: float = parameter(hess_case.I22)
@@ -81,10 +81,10 @@ class BothSides(State):
     I3: float = parameter(known.I3)
     m: float = parameter(known.MU_R)
     h: float = parameter(
-        known.H_HEAVY, doc="Of the side that is given: in units b = 1 for Suslov–Hess, H itself for Euler–Poisson."
+        known.H_HEAVY, doc="Energy of the given side: in units b = 1 for Suslov–Hess, H itself for Euler–Poisson."
     )
     f: float = parameter(
-        known.F_HEAVY, doc="Of the side that is given: in units b = 1 for Suslov–Hess, (M, γ) for Euler–Poisson."
+        known.F_HEAVY, doc="Area integral of the given side: in units b = 1 for Suslov–Hess, (M, γ) for Euler–Poisson."
     )
     phi0: float = parameter(hess_case.PHI0)
     share: float = number(
@@ -104,7 +104,7 @@ class BothSides(State):
         bounds=(0.01, 1e5),
         group="Computation",
         label="Time span",
-        doc="How long the motion is followed, in the time that both sides share.",
+        doc="Duration of the motion, in the time that both sides share.",
     )
     accuracy: str = accuracy_level()
 

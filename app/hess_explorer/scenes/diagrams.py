@@ -68,7 +68,7 @@ def parameter_of_diagram(symbols: tuple[str, ...], default: str) -> str:
         "Parameter of the diagram",
         symbols,
         default,
-        doc="What changes from left to right. All others are as they stand.",
+        doc="Parameter on the horizontal axis; all others keep their values.",
     )
     return declared
 
@@ -100,23 +100,23 @@ class DiagramState(State, ABC):
     h: float = parameter(H_SUSLOV)
     along: str = parameter_of_diagram(("h",), "h")
     first: float = number(
-        "from", -0.15, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram from", doc="The value at its left edge."
+        "from", -0.15, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram from", doc="Value at the left edge."
     )
     last: float = number(
-        "to", 0.3, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram to", doc="The value at its right edge."
+        "to", 0.3, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram to", doc="Value at the right edge."
     )
-    shown: str = choice("Coordinate of the section", _COORDINATES, "ψ", doc="What the diagram shows, upwards.")
+    shown: str = choice("Coordinate of the section", _COORDINATES, "ψ", doc="Quantity on the vertical axis.")
     ways: str = choice(
         "Followed",
         tuple(WAYS),
         next(iter(WAYS)),
-        doc="There: the parameter rises; back: it falls. Backward in time motions come to repellers.",
+        doc="There: the parameter rises. Back: it falls. Backward in time, motions tend to repellers.",
     )
     begins: str = choice(
         "Each value starts",
         (FOLLOWED, ANEW),
         FOLLOWED,
-        doc="Followed, an orbit stays with its attractor, and the way back may be another one.",
+        doc="A followed orbit stays with its attractor, and may differ on the way back.",
     )
     steps: float = number(
         "n",
@@ -125,7 +125,7 @@ class DiagramState(State, ABC):
         10.0,
         bounds=(2.0, 600.0),
         label="Values of the parameter",
-        doc="At how many even values.",
+        doc="Number of evenly spaced values.",
         group="Computation",
     )
     transient: float = number(
@@ -135,7 +135,7 @@ class DiagramState(State, ABC):
         10.0,
         bounds=(0.0, 5000.0),
         label="Crossings left out",
-        doc="Until the orbit has settled, at each value.",
+        doc="Crossings left out at each value, until the orbit has settled.",
         group="Computation",
     )
     count: float = number(
@@ -145,7 +145,7 @@ class DiagramState(State, ABC):
         5.0,
         bounds=(2.0, 500.0),
         label="Crossings shown",
-        doc="At each value, after those left out.",
+        doc="Crossings drawn at each value, after those left out.",
         group="Computation",
     )
     window: str = places("The window of the diagram", 2, *BOUNDS)

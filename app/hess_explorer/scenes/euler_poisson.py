@@ -189,7 +189,7 @@ class EulerPoisson(State):
         "that the Hess condition asks for. At 0 the barrier r·M = 0 cannot be crossed.",
     )
     m: float = parameter(MU_R)
-    h: float = parameter(H_HEAVY, softbounds=(-1.0, 60.0), doc="H = h.")
+    h: float = parameter(H_HEAVY, softbounds=(-1.0, 60.0), doc="Energy, H = h.")
     f: float = parameter(F_HEAVY, doc="(M, γ) = f; the section needs G ≥ |f|.")
     periodic: str = which()
     indicator: str = colouring()

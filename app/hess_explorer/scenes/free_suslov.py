@@ -91,7 +91,7 @@ class FreeSuslov(State):
     I23: float = parameter(free_body.I23)
     k: float = parameter(known.K_DRIVES_I11)
     w1: float = parameter(known.W1, 2.0)
-    w2: float = parameter(known.W2, 1e-4, doc="At t = 0; however close to the line of equilibria, 1e-300 too.")
+    w2: float = parameter(known.W2, 1e-4, doc="Value at t = 0; it may be as close to the line of equilibria as 1e-300.")
     Gamma: float = parameter(known.GAMMA_CIRCLE)
     phi: float = parameter(known.CIRCLE_PHASE, 1.2672, label="Phase φ(0)", bounds=ONE_TURN)
     phi2: float = parameter(
@@ -103,9 +103,7 @@ class FreeSuslov(State):
         doc="A second orbit with the same ω leaves the same circle Γ⁻, turned along it by φ′ − φ.",
     )
     span: float = time_span(30.0, 100.0, most=1e5)
-    across: str = choice(
-        "γ₁ against", ("time", "phase"), "time", doc="The horizontal axis of the third picture: t or φ."
-    )
+    across: str = choice("γ₁ against", ("time", "phase"), "time", doc="Horizontal axis of the third picture: t or φ.")
     accuracy: str = accuracy_level()
 
     def limits(self) -> Mapping[str, Slider]:

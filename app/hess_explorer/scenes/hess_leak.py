@@ -67,7 +67,7 @@ class HessLeak(State):
         bounds=(1.0, 200.0),
         group="Computation",
         label="Periods",
-        doc="How many periods of n₃ are followed.",
+        doc="Number of periods of n₃ computed.",
     )
     accuracy: str = accuracy_level()
 

@@ -84,7 +84,7 @@ class Kharlamova(State):
         0.01,
         bounds=(-10.0, 10.0),
         label="Start q₁ = √I₁₁ γ₂",
-        doc="A click in the plane chooses the start, on the half γ₃ ≥ 0 of the sphere.",
+        doc="Start of the orbit, on the half γ₃ ≥ 0 of the sphere; click the plane to choose it.",
     )
     q2: float = number(
         "q₂",
@@ -93,7 +93,7 @@ class Kharlamova(State):
         0.01,
         bounds=(-10.0, 10.0),
         label="Start q₂ = −√I₂₂ γ₁",
-        doc="A click in the plane chooses the start.",
+        doc="Start of the orbit; click the plane to choose it.",
     )
     p: float = number(
         "|p|", 1.0, (0.0, 4.0), 0.01, bounds=(0.0, 1e3), label="Start |p|", doc="p = (√I₁₁ ω₁, √I₂₂ ω₂), at the start."
@@ -112,7 +112,7 @@ class Kharlamova(State):
         "Another potential",
         tuple(POTENTIALS),
         "Hénon–Heiles",
-        doc="Of the last picture, shown by its button; it has no b₁, b₂. Quadratic: integrable.",
+        doc="Potential of the last picture, shown by its button; it has no b₁, b₂. Quadratic: integrable.",
     )
     accuracy: str = accuracy_level()
 

@@ -94,7 +94,7 @@ class Quartic(State):
         0.01,
         bounds=(-1e30, 1e30),
         label="Start q₁ = I₂₂ω₂/b₃",
-        doc="A click in the plane chooses the start.",
+        doc="Start of the orbit; click the plane to choose it.",
     )
     Q2: float = number(
         "q₂",
@@ -103,7 +103,7 @@ class Quartic(State):
         0.01,
         bounds=(-1e30, 1e30),
         label="Start q₂ = −I₁₁ω₁/b₃",
-        doc="A click in the plane chooses the start.",
+        doc="Start of the orbit; click the plane to choose it.",
     )
     beta: float = number(
         "β",
@@ -112,7 +112,7 @@ class Quartic(State):
         0.01,
         bounds=(-math.pi, math.pi),
         label="Start: direction β",
-        doc="Where the point runs at first: q̇ = −p, |p| = √(1 − γ₃²). A click in the section chooses all three.",
+        doc="Initial direction of the point: q̇ = −p, |p| = √(1 − γ₃²). Click the section to choose all three.",
     )
     periodic: str = which()
     count: float = crossings_of_each()

@@ -78,16 +78,16 @@ class RotationNumber(State):
     a: float = parameter(known.A_HESS, bounds=_AT_MOST["a"])  # the range of the map
     h: float = parameter(known.H_HESS, 0.5, step=0.005)
     f: float = parameter(known.F_HESS, 0.8, step=0.005, doc="Area integral in units b = 1.")
-    over: str = choice("Map over", PLANES, "h, f", group="State", doc="The two parameters of the map; the third stays.")
+    over: str = choice("Map over", PLANES, "h, f", group="State", doc="Two parameters of the map; the third is fixed.")
     line: str = choice(
-        "Line along", ("f", "h", "a"), "f", group="State", doc="The parameter along which ρ and the trace are drawn."
+        "Line along", ("f", "h", "a"), "f", group="State", doc="Parameter along which ρ and the trace are drawn."
     )
     rational: str = choice(
         "Rational number",
         _RATIONALS,
         "−1/4",
         group="State",
-        doc="On the line the torus with this ρ is looked for, and how many cycles it has.",
+        doc="Rotation number to find on the line, with the number of cycles of its torus.",
     )
     epsilon: float = number(
         "ε",

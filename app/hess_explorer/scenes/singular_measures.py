@@ -69,7 +69,7 @@ class SingularMeasures(State):
     D: float = parameter(
         known.D, 0.0, doc="0: free Suslov problem; otherwise the Chaplygin ball, whose inner ball has this 𝒟."
     )
-    h: float = parameter(known.H_FREE_BALL, 2.0, doc="Of the middle of the cloud; without a field h > 0.")
+    h: float = parameter(known.H_FREE_BALL, 2.0, doc="Energy of the middle of the cloud; without a field h > 0.")
     spread: float = number(
         "δ",
         0.1,
@@ -101,7 +101,7 @@ class SingularMeasures(State):
         ("energy shell", "small patch"),
         "energy shell",
         group="State",
-        doc="All states with about the energy h, or those about one state; evenly spread over the phase volume.",
+        doc="All states with about the energy h, or those near one state; evenly spread over the phase volume.",
     )
     direction: str = choice(
         "Time",
@@ -123,7 +123,7 @@ class SingularMeasures(State):
         "divergence",
         doc="The divergence div v at the points, or the logarithm of small volumes about them.",
     )
-    points: str = choice("Points", ("1000", "10000"), "10000", doc="How many points both clouds have together.")
+    points: str = choice("Points", ("1000", "10000"), "10000", doc="Number of points of both clouds together.")
     accuracy: str = accuracy_level()
 
     def idle(self) -> Mapping[str, float]:

@@ -131,15 +131,15 @@ class Suslov(State):
     b3: float = parameter(B3)
     h: float = parameter(H_SUSLOV)
     plane: str = choice(
-        "Section", tuple(_PLANES), "γ₃ = 0", doc="The plane is crossed while that component of γ grows."
+        "Section", tuple(_PLANES), "γ₃ = 0", doc="Component of γ that is 0 on the section (upward crossings)."
     )
     colours: str = choice(
         "Show",
         (_BOTH, "forward only", "basins"),
         _BOTH,
-        doc="Basins: to which group of motions, or attractor, each point of the section leads.",
+        doc="Basins: the group of motions, or the attractor, to which each point of the section leads.",
     )
-    drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows what attracts.")
+    drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows the attractor.")
     periodic: str = which()
     indicator: str = colouring()
     orbits: float = orbits_spread(40.0, 120.0, 300.0)

@@ -78,7 +78,7 @@ class SuslovHess(State):
         bounds=(0.01, 1e5),
         group="Computation",
         label="Time span",
-        doc="How long the orbit is followed, in the time of the body (at most 100 returns).",
+        doc="Duration of the orbit, in the time of the body (at most 100 returns).",
     )
     cells: str = choice(
         "Proved cells",

@@ -71,7 +71,7 @@ def parameter_of_branch(symbols: tuple[str, ...]) -> Any:
         "Branch over",
         symbols,
         symbols[0],
-        doc="In “Branch of the periodic orbit”: what changes from left to right. All others are as they stand.",
+        doc="Parameter on the horizontal axis of “Branch of the periodic orbit”; all others keep their values.",
     )
 
 
@@ -92,7 +92,10 @@ def end_of_branch(word: str) -> Any:
 def coordinate_of_branch(names: tuple[str, str]) -> Any:
     """Declare the coordinate of the section that is drawn upwards."""
     return choice(
-        "Branch upwards", names, names[0], doc="In “Branch of the periodic orbit”: which coordinate of the section."
+        "Branch upwards",
+        names,
+        names[0],
+        doc="Coordinate of the section on the vertical axis of “Branch of the periodic orbit”.",
     )
 
 

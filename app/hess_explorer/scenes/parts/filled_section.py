@@ -58,7 +58,7 @@ def orbits_spread(default: float, longest: float, most: float) -> Any:
         bounds=(0.0, most),
         label="Orbits",
         group="Computation",
-        doc="How many orbits are spread over the window.",
+        doc="Number of orbits spread over the window.",
     )
 
 
@@ -72,7 +72,7 @@ def points_of_each(default: float) -> Any:
         bounds=(2.0, 4000.0),
         label="Crossings",
         group="Computation",
-        doc="How many points each orbit leaves.",
+        doc="Number of points of each orbit.",
     )
 
 

@@ -38,7 +38,7 @@ def colouring() -> Any:
         "Under the points",
         (NOTHING, MEGNO),
         NOTHING,
-        doc="MEGNO tells after a short time whether the motion from each cell is regular or chaotic, and "
+        doc="MEGNO shows after a short time whether the motion from each cell is regular or chaotic, and "
         "whether volume about it shrinks.",
     )
 
