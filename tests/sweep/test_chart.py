@@ -254,24 +254,16 @@ def test_why_a_cell_has_no_number_is_said():
         ({}, "needs the link of a state"),
         (wish(state="scene=nothing"), "needs the link of a state"),
         (wish(state="scene=suslov-hess&h=1" + "0" * MAX_QUERY), "needs the link of a state"),
-        (wish(state=7), "needs the link of a state"),
         (wish(quantity="period"), "can be charted"),
-        (wish(quantity=["h"]), "can be charted"),
         (wish(state="scene=singular-measures"), "nothing can be charted"),
         (wish(part=1), "has 1 numbers"),
-        (wish(part="0"), "has 1 numbers"),
-        (wish(quantity="limit-cycles", part=True), "has 3 numbers"),
         (wish(x=("b3", -2.0, -1.0, 9)), "A side is one of h, f, I23, I22"),
-        (wish(x=("h", 0.0, "1", 9)), "A side is one of"),
-        (wish(x=("h", 0.0, 1.0)), "A side is one of"),
         (wish(x=("h", 0.0, 1.0, 9.5)), "A side is one of"),
         (wish(x=("h", math.nan, 1.0, 9)), "are no numbers"),
         (wish(x=("h", 0.0, 10**400, 9)), "are no numbers"),
         (wish(x=("h", 1.0, 1.0, 9)), "two different numbers"),
-        (wish(x=("h", -7.0, -5.0, 9)), "two different numbers"),
         (wish(x=("f", 0.0, 1.0, 9)), "Both sides are f"),
         (wish("scene=suslov", "megno-suslov", x=("starts:2", 0.0, 1.0, 9)), "A side is one of .*starts:0, starts:1"),
-        (wish("scene=suslov", "megno-suslov", x=("starts", 0.0, 1.0, 9)), "A side is one of .*starts:0, starts:1"),
     ],
 )
 def test_nothing_that_comes_from_outside_is_believed(given, said):
@@ -296,17 +288,11 @@ def test_numbers_are_clamped_and_turned_round():
     "message",
     [
         None,
-        [],
-        {"chart": None},
         {"chart": 7},
         {"chart": {}},
         {"chart": {"start": 1, "id": 2}},
-        {"chart": {"start": {}}},
         {"chart": {"more": "x", "id": 1}},
-        {"chart": {"more": 3, "id": 1}},
-        {"chart": {"stop": 1}},
         {"chart": {"stop": True}},
-        {"chart": {"why": wish(), "at": [1]}},
         {"chart": {"why": wish(), "at": ["a", None]}},
         {"chart": {"why": wish(), "at": [math.nan, 0.0]}},
         {"values": {"h": 1.0}},
@@ -405,14 +391,20 @@ def test_a_fault_in_one_cell_is_of_this_cell_alone(monkeypatch, caplog):
     assert np.isnan(values[:, 2]).all() and "a cell of a sweep failed" in caplog.text
 
 
-def test_the_part_of_a_quantity_that_has_several_numbers():
-    found = [
-        whole(Chart.read(wish(quantity="limit-cycles", part=i, x=("h", 1.3, 1.7, 3), y=("f", 0.3, 0.6, 2))))[0]
-        for i in range(3)
-    ]
+def test_the_part_of_a_quantity_that_has_several_numbers(tmp_path):
     alone = sweep("limit-cycles", over={"h": (1.3, 1.7, 3), "f": (0.3, 0.6, 2)}, level="standard", a=0.28 / 0.96)
     for i in range(3):
-        assert np.array_equal(found[i], alone.limit_cycles.values[:, :, i].T)
+        given = wish(quantity="limit-cycles", part=i, x=("h", 1.3, 1.7, 3), y=("f", 0.3, 0.6, 2))
+        assert np.array_equal(whole(Chart.read(given))[0], alone.limit_cycles.values[:, :, i].T)
+    # The file of the last one.
+    head, values, status = Page().all_of(given)
+    assert head["error"] == pytest.approx(float(alone.error.max()), rel=1e-12)
+    path = tmp_path / "chart.json"
+    path.write_text(json.dumps(file_of(given, head, values, status)), encoding="utf-8")
+    found = read(path)
+    assert found.number.values.tolist() == ["log_multiplier"]
+    assert np.array_equal(found.limit_cycles.values[..., 0], alone.limit_cycles.values[..., 2])
+    assert found.attrs["largest_error"] == head["error"]
 
 
 def file_of(given, head, values, status):
@@ -459,34 +451,17 @@ def test_a_chart_that_was_saved_is_read_as_sweeps_are(tmp_path, capsys):
     assert capsys.readouterr().out.count("\n") >= 63
 
 
-def test_one_of_several_numbers_is_read_with_its_largest_error(tmp_path):
-    given = wish(quantity="limit-cycles", part=1, x=("h", 1.3, 1.7, 3), y=("f", 0.3, 0.6, 2))
-    head, values, status = Page().all_of(given)
-    alone = sweep("limit-cycles", over={"h": (1.3, 1.7, 3), "f": (0.3, 0.6, 2)}, level="standard", a=0.28 / 0.96)
-    assert head["error"] == pytest.approx(float(alone.error.max()), rel=1e-12)
-    path = tmp_path / "chart.json"
-    path.write_text(json.dumps(file_of(given, head, values, status)), encoding="utf-8")
-    found = read(path)
-    assert found.number.values.tolist() == ["unstable"]
-    assert np.array_equal(found.limit_cycles.values[..., 0], alone.limit_cycles.values[..., 1])
-    assert found.attrs["largest_error"] == head["error"]
-
-
 @pytest.mark.parametrize(
     "change",
     [
         {"program": "a letter"},
         {"quantity": "speed"},
-        {"values": [1.0]},
         {"status": [1] * 62 + [300]},
-        {"status": [1] * 63},
         {"status": [1] * 62 + [9]},
         {"values": ["x"] * 63},
-        {"x": None},
         {"y": {"name": "f", "low": 0, "high": 1, "count": 10**9}},
         {"part": "first"},
         {"level": "sloppy"},
-        {"state": None},
     ],
 )
 def test_a_file_that_is_no_whole_chart_is_refused(tmp_path, change):
