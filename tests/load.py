@@ -25,6 +25,7 @@ from tornado.httpclient import AsyncHTTPClient
 from hess_explorer.headless.screenshot import server_process
 from hess_explorer.protocol.parameters import Number
 from hess_explorer.scenes import scenes
+from support.measured import write_measured
 from support.processes import memory, worked
 from support.visitor import Visitor
 
@@ -204,14 +205,6 @@ def _machine(before, ticks):
     )
 
 
-def _written(lines):
-    start, end = "<!-- measured by tests/load.py -->", "<!-- end of measured -->"
-    text = README.read_text(encoding="utf-8")
-    before, _, rest = text.partition(start)
-    measured = "\n".join(lines)
-    README.write_text(f"{before}{start}\n\n{measured}\n\n{end}{rest.partition(end)[2]}", encoding="utf-8")
-
-
 def main():
     """Serve and measure."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
@@ -241,7 +234,7 @@ def main():
     kept.append(_machine(before, ticks))
     print(kept[-1])
     if options.write:
-        _written(kept)
+        write_measured(README, "\n".join(kept))
 
 
 async def _ready(base):

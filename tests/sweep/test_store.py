@@ -16,6 +16,11 @@ TORI = {"h": (-1.2, 2.0, 12), "f": (0.0, 1.2, 9)}
 CYCLES = {"h": (0.5, 2.0, 6), "f": (0.0, 0.6, 4)}
 
 
+def tori(**options):
+    """The rotation numbers of `TORI`; the options are those of `sweep`."""
+    return sweep("rotation-number", TORI, a=0.5, **options)
+
+
 @pytest.fixture(autouse=True)
 def small_pieces(monkeypatch):
     monkeypatch.setattr(running, "_cells_of_a_piece", lambda *_: 8)
@@ -90,13 +95,13 @@ def test_a_store_that_was_not_whole_when_it_was_made_is_made_again(tmp_path):
     (tmp_path / "rho.zarr.begun" / "h").mkdir(parents=True)
     (tmp_path / "rho.zarr.begun" / "zarr.json").write_text("{")
     (tmp_path / "rho.zarr").mkdir()
-    found = sweep("rotation-number", TORI, a=0.5, store=tmp_path / "rho.zarr")
+    found = tori(store=tmp_path / "rho.zarr")
     assert (found.status.values > 0).all()
     assert not (tmp_path / "rho.zarr.begun").exists()
 
 
 def test_a_store_is_plain_zarr_that_says_what_it_is(tmp_path):
-    sweep("rotation-number", TORI, a=0.5, store=tmp_path / "rho.zarr", level="draft")
+    tori(store=tmp_path / "rho.zarr", level="draft")
     # Read without this package, and without Zarr.
     said = json.loads((tmp_path / "rho.zarr" / "zarr.json").read_text())
     assert said["zarr_format"] == 3
@@ -125,7 +130,7 @@ def test_a_store_is_plain_zarr_that_says_what_it_is(tmp_path):
 def test_the_store_of_another_sweep_is_refused_and_not_touched(tmp_path, change, said):
     store = tmp_path / "rho.zarr"
     with pytest.raises(Interrupted):
-        sweep("rotation-number", TORI, a=0.5, store=store, progress=interrupted_after(1))
+        tori(store=store, progress=interrupted_after(1))
     files = {path: path.read_bytes() for path in store.rglob("*") if path.is_file()}
     with pytest.raises(OtherSweep, match=said):
         sweep(**{"quantity": "rotation-number", "over": TORI, "a": 0.5, "store": store, **change})
@@ -133,10 +138,10 @@ def test_the_store_of_another_sweep_is_refused_and_not_touched(tmp_path, change,
 
 
 def test_the_store_of_another_version_is_refused(tmp_path, monkeypatch):
-    sweep("rotation-number", TORI, a=0.5, store=tmp_path / "rho.zarr")
+    tori(store=tmp_path / "rho.zarr")
     monkeypatch.setattr("hess_explorer.sweep.result.version", lambda: "9.9")
     with pytest.raises(OtherSweep, match=r"has version .*, not '9.9'"):
-        sweep("rotation-number", TORI, a=0.5, store=tmp_path / "rho.zarr")
+        tori(store=tmp_path / "rho.zarr")
 
 
 def test_what_is_no_store_is_refused(tmp_path):
@@ -145,7 +150,7 @@ def test_what_is_no_store_is_refused(tmp_path):
     (tmp_path / "folder" / "letter").write_text("a letter")
     for place in ("file", "folder"):
         with pytest.raises(StoreError, match="no store of a sweep: choose another folder"):
-            sweep("rotation-number", TORI, a=0.5, store=tmp_path / place)
+            tori(store=tmp_path / place)
         said = {"folder": "no store of a sweep: choose another folder", "file": "holds no whole chart"}[place]
         with pytest.raises(StoreError, match=said):
             read(tmp_path / place)
@@ -153,14 +158,14 @@ def test_what_is_no_store_is_refused(tmp_path):
     with pytest.raises(StoreError, match="no store of a sweep"):
         read(tmp_path / "nothing")
     with pytest.raises(StoreError, match="cannot be written"):
-        sweep("rotation-number", TORI, a=0.5, store=tmp_path / "file" / "below")
+        tori(store=tmp_path / "file" / "below")
 
 
 def test_a_store_that_loses_an_array_is_no_whole_store(tmp_path):
-    sweep("rotation-number", TORI, a=0.5, store=tmp_path / "rho.zarr")
+    tori(store=tmp_path / "rho.zarr")
     shutil.rmtree(tmp_path / "rho.zarr" / "status")
     with pytest.raises(StoreError, match="no whole store"):
-        sweep("rotation-number", TORI, a=0.5, store=tmp_path / "rho.zarr")
+        tori(store=tmp_path / "rho.zarr")
 
 
 def test_a_disk_that_is_full_is_said_and_the_rest_is_kept(tmp_path, monkeypatch):
@@ -177,8 +182,8 @@ def test_a_disk_that_is_full_is_said_and_the_rest_is_kept(tmp_path, monkeypatch)
 
     monkeypatch.setattr(working, "compute", until_full)
     with pytest.raises(StoreError, match=r"No space left on device.*the same sweep goes on there"):
-        sweep("rotation-number", TORI, a=0.5, store=store)
+        tori(store=store)
     monkeypatch.undo()
     monkeypatch.setattr(running, "_cells_of_a_piece", lambda *_: 8)
     assert (read(store).status.values > 0).any()
-    assert sweep("rotation-number", TORI, a=0.5, store=store).identical(sweep("rotation-number", TORI, a=0.5))
+    assert tori(store=store).identical(tori())
