@@ -12,16 +12,24 @@
 export function onDrag(handle, start, move, end = () => {}) {
   /** @type {Held | null} */
   let held = null
+  /** @type {number | null} */
+  let pointer = null
+  /** @param {PointerEvent} event */
+  const isHolding = ({ pointerId }) => held !== null && pointerId === pointer
   handle.addEventListener("pointerdown", (event) => {
+    // A second finger does nothing.
+    if (held !== null) return
     held = start(event)
-    if (held !== null) handle.setPointerCapture(event.pointerId)
+    pointer = event.pointerId
+    if (held !== null) handle.setPointerCapture(pointer)
   })
-  handle.addEventListener("pointermove", (event) => { if (held !== null) move(held, event) })
-  /** @param {PointerEvent | null} event */
+  handle.addEventListener("pointermove", (event) => { if (isHolding(event)) move(held, event) })
+  /** @param {PointerEvent} event */
   const release = (event) => {
-    if (held !== null) end(held, event)
+    if (!isHolding(event)) return
+    end(held, event.type === "pointercancel" ? null : event)
     held = null
   }
   handle.addEventListener("pointerup", release)
-  handle.addEventListener("pointercancel", () => release(null))
+  handle.addEventListener("pointercancel", release)
 }

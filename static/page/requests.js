@@ -137,13 +137,12 @@ export function createRequests({ send, changed, hidden, known }) {
     },
     lesson: (lesson) => add({ lesson }),
     stop: () => want({ stop: true }),
-    pick({ pick, drag }) {
-      // A moving finger scrolls the page.
-      if ((drag && touched) || !Array.isArray(pick) || !pick.slice(1).every(Number.isFinite)) return
-      want({ picked: pick })
+    pick({ pick }) {
+      if (Array.isArray(pick) && pick.slice(1).every(Number.isFinite)) want({ picked: pick })
     },
     hover(place) {
-      if (place.slice(1).every(Number.isFinite)) add({ hover: place })
+      // A finger covers the place, and does not leave it when it is lifted.
+      if (!touched && place.slice(1).every(Number.isFinite)) add({ hover: place })
     },
     near(near) { if (!known(near)) add({ near }) },
     scene(scene) {

@@ -12,27 +12,36 @@ const NOTHING = { left: [], right: [], top: [], bottom: [] }
  * @param {string[]} picks Bokeh events that choose a point ("tap", "doubletap", "pan"), "box" for a drag that draws a box and
  *   chooses its corners, "hover" for the place of the mouse
  * @param {Source} box gets the box while it is drawn
+ * @param {() => boolean} isDragging whether the current pointer may drag, see "touch.js"
  */
-export function connectPicks(model, picks, box) {
+export function connectPicks(model, picks, box, isDragging) {
   const { name } = model
   /** @type {Record<string, ((event: BokehEvent) => void)[]>} */
   const callbacks = {}
   /** @param {BokehEvent} event */
-  const point = ({ x, y, event_name: event }) => tell("pick", { pick: [name, x, y], drag: event === "pan" })
+  const point = ({ x, y, event_name: event }) => {
+    const drag = event === "pan"
+    if (!drag || isDragging()) tell("pick", { pick: [name, x, y], drag })
+  }
   for (const pick of picks) {
     if (pick === "hover") callbacks.mousemove = [({ x, y }) => tell("hover", [name, x, y])]
-    else if (pick === "box") Object.assign(callbacks, boxCallbacks(name, box))
+    else if (pick === "box") Object.assign(callbacks, boxCallbacks(name, box, isDragging))
     else callbacks[pick] = [point]
   }
   model.setv({ js_event_callbacks: { ...model.js_event_callbacks, ...callbacks } }, { sync: false })
 }
 
-/** @param {string} name @param {Source} box @returns {Record<string, ((event: BokehEvent) => void)[]>} */
-function boxCallbacks(name, box) {
+/**
+ * @param {string} name
+ * @param {Source} box
+ * @param {() => boolean} isDragging
+ * @returns {Record<string, ((event: BokehEvent) => void)[]>}
+ */
+function boxCallbacks(name, box, isDragging) {
   /** @type {{x: number, y: number} | null} */
   let start = null
   /** @param {{x: number, y: number}} place */
-  const draw = ({ x, y }) => box.put({ left: [start.x], right: [x], top: [start.y], bottom: [y] })
+  const draw = ({ x, y }) => { if (isDragging()) box.put({ left: [start.x], right: [x], top: [start.y], bottom: [y] }) }
   return {
     panstart: [({ x, y }) => {
       start = { x, y }
@@ -41,7 +50,7 @@ function boxCallbacks(name, box) {
     pan: [draw],
     panend: [({ x, y }) => {
       box.put(NOTHING)
-      tell("pick", { pick: [name, start.x, start.y, x, y], drag: true })
+      if (isDragging()) tell("pick", { pick: [name, start.x, start.y, x, y], drag: true })
     }],
   }
 }

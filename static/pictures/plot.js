@@ -10,6 +10,7 @@ import { cellsPainter } from "./cells.js"
 import { dotsPainter } from "./dots.js"
 import { connectPicks } from "./picks.js"
 import { tickFormatter } from "./ticks.js"
+import { connectTouch } from "./touch.js"
 
 // Width of the frame, in pixels, for which the numbers of letters on the axes are given.
 const USUAL = 240
@@ -65,6 +66,20 @@ function nameAxes({ below: [x], left: [y] }, names) {
 }
 
 /**
+ * Return the places of the handle of a picture, in pixels of the plot.
+ * @param {PlotView} plot
+ * @param {[source: string, x: string, y: string] | null} handle
+ * @param {FindSource} source
+ * @returns {number[][]}
+ */
+function placesOf({ frame: { x_scale: xScale, y_scale: yScale } }, handle, source) {
+  if (handle === null) return []
+  const [name, x, y] = handle
+  const { [x]: xs = [], [y]: ys = [] } = source(name).data
+  return Array.from(xs, (value, i) => [xScale.compute(value), yScale.compute(ys[i])])
+}
+
+/**
  * Draw a picture in an element, and return Bokeh's view of the plot.
  * @param {HTMLElement} host
  * @param {PictureDescription} picture
@@ -93,6 +108,8 @@ export async function buildPlot(host, picture, source) {
     })
   })
   if (picture.renamed) nameAxes(model, source(`${picture.name}-axes`))
-  connectPicks(model, picture.picks, source(`${picture.name}-box`))
+  const { picks } = picture
+  const touch = connectTouch(host, plot, { places: () => placesOf(plot, picture.handle, source), boxes: picks.includes("box") })
+  connectPicks(model, picks, source(`${picture.name}-box`), touch.isDragging)
   return plot
 }

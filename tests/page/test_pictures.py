@@ -9,8 +9,6 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hess_explorer.headless.browser import wait_ready
-from hess_explorer.scenes import scenes
 from hess_explorer.views import theme
 from hess_mechanics import turning_points
 from support.mechanics import angle_between, lifted_return
@@ -160,61 +158,6 @@ def test_the_sphere_turns_with_the_arrow_keys_up_to_the_pole_and_home_again(expl
             explorer.sphere.press(key)
         assert_turned(explorer, *turned)
     assert explorer.time == 0.0
-
-
-class Finger:
-    """One finger on the screen of a phone."""
-
-    def __init__(self, page):
-        self.page = page
-        self.session = page.context.new_cdp_session(page)
-
-    def send(self, kind, *points):
-        touches = [{"x": x, "y": y} for x, y in points]
-        self.session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
-
-    def drag(self, item, dx, dy):
-        """From the middle of an item; returns how far the text has scrolled under it."""
-        scrolled = self.scrolled
-        box = item.bounding_box()
-        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-        self.send("touchStart", (x, y))
-        for share in (0.2, 0.4, 0.6, 0.8, 1.0):
-            self.send("touchMove", (x + dx * share, y + dy * share))
-            self.page.evaluate("new Promise((done) => requestAnimationFrame(done))")
-        self.send("touchEnd")
-        # Scrolling takes effect in the next frame.
-        self.page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
-        return self.scrolled - scrolled
-
-    @property
-    def scrolled(self):
-        return self.page.locator(".reader").evaluate("item => item.scrollTop")
-
-
-def turn_to(phone, picture):
-    """Choose a picture by its number."""
-    number = 1 + scenes()["suslov-hess"].pictures.index(picture)
-    phone.change(phone.page.get_by_role("button", name=f"Picture {number}").click)
-
-
-def test_the_sphere_turns_under_a_finger_and_the_page_stays(phone):
-    phone = phone()
-    turn_to(phone, "sphere")
-    assert Finger(phone.page).drag(phone.sphere, -40, 30) == 0
-    assert_turned(phone, HOME[0] + 40 / radius(phone), HOME[1] + 30 / radius(phone))
-
-
-def test_a_finger_that_moves_over_the_diagram_or_scrolls_the_text_chooses_nothing(phone):
-    phone = phone()
-    turn_to(phone, "bifurcation")
-    before = phone.here()
-    finger = Finger(phone.page)
-    finger.drag(phone.picture("bifurcation").locator("canvas").first, 0, -120)
-    scrolled = finger.drag(phone.page.locator(".reader"), 0, -80)
-    wait_ready(phone.page)
-    assert scrolled > 30
-    assert phone.here() == before
 
 
 def on_sphere(gamma, turn):

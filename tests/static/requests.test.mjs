@@ -80,10 +80,10 @@ test("the scene that was chosen last is entered, with no picture hidden", async 
   requests.settled()
 })
 
-test("a place that is no number and a finger that scrolls choose nothing", async () => {
+test("a place that is no number chooses nothing, and a finger does not hover", async () => {
   assert.deepEqual(await told(["pick", { pick: ["omega", NaN, 1], drag: false }]), [])
   point("pointerdown", new Element(), "touch")
-  assert.deepEqual(await told(["pick", { pick: ["omega", 0, 1], drag: true }]), [])
+  assert.deepEqual(await told(["hover", ["omega", 0, 1]]), [])
   assert.deepEqual((await told(["pick", { pick: ["omega", 0, 1], drag: false }]))[0].picked, ["omega", 0, 1])
   requests.settled()
 })

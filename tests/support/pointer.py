@@ -1,4 +1,4 @@
-"""Pixels of planar pictures, clicks on them, and the turn of a sphere."""
+"""Pixels of planar pictures, clicks and fingers on them, and the turn of a sphere."""
 
 from __future__ import annotations
 
@@ -50,3 +50,24 @@ def click_on(explorer, picture, x, y):
     pixel, unit = at(explorer, picture, x, y)
     explorer.change(explorer.page.mouse.click, *pixel)
     return unit
+
+
+class Finger:
+    """Fingers on a touch screen, as the browser itself gets them."""
+
+    def __init__(self, page):
+        self.page = page
+        self.session = page.context.new_cdp_session(page)
+
+    def send(self, kind, *points):
+        """Send touchStart, touchMove, touchEnd or touchCancel with the places of all fingers, and wait for a frame."""
+        touches = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]
+        self.session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
+        self.page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+    def draw(self, start, end, last="touchEnd"):
+        """Drag from one place to another."""
+        self.send("touchStart", start)
+        for share in (0.2, 0.4, 0.6, 0.8, 1.0):
+            self.send("touchMove", tuple(a + (b - a) * share for a, b in zip(start, end, strict=True)))
+        self.send(last)

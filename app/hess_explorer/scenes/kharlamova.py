@@ -382,7 +382,7 @@ SCENE = Scene(
             x=(-math.pi, math.pi),
             y=lambda s: period_axis(s.periods, s.arc.period),
             on_click=lambda s, x, y: {"alpha": x},
-            on_drag=True,
+            on_drag="chosen",
             message=lambda s: "" if has_periods(s.periods) else "Nothing moves: no period.",
             layers=period_graph.layers(
                 lambda s: s.periods, here=lambda s: None if s.arc.kind == "fixed" else (s.alpha, s.arc.period)

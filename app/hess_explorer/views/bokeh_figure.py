@@ -116,6 +116,7 @@ def describe(plot: Plot[Any]) -> dict[str, Any]:
         "item": _item(build(plot)),
         "renamed": not isinstance(plot.axes, tuple),
         "picks": list(plot.events),
+        "handle": None if plot.handle is None else [plot.source_of(plot.handle), *plot.handle.columns],
         "letters": [
             None if plot.ticks is not None or side in plot.log else letters
             for side, letters in (("x", _LETTERS), ("y", 1000))

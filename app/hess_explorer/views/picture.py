@@ -27,7 +27,7 @@ class Picture(ABC, Generic[S]):
     ----------
     name : identifier; title : heading, or a function of the state.
     caption(state) : verdict and numbers; `said` adds the title.
-    on_click(state, x, y) : parameter values set by a click; on_drag : whether a drag does the same.
+    on_click(state, x, y) : parameter values set by a click; on_drag : name of the layer whose point a drag moves.
     on_box(state, corners) : parameter values set by a box selection.
     on_hover(state, x, y) : tooltip for the place under the mouse.  Raises `ModelError`.
     signs : legend entries in addition to those of its layers.
@@ -39,7 +39,7 @@ class Picture(ABC, Generic[S]):
     title: str | Callable[[S], str]
     caption: Callable[[S], Caption]
     on_click: Callable[[S, float, float], Values] | None = None
-    on_drag: bool = False
+    on_drag: str = ""
     on_box: Callable[[S, Corners], Values] | None = None
     on_hover: Callable[[S, float, float], str] | None = None
     signs: tuple[Sign, ...] = ()

@@ -65,6 +65,11 @@ class Plot(Picture[S]):
         )
 
     @property
+    def handle(self) -> Layer[S] | None:
+        """The layer whose point a drag moves."""
+        return next((layer for layer in self.layers if layer.name == self.on_drag), None)
+
+    @property
     def followers(self) -> Mapping[str, tuple[str, str]]:
         """Columns of the track "orbit" followed by each moving point, by source."""
         moving = {**({"point": self.dot} if self.dot else {}), **(self.dots or {})}

@@ -52,7 +52,7 @@ def over_square(
         ticks=ANGLE_TICKS,
         y_ticks=POLAR_TICKS,
         on_click=lambda s, x, y: {"phi": x, "theta": y},
-        on_drag=True,
+        on_drag="here",
         layers=_layers(theta_plus, here),
     )
 
@@ -89,7 +89,7 @@ def over_phases(
         y_ticks=POLAR_TICKS,
         message=message,
         on_click=lambda s, x, y: {"phi": x},
-        on_drag=True,
+        on_drag="chosen",
         layers=layers,
     )
 
@@ -127,7 +127,7 @@ def over_orders(
         x=ends,
         y=lambda s: cosine_axis(orders(s)[:, 1].max(initial=here(s)[1])),
         on_click=lambda s, x, y: {"k": x},
-        on_drag=True,
+        on_drag="chosen",
         layers=(
             curves("closed", lambda s: [orders(s)], color=theme.MAP, dash="dashed", label="closed form"),
             ring("chosen", lambda s: [here(s)], size=18.0),

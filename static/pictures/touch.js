@@ -1,0 +1,62 @@
+// @ts-check
+// Fingers on a plot.  One finger drags the handle when it begins near it; elsewhere it scrolls the page.  In a picture that takes
+// boxes it draws one.
+//
+// A browser that scrolls cancels the pointer.  Preventing the default of "touchstart" is the only way to stop it, as the style
+// `touch-action` cannot depend on the place.  Bokeh would take the events of a second finger for those of the first: they are
+// withheld, and the drag ends where it is.
+
+// A finger covers about 40 pixels.
+const REACH = 30
+
+/**
+ * Return whether a finger is near one of the places.
+ * @param {number[]} finger
+ * @param {number[][]} places
+ */
+export const isNear = ([x, y], places) => places.some(([a, b]) => Math.hypot(a - x, b - y) <= REACH)
+
+/**
+ * Let fingers drag in a plot.  isDragging() tells whether the current pointer may drag; a cancelled pointer may not.
+ * @param {HTMLElement} host holds the plot
+ * @param {PlotView} plot
+ * @param {{places: () => number[][], boxes: boolean}} handles places() returns the handles in pixels of the plot; `boxes` tells
+ *   whether a drag draws a box
+ */
+export function connectTouch(host, plot, { places, boxes }) {
+  let dragging = false
+  /** The first finger on the plot. @type {number | null} */
+  let finger = null
+
+  /** @param {PointerEvent} event */
+  function grabs({ clientX, clientY }) {
+    const { left, top } = host.getBoundingClientRect()
+    const [x, y] = [clientX - left, clientY - top]
+    const { x0, x1, y0, y1 } = plot.frame.bbox
+    return boxes ? x0 <= x && x <= x1 && y0 <= y && y <= y1 : isNear([x, y], places())
+  }
+
+  /** @param {PointerEvent} event */
+  function onDown(event) {
+    if (event.pointerType !== "touch") dragging = true
+    else if (finger === null) {
+      finger = event.pointerId
+      dragging = grabs(event)
+    } else event.stopPropagation()
+  }
+
+  /** @param {PointerEvent} event */
+  function onOther(event) {
+    if (event.pointerType === "touch" && event.pointerId !== finger) return event.stopPropagation()
+    if (event.type === "pointermove") return
+    finger = null
+    if (event.type === "pointercancel") dragging = false
+  }
+
+  host.addEventListener("pointerdown", onDown, { capture: true })
+  for (const name of /** @type {const} */ (["pointermove", "pointerup", "pointercancel"])) {
+    host.addEventListener(name, onOther, { capture: true })
+  }
+  host.addEventListener("touchstart", (event) => { if (dragging) event.preventDefault() }, { passive: false })
+  return { isDragging: () => dragging }
+}

@@ -1,0 +1,115 @@
+"""Gestures of fingers on a phone: drags, boxes, strokes, taps and scrolling."""
+
+from __future__ import annotations
+
+import pytest
+
+from hess_explorer.headless.browser import wait_ready
+from hess_explorer.scenes import scenes
+from support.page import HESS, numbers_in
+from support.pointer import HOME, Finger, assert_turned, at, frame
+
+
+def turn_to(phone, picture, scene=HESS):
+    """Choose a picture by its number."""
+    number = 1 + scenes()[scene].pictures.index(picture)
+    chip = phone.page.locator(".chips .chip").nth(number - 1)
+    if chip.get_attribute("aria-pressed") != "true":
+        phone.change(chip.click)
+
+
+def middle(box):
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def test_the_sphere_turns_under_a_finger(phone):
+    phone = phone()
+    turn_to(phone, "sphere")
+    x, y = middle(phone.sphere.bounding_box())
+    Finger(phone.page).draw((x, y), (x - 40, y + 30))
+    radius = 0.84 * phone.sphere.bounding_box()["width"] / 2
+    assert_turned(phone, HOME[0] + 40 / radius, HOME[1] + 30 / radius)
+
+
+@pytest.mark.parametrize("last", ["touchEnd", "touchCancel"])
+def test_the_ring_follows_a_finger_and_the_caption_says_where_it_is(phone, last):
+    phone = phone()
+    turn_to(phone, "bifurcation")
+    (x, y), _ = at(phone, "bifurcation", *phone.here())
+    # A finger is wider than the ring.
+    start = (x + 12, y - 8)
+    end, (wide, high) = at(phone, "bifurcation", 2.2, -0.5)
+    phone.change(Finger(phone.page).draw, start, end, last)
+    wait_ready(phone.page)
+    assert phone.here() == (pytest.approx(2.2, abs=wide), pytest.approx(-0.5, abs=high))
+    assert (phone.shown("h")[0], phone.shown("f")[0]) == pytest.approx(phone.here(), rel=1e-6)
+    assert numbers_in(phone.caption("bifurcation"), "h = #, f = #") == pytest.approx(phone.here(), rel=1e-2)
+    assert phone.picture("bifurcation").locator(".hover").is_hidden()
+
+
+def test_a_second_finger_does_not_move_the_ring(phone):
+    phone = phone()
+    turn_to(phone, "bifurcation")
+    start, _ = at(phone, "bifurcation", *phone.here())
+    other, _ = at(phone, "bifurcation", 3.0, 1.0)
+    end, (wide, high) = at(phone, "bifurcation", 1.5, 0.2)
+    finger = Finger(phone.page)
+    finger.send("touchStart", start)
+    finger.send("touchMove", ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2))
+    finger.send("touchMove", end)
+    finger.send("touchStart", end, other)
+    finger.send("touchMove", end, (other[0] + 20, other[1] + 20))
+    finger.send("touchEnd")
+    wait_ready(phone.page)
+    assert phone.here() == (pytest.approx(1.5, abs=wide), pytest.approx(0.2, abs=high))
+
+
+def test_a_finger_away_from_the_ring_or_on_the_text_chooses_nothing(phone):
+    phone = phone()
+    turn_to(phone, "bifurcation")
+    before, finger = phone.here(), Finger(phone.page)
+    (x, y), _ = at(phone, "bifurcation", 3.0, 1.0)
+    finger.draw((x, y), (x - 20, y + 90))
+    reader = phone.page.locator(".reader")
+    x, y = middle(reader.bounding_box())
+    finger.draw((x, y), (x, y - 80))
+    wait_ready(phone.page)
+    assert reader.evaluate("item => item.scrollTop") > 30
+    assert phone.here() == before
+    assert phone.picture("bifurcation").locator(".hover").is_hidden()
+
+
+def test_a_finger_taps_the_circle_map(phone):
+    phone = phone()
+    turn_to(phone, "circle")
+    place, (wide, _) = at(phone, "circle", 1.25, 0.5)
+    phone.change(phone.page.touchscreen.tap, *place)
+    assert f"phi0={phone.link().split('phi0=')[1].split('&')[0]}" in phone.page.url
+    assert float(phone.link().split("phi0=")[1].split("&")[0]) == pytest.approx(1.25, abs=wide)
+
+
+def test_a_finger_drags_the_chosen_phase_of_a_scattering_curve(phone):
+    phone = phone("scattering")
+    turn_to(phone, "curve", "scattering")
+    ring = phone.data("curve-chosen")
+    start, _ = at(phone, "curve", ring["x"][0], ring["y"][0])
+    end, (wide, _) = at(phone, "curve", 1.0, 1.5)
+    phone.change(Finger(phone.page).draw, start, end)
+    wait_ready(phone.page)
+    assert phone.data("curve-chosen")["x"][0] == pytest.approx(1.0, abs=wide)
+
+
+def test_a_finger_draws_a_box_and_a_cancelled_one_is_forgotten(phone):
+    phone = phone("rotation-number")
+    turn_to(phone, "map", "rotation-number")
+    left, top, right, bottom = frame(phone, "map")
+    start = (left + 0.3 * (right - left), top + 0.3 * (bottom - top))
+    end = (left + 0.7 * (right - left), top + 0.7 * (bottom - top))
+    axes = phone.axes("map")
+    Finger(phone.page).draw(start, end, "touchCancel")
+    wait_ready(phone.page)
+    assert phone.axes("map") == axes
+    phone.change(Finger(phone.page).draw, start, end)
+    wait_ready(phone.page)
+    x0, x1, *_ = phone.axes("map")
+    assert x1 - x0 == pytest.approx(0.4 * (axes[1] - axes[0]), rel=0.1)
