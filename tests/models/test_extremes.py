@@ -38,7 +38,7 @@ from hess_mechanics.errors import (
 )
 from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.suslov.additional_integral import I11_of, additional_integral
-from hess_mechanics.suslov.free import equilibria, free_motion
+from hess_mechanics.suslov.free import free_motion
 from hess_mechanics.suslov.proved_forms import proved_cos_chi
 from hess_mechanics.suslov.scattering import scattering
 from hess_mechanics.suslov_hess.torus import track
@@ -248,18 +248,14 @@ def free_rate(body, omega):
     return math.sqrt((I22 * I13**2 + I11 * I23**2) * (I11 * omega[0] ** 2 + I22 * omega[1] ** 2)) / (I11 * I22)
 
 
-@cache
-def free_in_decimals(tensor, omega, times):
-    """States from γ = UP, by the field of `Biz131`."""
-    return oracle.orbit_in_decimals(SUSLOV, [*omega, *UP], SuslovBody(*tensor).parameters, times, 30)
-
-
 def free(name, tensor, omega, times):
     """A motion without a field, from γ = UP."""
+    body = SuslovBody(*tensor)
+    once = cache(lambda: oracle.orbit_in_decimals(SUSLOV, [*omega, *UP], body.parameters, times, 30))
 
     def error(grade):
-        found = free_motion(SuslovBody(*tensor), omega, UP, times, level(grade))
-        return orbit_error(np.hstack([found.omega, found.gamma]), free_in_decimals(tensor, omega, tuple(times)))
+        found = free_motion(body, omega, UP, times, level(grade))
+        return orbit_error(np.hstack([found.omega, found.gamma]), once())
 
     return Row(f"free Suslov: {name}", "Taylor series of `Biz131`, 30 digits", error)
 
@@ -287,22 +283,6 @@ def the_angle(name, tensor, **options):
         return max(abs(scattering(SuslovBody(*tensor), level(grade), arc).cos_chi - exact) for arc in (1, -1))
 
     return Row(f"scattering, cos χ: {name}", "closed form", error, **options)
-
-
-def circle_joined(name, tensor, omega, times, **options):
-    """Γ⁺ of the orbit that starts next to the unstable point, with its δ, θ⁻ and φ; it has settled at the last time."""
-    body = SuslovBody(*tensor)
-    line = equilibria(body, 0.5 * (body.I11 * omega[0] ** 2 + body.I22 * omega[1] ** 2))
-    xi, eta = line.xi, np.array([body.I13, body.I23]) / math.hypot(body.I13, body.I23)
-    across = float(np.dot(omega, eta))
-    theta, phi = math.acos(np.dot(UP, xi)), math.atan2(UP[2], np.dot(UP[:2], eta))
-
-    def error(grade):
-        found = scattering(body, level(grade), 1 if across > 0 else -1, abs(across) / line.speed)
-        end = free_in_decimals(tensor, omega, tuple(times))[-1].astype(float)
-        return abs(float(found.Gamma_plus(theta, phi)) - float(end[2:] @ xi))
-
-    return Row(f"scattering, Γ⁺: {name}", "Taylor series of `Biz131`, 30 digits", error, **options)
 
 
 # ---- the rows ---------------------------------------------------------------------------------------------------
@@ -362,10 +342,8 @@ ROWS = [
     # h
     vanishing("h = −1 + 1e-12, f = 0", 0.5, BOTTOM, 0.0),
     by_orbits("h = −1 + 1e-12, f = f_max/2", 0.5, BOTTOM, 0.5 * f_max(BOTTOM)),
-    by_orbits("h = −1 + 1e-12, f = f_max (1 − 1e-6)", 0.5, BOTTOM, (1 - 1e-6) * f_max(BOTTOM)),
     vanishing("h = 1 + 1e-12, f = 0", 0.5, 1 + 1e-12, 0.0),
     vanishing("h = 1 − 1e-12, f = 0", 0.5, 1 - 1e-12, 0.0),
-    by_orbits("h = 1 + 1e-12, f = 0.5", 0.5, 1 + 1e-12, 0.5),
     by_orbits("h = 1 − 1e-12, f = 0.5", 0.5, 1 - 1e-12, 0.5),
     by_orbits("h = 1 + 1e-12, f = 1e-12", 0.5, 1 + 1e-12, 1e-12, digits=60),
     by_orbits("h = 1 − 1e-12, f = 1e-12", 0.5, 1 - 1e-12, 1e-12, digits=60),
@@ -375,7 +353,6 @@ ROWS = [
     # a
     without_a("a = 0", 1.5, 0.6),
     without_a("a = 0, h = 1 + 1e-9, f = 1e-9", 1 + 1e-9, 1e-9),
-    without_a("a = 0, h = 1e8, f = 1e4", 1e8, 1e4),
     by_orbits("a = 1e-8, h = 0.3", 1e-8, 0.3, 0.6),
     vanishing("a = 10, h = 0.3, f = 0", 10.0, 0.3, 0.0, floor=1e-7, because="|α| = 7e7 cancels to a trace of 0"),
     by_orbits(
@@ -478,9 +455,6 @@ ROWS = [
     ),
     an_orbit("I11/I22 = 1e-6", SUSLOV, (1.0, 1e-3, 0.6, 0.0, 0.8), with_field(swapped(HEAVY)), [1.0, 10.0]),
     an_orbit("I22 = 1e-6", SUSLOV, (0.1, 10.0, 0.6, 0.0, 0.8), with_field(LIGHT), [0.001, 0.02]),
-    an_orbit("a body all but flat", SUSLOV, START, with_field(FLAT), [1.0, 5.0, 20.0]),
-    an_orbit("no body (triangle inequality)", SUSLOV, START, with_field(NO_BODY), [1.0, 5.0, 20.0]),
-    an_orbit("I13 = I23 = 0", SUSLOV, START, with_field((2.0, 1.0, 0.0, 0.0)), [1.0, 5.0, 20.0]),
     an_orbit(
         "I13 = I23 = 0, b = 0, t = 1e4",
         SUSLOV,
@@ -501,9 +475,7 @@ ROWS = [
     at_rest("at rest, γ3 = 1, t = 1e6", SUSLOV, 1.0, (*GENERIC[:4], 0, 0, 1)),
     # bodies of the Hess case on their tori
     on_a_torus("b3 = −1e6", HessBody(1.0, 0.5, -1e6), 1.7, 0.4, 20.0),
-    on_a_torus("b3 = 1e-6", HessBody(1.0, 0.5, 1e-6), 1.7, 0.4, 20.0),
     on_a_torus("h = 1, f = 0, from the top", HessBody(1.0, 0.5, -1.0), 1.0, 0.4, 10.0, floor=1e-11, because=SADDLE),
-    on_a_torus("a = 1 + 1e-9 (no body)", HessBody(1.0, 1 + 1e-9, -1.0), 1.7, 0.4, -20.0),
     on_a_torus("a = 1e4", HessBody(1e-4, 1.0, -1.0), 1.7, 0.4, 1.0),
     # integrals after a long time
     drift("t = 1e5", HESS, HESS_START, (0.75, 1.0), 1e5, floor=1e-11),
@@ -511,28 +483,21 @@ ROWS = [
     # motions without a field
     free("1e-300 off the line", FIGURE_3, (2.0, 1e-300), [1.0, 690.0, 692.0, 740.0]),
     free("5e-324 off the line", FIGURE_3, (2.0, 5e-324), [700.0, 746.0, 760.0]),
-    free("1e-300 off the line, I23 = 0", (1.0, 2.44, 0.5, 0.0), (1e-300, -2.0), [1.0, 690.0, 692.0, 740.0]),
     free("1e-300 off the stable half, backward", FIGURE_3, (-2.0, 1e-300), [-1.0, -690.0, -692.0, -720.0]),
     free("1e-16 off a slanting line", SLANTING, (0.5, -0.3 + 1e-16), [1.0, 100.0, 130.0, 160.0]),
     free("k = 50", (626.0, 1.0, 0.0, 0.5), (2.0, 1e-3), [1.0, 10.0, 30.0]),
     free("I11/I22 = 1e6", (1e6, 1.0, 0.3, 0.5), (1e-3, 1.0), [1.0, 10.0]),
     free("I11/I22 = 1e-6", (1e-6, 1.0, 0.3, 0.5), (0.1, 10.0), [0.001, 0.002]),
-    free("I22 = 1e6, a body", (1.0, 1e6, 200.0, 500.0), (1.0, 1e-3), [1.0, 10.0]),
     free("ω = 1e6", SLANTING, (0.8e6, -0.2e6), [1e-6, 1e-5, 2e-5]),
-    free("ω = 1e-6", SLANTING, (0.8e-6, -0.2e-6), [1e6, 1e7, 2e7]),
     free("I13, I23 = 0.01", (1.0, 1.0, 0.006, 0.008), (0.7, 0.7), [1.0, 100.0, 300.0]),
-    free_F2("k = 15", 15, (2.0, 1e-3)),
     free_F2("k = 15, 1e-300 off the line", 15, (2.0, 1e-300)),
     free_F2("k = 15, ω = 1e6", 15, (1e6, 0.3e6)),
-    the_angle("k = 14.5", (1.0 + 14.5**2 * 0.25, 1.0, 0.0, 0.5)),
     the_angle("I11/I22 = 1e6", (1e6, 1.0, 0.0, 1.0)),
     the_angle("I11/I22 = 1e-6", (1e-6, 1.0, 0.0, 1.0)),
     the_angle("I11/I22 = 1e6, slanting", (1e6, 1.0, 300.0, 0.5)),
     the_angle("I23 = 1e-3", (2.0, 1.0, 0.0, 1e-3)),
     the_angle("I23 = 3e-4, slanting", (2.0, 1.0, 2e-4, 3e-4)),
     the_angle("I13, I23 = 1e6", (1.0, 2.0, 1e6, -1e6)),
-    circle_joined("δ = 5e-301", FIGURE_3, (2.0, 1e-300), [1.0, 690.0, 692.0, 740.0]),
-    circle_joined("δ = 5e-301, the other arc", FIGURE_3, (2.0, -1e-300), [1.0, 690.0, 692.0, 740.0]),
     *extremes_ball.rows(Row, an_orbit, drift),
     *extremes_euler_poisson.rows(Row, drift),
     *extremes_suslov.rows(Row),

@@ -77,7 +77,7 @@ def test_a_state_of_the_section_has_g_h_f_and_its_place(body, h, f):
     assert np.count_nonzero(found) > 20
     l, x, states, G = l[found], x[found], states[found], G[found]
     here, g = angles(states)
-    assert np.max(turned_away(g, math.pi / 2)) < 1e-7 if f else np.max(turned_away(g, math.pi / 2)) < 1e-12
+    assert np.max(turned_away(g, math.pi / 2)) < (1e-7 if f else 1e-12)
     assert np.max(turned_away(here, l)) < 1e-12
     assert np.max(np.abs(coordinates(states) - np.column_stack([l, x]))) < 1e-12
     assert np.linalg.norm(states[:, :3], axis=1) == pytest.approx(G, rel=1e-13)

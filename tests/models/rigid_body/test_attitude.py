@@ -225,15 +225,12 @@ def test_the_logarithm_of_the_printed_formula_needs_a_dot():
     assert np.ptp(np.abs(value) - abs(one.a) * K) > 0.3
 
 
-def test_an_oscillation_draws_a_segment_again_and_again_and_a_rotation_everything():
-    below, above = pendulum(h=0.3, l=1.1), pendulum(h=1.5, l=0.02)
+def test_an_oscillation_draws_a_segment_again_and_again():
+    below = pendulum(h=0.3, l=1.1)
     found = loxodromic_motion(below, 60.0, level("precise"))
     assert np.max(np.abs(found.swing)) == pytest.approx(math.acos(-0.3), abs=1e-3)
     ends = below.l_at(np.array([-below.amplitude, below.amplitude]))
     assert (found.l.min(), found.l.max()) == pytest.approx(tuple(ends), abs=1e-3)
-    found = loxodromic_motion(above, 60.0, level("precise"))
-    assert np.all(np.diff(found.l) >= -1e-9)
-    assert found.l[-1] == pytest.approx(math.pi, abs=1e-6)
     assert loxodromic_motion(pendulum(h=1.0), 1e4, level("draft")).swing[-1] == pytest.approx(math.pi, abs=1e-2)
 
 
