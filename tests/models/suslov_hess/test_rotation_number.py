@@ -158,15 +158,12 @@ def test_below_the_saddle_two_returns_close_where_f_vanishes():
         (0.25, "f", Torus(0.5, 0.5, 0.5), 0.01, 1.2),
         (-0.25, "h", Torus(0.5, 5.0, 2.0), 4.0, 6.0),
         (-0.25, "f", Torus(0.5, 0.5, 0.0), 5.0, 9.0),
+        # Across f = 0 below the saddle ρ jumps from −½ to ½, over all other numbers.
+        (0.1, "f", Torus(0.5, 0.3, 0.0), -0.1, 0.1),
     ],
 )
 def test_where_no_torus_has_the_number_none_is_found(rho, name, torus, low, high):
     assert place_of(rho, name, torus, low, high, STANDARD) is None
-
-
-def test_the_jump_from_minus_a_half_to_a_half_is_no_place_of_zero():
-    # Across f = 0 below the saddle ρ jumps over all other numbers.
-    assert place_of(0.1, "f", Torus(0.5, 0.3, 0.0), -0.1, 0.1, STANDARD) is None
 
 
 # ---- the other family --------------------------------------------------------------------------------------------
