@@ -11,9 +11,7 @@ import pytest
 import oracle
 from hess_mechanics import level, solve, systems
 from hess_mechanics.dynamics.doubled import doubled
-from hess_mechanics.dynamics.work_precision import growth, measure_levels
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import LEVELS
 from support.thorough import sample
 
 SYSTEMS = systems()
@@ -67,19 +65,6 @@ def test_many_times_are_those_of_one_orbit():
     many, few = (doubled(*system.example_motion, some) for some in (times, times[[0, 33, 100]]))
     assert np.abs((many.pairs[[0, 33, 100]] - few.pairs).imag).max() < 1e-29
     assert np.array_equal(many.states[[0, 33, 100]], few.states)
-
-
-def test_the_errors_of_speed_and_accuracy_are_the_true_ones():
-    system = SYSTEMS["suslov"]
-    times = np.linspace(0.0, 20.0, 9)
-    exact = oracle.orbit_in_decimals(system, *system.example, times.tolist(), digits=45)
-    scale = doubled(*system.example_motion, times).scale
-    grown = growth("suslov", *system.example, 20.0, (1.0,) * 5, 9)
-    points = {point.setting: point.error for point in measure_levels("suslov", *system.example, 20.0, 9)}
-    for name, one in LEVELS.items():
-        true = np.max(oracle.distances(solve(*system.example_motion, times, one).states, exact) / scale, axis=1)
-        assert grown.errors[name] == pytest.approx(true, rel=1e-9, abs=1e-30)
-        assert points[name] == pytest.approx(true.max(), rel=1e-9)
 
 
 def test_what_cannot_be_followed_is_refused(monkeypatch):

@@ -65,16 +65,6 @@ def test_where_work_is_scarce_the_longest_tube_is_kept():
     assert 5.0 < reached[0] < reached[1] < 60.0
 
 
-def test_integrals_keep_their_values_in_the_tube():
-    system = systems()["suslov"]
-    state, parameters = system.example
-    found = tube(system.at(parameters), state, [4.0], digits=15)
-    held = system.integrals([Fraction(x) for x in state], [Fraction(x) for x in parameters])
-    end = [(one.low + one.high) / 2 for one in found.states[0]]
-    for name, value in system.integrals(end, [Fraction(x) for x in parameters]).items():
-        assert abs(value - held[name]) < Fraction(1, 10**14)
-
-
 def test_an_orbit_is_judged():
     system = systems()["suslov"]
     state, parameters = system.example

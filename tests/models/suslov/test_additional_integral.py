@@ -78,26 +78,6 @@ def test_the_field_vanishes_on_the_levels_of_F2_that_the_paper_leaves_out_too(ca
     assert [values[1, -1], values[-1, -1]] == pytest.approx([-values[1, 1]] * 2, rel=1e-12)
 
 
-@pytest.mark.parametrize("k", [1, 3, 5])
-def test_the_coefficients_span_the_null_space_of_the_linear_system(k):
-    # Unknown coefficients for all monomials of degree k, none left out by parity.
-    I22, I23 = sympy.Rational(3, 2), sympy.Rational(-2, 5)
-    I11 = I22 + k * k * I23**2 / I22
-    w1, w2 = sympy.symbols("w1 w2")
-    unknown = sympy.symbols(f"u0:{3 * (k + 1)}")
-    V = sympy.Matrix([sum(unknown[i * (k + 1) + j] * w1 ** (k - j) * w2**j for j in range(k + 1)) for i in range(3)])
-    rate = V.diff(w1) * (-w2 * I23 * w2 / I11) + V.diff(w2) * (w1 * I23 * w2 / I22) - V.cross(sympy.Matrix([w1, w2, 0]))
-    equations = [c for row in rate for c in sympy.Poly(sympy.expand(row), w1, w2).coeffs()]
-    matrix = sympy.Matrix([[sympy.diff(equation, x) for x in unknown] for equation in equations])
-    (null,) = matrix.nullspace()
-    found = coefficients(k, Fraction(3, 2), Fraction(-2, 5))
-    V = vector(found, w1, w2)
-    ours = [
-        sympy.Poly(sympy.nsimplify(v), w1, w2).coeff_monomial(w1 ** (k - j) * w2**j) for v in V for j in range(k + 1)
-    ]
-    assert sympy.Matrix([ours, list(null)]).rank() == 1
-
-
 def test_the_first_two_are_those_of_the_paper():
     I22, I23 = Fraction(3), Fraction(-2)
     one, three = coefficients(1, I22, I23), coefficients(3, I22, I23)

@@ -89,29 +89,6 @@ def test_a_start_has_its_energy_its_place_and_the_level_a_half(body):
     assert body.to_plane(y[None])[0][0] == pytest.approx(q, abs=1e-13)
 
 
-@every_body
-def test_an_orbit_of_the_body_is_one_of_the_point(body):
-    """q(t) by Newton's law in the potential alone, in another way: the Verlet method, its error ∝ step²."""
-    y = starts(body, 1, seed=5)[0]
-    span = 3.0
-
-    def gradient(q):
-        return -body.b3 * float(body.height(q)) * np.array([q[0] / body.I22, q[1] / body.I11])
-
-    (q,), (p,) = body.to_plane(y[None])
-    found = []
-    for count in (3000, 6000):
-        x, v, step = q.copy(), -p, span / count
-        for _ in range(count):
-            v = v - 0.5 * step * gradient(x)
-            x = x + step * v
-            v = v - 0.5 * step * gradient(x)
-        found.append(x)
-    extrapolated = found[1] + (found[1] - found[0]) / 3.0
-    states = solve(body, y, [span], FLOOR).states
-    assert body.to_plane(states)[0][0] == pytest.approx(extrapolated, abs=1e-9)
-
-
 def test_the_angular_momentum_is_an_integral_for_equal_moments_only():
     for I11, holds in ((1.3, True), (1.301, False)):
         body = QuarticBody(I11, 1.3, -1.2, 0.7)
