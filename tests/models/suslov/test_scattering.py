@@ -255,6 +255,12 @@ def test_the_command_refuses_in_one_sentence(tensor, extra, words):
         run("scattering", f"--I={tensor}", "--theta", "1", *extra)
 
 
+def test_the_command_refuses_a_moment_that_is_not_positive(capsys):
+    with pytest.raises(SystemExit):
+        run("scattering", "--I=-2,1,0,0.5", "--theta", "1")
+    assert "I11 = -2 is not between 0.001 and 1000: choose it there" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("tensor", [(3.56, 1.0, 0.0, 0.8), (2.0, 1.0, 0.3, 0.5)])
 def test_at_the_energy_of_unit_rate_omega_leaves_the_line_at_that_rate(tensor):
     body = SuslovBody(*tensor)
