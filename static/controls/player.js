@@ -27,7 +27,7 @@ const transport = (name, path, title, onclick) => (
 /** Return the button that unfolds a picture or folds it again. @param {PictureDescription} picture */
 const unfolding = ({ name, folded: label }) => button(`button.unfold.unfold-${name}`, () => tell("fold", name), {
   title: label, ariaLabel: label, ariaExpanded: !isFolded(gallery.cell(name)),
-}, `+ ${label.replace(/^Show (the )?/, "")}`)
+}, label.replace(/^Show (the )?/, ""))
 
 /** Render the player. @param {{el: HTMLElement}} part */
 export function render({ el }) {

@@ -13,7 +13,7 @@ from hess_explorer.views import circle_map, rotation_plane, section_plane
 from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.poisson_sphere import parallels
-from hess_explorer.views.text import ranging, vector
+from hess_explorer.views.text import ranging, vector, with_error
 from hess_explorer.views.velocity_plane import pixels_per_unit
 from hess_mechanics import level
 from hess_mechanics.numerics.jit import seconds_compiling
@@ -31,6 +31,15 @@ def test_a_range_that_is_one_number_is_said_to_be_that():
     assert ranging(0.14159, 0.1416) == "= 0.1416"
     assert ranging(0.14159, 0.1416, 6) == "from 0.14159 to 0.1416"
     assert ranging(0.0, 0.0) == "= 0"
+
+
+def test_a_value_has_the_decimals_of_its_error():
+    assert with_error(0.09772, 0.0241) == "0.098 ± 0.024"
+    assert with_error(-0.00001, 0.00996) == "0.0000 ± 0.0100"
+    assert with_error(-0.0069312, 0.000301) == "−0.00693 ± 0.00030"
+    assert with_error(0.5, 0.0) == "0.5 ± 0"
+    assert with_error(123.456, 1e-30) == "123 ± 1e−30"
+    assert with_error(123.456, 20.0) == "123 ± 20"
 
 
 def test_time_for_compiling_is_said_apart(monkeypatch):

@@ -263,8 +263,12 @@ class RotationNumber(State):
         rho = str(self.sought).replace("-", "−")
         if self.periodic is not None:
             place = digits(self.on_line.place(self.periodic.torus), 6)
-            identity = f"|Θ^{self.sought.denominator} − id| ≤ {digits(self.periodic.defect, 1)}"
-            return Caption("Every orbit is periodic there.", f"ρ = {rho} at {self.line} = {place}: {identity}.")
+            # No line break within the bars.
+            difference = f"|Θ^{self.sought.denominator} − id|".replace(" ", "\N{NO-BREAK SPACE}")
+            defect = digits(self.periodic.defect, 1)
+            return Caption(
+                "Every orbit is periodic there.", f"ρ = {rho} at {self.line} = {place}: {difference} ≤ {defect}."
+            )
         return Caption("The only plateau is ρ = 0." if self.perturbed is None else f"No torus here has ρ = {rho}.")
 
     def _about_circle(self) -> Caption:

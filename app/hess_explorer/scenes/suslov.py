@@ -45,7 +45,7 @@ from hess_explorer.views.layers import Axes, levels
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import along_the_orbit, centre_of_mass
 from hess_explorer.views.section_plane import joined
-from hess_explorer.views.text import digits
+from hess_explorer.views.text import digits, with_error
 from hess_explorer.views.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.dynamics.section import occupied_cells
@@ -340,7 +340,7 @@ class Suslov(State):
             return Caption(self.awaited("They are"))
         end = digits(float(course.times[-1]))
         return Caption(
-            numbers=f"λ = {digits(exponent.value, 3)} ± {digits(exponent.spread, 2)}, "
+            numbers=f"λ = {with_error(exponent.value, exponent.spread)}, "
             f"div = {digits(float(course.mean[-1]), 3)} after t = {end}.",
         )
 

@@ -10,7 +10,7 @@ from latex2mathml.converter import convert
 
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["conjugates", "digits", "power", "ranging", "staying", "vector", "with_formulas"]
+__all__ = ["conjugates", "digits", "power", "ranging", "staying", "vector", "with_error", "with_formulas"]
 
 
 def digits(value: float, count: int = 4) -> str:
@@ -19,6 +19,15 @@ def digits(value: float, count: int = 4) -> str:
         return "∞" if value > 0 else "−∞"
     # Adding 0 turns −0 into 0.
     return f"{value + 0.0:.{count}g}".replace("-", "−").replace("e+", "e")
+
+
+def with_error(value: float, error: float) -> str:
+    """Return "value ± error" with two significant digits of the error and the same decimals of the value."""
+    places = 1 - math.floor(math.log10(error)) if 0.0 < error < 1.0 else 0
+    if not 0 < places <= 9:
+        return f"{digits(value, 3)} ± {digits(error, 2)}"
+    # Adding 0 turns −0 into 0.
+    return f"{round(value, places) + 0.0:.{places}f} ± {error:.{places}f}".replace("-", "−")
 
 
 def ranging(low: float, high: float, count: int = 4) -> str:

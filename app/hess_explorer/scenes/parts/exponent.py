@@ -19,7 +19,7 @@ from hess_explorer.views.graph import over_time, settled_range, thinned, with_ro
 from hess_explorer.views.layers import Axes, Range
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.text import digits
+from hess_explorer.views.text import digits, with_error
 from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.dynamics import lyapunov
 from hess_mechanics.dynamics.system import Body
@@ -115,7 +115,7 @@ class Exponent(Part[_Host]):
             return Caption(self.work.awaited())
         end = float(found.times[-1])
         kind = "Regular so far: falls as ln(t)/t." if found.is_regular else "Chaotic."
-        return Caption(kind, f"λ = {digits(found.value, 3)} ± {digits(found.spread, 2)} after t = {digits(end)}.")
+        return Caption(kind, f"λ = {with_error(found.value, found.spread)} after t = {digits(end)}.")
 
 
 S = TypeVar("S", bound=State)
