@@ -118,6 +118,12 @@ def test_circle_map(answer):
     assert answer(*replaced(CIRCLE_MAP, "--phi", fixed))["theta"] == pytest.approx(found["fixed_points"], abs=1e-12)
 
 
+def test_circle_map_without_cycles(answer):
+    found = answer("circle-map", "--h", "0.5", "--f", "0.5", "--a", "0.5")
+    assert (found["kind"], found["level"]) == ("elliptic", "precise")
+    assert found["fixed_points"] == found["multipliers"] == found["theta"] == []
+
+
 def test_circle_map_beyond_double_range(answer):
     found = answer("circle-map", "--h", "1.5", "--f", "0.6", "--a", "500")
     assert found["trace"] is None
@@ -174,6 +180,11 @@ def test_moments_of_no_body_are_reported_and_computed(answer, words):
     assert found["is_body"] is False
     assert found["body"].startswith("Not a rigid body")
     assert len(found["y"]) == 2
+
+
+def test_the_field_of_the_suslov_problem_is_optional(answer):
+    free = [word for word in SUSLOV if word not in ("--b", "0.3,-0.5,1")]
+    assert answer(*free)["y"] == answer(*replaced(SUSLOV, "--b", "0,0,0"))["y"]
 
 
 def test_negative_values_need_no_equals_sign(answer):

@@ -53,6 +53,14 @@ def test_the_separatrix_and_the_outside_are_not_possible(answer, capsys):
     assert all(map(float, rows[4][first : first + 1]))
 
 
+def test_a_range_of_all_three_parameters(answer):
+    found = answer("rotation-number", "--a", "0:1:3", "--h", "0.2:0.4:2", "--f", "0.1,0.2")
+    assert len(found["rotation_number"]) == 12
+    assert found["a"] == [0.0] * 4 + [0.5] * 4 + [1.0] * 4
+    alone = answer("rotation-number", "--a", "0.5", "--h", "0.4", "--f", "0.1")
+    assert alone["rotation_number"][0] == pytest.approx(found["rotation_number"][6], abs=1e-12)
+
+
 def test_a_trace_beyond_double_range_is_a_number(answer):
     found = answer("rotation-number", "--a", "500", "--h", "1.5", "--f", "0.6")
     assert found["trace"][0] >= 1e307
