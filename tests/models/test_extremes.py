@@ -29,6 +29,7 @@ from hess_mechanics import (
     ensemble,
     f_max,
     level,
+    lock_boundary,
     solve,
     systems,
 )
@@ -38,10 +39,10 @@ from hess_mechanics.errors import (
 )
 from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.suslov.additional_integral import I11_of, additional_integral
-from hess_mechanics.suslov.free import free_motion
+from hess_mechanics.suslov.free import equilibria, free_motion
 from hess_mechanics.suslov.proved_forms import proved_cos_chi
 from hess_mechanics.suslov.scattering import scattering
-from hess_mechanics.suslov_hess.torus import track
+from hess_mechanics.suslov_hess.torus import cycles, track
 from support.extremes import ball as extremes_ball
 from support.extremes import euler_poisson as extremes_euler_poisson
 from support.extremes import special_motions
@@ -248,16 +249,17 @@ def free_rate(body, omega):
     return math.sqrt((I22 * I13**2 + I11 * I23**2) * (I11 * omega[0] ** 2 + I22 * omega[1] ** 2)) / (I11 * I22)
 
 
-def free(name, tensor, omega, times):
+def free(name, tensor, omega, times, truth=None, against="Taylor series of `Biz131`, 30 digits", **options):
     """A motion without a field, from γ = UP."""
     body = SuslovBody(*tensor)
-    once = cache(lambda: oracle.orbit_in_decimals(SUSLOV, [*omega, *UP], body.parameters, times, 30))
+    truth = truth or (lambda *_: oracle.orbit_in_decimals(SUSLOV, [*omega, *UP], body.parameters, times, 30))
+    once = cache(lambda: truth(body, omega, times))
 
     def error(grade):
         found = free_motion(body, omega, UP, times, level(grade))
         return orbit_error(np.hstack([found.omega, found.gamma]), once())
 
-    return Row(f"free Suslov: {name}", "Taylor series of `Biz131`, 30 digits", error)
+    return Row(f"free Suslov: {name}", against, error, **options)
 
 
 def free_F2(name, k, omega, **options):
@@ -283,6 +285,90 @@ def the_angle(name, tensor, **options):
         return max(abs(scattering(SuslovBody(*tensor), level(grade), arc).cos_chi - exact) for arc in (1, -1))
 
     return Row(f"scattering, cos χ: {name}", "closed form", error, **options)
+
+
+def the_cycles(name, body, h, **options):
+    """Both cycles of the torus f = 0: great circles φ = ∓π/2, the stable one first (a > 0)."""
+
+    def error(grade):
+        stable = circle_map(body.a, h, 0.0, level(grade)).fixed_points[0]
+        start = -mpmath.ellipk(2 / (mpmath.mpf(h) + 1)) * mpmath.sqrt(2 / (mpmath.mpf(h) + 1))
+        errors = []
+        pair = cycles(body, h, 0.0, stable, level(grade), 4.0)
+        for found, phi in zip(pair, (-math.pi / 2, math.pi / 2), strict=True):
+            exact = in_the_body(body, oracle.pendulum(body.a, h, phi, found.orbit.times[::40], since=start))
+            errors.append(orbit_error(np.hstack([found.omega, found.gamma])[::40], exact))
+        return max(errors)
+
+    return Row(f"cycles: {name}", "closed form, great circle", error, **options)
+
+
+def on_the_lock_boundary(name, a, **options):
+    """Return the error in h, relative to h + 1, of the boundary's midpoint: the trace is 2 on the boundary."""
+
+    def error(grade):
+        h, f = lock_boundary(a, level(grade), points=7)[3]
+        step = 1e-6 * (h + 1)
+        traces = [math.exp(oracle.map_by_three_orbits(a, x, f, 40).log_trace) for x in (h, h + step)]
+        return abs((traces[0] - 2) / (traces[1] - traces[0])) * 1e-6
+
+    return Row(f"lock boundary: {name}", "three orbits, 40 digits", error, levels=("draft", "reference"), **options)
+
+
+def a_check(name, tensor, **options):
+    """With I11 = I22 = 1: I33 = 1 ± √(1 − 4(I13² + I23²))."""
+
+    def error(_):
+        with mpmath.workdps(40):
+            I13, I23 = map(mpmath.mpf, tensor[2:])
+            root = mpmath.sqrt(1 - 4 * (I13**2 + I23**2))
+            interval = [float(1 - root), float(1 + root)]
+        return float(np.max(np.abs(np.array(check_body(*tensor).I33) - interval)))
+
+    return Row(f"check_body: {name}", "closed form", error, levels=ANY, **options)
+
+
+def settled_turning(body, omega, times, digits=30):
+    """The motion without a field long after (before) its passage: then γ turns about ω^(±), which has energy E(ω)."""
+    near = math.copysign(80.0, times[0]) / free_rate(body, omega)
+    state = oracle.orbit_in_decimals(SUSLOV, [*omega, *UP], body.parameters, [near], digits)[0]
+    with mpmath.workdps(40):
+        I11, I22, I13, I23, w1, w2 = map(mpmath.mpf, (*body.parameters[:4], *omega))
+        # biz138, its denominator corrected.
+        size = mpmath.sqrt((I11 * w1**2 + I22 * w2**2) / (I11 * I23**2 + I22 * I13**2)) * (-1 if times[0] > 0 else 1)
+        point = mpmath.matrix([size * I23, -size * I13, 0])
+        speed, gamma = mpmath.norm(point), mpmath.matrix([mpmath.mpf(str(x)) for x in state[2:]])
+        axis = point / speed
+        along = axis * mpmath.fdot(axis, gamma)
+        across = mpmath.matrix(
+            [
+                gamma[1] * axis[2] - gamma[2] * axis[1],
+                gamma[2] * axis[0] - gamma[0] * axis[2],
+                gamma[0] * axis[1] - gamma[1] * axis[0],
+            ]
+        )
+        rows = []
+        for t in times:
+            angle = speed * (mpmath.mpf(t) - mpmath.mpf(near))
+            turned = along + (gamma - along) * mpmath.cos(angle) + across * mpmath.sin(angle)
+            rows.append([float(point[0]), float(point[1]), *map(float, turned)])
+    return np.array(rows)
+
+
+def circle_joined(name, tensor, omega, times, **options):
+    """Γ⁺ of the orbit that starts next to the unstable point, with its δ, θ⁻ and φ; it has settled at the last time."""
+    body = SuslovBody(*tensor)
+    line = equilibria(body, 0.5 * (body.I11 * omega[0] ** 2 + body.I22 * omega[1] ** 2))
+    xi, eta = line.xi, np.array([body.I13, body.I23]) / math.hypot(body.I13, body.I23)
+    across = float(np.dot(omega, eta))
+    theta, phi = math.acos(np.dot(UP, xi)), math.atan2(UP[2], np.dot(UP[:2], eta))
+
+    def error(grade):
+        found = scattering(body, level(grade), 1 if across > 0 else -1, abs(across) / line.speed)
+        end = oracle.orbit_in_decimals(SUSLOV, [*omega, *UP], body.parameters, times, 30)[-1].astype(float)
+        return abs(float(found.Gamma_plus(theta, phi)) - float(end[2:] @ xi))
+
+    return Row(f"scattering, Γ⁺: {name}", "Taylor series of `Biz131`, 30 digits", error, **options)
 
 
 # ---- the rows ---------------------------------------------------------------------------------------------------
@@ -498,6 +584,30 @@ ROWS = [
     the_angle("I23 = 1e-3", (2.0, 1.0, 0.0, 1e-3)),
     the_angle("I23 = 3e-4, slanting", (2.0, 1.0, 2e-4, 3e-4)),
     the_angle("I13, I23 = 1e6", (1.0, 2.0, 1e6, -1e6)),
+    on_the_lock_boundary("a = 1e-3", 1e-3),
+    on_the_lock_boundary("a = 1e4", 1e4, floor=3e-8, because="h + 1 = 1e-8: of that the double h keeps 8 digits"),
+    the_cycles("a = 0.5, b3 = 1e6", HessBody(1.0, 0.5, 1e6), 1.7),
+    the_cycles("a = 50", HessBody(1.0, 50.0, -1.0), 1.7),
+    a_check(
+        "all but flat by 1e-9", FLAT, floor=1e-11, because="a square root of 1e-9, of which a double keeps 7 digits"
+    ),
+    a_check(
+        "I13 = 0, all but flat by 1e-12",
+        (1.0, 1.0, 0.0, 0.5 - 5e-13),
+        floor=1e-9,
+        because="a square root of 1e-12, of which a double keeps 4 digits",
+    ),
+    circle_joined("δ = 5e-301", FIGURE_3, (2.0, 1e-300), [1.0, 690.0, 692.0, 740.0]),
+    free(
+        "t = 1e8",
+        SLANTING,
+        (0.8, -0.2),
+        [1e8],
+        settled_turning,
+        "closed form, after the passage",
+        floor=1e-7,
+        because="the last place of ω times 1e8 radians",
+    ),
     *extremes_ball.rows(Row, an_orbit, drift),
     *extremes_euler_poisson.rows(Row, drift),
     *extremes_suslov.rows(Row),
