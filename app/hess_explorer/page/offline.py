@@ -114,7 +114,7 @@ def as_html(query: str, pictures: Sequence[str] = (), home: str = HOME, *, lenie
     # Remove the interactions that need a server.
     description["handle"] = None
     description["pictures"] = [
-        {**one, "folded": None, "hands": "", **({"picks": []} if "picks" in one else {})}
+        {**one, "folded": None, "hands": "", **({"picks": [], "handle": None} if "picks" in one else {})}
         for one in description["pictures"]
         if one["name"] in chosen
     ]
