@@ -49,13 +49,8 @@ def reduced(a):
 
 @cache
 def exact_growth(name):
-    """The exponent that an example gains in a period on its stable cycle."""
-    return growth_at(values_of(LEAK, name))
-
-
-def growth_at(values):
-    """The exponent gained from the 15th to the 16th period."""
-    a, h, f, _ = torus(values)
+    """Return the exponent that an example gains on its stable cycle from the 15th to the 16th period."""
+    a, h, f, _ = torus(values_of(LEAK, name))
     period, lowest = period_of(h, f)
     rho, phi = math.sqrt(2.0 * (h + lowest)), 0.5
     w = rho * np.array([math.sin(phi), math.cos(phi)])
