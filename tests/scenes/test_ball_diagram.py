@@ -8,32 +8,17 @@ from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
-from hess_explorer.compute.cache import CACHE
 from hess_explorer.scenes import scenes
-from hess_mechanics import ReturnMap, check_body, level, lyapunov_exponent, lyapunov_spectrum, solve, systems
+from hess_mechanics import ReturnMap, level, lyapunov_exponent, lyapunov_spectrum, solve
 from hess_mechanics.chaplygin_ball.section import coordinates, state_at
 from hess_mechanics.dynamics.orbit_diagram import period_of
 from hess_mechanics.numerics.accuracy import PLANS, Computation
 from support.ball import energy_of, integrate, rates
-from support.captions import as_text
+from support.diagrams import complete, crossings, distance_of_most, distances, multipliers
 from support.view import View
 
 SCENE = scenes()["ball-diagram"]
-BALL = systems()["ball"]
-
-
-def complete(beginning, seen, **changes):
-    """The state of the example of that name, when all that takes long is known, and its captions."""
-    (preset,) = [one for one in SCENE.presets if one.name.startswith(beginning)]
-    while True:
-        state = SCENE.compute({**SCENE.defaults(), **preset.values, **changes}, seen, False)
-        captions = {view.name: as_text(view.said(state)) for view in SCENE.views if view.name in seen}
-        if not state.work.todo:
-            return state, captions
-        for task in state.work.todo:
-            CACHE.get(task.function, *task.arguments)
 
 
 def at(state, name, value):
@@ -43,54 +28,20 @@ def at(state, name, value):
     return values, type(state.body)(**values), h - math.hypot(values["b1"], values["b2"])
 
 
-def returned(values, body, E, place):
-    """Return the next crossing of γ3 = 0 by SciPy; each call solves a 2 × 2 system for the equations."""
+def exact_multipliers(values, body, E, places):
+    """Return the multipliers of the orbit through these places by SciPy; it must close."""
 
-    def height(_, y):
-        return y[4]
+    def image(place):
+        return coordinates(crossings(rates(values), state_at(body, E, *place)))[0]
 
-    height.direction, height.terminal = 1.0, 2
-    found = solve_ivp(
-        rates(values),
-        (0.0, 60.0),
-        state_at(body, E, *place),
-        method="DOP853",
-        rtol=1e-11,
-        atol=1e-13,
-        events=height,
-        first_step=1e-3,
-    )
-    return coordinates(found.y_events[0][found.t_events[0] > 1e-6][:1])[0]
-
-
-def multipliers(values, body, E, places):
-    """Return the multipliers of the orbit through these places, which must close, by differences of SciPy's returns."""
-    M, step = np.eye(2), 2e-5
-    for i, place in enumerate(places):
-        assert np.abs(returned(values, body, E, place) - places[(i + 1) % len(places)]).max() < 1e-8
-        sides = [[returned(values, body, E, place + sign * step * axis) for sign in (1, -1)] for axis in np.eye(2)]
-        M = np.column_stack([(a - b) / (2.0 * step) for a, b in sides]) @ M
-    return np.linalg.eigvals(M)
-
-
-@pytest.mark.parametrize("preset", SCENE.presets, ids=lambda preset: preset.name)
-def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_other(preset):
-    state = SCENE.of({**SCENE.defaults(), **preset.values}, (), True)
-    for value in (state.first, state.diagram.at, state.last):
-        there = replace(state, **{state.diagram.name: value})
-        I33 = check_body(there.I11, there.I22, there.I13, there.I23).I33
-        # The principal moments of the whole tensor, by their eigenvalues, and the triangle inequality.
-        first, second, third = np.linalg.eigvalsh(
-            [[there.I11, 0.0, there.I13], [0.0, there.I22, there.I23], [there.I13, there.I23, 0.5 * (I33[0] + I33[1])]]
-        )
-        assert first > 0.0
-        assert third < first + second
-        assert there.D > 0.0
+    for place, following in zip(places, np.roll(places, -1, axis=0), strict=True):
+        assert image(place) == pytest.approx(following, abs=1e-8)
+    return multipliers(image, places, 2e-5)
 
 
 @pytest.mark.thorough
 def test_where_periods_double_along_the_ball_inside_another_integrator_finds_the_multiplier_minus_one():
-    state, captions = complete("Period doubling", ("diagram", "section"))
+    state, captions = complete(SCENE, "Period doubling", ("diagram", "section"))
     found = state.diagram.cascade
     assert found.periods.tolist() == [2, 4, 8, 16]
     assert "4 period doublings located. The first of period 2 at 𝒟 = 1.58721; ratio 4.676 ±" in captions["diagram"]
@@ -98,7 +49,7 @@ def test_where_periods_double_along_the_ball_inside_another_integrator_finds_the
     assert found.values == pytest.approx([1.5872085, 1.4256035, 1.3934895, 1.3866210], abs=6e-8)
     assert found.ratios == pytest.approx([5.032, 4.676], abs=6e-4)
     for value, places in zip(found.values[:2], found.places[:2], strict=True):
-        assert multipliers(*at(state, "D", float(value)), places).real.min() == pytest.approx(-1.0, abs=1e-5)
+        assert exact_multipliers(*at(state, "D", float(value)), places).real.min() == pytest.approx(-1.0, abs=1e-5)
     drawn = state.diagram.points("rising")
     for low, high, count in ((1.6, 1.75, 2), (1.44, 1.57, 4)):
         values = np.unique(drawn[0][(drawn[0] > low) & (drawn[0] < high)])
@@ -106,7 +57,7 @@ def test_where_periods_double_along_the_ball_inside_another_integrator_finds_the
         for x in values:
             assert 1 + np.count_nonzero(np.diff(np.sort(drawn[1][drawn[0] == x])) > 2e-3) == count
     # With 𝒟 = 1.5 it is of period 4: a small drift of the energy does not hide that, not even a larger one.
-    for said in (captions, complete("Period doubling", ("section",), accuracy="draft", steps=2.0)[1]):
+    for said in (captions, complete(SCENE, "Period doubling", ("section",), accuracy="draft", steps=2.0)[1]):
         assert "Period 4. Looks dissipative. div = −0.07" in said["section"]
 
 
@@ -133,14 +84,14 @@ def test_the_orbit_of_period_one_doubles_first_and_goes_on_as_a_saddle():
     )
     (flip,) = (one for part in view.result.continuation.branches for one in part.bifurcations)
     assert (flip.kind, flip.value) == ("flip", pytest.approx(2.7347985, abs=6e-8))
-    assert multipliers(*at(view.result, "D", flip.value), flip.places).real.min() == pytest.approx(-1.0, abs=1e-5)
+    assert exact_multipliers(*at(view.result, "D", flip.value), flip.places).real.min() == pytest.approx(-1.0, abs=1e-5)
     for part in view.result.continuation.branches:
         for value, kind in zip(part.values, part.kinds, strict=True):
             assert abs(value - flip.value) < 1e-6 or kind.startswith("stable" if value > flip.value else "saddle")
 
 
 def test_the_strange_attractor_is_what_its_example_says():
-    state, captions = complete("Apart: a strange", ("section",))
+    state, captions = complete(SCENE, "Apart: a strange", ("section",))
     said = re.search(r"Chaotic\. Looks dissipative\. div = −([\d.]+) ± ([\d.]+)", captions["section"])
     assert float(said[1]) == pytest.approx(0.0925, abs=1e-3)
     assert float(said[2]) < 1e-3
@@ -167,19 +118,14 @@ def test_the_strange_attractor_is_what_its_example_says():
         sum(field(0.0, y + e)[i] - field(0.0, y - e)[i] for i, e in enumerate(np.eye(5)[:2])) / 2.0 for y in states
     ]
     assert np.mean(shrinks) == pytest.approx(-0.0925, abs=0.02)
-    # The distance, all pairs compared.
     a, b = state.regime.sets.attractor[::3], state.regime.sets.repeller[::3]
-    away = a[:, None] - b[None]
-    away[..., 0] = np.arctan2(np.sin(away[..., 0]), np.cos(away[..., 0]))
-    pairs = np.linalg.norm(away, axis=2)
-    distance = max(np.quantile(pairs.min(axis=1), 0.95), np.quantile(pairs.min(axis=0), 0.95))
     known = state.regime.kind.dynamics
-    assert abs(distance - known.distance) <= known.distance_error + 0.05
-    assert pairs.min() > 0.1
+    assert abs(distance_of_most(a, b) - known.distance) <= known.distance_error + 0.05
+    assert distances(a, b).min() > 0.1
 
 
 def test_a_ball_that_turns_the_wrong_way_turns_round_to_a_permanent_rotation():
-    state, captions = complete("Apart: permanent", ("section", "reversal"))
+    state, captions = complete(SCENE, "Apart: permanent", ("section", "reversal"))
     assert "The body turns round once. First at t = 80.7" in captions["reversal"]
     values, body, E = at(state, "D", state.D)
     moment, orbit = float(state.turned.times[0]), state.orbit.path
@@ -199,13 +145,6 @@ def test_a_ball_that_turns_the_wrong_way_turns_round_to_a_permanent_rotation():
         assert np.abs(rates(values)(0.0, y)).max() < 1e-3
         assert energy_of(values, y) == pytest.approx(E, abs=1e-3)
         assert abs(places[-1, 1] - (math.pi if sense < 0.0 else 0.0)) < 1e-3
-
-
-def test_volume_that_is_kept_is_said():
-    state, captions = complete("Equal: volume", ("diagram", "section"), steps=30.0)
-    assert captions["diagram"].endswith("Volume is preserved: no attractors. One orbit for each value.")
-    assert state.regime.kind.regime.divergence == 0.0
-    assert "Chaotic. Conservative: volume is preserved." in captions["section"]
 
 
 def test_where_no_motion_crosses_at_the_chosen_place_another_one_is_taken_and_that_is_grey():

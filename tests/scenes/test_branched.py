@@ -1,4 +1,4 @@
-"""The branch of a periodic orbit beside a section: against SciPy, closed forms, the Möbius matrix; clicks, words."""
+"""The branch of a periodic orbit beside a section: against SciPy, closed forms; clicks, words."""
 
 from __future__ import annotations
 
@@ -13,10 +13,7 @@ from scipy.optimize import brentq
 
 from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes import scenes
-from hess_mechanics import circle_map, level
 from hess_mechanics.dynamics.periodic import apart
-from hess_mechanics.euler_poisson.equations import HeavyBody
-from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from support.ball import derivative, returned
 from support.view import View
 
@@ -123,16 +120,6 @@ def test_the_branch_of_an_orbit_born_there_turns_at_the_pitchfork():
     assert view.text["branch"] == (
         "Branch of the periodic orbit\nPeriod 1, elliptic here. 1 bifurcation on its branch."
     )
-
-
-HEAVY = HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5))
-"""The body of that example, in the Hess case."""
-
-
-def moebius(h, f):
-    """Its circle map."""
-    bridge = Bridge.of_heavy(HEAVY)
-    return circle_map(bridge.hess.a, *bridge.in_units_of_b(h, f), level("reference"))
 
 
 def test_an_orbit_of_the_ball_doubles_where_another_integrator_finds_the_multiplier_minus_one():

@@ -314,30 +314,6 @@ def test_what_is_said_with_the_side_is_not_translated():
     assert browser.session.values["I22"] == 1.0
 
 
-def test_the_orbit_of_the_suslov_side_obeys_its_equations():
-    view = bridge("No cycles, given in Suslov–Hess")
-    # Biz131 written out for I13 = 0, b1 = 0: I11 = 0.96 + 0.28²/0.96, b2 = −I23 b3/I22.
-    I22, I23, b3 = 0.96, 0.28, -1.0
-    I11, b2 = I22 + I23**2 / I22, -I23 * b3 / I22
-
-    def field(t, y):
-        w1, w2, g1, g2, g3 = y
-        return [
-            (-I23 * w2 * w2 + b3 * g2 - b2 * g3) / I11,
-            (I23 * w1 * w2 - b3 * g1) / I22,
-            -g3 * w2,
-            g3 * w1,
-            g1 * w2 - g2 * w1,
-        ]
-
-    orbit = view.data["data-orbit"]
-    columns = np.array([np.asarray(orbit[name], float) for name in ("omega1", "omega2", "g1", "g2", "g3")])
-    times = np.asarray(orbit["t"], float)
-    index = np.searchsorted(times, [0.0, 5.0, 20.0, 49.0])
-    run = solve_ivp(field, (0.0, 50.0), columns[:, 0], "DOP853", times[index], rtol=1e-10, atol=1e-11)
-    assert columns[:, index] == pytest.approx(run.y, abs=5e-5)
-
-
 def test_the_andoyer_picture_of_the_bridge_lies_on_the_hess_relation_and_moves_with_the_orbit():
     for preset in BRIDGE.presets:
         view = bridge(preset.name)

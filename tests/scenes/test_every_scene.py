@@ -26,11 +26,13 @@ from hess_explorer.protocol.parameters import Number, Places, decode, written
 from hess_explorer.scenes import suslov_hess
 from hess_explorer.scenes.framework.parameters import number
 from hess_explorer.scenes.framework.scene import Report, Scene
+from hess_explorer.scenes.framework.work import AUTO
 from hess_explorer.scenes.parts import precision
 from hess_explorer.views import theme
 from hess_explorer.views.text import with_formulas
 from hess_mechanics import circle_map, f_max, level
 from hess_mechanics.errors import InvalidParameter, ModelError
+from hess_mechanics.numerics.accuracy import LEVELS
 from support.board import (
     ACCURACY,
     HESS,
@@ -106,9 +108,12 @@ def test_a_scene_explains_itself_and_each_of_its_parameters(scene):
     assert not scene.words.startswith("---")
     assert scene.handle in ("", *scene.essential) or "/" in scene.handle
     assert len({preset.name for preset in scene.presets}) == len(scene.presets) > 2
-    for preset in scene.presets:
-        assert preset.name.isprintable()
-        assert preset.name
+    assert all(preset.name and preset.name.isprintable() for preset in scene.presets)
+    legend = ElementTree.fromstring(scene.legend.strip())
+    assert (legend.tag, legend.get("aria-label")) == ("ul", "Legend")
+    assert len(legend) > 2
+    assert all(item.tag == "li" and re.search(r"\w", "".join(item.itertext())) for item in legend)
+    assert len(ElementTree.fromstring(f"<svg>{scene.thumbnail}</svg>")) > 2
 
 
 @every_scene
@@ -167,18 +172,6 @@ def test_what_is_said_to_follow_does(name, parameter, pictures):
     assert set(before) == set(pictures.split()) <= set(scene.open_pictures)
     for picture in before:
         assert repr(before[picture]) != repr(after[picture]), picture
-
-
-@every_scene
-def test_a_legend_is_a_list_and_a_thumbnail_a_drawing(scene):
-    legend = ElementTree.fromstring(scene.legend.strip())
-    assert (legend.tag, legend.get("aria-label")) == ("ul", "Legend")
-    assert len(legend) > 2
-    for item in legend:
-        assert item.tag == "li"
-        assert re.search(r"\w", "".join(item.itertext()))
-    drawing = ElementTree.fromstring(f"<svg>{scene.thumbnail}</svg>")
-    assert len(drawing) > 2
 
 
 @every_scene
@@ -383,17 +376,6 @@ def test_axes_stay_while_a_slider_is_held_and_fit_when_it_is_let_go(scene):
 
 
 @every_scene
-def test_going_back_draws_the_same_pictures_again(scene):
-    board, report = shown(scene, scene.defaults())
-    first = contents(board.sources)
-    for preset in sample(scene.presets[1:], 2):
-        shown(scene, {**scene.defaults(), **preset.values}, board)
-        _, again = shown(scene, scene.defaults(), board)
-        assert contents(board.sources) == first, preset.name
-        assert again.derived == report.derived
-
-
-@every_scene
 def test_a_stage_that_fails_shows_the_sentence_and_nothing_of_another_state(scene):
     board, _ = shown(scene, scene.defaults())
     before = contents(board.sources)
@@ -557,8 +539,7 @@ def test_on_the_separatrix_only_the_circle_map_is_silent():
     board, report = shown(HESS, preset_values(HESS, "Separatrix"))
     data = board.sources
     assert flat(data["circle-message"]["text"]) == ["Separatrix: no return"]
-    for name in ("map", "cobweb", "stable", "unstable"):
-        assert flat(list(data[f"circle-{name}"].values())) == []
+    assert flat(list(data["circle-map"].values())) == []
     assert "no return" in board.captions["circle"]
     assert "no return" in report.status
     # The others go on: an orbit that loses its speed on the way to the upper equilibrium n3 = −1, w = 0.
@@ -566,12 +547,7 @@ def test_on_the_separatrix_only_the_circle_map_is_silent():
     assert len(orbit["t"]) > 50
     assert math.hypot(orbit["omega1"][0], orbit["omega2"][0]) > 1.9
     assert math.hypot(orbit["omega1"][-1], orbit["omega2"][-1]) < 1e-3
-    assert flat(data["bifurcation-here"]["h"]) == [1.0]
-    assert flat(data["bifurcation-here"]["f"]) == [0.0]
-
-
-def test_off_the_separatrix_the_circle_map_comes_back():
-    board, _ = shown(HESS, preset_values(HESS, "Separatrix"))
+    # Off it the map is there again.
     shown(HESS, HESS.defaults(), board)
     data = board.sources
     assert flat(data["circle-message"]["text"]) == []
@@ -656,36 +632,18 @@ def test_no_message_raises_or_makes_a_state_inadmissible(browser, message):
 @pytest.mark.parametrize(
     "message",
     [
-        {},
         [],
-        "reset",
-        None,
-        3,
-        [1, 2],
-        {"values": "h"},
         {"values": [["h", 1]]},
-        {"values": {"h": "2.5"}},
-        {"values": {"h": None, "f": [1], "nobody": 1.0, "accuracy": 2}},
-        {"picked": ["circle"]},
+        {"values": {"h": "2.5", "f": [1], "nobody": 1.0, "accuracy": 2}},
+        {"values": {"preset": "Separatrix: no return", "scene": "suslov-hess-accuracy"}},
         {"picked": ["circle", "1", "1"]},
-        {"picked": ["bifurcation", math.nan, 0.0]},
         {"picked": ["sphere", 1.0, 1.0]},
-        {"picked": [["bifurcation"], 1.0, 1.0]},
-        {"requested": "2"},
+        {"picked": ["precision", 1e-3, 1.0]},
         {"requested": None, "held": "yes"},
         {"reset": 1},
-        {"reset": "yes"},
         {"preset": "nobody"},
-        {"preset": 1},
-        {"preset": ["Separatrix: no return"]},
-        {"preset": None},
-        {"values": {"preset": "Separatrix: no return", "scene": "suslov-hess-accuracy"}},
         {"scene": "nowhere"},
-        {"scene": ["suslov-hess-accuracy"]},
-        {"scene": None},
         {"scene": "suslov-hess"},
-        {"scene": 0},
-        {"picked": ["precision", 1e-3, 1.0]},
     ],
 )
 def test_a_message_that_means_nothing_changes_nothing(message):
@@ -703,11 +661,8 @@ def test_a_message_that_means_nothing_changes_nothing(message):
     ("values", "expected"),
     [
         ({"h": -5.0}, {"h": -1.0 + 1e-9}),
-        ({"h": 1e300}, {"h": 1e6}),
         ({"h": math.nan}, {"h": 1.5}),
-        ({"I22": -1.0}, {"I22": 1e-3}),
         ({"I22": 0.5, "I23": 900.0}, {"I22": 0.5, "I23": 50.0}),
-        ({"f": -math.inf}, {"f": 0.6}),
         ({"h": 0.25, "f": 77.0}, {"h": 0.25, "f": f_max(0.25)}),
     ],
 )
@@ -718,7 +673,6 @@ def test_a_number_from_the_wire_is_clamped_by_itself_with_a_note(values, expecte
     assert {name: found[name] for name in expected} == pytest.approx(expected, rel=1e-12)
     assert found["phi0"] == -1.0
     assert browser.texts["notes"] != ""
-    assert browser.controls["phi0"][0] == -1.0
     for name, value in expected.items():
         assert browser.controls[name][0] == pytest.approx(value, rel=1e-12)
 
@@ -826,18 +780,7 @@ def test_a_computation_that_raises_draws_the_sentence_in_empty_pictures(error, s
     assert browser.texts["status"].startswith(sentence)
     assert said(browser.data["circle-message"])[0].startswith(sentence)
     assert "secret" not in json.dumps(browser.texts)
-    for name in (
-        "data-orbit",
-        "data-stable",
-        "data-unstable",
-        "circle-map",
-        "circle-cobweb",
-        "circle-stable",
-        "circle-unstable",
-        "bifurcation-here",
-        "bifurcation-here-too",
-    ):
-        assert flat(list(browser.data[name].values())) == [], name
+    assert flat(list(browser.data["data-orbit"].values())) == []
     # Unexpected errors are logged with the state that reproduces them.
     expected_error = isinstance(error, InvalidParameter)
     assert len(caplog.records) == (0 if expected_error else 1)
@@ -845,17 +788,6 @@ def test_a_computation_that_raises_draws_the_sentence_in_empty_pictures(error, s
     browser.ask(values={"h": 2.0})
     assert not browser.texts["omega"].startswith(sentence)
     assert len(browser.data["data-orbit"]["t"]) > 100
-    assert flat(browser.data["circle-message"]["text"]) == []
-
-
-def test_a_first_state_that_cannot_be_computed_is_said_too(caplog):
-    def compute(values, shown, dragging):
-        raise InvalidParameter("This is beyond us: choose less.")
-
-    browser = Browser(variant(HESS, compute=compute))
-    assert browser.texts["status"] == "This is beyond us: choose less."
-    assert said(browser.data["circle-message"]) == ["This is beyond us: choose less."]
-    assert flat(browser.data["data-orbit"].get("omega1", [])) == []
 
 
 def test_two_sessions_share_nothing_but_results():
@@ -894,8 +826,6 @@ def test_another_scene_keeps_the_values_and_brings_its_own_pictures():
     # Its data are in the answer that enters it, and nothing of the old pictures is sent any more.
     assert len(browser.screen.fresh["data-orbit"]["t"]) > 100
     assert {name.split("-")[0] for name in browser.screen.fresh} <= {*ACCURACY.pictures, "data"}
-    assert set(texts_in(state["tree"])) == {*ACCURACY.open_pictures, *BESIDE}
-    assert set(browser.controls) == {*(spec.name for spec in ACCURACY.specs), "preset"}
     state = browser.ask(3, values={"phi0": 2.0})
     assert {name.split("-")[0] for name in state["tree"]["sources"]} <= {*ACCURACY.pictures, "data"}
     assert "growth-standard" in state["tree"]["sources"]
@@ -906,9 +836,6 @@ def test_another_scene_keeps_the_values_and_brings_its_own_pictures():
     assert browser.data["data-orbit"]["phi"][0] == pytest.approx(2.0)
     # The browser has kept its pictures: what has not changed there is not sent again.
     assert "bifurcation-boundary" not in state["tree"]["sources"]
-    whole, _ = shown(HESS, browser.session.values)
-    assert unfolded(HESS, browser.data) == unfolded(HESS, whole.sources)
-    assert set(texts_in(state["tree"])) == {*HESS.open_pictures, *BESIDE}
 
 
 @pytest.mark.usefixtures("quick")
@@ -920,25 +847,6 @@ def test_values_that_come_with_a_scene_count_in_it():
     assert browser.session.values["f"] == pytest.approx(f_max(0.25))
     assert "f is at that edge" in browser.texts["notes"]
     assert "not a number" not in browser.texts["notes"]
-
-
-@pytest.mark.usefixtures("quick")
-def test_the_scene_that_is_on_show_is_not_built_again():
-    browser = Browser(HESS)
-    for requested in (1, 2):
-        browser.ask(requested, scene=ACCURACY.name)
-        assert browser.entered == browser.described == [HESS.name, ACCURACY.name]
-    browser.ask(3, scene="nowhere")
-    assert len(browser.entered) == 2
-
-
-@pytest.mark.usefixtures("quick")
-def test_a_scene_is_described_once_however_often_it_is_entered():
-    browser = Browser(HESS)
-    for requested in range(1, 7):
-        browser.ask(requested, scene=(ACCURACY, HESS)[requested % 2 - 1].name)
-    assert browser.entered == [HESS.name] + [ACCURACY.name, HESS.name] * 3
-    assert browser.described == [HESS.name, ACCURACY.name]
 
 
 @pytest.mark.usefixtures("quick")
@@ -1040,27 +948,15 @@ def test_a_number_goes_along_to_another_scene_where_it_means_the_same_and_there_
 
 
 def test_the_accuracy_is_said_in_the_same_words_in_every_scene():
-    assert len({spec for scene in SCENES.values() for spec in scene.specs if spec.name == "accuracy"}) == 1
+    (accuracy,) = {spec for scene in SCENES.values() for spec in scene.specs if spec.name == "accuracy"}
+    assert accuracy.options == (*LEVELS, AUTO)
+    assert accuracy.default == "standard"
 
 
 def test_a_number_that_is_not_possible_there_does_not_go_along():
     # b₃ = 0.7 of the general body is none of the Suslov–Hess case, where b₃ < 0.
     taken = HESS.taken_over(HESS.defaults(), SCENES["suslov"], {**SCENES["suslov"].defaults(), "b3": 0.5, "I22": 1.0})
     assert taken == {**HESS.defaults(), "I22": 1.0}
-
-
-def test_a_parameter_that_only_the_new_scene_has_takes_its_default(monkeypatch):
-    other = with_extra()
-    monkeypatch.setitem(SCENES, other.name, other)
-    browser = Browser(HESS)
-    browser.ask(1, values={"h": 0.5, "I22": 1.25})
-    browser.ask(2, scene="other")
-    assert browser.session.values == {**HESS.defaults(), "h": 0.5, "I22": 1.25, "extra": 2.0}
-    # A scene drops parameters it does not have.
-    browser.ask(3, values={"extra": 3.5, "I22": 2.0})
-    assert browser.session.values["extra"] == 3.5
-    browser.ask(4, scene=HESS.name)
-    assert browser.session.values == {**HESS.defaults(), "h": 0.5, "I22": 2.0}
 
 
 @pytest.fixture

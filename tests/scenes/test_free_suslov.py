@@ -245,12 +245,7 @@ def test_a_portrait_has_the_signs_of_its_name_and_arrows_along_the_flow(preset):
 
 
 def test_all_four_signs_have_a_portrait():
-    assert {(preset.values["I13"] > 0, preset.values["I23"] > 0) for preset in PORTRAITS} == {
-        (True, True),
-        (True, False),
-        (False, True),
-        (False, False),
-    }
+    assert len({(preset.values["I13"] > 0, preset.values["I23"] > 0) for preset in PORTRAITS}) == 4
 
 
 STARTS = {"I₁₃ = 0": ((-0.44, 0.28, 0.85), (-0.44, 0.72, 0.53)), "d": ((-0.88, -0.48, 0.0), (-0.49, 0.26, 0.88))}
@@ -491,9 +486,7 @@ def test_a_click_chooses_what_its_axes_say(picture, picked):
     ("values", "words"),
     [
         ({"I13": 0.0, "I23": 0.0}, "I₁₃ = I₂₃ = 0.*Choose one of them other than 0"),
-        ({"k": -3.0}, "k = −3 would make I₁₁ = −4.76; a moment of inertia is positive. Choose a larger k"),
         ({"I23": 1e-5}, "γ turns too often.*choose larger I13, I23"),
-        ({"I23": 1e-320}, r"γ turns too often.*\(more than 1e308 radians"),
         ({"digits": 0.5, "k": -1.2, "I22": 0.5, "I23": 0.4}, "distance 0.316.*up to 0.28"),
     ],
 )

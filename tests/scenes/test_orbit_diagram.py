@@ -10,34 +10,20 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from hess_explorer.compute.cache import CACHE
 from hess_explorer.scenes import scenes
 from hess_explorer.views.text import digits
-from hess_mechanics import ReturnMap, check_body, level, lyapunov_exponent, lyapunov_spectrum, solve, systems
+from hess_mechanics import ReturnMap, check_body, level, lyapunov_exponent, lyapunov_spectrum, solve
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.continuation import continued
 from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.numerics.accuracy import PLANS, Computation
 from hess_mechanics.suslov.section import SuslovSection
-from support.captions import as_text
+from support.diagrams import complete, crossings, distance_of_most, multipliers
 from support.suslov import divergence, field, permanent_rotations
 from support.view import View
 
 SCENE = scenes()["orbit-diagram"]
-SUSLOV = systems()["suslov"]
-
-
-def complete(beginning, seen=("diagram", "section"), **changes):
-    """The state of the example of that name, when all that takes long is known."""
-    (preset,) = [one for one in SCENE.presets if one.name.startswith(beginning)]
-    values = {**SCENE.defaults(), **preset.values, **changes}
-    while True:
-        state = SCENE.compute(values, seen, False)
-        captions = {view.name: as_text(view.said(state)) for view in SCENE.views if view.name in seen}
-        if not state.work.todo:
-            return state, captions
-        for task in state.work.todo:
-            CACHE.get(task.function, *task.arguments)
+SEEN = ("diagram", "section")
 
 
 def moved(state, name, value):
@@ -45,34 +31,32 @@ def moved(state, name, value):
     return replace(state, **{name: value}).poincare
 
 
-def returns(body, state, times):
-    """Return the first upward crossings of γ3 = 0 (n, 2) by SciPy, and the last state."""
-
-    def height(t, y):
-        return y[4]
-
-    height.direction, height.terminal = 1.0, times + 1
-    found = solve_ivp(
-        lambda t, y: field(body, y),
-        (0.0, 400.0),
-        state,
-        method="DOP853",
-        rtol=1e-12,
-        atol=1e-13,
-        events=height,
-        first_step=1e-3,
-    )
-    states = np.array([y for t, y in zip(found.t_events[0], found.y_events[0], strict=True) if t > 1e-6][:times])
-    return SuslovSection(body, 0.0, 3).places_of(states)
+def image(body, E, place, count=1):
+    """Return the next places (count, 2) of the return map by SciPy."""
+    section = SuslovSection(body, E, 3)
+    return section.places_of(crossings(lambda _, y: field(body, y), section.state_at(*place), count))
 
 
-@pytest.mark.parametrize("preset", SCENE.presets, ids=lambda preset: preset.name)
-def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_other(preset):
-    state = SCENE.compute({**SCENE.defaults(), **preset.values}, (), True)
+def exact_multipliers(body, E, places):
+    """Return the multipliers of the orbit through these places by SciPy, the largest first; it must close."""
+    for place, following in zip(places, np.roll(places, -1, axis=0), strict=True):
+        assert image(body, E, place)[0] == pytest.approx(following, abs=1e-8)
+    return multipliers(lambda place: image(body, E, place)[0], places)
+
+
+@pytest.mark.parametrize(
+    ("scene", "preset"),
+    [
+        pytest.param(scene, preset, id=f"{scene.name}: {preset.name}")
+        for scene in (SCENE, scenes()["ball-diagram"])
+        for preset in scene.presets
+    ],
+)
+def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_other(scene, preset):
+    state = scene.of({**scene.defaults(), **preset.values}, (), True)
     for value in (state.first, state.diagram.at, state.last):
-        b = moved(state, state.diagram.name, value).body
+        b = replace(state, **{state.diagram.name: value})
         I33 = check_body(b.I11, b.I22, b.I13, b.I23).I33
-        assert I33 is not None
         # The principal moments of the whole tensor, by their eigenvalues, and the triangle inequality.
         whole = [[b.I11, 0.0, b.I13], [0.0, b.I22, b.I23], [b.I13, b.I23, 0.5 * (I33[0] + I33[1])]]
         first, second, third = np.linalg.eigvalsh(whole)
@@ -81,31 +65,16 @@ def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_oth
 
 
 def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one():
-    state, captions = complete("Period doubling")
+    state, captions = complete(SCENE, "Period doubling", SEEN)
     found = state.diagram.cascade
     assert found.periods.tolist() == [1, 2, 4, 8]
     assert "4 period doublings located. The first of period 1 at I₂₃ = −0.0498281" in captions["diagram"]
     # The numbers of the words beside the pictures.
     assert found.values == pytest.approx([-0.0498281, 0.0873376, 0.1281912, 0.1376316], abs=6e-8)
     assert found.ratios == pytest.approx([3.357, 4.328], abs=6e-4)
-    E = state.poincare.E
     for value, places in zip(found.values[:2], found.places[:2], strict=True):
-        body = replace(state.body, I23=float(value))
-        M, m, h = np.eye(2), len(places), 1e-4
-        for i, place in enumerate(places):
-            assert (
-                np.abs(returns(body, SuslovSection(body, E, 3).state_at(*place), 1)[0] - places[(i + 1) % m]).max()
-                < 1e-8
-            )
-            sides = [
-                [
-                    returns(body, SuslovSection(body, E, 3).state_at(*(place + sign * h * axis)), 1)[0]
-                    for sign in (1, -1)
-                ]
-                for axis in np.eye(2)
-            ]
-            M = np.column_stack([(a - b) / (2.0 * h) for a, b in sides]) @ M
-        assert np.linalg.eigvals(M).real.min() == pytest.approx(-1.0, abs=1e-5)
+        exact = exact_multipliers(replace(state.body, I23=float(value)), state.poincare.E, places)
+        assert exact.real.min() == pytest.approx(-1.0, abs=1e-5)
     # Before the first doubling a diagram shows one place, between the first two two of them.
     drawn = state.diagram.points("rising")
     for low, high, count in ((-0.12, -0.07, 1), (0.0, 0.06, 2), (0.1, 0.12, 4)):
@@ -122,7 +91,7 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
     ],
 )
 def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dimension):
-    state, captions = complete(name, ("section",))
+    state, captions = complete(SCENE, name, ("section",))
     assert f"Chaotic. Looks {verdict}." in captions["section"]
     known = state.regime.kind.dynamics
     assert f"div = {digits(known.motion.divergence, 2)} ± " in captions["section"]
@@ -167,12 +136,7 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dim
         assert max(shared) == 0.0
     else:
         assert min(shared) > 0.8
-    # The distance, all pairs compared.
-    a, b = known.attractor[::3], known.repeller[::3]
-    away = a[:, None] - b[None]
-    away[..., 0] = np.arctan2(np.sin(away[..., 0]), np.cos(away[..., 0]))
-    pairs = np.linalg.norm(away, axis=2)
-    distance = max(np.quantile(pairs.min(axis=1), 0.95), np.quantile(pairs.min(axis=0), 0.95))
+    distance = distance_of_most(known.attractor[::3], known.repeller[::3])
     assert abs(distance - known.distance) <= known.distance_error + 0.05
 
 
@@ -197,25 +161,8 @@ LIGHT = {
 """Few points, of a body whose doublings along I22 are wide apart."""
 
 
-def product(body, E, places):
-    """Multipliers of the orbit with these places, by SciPy, the largest first."""
-    M, h = np.eye(2), 1e-4
-    for place in places:
-        sides = [
-            [returns(body, SuslovSection(body, E, 3).state_at(*(place + sign * h * axis)), 1)[0] for sign in (1, -1)]
-            for axis in np.eye(2)
-        ]
-        M = np.column_stack([(a - b).ravel() / (2.0 * h) for a, b in sides]) @ M
-    return sorted(np.linalg.eigvals(M), key=abs, reverse=True)
-
-
-def multipliers(body, E, place):
-    """Return the multipliers of the return map at a place, by SciPy, the largest first, and the image of the place."""
-    return product(body, E, [place]), returns(body, SuslovSection(body, E, 3).state_at(*place), 1)[0].ravel()
-
-
 def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_doubles():
-    view = View(SCENE, {**LIGHT, "branch": "period 1"}, seen=["diagram", "section"])
+    view = View(SCENE, {**LIGHT, "branch": "period 1"}, seen=SEEN)
     state = view.result
     (flip,) = (one for part in state.continuation.branches for one in part.bifurcations)
     (said, value) = view.derived("flip of period # at I₂₂ = # ± ")
@@ -239,8 +186,7 @@ def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_do
     ends = (choose(orbits, key=lambda one: one[0]) for choose in (min, max))
     for value, place in (*ends, (flip.value, flip.places[0])):
         body = type(state.body)(1.0, value, 0.6, 0.6, -1.0, -0.5, 0.7)
-        found, there = multipliers(body, E, place)
-        assert there == pytest.approx(place, abs=1e-8)
+        found = exact_multipliers(body, E, [place])
         assert (
             found[0].real == pytest.approx(-1.0, abs=1e-5)
             if value == flip.value
@@ -265,7 +211,7 @@ def turns_between(angles):
 
 @pytest.mark.thorough
 def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_breaks_up():
-    state, captions = complete("A torus")
+    state, captions = complete(SCENE, "A torus", SEEN)
     E = state.poincare.E
 
     def at(value):
@@ -274,8 +220,7 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     # At its birth SciPy's multipliers have modulus 1, and the orbit closes.
     (born,) = (one for part in state.continuation.branches for one in part.bifurcations)
     assert (born.kind, born.value) == ("Neimark–Sacker", pytest.approx(-0.24899620, abs=5e-9))
-    found, there = multipliers(at(born.value).body, E, born.places[0])
-    assert there == pytest.approx(born.places[0], abs=1e-8)
+    found = exact_multipliers(at(born.value).body, E, born.places)
     assert np.abs(found) == pytest.approx(1.0, abs=1e-6)
     assert found[0].imag != 0.0
     for part in state.continuation.branches:
@@ -297,7 +242,7 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     turns, error = rotation_number(places, tuple(focus))
     assert turns == pytest.approx(0.1066355, abs=6e-8)
     assert error < 5e-8
-    away = returns(curve.section.body, curve.state_at(places[-1]), 80) - focus
+    away = image(curve.section.body, E, places[-1], 80) - focus
     low, high = turns_between(np.unwrap(np.arctan2(away[:, 1], away[:, 0])))
     assert low <= turns <= high < low + 1e-3
     # Locked: SciPy's product of ten derivatives has complex eigenvalues, and 1 at the folds.
@@ -308,8 +253,8 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
         branch = continued(lambda v: ReturnMap(at(v), level("precise")), orbit, "I13", -0.257, end, 30)
         one = next(one for one in branch.bifurcations if one.kind == "fold")
         assert one.value == pytest.approx(fold, abs=6e-8)
-        assert product(at(one.value).body, E, one.places)[0].real == pytest.approx(1.0, abs=1e-4)
-    found = product(at(-0.257).body, E, orbit.places)
+        assert exact_multipliers(at(one.value).body, E, one.places)[0].real == pytest.approx(1.0, abs=1e-4)
+    found = exact_multipliers(at(-0.257).body, E, orbit.places)
     assert found[0].imag != 0.0
     assert np.abs(found) == pytest.approx(np.abs(orbit.multipliers), abs=1e-4)
     # The strange attractor: two orbits side by side part as fast.
@@ -361,7 +306,7 @@ def way_back(body, E, like):
 
 
 def test_a_motion_that_comes_to_a_saddle_focus_has_left_it_before():
-    state, captions = complete("A spiral", ("section",))
+    state, captions = complete(SCENE, "A spiral", ("section",))
     body, like = state.body, np.array([1.8373, 1.0187, -0.8746, -0.4849, 0.0])
     # On either side of the value in the words it misses the rotation on another side.
     (values, low), (_, high) = (way_back(body, moved(state, "h", 5.015931 + off).E, like) for off in (-1e-6, 1e-6))
@@ -378,21 +323,20 @@ def test_a_motion_that_comes_to_a_saddle_focus_has_left_it_before():
 
 def test_a_click_on_a_branch_shows_that_orbit_and_the_mouse_is_told_what_it_is_over():
     values = {**LIGHT, "branch": "period 1"}
-    view = View(SCENE, values, seen=["diagram", "section"])
+    view = View(SCENE, values, seen=SEEN)
     x, y = 2.2801, 0.868
     chosen = view.result.choose(x, y)
     assert chosen["I22"] == pytest.approx(x, abs=2e-3)
     body = type(view.result.body)(1.0, chosen["I22"], 0.6, 0.6, -1.0, -0.5, 0.7)
     place = np.array([float(part) for part in chosen["chosen"].split(",")])
-    found, there = multipliers(body, view.result.poincare.E, place)
-    assert there == pytest.approx(place, abs=1e-7)
+    found = exact_multipliers(body, view.result.poincare.E, [place])
     hover = view.result.continuation.about(x, y)
     assert re.match(r"I₂₂ = 2\.2[78]\d*: period 1, saddle with reflection, μ = −[\d.]+, −[\d.]+$", hover)
     assert float(hover.split("μ = −")[1].split(",")[0]) == pytest.approx(-found[0].real, rel=0.03)
     assert view.result.continuation.about(2.126, 0.69).startswith("flip of period 1 at I₂₂ = 2.1260498 ± ")
     assert view.result.continuation.about(2.3, -2.0) == ""
     # The state that it chooses shows the orbit itself, though nothing stays there.
-    after = View(SCENE, {**values, **chosen}, seen=["diagram", "section"])
+    after = View(SCENE, {**values, **chosen}, seen=SEEN)
     assert after.result.continuation.closed.orbit.places[0] == pytest.approx(place, abs=1e-7)
     assert after.points("repels") == pytest.approx(place[None], abs=1e-5)
     # Away from the branch a click means the diagram.
@@ -438,14 +382,16 @@ def test_a_branch_folds_and_where_there_is_none_that_is_said():
     assert any("Newton's method finds no orbit of period 1" in note for note in none.report.notes)
 
 
-def test_volume_that_is_kept_is_said():
-    state, captions = complete("Equal: volume", steps=30.0)
+@pytest.mark.parametrize("scene", [SCENE, scenes()["ball-diagram"]], ids=lambda scene: scene.name)
+def test_volume_that_is_kept_is_said(scene):
+    state, captions = complete(scene, "Equal: volume", SEEN, steps=30.0)
     assert captions["diagram"].endswith("Volume is preserved: no attractors. One orbit for each value.")
+    assert "Conservative: volume is preserved." in captions["section"]
     assert state.regime.kind.regime.divergence == 0.0
 
 
 def test_a_click_chooses_a_state_that_is_there_and_a_box_looks_closer():
-    state, _ = complete("Period doubling", ("diagram",))
+    state, _ = complete(SCENE, "Period doubling", ("diagram",))
     chosen = state.choose(0.0501, 0.9)
     assert chosen["I23"] == pytest.approx(0.0501, abs=0.0016)
     there = SCENE.compute({**SCENE.defaults(), **chosen}, ("section",), True)
@@ -467,7 +413,7 @@ def test_a_click_chooses_a_state_that_is_there_and_a_box_looks_closer():
 
 
 def test_reversals_are_where_the_rate_about_the_vertical_is_zero():
-    state, captions = complete("Apart: permanent", ("reversal",))
+    state, captions = complete(SCENE, "Apart: permanent", ("reversal",))
     times, rate = state.orbit.path.times, state.turning
     crossings = np.flatnonzero(rate[1:] * rate[:-1] < 0.0)
     said = int(re.search(r"turns round (\d+) times", captions["reversal"])[1])
@@ -479,9 +425,9 @@ def test_reversals_are_where_the_rate_about_the_vertical_is_zero():
 
 def test_the_way_back_begins_where_the_way_there_ended():
     """The orbits keep all points: the first point of the way back is next to the last one of the way there."""
-    state, _ = complete(SCENE.presets[0].name, ("diagram",), **{**LIGHT, "transient": 0.0})
+    state, _ = complete(SCENE, SCENE.presets[0].name, ("diagram",), **{**LIGHT, "transient": 0.0})
     there, back = (state.diagram.branches[way] for way in ("rising", "falling"))
     assert (there[-1].values[-1], back[0].values[0]) == (2.4, 2.4)
     body, E = replace(state, I22=2.4).body, state.poincare.E
     last, first = there[-1].places[-1][-1], back[0].places[0][0]
-    assert np.linalg.norm(returns(body, SuslovSection(body, E, 3).state_at(*last), 1)[0] - first) < 1e-4
+    assert image(body, E, last)[0] == pytest.approx(first, abs=1e-4)

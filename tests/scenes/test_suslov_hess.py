@@ -102,14 +102,6 @@ def test_where_the_torus_has_no_density_the_reason_is_said(values, words):
     view.assert_finite()
 
 
-def test_all_but_one_motion_tend_to_the_stable_limit_cycle():
-    theta = circle_map(0.5, 1.5, 0.6, REFERENCE)
-    stable, unstable = theta.fixed_points
-    for phi in np.linspace(-3.1, 3.1, 30):
-        assert math.cos(theta.iterate(phi, 60)[-1] - stable.phi) == pytest.approx(1.0, abs=1e-9)
-    assert not unstable.stable
-
-
 def test_beside_limit_cycles_no_density_is_drawn():
     view = View(SCENE, {"I22": 1.0, "I23": 0.5, "h": 1.5, "f": 0.6}, seen={"circle"})
     assert not len(view.data.get("circle-density", {"xs": []})["xs"])

@@ -187,13 +187,6 @@ def test_what_cannot_be_computed_is_measured_as_standard():
     assert needed(Trial(Computation.MAP, (), refuse, lambda *_: 0.0, refuse), None) == "standard"
 
 
-def test_every_scene_offers_auto_and_all_levels():
-    for scene in SCENES.values():
-        (accuracy,) = [spec for spec in scene.specs if spec.name == "accuracy"]
-        assert accuracy.options == (*LEVELS, AUTO)
-        assert accuracy.default == "standard"
-
-
 # ---- the cost of all --------------------------------------------------------------------------------------------
 
 

@@ -1,0 +1,58 @@
+"""Orbit diagrams without a browser, and their return map on γ3 = 0 by SciPy."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from hess_explorer.compute.cache import CACHE
+from support.captions import as_text
+
+
+def complete(scene, beginning, seen, **changes):
+    """Return the state of the example of that name after all pending computations, and its captions."""
+    (preset,) = [one for one in scene.presets if one.name.startswith(beginning)]
+    values = {**scene.defaults(), **preset.values, **changes}
+    while True:
+        state = scene.compute(values, seen, False)
+        # Captions may ask for more.
+        captions = {view.name: as_text(view.said(state)) for view in scene.views if view.name in seen}
+        if not state.work.todo:
+            return state, captions
+        for task in state.work.todo:
+            CACHE.get(task.function, *task.arguments)
+
+
+def crossings(rates, start, count=1):
+    """Return the first states (count, 5) after the start in which γ3 grows through 0, by SciPy."""
+
+    def height(_, y):
+        return y[4]
+
+    height.direction, height.terminal = 1.0, count + 1
+    found = solve_ivp(
+        rates, (0.0, 400.0), start, method="DOP853", rtol=1e-12, atol=1e-13, events=height, first_step=1e-3
+    )
+    return found.y_events[0][found.t_events[0] > 1e-6][:count]
+
+
+def multipliers(image, places, step=1e-4):
+    """Return the multipliers of a map's orbit through these places, by central differences, the largest first."""
+    M = np.eye(2)
+    for place in places:
+        sides = [[image(place + sign * step * axis) for sign in (1, -1)] for axis in np.eye(2)]
+        M = np.column_stack([(a - b) / (2.0 * step) for a, b in sides]) @ M
+    return np.array(sorted(np.linalg.eigvals(M), key=abs, reverse=True))
+
+
+def distances(a, b):
+    """Return the distances (n, m) of places (ψ, δ) of two sets, ψ on the circle."""
+    away = a[:, None] - b[None]
+    away[..., 0] = np.arctan2(np.sin(away[..., 0]), np.cos(away[..., 0]))
+    return np.linalg.norm(away, axis=2)
+
+
+def distance_of_most(a, b):
+    """Return the distance within which 95 % of each set has a neighbour in the other, all pairs compared."""
+    pairs = distances(a, b)
+    return max(np.quantile(pairs.min(axis=1), 0.95), np.quantile(pairs.min(axis=0), 0.95))
