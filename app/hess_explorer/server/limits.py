@@ -25,7 +25,7 @@ TOO_MANY = f"More than {RATE:.0f} messages per second: wait for each response be
 ENDING = "The server is shutting down or restarting: open the page again in a moment."
 
 OPEN_SOCKETS: set[WebSocketHandler] = set()
-"""All websockets of this process."""
+"""The open websockets of this process."""
 
 
 class RateLimit:

@@ -73,8 +73,10 @@ class Chart:
 
     @classmethod
     def read(cls, given: Mapping[Any, Any]) -> Chart:
-        """What a browser asks for: {"state": query, "quantity": name, "part": number, "x" and "y": [name, low, high,
-        count]}.  Raises `InvalidParameter`."""
+        """Return the chart that a browser requests; raise `InvalidParameter` if the request is invalid.
+
+        given : {"state": query, "quantity": name, "part": number, "x" and "y": [name, low, high, count]}.
+        """
         query = given.get("state")
         link = Link(query if isinstance(query, str) else "")
         scene = scenes().get(link.given.get("scene", ""))

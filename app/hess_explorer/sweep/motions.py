@@ -101,7 +101,7 @@ def _given(system: System, values: Values) -> tuple[Body, Start]:
 
 
 def _body(system: System) -> tuple[Parameter, ...]:
-    """Its parameters, by default those of its example."""
+    """Return the parameters of a system, with the values of its example as defaults."""
     return tuple(
         usual(_OF_SYSTEMS[name], value) for name, value in zip(system.parameters, system.example[1], strict=True)
     )
@@ -112,7 +112,7 @@ SUSLOV_ENERGY = (*_body(SUSLOV), known.H_SUSLOV, whole("k", "k", 3, 1, 3, "The s
 
 
 def suslov_section(values: Values) -> of_suslov.SuslovSection:
-    """That of a body at this energy above the bottom.  Raises `InvalidParameter` where no motion reaches it."""
+    """Return the section γ_k = 0 at the energy h above the minimum.  Raises `InvalidParameter` if it is unreachable."""
     body = SuslovBody(*(values[name] for name in SUSLOV.parameters))
     made = of_suslov.SuslovSection(body, values["h"] - math.hypot(body.b1, body.b2, body.b3), int(values["k"]))
     if made.lowest_energy >= made.E:
@@ -383,4 +383,4 @@ MOTIONS: tuple[Quantity, ...] = (
     *(one for of in (*map(_anywhere, systems().values()), *_ON_SECTIONS) for one in _quantities(of)),
     *map(_regimes, _ON_SECTIONS),
 )
-"""Of every system, then of every section."""
+"""Quantities of every system, then of every section."""

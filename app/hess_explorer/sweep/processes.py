@@ -114,7 +114,7 @@ def _kill(child: subprocess.Popen[bytes]) -> None:
     child.wait()
     for stream in (child.stdin, child.stdout):
         if stream is not None:
-            # Of what it was not told any more.
+            # Closing flushes messages that a dead process cannot receive.
             with suppress(OSError):
                 stream.close()
 
