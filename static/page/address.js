@@ -1,20 +1,20 @@
 // @ts-check
-// The address bar: the query of the state on show, the browser's own keys (t, speed, az, el, large, present), and the theme.
+// The address bar: the query of the state on show, and the browser's own keys (t, speed, az, el, large, present, theme).
 
 const PAUSE = 400
 
 /**
  * Return the functions that write the address.
- * @param {{query: () => string, isDark: () => boolean, own: ClientKeys}} page query() returns the query of the state on show
+ * @param {{query: () => string, own: ClientKeys}} page query() returns the query of the state on show
  */
-export function createAddress({ query, isDark, own }) {
+export function createAddress({ query, own }) {
   /** @type {ReturnType<typeof setTimeout> | null} */
   let timer = null
   /** @param {string} state */
   const addressOf = (state) => {
     const extra = Object.entries(own).filter(([, value]) => value !== "")
       .map(([key, value]) => `&${key}=${encodeURIComponent(value)}`).join("")
-    return `?${state}${extra}${isDark() ? "&theme=dark" : ""}`
+    return `?${state}${extra}`
   }
   const writeNow = () => {
     clearTimeout(timer)

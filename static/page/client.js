@@ -53,7 +53,7 @@ export function startClient(model, view) {
   /** @type {ReturnType<typeof openWebsocket>} */
   let send = null
   const page = createPage(view)
-  const address = createAddress({ query: () => state.query, isDark: page.isDark, own })
+  const address = createAddress({ query: () => state.query, own })
   const visibility = createVisibility(() => requests.request())
   const requests = createRequests({
     send: (message) => send(message),
@@ -189,10 +189,12 @@ export function startClient(model, view) {
     await Promise.all([gallery.standing, page.standing()])
     const followTheme = () => { root.style.colorScheme = page.isDark() ? "dark" : "light" }
     followTheme()
-    page.onThemeChange(() => {
-      followTheme()
-      address.write()
-    })
+    page.onThemeChange(followTheme)
+    // The preference of the system counts until the user chooses a theme.
+    const preference = matchMedia("(prefers-color-scheme: dark)")
+    const followPreference = () => { if (own.theme === "") page.setDark(preference.matches) }
+    followPreference()
+    preference.addEventListener("change", followPreference)
     tell("client", own)
     // The lesson of a link begins when the page is ready.
     if (model.lesson !== "") tell("lesson-read", { lesson: JSON.parse(model.lesson), step: Number(own.step) - 1 })

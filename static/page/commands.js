@@ -32,7 +32,10 @@ export function handleCommands({ address, page }) {
     },
     address: address.writeNow,
     copy: async (text) => tell("copied", { text, said: await copy(text, "Copy it by hand") }),
-    theme: page.turnTheme,
+    theme() {
+      page.setDark(!page.isDark())
+      tell("url", { theme: page.isDark() ? "dark" : "light" })
+    },
     present() {
       present(!isPresenting())
       tell("url", { present: isPresenting() ? "1" : "" })

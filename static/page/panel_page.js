@@ -11,7 +11,8 @@ export function createPage(view) {
   const nextFrame = () => new Promise(requestAnimationFrame)
   return {
     isDark: () => page().dark_theme,
-    turnTheme() { page().dark_theme = !page().dark_theme },
+    /** @param {boolean} isDark */
+    setDark(isDark) { page().dark_theme = isDark },
     /** Wait until Panel has rendered everything. */
     async standing() {
       while (bokeh() == null || !bokeh().is_idle) await nextFrame()

@@ -387,6 +387,24 @@ def test_a_scene_that_is_entered_is_as_dark_as_one_that_a_link_opens(open_page, 
     assert brightness(seen(entered)) == pytest.approx(brightness(seen(linked)), abs=1)
 
 
+def test_the_page_follows_the_theme_of_the_system_until_one_is_chosen(open_page):
+    page = open_page(f"scene={STUDY}")
+
+    def turns(scheme, is_dark):
+        page.emulate_media(color_scheme=scheme)
+        page.wait_for_timeout(300)
+        assert (page.evaluate("document.documentElement.style.colorScheme") == "dark") is is_dark, scheme
+
+    turns("dark", True)
+    turns("light", False)
+    turns("dark", True)
+    assert "theme=" not in page.url
+    page.get_by_role("button", name="theme").click()
+    page.wait_for_function("location.search.includes('theme=light')")
+    turns("light", False)
+    turns("dark", False)
+
+
 def test_the_button_turns_the_page_dark_and_the_link_says_so(explorer, look_at):
     page = explorer.page
     button = page.get_by_role("button", name="theme")

@@ -5,8 +5,7 @@ import test from "node:test"
 
 import { createAddress } from "../../static/page/address.js"
 
-let isDark = false
-const own = { t: "1.5", large: "", az: "0.6" }
+const own = { t: "1.5", large: "", az: "0.6", theme: "" }
 const written = []
 globalThis.history = {
   replaceState: (_state, _title, url) => {
@@ -15,11 +14,11 @@ globalThis.history = {
   },
   pushState: (_state, _title, url) => written.push(["push", url]),
 }
-const address = createAddress({ query: () => "scene=a&h=1", isDark: () => isDark, own })
+const address = createAddress({ query: () => "scene=a&h=1", own })
 
-test("the address holds the state, the browser's own keys that are set, and the theme", () => {
+test("the address holds the state, the browser's own keys that are set", () => {
   address.writeNow()
-  isDark = true
+  own.theme = "dark"
   own.large = "omega,circle"
   address.writeNow()
   address.writeNow()
@@ -29,8 +28,7 @@ test("the address holds the state, the browser's own keys that are set, and the 
 })
 
 test("a new entry leaves the state before in the old one", () => {
-  Object.assign(own, { t: "", large: "", az: "" })
-  isDark = false
+  Object.assign(own, { t: "", large: "", az: "", theme: "" })
   address.push("scene=b")
   assert.deepEqual(written.splice(0), [["replace", "?scene=b"], ["push", "?scene=a&h=1"]])
 })

@@ -18,7 +18,7 @@ __all__ = ["THEME", "Opening", "opening", "query_of"]
 
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 """Playback speeds."""
-THEME = Choice("theme", "Theme", ("light", "dark"), "light")
+THEME = Choice("theme", "Theme", ("system", "light", "dark"), "system")
 PRESENT = Choice("present", "Present mode", ("0", "1"), "0")
 EMBED = Choice("embed", "Embedding", ("0", "1"), "0")
 
@@ -30,7 +30,8 @@ class Opening:
     Attributes
     ----------
     scene, values : the initial state; notes : corrections of the link; lessons : available lessons; reading : the open
-    lesson; pictures : visible pictures; client : URL keys that the browser keeps; dark : True for the dark theme.
+    lesson; pictures : visible pictures; client : URL keys that the browser keeps; dark : True if the link asks for the
+    dark theme; without a theme in the link the browser follows the system.
     """
 
     scene: Scene[Any]
@@ -92,8 +93,9 @@ def opening(query: str, own: Lesson | None, *, lenient: bool = True) -> Opening:
         "lesson": reading.name if reading else "",
         "step": str(at) if reading else "",
     }
-    dark = link.value(THEME) == "dark"
+    theme = str(link.value(THEME))
     # An empty text is left out of the URL.
+    client["theme"] = "" if theme == THEME.default else theme
     client |= {spec.name: str(link.value(spec)).strip("0") for spec in (PRESENT, EMBED)}
     # An empty list means the default.
     parts = {spec.name: str(link.value(spec)) or spec.default for spec in _embedded(scene)}
@@ -101,7 +103,7 @@ def opening(query: str, own: Lesson | None, *, lenient: bool = True) -> Opening:
     if client[EMBED.name]:
         client |= parts
         pictures = tuple(parts["pictures"].split(","))
-    return Opening(scene, state, link.notes, lessons, reading, pictures, client, dark)
+    return Opening(scene, state, link.notes, lessons, reading, pictures, client, theme == "dark")
 
 
 def _embedded(scene: Scene[Any]) -> tuple[Names, Names]:
