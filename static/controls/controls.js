@@ -57,6 +57,8 @@ export function render({ el }) {
   let shows = {}
   /** @type {Record<string, (sentence: string) => void>} */
   let refusals = {}
+  /** @type {Record<string, (value: number) => void>} */
+  let follows = {}
   // Groups that the user has unfolded, in any scene.
   const unfolded = new Set()
   /** @type {Map<string, HTMLElement>} */
@@ -94,12 +96,14 @@ export function render({ el }) {
       "Examples to start from", (name) => { if (name !== "") tell("preset", name) })
     shows = { [EXAMPLES]: showExample }
     refusals = {}
+    follows = {}
     items = new Map([[EXAMPLES, /** @type {HTMLElement} */ (examples)]])
     const signs = new Map([[EXAMPLES, "Example"]])
     for (const control of scene.controls) {
-      const [item, show, refuse] = control.kind === "number" ? number(control) : choice(control)
+      const [item, show, refuse, follow] = control.kind === "number" ? number(control) : choice(control)
       shows[control.name] = show
       refusals[`error-${control.name}`] = refuse
+      follows[control.name] = follow
       items.set(control.name, item)
       signs.set(control.name, control.symbol ?? control.label)
     }
@@ -140,5 +144,7 @@ export function render({ el }) {
     // Key "error-" and the name of a number: the reason that its expression is refused.
     texts(texts) { for (const [key, text] of Object.entries(texts)) refusals[key]?.(text) },
     controls: show,
+    // A lesson animates a number.
+    change(values) { for (const [name, value] of Object.entries(values)) follows[name]?.(/** @type {number} */ (value)) },
   })
 }

@@ -44,9 +44,11 @@ function scaleOf([own, end], low, high, value) {
  */
 
 /**
- * Return the control, the function that shows a value, and the function that refuses an expression.
+ * Return the control, the function that shows a value, the function that refuses an expression, and the function that follows a
+ * change from elsewhere before the server answers.
  * @param {Extract<ControlDescription, {kind: "number"}>} description
- * @returns {[HTMLElement, (value: [number, number, number, number, boolean?]) => void, (sentence: string) => void]}
+ * @returns {[HTMLElement, (value: [number, number, number, number, boolean?]) => void, (sentence: string) => void,
+ *   (value: number) => void]}
  */
 export function number({ name, label, symbol, help, range }) {
   /** @type {number | null} */
@@ -128,5 +130,12 @@ export function number({ name, label, symbol, help, range }) {
       Object.assign(slider.dataset, { low, high })
     }
   }
-  return [frame, show, exact.refuse]
+  /** @param {number} value */
+  const follow = (value) => {
+    if (value === shown) return
+    shown = value
+    slider.valueAsNumber = value
+    exact.put(tidy(value))
+  }
+  return [frame, show, exact.refuse, follow]
 }

@@ -56,6 +56,8 @@ function tabsOf(columns) {
   for (const query of [NARROW, PHONE]) query.addEventListener("change", follow)
   choose(tabs[0][0])
   follow()
+  // The text of a lesson, at its start.
+  listen({ reading(on) { if (on) choose(tabs.find(([, column]) => column.id === "text")[0]) } })
   return element("div.tabs", { role: "tablist", ariaLabel: "Beside the pictures", onkeydown }, ...tabs.map(([tab]) => tab))
 }
 

@@ -12,6 +12,7 @@ const MOST = 40
 const GUESS = "#D55E00"
 const TRUTH = "#009E73"
 const STEP = 8
+const FOCUS = "inset 0 0 0 2px #0072B2"
 
 /** @param {number} value */
 const shown = (value) => value.toPrecision(2).replace("-", "−")
@@ -142,7 +143,10 @@ export function createGuess(prediction, say) {
         title: isCurve ? "Click along the expected curve" : "Click where you expect it", onkeydown,
         onclick: (/** @type {MouseEvent} */ { offsetX, offsetY }) => { if (!this.isRevealed) add(offsetX, offsetY) },
       })
-      sheet.style.cssText = "position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; touch-action: none"
+      // The style sheets of the page do not reach into the plot.
+      sheet.style.cssText = "position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; touch-action: none; outline: none"
+      sheet.onfocus = () => { sheet.style.boxShadow = sheet.matches(":focus-visible") ? FOCUS : "" }
+      sheet.onblur = () => { sheet.style.boxShadow = "" }
       plot.canvas_view.overlays.el.parentNode.append(sheet)
       // The picture itself ignores these clicks and drags.
       for (const name of ["pointerdown", "pointermove", "pointerup", "wheel"]) {
@@ -157,6 +161,8 @@ export function createGuess(prediction, say) {
     /** Draw the truth; the revealed state is on show. */
     reveal() {
       hide(false)
+      sheet.blur()
+      sheet.tabIndex = -1
       sheet.style.pointerEvents = "none"
       const lines = linesOf(prediction).map((line) => line.map(toPixels))
       const found = clicks.map((click) => lines.map((line) => nearestOn(line, toPixels(click)))

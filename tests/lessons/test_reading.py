@@ -164,3 +164,10 @@ def test_words_of_a_scene_are_whole_without_what_can_be_tried():
 
 def test_the_longest_lesson_comes_first():
     assert [lesson.minutes for lesson in shipped().values()] == [45.0, 20.0, 20.0]
+
+
+def test_a_displayed_formula_can_stand_in_a_line():
+    html = to_html("There $$x^2$$ is.")
+    assert html.startswith('<p>There <span class="math"><math') and html.endswith("</span> is.</p>\n")
+    assert 'display="block"' in html
+    assert "$" not in html

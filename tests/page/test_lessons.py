@@ -151,3 +151,23 @@ def test_a_link_to_a_step_that_is_not_there_is_one_to_the_last_and_a_lesson_is_c
     first = lessons["limit-cycles-and-locking"].steps[0]
     assert here(explorer)[1:4] == (first.at.values, "limit-cycles-and-locking", "1")
     page.locator(".param-leave-lesson").click()
+
+
+def test_a_narrow_window_opens_a_lesson_with_its_text_and_the_slider_follows_what_is_animated(tab):
+    tab.fresh()
+    tab.resize(1280, 720)
+    page = tab.page
+    step = shipped()["limit-cycles-and-locking"].steps[6]
+    tab.goto("/?lesson=limit-cycles-and-locking&step=7")
+    box = page.locator(".lesson .title").bounding_box()
+    assert page.locator(".lesson .title").is_visible()
+    assert 0 <= box["y"] < box["y"] + box["height"] <= 720
+    assert page.locator(".param-tab-text").get_attribute("aria-selected") == "true"
+    page.locator(".param-animate").click()
+    page.wait_for_function("() => new URLSearchParams(location.search).get('h') > 0.55")
+    shown = [float(one) for one in (tab.box("h").input_value(), tab.slider("h").input_value())]
+    assert min(shown) > step.animation.start + 0.04
+    page.keyboard.press("Escape")
+    page.mouse.click(5, 5)
+    page.locator(".param-leave-lesson").click()
+    tab.assert_quiet()

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from functools import cache
 from typing import Any
 from xml.etree import ElementTree
 
 from latex2mathml.converter import convert
 from markdown_it import MarkdownIt
+from markdown_it.token import Token
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 from mdit_py_plugins.front_matter import front_matter_plugin
 
@@ -41,7 +43,14 @@ def _formula(latex: str, options: dict[str, Any]) -> str:
 def parser() -> MarkdownIt:
     """Return a parser for CommonMark with tables, formulas and front matter."""
     found = MarkdownIt("commonmark", {"html": False}).enable("table").disable("image")
-    return found.use(front_matter_plugin).use(dollarmath_plugin, renderer=_formula, allow_space=False)
+    found.use(front_matter_plugin).use(dollarmath_plugin, renderer=_formula, allow_space=False, double_inline=True)
+    # The plugin renders a displayed formula in a line as a <div>, which would end the paragraph.
+    found.add_render_rule("math_inline_double", _displayed)
+    return found
+
+
+def _displayed(_: object, tokens: Sequence[Token], i: int, *rest: object) -> str:
+    return f'<span class="math">{_formula(tokens[i].content, {"display_mode": True})}</span>'
 
 
 def to_html(text: str, line: int = 1, inline: bool = False) -> str:
