@@ -145,6 +145,8 @@ export function render({ el }) {
     texts(texts) { for (const [key, text] of Object.entries(texts)) refusals[key]?.(text) },
     controls: show,
     // A lesson animates a number.
-    change(values) { for (const [name, value] of Object.entries(values)) follows[name]?.(/** @type {number} */ (value)) },
+    change(values) {
+      for (const [name, value] of Object.entries(values)) if (typeof value === "number") follows[name]?.(value)
+    },
   })
 }
