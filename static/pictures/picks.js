@@ -7,6 +7,17 @@ import { tell } from "../page/bus.js"
 const NOTHING = { left: [], right: [], top: [], bottom: [] }
 
 /**
+ * Round a coordinate to the digits that one pixel resolves; the change is at most half a pixel.
+ * @param {number} value
+ * @param {{start: number, end: number}} range of the axis
+ * @param {number} pixels length of the axis
+ */
+export function toPixel(value, { start, end }, pixels) {
+  const digits = -Math.floor(Math.log10(Math.abs(end - start) / pixels))
+  return digits >= 0 && digits <= 100 ? Number(value.toFixed(digits)) : value
+}
+
+/**
  * Connect the events of a plot.
  * @param {PlotModel} model
  * @param {string[]} picks Bokeh events that choose a point ("tap", "doubletap", "pan"), "box" for a drag that draws a box and
@@ -21,7 +32,9 @@ export function connectPicks(model, picks, box, isDragging) {
   /** @param {BokehEvent} event */
   const point = ({ x, y, event_name: event }) => {
     const drag = event === "pan"
-    if (!drag || isDragging()) tell("pick", { pick: [name, x, y], drag })
+    if (drag && !isDragging()) return
+    const { x_range: across, y_range: up, inner_width: width, inner_height: height } = model
+    tell("pick", { pick: [name, toPixel(x, across, width), toPixel(y, up, height)], drag })
   }
   for (const pick of picks) {
     if (pick === "hover") callbacks.mousemove = [({ x, y }) => tell("hover", [name, x, y])]

@@ -68,6 +68,8 @@ def test_a_drag_in_the_bifurcation_diagram_is_followed(explorer):
         explorer.change(explorer.page.mouse.move, x, y)
         assert explorer.here()[0] == pytest.approx(h, abs=wide)
         assert explorer.here()[1] == pytest.approx(f, abs=high)
+        # No more digits than a pixel resolves.
+        assert explorer.here() == tuple(round(value, 3) for value in explorer.here())
         assert explorer.axes("bifurcation") == axes
     before = explorer.state
     explorer.page.mouse.up()
