@@ -42,6 +42,8 @@ interface BokehRange extends BokehModel {
 interface PlotModel extends BokehModel {
   x_range: BokehRange
   y_range: BokehRange
+  x_scale: BokehModel & { type: string }
+  y_scale: BokehModel & { type: string }
   inner_width: number
   inner_height: number
   below: BokehModel[]

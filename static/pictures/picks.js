@@ -11,9 +11,11 @@ const NOTHING = { left: [], right: [], top: [], bottom: [] }
  * @param {number} value
  * @param {{start: number, end: number}} range of the axis
  * @param {number} pixels length of the axis
+ * @param {{type: string}} scale of the axis; on a logarithmic one a pixel is a factor
  */
-export function toPixel(value, { start, end }, pixels) {
-  const digits = -Math.floor(Math.log10(Math.abs(end - start) / pixels))
+export function toPixel(value, { start, end }, pixels, scale) {
+  const pixel = (scale.type === "LogScale" ? value * Math.log(end / start) : end - start) / pixels
+  const digits = -Math.floor(Math.log10(Math.abs(pixel)))
   return digits >= 0 && digits <= 100 ? Number(value.toFixed(digits)) : value
 }
 
@@ -33,8 +35,8 @@ export function connectPicks(model, picks, box, isDragging) {
   const point = ({ x, y, event_name: event }) => {
     const drag = event === "pan"
     if (drag && !isDragging()) return
-    const { x_range: across, y_range: up, inner_width: width, inner_height: height } = model
-    tell("pick", { pick: [name, toPixel(x, across, width), toPixel(y, up, height)], drag })
+    const { x_range: across, y_range: up, x_scale: xScale, y_scale: yScale, inner_width: width, inner_height: height } = model
+    tell("pick", { pick: [name, toPixel(x, across, width, xScale), toPixel(y, up, height, yScale)], drag })
   }
   for (const pick of picks) {
     if (pick === "hover") callbacks.mousemove = [({ x, y }) => tell("hover", [name, x, y])]
