@@ -392,7 +392,8 @@ def test_the_page_follows_the_theme_of_the_system_until_one_is_chosen(open_page)
 
     def turns(scheme, is_dark):
         page.emulate_media(color_scheme=scheme)
-        page.wait_for_timeout(300)
+        # The browser tells the page of a new preference before it draws the next frame.
+        page.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
         assert (page.evaluate("document.documentElement.style.colorScheme") == "dark") is is_dark, scheme
 
     turns("dark", True)
