@@ -4,10 +4,10 @@
 import { tell } from "./bus.js"
 
 const TIME = "time"
-// As many as a box can show.
-const DIGITS = 4
+/** Round to as many digits as a box can show. @param {number} value */
+const rounded = (value) => Number(value.toPrecision(4))
 /** @param {number} value */
-const shown = (value) => String(Number(value.toPrecision(4))).replace("-", "−")
+const shown = (value) => String(rounded(value)).replace("-", "−")
 
 /**
  * Return an animation with its label; a touch of the page stops it.
@@ -34,7 +34,7 @@ export function createAnimation({ name, start: from, end: to, seconds }) {
     const step = (now) => {
       const share = Math.min(1, (now - begun) / (1000 * seconds))
       // The newest value wins: the animation runs as fast as states are painted.
-      if (name !== TIME) tell("change", { [name]: share === 1 ? to : Number((from + share * (to - from)).toPrecision(DIGITS)) })
+      if (name !== TIME) tell("change", { [name]: share === 1 ? to : rounded(from + share * (to - from)) })
       if (share < 1) running = requestAnimationFrame(step)
       else stop()
     }
