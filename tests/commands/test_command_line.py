@@ -351,6 +351,16 @@ def test_a_lesson_that_cannot_be_read_is_no_lesson(served, free_port, capsys, tm
     assert served == []
 
 
+def test_several_lessons_are_served_in_their_order(served, free_port, tmp_path):
+    (tmp_path / "folder").mkdir()
+    for name in ("b.md", "a.md", "folder/c.md"):
+        lesson = "---\ntitle: One\nminutes: 1\n---\n## One\n```step\nstate: '?scene=suslov-hess'\n```\n"
+        (tmp_path / name).write_text(lesson)
+    words = [word for name in ("b.md", "folder", "a.md") for word in ("--lesson", str(tmp_path / name))]
+    assert main(["serve", "--port", str(free_port), "--no-browser", *words]) == 0
+    assert [lesson.name for lesson in served[0]["lessons"]] == ["b", "c", "a"]
+
+
 @pytest.mark.parametrize(
     ("compiled", "words"), [(False, "Compiling, ready in about 20 s."), (True, "Starting, ready in a few seconds.")]
 )
@@ -383,7 +393,7 @@ def test_the_address_is_printed_only_when_the_server_is_ready(monkeypatch, free_
 def test_serve(served, free_port, capsys, words, changed):
     assert main(typed(f"serve --port {free_port} --no-browser {words}")) == 0
     assert f"http://localhost:{free_port}" in capsys.readouterr().out
-    usual = {"address": "127.0.0.1", "lesson": None, "embedders": ["*"], "workers": 1, "sessions": 1000}
+    usual = {"address": "127.0.0.1", "lessons": (), "embedders": ["*"], "workers": 1, "sessions": 1000}
     assert served == [{"port": free_port, "show": False, "origins": [], **usual, **changed}]
 
 

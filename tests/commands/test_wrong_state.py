@@ -100,7 +100,7 @@ def test_every_link_that_the_page_writes_is_accepted(name):
         link = encode(name, admitted)
         assert address(link).values == admitted
         assert hess.from_link(link).link == f"?{link}"
-        assert opening(link, None, lenient=False).notes == []
+        assert opening(link, lenient=False).notes == []
 
 
 @pytest.mark.parametrize("state", WRONG)
@@ -139,5 +139,5 @@ def test_what_a_page_keeps_in_its_link_is_known(monkeypatch):
         return read(link, spec)
 
     monkeypatch.setattr(Link, "value", value)
-    opening("scene=suslov-hess", None)
+    opening("scene=suslov-hess")
     assert asked - {spec.name for spec in scenes()["suslov-hess"].specs} == set(PAGE_KEYS) - {"v"}

@@ -10,6 +10,7 @@ import re
 import signal
 import socket
 import webbrowser
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -37,7 +38,7 @@ def _embedder(text: str) -> str:
 
 
 def _run(options: Options) -> None:
-    lesson = _lesson(options.lesson)
+    lessons = _lessons(options.lessons)
     _require_free(options.address, options.port)
     if options.workers > 1 and not hasattr(os, "fork"):
         raise CommandError("--workers needs an operating system with fork: run the command without it.")
@@ -69,7 +70,7 @@ def _run(options: Options) -> None:
                 show=show,
                 origins=options.origins,
                 ready=ready,
-                lesson=lesson,
+                lessons=lessons,
                 embedders=embedders,
                 workers=options.workers,
                 sessions=options.sessions,
@@ -78,15 +79,15 @@ def _run(options: Options) -> None:
             raise CommandError(str(error)) from error
 
 
-def _lesson(path: Path | None) -> Lesson | None:
-    """Return the lesson in a file.  Raises `CommandError`."""
-    if path is None:
-        return None
+def _lessons(paths: Sequence[Path]) -> tuple[Lesson, ...]:
+    """Return the lessons in files and folders.  Raises `CommandError`."""
+    if not paths:
+        return ()
+    from hess_explorer.lessons.collection import read_paths
     from hess_explorer.lessons.lesson import LessonError
-    from hess_explorer.lessons.reading import read_file
 
     try:
-        return read_file(path)
+        return read_paths(paths)
     except LessonError as error:
         raise CommandError(str(error)) from error
 
@@ -134,7 +135,7 @@ def _has_browser() -> bool:
     return type(found) is not webbrowser.GenericBrowser or "BROWSER" in os.environ
 
 
-_HOSTS = {"nargs": "+", "action": "extend"}
+_SEVERAL = {"nargs": "+", "action": "extend"}
 
 COMMAND = Command(
     "Serve the explorer on this machine and open it in the browser.",
@@ -153,7 +154,7 @@ COMMAND = Command(
             type=_origin,
             default=[],
             metavar="HOST:PORT",
-            **_HOSTS,
+            **_SEVERAL,
         ),
         option(
             "--embed-in",
@@ -162,15 +163,18 @@ COMMAND = Command(
             dest="embedders",
             type=_embedder,
             metavar="HOST",
-            **_HOSTS,
+            **_SEVERAL,
         ),
         whole("--workers", 1, 64, "number of worker processes; for a class, about the number of cores", 1),
         whole("--sessions", 1, 100_000, "maximum number of open pages per worker; 1000 need about 3 GB", 1000),
         option(
             "--lesson",
-            "Markdown file of your own lesson, which opens first (see app/README.md)",
+            "Markdown file of your own lesson, or a folder of such files; may be repeated, and the first lesson opens",
+            dest="lessons",
             type=Path,
+            default=[],
             metavar="FILE",
+            **_SEVERAL,
         ),
     ),
     _run,

@@ -33,7 +33,7 @@ def _require_right(query: str) -> None:
         from hess_explorer.page.opening import opening
 
         address(query)
-        opening(query, None, lenient=False)
+        opening(query, lenient=False)
 
 
 def _run(options: Options) -> None:

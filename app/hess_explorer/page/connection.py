@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property, partial
 
 from hess_explorer.compute.scheduler import RequestQueue
@@ -22,8 +22,8 @@ class Connection:
     ----------
     query : str
         Query of the page's URL.
-    lesson : Lesson or None
-        A lesson in addition to those of the package, see `opening`.
+    lessons : sequence of Lesson
+        Lessons in addition to those of the package, see `opening`.
     send : callable
         Sends a frame to the page; called from any thread.
     follow : callable or None
@@ -31,9 +31,13 @@ class Connection:
     """
 
     def __init__(
-        self, query: str, lesson: Lesson | None, send: Callable[[bytes], object], follow: Callable[[str], None] | None
+        self,
+        query: str,
+        lessons: Sequence[Lesson],
+        send: Callable[[bytes], object],
+        follow: Callable[[str], None] | None,
     ) -> None:
-        self._query, self._lesson = query, lesson
+        self._query, self._lessons = query, lessons
         self._send, self._follow = send, follow
         self._charts = Charts()
         self._queue = RequestQueue()
@@ -52,7 +56,7 @@ class Connection:
 
     @cached_property
     def _session(self) -> Session:
-        opened = opening(self._query, self._lesson)
+        opened = opening(self._query, self._lessons)
         return Session(opened.scene, opened.values, opened.notes, opened.lessons, opened.pictures)
 
     def _answer(self, request: Request | ChartRequest) -> None:

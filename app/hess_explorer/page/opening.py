@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 from urllib.parse import urlencode
@@ -50,15 +50,15 @@ def query_of(arguments: Mapping[str, Iterable[bytes]]) -> str:
     return urlencode([(name, first.decode("utf-8", "replace")) for name, first in pairs if first is not None])
 
 
-def opening(query: str, own: Lesson | None, *, lenient: bool = True) -> Opening:
+def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> Opening:
     """Return the initial content of a page.
 
     Parameters
     ----------
     query : str
         Query of the link.
-    own : Lesson or None
-        A lesson in addition to those of the package.  A link that names neither scene nor lesson opens it.
+    own : sequence of Lesson
+        Lessons in addition to those of the package.  A link that names neither scene nor lesson opens the first.
     lenient : bool
         True to correct errors and append notes; False to raise an error.
 
@@ -72,9 +72,9 @@ def opening(query: str, own: Lesson | None, *, lenient: bool = True) -> Opening:
     InvalidParameter
         If the query is invalid and `lenient` is False.
     """
-    lessons = {own.name: own, **shipped()} if own else dict(shipped())
+    lessons = {**{lesson.name: lesson for lesson in own}, **shipped()}
     link = Link(query, lenient)
-    first = own.name if own and "scene" not in link.given else ""
+    first = own[0].name if own and "scene" not in link.given else ""
     reading = lessons.get(str(link.value(Choice("lesson", "Lesson", ("", *lessons), first))))
     most = len(reading.steps) if reading else 1
     at = int(float(link.value(Number("step", "step", "Step", 1.0, (1.0, most), 1.0, (1.0, most)))))

@@ -6,6 +6,7 @@ Panel does not handle states; they use a separate websocket ("server/websockets.
 from __future__ import annotations
 
 import logging
+from collections.abc import Sequence
 from typing import Any
 
 import panel as pn
@@ -44,8 +45,8 @@ BARE: dict[str, Any] = {
 """Styles that hide Panel's app bar and toolbar."""
 
 
-def page(own: Lesson | None = None) -> Any:
-    """Return a new page for the current request; own : a lesson in addition to those of the package."""
+def page(own: Sequence[Lesson] = ()) -> Any:
+    """Return a new page for the current request; own : lessons in addition to those of the package."""
     try:
         return _page(_query(), own)
     # Log any error; the user sees one sentence.
@@ -60,7 +61,7 @@ def _query() -> str:
     return query_of(getattr(getattr(context, "request", None), "arguments", None) or {})
 
 
-def _page(query: str, own: Lesson | None) -> pmui.Page:
+def _page(query: str, own: Sequence[Lesson]) -> pmui.Page:
     opened = opening(query, own)
     reading = opened.reading
     explorer = Explorer(

@@ -80,7 +80,7 @@ def _prepare(address: str, port: int, ready: Callable[[], None]) -> None:
     warm(first_is_ready)
 
 
-def _page(lesson: Lesson | None, capacity: Capacity) -> Any:
+def _page(lessons: Sequence[Lesson], capacity: Capacity) -> Any:
     """Return the page with the style sheets of this server, or a message if the server is full."""
     if not capacity.take():
         return pn.pane.Str(capacity.sentence)
@@ -88,7 +88,7 @@ def _page(lesson: Lesson | None, capacity: Capacity) -> Any:
     if document is not None:
         document.add_next_tick_callback(lambda: _own_styles(document))
     pn.state.on_session_destroyed(GARBAGE.page_gone)
-    return page(lesson)
+    return page(lessons)
 
 
 def _own_styles(document: Document) -> None:
@@ -101,7 +101,7 @@ def options(
     port: int,
     address: str,
     origins: Sequence[str],
-    lesson: Lesson | None = None,
+    lessons: Sequence[Lesson] = (),
     *,
     sessions: int,
     follow: Callable[[str], None] | None = None,
@@ -109,13 +109,13 @@ def options(
     """Return the options of `panel.serve`; the parameters are those of `serve`."""
     capacity = Capacity(sessions)
     return {
-        "panels": {"/": lambda: _page(lesson, capacity)},
+        "panels": {"/": lambda: _page(lessons, capacity)},
         "title": "Hess Explorer",
         "port": port,
         "address": address,
         "websocket_origin": [f"localhost:{port}", f"127.0.0.1:{port}", *origins],
         "extra_patterns": [
-            ("/states", StateSocket, {"capacity": capacity, "lesson": lesson, "follow": follow}),
+            ("/states", StateSocket, {"capacity": capacity, "lessons": lessons, "follow": follow}),
             ("/metrics", Metrics, {"capacity": capacity}),
             ("/qr.svg", QrCode),
             ("/export", Export),
@@ -139,7 +139,7 @@ def serve(
     show: bool,
     origins: Sequence[str],
     ready: Callable[[], None],
-    lesson: Lesson | None = None,
+    lessons: Sequence[Lesson] = (),
     embedders: Sequence[str] = ("*",),
     workers: int = 1,
     *,
@@ -160,8 +160,8 @@ def serve(
         HOST:PORT of further pages that may open a websocket; this machine is always allowed.
     ready : callable
         Called from another thread when the page can be shown without compiling first.
-    lesson : Lesson or None
-        A lesson in addition to those of the package.
+    lessons : sequence of Lesson
+        Lessons in addition to those of the package.
     embedders : sequence of str
         Hosts that may embed parts of the page; "*" allows all.
     workers : int
@@ -180,7 +180,7 @@ def serve(
     replace_handlers(embedders)
     together = Workers() if workers > 1 else None
     # With several workers, `get_server` forks and returns in each worker; the parent process supervises them.
-    told = options(port, address, origins, lesson, sessions=sessions, follow=follow)
+    told = options(port, address, origins, lessons, sessions=sessions, follow=follow)
     server = get_server(told.pop("panels"), start=False, show=show and workers == 1, num_procs=workers, **told)
     end_on_signals(server.io_loop)
     if together is not None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from asyncio import Future
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 
 from panel.io.server import WSHandler
@@ -59,9 +59,9 @@ class StateSocket(WebSocketHandler):
     # A missing pong is no reason to close: a sleeping device may return.
     ping_timeout = 0.0
 
-    def initialize(self, capacity: Capacity, lesson: Lesson | None, follow: Callable[[str], None] | None) -> None:
+    def initialize(self, capacity: Capacity, lessons: Sequence[Lesson], follow: Callable[[str], None] | None) -> None:
         """Store the options of `serve`; the number of websockets has the same limit as the number of pages."""
-        self._most, self._lesson, self._follow = capacity.most, lesson, follow
+        self._most, self._lessons, self._follow = capacity.most, lessons, follow
         self._connection: Connection | None = None
         self._sent: Future[None] | None = None
 
@@ -80,7 +80,7 @@ class StateSocket(WebSocketHandler):
         self._limit, loop = RateLimit(frames=1), IOLoop.current()
         self._connection = Connection(
             query_of(self.request.arguments),
-            self._lesson,
+            self._lessons,
             lambda frame: loop.add_callback(self._send, frame),
             self._follow,
         )
