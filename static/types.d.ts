@@ -340,9 +340,10 @@ interface Scene {
   shots: Map<string, Drawn["shoot"]>
   /** Whether a state was painted. */
   painted: boolean
-  /** The colours and sizes that the plots have. */
+  /** The colours that the plots have. */
   coloured?: string
-  sizes?: string
+  /** The sizes that each plot has. */
+  sizes: Map<PlotView, string>
 }
 
 /** What a self-painted canvas knows: its side or size in its own units, device pixels per unit, colour of text, theme. */

@@ -1,16 +1,17 @@
 // @ts-check
-// Present mode for lecture halls: larger type, lines and canvases (`zoom`, "shell.css"), only the essential controls, and a
-// spot that follows the pointer.
+// Present mode for lecture halls: larger type, lines and canvases (`zoom`, "shell.css"), pictures that fill the window, a
+// drawer with bar, controls, player and legend, and a spot that follows the pointer.
 
 import { listen, tell } from "./bus.js"
 import { isEmbedded } from "./embedding.js"
-import { element } from "./elements.js"
+import { button, element, icon } from "./elements.js"
 import { onKeys } from "./keys.js"
 
 const LARGER = 2
 // Font size in pixels at a desk.
 const DESK = 14
 const REST = 3000
+const SLIDERS = "M4 7h9v2H4zm13 0h3v2h-3zM14 5h2v6h-2zM4 15h3v2H4zm7 0h9v2h-9zM8 13h2v6H8z"
 
 let isOn = false
 let type = DESK
@@ -54,6 +55,22 @@ export function present(on) {
   isOn = on
   document.documentElement.toggleAttribute("data-present", on)
   tell("presenting", on)
+}
+
+/** Return the button that opens and closes the drawer of present mode. @param {HTMLElement} el the frame of the page */
+export function drawer(el) {
+  const item = button("drawer", () => draw(!isDrawn), { title: "Controls and legend (M)", ariaLabel: "Controls and legend", innerHTML: icon(SLIDERS) })
+  let isDrawn = false
+  /** @param {boolean} on */
+  const draw = (on) => {
+    isDrawn = on
+    item.ariaExpanded = String(on)
+    el.classList.toggle("drawn-out", on)
+  }
+  draw(false)
+  listen({ presenting: () => draw(false) })
+  onKeys({ m: () => isOn && draw(!isDrawn) })
+  return item
 }
 
 /** Return a spot that follows the pointer and hides while it rests; Escape leaves present mode. */

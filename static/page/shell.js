@@ -14,7 +14,7 @@ import { button, element } from "./elements.js"
 import { arrowOf, onKeys } from "./keys.js"
 import { render as renderLessons } from "./lessons.js"
 import { createMount } from "./mount.js"
-import { spot, wear } from "./presenting.js"
+import { drawer, spot, wear } from "./presenting.js"
 import { render as renderProgress } from "./progress.js"
 import { render as renderProse } from "./prose.js"
 import { render as renderStatus } from "./status.js"
@@ -117,7 +117,7 @@ export function render({ model, view, el }) {
     element("header.bar", mount("bar", renderBar, { scenes, files, palettes }),
       element("div.news", text("busy"), mount("progress", renderProgress))),
     tabsOf({ Controls: controls, Text: reader }), controls, stage, reader,
-    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener(), spot())
+    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener(), drawer(el), spot())
   sayWhatMoves(stage, /** @type {HTMLElement} */ (reader.firstChild))
   wear(el)
   listen({ reading: (on) => el.classList.toggle("in-lesson", on) })

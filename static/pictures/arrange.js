@@ -2,16 +2,15 @@
 // Layout of square pictures in a viewport, side by side and as large as the room allows.
 
 /**
- * The viewport; caption(width) is the height of the caption over a picture in a cell of that width.  `caption.title` is the
- * height of a title alone, and `caption.wide` the largest width of a cell that is wider than its picture.
- * @typedef {{width: number, height: number, count: number, gap: number,
- *   caption: ((width: number) => number) & {title: number, wide: number}}} Place
+ * The viewport.  `share` of its height belongs to an enlarged picture, if the width allows.  caption(width) is the height of
+ * the caption over a picture in a cell of that width, `caption.title(width)` that of a title alone, and `caption.wide` the
+ * largest width of a cell that is wider than its picture.
+ * @typedef {{width: number, height: number, count: number, gap: number, share: number,
+ *   caption: ((width: number) => number) & {title: (width: number) => number, wide: number}}} Place
  * @typedef {{x: number, y: number, width: number, edge: number, caption: number, small: boolean}} Box
  * @typedef {{boxes: Box[], smallest: number}} Arrangement
  */
 
-// Share of the height that an enlarged picture takes if the width allows.
-const LARGE = 0.82
 const STEP = 2
 
 /**
@@ -25,7 +24,7 @@ function captionIn(caption, wide, high) {
 }
 
 /**
- * Return the arrangement of equal pictures in columns.
+ * Return the arrangement of equal pictures in a grid.
  * @param {Place} place
  * @param {number} columns
  * @returns {Arrangement}
@@ -50,8 +49,11 @@ function grid({ width, height, count, gap, caption }, columns) {
   return { boxes, smallest: edge }
 }
 
+/** @param {Place} place */
+const grids = (place) => Array.from({ length: place.count }, (_, i) => grid(place, i + 1))
+
 /**
- * Return the arrangement with `leading` pictures of edge `lead` in a row, and the others in a strip beside or below it.
+ * Return the arrangement with `leading` pictures of edge `lead` in a row, and the others in a grid beside or below it.
  * @param {Place} place
  * @param {number} leading
  * @param {number} lead
@@ -59,29 +61,25 @@ function grid({ width, height, count, gap, caption }, columns) {
  * @param {boolean} titlesOnly whether the captions of the others are cut to their titles
  * @returns {Arrangement}
  */
-function strip({ width, height, count, gap, caption }, leading, lead, isBeside, titlesOnly) {
-  const rest = count - leading
+function leadAndRest({ width, height, count, gap, share, caption }, leading, lead, isBeside, titlesOnly) {
   const over = caption(lead)
   const row = leading * lead + gap * (leading - 1)
-  const [wide, high] = isBeside
-    ? [width - row - gap, (height - gap * (rest - 1)) / rest]
-    : [(width - gap * (rest - 1)) / rest, height - lead - over - gap]
-  const above = titlesOnly ? caption.title : isBeside ? caption(wide) : captionIn(caption, wide, high)
-  const edge = Math.floor(Math.min(wide, high - above, lead))
-  const cell = isBeside || titlesOnly ? wide : Math.min(wide, Math.max(edge, caption.wide))
-  const left = isBeside ? 0 : (width - rest * cell - gap * (rest - 1)) / 2
-  const boxes = Array.from({ length: count }, (_, i) => {
-    if (i < leading) {
-      const x = isBeside ? 0 : (width - row) / 2
-      return { x: x + i * (lead + gap), y: 0, width: lead, edge: lead, caption: over, small: false }
-    }
-    const k = i - leading
-    return {
-      x: isBeside ? row + gap : left + k * (cell + gap), y: isBeside ? k * (high + gap) : lead + over + gap,
-      width: cell, edge, caption: above, small: titlesOnly,
-    }
-  })
-  return { boxes, smallest: Math.min(edge, lead) }
+  const across = isBeside ? row + gap : 0
+  const down = isBeside ? 0 : lead + over + gap
+  const left = isBeside ? 0 : (width - row) / 2
+  const top = isBeside ? (height - lead - over) / 2 : 0
+  const { title, wide } = caption
+  const rest = best(grids({
+    width: width - across, height: height - down, count: count - leading, gap, share,
+    caption: titlesOnly ? Object.assign(title.bind(null), { title, wide }) : caption,
+  }))
+  const leads = Array.from({ length: leading }, (_, i) => ({
+    x: left + i * (lead + gap), y: top, width: lead, edge: lead, caption: over, small: false,
+  }))
+  const others = rest.boxes.map((box) => ({
+    ...box, x: box.x + across, y: box.y + down, edge: Math.min(box.edge, lead), small: titlesOnly,
+  }))
+  return { boxes: [...leads, ...others], smallest: Math.min(rest.smallest, lead) }
 }
 
 /**
@@ -109,16 +107,16 @@ function best(arrangements) {
 }
 
 /**
- * Return the arrangements in strips, with leading pictures from the largest possible edge down to `least`.
+ * Return the arrangements with leading pictures from the largest possible edge down to `least`.
  * @param {Place} place
  * @param {number} leading
  * @param {number} least
  * @param {boolean} titlesOnly
  */
-function strips(place, leading, least, titlesOnly) {
+function ledBy(place, leading, least, titlesOnly) {
   const found = []
   for (let lead = largest(place, leading); lead >= least; lead -= STEP) {
-    found.push(strip(place, leading, lead, true, titlesOnly), strip(place, leading, lead, false, titlesOnly))
+    for (const isBeside of [true, false]) found.push(leadAndRest(place, leading, lead, isBeside, titlesOnly))
   }
   return found
 }
@@ -128,8 +126,7 @@ function strips(place, leading, least, titlesOnly) {
  * @param {Place} place
  */
 function even(place) {
-  const grids = Array.from({ length: place.count }, (_, i) => grid(place, i + 1))
-  return best(place.count > 2 ? [...grids, ...strips(place, 1, Math.floor(0.4 * largest(place, 1)) + 1, false)] : grids)
+  return best([...grids(place), ...place.count > 2 ? ledBy(place, 1, Math.floor(0.4 * largest(place, 1)) + 1, false) : []])
 }
 
 /**
@@ -139,7 +136,7 @@ function even(place) {
  */
 function enlarged(place, leading) {
   if (leading === place.count) return grid(place, leading)
-  return best(strips(place, leading, Math.min(LARGE * place.height, 0.94 * largest(place, leading)), true))
+  return best(ledBy(place, leading, Math.min(place.share * place.height, 0.94 * largest(place, leading)), true))
 }
 
 /**

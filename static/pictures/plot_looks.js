@@ -35,12 +35,15 @@ const times = (factor, value) => (typeof value === "number" ? factor * value
  * Set the font sizes of a plot, and the sizes of lines and dots for the current mode.
  * @param {PlotView} plot
  * @param {number} type font size in pixels
+ * @param {number} scale of a thumbnail, 1 for other pictures
  */
-export function sizePlot(plot, type) {
+export function sizePlot(plot, type, scale) {
   for (const part of plot.model.references()) {
-    part.setv(Object.fromEntries(sizesOf(part).map(([name, value]) => [name, times(zoom(), value)])))
+    part.setv(Object.fromEntries(sizesOf(part).map(([name, value]) => [name, times(scale * zoom(), value)])))
     if (part.axis_label_text_font_size !== undefined) {
-      part.setv({ axis_label_text_font_size: `${type}px`, major_label_text_font_size: `${Math.round(TICKS * type)}px` })
+      part.setv({
+        axis_label_text_font_size: `${scale * type}px`, major_label_text_font_size: `${Math.round(TICKS * scale * type)}px`,
+      })
     }
   }
 }

@@ -1,8 +1,8 @@
 // @ts-check
 // Lays out the pictures of a scene in the viewport, and enlarges some of them.
 //
-// The corner button of a picture or its number key enlarges it, with Shift a second one; Escape restores the layout.  A phone
-// shows one picture at a time, chosen by the numbers below it.
+// The corner button of a picture or its number key enlarges it, with Shift a second and third one; Escape restores the layout.
+// A phone shows one picture at a time, chosen by the names below it.
 
 import { button, element, icon, relabel } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
@@ -13,48 +13,69 @@ import { arrange } from "./arrange.js"
 import { isFolded, nameOf } from "./picture.js"
 import { sizePlot } from "./plot_looks.js"
 
-const MOST_LARGE = 2
+const MOST_LARGE = 3
+// Share of the height that an enlarged picture takes if the width allows, at a desk and in present mode.
+const DESK = 0.82
+const HALL = 0.9
 const ENLARGE = "M4 4h6v2H6v4H4zm10 0h6v6h-2V6h-4zM4 14h2v4h4v2H4zm14 0h2v6h-6v-2h4z"
 const REDUCE = "M8 4h2v6H4V8h4zm6 0h2v4h4v2h-6zM4 14h6v6H8v-4H4zm10 0h6v2h-4v4h-2z"
 
 // Heights of captions, in units of the font size.
 const LINE = 1.29
 const AIR = 0.3
-// Widths of the longest title with its verdict, of the longest line of numbers, and of the longest caption in one piece.
-const HEAD = 32
+// Widths of the longest title, of the longest title with its verdict, of the longest line of numbers, and of the longest
+// caption in one piece.
+const TITLE = 22
+const HEAD = 34
 const NUMBERS = 36
 const LONGEST = 56
-// Width of the corner button, on both sides.
+// Widths of what stands beside a caption, the corner button, at a desk and in present mode.
 const SIDES = 4.4
+const SIDE = 2.6
 const WIDEST = 34
 const MOST_LINES = 4
-const LARGE_LINES = 3
 // Below this cell width, in units of the font size, captions are smaller.
 const NARROW = 26
 const SMALLER = 0.88
+// A picture that is smaller than this in present mode, in units of the font size, is drawn in this size and scaled down.
+const LEGIBLE = 13
 
 /** @param {number} width @param {number} type */
 const isNarrow = (width, type) => width / type < NARROW && !isPresenting() && !PHONE.matches
 
+/**
+ * Return what a caption shows in present mode, where only a few words are read from afar, and in how many lines.
+ * @param {number} width of the cell
+ * @param {number} type
+ * @returns {{shows: "all" | "head" | "title", lines: number}}
+ */
+function inTheHall(width, type) {
+  /** @param {number} length */
+  const lines = (length) => Math.ceil(length / Math.max(1, width / type - SIDE))
+  if (lines(LONGEST) === 1) return { shows: "all", lines: 1 }
+  return lines(HEAD) <= 2 ? { shows: "head", lines: lines(HEAD) } : { shows: "title", lines: lines(TITLE) }
+}
+
 /** Return the heights of captions for a font size, see `Place` in "arrange.js". @param {number} type */
 function captions(type) {
-  // From afar only a few words can be read; leave the room to the picture.
-  const most = isPresenting() ? LARGE_LINES : MOST_LINES
   /** @param {number} width */
   const own = (width) => (isNarrow(width, type) ? SMALLER * type : type)
   /** @param {number} length @param {number} width */
   const linesOf = (length, width) => Math.ceil(length / Math.max(1, width / own(width) - SIDES))
   /** @param {number} width */
   const lines = (width) => {
+    if (isPresenting()) return inTheHall(width, type).lines
     const together = linesOf(LONGEST, width)
     // In a narrow cell the numbers follow the verdict on the same line; elsewhere they begin a new one.
-    if (isNarrow(width, type)) return Math.min(most, Math.max(2, together))
-    const all = Math.min(together + 1, linesOf(HEAD, width) + linesOf(NUMBERS, width))
-    return isPresenting() && all > most ? 1 : Math.min(most, all)
+    if (isNarrow(width, type)) return Math.min(MOST_LINES, Math.max(2, together))
+    return Math.min(MOST_LINES, together + 1, linesOf(HEAD, width) + linesOf(NUMBERS, width))
   }
   /** @param {number} count @param {number} size */
   const high = (count, size) => Math.ceil((count * LINE + AIR) * size)
-  return Object.assign((/** @type {number} */ width) => high(lines(width), own(width)), { title: high(1, type), wide: WIDEST * type })
+  return Object.assign((/** @type {number} */ width) => high(lines(width), own(width)), {
+    title: (/** @type {number} */ width) => high(isPresenting() ? Math.ceil(TITLE / Math.max(1, width / type - SIDE)) : 1, type),
+    wide: WIDEST * type,
+  })
 }
 
 /**
@@ -74,49 +95,62 @@ export function createStage(shelf, gallery) {
   // Write only changes: a plot is laid out again whenever its size is set.
   /** @param {HTMLElement} cell @param {import("./arrange.js").Box} box @param {number} type */
   function put(cell, { x, y, width, edge, caption, small }, type) {
-    const place = [x, y, width, edge, caption].map(Math.round).join(" ")
-    cell.classList.toggle("small", small)
+    const shows = isPresenting() ? inTheHall(width, type).shows : "all"
+    const scale = isPresenting() && small ? Math.min(1, edge / (LEGIBLE * type)) : 1
+    cell.classList.toggle("small", small || shows === "title")
+    cell.classList.toggle("brief", shows === "head")
+    cell.classList.toggle("thumbnail", scale < 1)
     cell.classList.toggle("narrow", isNarrow(width, type))
+    const place = [x, y, width, edge, caption, 1000 * scale].map(Math.round).join(" ")
     if (cell.dataset.place === place) return
     cell.dataset.place = place
     for (const [key, value] of Object.entries({ x, y, width, edge, caption })) {
       cell.style.setProperty(`--${key}`, `${Math.round(value)}px`)
     }
+    cell.style.setProperty("--scale", String(scale))
   }
 
-  /** Update the font size, also in the plots of a scene, and return it. @param {Scene} scene */
-  function size(scene) {
+  /** Update the font size and return it. */
+  function typeNow() {
     const type = Number.parseFloat(getComputedStyle(shelf).fontSize)
     setType(type)
-    const sizes = `${type} ${zoom()}`
-    if (scene.sizes !== sizes && scene.plots.length > 0) {
-      scene.sizes = sizes
-      for (const plot of scene.plots) sizePlot(plot, type)
-    }
     return type
+  }
+
+  /** Update the sizes of labels, lines and dots in the plots of a scene. @param {Scene} scene */
+  function size(scene) {
+    const type = typeNow()
+    for (const plot of scene.plots) {
+      const cell = scene.cells.find((one) => nameOf(one) === plot.model.name)
+      // A folded picture has no place yet.
+      const scale = Number(cell.style.getPropertyValue("--scale")) || 1
+      const sizes = `${type} ${zoom()} ${scale}`
+      if (scene.sizes.get(plot) === sizes) continue
+      scene.sizes.set(plot, sizes)
+      sizePlot(plot, type, scale)
+    }
   }
 
   /** Place the pictures of a scene; a scene that is not on show is laid out as it would open. @param {Scene} scene */
   function place(scene) {
     const { clientWidth: width, clientHeight: height } = shelf
     if (width === 0) return
-    const type = size(scene)
+    const type = typeNow()
     const cells = scene.cells.filter((cell) => !isFolded(cell))
     const own = scene === gallery.shown ? large.map((name) => cells.findIndex((cell) => nameOf(cell) === name)) : []
     const chosen = own.filter((i) => i >= 0)
-    // In present mode small pictures beside an enlarged one are left out.
-    const isAlone = isPresenting() && chosen.length > 0
-    const seen = PHONE.matches ? [chosen[0] ?? 0] : isAlone ? chosen : cells.map((_, i) => i)
+    const seen = PHONE.matches ? [chosen[0] ?? 0] : cells.map((_, i) => i)
     const caption = captions(type)
     const boxes = arrange({
-      width, height, count: seen.length, gap: Math.round(0.6 * type), caption,
-    }, PHONE.matches || isAlone ? [] : chosen)
+      width, height, count: seen.length, gap: Math.round(0.6 * type), share: isPresenting() ? HALL : DESK, caption,
+    }, PHONE.matches ? [] : chosen)
     cells.forEach((cell, i) => {
       const at = seen.indexOf(i)
       cell.classList.toggle("off", at < 0)
-      if (at >= 0) put(cell, { ...boxes[at], small: boxes[at].small || boxes[at].caption <= caption.title }, type)
+      if (at >= 0) put(cell, boxes[at], type)
       label(cell, i, chosen.includes(i))
     })
+    size(scene)
     if (scene === gallery.shown && PHONE.matches) showChips(scene.cells, cells[seen[0]])
   }
 
@@ -155,6 +189,12 @@ export function createStage(shelf, gallery) {
     enlarge(isAdded ? [...large, name].slice(-MOST_LARGE) : [name])
   }
 
+  // A thumbnail is one button.
+  shelf.addEventListener("click", ({ target }) => {
+    if (!(target instanceof Element) || target.closest(".corner")) return
+    const cell = target.closest(".thumbnail")
+    if (cell instanceof HTMLElement) enlarge([nameOf(cell)])
+  })
   document.addEventListener("keydown", (event) => {
     if (isTaken(event) || gallery.shown === null) return
     const [, digit] = /^(?:Digit|Numpad)([1-9])$/.exec(event.code) ?? []

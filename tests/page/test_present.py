@@ -64,6 +64,10 @@ def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(plain, open_p
     page.keyboard.press("p")
     page.wait_for_function("location.search.includes('present=1')")
     wait_frames(tab, 4)
+    # Bar, controls, player and legend appear on demand.
+    assert page.locator(".tools, .number, .player[role=group], .signs").filter(visible=True).count() == 0
+    page.keyboard.press("m")
+    wait_frames(tab, 4)
     large = page.evaluate(SIZES)
     assert len(large["texts"]) > 20
     for text, points in large["texts"]:
@@ -102,8 +106,6 @@ def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(plain, open_p
             assert sorted(one) == sorted(other)
     page.keyboard.press("1")
     wait_frames(tab, 4)
-    # From afar nothing is seen of a small picture beside it.
-    assert [tab.picture(name).is_visible() for name in scenes()[HESS].open_pictures] == [True] + 4 * [False]
     page.keyboard.press("Escape")
     assert page.evaluate("document.documentElement.hasAttribute('data-present')")
     page.keyboard.press("Escape")
@@ -111,3 +113,86 @@ def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(plain, open_p
     page.wait_for_function("!location.search.includes('present')")
     back = page.evaluate(SIZES)
     assert (back["lines"], back["ticks"]) == (usual["lines"], usual["ticks"])
+
+
+# The shelf; the pictures in sight with their edges and captions; the titles that are cut.
+HALL = """() => {
+  const all = (root) => [...root.querySelectorAll("*")].flatMap(
+    (item) => [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
+  const items = all(document).filter((item) => item.checkVisibility())
+  const cells = items.filter((item) => item.matches(".gallery:not(.away) .picture"))
+  const shelf = items.find((item) => item.matches(".shelf"))
+  return {
+    shelf: [shelf.clientWidth, shelf.clientHeight],
+    pictures: cells.map((cell) => {
+      const { right, bottom } = cell.getBoundingClientRect()
+      const caption = cell.querySelector("h2")
+      return [cell.dataset.name, cell.querySelector(".host").clientWidth, caption.clientHeight, right, bottom]
+    }),
+    cut: cells.map((cell) => cell.querySelector("h2"))
+      .filter((item) => item.scrollHeight > item.clientHeight + 1 || item.scrollWidth > item.clientWidth + 1)
+      .map((item) => item.textContent),
+  }
+}"""
+SHARE = 0.9
+"""The share of the window that the chosen pictures take, of its height or of its width."""
+
+
+@pytest.mark.parametrize("size", [(1920, 1080), (1600, 950), (1280, 720)])
+def test_pictures_fill_the_hall(tab, size):
+    page, (width, height) = tab.page, size
+    for scene in sample([name for name, one in scenes().items() if one.origin in (None, HESS)], 3):
+        tab.fresh(scene)
+        tab.resize(*size)
+        desk = page.evaluate(HALL)["pictures"]
+        page.keyboard.press("p")
+        wait_frames(tab, 4)
+        # With the keys 1, Shift 2, Shift 3 one, two, three pictures are chosen; the others are thumbnails.
+        for count in range(min(4, len(desk) + 1)):
+            if count > 0:
+                page.keyboard.press(f"{'Shift+' if count > 1 else ''}Digit{count}")
+                wait_frames(tab, 4)
+            hall = page.evaluate(HALL)
+            assert hall["shelf"][0] >= 0.98 * width
+            assert hall["shelf"][1] >= 0.98 * height
+            assert hall["cut"] == [], (scene, count)
+            pictures = hall["pictures"]
+            assert [name for name, *_ in pictures] == [name for name, *_ in desk]
+            for _, _, _, right, bottom in pictures:
+                assert right <= width
+                assert bottom <= height
+            if count == 0:
+                assert min(edge for _, edge, *_ in pictures) >= min(edge for _, edge, *_ in desk), scene
+            else:
+                edge, caption = min((edge, caption) for _, edge, caption, *_ in pictures[:count])
+                assert max(count * edge / width, (edge + caption) / height) >= SHARE, (scene, count)
+        page.keyboard.press("Escape")
+        page.keyboard.press("Escape")
+        wait_frames(tab, 4)
+    tab.fresh()
+
+
+def test_a_thumbnail_is_drawn_whole_and_a_click_enlarges_it(plain):
+    tab, page = plain, plain.page
+    tab.resize(1600, 950)
+    page.keyboard.press("p")
+    for key in ("Digit2", "Shift+Digit4"):
+        page.keyboard.press(key)
+    wait_frames(tab, 4)
+    circle = tab.picture("circle")
+    assert circle.locator(".host").bounding_box()["width"] < 150
+    # Its labels are as much smaller as the picture is.
+    labels, edge = page.evaluate(
+        """() => {
+          const { model, el } = hess.plots.find(({ model }) => model.name === "circle")
+          return [Number.parseFloat(model.below[0].axis_label_text_font_size), el.getBoundingClientRect().width]
+        }"""
+    )
+    assert labels < edge / 10
+    circle.locator(".title").click()
+    wait_frames(tab, 4)
+    large = [name for name, edge, *_ in page.evaluate(HALL)["pictures"] if edge > 700]
+    assert large == ["circle"]
+    page.keyboard.press("Escape")
+    page.keyboard.press("Escape")
+    wait_frames(tab, 4)

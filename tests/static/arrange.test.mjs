@@ -8,7 +8,7 @@ const CAPTION = 38
 const PLACES = [[964, 620], [936, 850], [2500, 2010], [1900, 500], [500, 1400], [700, 700]]
 
 const arranged = (width, height, count, large = []) => (
-  arrange({ width, height, count, gap: GAP, caption: Object.assign(() => CAPTION, { title: 20, wide: 400 }) }, large))
+  arrange({ width, height, count, gap: GAP, share: 0.82, caption: Object.assign(() => CAPTION, { title: () => 20, wide: 400 }) }, large))
 
 function assertInsideAndApart(boxes, width, height) {
   const cells = boxes.map(({ x, y, width: wide, caption, edge }) => [x, y, x + wide, y + caption + edge])
