@@ -103,6 +103,8 @@ interface ChartDescription {
   units: string
   turn: number
   parts: string[]
+  /** For each part, [value, name] of the categories that its values stand for. */
+  names: CategoryName[][]
   over: string[]
   pictures: string[]
 }
@@ -276,6 +278,8 @@ interface Chart {
   title: string
   units: string
   turn: number
+  /** Names of the values, if they stand for categories. */
+  names: CategoryName[]
   x: ChartAxis
   y: ChartAxis
   level: string
@@ -289,6 +293,9 @@ interface Chart {
   said: string
   id?: number
 }
+
+/** A value that stands for a category, and the name of the category. */
+type CategoryName = [value: number, name: string]
 
 interface ChartAxis {
   name: string

@@ -148,10 +148,13 @@ export function chartPanel(palettes) {
 
   function wanted() {
     tell("address")
-    const { symbol, title, units, turn, parts } = described()
+    const { symbol, title, units, turn, parts, names } = described()
+    const chosen = Number(part.value || 0)
     return {
-      scene: scene.name, state: state(), quantity: quantity.value, part: Number(part.value || 0), title, units, turn,
-      symbol: parts.length > 0 ? `${symbol} ${part.selectedOptions[0].textContent}` : symbol, x: x.value(), y: y.value(),
+      scene: scene.name, state: state(), quantity: quantity.value, part: chosen, title, units, turn,
+      symbol: parts.length === 0 ? symbol : [...names[chosen].length > 0 ? [] : [symbol], part.selectedOptions[0].textContent].join(" "),
+      names: names[chosen],
+      x: x.value(), y: y.value(),
     }
   }
 

@@ -1,8 +1,8 @@
 // @ts-check
 // Cells of a chart: their parameters, the states that they stand for, and their readings.
 
-// Cells with this status or a higher one have no number, see "sweep/quantity.py".
-const NO_NUMBER = 10
+import { NO_NUMBER } from "../pictures/chart_colours.js"
+
 const DIGITS = 6
 
 /** @param {number} value */
@@ -35,8 +35,10 @@ export function reading(chart, cell, why = "no number") {
   const at = cell[1] * chart.x.count + cell[0]
   const status = chart.status[at]
   const units = chart.units === "1" ? "" : ` ${chart.units}`
+  const [, name] = chart.names.find(([value]) => value === chart.values[at]) ?? []
   const said = status === 0 ? "not computed yet"
-    : status < NO_NUMBER ? `${chart.symbol} = ${short(chart.values[at])}${units}` : why
+    : status >= NO_NUMBER ? why
+    : name ?? `${chart.symbol} = ${short(chart.values[at])}${units}`
   return `${where(chart, cell)}: ${said}`
 }
 

@@ -22,14 +22,20 @@ const picked = (fields, value) => Object.fromEntries(Object.keys(fields).map((na
 const SIDE = { name: isText(40), symbol: isText(40), low: Number.isFinite, high: Number.isFinite, count: isCount }
 /** @param {ChartAxis | null} side */
 const isSide = (side) => side !== null && typeof side === "object" && isWhole(SIDE, side) && side.low < side.high
+const MOST_NAMES = 16
+/** @param {unknown} one */
+const isNamed = (one) => Array.isArray(one) && one.length === 2 && Number.isInteger(one[0]) && Math.abs(one[0]) < 100 && isText(60)(one[1])
+/** @param {unknown} value */
+const areNames = (value) => Array.isArray(value) && value.length <= MOST_NAMES && value.every(isNamed)
 /** @type {Fields} */
 const CHART = {
   scene: isText(200), state: isText(2000), quantity: isText(200), part: Number.isInteger, symbol: isText(200), units: isText(200),
   turn: (value) => Number.isFinite(value) && value >= 0, level: isText(200),
   error: (value) => value === null || Number.isFinite(value), version: isText(200), x: isSide, y: isSide, title: isText(200),
+  names: areNames,
 }
 /** @type {Partial<Chart>} */
-const USUAL = { turn: 0, error: null, version: "" }
+const USUAL = { turn: 0, error: null, version: "", names: [] }
 
 /** Return the text of the file; NaN and infinities become null. @param {Chart} chart */
 export function toFile(chart) {

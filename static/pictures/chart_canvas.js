@@ -7,7 +7,7 @@ import { arrowOf } from "../page/keys.js"
 import { zoom } from "../page/presenting.js"
 import { liveCanvas } from "./canvas.js"
 import { cellsPainter } from "./cells.js"
-import { coloursOf, filled } from "./chart_colours.js"
+import { categoriesOf, categoryColours, coloursOf, filled, NO_NUMBER } from "./chart_colours.js"
 import { circlePath, POINT } from "./looks.js"
 import { drawTicks, roundNumbers, tickLabels } from "./ticks.js"
 
@@ -17,9 +17,15 @@ const RIGHT = 6.6
 const TOP = 0.8
 const BOTTOM = 3.6
 const BAR = 1.1
+// The same for a key of categories: the right margin, the distance of their marks, and the longest line of a name.
+const KEY = 10.5
+const MARKS = 2.6
+const LETTERS = 16
 // Pixels that the pointer may move during a click.
 const SLIP = 6
 const DARK = "#101010"
+// Cells without a number, see "cells.js".
+const EMPTY = "#808080"
 
 /** @param {ChartAxis} axis */
 const stepOf = ({ low, high, count }) => (high - low) / (count - 1)
@@ -42,6 +48,35 @@ const scaleOf = (low, size, from, to) => ({
 const labelled = (ticks, scale, letters = 1e9) => {
   const labels = tickLabels(ticks, letters)
   return ticks.map((tick, i) => [scale.compute(tick), labels[i]])
+}
+
+/**
+ * Return a name in lines of at most `most` letters, if its words allow.
+ * @param {string} name
+ * @param {number} most
+ */
+const wrapped = (name, most) => name.split(" ").reduce((/** @type {string[]} */ lines, word) => {
+  const longer = `${lines.at(-1) ?? ""} ${word}`.trim()
+  return longer.length <= most || lines.length === 0 ? [...lines.slice(0, -1), longer] : [...lines, word]
+}, [])
+
+/**
+ * Draw the mark of a category, dark with a white rim, in the middle of a place.
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {string} sign
+ * @param {number} x
+ * @param {number} y
+ */
+function drawSign(ctx, sign, x, y) {
+  ctx.save()
+  ctx.textAlign = "center"
+  ctx.textBaseline = "middle"
+  ctx.lineWidth = 2.5
+  ctx.strokeStyle = "#fff"
+  ctx.fillStyle = DARK
+  ctx.strokeText(sign, x, y)
+  ctx.fillText(sign, x, y)
+  ctx.restore()
 }
 
 /** @param {CanvasRenderingContext2D} ctx @param {number[]} box */
@@ -76,6 +111,8 @@ export function chartCanvas(palettes, handlers) {
   // The frame of the chart, and the scales from values to pixels.
   /** @type {{frame: {left: number, right: number, top: number, bottom: number}, xs: Scale, ys: Scale} | null} */
   let place = null
+  /** @type {ReturnType<typeof categoriesOf>} */
+  let categories = []
 
   const { canvas, request } = liveCanvas("map", {
     tabIndex: 0, role: "application",
@@ -102,7 +139,9 @@ export function chartCanvas(palettes, handlers) {
       image: [{ rows: y.count, columns: x.count, numbers: filled(chart) }], x: [x.low - wide / 2], y: [y.low - high / 2],
       dw: [x.high - x.low + wide], dh: [y.high - y.low + high],
     }
-    const own = { palette: turn > 0 ? palettes.round : palettes.plain, ...coloursOf(chart) }
+    categories = categoriesOf(chart)
+    const own = categories.length > 0 ? categoryColours(categories)
+      : { palette: turn > 0 ? palettes.round : palettes.plain, ...coloursOf(chart) }
     colours = { ...own, painter: cellsPainter([{ source: "chart", ...own }], () => ({ data })) }
   }
 
@@ -110,7 +149,7 @@ export function chartCanvas(palettes, handlers) {
   function paint(ctx, { width, height, text, dark }) {
     if (data === null) return
     const em = Number.parseFloat(getComputedStyle(canvas).fontSize)
-    const frame = { left: LEFT * em, right: width - RIGHT * em, top: TOP * em, bottom: height - BOTTOM * em }
+    const frame = { left: LEFT * em, right: width - (categories.length > 0 ? KEY : RIGHT) * em, top: TOP * em, bottom: height - BOTTOM * em }
     const xs = scaleOf(data.x[0], data.dw[0], frame.left, frame.right)
     const ys = scaleOf(data.y[0], data.dh[0], frame.bottom, frame.top)
     place = { frame, xs, ys }
@@ -121,10 +160,12 @@ export function chartCanvas(palettes, handlers) {
     const edges = [frame.left, frame.top, frame.right - frame.left, frame.bottom - frame.top]
     ctx.strokeRect(...edges)
     drawAxes(ctx, em)
-    drawBar(ctx, em)
+    if (categories.length > 0) drawKey(ctx, em)
+    else drawBar(ctx, em)
     ctx.beginPath()
     ctx.rect(...edges)
     ctx.clip()
+    if (categories.length > 0) drawMarks(ctx, em)
     if (mark !== null) drawMark(ctx, em, dark)
     if (cursor !== null) drawCursor(ctx)
     if (box !== null) drawBox(ctx, box)
@@ -177,6 +218,50 @@ export function chartCanvas(palettes, handlers) {
     ctx.textAlign = "center"
     if (isAbove) ctx.fillText("▴", left + (BAR + 0.9) * em, frame.top + 1.3 * em)
     if (isBelow) ctx.fillText("▾", left + BAR * em / 2, frame.bottom + 0.9 * em)
+  }
+
+  /** @param {CanvasRenderingContext2D} ctx @param {number} em */
+  function drawKey(ctx, em) {
+    const { frame } = place
+    const [left, line] = [frame.right + em, 1.15 * em]
+    const text = ctx.strokeStyle
+    let top = frame.top + 0.9 * em
+    ctx.textAlign = "left"
+    ctx.textBaseline = "alphabetic"
+    ctx.fillText(chart.symbol, left, top)
+    top += 0.7 * em
+    const isEmpty = chart.status.some((one) => one >= NO_NUMBER)
+    for (const { name, colour, mark: sign } of [...categories, ...isEmpty ? [{ name: "no value", colour: EMPTY, mark: "" }] : []]) {
+      ctx.fillStyle = colour
+      ctx.fillRect(left, top, 1.3 * em, line)
+      ctx.lineWidth = 1
+      ctx.strokeStyle = text
+      ctx.strokeRect(left, top, 1.3 * em, line)
+      drawSign(ctx, sign, left + 0.65 * em, top + line / 2)
+      ctx.fillStyle = text
+      ctx.textAlign = "left"
+      ctx.textBaseline = "middle"
+      const lines = wrapped(name, LETTERS)
+      lines.forEach((words, i) => ctx.fillText(words, left + 1.7 * em, top + (i + 0.5) * line))
+      top += (lines.length + 0.35) * line
+    }
+    ctx.strokeStyle = text
+  }
+
+  // Marks stand a few letters apart: most cells are smaller than a letter.
+  /** @param {CanvasRenderingContext2D} ctx @param {number} em */
+  function drawMarks(ctx, em) {
+    const { frame, xs, ys } = place
+    const [{ rows, columns, numbers }] = data.image
+    const step = MARKS * em
+    for (let y = frame.top + step / 2; y < frame.bottom; y += step) {
+      for (let x = frame.left + step / 2; x < frame.right; x += step) {
+        const column = within(Math.round((xs.invert(x) - chart.x.low) / stepOf(chart.x)), 0, columns - 1)
+        const row = within(Math.round((ys.invert(y) - chart.y.low) / stepOf(chart.y)), 0, rows - 1)
+        const found = categories.find(({ value }) => value === numbers[row * columns + column])
+        if (found !== undefined) drawSign(ctx, found.mark, x, y)
+      }
+    }
   }
 
   /** @param {CanvasRenderingContext2D} ctx @param {number} em @param {boolean} dark */

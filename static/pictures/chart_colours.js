@@ -1,8 +1,14 @@
 // @ts-check
 // Colours of a chart, and the display of cells that are not computed yet.
 
+// Cells with this status or a higher one have no number, see "sweep/quantity.py".
+export const NO_NUMBER = 10
 // Cells along a side of the coarse pass, see "sweep/chart.py".
 const COARSE = 24
+// Colours and marks of categories, in the order of their names.  The marks tell them apart without the colours.
+const CATEGORY_COLOURS = ["#DCDCDC", "#0072B2", "#56B4E9", "#009E73", "#D55E00", "#E69F00", "#CC79A7", "#F0E442"]
+const CATEGORY_MARKS = ["", "●", "▲", "○", "✕", "◆", "＋", "■"]
+const NO_CATEGORY = "#808080"
 // Share of the numbers beyond each end of the colours: without it one outlier would take all colours.
 const BEYOND = 0.01
 
@@ -25,6 +31,28 @@ export function coloursOf({ values, turn }) {
     ;[low, high] = [low - room, high + room]
   }
   return { low, high, isBelow: least < low, isAbove: most > high }
+}
+
+/**
+ * Return the categories of a chart: value, name, colour and mark.
+ * @param {Pick<Chart, "names">} chart
+ */
+export const categoriesOf = ({ names }) => names.map(([value, name], i) => ({
+  value, name, colour: CATEGORY_COLOURS[i % CATEGORY_COLOURS.length], mark: CATEGORY_MARKS[i % CATEGORY_MARKS.length],
+}))
+
+/**
+ * Return the ends of the colour scale of categories, and a palette with one colour for each whole number between them.
+ * @param {ReturnType<typeof categoriesOf>} categories
+ */
+export function categoryColours(categories) {
+  const values = categories.map(({ value }) => value)
+  const [least, most] = [Math.min(...values), Math.max(...values)]
+  return {
+    low: least - 0.5, high: most + 0.5, isBelow: false, isAbove: false,
+    palette: Array.from({ length: most - least + 1 }, (_, i) => (
+      categories.find(({ value }) => value === least + i)?.colour ?? NO_CATEGORY)),
+  }
 }
 
 /**

@@ -167,3 +167,42 @@ def test_a_chart_from_its_start_to_its_file(explorer, tmp_path):
     assert place == pytest.approx([psi[i], delta[j]], abs=1e-9)
     expect(reading).to_contain_text(f"Ȳ = {found.megno_suslov.values[i, j]:.6g}".replace("-", "−"))
     page.keyboard.press("Escape")
+
+
+def test_a_chart_of_categories_names_them(explorer, tmp_path):
+    """Locked tori have two limit cycles; the file keeps the names, and one of an earlier version has numbers."""
+    page = explorer.page
+    page.get_by_role("button", name="Chart").click()
+    panel = page.get_by_role("dialog", name="Chart")
+    said, canvas, reading = panel.locator(".why"), panel.locator("canvas"), panel.locator(".reading")
+    panel.locator(".param-quantity").select_option("locked")
+    for side, low, high in (("x", 0.2, 3.8), ("y", -1.0, 1.0)):
+        for what, value in (("from", low), ("to", high), ("cells", 3)):
+            panel.locator(f".param-{side}-{what}").fill(str(value))
+    panel.locator(".param-chart-start").click()
+    expect(said).to_have_text("3 × 3, standard accuracy. ")
+    path, _ = saved(page, panel)
+    file, (h, f), values, _ = numbers(path)
+    assert file["symbol"] == "locked"
+    names = {0.0: "no limit cycle", 1.0: "two limit cycles"}
+    assert {int(value): name for value, name in file["names"]} == names
+    assert set(values.ravel()) == set(names), "the chart shows both"
+    canvas.focus()
+    page.keyboard.press("ArrowRight")
+    expect(reading).to_have_text(f"h = {h[2]:g}, f = {f[1]:g}: {names[values[1, 2]]}".replace("-", "−"))
+    page.keyboard.press("ArrowLeft")
+    page.keyboard.press("ArrowLeft")
+    expect(reading).to_contain_text(names[values[1, 0]])
+    earlier = tmp_path / "earlier.json"
+    for text, why in (
+        (json.dumps({**file, "names": [[0]]}), "is missing"),
+        (json.dumps({**file, "names": 5}), "is missing"),
+        (json.dumps({key: value for key, value in file.items() if key != "names"}), "3 × 3"),
+    ):
+        earlier.write_text(text, encoding="utf-8")
+        panel.locator("input[type=file]").set_input_files(earlier)
+        expect(said).to_contain_text(why)
+    canvas.focus()
+    page.keyboard.press("ArrowRight")
+    expect(reading).to_contain_text(f"locked = {values[1, 2]:g}")
+    page.keyboard.press("Escape")

@@ -2,13 +2,13 @@ import assert from "node:assert/strict"
 import test from "node:test"
 
 import { around, isWithoutNumber, numberIn, placeOf, reading, stateOf } from "../../static/controls/chart_cells.js"
-import { coloursOf, filled } from "../../static/pictures/chart_colours.js"
+import { categoriesOf, categoryColours, coloursOf, filled } from "../../static/pictures/chart_colours.js"
 import { assertClose } from "./close.mjs"
 
 // Three columns of h and two rows of the last start's γ₁; the first cell has no number, the last is not computed.
 const CHART = {
   x: { name: "h", symbol: "h", low: -1, high: 1, count: 3 }, y: { name: "starts:1", symbol: "γ₁", low: 0, high: 0.25, count: 2 },
-  symbol: "λ", units: "1/T", state: "scene=a&h=7&starts=0.5,0.5;1,1", turn: 0,
+  symbol: "λ", units: "1/T", names: [], state: "scene=a&h=7&starts=0.5,0.5;1,1", turn: 0,
   values: Float64Array.of(NaN, 0.5, 1.25, -2, 3, NaN), status: Uint8Array.of(12, 1, 1, 2, 1, 0),
 }
 
@@ -24,6 +24,25 @@ test("a cell is read with its place and its number, or why it has none", () => {
   assert.equal(reading(CHART, [0, 0], "no crossing"), "h = −1, γ₁ = 0: no crossing")
   assert.equal(reading(CHART, [2, 1]), "h = 1, γ₁ = 0.25: not computed yet")
   assert.deepEqual([[0, 0], [1, 0], [2, 1]].map((cell) => isWithoutNumber(CHART, cell)), [true, false, false])
+})
+
+test("a value that stands for a category is read by its name", () => {
+  const named = { ...CHART, names: [[-2, "shrinks"], [3, "grows"]] }
+  assert.equal(reading(named, [0, 1]), "h = −1, γ₁ = 0.25: shrinks")
+  assert.equal(reading(named, [1, 1]), "h = 0, γ₁ = 0.25: grows")
+  assert.equal(reading(named, [0, 0], "no crossing"), "h = −1, γ₁ = 0: no crossing")
+})
+
+test("categories have colours and marks of their own, and each value takes those of its name", () => {
+  const names = [[0, "none"], [1, "fixed"], [4, "chaotic"], [-1, "less"]]
+  const categories = categoriesOf({ names })
+  for (const key of ["colour", "mark"]) assert.equal(new Set(categories.map((one) => one[key])).size, names.length)
+  const { low, high, palette } = categoryColours(categories)
+  for (const { value, colour } of categories) {
+    assert.equal(palette[Math.floor((value - low) * palette.length / (high - low))], colour)
+  }
+  // Whole numbers without a name take none of their colours.
+  for (const value of [2, 3]) assert.ok(!categories.some(({ colour }) => colour === palette[value + 1]))
 })
 
 test("zooming in keeps the share of both sides around a cell, within the chart", () => {

@@ -90,6 +90,7 @@ def _chart(scene: Scene[Any], charted: Charted[Any]) -> dict[str, Any]:
         "help": what.doc,
         "turn": what.turn,
         "parts": list(what.parts),
+        "names": [list(what.named.get(part, {}).items()) for part in what.parts or ("",)],
         "over": list(swept(scene.name, what.name)),
         "pictures": list(charted.pictures),
     }

@@ -346,11 +346,14 @@ def _quantities(of: _Motions) -> tuple[Quantity, ...]:
     return tuple(found)
 
 
+_UNDECIDED = (MotionKind.UNDECIDED, MotionKind.SETTLING)
+
+
 def _regime(of: _Motions, level: Level, transient: float, kept: float, t: float, **values: float) -> Cell:
     assert of.section is not None
     place = tuple(values[name] for name in of.place)
     found = regime(ReturnMap(of.section(values), level), place, int(transient), int(kept), t)
-    if found.kind in (MotionKind.UNDECIDED, MotionKind.SETTLING):
+    if found.kind in _UNDECIDED:
         raise NoValue(
             f"The motion is {found.kind.words}: MEGNO is {found.megno:.3g} after t = {found.t:.4g}. Choose a "
             "longer time, or leave more crossings out."
@@ -362,7 +365,7 @@ def _regimes(of: _Motions) -> Quantity:
     """Return the kind of the motion from a place of a section."""
     return Quantity(
         f"regime-{of.name}",
-        "kind",
+        "regime",
         f"Kind of the motion: {of.title}",
         "1",
         "Kind: 0 not seen to return, 1 fixed point, 2 periodic, 3 quasi-periodic, 4 chaotic, 6 regular without a "
@@ -376,6 +379,10 @@ def _regimes(of: _Motions) -> Quantity:
         ),
         one_by_one(partial(_regime, of), 3),
         ("kind", "period", "volume"),
+        named={
+            "kind": {int(one): one.words for one in MotionKind if one not in _UNDECIDED},
+            "volume": {0: "kept", -1: "shrinks", 1: "grows"},
+        },
     )
 
 

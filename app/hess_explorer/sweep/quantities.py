@@ -162,6 +162,7 @@ _TABLE: tuple[Quantity, ...] = (
         _TORUS,
         partial(_of_tori, lambda found: found.locked.astype(float)),
         needed=_GIVEN,
+        named={"": {0: "no limit cycle", 1: "two limit cycles"}},
     ),
     Quantity(
         "limit-cycles",

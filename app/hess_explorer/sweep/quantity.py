@@ -144,6 +144,7 @@ class Quantity:
     error : description of the error estimate, empty without one.
     turn : period of the values, for example 1 for rotation numbers; 0 if they are not periodic.
     needed : names of the parameters without a default.
+    named : values that stand for categories, with their names, by part ("" for a scalar).
     """
 
     name: str
@@ -157,6 +158,7 @@ class Quantity:
     error: str = ""
     turn: float = 0.0
     needed: tuple[str, ...] = ()
+    named: Mapping[str, Mapping[int, str]] = field(default_factory=dict)
 
     @property
     def variable(self) -> str:
