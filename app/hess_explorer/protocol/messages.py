@@ -272,20 +272,28 @@ class Answer:
 
     Attributes
     ----------
-    scene, lesson : descriptions as JSON, empty for none; block : the numbers of the state; cells : of the chart, the
-    values (double precision), indices (32 bits) and status (8 bits).
+    scene, lesson : descriptions as JSON, empty for none; block : the numbers of the state; show : what the followers of
+    a room read beside the state, as JSON; cells : of the chart, the values (double precision), indices (32 bits) and
+    status (8 bits).
     """
 
     scene: str = ""
     lesson: str = ""
     state: StateAnswer | None = None
     block: bytes = b""
+    show: str = ""
     chart: ChartCells | ChartEnded | CellExplained | None = None
     cells: bytes = b""
 
     def encode(self) -> bytes:
         """Return the binary frame; empty if the response has no content."""
-        parts = {"scene": self.scene, "lesson": self.lesson, "state": _json(self.state), "chart": _json(self.chart)}
+        parts = {
+            "scene": self.scene,
+            "lesson": self.lesson,
+            "state": _json(self.state),
+            "show": self.show,
+            "chart": _json(self.chart),
+        }
         told = ", ".join(f'"{name}": {text}' for name, text in parts.items() if text)
         head = f"{{{told}}}".encode()
         return struct.pack("<II", len(head), len(self.block)) + head + self.block + self.cells if told else b""

@@ -20,8 +20,8 @@ RATE, BURST = 150.0, 300.0
 """Messages per second and burst size; a page sends at most one request per frame of the screen."""
 
 # RFC 6455: the reason of a close frame has at most 123 bytes.
-TOO_LARGE = f"A message may have at most {MESSAGE_LIMIT // 1024} KB: send a smaller one."
-TOO_MANY = f"More than {RATE:.0f} messages per second: wait for each response before you send again."
+TOO_LARGE = "A message may have at most {} KB: send a smaller one."
+TOO_MANY = "More than {:.0f} messages per second: wait for each response before you send again."
 ENDING = "The server is shutting down or restarting: open the page again in a moment."
 
 OPEN_SOCKETS: set[WebSocketHandler] = set()
@@ -29,26 +29,39 @@ OPEN_SOCKETS: set[WebSocketHandler] = set()
 
 
 class RateLimit:
-    """Token bucket for the messages of one websocket; frames : number of frames per message."""
+    """Token bucket for the messages of one websocket.
 
-    def __init__(self, frames: int) -> None:
-        self._frames = frames
-        self._room, self._since = frames * BURST, time.monotonic()
+    Parameters
+    ----------
+    frames : int
+        Number of frames per message.
+    rate, burst : float, optional
+        Messages per second and burst size; by default those of a page.
+    size : int
+        Maximum size of a frame in bytes.
+    """
+
+    def __init__(
+        self, frames: int = 1, *, rate: float | None = None, burst: float | None = None, size: int = MESSAGE_LIMIT
+    ) -> None:
+        self._rate, burst = RATE if rate is None else rate, BURST if burst is None else burst
+        self._frames, self._size, self._burst = frames, size, frames * burst
+        self._room, self._since = self._burst, time.monotonic()
         self._over = False
 
     def takes(self, socket: WebSocketHandler, frame: str | bytes) -> bool:
         """Return True if the frame is accepted; close the websocket if the rate or the size is too high."""
         now = time.monotonic()
-        self._room = min(self._frames * BURST, self._room + self._frames * RATE * (now - self._since)) - 1.0
+        self._room = min(self._burst, self._room + self._frames * self._rate * (now - self._since)) - 1.0
         self._since = now
         if self._over:
             return False
-        if len(frame) > MESSAGE_LIMIT:
+        if len(frame) > self._size:
             self._over = True
-            socket.close(1009, TOO_LARGE)
+            socket.close(1009, TOO_LARGE.format(self._size // 1024))
         elif self._room < 0.0:
             self._over = True
-            socket.close(1008, TOO_MANY)
+            socket.close(1008, TOO_MANY.format(self._rate))
         return not self._over
 
 

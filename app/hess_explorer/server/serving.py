@@ -6,7 +6,7 @@ import logging
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NoReturn
 
 import panel as pn
@@ -14,13 +14,16 @@ from bokeh.document import Document
 from panel.io.resources import LOCAL_DIST, patch_model_css
 from panel.io.server import get_server
 from tornado.process import task_id
-from tornado.web import RequestHandler
+from tornado.web import Application, RequestHandler
 from tornado.websocket import WebSocketClosedError
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.compute.cores import CORES
+from hess_explorer.lessons import shipped
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.page import page
+from hess_explorer.rooms.messages import CODE
+from hess_explorer.rooms.registry import Rooms
 from hess_explorer.server.capacity import Capacity
 from hess_explorer.server.export import Export
 from hess_explorer.server.garbage import GARBAGE
@@ -29,6 +32,8 @@ from hess_explorer.server.limits import MESSAGE_LIMIT, OPEN_SOCKETS
 from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.modules import module_routes
 from hess_explorer.server.qr_code import QrCode
+from hess_explorer.server.relay import Relay
+from hess_explorer.server.room_socket import RoomSocket
 from hess_explorer.server.shutdown import Workers, end_on_signals, leave
 from hess_explorer.server.warm import warm
 from hess_explorer.server.websockets import StateSocket
@@ -47,15 +52,16 @@ logger = logging.getLogger("hess_explorer")
 class Metrics(RequestHandler):
     """GET /metrics: the counters of this process in the Prometheus text format."""
 
-    def initialize(self, capacity: Capacity) -> None:
-        """Store the counter of sessions."""
-        self._capacity = capacity
+    def initialize(self, capacity: Capacity, rooms: Rooms) -> None:
+        """Store the counters of sessions and rooms."""
+        self._capacity, self._rooms = capacity, rooms
 
     def get(self) -> None:
         """Respond with the current counters."""
         self.set_header("Content-Type", "text/plain; version=0.0.4; charset=utf-8")
         counters = {
             **CACHE.metrics(),
+            **self._rooms.metrics(),
             "sessions": self._capacity.there,
             "websockets": len(OPEN_SOCKETS),
             "threads": threading.active_count(),
@@ -97,6 +103,11 @@ def _own_styles(document: Document) -> None:
         patch_model_css(root, dist_url=LOCAL_DIST)
 
 
+def _lessons(own: Sequence[Lesson]) -> Mapping[str, Lesson]:
+    """Return the available lessons by name."""
+    return {**{lesson.name: lesson for lesson in own}, **shipped()}
+
+
 def options(
     port: int,
     address: str,
@@ -105,9 +116,14 @@ def options(
     *,
     sessions: int,
     follow: Callable[[str], None] | None = None,
+    rooms: Rooms | None = None,
+    relay: Relay | None = None,
 ) -> dict[str, Any]:
-    """Return the options of `panel.serve`; the parameters are those of `serve`."""
-    capacity = Capacity(sessions)
+    """Return the options of `panel.serve`; the parameters are those of `serve`.
+
+    rooms : the rooms of this process; relay : the way to those of other workers.
+    """
+    capacity, rooms, relay = Capacity(sessions), rooms or Rooms(_lessons(lessons)), relay or Relay(1)
     return {
         "panels": {"/": lambda: _page(lessons, capacity)},
         "title": "Hess Explorer",
@@ -116,7 +132,8 @@ def options(
         "websocket_origin": [f"localhost:{port}", f"127.0.0.1:{port}", *origins],
         "extra_patterns": [
             ("/states", StateSocket, {"capacity": capacity, "lessons": lessons, "follow": follow}),
-            ("/metrics", Metrics, {"capacity": capacity}),
+            ("/metrics", Metrics, {"capacity": capacity, "rooms": rooms}),
+            (f"/rooms/({CODE})", RoomSocket, {"rooms": rooms, "relay": relay}),
             ("/qr.svg", QrCode),
             ("/export", Export),
             *module_routes(),
@@ -180,9 +197,11 @@ def serve(
     replace_handlers(embedders)
     together = Workers() if workers > 1 else None
     # With several workers, `get_server` forks and returns in each worker; the parent process supervises them.
-    told = options(port, address, origins, lessons, sessions=sessions, follow=follow)
+    rooms, relay = Rooms(_lessons(lessons)), Relay(workers)
+    told = options(port, address, origins, lessons, sessions=sessions, follow=follow, rooms=rooms, relay=relay)
     server = get_server(told.pop("panels"), start=False, show=show and workers == 1, num_procs=workers, **told)
     end_on_signals(server.io_loop)
+    relay.listen(Application([(f"/rooms/({CODE})", RoomSocket, {"rooms": rooms})]))
     if together is not None:
         # Only one worker reports that the explorer is ready, and all end with the parent process.
         ready = ready if task_id() == 0 else lambda: None

@@ -1,0 +1,142 @@
+"""Draw what a lecturer shows, once for all followers of a room: one picture, as a whole state in one frame."""
+
+from __future__ import annotations
+
+import asyncio
+import dataclasses
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from hess_explorer.compute.scheduler import RequestQueue
+from hess_explorer.lessons.lesson import Lesson, LessonStep
+from hess_explorer.page.description import describe, describe_lesson
+from hess_explorer.page.opening import opening
+from hess_explorer.page.session import Session
+from hess_explorer.protocol.messages import Answer, Request
+from hess_explorer.rooms.messages import Show
+from hess_explorer.scenes.framework.scene import Scene
+
+__all__ = ["Drawing", "Frames", "step_of"]
+
+_LEFT_OUT: dict[str, Any] = {
+    "handle": None,
+    "words": "",
+    **{key: [] for key in ("controls", "essential", "groups", "charts", "sides", "presets", "tries")},
+}
+"""Parts of a description that need a session of one's own."""
+
+
+@dataclass(frozen=True)
+class Frames:
+    """The frames of a state: scene : description of the picture; state : the state itself."""
+
+    scene: bytes
+    state: bytes
+
+
+def step_of(lessons: Mapping[str, Lesson], show: Show) -> LessonStep | None:
+    """Return the step of the lesson that the lecturer shows."""
+    lesson = lessons.get(show.lesson)
+    return lesson.steps[show.step - 1] if lesson and 0 < show.step <= len(lesson.steps) else None
+
+
+class Drawing:
+    """Draws the states of one room, outside the thread of the event loop.
+
+    Each state is drawn whole, so that a follower who arrives late or misses a state needs no other one.
+    """
+
+    def __init__(self, lessons: Mapping[str, Lesson]) -> None:
+        self._lessons = lessons
+        self._queue = RequestQueue()
+        self._show: Show | None = None
+        # Computes what is missing in the state on show.
+        self._session: Session | None = None
+        self._left = 0
+        self._progress: tuple[int, int] | None = None
+
+    @property
+    def has_news(self) -> bool:
+        """True if parts of the state have been computed since it was drawn."""
+        return self._session is not None and self._session.background.left != self._left
+
+    async def draw(self, show: Show) -> Frames | None:
+        """Return the frames of a state, or None if it takes too long."""
+        loop = asyncio.get_running_loop()
+        done: asyncio.Future[Frames | None] = loop.create_future()
+
+        def tell(frames: Frames | None) -> None:
+            if not done.done():
+                done.set_result(frames)
+
+        def work() -> None:
+            frames = None
+            try:
+                frames = self._draw(show)
+            finally:
+                loop.call_soon_threadsafe(tell, frames)
+
+        self._queue.put(work)
+        return await done
+
+    def end(self) -> None:
+        """Stop all computations."""
+        self._queue.end()
+        if self._session is not None:
+            self._session.background.stop()
+
+    def _draw(self, show: Show) -> Frames:
+        opened = opening(show.query)
+        scene, step = opened.scene, step_of(self._lessons, show)
+        picture = _picture(scene, step, show.picture)
+        session = Session(scene, opened.values, opened.notes, {}, [picture])
+        is_same, is_going = show == self._show, self._session is not None and self._session.background.left > 0
+        left = self._session.background.left if self._session is not None else 0
+        answer = session.answer(Request(requested=0))
+        state = answer.state
+        assert state is not None, "a request for a state has one in its answer"
+        # Running tasks of the same state go on: their results are in the cache, where the new session finds them.
+        # Tasks that have ended without a result would end so again.
+        if not (is_same and (is_going or state.progress in (None, self._progress))):
+            if self._session is not None:
+                self._session.background.stop()
+            self._session = session
+            session.start_tasks()
+            left = session.background.left
+        self._show, self._left, self._progress = show, left, state.progress
+        name = f"{scene.name}/{picture}"
+        state = dataclasses.replace(state, scene=name)
+        return Frames(
+            Answer(scene=_describe(scene.name, picture)).encode(),
+            Answer(state=state, block=answer.block, show=self._told(scene, step, show)).encode(),
+        )
+
+    def _told(self, scene: Scene[Any], step: LessonStep | None, show: Show) -> str:
+        """Return what followers read beside the picture, as JSON."""
+        told: dict[str, Any] = {"scene": scene.title, "number": show.step, "revealed": show.revealed, "step": None}
+        if step is not None:
+            lesson = self._lessons[show.lesson]
+            # The answer is the lecturer's.
+            told["step"] = {**json.loads(describe_lesson(lesson))["steps"][show.step - 1], "answer": ""}
+            told["lesson"] = lesson.title
+        return json.dumps(told)
+
+
+def _picture(scene: Scene[Any], step: LessonStep | None, enlarged: str) -> str:
+    """Return the picture that followers see: that of a guess, the enlarged one, or the first."""
+    look = step.look if step is not None else ""
+    guess = step.prediction.picture if step is not None and step.prediction else ""
+    return next(name for name in (guess, enlarged, look, *scene.open_pictures) if name in scene.pictures)
+
+
+@lru_cache(maxsize=200)
+def _describe(name: str, picture: str) -> str:
+    """Return the description of one picture of a scene, as JSON."""
+    described = json.loads(describe(name))
+    [kept] = [one for one in described["pictures"] if one["name"] == picture]
+    # Without the gestures that change the state.
+    kept |= {"folded": None, "hands": "", **({"picks": [], "handle": None} if "picks" in kept else {})}
+    return json.dumps({**described, **_LEFT_OUT, "name": f"{name}/{picture}", "pictures": [kept]})

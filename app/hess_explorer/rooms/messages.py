@@ -1,0 +1,131 @@
+"""Messages of a room's websocket: `parse` reads them from untrusted JSON.
+
+The first message of a websocket is one of
+
+- {"open": true}: open the room of the URL; the answer {"key": …} belongs to the lecturer alone;
+- {"lead": key}: be the lecturer of that room, for instance after a reload;
+- {"follow": name}: follow; the name is random, and counts the guesses of a page that reconnects once.
+
+Then the lecturer sends {"show": {"query", "lesson", "step", "revealed", "picture"}} and {"end": true}, a follower
+{"guess": [[x, y], …], "step": number}.
+
+A room sends the lecturer {"followers": n, "guesses": n} and, when a guess is revealed, {"cloud": [[[x, y], …], …]}.
+Followers get frames as in `hess_explorer.protocol.messages`: the description of the picture, and its states.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from typing import Any
+
+from hess_explorer.protocol.parameters import MAX_QUERY
+
+__all__ = ["CODE", "MOST_POINTS", "End", "Follow", "Guess", "Lead", "Message", "Open", "Show", "parse"]
+
+CODE = r"[2-9A-HJ-NP-Z]{6}"
+"""Regular expression for the code of a room: no letter or digit that is easily mistaken for another one."""
+
+MOST_POINTS = 40
+"""Maximum number of points of a guessed curve, as in "pictures/guess.js"."""
+
+_NAME = re.compile(r"[\w-]{8,40}")
+_LONGEST = 200
+"""Maximum length of a key, and of the name of a lesson or picture."""
+_MOST_STEPS = 1000
+
+
+@dataclass(frozen=True)
+class Open:
+    """Open a room."""
+
+
+@dataclass(frozen=True)
+class Lead:
+    """Be the lecturer of a room."""
+
+    key: str
+
+
+@dataclass(frozen=True)
+class Follow:
+    """Follow the lecturer; name : random name of the page."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class Show:
+    """What the lecturer shows.
+
+    Attributes
+    ----------
+    query : of the state; lesson, step : the step of a lesson, counted from 1, "" for none; revealed : True if its guess
+    is revealed; picture : the enlarged picture, "" for none.
+    """
+
+    query: str
+    lesson: str = ""
+    step: int = 0
+    revealed: bool = False
+    picture: str = ""
+
+
+@dataclass(frozen=True)
+class Guess:
+    """A guess at a step of the lesson: the clicked points, in the coordinates of the picture."""
+
+    step: int
+    points: tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True)
+class End:
+    """End the room."""
+
+
+Message = Open | Lead | Follow | Show | Guess | End
+
+
+def parse(message: Any) -> Message | None:
+    """Return the message in decoded JSON, or None if there is none."""
+    match message:
+        case {"open": True}:
+            return Open()
+        case {"lead": str(key)} if len(key) <= _LONGEST:
+            return Lead(key)
+        case {"follow": str(name)} if _NAME.fullmatch(name):
+            return Follow(name)
+        case {"end": True}:
+            return End()
+        case {"show": dict(shown)}:
+            return _show(shown)
+        case {"guess": list(points), "step": int(step)} if 0 < len(points) <= MOST_POINTS:
+            found = [point for point in map(_point, points) if point is not None]
+            return Guess(step, tuple(found)) if len(found) == len(points) else None
+    return None
+
+
+def _show(shown: dict[str, Any]) -> Show | None:
+    match shown:
+        case {
+            "query": str(query),
+            "lesson": str(lesson),
+            "step": int(step),
+            "revealed": bool(revealed),
+            "picture": str(picture),
+        } if len(query) <= MAX_QUERY and max(len(lesson), len(picture)) <= _LONGEST and 0 <= step <= _MOST_STEPS:
+            return Show(query, lesson, step, revealed, picture)
+    return None
+
+
+def _point(given: Any) -> tuple[float, float] | None:
+    match given:
+        case [int() | float() as x, int() | float() as y]:
+            try:
+                point = float(x), float(y)
+            except OverflowError:
+                return None
+            return point if all(map(math.isfinite, point)) else None
+    return None

@@ -1,0 +1,331 @@
+"""Rooms: followers see what the lecturer shows, guess, sleep and return, and cannot steer."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+
+import pytest
+from tornado.httpclient import HTTPClientError
+
+from hess_explorer.headless.screenshot import server_process
+from hess_explorer.lessons import shipped
+from hess_explorer.protocol.parameters import encode
+from hess_explorer.rooms import registry, room
+from hess_explorer.scenes import scenes
+from hess_explorer.server.room_socket import Outbox
+from support.asynchronous import finished
+from support.room import Follower, Lecturer, new_code
+from support.serving import UNWARMED, served
+
+ENDED = "4001: The lecture has ended."
+UNKNOWN = "4004: There is no such room: its lecture has ended, or the code is wrong."
+FORGED = "4005: This room belongs to another page."
+NO_MESSAGE = "1007: This is no message of a room."
+
+LESSON = next(one for one in shipped().values() if any(step.prediction for step in one.steps))
+STEP = next(i for i, step in enumerate(LESSON.steps, 1) if step.prediction)
+
+
+@pytest.fixture(scope="module")
+def base():
+    with served() as url:
+        yield url
+
+
+def query(h):
+    return f"scene=suslov-hess&h={h}"
+
+
+def shows(text):
+    return lambda follower: text in follower.state["query"]
+
+
+def test_followers_see_the_last_state_of_the_lecturer_whenever_they_come(base):
+    async def visit():
+        lecturer = await Lecturer.open(base)
+        early = await Follower.follow(base, lecturer.code)
+        await lecturer.show(query(1.25), picture="omega")
+        await early.until(shows("h=1.25"))
+        late = await Follower.follow(base, lecturer.code)
+        await late.until(shows("h=1.25"))
+        for one in (early, late):
+            assert one.scene["name"] == one.state["scene"] == "suslov-hess/omega"
+            assert [picture["name"] for picture in one.scene["pictures"]] == ["omega"]
+            assert one.told["scene"] == scenes()["suslov-hess"].title
+        # Another picture of the same state, and another scene.
+        await lecturer.show(query(1.25), picture="circle")
+        await early.until(lambda one: one.state["scene"] == "suslov-hess/circle")
+        assert [picture["name"] for picture in early.scene["pictures"]] == ["circle"]
+        await lecturer.show("scene=loxodrome")
+        await early.until(shows("scene=loxodrome"))
+        # A picture that the scene has not is none.
+        await lecturer.show("scene=loxodrome&v=1", picture="<b>")
+        await lecturer.until(lambda one: one.followers == 2)
+        await late.leave()
+        await lecturer.until(lambda one: one.followers == 1)
+        await early.leave()
+        await lecturer.leave()
+
+    finished(visit())
+
+
+def test_of_many_states_at_most_two_a_second_are_sent_and_always_the_last_one(base):
+    async def visit():
+        lecturer = await Lecturer.open(base)
+        follower = await Follower.follow(base, lecturer.code)
+        await lecturer.show(query(1.0), picture="omega")
+        await follower.until(shows("h=1"))
+        before, begun = follower.states, time.monotonic()
+        for i in range(20):
+            await lecturer.show(query(round(1.0 + 0.01 * (i + 1), 2)), picture="omega")
+            await asyncio.sleep(0.11)
+        await follower.until(shows("h=1.2"))
+        sent, seconds = follower.states - before, time.monotonic() - begun
+        await follower.leave()
+        await lecturer.leave()
+        return sent, seconds
+
+    sent, seconds = finished(visit())
+    assert 2 <= sent <= 2 * seconds + 1
+
+
+def test_guesses_are_counted_once_for_each_page_and_shown_to_the_lecturer_when_revealed(base):
+    asked = LESSON.steps[STEP - 1].prediction
+    points = [[0.25, 0.5], [0.75, 0.5]]
+
+    async def visit():
+        lecturer = await Lecturer.open(base)
+        at, then = (encode(place.scene, place.values) for place in (LESSON.steps[STEP - 1].at, asked.then))
+        one = await Follower.follow(base, lecturer.code, "first-phone")
+        two = await Follower.follow(base, lecturer.code, "second-phone")
+        # Before there is anything to guess.
+        await one.say({"guess": [[9.0, 9.0]], "step": STEP})
+        await lecturer.show(at, LESSON.name, STEP)
+        for follower in (one, two):
+            await follower.until(lambda one: one.told["step"] is not None)
+            assert follower.told["step"]["prediction"]["picture"] == asked.picture
+            assert follower.state["scene"] == f"{LESSON.steps[STEP - 1].at.scene}/{asked.picture}"
+            assert follower.told["revealed"] is False
+        await one.say({"guess": [[0.0, 0.0]], "step": STEP})
+        await lecturer.until(lambda one: one.guesses == 1)
+        # It sleeps, returns, and guesses again.
+        await one.leave()
+        await lecturer.until(lambda one: one.followers == 1)
+        assert lecturer.guesses == 1
+        one = await Follower.follow(base, lecturer.code, "first-phone")
+        await one.until(lambda one: one.told["step"] is not None)
+        await one.say({"guess": points[:1], "step": STEP})
+        await two.say({"guess": points[1:], "step": STEP})
+        # A guess at another step came too late.
+        await two.say({"guess": [[7.0, 7.0]], "step": STEP + 1})
+        await lecturer.until(lambda one: one.guesses == 2)
+        await lecturer.show(then, LESSON.name, STEP, revealed=True)
+        await lecturer.until(lambda one: one.cloud is not None)
+        await one.until(lambda one: one.told["revealed"])
+        # No more guesses, and none is kept for the next step.
+        await two.say({"guess": [[0.0, 0.0]], "step": STEP})
+        other = LESSON.steps[STEP].at
+        await lecturer.show(encode(other.scene, other.values), LESSON.name, STEP + 1)
+        await lecturer.until(lambda one: one.guesses == 0)
+        for member in (one, two, lecturer):
+            await member.leave()
+        return lecturer.cloud
+
+    assert sorted(finished(visit())) == [[points[0]], [points[1]]]
+
+
+def test_who_has_not_the_key_cannot_lead_and_followers_cannot_steer(base):
+    async def visit():
+        lecturer = await Lecturer.open(base)
+        follower = await Follower.follow(base, lecturer.code)
+        assert len(lecturer.key) >= 40
+        await lecturer.show(query(1.25), picture="omega")
+        await follower.until(shows("h=1.25"))
+        whys = []
+        for key in ("", lecturer.key[:-1], lecturer.key + "x", "é"):
+            forged = await Lecturer.connect(base, lecturer.code, {"lead": key})
+            whys.append(await forged.end())
+        taken = await Lecturer.connect(base, lecturer.code, {"open": True})
+        whys.append(await taken.end())
+        assert whys == [FORGED] * 4 + ["4003: There is a room with this code."]
+        await Lecturer.show(follower, query(2.0))
+        await follower.say({"end": True})
+        late = await Follower.follow(base, lecturer.code)
+        await late.hear()
+        await asyncio.sleep(1.2)
+        with pytest.raises(TimeoutError):
+            while True:
+                await follower.hear(0.1)
+        assert "h=1.25" in follower.state["query"]
+        # Nor does a follower lead who asks for it later.
+        await follower.say({"lead": lecturer.key})
+        assert await follower.end() == NO_MESSAGE
+        for member in (late, lecturer):
+            await member.leave()
+
+    finished(visit())
+
+
+def test_a_room_outlives_a_reload_of_its_lecturer_and_ends_with_the_lecture(base, monkeypatch):
+    monkeypatch.setattr(room, "GRACE", 2.0)
+
+    async def visit():
+        lecturer = await Lecturer.open(base)
+        follower = await Follower.follow(base, lecturer.code)
+        await lecturer.leave()
+        again = await lecturer.again(base)
+        await again.until(lambda one: one.followers == 1)
+        await asyncio.sleep(3.0)
+        await again.show(query(1.5))
+        await follower.until(shows("h=1.5"))
+        # From another tab: there is one lecturer.
+        other = await lecturer.again(base)
+        assert await again.end() == "4002: This room is led from another page now."
+        # The page is closed and does not come back.
+        begun = time.monotonic()
+        await other.leave()
+        heard, waited = await follower.end(), time.monotonic() - begun
+        late = await Follower.follow(base, lecturer.code)
+        # The lecturer ends the lecture.
+        ended = await Lecturer.open(base, lecturer.code)
+        await ended.say({"end": True})
+        return heard, waited, await late.end(), await ended.end()
+
+    heard, waited, late, ended = finished(visit())
+    assert heard == ENDED
+    assert 2.0 <= waited < 10.0
+    assert late == UNKNOWN
+    assert ended == ENDED
+
+
+def test_a_room_ends_after_its_time(base, monkeypatch):
+    monkeypatch.setattr(room, "LONGEST", 1.0)
+
+    async def visit():
+        lecturer = await Lecturer.open(base)
+        return await lecturer.end()
+
+    assert finished(visit()) == ENDED
+
+
+def test_floods_and_nonsense_are_cut_off_and_the_others_go_on(base):
+    async def visit():
+        lecturer = await Lecturer.open(base)
+        good = await Follower.follow(base, lecturer.code)
+        whys = []
+        flood = await Follower.follow(base, lecturer.code)
+        for _ in range(100):
+            await flood.say({"guess": [[0.0, 0.0]], "step": 1})
+        whys.append(await flood.end())
+        large = await Follower.follow(base, lecturer.code)
+        await large.say("x" * 9000)
+        whys.append(await large.end())
+        for first in ("{", "17", b"\xff", '{"follow": "x"}', "[" * 4000, '{"guess": [[0, 0]], "step": 1}'):
+            whys.append(await (await Follower.connect(base, lecturer.code, first)).end())
+        for wrong in (
+            {"guess": [], "step": 1},
+            {"guess": [[0.0, 0.0]] * 41, "step": 1},
+            {"guess": [[0.0, "x"]], "step": 1},
+            '{"guess": [[NaN, 0.0]], "step": 1}',
+            '{"guess": [[1e999, 0.0]], "step": 1}',
+        ):
+            one = await Follower.follow(base, lecturer.code)
+            await one.say(wrong)
+            whys.append(await one.end())
+        await lecturer.show(query(1.75))
+        await good.until(shows("h=1.75"))
+        with pytest.raises(HTTPClientError, match="404"):
+            await Follower.follow(base, "nosuch")
+        for member in (good, lecturer):
+            await member.leave()
+        return whys
+
+    fast, large, *rest = finished(visit())
+    assert fast == "1008: More than 10 messages per second: wait for each response before you send again."
+    assert large == "1009: A message may have at most 8 KB: send a smaller one."
+    assert rest == [NO_MESSAGE] * 11
+
+
+def test_to_a_follower_who_reads_nothing_only_the_newest_state_waits():
+    """Otherwise the states that it has not read would fill the memory."""
+
+    async def visit():
+        taken, sent = [], []
+
+        class Slow:
+            def write_message(self, message, binary):
+                sent.append((message, binary))
+                taken.append(asyncio.get_running_loop().create_future())
+                return taken[-1]
+
+        outbox = Outbox(Slow())
+        for scene, states in (("A", "ab"), ("B", "cd")):
+            outbox.put("scene", scene)
+            for state in states:
+                outbox.put("state", state.encode())
+                await asyncio.sleep(0)
+        assert sent == [("A", False)]
+        while len(sent) < 3:
+            taken[-1].set_result(None)
+            await asyncio.sleep(0)
+            await asyncio.sleep(0)
+        return sent
+
+    # The description comes before the state that needs it.
+    assert finished(visit()) == [("A", False), ("B", False), (b"d", True)]
+
+
+def test_with_several_workers_all_members_of_a_room_meet(tmp_path):
+    async def visit(base):
+        for _ in range(4):
+            # Codes of both workers.
+            lecturer = await Lecturer.open(base)
+            followers = [await Follower.follow(base, lecturer.code) for _ in range(6)]
+            await lecturer.until(lambda one: one.followers == 6)
+            await lecturer.show("scene=loxodrome&accuracy=draft")
+            for one in followers:
+                await one.until(shows("scene=loxodrome"))
+            await followers[0].leave()
+            await lecturer.until(lambda one: one.followers == 5)
+            await lecturer.say({"end": True})
+            assert [await one.end() for one in followers[1:]] == [ENDED] * 5
+            assert await lecturer.end() == ENDED
+
+    log = tmp_path / "log"
+    with server_process(log, UNWARMED, ("--workers", "2")) as (_, base):
+        finished(visit(base))
+    assert "Traceback" not in log.read_text()
+
+
+def test_a_websocket_of_another_origin_is_refused(base):
+    with pytest.raises(HTTPClientError, match="403"):
+        finished(Follower.follow(base, new_code(), origin="http://evil.example"))
+
+
+def test_rooms_and_followers_are_bounded(monkeypatch):
+    monkeypatch.setattr(registry, "MOST_ROOMS", 2)
+    monkeypatch.setattr(room, "MOST_FOLLOWERS", 2)
+
+    async def visit(base):
+        lecturers = [await Lecturer.open(base) for _ in range(2)]
+        third = await Lecturer.connect(base, new_code(), {"open": True})
+        whys = [await third.end()]
+        code = lecturers[0].code
+        inside = [await Follower.follow(base, code) for _ in range(2)]
+        await lecturers[0].until(lambda one: one.followers == 2)
+        whys.append(await (await Follower.follow(base, code)).end())
+        await inside[0].leave()
+        await lecturers[0].until(lambda one: one.followers == 1)
+        again = await Follower.follow(base, code)
+        await lecturers[0].until(lambda one: one.followers == 2)
+        for member in (again, inside[1], *lecturers):
+            await member.leave()
+        return whys
+
+    # It ends all other servers of the process, so this test is the last one.
+    with served() as base:
+        assert finished(visit(base)) == [
+            "1013: There are too many rooms at the moment: try again later.",
+            "1013: The room is full.",
+        ]
