@@ -25,14 +25,26 @@ const twice = (names) => names.map((name) => [name, name])
  * @returns {[HTMLElement, Show]}
  */
 function menu(name, label, options, help, choose) {
-  const select = element("select", { title: help, ariaLabel: label, onchange: () => choose(select.value) }, ...optionsOf(options))
-  const frame = element(`label.menu.param-${name}`, element("span", label), select)
-  // The text of an option may be longer than the menu.
+  // A menu itself shows one line, and cuts it: the whole text lies over the menu.  An unseen copy of the longest one keeps
+  // its place, so that no choice moves the controls below.
+  const text = element("span", { ariaHidden: true })
+  const longest = options.reduce((most, [, one]) => (one.length > most.length ? one : most), "")
+  const say = () => { text.textContent = select.selectedOptions[0]?.textContent ?? "" }
+  const select = element("select", {
+    title: help, ariaLabel: label,
+    onchange: () => {
+      say()
+      choose(select.value)
+    },
+  }, ...optionsOf(options))
+  const frame = element(`label.menu.param-${name}`, element("span", label),
+    element("span.whole", select, text, element("span.longest", { ariaHidden: true }, longest)))
   /** @param {string} option */
   const show = (option) => {
     select.value = option
-    select.title = option === "" ? help : `${select.selectedOptions[0]?.textContent ?? option}. ${help}`
+    say()
   }
+  say()
   return [frame, show]
 }
 

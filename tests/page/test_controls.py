@@ -544,3 +544,19 @@ def test_the_motion_goes_on_along_the_new_orbit_when_a_slider_moves(explorer):
     explorer.change(lambda: explorer.slide(span=10.0))
     assert explorer.time == pytest.approx(10.0, rel=1e-6)
     assert_on_orbit(explorer, {**DEFAULTS, "h": 0.3, "span": 10.0})
+
+
+def test_the_names_of_examples_are_shown_whole_and_move_nothing(explorer):
+    menu, slider = explorer.menu("preset"), explorer.slider("h")
+    names = menu.evaluate("menu => [...menu.options].map(({ text }) => text)")
+    place = slider.bounding_box()
+    for name in (min(names[1:], key=len), max(names, key=len)):
+        explorer.change(menu.select_option, name)
+        text = explorer.page.locator(".param-preset").get_by_text(name, exact=True).and_(
+            explorer.page.locator("span:not(.longest)")
+        )
+        inner, outer = text.bounding_box(), menu.bounding_box()
+        assert outer["y"] <= inner["y"]
+        assert inner["y"] + inner["height"] <= outer["y"] + outer["height"]
+        assert text.evaluate("item => item.scrollWidth <= item.clientWidth && item.scrollHeight <= item.clientHeight")
+        assert slider.bounding_box() == place
