@@ -15,6 +15,7 @@ from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.scattering import ball_scattering
 from hess_mechanics.euler_poisson.hess_isomorphism import hess_body
 from hess_mechanics.suslov.additional_integral import I11_at
+from support import lesson_on_constraints
 
 PRECISE = level("precise")
 WORDS = {
@@ -205,6 +206,7 @@ ROWS = {
     "limit-cycles-and-locking": LIMITS,
     "scattering-by-a-nonholonomic-top": SCATTERING,
     "two-chaotic-layers-that-never-mix": LAYERS,
+    "what-a-nonholonomic-constraint-does": lesson_on_constraints.ROWS,
 }
 # The name of the problem's constraint is no claim of its own.
 ALWAYS = {"$\\omega_3=0$": lambda s: (0.0,)}
