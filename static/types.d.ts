@@ -138,7 +138,10 @@ interface LessonStep {
   look: string
   question: string
   answer: string
+  /** Names of parameters. */
+  controls: string[]
   animation?: AnimationDescription
+  hide?: { picture: string, source: string }
   prediction?: Prediction
 }
 

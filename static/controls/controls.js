@@ -6,57 +6,9 @@ import { button, element } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
 import { sayDragMe } from "../page/handle.js"
 import { PHONE } from "../page/windows.js"
+import { choice, menu, twice } from "./choice.js"
 import { comparison } from "./comparison.js"
-import { optionsOf } from "./dialog.js"
 import { number } from "./number.js"
-
-/** @typedef {(value: any) => void} Show shows the value of a control */
-
-/** @param {string[]} names @returns {[string, string][]} */
-const twice = (names) => names.map((name) => [name, name])
-
-/**
- * Return a menu and the function that shows an option.
- * @param {string} name
- * @param {string} label
- * @param {[string, string][]} options value and text of each
- * @param {string} help
- * @param {(value: string) => void} choose
- * @returns {[HTMLElement, Show]}
- */
-function menu(name, label, options, help, choose) {
-  // A menu itself shows one line, and cuts it: the whole text lies over the menu.  An unseen copy of the longest one keeps
-  // its place, so that no choice moves the controls below.
-  const text = element("span", { ariaHidden: true })
-  const longest = options.reduce((most, [, one]) => (one.length > most.length ? one : most), "")
-  const say = () => { text.textContent = select.selectedOptions[0]?.textContent ?? "" }
-  const select = element("select", {
-    title: help, ariaLabel: label,
-    onchange: () => {
-      say()
-      choose(select.value)
-    },
-  }, ...optionsOf(options))
-  const frame = element(`label.menu.param-${name}`, element("span", label),
-    element("span.whole", select, text, element("span.longest", { ariaHidden: true }, longest)))
-  /** @param {string} option */
-  const show = (option) => {
-    select.value = option
-    say()
-  }
-  say()
-  return [frame, show]
-}
-
-/**
- * Return the control of a choice and the function that shows its option.
- * @param {ControlDescription} description
- * @returns {[HTMLElement, Show]}
- */
-function choice({ name, label, options, help }) {
-  const [frame, show] = menu(name, label, twice(options), help, (option) => tell("change", { [name]: option }))
-  return [element("div", frame, element("p.text.help", help)), show]
-}
 
 const EXAMPLES = "preset"
 
@@ -65,7 +17,7 @@ export function render({ el }) {
   const column = element("div.board")
   const chooser = element("div.chooser", { role: "group", ariaLabel: "Control at hand" })
   el.append(chooser, column, comparison())
-  /** @type {Record<string, Show>} */
+  /** @type {Record<string, import("./choice.js").Show>} */
   let shows = {}
   /** @type {Record<string, (sentence: string) => void>} */
   let refusals = {}

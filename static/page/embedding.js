@@ -29,12 +29,14 @@ export function linkTo(parts = null) {
 }
 
 /**
- * Return the description of an embedded scene: its pictures open, its controls essential, the other pictures `absent`.
+ * Return the description of an embedded scene: its pictures open, its controls essential, the other pictures `absent`.  In an
+ * embedded lesson the steps choose among all of them.
  * @param {SceneDescription} description
  * @param {ClientKeys} keys names of the pictures and controls that are kept
  * @returns {SceneDescription}
  */
-export function embedded(description, { pictures, controls }) {
+export function embedded(description, { pictures, controls, lesson }) {
+  if (lesson !== "") return description
   /** @type {(names: string) => (part: {name: string}) => boolean} */
   const isIn = (names) => ({ name }) => names.split(",").includes(name)
   const kept = description.controls.filter(isIn(controls))

@@ -4,10 +4,13 @@
 // PageDown (the key of a presenter) reveals the truth of a guess, then the answer of a question, then goes to the next step.
 // PageUp goes back.
 
+import { stepControls } from "../controls/step_controls.js"
 import { gallery } from "../pictures/gallery.js"
 import { createGuess } from "../pictures/guess.js"
+import { createVeil } from "../pictures/veil.js"
 import { createAnimation } from "./animation.js"
 import { listen, tell } from "./bus.js"
+import { isEmbedded } from "./embedding.js"
 import { onKeys } from "./keys.js"
 import { button, element } from "./elements.js"
 import { CALM } from "./windows.js"
@@ -32,6 +35,8 @@ export function render({ index, el }) {
   const menu = element("details.lesson-menu")
   const panel = element("section.lesson", { hidden: true, ariaLabel: "Lesson" })
   const tries = element("section.tries", { hidden: true, ariaLabel: "Try this" })
+  const controls = stepControls()
+  const veil = createVeil()
   el.append(menu, panel, tries)
 
   /** @type {Lesson | null} */
@@ -47,6 +52,8 @@ export function render({ index, el }) {
   let animation = null
   /** @type {(() => void) | null} */
   let arriving = null
+  /** @type {LessonStep | null} */
+  let expected = null
   /** @type {ReturnType<typeof setInterval>} */
   let ticking = null
 
@@ -62,7 +69,18 @@ export function render({ index, el }) {
   function leaveStep() {
     guess?.end()
     animation?.stop()
-    guess = animation = arriving = null
+    guess = animation = arriving = expected = null
+  }
+
+  /**
+   * Enlarge the picture of a step and hide its layer.  In a scene that is entered this comes before the first painting: Bokeh
+   * does not notice a picture that is enlarged and reduced again within a frame.
+   * @param {LessonStep} step
+   */
+  function arrange({ scene, look, hide, prediction }) {
+    if (gallery.shown?.name !== scene) return
+    if (look !== "") tell("look", look)
+    veil(prediction ?? hide ?? null)
   }
 
   // Shows a step whose state is on show or requested.
@@ -80,29 +98,30 @@ export function render({ index, el }) {
       animation = createAnimation(step.animation)
       buttons.append(button("button.param-animate", animation.start, animation.label))
     }
+    expected = step
+    controls.fill(step.controls)
     const title = element("h2.title", { innerHTML: step.title, tabIndex: -1 })
     const progress = element("progress", { max: lesson.steps.length, value: at + 1, ariaLabel: "Steps" })
     panel.replaceChildren(
-      element("p.of", lesson.title),
-      element("div.row.where", progress,
-        element("span.count", `${at + 1} / ${lesson.steps.length}`), time),
-      title, html("div.text", step.text), buttons, said, ...questionOf(step),
-      element("div.row.steps",
+      element("p.of", lesson.title), title, html("div.text", step.text), buttons, said, ...questionOf(step),
+      element("div.steps", controls.group, element("div.row",
         button("button.param-back-a-step", () => turnTo(at - 1), {
           disabled: at === 0, title: at === 0 ? "Disabled: this is the first step" : "Back (Page Up)",
         }, "Back"),
         button("button.param-next-step", next, {
           disabled: isLast, title: isLast ? "Disabled: this is the last step" : "Next (Page Down)",
         }, "Next"),
-        button("button.param-leave-lesson", leave, "Leave the lesson")))
+        ...(isEmbedded() ? [] : [button("button.param-leave-lesson", leave, { title: "Leave the lesson" }, "Leave")]),
+        element("div.where", progress, element("span.count", `${at + 1} / ${lesson.steps.length}`), time))))
     said.hidden = guess === null
     buttons.hidden = guess === null && animation === null
     tell("url", { lesson: lesson.name, step: String(at + 1) })
   }
 
   /** Called when the state of the step is on show. @param {LessonStep} step */
-  function arrive({ look }) {
-    if (look !== "") tell("look", look)
+  function arrive(step) {
+    expected = null
+    arrange(step)
     guess?.begin()
     if (!CALM.matches) animation?.start()
   }
@@ -123,7 +142,10 @@ export function render({ index, el }) {
     if (guess === null || guess.isRevealed) return false
     const shown = guess
     shown.wait()
-    go(lesson.name, at, true, shown.reveal)
+    go(lesson.name, at, true, () => {
+      veil(lesson.steps[at].hide ?? null)
+      shown.reveal()
+    })
     return true
   }
 
@@ -161,6 +183,8 @@ export function render({ index, el }) {
 
   function leave() {
     leaveStep()
+    veil(null)
+    controls.fill([])
     clearInterval(ticking)
     lesson = null
     panel.hidden = true
@@ -209,7 +233,10 @@ export function render({ index, el }) {
   }
 
   listen({
-    enter: showTries,
+    enter(scene) {
+      showTries(scene)
+      if (expected !== null) arrange(expected)
+    },
     painted() {
       const then = arriving
       arriving = null

@@ -11,7 +11,7 @@ const SHEETS = {
   controls: ["controls/dialog.css", "controls/controls.css"],
   pictures: ["pictures/pictures.css"],
   player: ["controls/controls.css", "controls/player.css"],
-  lessons: ["page/page.css", "page/lessons.css"],
+  lessons: ["controls/controls.css", "page/page.css", "page/lessons.css"],
 }
 
 /**

@@ -50,6 +50,7 @@ export const gallery = {
   cell: (name) => shown.cells.find((cell) => nameOf(cell) === name),
   /** @param {string} name */
   plot: (name) => shown.plots.find(({ model }) => model.name === name),
+  get plots() { return shown?.plots ?? [] },
   cellsInSight: () => shown.cells.filter(isInSight),
   openCells: () => shown.cells.filter((cell) => !isFolded(cell)),
   get shown() { return shown },

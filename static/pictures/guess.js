@@ -66,7 +66,7 @@ function drawRing(ctx, [x, y], colour, dash) {
 }
 
 /**
- * Return the controller of a guess; begin(), wait(), reveal() and end() are called in this order.
+ * Return the controller of a guess; begin(), wait(), reveal() and end() are called in this order.  The lesson hides the layer.
  * @param {Prediction} prediction
  * @param {(text: string) => void} say shows what to do, and how near the guess was
  */
@@ -86,13 +86,6 @@ export function createGuess(prediction, say) {
   const toPixels = ([x, y]) => [plot.frame.x_scale.compute(x), plot.frame.y_scale.compute(y)]
   /** @type {(place: number[]) => [number, number]} */
   const toData = ([x, y]) => [plot.frame.x_scale.invert(x), plot.frame.y_scale.invert(y)]
-
-  /** Hide or show the truth in the picture. @param {boolean} isHidden */
-  function hide(isHidden) {
-    for (const renderer of plot.model.renderers) {
-      if (renderer.data_source?.name === prediction.source) renderer.visible = !isHidden
-    }
-  }
 
   function draw() {
     const ctx = fit(sheet, plot.bbox.width, plot.bbox.height)
@@ -137,7 +130,6 @@ export function createGuess(prediction, say) {
     /** Ask for a guess; the state of the step is on show. */
     begin() {
       plot = gallery.plot(prediction.picture)
-      hide(true)
       sheet = element("canvas.guess", {
         tabIndex: 0, role: "application", ariaLabel: "Your guess: click or use the arrow keys",
         title: isCurve ? "Click along the expected curve" : "Click where you expect it", onkeydown,
@@ -160,7 +152,8 @@ export function createGuess(prediction, say) {
     wait() { this.isRevealed = true },
     /** Draw the truth; the revealed state is on show. */
     reveal() {
-      hide(false)
+      // The state of the step never came: the next one was asked for at once.
+      if (sheet === null) return say("Revealed. There was no guess.")
       sheet.blur()
       sheet.tabIndex = -1
       sheet.style.pointerEvents = "none"
@@ -179,7 +172,6 @@ export function createGuess(prediction, say) {
     /** Remove the guess from the picture. */
     end() {
       if (plot === null) return
-      hide(false)
       plot.repainted.disconnect(draw)
       sheet.remove()
     },

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hess_explorer.lessons import shipped, tries
-from hess_explorer.lessons.lesson import Animation, LessonError
+from hess_explorer.lessons.lesson import Animation, HiddenLayer, LessonError
 from hess_explorer.lessons.markdown import to_html
 from hess_explorer.lessons.reading import MAX_BYTES, MAX_STEPS, read, read_file, without_tries
 from support.board import SCENES
@@ -45,6 +45,13 @@ def test_a_lesson_is_read_as_it_is_written():
     guess = first.prediction
     assert (guess.source, guess.columns, guess.what) == ("circle-stable", ("phi", "theta"), "point")
     assert guess.then.values == SCENES["suslov-hess"].defaults() | {"h": 1.5, "f": 0.6}
+    # The control of what is animated is beside the text; another step may name others.
+    assert first.controls == ("h",)
+    named = "controls: [f, accuracy, f]\nhide: {picture: omega, layer: stable}"
+    others = read(WHOLE.replace("look: circle", named), "mine")
+    assert others.steps[0].controls == ("f", "accuracy")
+    assert others.steps[0].hide == HiddenLayer("omega", "stable", "data-stable")
+    assert (second.controls, second.hide) == ((), None)
     # A step without a state is where the last one has come to.
     assert second.at == guess.then
 
@@ -63,7 +70,14 @@ MISTAKES = [
     ("&h=0.2&f=0.5", "&g=0.2", 9, "'g', which the scene suslov-hess does not"),
     ("&h=0.2&f=0.5", "&h=0.2" + "0" * 2000, 9, "longer than 2000"),
     ("look: circle", "look: circel", 9, "look is one of body, omega"),
-    ("look: circle", "glance: circle", 9, "allowed are state, example, look, animate, predict"),
+    ("look: circle", "glance: circle", 9, "allowed are state, example, look, animate, controls, hide, predict"),
+    ("look: circle", "controls: h", 9, "a list of at most 6 names"),
+    ("look: circle", "controls: [h, nothing]", 9, "a name in controls is one of I22"),
+    ("look: circle", "controls: [[h]]", 9, "a name in controls is one of"),
+    ("look: circle", "controls: [h, f, I22, I23, b3, phi0, span]", 9, "at most 6"),
+    ("look: circle", "hide: {picture: sphere, layer: stable}", 9, "picture of hide is one of omega, bifurcation"),
+    ("look: circle", "hide: {picture: [circle], layer: stable}", 9, "picture of hide"),
+    ("look: circle", "hide: {picture: bifurcation, layer: rotation}", 9, "layer of hide is one of"),
     ("look: circle", "example: U", 9, "Two limit cycles, No cycle"),
     ("look: circle", "example: S", 9, "just one of the examples"),
     ("look: circle", "look: [circle", 11, "not YAML"),

@@ -9,10 +9,11 @@ from urllib.parse import parse_qs, urlsplit
 import numpy as np
 import pytest
 
+from hess_explorer.headless.browser import wait_ready
 from hess_explorer.lessons import shipped, tries
 from support.accessible import assert_accessible
 from support.board import SCENES
-from support.page import HESS, values_of
+from support.page import HESS, Explorer, values_of, wait_frames
 from support.pointer import at
 
 NAME = "scattering-by-a-nonholonomic-top"
@@ -165,9 +166,138 @@ def test_a_narrow_window_opens_a_lesson_with_its_text_and_the_slider_follows_wha
     assert page.locator(".param-tab-text").get_attribute("aria-selected") == "true"
     page.locator(".param-animate").click()
     page.wait_for_function("() => new URLSearchParams(location.search).get('h') > 0.55")
-    shown = [float(one) for one in (tab.box("h").input_value(), tab.slider("h").input_value())]
-    assert min(shown) > step.animation.start + 0.04
+    # The control in the column and that beside the text.
+    controls = page.locator(".param-h input").all()
+    assert len(controls) == 4
+    assert min(float(one.input_value()) for one in controls) > step.animation.start + 0.04
     page.keyboard.press("Escape")
     page.mouse.click(5, 5)
     page.locator(".param-leave-lesson").click()
     tab.assert_quiet()
+
+
+LAYERS, CYCLES = "two-chaotic-layers-that-never-mix", "limit-cycles-and-locking"
+# Width of each planar picture in sight, as Bokeh has drawn it and as the page lays it out.
+WIDTHS = """() => hess.plots.filter(({ canvas_view: { el } }) => el.checkVisibility({ visibilityProperty: true }))
+  .map(({ bbox, canvas_view: { el } }) => [bbox.width, el.clientWidth])"""
+# Lines of an element that can be seen at its place.
+LINES = """item => {
+  const range = document.createRange()
+  range.selectNodeContents(item)
+  const seen = [...range.getClientRects()].filter(({ left, top, right, bottom, width }) => width > 1
+    && item.getRootNode().elementFromPoint((left + right) / 2, top + 2)?.closest(".text") === item
+    && item.getRootNode().elementFromPoint((left + right) / 2, bottom - 2)?.closest(".text") === item)
+  return new Set(seen.map(({ bottom }) => Math.round(bottom / 10))).size
+}"""
+
+
+def test_a_picture_has_its_new_size_in_a_scene_that_is_entered_again(tab):
+    tab.fresh()
+    page = tab.page
+    tab.goto(f"/?lesson={CYCLES}&step=11")
+    for _ in range(2):
+        page.keyboard.press("PageDown")
+        tab.change(page.keyboard.press, "PageDown")
+    wait_frames(tab, 4)
+    assert page.locator(".lesson .count").inner_text() == "13 / 15"
+    widths = page.evaluate(WIDTHS)
+    assert len(widths) == 3
+    assert all(drawn == laid for drawn, laid in widths)
+
+
+def test_a_layer_is_hidden_until_it_is_asked_for(tab):
+    tab.fresh()
+    page, wall = tab.page, ["section", "section-curve"]
+    tab.goto(f"/?lesson={LAYERS}")
+    assert page.evaluate(SEEN, wall) == [False]
+    page.keyboard.press("PageDown")
+    page.keyboard.press("PageDown")
+    page.wait_for_function("document.documentElement.dataset.ready === 'true' && location.search.includes('step=2')")
+    assert page.evaluate(SEEN, wall) == [False]
+    page.locator(".param-back-a-step").click()
+    page.wait_for_function("document.documentElement.dataset.ready === 'true' && location.search.includes('step=1')")
+    assert page.evaluate(SEEN, wall) == [False]
+    page.locator(".param-leave-lesson").click()
+    assert page.evaluate(SEEN, wall) == [True]
+    tab.assert_quiet()
+
+
+def test_a_revealed_guess_leaves_no_frame(tab):
+    tab.fresh()
+    page = tab.page
+    tab.goto(f"/?lesson={CYCLES}&step=5")
+    sheet = page.locator("canvas.guess")
+    for key in ("Tab", "ArrowRight"):
+        sheet.press(key) if key == "ArrowRight" else sheet.focus()
+    assert sheet.evaluate("item => item.style.boxShadow") != ""
+    tab.change(page.keyboard.press, "PageDown")
+    wait_frames(tab)
+    assert sheet.evaluate("item => [getComputedStyle(item).outlineStyle, item.style.boxShadow]") == ["none", ""]
+    assert sheet.evaluate("item => item.getRootNode().activeElement") is None
+
+
+def test_text_and_slider_of_a_step_are_in_sight_together_and_there_is_one_value(tab):
+    tab.fresh()
+    page = tab.page
+    tab.goto(f"/?lesson={CYCLES}&step=10")
+    assert page.locator(".step-controls").is_hidden()
+    tab.resize(1280, 720)
+    text, control = page.locator(".lesson .text"), page.locator(".step-controls .param-h")
+    for item in (text, control):
+        box = item.bounding_box()
+        assert 0 <= box["y"] < box["y"] + box["height"] <= 720
+    assert page.locator(".step-controls .number").count() == 1
+    beside, column = control.locator(".hand"), page.locator(".controls .param-h .hand")
+    tab.change(lambda: beside.press("ArrowRight"))
+    moved = float(tab.wait_url(h=column.input_value())["h"])
+    assert moved > shipped()[CYCLES].steps[9].at.values["h"]
+    assert beside.input_value() == column.input_value()
+    page.locator(".param-tab-controls").click()
+    tab.change(lambda: column.press("ArrowRight"))
+    assert float(tab.wait_url(h=column.input_value())["h"]) > moved
+    assert [control.locator(".exact").input_value(), beside.input_value()] == 2 * [column.input_value()]
+    page.locator(".param-leave-lesson").dispatch_event("click")
+    tab.assert_quiet()
+
+
+def test_a_phone_shows_six_lines_of_text_below_the_picture_and_the_slider(open_page):
+    page = open_page(f"lesson={CYCLES}&step=2", size=(390, 844), has_touch=True, is_mobile=True)
+    for number in (2, 8):
+        while page.locator(".lesson .count").inner_text() != f"{number} / 15":
+            page.keyboard.press("PageDown")
+        wait_ready(page)
+        assert page.locator(".lesson .text").evaluate(LINES) >= 6
+    sliders = page.locator(".step-controls .hand")
+    assert sliders.count() == 2
+    for item in (*sliders.all(), page.locator(".param-next-step")):
+        box = item.bounding_box()
+        assert 0 <= box["y"] < box["y"] + box["height"] <= 844
+
+
+@pytest.mark.parametrize(("size", "is_beside"), [((1000, 600), True), ((960, 480), True), ((600, 800), False)])
+def test_an_embedded_lesson_has_its_text_and_buttons_by_the_picture(open_page, server, size, is_beside):
+    page = open_page(f"lesson={CYCLES}&step=7&embed=1", size=size)
+    title = page.locator(".lesson .title")
+    picture, text, slider, following = (
+        item.bounding_box()
+        for item in (
+            page.locator(".gallery:not(.away) .picture-circle .host"),
+            title,
+            page.locator(".step-controls .param-h .hand"),
+            page.locator(".param-next-step"),
+        )
+    )
+    for box in (picture, text, slider, following):
+        assert 0 <= box["x"] < box["x"] + box["width"] <= size[0]
+        assert 0 <= box["y"] < box["y"] + box["height"] <= size[1]
+    side, start = ("x", "width") if is_beside else ("y", "height")
+    assert picture[side] + picture[start] <= text[side] + 1
+    for hidden in (".controls", ".tools", ".tabs", ".words", ".param-leave-lesson"):
+        assert not page.locator(hidden).first.is_visible()
+    # A step of another scene, with a picture that a link could not name.
+    tab = Explorer(page, server)
+    page.keyboard.press("PageDown")
+    tab.change(page.keyboard.press, "PageDown")
+    assert title.inner_text() == shipped()[CYCLES].steps[7].title
+    assert page.locator(".gallery:not(.away) .picture-bifurcation").is_visible()
+    assert page.locator(".step-controls .number").count() == 2

@@ -7,7 +7,7 @@ from typing import Literal
 
 from hess_explorer.protocol.parameters import Values
 
-__all__ = ["TIME", "Animation", "Lesson", "LessonError", "LessonStep", "Prediction", "StateLink"]
+__all__ = ["TIME", "Animation", "HiddenLayer", "Lesson", "LessonError", "LessonStep", "Prediction", "StateLink"]
 
 TIME = "time"
 """Name of the player's time, which can be animated like a parameter."""
@@ -43,6 +43,15 @@ class Animation:
 
 
 @dataclass(frozen=True)
+class HiddenLayer:
+    """A layer of a picture that a step does not show; source : data of the layer in the browser."""
+
+    picture: str
+    layer: str
+    source: str
+
+
+@dataclass(frozen=True)
 class Prediction:
     """A layer of a picture whose position the audience guesses before it is shown.
 
@@ -66,6 +75,7 @@ class LessonStep:
     """One step of a lesson.
 
     text, answer : Markdown; the answer is hidden at first.  look : name of the picture to enlarge, "" for none.
+    controls : names of the parameters whose controls are beside the text.
     """
 
     title: str
@@ -76,6 +86,8 @@ class LessonStep:
     question: str = ""
     answer: str = ""
     prediction: Prediction | None = None
+    controls: tuple[str, ...] = ()
+    hide: HiddenLayer | None = None
 
 
 # Compared by identity, because the values of states are mappings, which are not hashable.

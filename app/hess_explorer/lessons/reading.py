@@ -12,6 +12,8 @@ contains its settings as YAML; the headings "Question" and "Answer" one level do
     state: "?scene=suslov-hess&h=0.2&f=0.5"
     look: circle
     animate: {name: h, from: 0.2, to: 1.5, seconds: 8}
+    controls: [h, f]
+    hide: {picture: omega, layer: stable}
     predict: {picture: circle, layer: stable, then: "?scene=suslov-hess&h=1.5&f=0.6"}
     ```
     Text with $formulas$.
@@ -36,11 +38,21 @@ from urllib.parse import parse_qsl, urlsplit
 import yaml
 from markdown_it.token import Token
 
-from hess_explorer.lessons.lesson import TIME, Animation, Lesson, LessonError, LessonStep, Prediction, StateLink
+from hess_explorer.lessons.lesson import (
+    TIME,
+    Animation,
+    HiddenLayer,
+    Lesson,
+    LessonError,
+    LessonStep,
+    Prediction,
+    StateLink,
+)
 from hess_explorer.lessons.markdown import parser, to_html
-from hess_explorer.protocol.parameters import MAX_QUERY, PAGE_KEYS, Number, decode, refusal
+from hess_explorer.protocol.parameters import MAX_QUERY, PAGE_KEYS, Choice, Number, decode, refusal
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
+from hess_explorer.views.layers import Layer
 from hess_explorer.views.plot import Plot
 
 __all__ = ["MAX_BYTES", "MAX_STEPS", "TRY_THIS", "read", "read_file", "read_tries", "without_tries"]
@@ -49,7 +61,10 @@ MAX_BYTES = 256 * 1024
 MAX_STEPS = 200
 TRY_THIS = "Try this"
 _MOST_MINUTES, _MOST_SECONDS, _MOST_TIME = 600.0, 600.0, 1e6
-_KEYS = ("state", "example", "look", "animate", "predict")
+_KEYS = ("state", "example", "look", "animate", "controls", "hide", "predict")
+_MOST_CONTROLS = 6
+# Layers on canvases of the page, which are always shown.
+_PAINTED = ("image", "dots")
 _CURVES, _POINTS = ("multi_line", "line"), ("scatter",)
 
 
@@ -228,14 +243,17 @@ def _step(part: _Part, tag: str, place: StateLink | None) -> LessonStep:
     look = fields.get("look", "")
     if look != "" and look not in scene.pictures:
         raise LessonError(_not_one("look", look, scene.pictures), line)
+    animation = _animation(fields.get("animate"), scene, line)
     text, asked = _split(part, tag)
     step = LessonStep(
         part.title,
         text,
         place,
         look,
-        _animation(fields.get("animate"), scene, line),
+        animation,
         **asked,
+        controls=_controls(fields.get("controls"), animation, scene, line),
+        hide=_hidden(fields.get("hide"), scene, line),
         prediction=_prediction(fields.get("predict"), place, line),
     )
     for words, first in (
@@ -327,7 +345,7 @@ def _animation(found: object, scene: Scene[Any], line: int) -> Animation | None:
         )
     bounds = {TIME: (0.0, _MOST_TIME), **{spec.name: spec.bounds for spec in scene.specs if isinstance(spec, Number)}}
     name = given["name"]
-    if name not in bounds:
+    if not isinstance(name, str) or name not in bounds:
         raise LessonError(_not_one("name of animate", name, tuple(bounds)), line)
     low, high = bounds[name]
     if not all(_is_number(given[end]) and low <= given[end] <= high for end in ("from", "to")):
@@ -337,6 +355,26 @@ def _animation(found: object, scene: Scene[Any], line: int) -> Animation | None:
     return Animation(name, float(given["from"]), float(given["to"]), float(given["seconds"]))
 
 
+def _controls(found: object, animation: Animation | None, scene: Scene[Any], line: int) -> tuple[str, ...]:
+    """Return the names of the controls beside the text; by default that of the animated parameter."""
+    if found is None:
+        return (animation.name,) if animation and animation.name != TIME else ()
+    if not isinstance(found, list) or len(found) > _MOST_CONTROLS:
+        raise LessonError(f"controls is a list of at most {_MOST_CONTROLS} names, like controls: [h, f].", line)
+    names = tuple(spec.name for spec in scene.specs if isinstance(spec, Number | Choice))
+    for name in found:
+        if name not in names:
+            raise LessonError(_not_one("a name in controls", name, names), line)
+    return tuple(dict.fromkeys(found))
+
+
+def _hidden(found: object, scene: Scene[Any], line: int) -> HiddenLayer | None:
+    if found is None:
+        return None
+    plot, layer = _layer(_only(found, line, "hide", ("picture", "layer")), "hide", scene, line)
+    return HiddenLayer(plot.name, layer.name, plot.source_of(layer))
+
+
 def _prediction(found: object, place: StateLink, line: int) -> Prediction | None:
     if found is None:
         return None
@@ -344,16 +382,7 @@ def _prediction(found: object, place: StateLink, line: int) -> Prediction | None
     then = _place(given["then"], line) if "then" in given else place
     if then.scene != place.scene:
         raise LessonError(f"what is revealed is a state of the same scene, {place.scene}.", line)
-    plots = {view.name: view for view in scenes()[place.scene].views if isinstance(view, Plot)}
-    name = given.get("picture")
-    if name not in plots:
-        raise LessonError(_not_one("picture of predict", name, tuple(plots)), line)
-    plot = plots[name]
-    layers = {layer.name: layer for layer in plot.layers if layer.glyph in (*_CURVES, *_POINTS)}
-    truth = given.get("layer")
-    if truth not in layers:
-        raise LessonError(_not_one("layer of predict", truth, tuple(layers)), line)
-    layer = layers[truth]
+    plot, layer = _layer(given, "predict", scenes()[place.scene], line, (*_CURVES, *_POINTS))
     return Prediction(
         plot.name,
         layer.name,
@@ -362,3 +391,22 @@ def _prediction(found: object, place: StateLink, line: int) -> Prediction | None
         "curve" if layer.glyph in _CURVES else "point",
         then,
     )
+
+
+def _layer(
+    given: dict[str, Any], key: str, scene: Scene[Any], line: int, glyphs: tuple[str, ...] | None = None
+) -> tuple[Plot[Any], Layer[Any]]:
+    """Return the picture and the layer that a mapping names; glyphs : the allowed kinds of layers, by default all."""
+    plots = {view.name: view for view in scene.views if isinstance(view, Plot)}
+    name = given.get("picture")
+    if not isinstance(name, str) or name not in plots:
+        raise LessonError(_not_one(f"picture of {key}", name, tuple(plots)), line)
+    layers = {
+        layer.name: layer
+        for layer in plots[name].layers
+        if (layer.glyph not in _PAINTED if glyphs is None else layer.glyph in glyphs)
+    }
+    truth = given.get("layer")
+    if not isinstance(truth, str) or truth not in layers:
+        raise LessonError(_not_one(f"layer of {key}", truth, tuple(layers)), line)
+    return plots[name], layers[truth]

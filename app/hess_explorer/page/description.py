@@ -133,9 +133,12 @@ def _step(step: LessonStep) -> dict[str, Any]:
         "look": step.look,
         "question": to_html(step.question),
         "answer": to_html(step.answer),
+        "controls": step.controls,
     }
     if step.animation:
         found["animation"] = dataclasses.asdict(step.animation)
+    if step.hide:
+        found["hide"] = {"picture": step.hide.picture, "source": step.hide.source}
     if step.prediction:
         guess = step.prediction
         found["prediction"] = {

@@ -100,7 +100,8 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
     # An empty list means the default.
     parts = {spec.name: str(link.value(spec)) or spec.default for spec in _embedded(scene)}
     pictures = scene.open_pictures
-    if client[EMBED.name]:
+    # The steps of an embedded lesson, which may be of several scenes, choose pictures and controls themselves.
+    if client[EMBED.name] and reading is None:
         client |= parts
         pictures = tuple(parts["pictures"].split(","))
     return Opening(scene, state, link.notes, lessons, reading, pictures, client, theme == "dark")

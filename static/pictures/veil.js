@@ -1,0 +1,24 @@
+// @ts-check
+// Hides one layer of a picture at a time, for a step of a lesson.
+
+import { gallery } from "./gallery.js"
+
+/** @typedef {{picture: string, source: string}} Layer a layer by its data source */
+
+/** @param {Layer | null} layer @returns {BokehModel[]} */
+function renderersOf(layer) {
+  const plot = layer === null ? undefined : gallery.plots.find(({ model }) => model.name === layer.picture)
+  return plot === undefined ? [] : plot.model.renderers.filter(({ data_source: data }) => data?.name === layer.source)
+}
+
+/** Return the function that hides a layer of the scene on show, and shows the one that it has hidden before. */
+export function createVeil() {
+  /** @type {BokehModel[]} */
+  let hidden = []
+  return (/** @type {Layer | null} */ layer) => {
+    const next = renderersOf(layer)
+    for (const renderer of hidden) if (!next.includes(renderer)) renderer.visible = true
+    for (const renderer of next) renderer.visible = false
+    hidden = next
+  }
+}
