@@ -76,7 +76,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0 on success, 2 if the command cannot be carried out, 130 if it was interrupted.
+        0 on success, 1 if a check has found mistakes, 2 if the command cannot be carried out, 130 if it was
+        interrupted.
     """
     words = list(sys.argv[1:] if argv is None else argv)
     # A terminal that does not use UTF-8 shows Greek letters as escape sequences.
@@ -88,7 +89,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         options.run(options)
     except CommandError as error:
         print(f"hess-explorer: {error}", file=sys.stderr)
-        return 2
+        return error.status
     except KeyboardInterrupt as error:
         print(f"hess-explorer: {str(error) or 'interrupted.'}", file=sys.stderr)
         return 130

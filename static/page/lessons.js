@@ -232,6 +232,15 @@ export function render({ index, el }) {
     turn(0)
   }
 
+  // A link to a state leads there within the page, unless a key asks the browser for a new tab.
+  el.addEventListener("click", (event) => {
+    const link = event.target instanceof Element ? event.target.closest("a") : null
+    const target = link?.getAttribute("href") ?? ""
+    if (!target.startsWith("?") || event.ctrlKey || event.metaKey || event.shiftKey) return
+    event.preventDefault()
+    animation?.stop()
+    tell("restore", target.slice(1))
+  })
   listen({
     enter(scene) {
       showTries(scene)

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import base64
+import json
+import re
+
 import pytest
 
 from hess_explorer.lessons import shipped, tries
+from hess_explorer.lessons.checks import problems_in
+from hess_explorer.lessons.images import MAX_ALL, MAX_ONE, Images
 from hess_explorer.lessons.lesson import Animation, HiddenLayer, LessonError
-from hess_explorer.lessons.markdown import to_html
-from hess_explorer.lessons.reading import MAX_BYTES, MAX_STEPS, read, read_file, without_tries
+from hess_explorer.lessons.links import place_of
+from hess_explorer.lessons.markdown import BadFormula, to_html
+from hess_explorer.lessons.reading import MAX_BYTES, MAX_STEPS, examine, read, read_file, without_tries
+from hess_explorer.page.description import describe_lesson
 from support.board import SCENES
 
 WHOLE = """---
@@ -59,9 +67,9 @@ def test_a_lesson_is_read_as_it_is_written():
 # Faulty text → the line of the mistake, and part of its message.
 MISTAKES = [
     ("title: Two cycles are born\n", "", 1, "no title"),
-    ("minutes: 10", "minutes: soon", 1, "like minutes: 20"),
-    ("minutes: 10", "minutes: 1e9", 1, "up to 600"),
-    ("minutes: 10", "author: me", 2, "allowed are title, minutes"),
+    ("minutes: 10", "minutes: soon", 3, "like minutes: 20"),
+    ("minutes: 10", "minutes: 1e9", 3, "up to 600"),
+    ("minutes: 10", "author: me", 3, "allowed are title, minutes"),
     ("---\ntitle", "title", 1, "front matter"),
     ("\n## ", "\n# ", 1, "there is no step"),
     ('state: "?scene=suslov-hess&h=0.2&f=0.5"\n', "", 9, "the first step needs a state"),
@@ -69,31 +77,46 @@ MISTAKES = [
     ("&h=0.2&f=0.5", "&h=1e9&f=0.5", 9, "h must lie between"),
     ("&h=0.2&f=0.5", "&g=0.2", 9, "'g', which the scene suslov-hess does not"),
     ("&h=0.2&f=0.5", "&h=0.2" + "0" * 2000, 9, "longer than 2000"),
-    ("look: circle", "look: circel", 9, "look is one of body, omega"),
-    ("look: circle", "glance: circle", 9, "allowed are state, example, look, animate, controls, hide, predict"),
-    ("look: circle", "controls: h", 9, "a list of at most 6 names"),
-    ("look: circle", "controls: [h, nothing]", 9, "a name in controls is one of I22"),
-    ("look: circle", "controls: [[h]]", 9, "a name in controls is one of"),
-    ("look: circle", "controls: [h, f, I22, I23, b3, phi0, span]", 9, "at most 6"),
-    ("look: circle", "hide: {picture: sphere, layer: stable}", 9, "picture of hide is one of omega, bifurcation"),
-    ("look: circle", "hide: {picture: [circle], layer: stable}", 9, "picture of hide"),
-    ("look: circle", "hide: {picture: bifurcation, layer: rotation}", 9, "layer of hide is one of"),
-    ("look: circle", "example: U", 9, "Two limit cycles, No cycle"),
-    ("look: circle", "example: S", 9, "just one of the examples"),
+    ("look: circle", "look: circel", 10, "look is one of body, omega"),
+    ("look: circle", "glance: circle", 10, "allowed are state, example, look, animate, controls, hide, predict"),
+    ("look: circle", "controls: h", 10, "a list of at most 6 names"),
+    ("look: circle", "controls: [h, nothing]", 10, "a name in controls is one of I22"),
+    ("look: circle", "controls: [[h]]", 10, "a name in controls is one of"),
+    ("look: circle", "controls: [h, f, I22, I23, b3, phi0, span]", 10, "at most 6"),
+    ("look: circle", "hide: {picture: sphere, layer: stable}", 10, "picture of hide is one of omega, bifurcation"),
+    ("look: circle", "hide: {picture: [circle], layer: stable}", 10, "picture of hide"),
+    ("look: circle", "hide: {picture: bifurcation, layer: rotation}", 10, "layer of hide is one of"),
+    ("look: circle", "example: U", 10, "Two limit cycles, No cycle"),
+    ("look: circle", "example: S", 10, "just one of the examples"),
     ("look: circle", "look: [circle", 11, "not YAML"),
     ("look: circle", "look: &a circle\nmore: *a", 9, "references"),
-    ("name: h,", "name: k,", 9, "name of animate is one of time, I22"),
-    ("to: 1.5", "to: 1e9", 9, "numbers from"),
-    ("to: 1.5", "to: .nan", 9, "numbers from"),
-    ("seconds: 8", "seconds: 0", 9, "up to 600"),
-    (", seconds: 8", "", 9, "animate needs"),
-    ("{picture: circle", "{picture: sphere", 9, "picture of predict is one of omega, bifurcation, circle"),
-    ("layer: stable", "layer: truth", 9, "layer of predict is one of diagonal"),
-    ("scene=suslov-hess&h=1.5&f=0.6", "scene=scattering&k=1", 9, "the same scene"),
+    ("name: h,", "name: k,", 11, "name of animate is one of time, I22"),
+    ("to: 1.5", "to: 1e9", 11, "numbers from"),
+    ("to: 1.5", "to: .nan", 11, "numbers from"),
+    ("seconds: 8", "seconds: 0", 11, "up to 600"),
+    (", seconds: 8", "", 11, "animate needs"),
+    ("{picture: circle", "{picture: sphere", 12, "picture of predict is one of omega, bifurcation, circle"),
+    ("layer: stable", "layer: truth", 12, "layer of predict is one of diagonal"),
+    ("scene=suslov-hess&h=1.5&f=0.6", "scene=scattering&k=1", 12, "the same scene"),
     ("### Question", "### Quiz", 16, "Question and Answer"),
     ("### Answer\n", "", 16, "a question needs an answer"),
     ("## Next", "##", 20, "no title"),
     ("$a<b$", "$\\frac$", 14, "cannot be set"),
+    ("It stays.", "It\nstays $5", 22, "a dollar stands alone"),
+    ("It stays.", "It *stays*[^1].", 21, "footnotes"),
+    ("It stays.", "[^1]: a_note", 21, "footnotes"),
+    ("It stays.", "- one\n- [x] two", 22, "boxes to tick"),
+    ("It stays.", "It ~~stays~~.", 21, "~~ is not read"),
+    ("It stays.", "It [stays][here].", 21, "leads nowhere"),
+    ("It stays.", "It\n<b>stays</b>.", 22, "'<b>' is HTML"),
+    ("It stays.", "<!-- It stays. -->", 21, "is HTML"),
+    ("It stays.", "| a |\n|---|\n| <i> |", 23, "is HTML"),
+    ("It stays.", "[It](javascript:stays)", 21, "'javascript:stays' leads nowhere"),
+    ("It stays.", "[It](other.md)", 21, "write https://"),
+    ("It stays.", "[It](https:///stays)", 21, "leads nowhere"),
+    ("It stays.", "[It](?scene=suslov-hess&h=1e9)", 21, "h must lie between"),
+    ("It stays.", "[It](?h=1)", 21, "with its scene"),
+    ("Because.", "$$\n\\frac\n$$", 19, "cannot be set"),
     ("It stays.", "```step\nlook: omega\n```\n```step\n```", 24, "second fence"),
 ]
 
@@ -124,13 +147,19 @@ def test_a_file_that_is_no_lesson_is_told_of(tmp_path):
         read_file(tmp_path / "nothing.md")
 
 
+def problems(text):
+    return [one.message for one in problems_in(text, 1, Images(None), place_of)]
+
+
 def test_html_of_a_lesson_is_text_and_it_asks_no_other_host():
-    html = to_html('<script>a()</script> [x](javascript:a()) ![y](https://there/y.png) <b onclick="a()">z</b> $a<b$')
+    text = 'Here <script>a()</script> [x](javascript:a()) ![y](https://there/y.png) <b onclick="a()">z</b> $a<b$'
+    html = to_html(text)
     assert "<script" not in html
     assert "<img" not in html
     assert "<b " not in html
     assert 'href="javascript' not in html
     assert "<math" in html
+    assert len(problems(text)) == 6
     # The library that sets formulas leaves what is in \\text as it is.
     for formula in (
         r"\text{<img src=x onerror=a()>}",
@@ -138,8 +167,98 @@ def test_html_of_a_lesson_is_text_and_it_asks_no_other_host():
         r"\text{</math><b>x</b>}",
         r"\text{<mtext href='javascript:a()'>x</mtext>}",
     ):
-        with pytest.raises(LessonError, match="cannot be set"):
+        with pytest.raises(BadFormula):
             to_html(f"${formula}$")
+        assert "cannot be set" in problems(f"${formula}$")[0]
+
+
+def test_what_can_be_shown_is_no_problem():
+    text = r"""Costs \$5, $x$ and $$y$$, `$z[^1]`, *not* \[^1], [a](https://a.org/b?c=d) <https://a.org>.
+
+| $a$ | b |
+|-----|---|
+| 1   | [c](?scene=suslov-hess&h=1.5) |
+
+    $ code <b>
+"""
+    assert problems(text) == []
+    html = to_html(text)
+    assert html.count("<td>") == 2
+    assert '<a href="?scene=suslov-hess&amp;h=1.5">c</a>' in html
+    assert '<a href="https://a.org" target="_blank" rel="noopener">' in html
+
+
+def test_all_mistakes_of_a_file_are_found(tmp_path):
+    path = tmp_path / "wrong.md"
+    text = WHOLE.replace("minutes: 10", "minutes: soon\nauthor: me").replace("look: circle", "look: circel\nglance: x")
+    text = text.replace("layer: stable", "layer: truth").replace("$a<b$", "$\\frac$ <b>").replace("### Answer\n", "")
+    path.write_text(text + "## Third\n[x](y)\n", encoding="utf-8")
+    lesson, found = examine(path)
+    assert lesson is None
+    assert sorted(one.line for one in found) == [3, 4, 11, 12, 14, 16, 16, 18, 24]
+
+
+# The first bytes of a file, by its type.
+IMAGES = {
+    "png": b"\x89PNG\r\n\x1a\n" + bytes(8),
+    "jpeg": b"\xff\xd8\xff\xe0" + bytes(8),
+    "webp": b"RIFF\0\0\0\0WEBP" + bytes(8),
+}
+
+
+def with_image(folder, markdown):
+    path = folder / "lesson.md"
+    path.write_text(WHOLE.replace("It stays.", markdown), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("kind", IMAGES)
+def test_an_image_beside_the_lesson_is_part_of_it_whatever_its_name(tmp_path, kind):
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "sub/a wheel.bin").write_bytes(IMAGES[kind])
+    lesson = read_file(with_image(tmp_path, 'A ![A "wheel" <b>](<sub/a wheel.bin>) rolls.'))
+    [html] = [step["text"] for step in json.loads(describe_lesson(lesson))["steps"] if step["title"] == "Next"]
+    found = re.fullmatch(r'<p>A <img src="data:image/(\w+);base64,([^"]+)" alt="(.*)"> rolls.</p>\n', html)
+    assert found[1] == kind
+    assert base64.b64decode(found[2]) == IMAGES[kind]
+    assert found[3] == "A &quot;wheel&quot; &lt;b&gt;"
+
+
+def test_other_images_are_refused_with_their_reason(tmp_path):
+    folder = tmp_path / "lessons"
+    folder.mkdir()
+    (tmp_path / "outside.png").write_bytes(IMAGES["png"])
+    (folder / "link.png").symlink_to(tmp_path / "outside.png")
+    (folder / "large.png").write_bytes(IMAGES["png"] + bytes(MAX_ONE))
+    (folder / "drawing.png").write_text('<?xml version="1.0"?><svg xmlns="http://www.w3.org/2000/svg"/>')
+    (folder / "text.png").write_text("png")
+    (folder / "good.png").write_bytes(IMAGES["png"] + bytes(MAX_ONE - 100))
+    for target, why in {
+        "../outside.png": "outside the folder",
+        "link.png": "outside the folder",
+        "%2e%2e/outside.png": "outside the folder",
+        "/etc/hostname": "a file beside the lesson",
+        "https://there/y.png": "a file beside the lesson",
+        "data:image/png;base64,AAAA": "a file beside the lesson",
+        "file:///etc/hostname": "a file beside the lesson",
+        "large.png": "more than 300 kB",
+        "drawing.png": "is an SVG: png, jpeg and webp are allowed",
+        "text.png": "none of these: png",
+        "none.png": "no such file",
+        "%00.png": "cannot be read|no such file",
+        ".": "no such file",
+    }.items():
+        with pytest.raises(LessonError, match=f"line 21: .*({why})"):
+            read_file(with_image(folder, f"![A wheel]({target})"))
+    with pytest.raises(LessonError, match="has no words"):
+        read_file(with_image(folder, "![](good.png)"))
+    # The same image counts again, because the page gets it again.
+    most = MAX_ALL // MAX_ONE
+    assert read_file(with_image(folder, "![A wheel](good.png) " * most)).images
+    with pytest.raises(LessonError, match="at most 2 MB"):
+        read_file(with_image(folder, "![A wheel](good.png) " * (most + 1)))
+    with pytest.raises(LessonError, match="no images"):
+        read(WHOLE.replace("It stays.", "![A wheel](good.png)"), "mine")
 
 
 LESSONS = {lesson.name: lesson for lesson in (*shipped().values(), *tries().values())}

@@ -61,10 +61,12 @@ def distance(explorer, prediction, pixels):
     return np.mean([np.hypot(*(np.concatenate(drawn) - pixel).T).min() for pixel in pixels])
 
 
-def assert_given_in_present_mode(page, step):
+def assert_given_in_present_mode(explorer, step):
     """The step stays beside the pictures, all of the way on in sight, and is as accessible."""
+    page = explorer.page
     page.keyboard.press("p")
     page.wait_for_function("location.search.includes('present=1')")
+    wait_frames(explorer)
     title, picture = page.locator(".lesson .title"), page.locator(f".gallery:not(.away) .picture-{step.look}")
     assert title.inner_text() == step.title
     boxes = [item.bounding_box() for item in (title, page.locator(".param-next-step"), picture)]
@@ -72,7 +74,9 @@ def assert_given_in_present_mode(page, step):
         assert 0 <= box["x"] < box["x"] + box["width"] <= 1600
         assert 0 <= box["y"] < box["y"] + box["height"] <= 950
     assert boxes[2]["x"] + boxes[2]["width"] <= boxes[0]["x"]
-    # No control lies over the next one.
+    # In the drawer no control lies over the next one.
+    page.keyboard.press("m")
+    wait_frames(explorer)
     parts = sorted(
         (box["y"], box["x"], box["width"])
         for box in (
@@ -83,6 +87,7 @@ def assert_given_in_present_mode(page, step):
     for (_, x, width), (_, other, _) in itertools.pairwise(sorted(parts, key=lambda part: part[1])):
         assert x + width <= other + 1
     assert_accessible(page)
+    page.keyboard.press("m")
     page.keyboard.press("p")
     page.wait_for_function("!location.search.includes('present')")
 
@@ -114,7 +119,7 @@ def test_a_lesson_is_given_by_page_down_from_start_to_end(explorer):
             assert answer.is_visible()
         if number == 3:
             assert_accessible(page)
-            assert_given_in_present_mode(page, step)
+            assert_given_in_present_mode(explorer, step)
         if number < len(lesson.steps):
             explorer.change(page.keyboard.press, "PageDown")
     # The end is the end; back is a step, and out of the lesson are the words.

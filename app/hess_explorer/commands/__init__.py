@@ -29,6 +29,7 @@ COMMANDS: Mapping[str, str] = {
     "tube": "compute proved intervals that contain one motion",
     "export": "export a picture as CSV, JSON, PNG, SVG, PDF or a film, or the page as HTML",
     "code": "print the Python code that computes and draws a picture of the page",
+    "lesson": "check a lesson that you write, or begin one",
     "docs": "build the documentation",
     "sweep": "compute a quantity over one to three parameters",
     "shot": "take a screenshot of the page as PNG",
@@ -38,4 +39,11 @@ COMMANDS: Mapping[str, str] = {
 
 
 class CommandError(Exception):
-    """A command cannot be carried out; the message is one sentence that names the problem and a remedy."""
+    """A command cannot be carried out; the message is one sentence that names the problem and a remedy.
+
+    status : exit status of the program.
+    """
+
+    def __init__(self, message: str, status: int = 2) -> None:
+        self.status = status
+        super().__init__(message)

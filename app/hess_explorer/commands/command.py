@@ -52,7 +52,8 @@ class Command:
     run : runs the command with the parsed options; raises `CommandError`.
     example : arguments of an example.
     purpose : short description of a subcommand.
-    systems : subcommands by name; the other fields are then empty.
+    systems : subcommands by name; there are no options and no example then.
+    kind : what the subcommands are, for the help text.
     exclusive : names of mutually exclusive options.
     """
 
@@ -63,11 +64,14 @@ class Command:
     purpose: str = ""
     systems: Mapping[str, Command] = field(default_factory=dict)
     exclusive: Sequence[str] = ()
+    kind: str = "SYSTEM"
 
     def declare(self, parser: argparse.ArgumentParser) -> None:
         """Declare the command in a parser."""
         if self.systems:
-            systems = parser.add_subparsers(required=True, metavar="SYSTEM")
+            if self.description:
+                parser.description = self.description
+            systems = parser.add_subparsers(required=True, metavar=self.kind)
             for name, one in self.systems.items():
                 one.declare(systems.add_parser(name, help=one.purpose))
             return

@@ -9,7 +9,7 @@ from hess_explorer.lessons import shipped
 from hess_explorer.lessons.lesson import Lesson, LessonError
 from hess_explorer.lessons.reading import read_file
 
-__all__ = ["MAX_LESSONS", "read_paths"]
+__all__ = ["MAX_LESSONS", "files_in", "read_paths"]
 
 MAX_LESSONS = 100
 
@@ -32,10 +32,15 @@ def read_paths(paths: Iterable[Path]) -> tuple[Lesson, ...]:
     LessonError
         If a file is no lesson, a folder has none, or two lessons have the same name.
     """
+    return tuple(_with_own_names(files_in(paths)))
+
+
+def files_in(paths: Iterable[Path]) -> Sequence[Path]:
+    """Return the files of lessons that are named or in a folder.  Raises `LessonError`."""
     files = [file for path in paths for file in _files(path)]
     if len(files) > MAX_LESSONS:
         raise LessonError(f"there are {len(files)} lessons; at most {MAX_LESSONS} are allowed.", 1, str(files[-1]))
-    return tuple(_with_own_names(files))
+    return files
 
 
 def _files(path: Path) -> Sequence[Path]:

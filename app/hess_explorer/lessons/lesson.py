@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Literal
 
 from hess_explorer.protocol.parameters import Values
@@ -93,9 +94,10 @@ class LessonStep:
 # Compared by identity, because the values of states are mappings, which are not hashable.
 @dataclass(frozen=True, eq=False)
 class Lesson:
-    """A lesson; name : as in a link; minutes : its duration, 0 if unknown."""
+    """A lesson; name : as in a link; minutes : its duration, 0 if unknown; images : their URLs by target."""
 
     name: str
     title: str
     minutes: float
     steps: tuple[LessonStep, ...]
+    images: Mapping[str, str] = field(default_factory=dict)

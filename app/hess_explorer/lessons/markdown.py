@@ -1,67 +1,94 @@
-"""Convert the Markdown of a lesson to HTML: embedded HTML is escaped, formulas become MathML, images are disabled."""
+"""Convert the Markdown of a lesson to HTML: formulas become MathML; HTML and unknown images are shown as text."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
 from xml.etree import ElementTree
 
 from latex2mathml.converter import convert
 from markdown_it import MarkdownIt
+from markdown_it.common.utils import escapeHtml
 from markdown_it.token import Token
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 from mdit_py_plugins.front_matter import front_matter_plugin
 
-from hess_explorer.lessons.lesson import LessonError
-
-__all__ = ["parser", "to_html"]
+__all__ = ["BadFormula", "formula", "parser", "strict_parser", "to_html"]
 
 _ELEMENT = re.compile(r"\{http://www\.w3\.org/1998/Math/MathML\}m[a-z]+")
-_SHOWN = 40
 
 
-class _BadFormula(ValueError):
+class BadFormula(ValueError):
     """The formula cannot be converted, or contains more than MathML."""
 
 
-def _formula(latex: str, options: dict[str, Any]) -> str:
+def formula(latex: str, options: Mapping[str, Any]) -> str:
     """Return a formula as MathML; only elements of MathML are accepted, because the library does not escape text."""
     try:
         found: str = convert(latex, display="block" if options["display_mode"] else "inline")
         parts = list(ElementTree.fromstring(found).iter())
     # The library raises errors of many types.
     except Exception as error:
-        raise _BadFormula(latex) from error
+        raise BadFormula(latex) from error
     if not all(_ELEMENT.fullmatch(part.tag) and "href" not in part.attrib for part in parts):
-        raise _BadFormula(latex)
+        raise BadFormula(latex)
     return found
 
 
 @cache
 def parser() -> MarkdownIt:
-    """Return a parser for CommonMark with tables, formulas and front matter."""
-    found = MarkdownIt("commonmark", {"html": False}).enable("table").disable("image")
-    found.use(front_matter_plugin).use(dollarmath_plugin, renderer=_formula, allow_space=False, double_inline=True)
+    """Return a parser for CommonMark with tables, formulas and front matter; HTML is text."""
+    found = _with_plugins(MarkdownIt("commonmark", {"html": False}))
     # The plugin renders a displayed formula in a line as a <div>, which would end the paragraph.
     found.add_render_rule("math_inline_double", _displayed)
+    found.add_render_rule("image", _image)
+    found.add_render_rule("link_open", _link)
     return found
 
 
+@cache
+def strict_parser() -> MarkdownIt:
+    """Return a parser that finds what `parser` shows as text: HTML, links of any kind, signs without a backslash."""
+    found = _with_plugins(MarkdownIt("commonmark", {"html": True})).disable("text_join")
+    found.validateLink = lambda url: True  # type: ignore[method-assign]
+    return found
+
+
+def _with_plugins(found: MarkdownIt) -> MarkdownIt:
+    found.enable("table").use(front_matter_plugin)
+    return found.use(dollarmath_plugin, renderer=formula, allow_space=False, double_inline=True)
+
+
 def _displayed(_: object, tokens: Sequence[Token], i: int, *rest: object) -> str:
-    return f'<span class="math">{_formula(tokens[i].content, {"display_mode": True})}</span>'
+    return f'<span class="math">{formula(tokens[i].content, {"display_mode": True})}</span>'
 
 
-def to_html(text: str, line: int = 1, inline: bool = False) -> str:
+def _image(_: object, tokens: Sequence[Token], i: int, options: object, env: Mapping[str, Any]) -> str:
+    words = escapeHtml(tokens[i].content)
+    url = env["images"].get(tokens[i].attrs["src"])
+    return words if url is None else f'<img src="{url}" alt="{words}">'
+
+
+def _link(renderer: Any, tokens: Sequence[Token], i: int, options: Any, env: Any) -> str:
+    """Open pages of other hosts apart, so that the lesson stays."""
+    if not str(tokens[i].attrs["href"]).startswith("?"):
+        tokens[i].attrSet("target", "_blank")
+        tokens[i].attrSet("rel", "noopener")
+    found: str = renderer.renderToken(tokens, i, options, env)
+    return found
+
+
+def to_html(text: str, images: Mapping[str, str] | None = None, inline: bool = False) -> str:
     """Return Markdown as HTML.
 
     Parameters
     ----------
     text : str
         The Markdown.
-    line : int
-        Line of the file at which the text begins, for error messages.
+    images : mapping, optional
+        URLs of the images by their targets; an image without one is shown as its words.
     inline : bool
         True for text without paragraphs.
 
@@ -72,16 +99,9 @@ def to_html(text: str, line: int = 1, inline: bool = False) -> str:
 
     Raises
     ------
-    LessonError
-        If a formula cannot be converted.
+    BadFormula
+        If a formula cannot be converted; `checks.problems_in` finds it first.
     """
-    try:
-        html: str = parser().renderInline(text) if inline else parser().render(text)
-    except _BadFormula as error:
-        formula = str(error)
-        shown = formula if len(formula) <= _SHOWN else formula[:_SHOWN] + "…"
-        raise LessonError(
-            f"the formula {shown!r} cannot be set: write it in LaTeX between dollars, and a dollar itself as \\$.",
-            line + text[: max(0, text.find(formula))].count("\n"),
-        ) from error
+    env = {"images": images or {}}
+    html: str = parser().renderInline(text, env) if inline else parser().render(text, env)
     return html

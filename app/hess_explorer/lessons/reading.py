@@ -27,77 +27,102 @@ down.
 
 from __future__ import annotations
 
-import math
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, TypeGuard
-from urllib.parse import parse_qsl, urlsplit
+from typing import Any
 
-import yaml
-from markdown_it.token import Token
-
-from hess_explorer.lessons.lesson import (
-    TIME,
-    Animation,
-    HiddenLayer,
-    Lesson,
-    LessonError,
-    LessonStep,
-    Prediction,
-    StateLink,
+from hess_explorer.lessons.checks import problems_in
+from hess_explorer.lessons.images import Images
+from hess_explorer.lessons.lesson import Lesson, LessonError, LessonStep, StateLink
+from hess_explorer.lessons.links import example_of, place_of
+from hess_explorer.lessons.markdown import parser
+from hess_explorer.lessons.parts import Fields, Part, fields_of, parts_of
+from hess_explorer.lessons.problems import Problems
+from hess_explorer.lessons.settings import (
+    animation_of,
+    controls_of,
+    hidden_of,
+    is_number,
+    look_of,
+    prediction_of,
 )
-from hess_explorer.lessons.markdown import parser, to_html
-from hess_explorer.protocol.parameters import MAX_QUERY, PAGE_KEYS, Choice, Number, decode, refusal
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
-from hess_explorer.views.layers import Layer
-from hess_explorer.views.plot import Plot
 
-__all__ = ["MAX_BYTES", "MAX_STEPS", "TRY_THIS", "read", "read_file", "read_tries", "without_tries"]
+__all__ = ["KEYS", "MAX_BYTES", "MAX_STEPS", "TRY_THIS", "examine", "read", "read_file", "read_tries", "without_tries"]
 
 MAX_BYTES = 256 * 1024
 MAX_STEPS = 200
 TRY_THIS = "Try this"
-_MOST_MINUTES, _MOST_SECONDS, _MOST_TIME = 600.0, 600.0, 1e6
-_KEYS = ("state", "example", "look", "animate", "controls", "hide", "predict")
-_MOST_CONTROLS = 6
-# Layers on canvases of the page, which are always shown.
-_PAINTED = ("image", "dots")
-_CURVES, _POINTS = ("multi_line", "line"), ("scatter",)
+KEYS = ("state", "example", "look", "animate", "controls", "hide", "predict")
+"""Names of the settings of a step."""
+_MOST_MINUTES = 600.0
 
 
 def read_file(path: Path) -> Lesson:
     """Return the lesson in a file, named after the file.  Raises `LessonError`."""
+    lesson, problems = examine(path)
+    if problems:
+        raise problems[0]
+    assert lesson is not None
+    return lesson
+
+
+def examine(path: Path) -> tuple[Lesson | None, list[LessonError]]:
+    """Return the lesson in a file, None if it has mistakes, and all mistakes, the one to begin with first."""
+    problems = Problems()
+    text = problems.attempt(None, _text, path)
+    name = re.sub(r"[^a-z0-9]+", "-", path.stem.lower()).strip("-") or "lesson"
+    lesson = None if text is None else _read(text, name, Images(path.parent), problems)
+    return lesson, [LessonError(one.message, one.line, path.name) for one in problems.found]
+
+
+def _text(path: Path) -> str:
     try:
         with path.open("rb") as file:
             raw = file.read(MAX_BYTES + 1)
         if len(raw) > MAX_BYTES:
             raise LessonError(f"the file has more than {MAX_BYTES // 1024} kB; make two lessons of it.", 1)
-        name = re.sub(r"[^a-z0-9]+", "-", path.stem.lower()).strip("-") or "lesson"
-        return read(raw.decode("utf-8-sig"), name)
+        return raw.decode("utf-8-sig")
     except OSError as error:
-        raise LessonError(f"the file cannot be read: {error.strerror or error}.", 1, path.name) from error
+        raise LessonError(f"the file cannot be read: {error.strerror or error}.", 1) from error
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
-        raise LessonError("the text is not in UTF-8: save the file in that encoding.", line, path.name) from error
-    except LessonError as error:
-        raise LessonError(error.message, error.line, path.name) from error
+        raise LessonError("the text is not in UTF-8: save the file in that encoding.", line) from error
 
 
 def read(text: str, name: str) -> Lesson:
-    """Return the lesson in a Markdown text.  Raises `LessonError`."""
+    """Return the lesson in a Markdown text, which has no images.  Raises `LessonError`."""
+    problems = Problems()
+    lesson = _read(text, name, Images(None), problems)
+    problems.raise_first()
+    assert lesson is not None
+    return lesson
+
+
+def _read(text: str, name: str, images: Images, problems: Problems) -> Lesson | None:
+    """Return the lesson in a text, None if there are problems."""
     first = next(iter(parser().parse(text)), None)
     if first is None or first.type != "front_matter":
-        raise LessonError("the file begins with front matter: --- above and below title: and minutes:.", 1)
-    facts = _fields(first.content, 2, ("title", "minutes"))
+        problems.found.append(
+            LessonError("the file begins with front matter: --- above and below title: and minutes:.", 1)
+        )
+        facts = Fields()
+    else:
+        facts = fields_of(first.content, 2, ("title", "minutes"), problems)
+        problems.attempt(None, _check_facts, facts)
+    steps = _steps(text, 2, None, images, problems)
+    if problems.found:
+        return None
+    return Lesson(name, facts.get("title").strip(), float(facts.get("minutes")), steps, images.urls)
+
+
+def _check_facts(facts: Fields) -> None:
     title, minutes = facts.get("title"), facts.get("minutes")
     if not isinstance(title, str) or not title.strip():
         raise LessonError("the front matter has no title; write one, like title: Two cycles are born.", 1)
-    if not _is_number(minutes) or not 0 < float(minutes) <= _MOST_MINUTES:
-        raise LessonError(f"minutes is a number up to {_MOST_MINUTES:g}, like minutes: 20.", 1)
-    return Lesson(name, title.strip(), float(minutes), _steps(text, 2, None))
+    if not is_number(minutes) or not 0 < float(minutes) <= _MOST_MINUTES:
+        raise LessonError(f"minutes is a number up to {_MOST_MINUTES:g}, like minutes: 20.", facts.line_of("minutes"))
 
 
 def read_tries(scene: Scene[Any]) -> Lesson | None:
@@ -108,7 +133,9 @@ def read_tries(scene: Scene[Any]) -> Lesson | None:
         return None
     # Keep the line numbers of the file, for error messages.
     text = "\n" * (begin + 1) + "\n".join(lines[begin + 1 : end])
-    steps = _steps(text, 4, StateLink(scene.name, scene.defaults()))
+    problems = Problems()
+    steps = _steps(text, 4, StateLink(scene.name, scene.defaults()), Images(None), problems)
+    problems.raise_first()
     return Lesson(scene.name, f"{TRY_THIS}: {scene.title}", 0.0, steps)
 
 
@@ -124,289 +151,94 @@ def _section(lines: list[str]) -> tuple[int, int]:
     return begin, next((i for i in range(begin + 1, len(lines)) if re.match(r"#{1,3} ", lines[i])), len(lines))
 
 
-# ---- the parts of a text ------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class _Part:
-    """The text from a heading to the next one; line : number of its first line, from 1."""
-
-    title: str
-    text: str
-    line: int
-    fields: str | None = None
-    fields_line: int = 0
-
-
-def _parts(text: str, tag: str) -> Iterator[_Part]:
-    """Yield the parts under the headings of one level, with the contents of their `step` fences."""
-    lines = text.split("\n")
-    tokens = [token for token in parser().parse(text) if token.level == 0]
-    heads = [
-        (token.map[0], token.map[1])
-        for token in tokens
-        if token.type == "heading_open" and token.tag == tag and token.map
-    ]
-    for (at, begin), (end, _) in zip(heads, [*heads[1:], (len(lines), 0)], strict=False):
-        inside = [token for token in tokens if token.map and begin <= token.map[0] < end]
-        fences = [token for token in inside if _is_fence(token)]
-        if len(fences) > 1:
-            raise LessonError("this is the second fence named step of one step: leave one.", _line(fences[1]))
-        kept = list(lines[begin:end])
-        for token in fences:
-            assert token.map
-            kept[token.map[0] - begin : token.map[1] - begin] = [""] * (token.map[1] - token.map[0])
-        yield _Part(
-            re.sub(r"^#+\s*|\s*#*$", "", lines[at].strip()),
-            "\n".join(kept),
-            begin + 1,
-            fences[0].content if fences else None,
-            _line(fences[0]) + 1 if fences else 0,
-        )
-
-
-def _is_fence(token: Token) -> bool:
-    return token.type == "fence" and token.info.split()[:1] == ["step"]
-
-
-def _line(token: Token) -> int:
-    assert token.map
-    return token.map[0] + 1
-
-
-def _fields(text: str, line: int, allowed: tuple[str, ...]) -> dict[str, Any]:
-    """Return a YAML mapping, whose keys must be among the allowed ones."""
-    try:
-        # Aliases could expand a short text to a huge structure.
-        if any(isinstance(event, yaml.AliasEvent) for event in yaml.parse(text, yaml.SafeLoader)):
-            raise LessonError("references with * are not read here: write it out.", line)
-        found = yaml.safe_load(text)
-    except (yaml.YAMLError, ValueError) as error:
-        mark = getattr(error, "problem_mark", None)
-        raise LessonError(
-            f"this is not YAML ({getattr(error, 'problem', None) or 'it cannot be read'}): write one "
-            f"“name: value” in a line, and quotes round a link.",
-            line + (mark.line if mark else 0),
-        ) from error
-    except RecursionError as error:
-        raise LessonError("this is nested too deeply.", line) from error
-    if found is None:
-        return {}
-    return _only(found, line, "this", allowed)
-
-
-def _only(found: Any, line: int, what: str, allowed: tuple[str, ...]) -> dict[str, Any]:
-    if not isinstance(found, dict) or not all(isinstance(key, str) for key in found):
-        raise LessonError(f"{what} is not a list of names with values: allowed are {', '.join(allowed)}.", line)
-    unknown = [key for key in found if key not in allowed]
-    if unknown:
-        raise LessonError(f"{unknown[0][:40]!r} means nothing here: allowed are {', '.join(allowed)}.", line)
-    return found
-
-
-def _is_number(value: Any) -> TypeGuard[float]:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
-
-
 # ---- steps ----------------------------------------------------------------------------------------------------------
 
 
-def _steps(text: str, level: int, place: StateLink | None) -> tuple[LessonStep, ...]:
+def _steps(
+    text: str, level: int, place: StateLink | None, images: Images, problems: Problems
+) -> tuple[LessonStep, ...]:
     steps: list[LessonStep] = []
-    for part in _parts(text, f"h{level}"):
-        step = _step(part, f"h{level + 1}", place)
-        steps.append(step)
-        place = step.at if step.prediction is None else step.prediction.then
-    if not steps:
-        raise LessonError(f"there is no step: begin one with a heading, {'#' * level} Its title.", 1)
-    if len(steps) > MAX_STEPS:
-        raise LessonError(f"there are {len(steps)} steps; at most {MAX_STEPS} are allowed.", 1)
+    parts = list(parts_of(text, f"h{level}", problems))
+    for part in parts[:MAX_STEPS]:
+        step = problems.attempt(None, _step, part, f"h{level + 1}", place, images, problems)
+        if step is not None:
+            steps.append(step)
+            place = step.at if step.prediction is None else step.prediction.then
+    if not parts:
+        problems.found.append(LessonError(f"there is no step: begin one with a heading, {'#' * level} Its title.", 1))
+    if len(parts) > MAX_STEPS:
+        problems.found.append(LessonError(f"there are {len(parts)} steps; at most {MAX_STEPS} are allowed.", 1))
     return tuple(steps)
 
 
-def _step(part: _Part, tag: str, place: StateLink | None) -> LessonStep:
+def _step(part: Part, tag: str, before: StateLink | None, images: Images, problems: Problems) -> LessonStep | None:
+    """Return a step, None if it has no state; before : the state of the step before."""
     if not part.title:
-        raise LessonError("the step has no title: write one after the signs #.", part.line - 1)
-    fields = {} if part.fields is None else _fields(part.fields, part.fields_line, _KEYS)
-    line = part.fields_line or part.line
-    if "state" in fields:
-        place = _place(fields["state"], line)
-    if "example" in fields:
-        place = _example(fields["example"], place, line)
+        problems.found.append(LessonError("the step has no title: write one after the signs #.", part.line - 1))
+    fields = Fields() if part.fields is None else fields_of(part.fields, part.fields_line, KEYS, problems)
+    words, asked = _split(part, tag, problems)
+    for text, line in ((part.title, part.line - 1), *((one.text, one.line) for one in (words, *asked.values()))):
+        problems.found += problems_in(text, line, images, place_of)
+    place = _state(fields, part.fields_line or part.line, before, problems)
     if place is None:
+        return None
+    scene = scenes()[place.scene]
+
+    def line_of(key: str) -> int:
+        return fields.line_of(key)
+
+    animation = problems.attempt(None, animation_of, fields.get("animate"), scene, line_of("animate"))
+    return LessonStep(
+        part.title,
+        words.text.strip(),
+        place,
+        problems.attempt("", look_of, fields.get("look"), scene, line_of("look")),
+        animation,
+        *(asked[name].text.strip() if name in asked else "" for name in ("question", "answer")),
+        problems.attempt(None, prediction_of, fields.get("predict"), place, line_of("predict")),
+        problems.attempt((), controls_of, fields.get("controls"), animation, scene, line_of("controls")),
+        problems.attempt(None, hidden_of, fields.get("hide"), scene, line_of("hide")),
+    )
+
+
+def _state(fields: Fields, line: int, before: StateLink | None, problems: Problems) -> StateLink | None:
+    """Return the state of a step, None if there is none."""
+    place, had = before, len(problems.found)
+    if "state" in fields.values:
+        place = problems.attempt(before, place_of, fields.get("state"), fields.line_of("state"))
+    if "example" in fields.values:
+        place = problems.attempt(place, example_of, fields.get("example"), place, fields.line_of("example"))
+    if place is None and len(problems.found) == had:
         raise LessonError(
             'the first step needs a state: a link of the page, like state: "?scene=suslov-hess&h=1.5", '
             "in a fence named step.",
             line,
         )
-    scene = scenes()[place.scene]
-    look = fields.get("look", "")
-    if look != "" and look not in scene.pictures:
-        raise LessonError(_not_one("look", look, scene.pictures), line)
-    animation = _animation(fields.get("animate"), scene, line)
-    text, asked = _split(part, tag)
-    step = LessonStep(
-        part.title,
-        text,
-        place,
-        look,
-        animation,
-        **asked,
-        controls=_controls(fields.get("controls"), animation, scene, line),
-        hide=_hidden(fields.get("hide"), scene, line),
-        prediction=_prediction(fields.get("predict"), place, line),
-    )
-    for words, first in (
-        (step.title, part.line - 1),
-        (step.text, part.line),
-        (step.question, part.line),
-        (step.answer, part.line),
-    ):
-        to_html(words, first)
-    return replace(step, text=step.text.strip())
+    return place
 
 
-def _split(part: _Part, tag: str) -> tuple[str, dict[str, str]]:
+def _split(part: Part, tag: str, problems: Problems) -> tuple[Part, dict[str, Part]]:
     """Return the text before the question, and a mapping with "question" and "answer"."""
-    found = {one.title.lower(): one for one in _parts(part.text, tag)}
-    extra = [one for name, one in found.items() if name not in ("question", "answer")]
-    if extra:
-        raise LessonError(
-            f"{extra[0].title[:40]!r} is no part of a step: headings in it are Question and Answer.",
-            part.line + extra[0].line - 2,
-        )
-    if ("question" in found) != ("answer" in found):
-        raise LessonError(
-            "a question needs an answer, and an answer a question: write both headings.",
-            part.line + next(iter(found.values())).line - 2,
+    found = {
+        one.title.lower(): Part(one.title, one.text, part.line + one.line - 1)
+        for one in parts_of(part.text, tag, problems)
+    }
+    for name, one in found.items():
+        if name not in ("question", "answer"):
+            problems.found.append(
+                LessonError(
+                    f"{one.title[:40]!r} is no part of a step: headings in it are Question and Answer.", one.line - 1
+                )
+            )
+    asked = {name: one for name, one in found.items() if name in ("question", "answer")}
+    if len(asked) == 1:
+        problems.found.append(
+            LessonError(
+                "a question needs an answer, and an answer a question: write both headings.",
+                next(iter(asked.values())).line - 1,
+            )
         )
     if not found:
-        return part.text, {}
-    lines = part.text.split("\n")
-    return "\n".join(lines[: min(one.line for one in found.values()) - 2]), {
-        name: one.text.strip() for name, one in found.items()
-    }
-
-
-def _not_one(what: str, given: object, allowed: tuple[str, ...]) -> str:
-    return f"{what} is one of {', '.join(allowed)}, not {str(given)[:40]!r}."
-
-
-def _place(link: object, line: int) -> StateLink:
-    """Return the state of a link, each value within its bounds."""
-    query = urlsplit(link).query if isinstance(link, str) else ""
-    given = dict(parse_qsl(query, keep_blank_values=True))
-    scene = scenes().get(given.get("scene", ""))
-    if scene is None:
-        raise LessonError(
-            "state is a link of this page with its scene, one of "
-            f"{', '.join(name for name, one in scenes().items() if one.origin is None)}.",
-            line,
-        )
-    if len(query) > MAX_QUERY:
-        raise LessonError(f"the link is longer than {MAX_QUERY} characters.", line)
-    names = tuple(spec.name for spec in scene.specs)
-    unknown = [name for name in given if name not in names and name not in PAGE_KEYS]
-    if unknown:
-        raise LessonError(
-            f"the link has {unknown[0][:40]!r}, which the scene {scene.name} does not: allowed are {', '.join(names)}.",
-            line,
-        )
-    values, notes = decode(query, scene.specs)
-    if notes:
-        raise LessonError(f"the link cannot be followed as it is. {refusal(notes[0])}", line)
-    return StateLink(scene.name, values)
-
-
-def _example(begins: object, place: StateLink | None, line: int) -> StateLink:
-    """Return the state of the example whose name begins with this text."""
-    scene = next(iter(scenes().values())) if place is None else scenes()[place.scene]
-    found = [one for one in scene.presets if isinstance(begins, str) and begins and one.name.startswith(begins)]
-    if len(found) != 1:
-        raise LessonError(
-            _not_one(
-                f"example is the beginning of just one of the examples of {scene.name}; it",
-                begins,
-                tuple(preset.name for preset in scene.presets),
-            ),
-            line,
-        )
-    return StateLink(scene.name, scene.defaults() | scene.example(found[0]))
-
-
-def _animation(found: object, scene: Scene[Any], line: int) -> Animation | None:
-    if found is None:
-        return None
-    names = ("name", "from", "to", "seconds")
-    given = _only(found, line, "animate", names)
-    if any(name not in given for name in names):
-        raise LessonError(
-            "animate needs name, from, to and seconds, like {name: h, from: 0.2, to: 1.5, seconds: 8}.", line
-        )
-    bounds = {TIME: (0.0, _MOST_TIME), **{spec.name: spec.bounds for spec in scene.specs if isinstance(spec, Number)}}
-    name = given["name"]
-    if not isinstance(name, str) or name not in bounds:
-        raise LessonError(_not_one("name of animate", name, tuple(bounds)), line)
-    low, high = bounds[name]
-    if not all(_is_number(given[end]) and low <= given[end] <= high for end in ("from", "to")):
-        raise LessonError(f"from and to of {name} are numbers from {low:g} to {high:g}.", line)
-    if not _is_number(given["seconds"]) or not 0 < given["seconds"] <= _MOST_SECONDS:
-        raise LessonError(f"seconds is a number up to {_MOST_SECONDS:g}.", line)
-    return Animation(name, float(given["from"]), float(given["to"]), float(given["seconds"]))
-
-
-def _controls(found: object, animation: Animation | None, scene: Scene[Any], line: int) -> tuple[str, ...]:
-    """Return the names of the controls beside the text; by default that of the animated parameter."""
-    if found is None:
-        return (animation.name,) if animation and animation.name != TIME else ()
-    if not isinstance(found, list) or len(found) > _MOST_CONTROLS:
-        raise LessonError(f"controls is a list of at most {_MOST_CONTROLS} names, like controls: [h, f].", line)
-    names = tuple(spec.name for spec in scene.specs if isinstance(spec, Number | Choice))
-    for name in found:
-        if name not in names:
-            raise LessonError(_not_one("a name in controls", name, names), line)
-    return tuple(dict.fromkeys(found))
-
-
-def _hidden(found: object, scene: Scene[Any], line: int) -> HiddenLayer | None:
-    if found is None:
-        return None
-    plot, layer = _layer(_only(found, line, "hide", ("picture", "layer")), "hide", scene, line)
-    return HiddenLayer(plot.name, layer.name, plot.source_of(layer))
-
-
-def _prediction(found: object, place: StateLink, line: int) -> Prediction | None:
-    if found is None:
-        return None
-    given = _only(found, line, "predict", ("picture", "layer", "then"))
-    then = _place(given["then"], line) if "then" in given else place
-    if then.scene != place.scene:
-        raise LessonError(f"what is revealed is a state of the same scene, {place.scene}.", line)
-    plot, layer = _layer(given, "predict", scenes()[place.scene], line, (*_CURVES, *_POINTS))
-    return Prediction(
-        plot.name,
-        layer.name,
-        plot.source_of(layer),
-        (layer.columns[0], layer.columns[1]),
-        "curve" if layer.glyph in _CURVES else "point",
-        then,
-    )
-
-
-def _layer(
-    given: dict[str, Any], key: str, scene: Scene[Any], line: int, glyphs: tuple[str, ...] | None = None
-) -> tuple[Plot[Any], Layer[Any]]:
-    """Return the picture and the layer that a mapping names; glyphs : the allowed kinds of layers, by default all."""
-    plots = {view.name: view for view in scene.views if isinstance(view, Plot)}
-    name = given.get("picture")
-    if not isinstance(name, str) or name not in plots:
-        raise LessonError(_not_one(f"picture of {key}", name, tuple(plots)), line)
-    layers = {
-        layer.name: layer
-        for layer in plots[name].layers
-        if (layer.glyph not in _PAINTED if glyphs is None else layer.glyph in glyphs)
-    }
-    truth = given.get("layer")
-    if not isinstance(truth, str) or truth not in layers:
-        raise LessonError(_not_one(f"layer of {key}", truth, tuple(layers)), line)
-    return plots[name], layers[truth]
+        return part, {}
+    end = min(one.line for one in found.values()) - part.line - 1
+    return Part(part.title, "\n".join(part.text.split("\n")[:end]), part.line), asked

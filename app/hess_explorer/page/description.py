@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import threading
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
 
@@ -122,17 +122,17 @@ def describe_lesson(lesson: Lesson) -> str:
 
 
 def _steps(lesson: Lesson | None) -> list[dict[str, Any]]:
-    return [_step(step) for step in lesson.steps] if lesson else []
+    return [_step(step, lesson.images) for step in lesson.steps] if lesson else []
 
 
-def _step(step: LessonStep) -> dict[str, Any]:
+def _step(step: LessonStep, images: Mapping[str, str]) -> dict[str, Any]:
     found: dict[str, Any] = {
         "title": to_html(step.title, inline=True),
-        "text": to_html(step.text),
+        "text": to_html(step.text, images),
         "scene": step.at.scene,
         "look": step.look,
-        "question": to_html(step.question),
-        "answer": to_html(step.answer),
+        "question": to_html(step.question, images),
+        "answer": to_html(step.answer, images),
         "controls": step.controls,
     }
     if step.animation:

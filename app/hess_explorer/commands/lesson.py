@@ -1,0 +1,71 @@
+"""`hess-explorer lesson`: check a lesson that one writes, and begin one with an example."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from pathlib import Path
+
+from . import CommandError
+from .command import Command, Options, option
+
+__all__ = ["COMMAND"]
+
+_GUIDE = Path(str(files("hess_explorer"))) / "docs/guides/lesson.md"
+
+
+def _check(options: Options) -> None:
+    from hess_explorer.lessons.collection import files_in
+    from hess_explorer.lessons.lesson import LessonError
+    from hess_explorer.lessons.reading import examine
+
+    try:
+        paths = files_in(options.files)
+    except LessonError as error:
+        raise CommandError(str(error)) from error
+    count = 0
+    for path in paths:
+        lesson, problems = examine(path)
+        for problem in sorted(problems, key=lambda one: one.line):
+            print(f"{path}:{problem.line}: {problem.message}")
+        if lesson is not None:
+            print(f"{path}: {len(lesson.steps)} steps, no mistakes")
+        count += len(problems)
+    if count:
+        raise CommandError(f"{count} {'mistake' if count == 1 else 'mistakes'} found.", status=1)
+
+
+def _new(options: Options) -> None:
+    from hess_explorer.lessons.example import EXAMPLE
+
+    try:
+        # Fails if there is a file, also one that was made a moment ago.
+        with options.file.open("x", encoding="utf-8") as file:
+            file.write(EXAMPLE)
+    except FileExistsError as error:
+        raise CommandError(f"{str(options.file)!r} exists: choose another name.") from error
+    except OSError as error:
+        raise CommandError(f"{str(options.file)!r} cannot be written: {error.strerror or error}.") from error
+    print(f"Wrote {options.file}.  Look at it: hess-explorer serve --lesson {options.file}")
+
+
+COMMAND = Command(
+    f"Help to write a lesson: one Markdown file, given step by step on the page.  The format: {_GUIDE}",
+    purpose="check a lesson that you write, or begin one",
+    kind="ACTION",
+    systems={
+        "check": Command(
+            "Print all mistakes in lessons, each with file and line; the exit status is 1 if there is one.",
+            (option("files", "Markdown file of a lesson, or a folder of them", type=Path, nargs="+", metavar="FILE"),),
+            _check,
+            "first.md",
+            "print all mistakes in lessons",
+        ),
+        "new": Command(
+            f"Write an example with comments, to be changed into your own lesson.  The format: {_GUIDE}",
+            (option("file", "the file to write; it must not exist yet", type=Path, metavar="FILE"),),
+            _new,
+            "first.md",
+            "write an example of a lesson, with comments",
+        ),
+    },
+)

@@ -1,0 +1,127 @@
+"""The settings of a step: what its fence `step` says beside the state."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, TypeGuard
+
+from hess_explorer.lessons.lesson import TIME, Animation, HiddenLayer, LessonError, Prediction, StateLink
+from hess_explorer.lessons.links import not_one_of, place_of
+from hess_explorer.protocol.parameters import Choice, Number
+from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.scene import Scene
+from hess_explorer.views.layers import Layer
+from hess_explorer.views.plot import Plot
+
+__all__ = ["animation_of", "controls_of", "hidden_of", "is_number", "look_of", "only", "prediction_of"]
+
+_MOST_SECONDS, _MOST_TIME = 600.0, 1e6
+_MOST_CONTROLS = 6
+# Layers on canvases of the page, which are always shown.
+_PAINTED = ("image", "dots")
+_CURVES, _POINTS = ("multi_line", "line"), ("scatter",)
+
+
+def is_number(value: Any) -> TypeGuard[float]:
+    """Return whether a value is a finite number."""
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def only(found: Any, line: int, what: str, allowed: tuple[str, ...]) -> dict[str, Any]:
+    """Return a mapping, whose keys must be among the allowed ones."""
+    if not isinstance(found, dict) or not all(isinstance(key, str) for key in found):
+        raise LessonError(f"{what} is not a list of names with values: allowed are {', '.join(allowed)}.", line)
+    unknown = [key for key in found if key not in allowed]
+    if unknown:
+        raise LessonError(f"{unknown[0][:40]!r} means nothing here: allowed are {', '.join(allowed)}.", line)
+    return found
+
+
+def look_of(found: object, scene: Scene[Any], line: int) -> str:
+    """Return the name of the picture to enlarge, "" for none."""
+    if found is None or found == "":
+        return ""
+    if found not in scene.pictures:
+        raise LessonError(not_one_of("look", found, scene.pictures), line)
+    return str(found)
+
+
+def animation_of(found: object, scene: Scene[Any], line: int) -> Animation | None:
+    """Return the animation of a step, None for none."""
+    if found is None:
+        return None
+    names = ("name", "from", "to", "seconds")
+    given = only(found, line, "animate", names)
+    if any(name not in given for name in names):
+        raise LessonError(
+            "animate needs name, from, to and seconds, like {name: h, from: 0.2, to: 1.5, seconds: 8}.", line
+        )
+    bounds = {TIME: (0.0, _MOST_TIME), **{spec.name: spec.bounds for spec in scene.specs if isinstance(spec, Number)}}
+    name = given["name"]
+    if not isinstance(name, str) or name not in bounds:
+        raise LessonError(not_one_of("name of animate", name, tuple(bounds)), line)
+    low, high = bounds[name]
+    if not all(is_number(given[end]) and low <= given[end] <= high for end in ("from", "to")):
+        raise LessonError(f"from and to of {name} are numbers from {low:g} to {high:g}.", line)
+    if not is_number(given["seconds"]) or not 0 < given["seconds"] <= _MOST_SECONDS:
+        raise LessonError(f"seconds is a number up to {_MOST_SECONDS:g}.", line)
+    return Animation(name, float(given["from"]), float(given["to"]), float(given["seconds"]))
+
+
+def controls_of(found: object, animation: Animation | None, scene: Scene[Any], line: int) -> tuple[str, ...]:
+    """Return the names of the controls beside the text; by default that of the animated parameter."""
+    if found is None:
+        return (animation.name,) if animation and animation.name != TIME else ()
+    if not isinstance(found, list) or len(found) > _MOST_CONTROLS:
+        raise LessonError(f"controls is a list of at most {_MOST_CONTROLS} names, like controls: [h, f].", line)
+    names = tuple(spec.name for spec in scene.specs if isinstance(spec, Number | Choice))
+    for name in found:
+        if name not in names:
+            raise LessonError(not_one_of("a name in controls", name, names), line)
+    return tuple(dict.fromkeys(found))
+
+
+def hidden_of(found: object, scene: Scene[Any], line: int) -> HiddenLayer | None:
+    """Return the layer that a step leaves out, None for none."""
+    if found is None:
+        return None
+    plot, layer = _layer(only(found, line, "hide", ("picture", "layer")), "hide", scene, line)
+    return HiddenLayer(plot.name, layer.name, plot.source_of(layer))
+
+
+def prediction_of(found: object, place: StateLink, line: int) -> Prediction | None:
+    """Return the prediction of a step, None for none."""
+    if found is None:
+        return None
+    given = only(found, line, "predict", ("picture", "layer", "then"))
+    then = place_of(given["then"], line) if "then" in given else place
+    if then.scene != place.scene:
+        raise LessonError(f"what is revealed is a state of the same scene, {place.scene}.", line)
+    plot, layer = _layer(given, "predict", scenes()[place.scene], line, (*_CURVES, *_POINTS))
+    return Prediction(
+        plot.name,
+        layer.name,
+        plot.source_of(layer),
+        (layer.columns[0], layer.columns[1]),
+        "curve" if layer.glyph in _CURVES else "point",
+        then,
+    )
+
+
+def _layer(
+    given: dict[str, Any], key: str, scene: Scene[Any], line: int, glyphs: tuple[str, ...] | None = None
+) -> tuple[Plot[Any], Layer[Any]]:
+    """Return the picture and the layer that a mapping names; glyphs : the allowed kinds of layers, by default all."""
+    plots = {view.name: view for view in scene.views if isinstance(view, Plot)}
+    name = given.get("picture")
+    if not isinstance(name, str) or name not in plots:
+        raise LessonError(not_one_of(f"picture of {key}", name, tuple(plots)), line)
+    layers = {
+        layer.name: layer
+        for layer in plots[name].layers
+        if (layer.glyph not in _PAINTED if glyphs is None else layer.glyph in glyphs)
+    }
+    truth = given.get("layer")
+    if not isinstance(truth, str) or truth not in layers:
+        raise LessonError(not_one_of(f"layer of {key}", truth, tuple(layers)), line)
+    return plots[name], layers[truth]

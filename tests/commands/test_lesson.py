@@ -1,0 +1,58 @@
+"""`hess-explorer lesson`: the mistakes of a file, and an example to begin with."""
+
+from __future__ import annotations
+
+import pytest
+
+from hess_explorer.__main__ import main
+from hess_explorer.lessons.reading import KEYS, read_file
+
+
+def test_the_example_is_a_lesson_with_all_settings_but_one_and_is_not_written_over(tmp_path, capsys):
+    path = tmp_path / "first.md"
+    assert main(["lesson", "new", str(path)]) == 0
+    assert f"hess-explorer serve --lesson {path}" in capsys.readouterr().out
+    text = path.read_text(encoding="utf-8")
+    assert [key for key in KEYS if f"\n{key}: " not in text] == ["example"]
+    assert main(["lesson", "check", str(path)]) == 0
+    assert capsys.readouterr().out == f"{path}: {len(read_file(path).steps)} steps, no mistakes\n"
+    path.write_text("mine")
+    assert main(["lesson", "new", str(path)]) == 2
+    assert "exists: choose another name" in capsys.readouterr().err
+    assert path.read_text() == "mine"
+    assert main(["lesson", "new", str(tmp_path / "nowhere/first.md")]) == 2
+    assert "cannot be written" in capsys.readouterr().err
+
+
+def test_all_mistakes_are_printed_by_file_and_line(tmp_path, capsys):
+    good, wrong = tmp_path / "good.md", tmp_path / "wrong.md"
+    main(["lesson", "new", str(good)])
+    text = good.read_text(encoding="utf-8").replace("look: circle", "look: circel").replace("minutes: 5", "minutes: -5")
+    wrong.write_text(text, encoding="utf-8")
+    lines = text.split("\n")
+    numbers = [number for number, line in enumerate(lines, 1) if line in ("minutes: -5", "look: circel")]
+    capsys.readouterr()
+    assert main(["lesson", "check", str(tmp_path)]) == 1
+    out, err = capsys.readouterr()
+    told = [
+        line.removeprefix(f"{wrong}:").partition(":")[0] for line in out.splitlines() if line.startswith(str(wrong))
+    ]
+    assert [int(one) for one in told] == numbers
+    assert len(numbers) == 4
+    assert f"{good}: 3 steps, no mistakes" in out
+    assert err == "hess-explorer: 4 mistakes found.\n"
+
+
+def test_what_is_not_there_has_a_mistake(tmp_path, capsys):
+    assert main(["lesson", "check", str(tmp_path / "none.md")]) == 1
+    assert "none.md:1: the file cannot be read" in capsys.readouterr().out
+    assert main(["lesson", "check", str(tmp_path)]) == 2
+    assert "has no lesson" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", [["lesson", "--help"], ["lesson", "new", "--help"]])
+def test_the_help_names_the_guide_which_is_installed_with_the_package(words, capsys):
+    with pytest.raises(SystemExit):
+        main(words)
+    said = "".join(capsys.readouterr().out.split())
+    assert "docs/guides/lesson.md" in said
