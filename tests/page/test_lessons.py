@@ -8,8 +8,10 @@ from urllib.parse import parse_qs, urlsplit
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from hess_explorer.headless.browser import wait_ready
+from hess_explorer.headless.screenshot import server_process
 from hess_explorer.lessons import shipped, tries
 from support.accessible import assert_accessible
 from support.board import SCENES
@@ -306,3 +308,46 @@ def test_an_embedded_lesson_has_its_text_and_buttons_by_the_picture(open_page, s
     assert title.inner_text() == shipped()[CYCLES].steps[7].title
     assert page.locator(".gallery:not(.away) .picture-bifurcation").is_visible()
     assert page.locator(".step-controls .number").count() == 2
+
+
+OWN = """---
+title: {0}
+minutes: 1
+---
+## One
+```step
+state: "?scene=suslov-hess&h=1.2&f=0.3"
+```
+| {0} | ![A wheel](wheel.png) |
+|-----|-----------------------|
+| 1   | [further](?scene=suslov-hess&h=1.5&f=0.3), [scattering](?scene=scattering&k=3) |
+"""
+
+
+def test_images_tables_and_links_of_own_lessons(browser, tmp_path):
+    Image.new("RGB", (40, 30), "red").save(tmp_path / "wheel.png")
+    for name in ("a", "b"):
+        (tmp_path / f"{name}.md").write_text(OWN.format(f"Lesson {name}"), encoding="utf-8")
+    log, context = tmp_path / "server.log", browser.new_context(reduced_motion="reduce")
+    with server_process(log, options=["--lesson", *(str(tmp_path / name) for name in ("b.md", "a.md"))]) as (_, base):
+        tab = Explorer(context.new_page(), base)
+        page = tab.page
+        tab.goto("/")
+        assert page.locator(".lesson .of").inner_text() == "Lesson b"
+        assert page.locator(".lesson th").first.inner_text() == "Lesson b"
+        image = page.locator(".lesson img")
+        assert image.evaluate("item => item.decode().then(() => [item.naturalWidth, item.naturalHeight])") == [40, 30]
+        page.evaluate("window.isSame = true")
+        tab.change(page.locator(".lesson a", has_text="further").click)
+        assert tab.wait_url(h=1.5)["lesson"] == "b"
+        tab.change(page.locator(".param-undo").click)
+        tab.wait_url(h=1.2)
+        tab.change(page.locator(".lesson a", has_text="scattering").click)
+        assert tab.wait_url(scene="scattering")["k"] == "3.0"
+        assert page.locator(".lesson .title").inner_text() == "One"
+        assert page.evaluate("window.isSame")
+        page.locator(".param-leave-lesson").click()
+        page.locator(".lesson-menu > summary").click()
+        assert page.locator(".lesson-menu button").all_inner_texts()[:2] == ["Lesson b (1 min)", "Lesson a (1 min)"]
+        tab.assert_quiet()
+    context.close()
