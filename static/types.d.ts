@@ -244,6 +244,16 @@ interface Answer {
   scene?: SceneDescription
   lesson?: Lesson
   chart?: ChartAnswer
+  show?: Followed
+}
+
+/** What a follower of a room reads beside the state; lesson is the title, and number that of the step. */
+interface Followed {
+  scene: string
+  number: number
+  revealed: boolean
+  step: LessonStep | null
+  lesson?: string
 }
 
 /** A point [picture, x, y] or a box [picture, x0, y0, x1, y1]. */
@@ -444,6 +454,9 @@ interface PageEvents {
   present: void
   print: void
   share: void
+  invite: void
+  "open-room": void
+  "end-room": void
   export: void
   chart: void
   pick: { pick: Picked, drag: boolean }
@@ -486,6 +499,10 @@ interface PageEvents {
   follow: number
   // From a chart: the computed share of its cells
   charting: number | null
+  // From a room: of the lecturer (code is null when it has ended), the guesses of the audience, the step that is followed
+  room: { code: string | null, address: string, followers: number, said: string }
+  audience: string
+  followed: Followed
   // From a lesson
   reading: boolean
   look: string

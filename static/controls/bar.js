@@ -6,6 +6,7 @@ import { listen, tell } from "../page/bus.js"
 import { isPresenting } from "../page/presenting.js"
 import { chartPanel } from "./chart.js"
 import { exportDialog } from "./export.js"
+import { inviteDialog } from "./invite.js"
 import { moreMenu } from "./more.js"
 import { sceneMenu } from "./scenes.js"
 import { shareDialog } from "./share.js"
@@ -39,6 +40,8 @@ const TOOLS = [
       icon: "M3 3h2v16h16v2H3zm4 2h4v4H7zm5 0h4v4h-4zm5 0h4v4h-4zM7 10h4v4H7zm5 0h4v4h-4zm0 5h4v3h-4zm5-5h4v4h-4z" },
     { name: "share", title: "Link, QR code, HTML to embed", isNear: true,
       icon: "M4 12a4 4 0 0 1 4-4h3v2H8a2 2 0 0 0 0 4h3v2H8a4 4 0 0 1-4-4zm5-1h6v2H9zm4-3h3a4 4 0 0 1 0 8h-3v-2h3a2 2 0 0 0 0-4h-3z" },
+    { name: "invite", title: "Let an audience follow on its phones: QR code, guesses",
+      icon: "M8 4a3.5 3.5 0 1 0 0 7 3.5 3.5 0 0 0 0-7zm8.5 2a3 3 0 1 0 0 6 3 3 0 0 0 0-6zM8 13c-3.6 0-6 1.8-6 4.4V20h12v-2.6c0-2.6-2.4-4.4-6-4.4zm8.5 1c-.7 0-1.3.1-1.8.2.8.9 1.3 2 1.3 3.2V20h6v-1.9c0-2.4-2.2-4.1-5.5-4.1z" },
     { name: "export", title: "Data and figures of a picture",
       icon: "M11 3h2v8l3-3 1.4 1.4L12 14.8 6.6 9.4 8 8l3 3zM4 15h2v4h12v-4h2v6H4z" },
     { name: "print", title: "Handout: pictures, numbers, text, link (Ctrl+P)",
@@ -65,6 +68,7 @@ function tool({ name, label = name[0].toUpperCase() + name.slice(1), title, icon
 export function render({ scenes, files, palettes, el }) {
   const menu = sceneMenu(scenes)
   const share = shareDialog()
+  const invite = inviteDialog()
   const taking = exportDialog(files)
   const chart = chartPanel(palettes)
   const heading = element("h1.heading")
@@ -79,7 +83,7 @@ export function render({ scenes, files, palettes, el }) {
   const more = moreMenu([...tools.values()].filter(([, { isNear }]) => !isNear).map(([item]) => item), icon(MORE))
   el.append(
     element("div.tools", open, heading, element("span.room"), ...groups, ...more),
-    menu.dialog, share.dialog, taking.dialog, chart.panel)
+    menu.dialog, share.dialog, invite.dialog, taking.dialog, chart.panel)
 
   /** @param {string} name @param {boolean} on */
   const press = (name, on) => { tools.get(name)[0].ariaPressed = String(on) }
@@ -100,6 +104,12 @@ export function render({ scenes, files, palettes, el }) {
       item.querySelector(".label").textContent = item.ariaLabel + said
       item.title = share === null ? title : `Computing the chart:${said}`
     },
+    // The number of followers.
+    room({ code, followers }) {
+      const [item] = tools.get("invite")
+      item.querySelector(".label").textContent = code === null ? item.ariaLabel : `${item.ariaLabel} ${followers}`
+      press("invite", code !== null)
+    },
     presenting: (on) => press("present", on),
     compared: (compared) => press("pin", compared !== null),
     steps: enable,
@@ -110,6 +120,7 @@ export function render({ scenes, files, palettes, el }) {
       for (const part of [share, taking, chart]) part.show(scene)
     },
     share: share.open,
+    invite: invite.open,
     export: taking.open,
     chart: chart.open,
   })

@@ -11,6 +11,7 @@ import { createCompare } from "./compare.js"
 import { embed, embedded } from "./embedding.js"
 import { createHandout } from "./handout.js"
 import { createHistory } from "./history.js"
+import { createRoom } from "./room.js"
 import { joinOther } from "./side_by_side.js"
 import { fill, paint } from "./painting.js"
 import { createPage } from "./panel_page.js"
@@ -73,6 +74,7 @@ export function startClient(model, view) {
   handleCommands({ address, page })
   createHandout(() => latest)
   joinOther()
+  if (!isPart) createRoom({ query: () => state?.query ?? null })
 
   listen({
     url(keys) {

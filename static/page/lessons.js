@@ -90,6 +90,7 @@ export function render({ index, el }) {
     const { prediction } = step
     const isLast = at === lesson.steps.length - 1
     const [said, buttons] = [element("output.said"), element("div.row")]
+    const audience = element("output.audience", { hidden: true })
     if (prediction) {
       guess = createGuess(prediction, (text) => { said.textContent = text })
       buttons.append(button("button.param-reveal", reveal, "Reveal"))
@@ -103,7 +104,7 @@ export function render({ index, el }) {
     const title = element("h2.title", { innerHTML: step.title, tabIndex: -1 })
     const progress = element("progress", { max: lesson.steps.length, value: at + 1, ariaLabel: "Steps" })
     panel.replaceChildren(
-      element("p.of", lesson.title), title, html("div.text", step.text), buttons, said, ...questionOf(step),
+      element("p.of", lesson.title), title, html("div.text", step.text), buttons, said, audience, ...questionOf(step),
       element("div.steps", controls.group, element("div.row",
         button("button.param-back-a-step", () => turnTo(at - 1), {
           disabled: at === 0, title: at === 0 ? "Disabled: this is the first step" : "Back (Page Up)",
@@ -245,6 +246,13 @@ export function render({ index, el }) {
     enter(scene) {
       showTries(scene)
       if (expected !== null) arrange(expected)
+    },
+    audience(text) {
+      /** @type {HTMLElement | null} */
+      const output = panel.querySelector(".audience")
+      if (output === null) return
+      output.textContent = text
+      output.hidden = text === ""
     },
     painted() {
       const then = arriving

@@ -19,6 +19,7 @@ import { render as renderProgress } from "./progress.js"
 import { render as renderProse } from "./prose.js"
 import { render as renderStatus } from "./status.js"
 import { render as renderText } from "./text.js"
+import { kept } from "./room_socket.js"
 import { NARROW, PHONE } from "./windows.js"
 
 /** Return the tabs of the columns. @param {Record<string, HTMLElement>} columns label → column */
@@ -74,6 +75,12 @@ function opener() {
   return link
 }
 
+/** Return the link back to the lecture that this tab has left to play on its own. */
+function rejoin() {
+  const code = kept.followed
+  return code === null ? [] : [element("a.rejoin", { href: `r/${code}` }, "Back to the lecture")]
+}
+
 /**
  * Show the sentence about the motion above the stage; on a phone in the text.
  * @param {HTMLElement} stage
@@ -115,7 +122,7 @@ export function render({ model, view, el }) {
   el.classList.add("frame")
   el.append(
     element("header.bar", mount("bar", renderBar, { scenes, files, palettes }),
-      element("div.news", text("busy"), mount("progress", renderProgress))),
+      ...rejoin(), element("div.news", text("busy"), mount("progress", renderProgress))),
     tabsOf({ Controls: controls, Text: reader }), controls, stage, reader,
     element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener(), drawer(el), spot())
   sayWhatMoves(stage, /** @type {HTMLElement} */ (reader.firstChild))

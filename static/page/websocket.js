@@ -12,6 +12,19 @@ const LONGEST = 15000
 const decoder = new TextDecoder()
 
 /**
+ * Return the parts of a frame.
+ * @param {ArrayBuffer} data
+ * @returns {{head: Answer, block: ArrayBuffer, cells: ArrayBuffer}}
+ */
+export function decode(data) {
+  const lengths = new DataView(data, 0, LENGTHS)
+  const block = LENGTHS + lengths.getUint32(0, true)
+  const cells = block + lengths.getUint32(4, true)
+  const head = JSON.parse(decoder.decode(new Uint8Array(data, LENGTHS, block - LENGTHS)))
+  return { head, block: data.slice(block, cells), cells: data.slice(cells) }
+}
+
+/**
  * Open the websocket and return the function that sends messages.
  * @param {(head: Answer, block: ArrayBuffer, cells: ArrayBuffer) => void} receive gets each answer
  * @param {(why: string) => void} lost is called when the connection is closed, with a reason if the server gave one
@@ -24,10 +37,8 @@ export function openWebsocket(receive, lost) {
   const socket = new WebSocket(url)
   socket.binaryType = "arraybuffer"
   socket.addEventListener("message", ({ data }) => {
-    const lengths = new DataView(data, 0, LENGTHS)
-    const block = LENGTHS + lengths.getUint32(0, true)
-    const cells = block + lengths.getUint32(4, true)
-    receive(JSON.parse(decoder.decode(new Uint8Array(data, LENGTHS, block - LENGTHS))), data.slice(block, cells), data.slice(cells))
+    const { head, block, cells } = decode(data)
+    receive(head, block, cells)
   })
   socket.addEventListener("close", ({ code, reason }) => lost(code === FULL ? reason : ""))
   return (message) => socket.send(JSON.stringify(message))

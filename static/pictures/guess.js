@@ -9,13 +9,13 @@ import { circlePath } from "./looks.js"
 
 const RING = 9
 const MOST = 40
-const GUESS = "#D55E00"
-const TRUTH = "#009E73"
+export const GUESS = "#D55E00"
+export const TRUTH = "#009E73"
 const STEP = 8
 const FOCUS = "inset 0 0 0 2px #0072B2"
 
 /** @param {number} value */
-const shown = (value) => value.toPrecision(2).replace("-", "−")
+export const shown = (value) => value.toPrecision(2).replace("-", "−")
 /** @param {number[]} values */
 const mean = (values) => values.reduce((sum, one) => sum + one, 0) / values.length
 /** @param {number} value @param {number} low @param {number} high */
@@ -40,6 +40,10 @@ function nearestOn(line, [x, y]) {
   return best
 }
 
+/** Return the point of several polylines that is nearest to a place. @param {number[][][]} lines @param {number[]} place */
+export const nearest = (lines, place) => lines.map((line) => nearestOn(line, place))
+  .reduce((best, one) => (one.distance < best.distance ? one : best), { distance: Infinity, place: null })
+
 /** @param {ArrayLike<number>} xs @param {ArrayLike<number>} ys */
 const zip = (xs, ys) => Array.from(xs, (x, i) => [x, ys[i]]).filter((place) => place.every(Number.isFinite))
 
@@ -48,14 +52,14 @@ const zip = (xs, ys) => Array.from(xs, (x, i) => [x, ys[i]]).filter((place) => p
  * @param {Prediction} prediction
  * @returns {number[][][]}
  */
-function linesOf({ source, columns: [x, y], what }) {
+export function linesOf({ source, columns: [x, y], what }) {
   const { [x]: xs = [], [y]: ys = [] } = gallery.source(source).data
   if (what === "point") return zip(xs, ys).map((place) => [place])
   return typeof xs[0] === "number" ? [zip(xs, ys)] : Array.from(xs, (/** @type {number[]} */ part, i) => zip(part, ys[i]))
 }
 
 /** @param {CanvasRenderingContext2D} ctx @param {number[]} place @param {string} colour @param {number[]} dash */
-function drawRing(ctx, [x, y], colour, dash) {
+export function drawRing(ctx, [x, y], colour, dash) {
   for (const [weight, style] of /** @type {[number, string][]} */ ([[6, "white"], [3, colour]])) {
     circlePath(ctx, x, y, RING)
     ctx.setLineDash(dash)
@@ -69,8 +73,9 @@ function drawRing(ctx, [x, y], colour, dash) {
  * Return the controller of a guess; begin(), wait(), reveal() and end() are called in this order.  The lesson hides the layer.
  * @param {Prediction} prediction
  * @param {(text: string) => void} say shows what to do, and how near the guess was
+ * @param {((points: number[][]) => void) | null} guessed gets the guess of a follower, whom the lecturer tells the truth
  */
-export function createGuess(prediction, say) {
+export function createGuess(prediction, say, guessed = null) {
   const isCurve = prediction.what === "curve"
   /** @type {PlotView | null} */
   let plot = null
@@ -111,6 +116,7 @@ export function createGuess(prediction, say) {
     const place = toData([within(x, x0, x1), within(y, y0, y1)])
     clicks = isCurve ? [...clicks, place].slice(-MOST) : [place]
     draw()
+    guessed?.(clicks)
     say(isCurve ? `Your curve: ${clicks.length} point${clicks.length === 1 ? "" : "s"}.` : "Your guess is set.")
   }
 
@@ -146,7 +152,7 @@ export function createGuess(prediction, say) {
       }
       plot.repainted.connect(draw)
       draw()
-      say(`${sheet.title}, then reveal.`)
+      say(guessed === null ? `${sheet.title}, then reveal.` : `${sheet.title}.`)
     },
     /** Take no more clicks: the revealed state was requested. */
     wait() { this.isRevealed = true },
@@ -158,8 +164,7 @@ export function createGuess(prediction, say) {
       sheet.tabIndex = -1
       sheet.style.pointerEvents = "none"
       const lines = linesOf(prediction).map((line) => line.map(toPixels))
-      const found = clicks.map((click) => lines.map((line) => nearestOn(line, toPixels(click)))
-        .reduce((best, one) => (one.distance < best.distance ? one : best), { distance: Infinity, place: null }))
+      const found = clicks.map((click) => nearest(lines, toPixels(click)))
       if (found.length === 0) return say("Revealed. There was no guess.")
       if (found.some(({ place }) => place === null)) return say("Revealed: there is none here.")
       truth = found.map(({ place }) => toData(place))

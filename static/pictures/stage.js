@@ -166,6 +166,7 @@ export function createStage(shelf, gallery) {
 
   /** @param {HTMLElement[]} cells @param {HTMLElement} seen */
   function showChips(cells, seen) {
+    chips.hidden = cells.length < 2
     chips.replaceChildren(...cells.map((cell, i) => button("chip", () => {
       if (isFolded(cell)) tell("fold", nameOf(cell))
       else enlarge([nameOf(cell)])

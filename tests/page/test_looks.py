@@ -502,7 +502,7 @@ def test_every_control_is_reached_by_the_tab_key(look_at):
 @pytest.mark.parametrize("size", ["phone", "sideways"])
 def test_on_a_phone_tools_without_room_in_the_bar_are_in_a_menu(look_at, size):
     page = look_at(HESS, size)
-    far = ("redo", "pin", "export", "print", "present", "fullscreen", "theme")
+    far = ("redo", "pin", "invite", "export", "print", "present", "fullscreen", "theme")
     assert not any(page.locator(f".param-{name}").is_visible() for name in far)
     page.locator(".param-more").click()
     for name in far:
@@ -529,6 +529,7 @@ def test_on_a_phone_tools_without_room_in_the_bar_are_in_a_menu(look_at, size):
         "Pin",
         "Chart",
         "Share",
+        "Invite",
         "Export",
         "Print",
         "Present",

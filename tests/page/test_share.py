@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import io
 from urllib.error import HTTPError
 from urllib.parse import parse_qsl, quote, urlsplit
 from urllib.request import urlopen
 
 import pytest
-import zxingcpp
-from PIL import Image
 
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.scenes import scenes
 from hess_explorer.server.qr_code import MOST
 from support.accessible import assert_accessible
+from support.barcode import read
 from support.modules import look_inside
 from support.page import HESS, Explorer, wait_frames
 from support.thorough import sample
@@ -34,11 +32,6 @@ SHOWN = """() => {
     notes: named(".text.notes").map((item) => item.textContent).join(),
   }
 }"""
-
-
-def read(png):
-    """The texts of all bar codes in a picture."""
-    return [code.text for code in zxingcpp.read_barcodes(Image.open(io.BytesIO(png)).convert("L"))]
 
 
 def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(explorer, browser, server):

@@ -123,6 +123,10 @@ def test_guesses_are_counted_once_for_each_page_and_shown_to_the_lecturer_when_r
         await lecturer.show(then, LESSON.name, STEP, revealed=True)
         await lecturer.until(lambda one: one.cloud is not None)
         await one.until(lambda one: one.told["revealed"])
+        # In another scene there is nothing to guess.
+        await lecturer.show("scene=loxodrome", LESSON.name, STEP, revealed=True)
+        await one.until(shows("scene=loxodrome"))
+        assert "prediction" not in one.told["step"]
         # No more guesses, and none is kept for the next step.
         await two.say({"guess": [[0.0, 0.0]], "step": STEP})
         other = LESSON.steps[STEP].at

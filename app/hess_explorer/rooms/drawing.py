@@ -111,10 +111,10 @@ class Drawing:
         state = dataclasses.replace(state, scene=name)
         return Frames(
             Answer(scene=_describe(scene.name, picture)).encode(),
-            Answer(state=state, block=answer.block, show=self._told(scene, step, show)).encode(),
+            Answer(state=state, block=answer.block, show=self._told(scene, picture, step, show)).encode(),
         )
 
-    def _told(self, scene: Scene[Any], step: LessonStep | None, show: Show) -> str:
+    def _told(self, scene: Scene[Any], picture: str, step: LessonStep | None, show: Show) -> str:
         """Return what followers read beside the picture, as JSON."""
         told: dict[str, Any] = {"scene": scene.title, "number": show.step, "revealed": show.revealed, "step": None}
         if step is not None:
@@ -122,6 +122,9 @@ class Drawing:
             # The answer is the lecturer's.
             told["step"] = {**json.loads(describe_lesson(lesson))["steps"][show.step - 1], "answer": ""}
             told["lesson"] = lesson.title
+            # The lecturer may have left the scene of the step.
+            if step.prediction is None or (scene.name, picture) != (step.at.scene, step.prediction.picture):
+                told["step"].pop("prediction", None)
         return json.dumps(told)
 
 

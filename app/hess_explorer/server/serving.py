@@ -33,6 +33,7 @@ from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.modules import module_routes
 from hess_explorer.server.qr_code import QrCode
 from hess_explorer.server.relay import Relay
+from hess_explorer.server.room_page import RoomPage
 from hess_explorer.server.room_socket import RoomSocket
 from hess_explorer.server.shutdown import Workers, end_on_signals, leave
 from hess_explorer.server.warm import warm
@@ -133,6 +134,7 @@ def options(
         "extra_patterns": [
             ("/states", StateSocket, {"capacity": capacity, "lessons": lessons, "follow": follow}),
             ("/metrics", Metrics, {"capacity": capacity, "rooms": rooms}),
+            (f"/r/({CODE})", RoomPage),
             (f"/rooms/({CODE})", RoomSocket, {"rooms": rooms, "relay": relay}),
             ("/qr.svg", QrCode),
             ("/export", Export),

@@ -1,0 +1,48 @@
+// @ts-check
+// The dialog Invite: QR code and address by which an audience follows, and how many do.
+
+import { button, element } from "../page/elements.js"
+import { listen, tell } from "../page/bus.js"
+import { qrCode } from "../page/qr.js"
+import { dialogOf } from "./dialog.js"
+
+/** Return the dialog and the function that opens it, and with it the room. */
+export function inviteDialog() {
+  const code = element("div.code", { role: "img", ariaLabel: "QR code of the address" })
+  const address = element("p.room-address")
+  const count = element("p.room-count", { role: "status" })
+  const end = button("button.param-end-room", () => tell("end-room"), "End the lecture")
+  const dialog = dialogOf("Invite", "menu-of-scenes.invite", [], element("div.invitation",
+    code, element("div", element("p", "Scan the code, or open"), address, count,
+      element("p.small", "Phones show your scene, state, picture and lesson step, and take guesses. Nobody's name is asked, and " +
+        "nothing is kept when the lecture ends."), end)))
+  let drawn = ""
+
+  /** @param {string} link */
+  async function draw(link) {
+    if (link === drawn) return
+    drawn = link
+    const [, host, path] = /^https?:\/\/(.*)(\/r\/.*)$/.exec(link) ?? ["", "", ""]
+    address.replaceChildren(host, element("wbr"), element("span", path))
+    code.replaceChildren()
+    if (link === "") return
+    const { svg, said } = await qrCode(link)
+    code.innerHTML = svg
+    if (said !== "") count.textContent = said
+  }
+
+  listen({
+    room({ code: name, address: link, followers, said }) {
+      end.hidden = name === null
+      count.textContent = name === null ? said : `${followers} follower${followers === 1 ? "" : "s"}`
+      draw(link)
+    },
+  })
+  return {
+    dialog,
+    open() {
+      tell("open-room")
+      dialog.showModal()
+    },
+  }
+}

@@ -1,0 +1,104 @@
+// @ts-check
+// The guesses of an audience in a picture: the cloud, its median, the truth, and how far the audience was off.
+
+import { element } from "../page/elements.js"
+import { fit } from "./canvas.js"
+import { gallery } from "./gallery.js"
+import { drawRing, GUESS, linesOf, nearest, shown, TRUTH } from "./guess.js"
+import { circlePath } from "./looks.js"
+
+const DOT = 5
+const FAINT = "80"
+// Pieces of a median curve.
+const MOST_PIECES = 8
+
+/** Return the median. @param {number[]} values */
+function median(values) {
+  const sorted = [...values].sort((a, b) => a - b)
+  const middle = sorted.length >> 1
+  return sorted.length % 2 === 1 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2
+}
+
+/** Return the point whose coordinates are the medians of theirs. @param {number[][]} points */
+const middleOf = (points) => [0, 1].map((i) => median(points.map((point) => point[i])))
+
+/** Return the median curve: the middles of equally many points, from left to right. @param {number[][]} points */
+function medianCurve(points) {
+  const sorted = [...points].sort(([x], [other]) => x - other)
+  const pieces = Math.min(MOST_PIECES, sorted.length)
+  return Array.from({ length: pieces }, (_, i) => (
+    middleOf(sorted.slice(Math.floor(i * sorted.length / pieces), Math.floor((i + 1) * sorted.length / pieces)))))
+}
+
+/**
+ * Draw the guesses over their picture, whose revealed state is on show.
+ * @param {Prediction} prediction
+ * @param {number[][][]} cloud the points of each guess, in the coordinates of the picture
+ */
+export function createAudience(prediction, cloud) {
+  const plot = gallery.plot(prediction.picture)
+  const isCurve = prediction.what === "curve"
+  /** @type {(place: number[]) => [number, number]} */
+  const toPixels = ([x, y]) => [plot.frame.x_scale.compute(x), plot.frame.y_scale.compute(y)]
+  /** @type {(place: number[]) => [number, number]} */
+  const toData = ([x, y]) => [plot.frame.x_scale.invert(x), plot.frame.y_scale.invert(y)]
+  const points = cloud.flat()
+  const middle = points.length === 0 ? [] : isCurve ? medianCurve(points) : [middleOf(points)]
+  const lines = linesOf(prediction).map((line) => line.map(toPixels))
+  /** @param {number[]} point */
+  const truthOf = (point) => nearest(lines, toPixels(point))
+  const sheet = element("canvas.audience", { ariaHidden: true })
+
+  function draw() {
+    const ctx = fit(sheet, plot.bbox.width, plot.bbox.height)
+    ctx.fillStyle = GUESS + FAINT
+    for (const point of points) {
+      circlePath(ctx, ...toPixels(point), DOT)
+      ctx.fill()
+    }
+    if (isCurve) {
+      ctx.beginPath()
+      for (const point of middle) ctx.lineTo(...toPixels(point))
+      ctx.lineWidth = 3
+      ctx.strokeStyle = GUESS
+      ctx.stroke()
+      return
+    }
+    for (const point of middle) {
+      const { place } = truthOf(point)
+      if (place !== null) drawRing(ctx, place, TRUTH, [])
+      drawRing(ctx, toPixels(point), GUESS, [])
+    }
+  }
+
+  function sentence() {
+    if (cloud.length === 0) return "Revealed. Nobody in the audience guessed."
+    const many = `${cloud.length} guess${cloud.length === 1 ? "" : "es"} from the audience`
+    // How far each guess was off, on the average of its points.
+    const off = cloud.map((guess) => guess.map((point) => [point, truthOf(point)]).reduce((sum, [point, truth]) => {
+      const { distance, place } = /** @type {ReturnType<typeof nearest>} */ (truth)
+      if (place === null) return sum
+      const [x, y] = toData(place)
+      const [px, py] = /** @type {number[]} */ (point)
+      return [distance, Math.abs(px - x), Math.abs(py - y)].map((one, i) => sum[i] + one / guess.length)
+    }, [0, 0, 0]))
+    if (lines.every((line) => line.length === 0)) return `${many}; there is none here.`
+    const [pixels, x, y] = [0, 1, 2].map((i) => median(off.map((one) => one[i])))
+    const [[below], [left]] = [plot.model.below, plot.model.left]
+    return `${many}. Median distance: ${Math.round(pixels)} pixels, ` +
+      `${shown(x)} in ${below.axis_label}, ${shown(y)} in ${left.axis_label}.`
+  }
+
+  sheet.style.cssText = "position: absolute; inset: 0; width: 100%; height: 100%; pointer-events: none"
+  plot.canvas_view.overlays.el.parentNode.append(sheet)
+  plot.repainted.connect(draw)
+  draw()
+  return {
+    said: sentence(),
+    /** Remove the guesses from the picture. */
+    end() {
+      plot.repainted.disconnect(draw)
+      sheet.remove()
+    },
+  }
+}

@@ -1,0 +1,210 @@
+"""A lecture: the audience follows on phones, guesses, plays on its own, and comes back."""
+
+from __future__ import annotations
+
+import re
+from urllib.parse import parse_qs, urlsplit
+
+import numpy as np
+import pytest
+
+from hess_explorer.assets import modules_path
+from hess_explorer.headless.browser import wait_ready
+from hess_explorer.lessons import shipped
+from support.accessible import assert_accessible
+from support.asynchronous import finished
+from support.barcode import read
+from support.page import POINTS, Explorer
+from support.room import Follower
+
+LESSON = next(
+    one for one in shipped().values() if any(step.prediction and step.prediction.what == "point" for step in one.steps)
+)
+STEP = next(i for i, step in enumerate(LESSON.steps, 1) if step.prediction and step.prediction.what == "point")
+ASKED = LESSON.steps[STEP - 1].prediction
+# Guesses of others, as shares of the axes.
+OTHERS = [(0.2, 0.3), (0.7, 0.8)]
+
+
+# The columns of the sources that a picture draws, by the modules of the page itself.
+COLUMNS = """async ([path, picture]) => {
+  const { gallery } = await import(path)
+  const names = new Set(gallery.plot(picture).model.renderers.map((one) => one.data_source?.name).filter(Boolean))
+  return Object.fromEntries([...names].filter((name) => gallery.source(name)).map((name) => (
+    [name, Object.values(gallery.source(name).data).map((column) => Array.from(column, (part) => part?.length ?? 1))])))
+}"""
+
+
+def lengths(column):
+    """Return the number of points in each part of a column."""
+    return [len(part) if isinstance(part, list) else 1 for part in column]
+
+
+def follows(page, query):
+    """Wait until the page of a follower shows a state."""
+    page.locator(f'html[data-query*="{query}"]').wait_for(state="attached", timeout=20_000)
+
+
+@pytest.fixture
+def lecture(tab, browser):
+    """Return (lecturer, follower, code): the lecturer's page, a phone that follows, and the code of the room."""
+    tab.fresh()
+    tab.assert_quiet()
+    context = browser.new_context(
+        viewport={"width": 390, "height": 844}, reduced_motion="reduce", has_touch=True, is_mobile=True
+    )
+    phone = Explorer(context.new_page(), tab.base)
+    page = tab.page
+    tab.goto(f"/?lesson={LESSON.name}&step={STEP}")
+    page.get_by_role("button", name="Invite").click()
+    page.locator(".invite .code svg").wait_for()
+    [address] = read(page.locator(".invite .code").screenshot())
+    assert address.endswith(page.locator(".room-address").inner_text())
+    phone.page.goto(address)
+    phone.page.wait_for_selector("html[data-ready=true]", state="attached")
+    yield tab, phone, address.rpartition("/")[2]
+    phone.assert_quiet()
+    context.close()
+    if page.get_by_role("button", name="Invite").get_attribute("aria-pressed") == "true":
+        page.keyboard.press("Escape")
+        page.get_by_role("button", name="Invite").click()
+        page.get_by_role("button", name="End the lecture").click()
+        page.locator(".param-invite[aria-pressed=false]").wait_for()
+        page.keyboard.press("Escape")
+    if page.locator(".param-leave-lesson").is_visible():
+        page.locator(".param-leave-lesson").click()
+    tab.assert_quiet()
+
+
+def test_a_guess_of_the_audience_from_the_invitation_to_how_far_it_was_off(lecture, artefacts):
+    tab, phone, code = lecture
+    page, small = tab.page, phone.page
+    page.get_by_text("1 follower", exact=True).wait_for()
+    assert_accessible(page)
+    page.screenshot(path=artefacts / "room-invitation.png")
+    page.keyboard.press("Escape")
+    assert small.get_by_role("heading", name=LESSON.steps[STEP - 1].title).is_visible()
+    # The picture fills the width of the phone, and nothing is cut.
+    box = small.locator(".gallery:not(.away) .picture").bounding_box()
+    assert box["width"] >= 350
+    assert small.evaluate("document.documentElement.scrollWidth") == 390
+    assert page.locator(".lesson .audience").inner_text() == "0 guesses from the audience."
+
+    sheet = small.locator("canvas.guess").bounding_box()
+    small.touchscreen.tap(sheet["x"] + 0.5 * sheet["width"], sheet["y"] + 0.4 * sheet["height"])
+    assert small.locator(".said").inner_text() == "Your guess is set."
+    page.get_by_text("1 guess from the audience.").wait_for()
+    x0, x1, y0, y1 = tab.axes(ASKED.picture)
+    places = [[x0 + x * (x1 - x0), y0 + y * (y1 - y0)] for x, y in OTHERS]
+
+    async def guess():
+        for i, place in enumerate(places):
+            other = await Follower.follow(tab.base, code, f"another-phone-{i}")
+            await other.hear()
+            await other.say({"guess": [place], "step": STEP})
+            await other.hear()
+            await other.leave()
+
+    finished(guess())
+    page.get_by_text("3 guesses from the audience.").wait_for()
+    small.screenshot(path=artefacts / "room-guess.png")
+    assert_accessible(small)
+
+    tab.change(page.keyboard.press, "PageDown")
+    page.locator("canvas.audience").wait_for(state="attached")
+    said = page.locator(".lesson .audience").inner_text()
+    page.screenshot(path=artefacts / "room-revealed.png")
+    small.get_by_text(re.compile(r"pixels away")).wait_for()
+    small.screenshot(path=artefacts / "room-revealed-phone.png")
+    # The phone draws what the projector draws, and nothing of the state before; no player moves a point there.
+    drawn = small.evaluate(COLUMNS, [f"{tab.base}/{modules_path()}/pictures/gallery.js", ASKED.picture])
+    assert drawn
+    for name, columns in drawn.items():
+        if name not in POINTS:
+            assert columns == [lengths(column) for column in tab.data(name).values()], name
+    # The three distances again, from the points that are drawn.
+    [own] = re.findall(r"(\d+) pixels away: (\S+) in \S+ (\S+) in", small.locator(".said").inner_text())
+    columns = tab.data(ASKED.source)
+    truth = np.column_stack([columns[name] for name in ASKED.columns])
+    scales = page.evaluate(
+        """name => { const { frame } = hess.plots.find(({ model }) => model.name === name)
+          return [frame.x_scale, frame.y_scale].map((scale) => [scale.compute(0), scale.compute(1)]) }""",
+        ASKED.picture,
+    )
+    per_unit = np.array([high - low for low, high in scales])
+    off = []
+    for place in places:
+        away = (truth - place) * per_unit
+        nearest = np.hypot(*away.T).argmin()
+        off.append([np.hypot(*away[nearest]), *np.abs(truth[nearest] - place)])
+    # The phone's own guess in units of the axes, which are those of the projector.
+    off.append([np.hypot(float(own[1]) * per_unit[0], float(own[2]) * per_unit[1]), float(own[1]), float(own[2])])
+    found = re.fullmatch(
+        r"3 guesses from the audience\. Median distance: (\d+) pixels, (\S+) in .*, (\S+) in .*\.", said
+    )
+    pixels, x, y = np.median(off, axis=0)
+    assert float(found[1]) == pytest.approx(pixels, rel=0.1)
+    assert [float(found[2]), float(found[3])] == pytest.approx([x, y], rel=0.1)
+    # The next step takes the guesses away.
+    while page.locator(".lesson .count").inner_text().startswith(f"{STEP} "):
+        page.keyboard.press("PageDown")
+    page.locator("canvas.audience").wait_for(state="detached")
+    small.get_by_role("heading", name=LESSON.steps[STEP].title).wait_for()
+
+
+def test_a_follower_plays_alone_and_comes_back_and_the_room_outlives_a_reload(lecture):
+    tab, phone, _ = lecture
+    page, small = tab.page, phone.page
+    sockets = []
+
+    def connect(socket):
+        socket.connect_to_server()
+        sockets.append(socket)
+
+    page.keyboard.press("Escape")
+    page.locator(".param-leave-lesson").click()
+    tab.change(lambda: page.evaluate("hess.tell('scene', 'loxodrome')"))
+    follows(small, "scene=loxodrome")
+    assert small.locator(".lesson").is_hidden()
+    # Gestures do not steer.
+    x, y, wide, high = small.locator(".gallery:not(.away) .picture .host").bounding_box().values()
+    small.touchscreen.tap(x + wide / 2, y + high / 2)
+    small.get_by_role("link", name="Let go").tap()
+    wait_ready(small)
+    alone = {name: one for name, [one] in parse_qs(urlsplit(small.url).query).items()}
+    assert alone["scene"] == "loxodrome"
+    before = phone.state
+    small.evaluate("hess.tell('scene', 'kharlamova')")
+    wait_ready(small, after=before)
+    # The lecturer does not notice, goes on, and reloads the page.
+    tab.change(lambda: page.evaluate("hess.tell('scene', 'quartic')"))
+    page.reload()
+    wait_ready(page)
+    page.locator(".param-invite[aria-pressed=true]").wait_for()
+    assert page.evaluate("document.documentElement.dataset.scene") == "quartic"
+    small.route_web_socket(re.compile("/rooms/"), connect)
+    small.get_by_role("link", name="Back to the lecture").tap()
+    follows(small, "scene=quartic")
+    tab.change(lambda: page.evaluate("hess.tell('scene', 'scattering')"))
+    follows(small, "scene=scattering")
+    # A phone that loses its connection finds the last state when it is back.
+    sockets.pop().close(code=1001)
+    small.get_by_text("Connection lost.").wait_for()
+    tab.change(lambda: page.evaluate("hess.tell('scene', 'bridge')"))
+    follows(small, "scene=bridge")
+    assert len(sockets) == 1
+    page.get_by_role("button", name="Invite").click()
+    page.get_by_role("button", name="End the lecture").click()
+    small.get_by_text("The lecture has ended.").wait_for()
+    page.get_by_text("The lecture has ended.").wait_for()
+    page.keyboard.press("Escape")
+    small.get_by_role("link", name="Open Hess Explorer").tap()
+    wait_ready(small)
+    assert small.get_by_role("link", name="Back to the lecture").count() == 0
+
+
+def test_a_code_that_is_none_says_so(open_page, server):
+    page = open_page()
+    page.goto(f"{server}/r/AAAAAA")
+    page.get_by_text("There is no such room: its lecture has ended, or the code is wrong.").wait_for()
+    assert page.get_by_role("link", name="Open Hess Explorer").get_attribute("href") == "./"
