@@ -12,6 +12,7 @@ import { createAnimation } from "./animation.js"
 import { listen, tell } from "./bus.js"
 import { isEmbedded } from "./embedding.js"
 import { onKeys } from "./keys.js"
+import { recording } from "./recording.js"
 import { button, element } from "./elements.js"
 import { CALM } from "./windows.js"
 
@@ -37,7 +38,8 @@ export function render({ index, el }) {
   const tries = element("section.tries", { hidden: true, ariaLabel: "Try this" })
   const controls = stepControls()
   const veil = createVeil()
-  el.append(menu, panel, tries)
+  const record = recording()
+  el.append(menu, record.box, panel, tries)
 
   /** @type {Lesson | null} */
   let lesson = null
@@ -200,7 +202,7 @@ export function render({ index, el }) {
     element("li", button(`button.param-lesson-${name}`, () => {
       wanted = name
       tell("lesson", name)
-    }, `${title} (${minutes} min)`))))))
+    }, `${title} (${minutes} min)`))))), record.begin)
 
   /** Show the suggestions for a scene, one at a time. @param {SceneDescription} scene */
   function showTries(scene) {

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import itertools
 import re
-from urllib.parse import parse_qs, urlsplit
+from pathlib import Path
+from urllib.parse import parse_qs, urlencode, urlsplit
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from PIL import Image
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import server_process
 from hess_explorer.lessons import shipped, tries
+from hess_explorer.lessons.reading import read
 from support.accessible import assert_accessible
 from support.board import SCENES
 from support.page import HESS, Explorer, values_of, wait_frames
@@ -154,7 +156,7 @@ def test_a_link_to_a_step_that_is_not_there_is_one_to_the_last_and_a_lesson_is_c
     explorer.goto("/?lesson=none")
     assert "Lesson must be one of" in explorer.text("notes")
     page.locator(".lesson-menu > summary").click()
-    assert page.locator(".lesson-menu button").count() == len(lessons)
+    assert page.locator(".lesson-menu li").count() == len(lessons)
     explorer.change(page.locator(".param-lesson-limit-cycles-and-locking").click)
     first = lessons["limit-cycles-and-locking"].steps[0]
     assert here(explorer)[1:4] == (first.at.values, "limit-cycles-and-locking", "1")
@@ -351,3 +353,42 @@ def test_images_tables_and_links_of_own_lessons(browser, tmp_path):
         assert page.locator(".lesson-menu button").all_inner_texts()[:2] == ["Lesson b (1 min)", "Lesson a (1 min)"]
         tab.assert_quiet()
     context.close()
+
+
+def test_what_is_done_by_hand_is_recorded_and_replayed(tab, server):
+    tab.fresh()
+    page = tab.page
+    page.locator(".lesson-menu > summary").click()
+    page.locator(".param-record").click()
+    states = [here(tab)[1]]
+    # An enlarged picture, a key on a slider, a click in a picture, another picture, another scene.
+    page.keyboard.press("Escape")
+    page.keyboard.press("5")
+    tab.change(lambda: tab.slider("h").press("ArrowRight"))
+    states.append(here(tab)[1])
+    pixel, _ = at(tab, "circle", -1.0, 1.0)
+    tab.change(page.mouse.click, *pixel)
+    states.append(here(tab)[1])
+    page.keyboard.press("2")
+    states.append(states[-1])
+    tab.change(lambda: page.evaluate("hess.tell('scene', 'scattering')"))
+    states.append(here(tab)[1])
+    assert page.locator(".recording [role=status]").inner_text() == "Recorded: 5 steps"
+    with page.expect_download() as download:
+        page.locator(".param-save-recording").click()
+    assert page.locator(".recording").is_hidden()
+    lesson = read(Path(download.value.path()).read_text(encoding="utf-8"), "recorded")
+    assert [step.at.values for step in lesson.steps] == states
+    assert [step.look for step in lesson.steps] == ["circle", "circle", "circle", "omega", ""]
+    assert [step.controls for step in lesson.steps] == [(), ("h",), ("phi0",), (), ()]
+    for step in lesson.steps:
+        query = urlencode({"scene": step.at.scene, **step.at.values})
+        if here(tab)[:2] != (step.at.scene, step.at.values):
+            tab.change(lambda query=query: page.evaluate("query => hess.tell('restore', query)", query))
+        assert here(tab)[:2] == (step.at.scene, step.at.values)
+    # What is discarded leaves nothing.
+    page.locator(".param-record").click()
+    page.locator(".param-drop-recording").click()
+    assert page.locator(".param-record").is_visible()
+    page.locator(".lesson-menu > summary").click()
+    tab.assert_quiet()
