@@ -1,7 +1,5 @@
 """Measure what `hess-explorer bench` reports: its options and its runs."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import sys
@@ -10,7 +8,7 @@ from pathlib import Path
 
 from hess_explorer.commands import CommandError
 from hess_explorer.commands.arguments import number, shown
-from hess_explorer.commands.command import Command, Options, flag, option
+from hess_explorer.commands.command import Command, flag, option
 from hess_explorer.commands.output import show, write_file
 
 WORKS = ("A", "A2", "B", "B2", "C", "D")
@@ -18,7 +16,7 @@ TARGETS = (1e-3, 1e-6, 1e-9, 1e-12)
 _PICTURES = (".svg", ".png")
 
 
-def _works(text: str) -> tuple[str, ...]:
+def _works(text):
     names = tuple(text.split(","))
     for name in names:
         if name not in WORKS:
@@ -26,7 +24,7 @@ def _works(text: str) -> tuple[str, ...]:
     return tuple(name for name in WORKS if name in names)
 
 
-def _scenes(text: str) -> tuple[str, ...]:
+def _scenes(text):
     from benchmarks.integrators.trade import names
 
     found, known = tuple(text.split(",")), names()
@@ -36,32 +34,32 @@ def _scenes(text: str) -> tuple[str, ...]:
     return found
 
 
-def _targets(text: str) -> tuple[float, ...]:
+def _targets(text):
     targets = {number(part) for part in text.split(",")}
     if min(targets) <= 0.0:
         raise argparse.ArgumentTypeError(f"{shown(text)} has an error that is not positive; write it like 1e-6,1e-9")
     return tuple(sorted(targets, reverse=True))
 
 
-def _picture(text: str) -> Path:
+def _picture(text):
     path = Path(text)
     if path.suffix not in _PICTURES:
         raise argparse.ArgumentTypeError(f"{shown(text)} is not a picture; end the name in {' or '.join(_PICTURES)}")
     return path
 
 
-def _progress(text: str) -> None:
+def _progress(text):
     print(f"{text} …", file=sys.stderr, flush=True)
 
 
-def _run_trade(options: Options) -> None:
-    from benchmarks.integrators.trade import Failed, Row, as_json, by_kind, heading, line_of, names, trade
+def _run_trade(options):
+    from benchmarks.integrators.trade import Row, as_json, by_kind, heading, line_of, names, trade
 
     in_text = options.format == "text"
     if in_text:
         show(heading().encode())
-    rows: list[Row] = []
-    failed: list[Failed] = []
+    rows = []
+    failed = []
     for row in trade(options.scenes or names(), 1 if options.quick else 3, _progress):
         if isinstance(row, Row):
             rows.append(row)
@@ -75,11 +73,11 @@ def _run_trade(options: Options) -> None:
         raise CommandError("; ".join(f"{one.scene}: {one.kind} could not be measured ({one.why})" for one in failed))
 
 
-def _json(value: object) -> str:
+def _json(value):
     return json.dumps(value, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
 
 
-def _run(options: Options) -> None:
+def _run(options):
     if options.trade:
         _run_trade(options)
         return
@@ -102,7 +100,7 @@ def _run(options: Options) -> None:
         write_file(options.picture, draw(report, options.picture.suffix))
 
 
-def _require_matplotlib() -> None:
+def _require_matplotlib():
     if find_spec("matplotlib") is None:
         raise CommandError("--picture needs Matplotlib: pip install 'hess-explorer[bench]'.")
 

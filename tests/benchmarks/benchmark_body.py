@@ -4,8 +4,6 @@ Each frame turns the body by a key and reads a pixel back, so that all that was 
 Chromium without a graphics card, at the size that the picture has on the page of 1600×950.
 """
 
-from __future__ import annotations
-
 import statistics
 from pathlib import Path
 
@@ -38,7 +36,7 @@ FRAMES = """async (count) => {
 }"""
 
 
-def main() -> None:
+def main():
     """Print the median and the minimum frame time in some scenes."""
     with sync_playwright() as playwright, server_process(Path("/dev/null")) as (_, base):
         browser = playwright.chromium.launch(

@@ -5,8 +5,6 @@ behind it when nobody moves on, and an answer where 42 sessions ask without a pa
 Checkouts take turns, each in a process of its own, and the least of the rounds counts.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import os

@@ -19,7 +19,7 @@ if __name__ == "__main__":
 import numpy as np
 from distributed import Client
 
-from benchmarks.integrators.machine import describe
+from benchmarks.integrators.machine import conditions
 from hess_explorer.sweep import QUANTITIES, sweep, work, workers
 from hess_explorer.sweep.grid import SweepGrid
 from hess_explorer.sweep.result import Store
@@ -265,10 +265,8 @@ def main():
             client.wait_for_workers(2, timeout=120)
         pairs = [on_two(case, address) for case in long]
         found = rates(address)
-    facts = describe()
     lines = [
-        f"{facts['date']}, {facts['processor']}, {facts['cores']} cores, Python {facts['python']}; load before: "
-        f"{load:.1f}.",
+        f"{conditions()}; load before: {load:.1f}.",
         "",
         "| what | measured | asked |",
         "|---|---|---|",

@@ -10,7 +10,7 @@ from pathlib import Path
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parents[1])]
 
-from benchmarks.integrators.machine import describe
+from benchmarks.integrators.machine import conditions
 from benchmarks.integrators.trade import Failed, as_text, by_kind, costliest, heading, line_of, names, trade
 from support.measured import write_measured
 
@@ -27,9 +27,8 @@ def main():
         if isinstance(row, Failed):
             sys.exit(f"{row.scene}, {row.kind}: {row.why}")
         rows.append(row)
-    table, facts = by_kind(rows), describe()
+    table, head = by_kind(rows), f"{conditions()}."
     print(f"\n{table}")
-    head = f"{facts['date']}, {facts['processor']}, {facts['cores']} cores, Python {facts['python']}."
     write_measured(ROOT / "app" / "README.md", f"{head}\n\n{table}\n{as_text(costliest(rows, 10))}")
     for file in (WORDS / "speed_accuracy.md", WORDS / "speed_accuracy_of_maps.md"):
         write_measured(file, f"{head}\n\n{table}")

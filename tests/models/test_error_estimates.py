@@ -4,22 +4,20 @@ An estimate is right if the true error is at most ten times as large; that must 
 level.  Nor may it cry wolf: where the true error is more than round-off, half of all estimates are within a factor 100.
 """
 
-import math
 from decimal import Decimal
+from math import exp, log10, pi
 
 import numpy as np
-import pytest
+from pytest import approx, fixture, mark, param
 
 import oracle
-from hess_mechanics import check_body, circle_map, f_max, level, solve, systems
-from hess_mechanics.numerics.accuracy import LEVELS
-from support.mechanics import REFERENCE
+from hess_mechanics import check_body, circle_map, f_max, solve, systems
+from support.mechanics import REFERENCE, apart, every_known_torus, every_level, inertia_of
 
 SYSTEMS = systems()
 ORBITS, TORI, SEED = 100, 100, 20160801
 SHARES_OF_THE_SPAN = np.array([0.25, 0.5, 0.75, 1.0])
-every_level = pytest.mark.parametrize("name", LEVELS)
-in_long_double = pytest.mark.skipif(
+in_long_double = mark.skipif(
     np.finfo(np.longdouble).eps > 1e-18, reason="long double has no more digits than double on this machine"
 )
 
@@ -38,8 +36,8 @@ def quickest(name):
     return sorted(of_this, key=lambda question: oracle.KEPT[question][0])[:2]
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=in_long_double if "long_double" in name else ()) for name in oracle.FUNCTIONS]
+@mark.parametrize(
+    "name", [param(name, marks=in_long_double if "long_double" in name else ()) for name in oracle.FUNCTIONS]
 )
 def test_what_is_kept_is_what_the_oracle_finds(name):
     questions = quickest(name)
@@ -57,17 +55,17 @@ def agree(found, kept, within):
     return abs(Decimal(found) - Decimal(kept)) <= within if isinstance(found, str) else found == kept
 
 
-@pytest.mark.parametrize("row", REFERENCE["trajectories"], ids=lambda row: row["name"])
+@mark.parametrize("row", REFERENCE["trajectories"], ids=lambda row: row["name"])
 def test_orbits_in_decimals_agree_with_all_digits_of_the_reference(row):
     times, exact = [state["t"] for state in row["states"]], np.array([state["y"] for state in row["states"]])
     found = oracle.orbit_in_decimals(SYSTEMS[row["system"]], row["y0"], parameters_of(row), times, digits=30)
     assert np.max(np.abs(found - oracle.as_decimals(exact.tolist()))) < 1e-16
 
 
-@pytest.mark.parametrize("row", REFERENCE["hess_monodromy"], ids=lambda row: f"h={row['h']},f={row['f']},a={row['a']}")
+@every_known_torus
 def test_maps_by_three_orbits_agree_with_all_digits_of_the_reference(row):
     found = oracle.map_by_three_orbits(row["a"], row["h"], row["f"], digits=45)
-    assert math.exp(found.log_trace) == pytest.approx(float(row["abs_trace"]), rel=1e-15, abs=1e-15)
+    assert exp(found.log_trace) == approx(float(row["abs_trace"]), rel=1e-15, abs=1e-15)
     for phi, theta in enumerate(row["theta_of_phi_0_1_2"]):
         assert abs(found.theta(phi) - float(theta)) < 2e-15
 
@@ -77,12 +75,7 @@ def test_maps_by_three_orbits_agree_with_all_digits_of_the_reference(row):
 
 def random_body(random):
     """Parameters of `Biz131`: the tensor of six point masses, its axes turned about e3 so that I12 = 0, in a field."""
-    masses, positions = random.uniform(0.1, 3.0, 6), random.normal(size=(6, 3))
-    second = (masses[:, None] * positions).T @ positions
-    angle = 0.5 * math.atan2(2 * second[0, 1], second[0, 0] - second[1, 1])
-    turn = np.array([[math.cos(angle), math.sin(angle), 0], [-math.sin(angle), math.cos(angle), 0], [0, 0, 1]])
-    second = turn @ second @ turn.T
-    inertia = np.trace(second) * np.eye(3) - second
+    inertia, _ = inertia_of(random.uniform(0.1, 3.0, 6), random.normal(size=(6, 3)))
     tensor = np.array([inertia[0, 0], inertia[1, 1], inertia[0, 2], inertia[1, 2]]) / np.max(np.diag(inertia))
     assert check_body(*tensor).is_body
     return np.concatenate((tensor, random.normal(size=3) * 10 ** random.uniform(-2.0, 1.0)))
@@ -104,13 +97,13 @@ def random_state(system, random):
     return np.concatenate((slow, vertical / np.linalg.norm(vertical) * np.linalg.norm(state[count:])))
 
 
-@pytest.fixture(scope="module", params=SYSTEMS.values(), ids=SYSTEMS)
+@fixture(scope="module", params=SYSTEMS.values(), ids=SYSTEMS)
 def orbits(request):
     """A system with states, parameters and times of many orbits, and where these truly are."""
     system, random = request.param, np.random.default_rng(SEED)
     parameters = np.array([random_parameters(system, random) for _ in range(ORBITS)])
     states = np.array([random_state(system, random) for _ in range(ORBITS)])
-    spans = random.choice([-1, 1], ORBITS) * 10 ** random.uniform(-1.0, math.log10(200.0), ORBITS)
+    spans = random.choice([-1, 1], ORBITS) * 10 ** random.uniform(-1.0, log10(200.0), ORBITS)
     times = spans[:, None] * SHARES_OF_THE_SPAN
     return system, states, parameters, times, oracle.orbits_in_long_double(system, states, parameters, times)
 
@@ -130,7 +123,7 @@ def check(true, estimated, scale, share=0.01):
 @every_level
 def test_the_error_estimates_of_orbits_are_right(orbits, name):
     system, states, parameters, times, exact = orbits
-    found = [solve(system.at(p), y, t, level(name)) for y, p, t in zip(states, parameters, times, strict=True)]
+    found = [solve(system.at(p), y, t, name) for y, p, t in zip(states, parameters, times, strict=True)]
     true = np.array([np.max(oracle.distances(orbit.states, truth)) for orbit, truth in zip(found, exact, strict=True)])
     scale = np.maximum(1.0, np.max(np.abs(exact), axis=(1, 2)))
     # Two runs of a chaotic motion may err alike.  Of the Euler–Poisson equations, which are chaotic for most bodies,
@@ -166,11 +159,11 @@ def random_torus(random, place):
     return float(a * random.choice([-1, 1])), float(h), float(share * random.choice([-1, 1]) * f_max(h))
 
 
-@pytest.fixture(scope="module", params=PLACES)
+@fixture(scope="module", params=PLACES)
 def maps(request):
     """Tori, their Θ and its slope at random phases, and their traces."""
     random = np.random.default_rng(SEED)
-    tori, phases = [random_torus(random, request.param) for _ in range(TORI)], random.uniform(-math.pi, math.pi, 16)
+    tori, phases = [random_torus(random, request.param) for _ in range(TORI)], random.uniform(-pi, pi, 16)
     # The oracle checks for itself that its digits are enough: the saddle takes some.
     exact = oracle.maps_by_three_orbits(tori, digits=30 if "separatrix" in request.param else 27)
     theta, slope = (
@@ -183,8 +176,8 @@ def maps(request):
 @every_level
 def test_the_error_estimates_of_circle_maps_are_right(maps, name):
     tori, phases, theta, slope, trace = maps
-    found = [circle_map(*torus, level(name)) for torus in tori]
-    turned = np.abs(np.angle(np.exp(1j * (np.array([m.theta(phases) for m in found]) - theta))))
+    found = [circle_map(*torus, name) for torus in tori]
+    turned = apart([m.theta(phases) for m in found], theta)
     # Measured on the graph of Θ: where it is steep, an error of Θ is one of φ.
     true = np.maximum(
         np.max(turned / np.maximum(1.0, slope), axis=1),

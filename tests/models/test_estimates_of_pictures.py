@@ -6,11 +6,11 @@ of correct crossings of each orbit instead.  Truths are closed forms, circle map
 `reference` that are known to be a thousand times as exact.
 """
 
-import math
 from functools import cache
+from math import hypot, inf, log, pi, remainder, sqrt
 
 import numpy as np
-import pytest
+from pytest import approx, fixture, mark
 
 from hess_mechanics import circle_map, f_max
 from hess_mechanics.chaplygin_ball.equations import BallBody
@@ -26,7 +26,7 @@ from hess_mechanics.suslov_hess.mode_locking import lock_boundary
 from hess_mechanics.suslov_hess.rotation_number import Torus, rotation_errors, rows, rows_error, values_at
 
 BELOW_THE_FLOOR = ("draft", "standard", "precise")
-every_level_below_the_floor = pytest.mark.parametrize("name", BELOW_THE_FLOOR)
+every_level_below_the_floor = mark.parametrize("name", BELOW_THE_FLOOR)
 
 
 def within_a_factor_of_ten(errors, estimates, share=0.99):
@@ -37,8 +37,8 @@ def within_a_factor_of_ten(errors, estimates, share=0.99):
 
 # ---- sections ---------------------------------------------------------------------------------------------------
 
-PIXELS, PERIODS, CROSSINGS = (300.0 / math.pi, 600.0 / math.pi), (2.0 * math.pi, math.inf), 60
-WHOLE = ((-math.pi, 0.0), (math.pi, math.pi))
+PIXELS, PERIODS, CROSSINGS = (300.0 / pi, 600.0 / pi), (2.0 * pi, inf), 60
+WHOLE = ((-pi, 0.0), (pi, pi))
 
 
 def places(body, starts, level, crossings=CROSSINGS):
@@ -46,7 +46,7 @@ def places(body, starts, level, crossings=CROSSINGS):
     return [SuslovSection(body, 0.0, 3).places_of(states) for states in found.states]
 
 
-@pytest.fixture(scope="module")
+@fixture(scope="module")
 def followed():
     """300 orbits of random bodies: crossings at each level and at its tightened one, the true ones, and λ of each."""
     random = np.random.default_rng(20160801)
@@ -71,7 +71,7 @@ def e_folds(one, other):
     parted = errors_in_pixels(one[:13], other, PIXELS, PERIODS)
     if len(parted) < 13:
         return 0.0
-    return math.log(max(parted[12], 1e-12) / max(parted[0], 1e-12)) / 12.0
+    return log(max(parted[12], 1e-12) / max(parted[0], 1e-12)) / 12.0
 
 
 @every_level_below_the_floor
@@ -92,7 +92,7 @@ def test_up_to_the_crossing_that_is_named_an_orbit_is_where_it_is_drawn(followed
     assert np.median(np.abs(np.array(counts) - true_counts)[lost]) <= 1
 
 
-@pytest.mark.parametrize(("coarse", "fine"), [("draft", "standard"), ("standard", "precise")])
+@mark.parametrize(("coarse", "fine"), [("draft", "standard"), ("standard", "precise")])
 def test_a_finer_level_keeps_chaotic_orbits_for_longer(followed, coarse, fine):
     rows, truth, _ = followed
     counts = [right_crossings(rows[name][0], truth, PIXELS, PERIODS) for name in (coarse, fine)]
@@ -112,8 +112,8 @@ def test_so_many_crossings_are_right_as_the_plan_promises(followed, name):
 
 
 def test_an_angle_that_passes_the_cut_is_no_error():
-    orbit = np.array([[math.pi - 1e-4, 1.0], [-math.pi + 1e-4, 1.0]])
-    turned = np.array([[-math.pi + 1e-4, 1.0], [math.pi - 1e-4, 1.0]])
+    orbit = np.array([[pi - 1e-4, 1.0], [-pi + 1e-4, 1.0]])
+    turned = np.array([[-pi + 1e-4, 1.0], [pi - 1e-4, 1.0]])
     assert right_crossings([orbit], [turned], PIXELS, PERIODS) == (2,)
     assert right_crossings([orbit], [turned], PIXELS) == (0,)
 
@@ -138,7 +138,7 @@ def motion(random):
     return state, parameters, float(SYSTEM.frequency(np.array(state), np.array(parameters)))
 
 
-@pytest.fixture(scope="module")
+@fixture(scope="module")
 def exponents():
     """300 random motions, regular and chaotic: over 200/ν, over five times that; in units of ν."""
     random = np.random.default_rng(7)
@@ -170,7 +170,7 @@ def test_the_error_of_an_exponent_is_what_its_time_promises():
         assert np.sum(np.array(errors[name]) <= plan.promise) >= 39
 
 
-@pytest.mark.parametrize("name", PLANS[Computation.EXPONENT])
+@mark.parametrize("name", PLANS[Computation.EXPONENT])
 def test_the_steps_of_an_exponent_matter_less_than_its_spread(name):
     """A chaotic orbit is another one at each level; a regular one has the same exponent."""
     state, parameters, nu = motion(np.random.default_rng(1))
@@ -197,7 +197,7 @@ def basins_of_discs(random, cells):
     return picture(*cells), picture(2 * cells[0], 2 * cells[1])
 
 
-@pytest.mark.parametrize("name", ["draft", "standard"])
+@mark.parametrize("name", ["draft", "standard"])
 def test_the_boundary_tells_how_many_cells_a_finer_run_changes(name):
     random = np.random.default_rng(11)
     changed, estimates = [], []
@@ -217,7 +217,7 @@ def test_one_basin_alone_has_no_boundary():
 # ---- rotation numbers -------------------------------------------------------------------------------------------
 
 
-@pytest.fixture(scope="module")
+@fixture(scope="module")
 def tori():
     """300 random tori (a, h, f) whose map is elliptic, not within 1e-2 of locking, with ρ at the floor."""
     random = np.random.default_rng(13)
@@ -257,7 +257,7 @@ def test_a_rotation_number_along_an_orbit_is_as_exact_as_its_halves_agree(tori):
     for a, h, f, exact in zip(*tori, strict=True):
         phi = circle_map(a, h, f, STANDARD).iterate(0.3, 300)
         turns, spread = rotation_number(np.column_stack([phi, phi]))
-        errors.append(abs(math.remainder(turns - exact, 1.0)))
+        errors.append(abs(remainder(turns - exact, 1.0)))
         estimates.append(spread + 1e-12)
     assert within_a_factor_of_ten(errors, estimates)
 
@@ -268,8 +268,8 @@ def test_a_rotation_number_along_an_orbit_is_as_exact_as_its_halves_agree(tori):
 true_boundary = cache(lambda a: lock_boundary(a, REFERENCE, 1500))
 
 
-@pytest.mark.parametrize("name", PLANS[Computation.CURVE])
-@pytest.mark.parametrize("a", [0.1, 0.5, 1.0])
+@mark.parametrize("name", PLANS[Computation.CURVE])
+@mark.parametrize("a", [0.1, 0.5, 1.0])
 def test_the_boundary_of_the_lock_zone_lies_within_the_promised_pixels(a, name):
     plan = PLANS[Computation.CURVE][name]
     exact = true_boundary(a)
@@ -282,14 +282,14 @@ def test_the_boundary_of_the_lock_zone_lies_within_the_promised_pixels(a, name):
 def test_distances_from_a_broken_line_are_those_from_its_nearest_part():
     corner = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0]])
     places = np.array([[1.0, 0.5], [-3.0, 4.0], [2.5, 1.0], [3.0, 3.0], [2.0, 0.0]])
-    assert away_from(places, corner) == pytest.approx([0.5, 5.0, 0.5, math.sqrt(2.0), 0.0])
-    assert away_from(places[:1], corner[:1]) == pytest.approx([math.hypot(1.0, 0.5)])
+    assert away_from(places, corner) == approx([0.5, 5.0, 0.5, sqrt(2.0), 0.0])
+    assert away_from(places[:1], corner[:1]) == approx([hypot(1.0, 0.5)])
 
 
 # ---- clouds -----------------------------------------------------------------------------------------------------
 
 
-@pytest.fixture(scope="module")
+@fixture(scope="module")
 def clouds():
     """Bodies, states and times of 100 random clouds, and where these truly are."""
     random, found = np.random.default_rng(17), []

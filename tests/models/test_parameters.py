@@ -1,8 +1,6 @@
 """The table of parameters: each description is consistent, and a value outside its bounds is refused."""
 
-from __future__ import annotations
-
-import math
+from math import inf, nan, nextafter
 
 import pytest
 
@@ -33,7 +31,7 @@ def test_words_are_a_name_for_python_and_a_sentence(known):
 def test_both_bounds_are_allowed_and_nothing_beyond_them(known):
     low, high = known.bounds
     assert [known.check(low), known.check(high)] == [low, high]
-    for wrong in (math.nextafter(low, -math.inf), math.nextafter(high, math.inf), math.inf, -math.inf, math.nan):
+    for wrong in (nextafter(low, -inf), nextafter(high, inf), inf, -inf, nan):
         with pytest.raises(InvalidParameter, match=f"between {low:g} and {high:g}".replace("+", r"\+")):
             known.check(wrong)
 

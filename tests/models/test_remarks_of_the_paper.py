@@ -3,14 +3,12 @@
 Symbolic where the statement is an identity, by SciPy and closed elliptic integrals where it is about motions.
 """
 
-from __future__ import annotations
-
 import math
 
 import mpmath
 import numpy as np
-import pytest
 import sympy as sp
+from pytest import approx, mark
 from scipy.integrate import solve_ivp
 
 from hess_mechanics import circle_map, level, systems, turning_points
@@ -82,10 +80,10 @@ def test_at_f_0_a_function_of_the_position_is_kept_the_hess_case_is_holonomic():
     assert sp.simplify(energy - (alpha_rate.subs(W1, free) ** 2 / 2 - B * sp.cos(ALPHA))) == 0
 
 
-@pytest.mark.parametrize("a", [0.3, 0.7])
+@mark.parametrize("a", [0.3, 0.7])
 def test_the_multiplier_comes_near_that_of_the_pendulum_as_the_cube_of_one_over_h(a):
     off = [2.0 * math.pi * a - circle_map(a, h, 0.6, FLOOR).fixed_points[1].log_multiplier for h in (20.0, 40.0, 80.0)]
-    assert [off[0] / off[1], off[1] / off[2]] == pytest.approx([8.0, 8.0], rel=0.01)
+    assert [off[0] / off[1], off[1] / off[2]] == approx([8.0, 8.0], rel=0.01)
 
 
 # ---- the appendix: ψ̇, how many frequencies, normal hyperbolicity ------------------------------------------------
@@ -98,8 +96,8 @@ BODIES = [
 ]
 
 
-@pytest.mark.parametrize("body", BODIES, ids=range(3))
-@pytest.mark.parametrize("seed", range(4))
+@mark.parametrize("body", BODIES, ids=range(3))
+@mark.parametrize("seed", range(4))
 def test_the_centre_of_mass_goes_round_the_vertical_at_a1_f_over_one_minus_gamma3_squared(body, seed):
     # `eq6-12` has no a1′ = a2: it is printed for a1′ = 1.
     rng = np.random.default_rng(seed)
@@ -111,7 +109,7 @@ def test_the_centre_of_mass_goes_round_the_vertical_at_a1_f_over_one_minus_gamma
     # In space the unit vector r has the velocity ω × r; across the vertical plane it is in, over its distance.
     across = np.cross(gamma, r)
     turning = across @ np.cross(omega, r) / (across @ across)
-    assert turning == pytest.approx(body.a[1] * f / (1.0 - (gamma @ r) ** 2), rel=1e-12)
+    assert turning == approx(body.a[1] * f / (1.0 - (gamma @ r) ** 2), rel=1e-12)
     assert abs(turning - f / (1.0 - (gamma @ r) ** 2)) > 1e-3 * abs(turning)
 
 
@@ -160,7 +158,7 @@ def phases(states):
     return z / np.abs(z)
 
 
-@pytest.mark.parametrize(("a", "h", "f"), [(0.5, 0.2, 0.5), (0.3, 0.5, 0.6)])
+@mark.parametrize(("a", "h", "f"), [(0.5, 0.2, 0.5), (0.3, 0.5, 0.6)])
 def test_where_no_cycle_is_the_body_moves_with_three_frequencies(a, h, f):
     found = circle_map(a, h, f, FLOOR)
     assert abs(found.trace) < 1.99
@@ -175,11 +173,11 @@ def test_where_no_cycle_is_the_body_moves_with_three_frequencies(a, h, f):
         # 1: n3 and |w| come back with the period T; 2: this angle goes on by 2πρ; 3: ψ by the precession, for all φ.
         assert np.ptp(states[:, 4]) < 1e-10
         expected = np.exp(2j * np.pi * found.rotation_number * np.arange(turns + 1))
-        assert angle / angle[0] == pytest.approx(expected, abs=1e-9)
-        assert azimuths / azimuths[0] == pytest.approx(np.exp(1j * precession * np.arange(turns + 1)), abs=1e-9)
+        assert angle / angle[0] == approx(expected, abs=1e-9)
+        assert azimuths / azimuths[0] == approx(np.exp(1j * precession * np.arange(turns + 1)), abs=1e-9)
 
 
-@pytest.mark.parametrize(("a", "h", "f"), [(0.5, 1.5, 0.6), (0.3, 2.0, 0.4)])
+@mark.parametrize(("a", "h", "f"), [(0.5, 1.5, 0.6), (0.3, 2.0, 0.4)])
 def test_where_cycles_are_one_angle_is_asymptotic_and_two_frequencies_are_left(a, h, f):
     found = circle_map(a, h, f, FLOOR)
     assert found.trace > 2.01
@@ -189,8 +187,8 @@ def test_where_cycles_are_one_angle_is_asymptotic_and_two_frequencies_are_left(a
     for phi in (-2.0, 0.3, 1.7):
         states, azimuths = places_and_azimuths(a, h, f, phi, turns)
         away = np.abs(phases(states) - np.exp(1j * stable.phi))
-        assert away[-1] / away[-2] == pytest.approx(math.exp(stable.log_multiplier), rel=0.05)
-        assert azimuths / azimuths[0] == pytest.approx(np.exp(1j * precession * np.arange(turns + 1)), abs=1e-9)
+        assert away[-1] / away[-2] == approx(math.exp(stable.log_multiplier), rel=0.05)
+        assert azimuths / azimuths[0] == approx(np.exp(1j * precession * np.arange(turns + 1)), abs=1e-9)
 
 
 def monodromy(body, start, time):
@@ -204,7 +202,7 @@ def monodromy(body, start, time):
         return [*HEAVY.field(y, body.parameters), *(np.array(slope(*y), float) @ columns).ravel()]
 
     end = solve_ivp(rates, (0.0, time), [*start, *np.eye(6).ravel()], "DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
-    assert end[:6] == pytest.approx(start, abs=1e-8)
+    assert end[:6] == approx(start, abs=1e-8)
     return end[6:].reshape(6, 6)
 
 
@@ -222,11 +220,11 @@ def test_a_cycle_repels_across_the_hess_manifold_as_much_as_it_attracts_along_it
         carried = normal @ matrix
         across = (carried @ normal) / (normal @ normal)
         # No motion crosses r·M = 0: its gradient is carried into a multiple of itself.
-        assert carried == pytest.approx(across * normal, abs=1e-7 * max(1.0, across))
-        assert across * math.exp(point.log_multiplier) == pytest.approx(1.0, rel=1e-7)
+        assert carried == approx(across * normal, abs=1e-7 * max(1.0, across))
+        assert across * math.exp(point.log_multiplier) == approx(1.0, rel=1e-7)
         # Volume is kept; four multipliers, of the motion and of the three integrals, are 1.
-        assert np.linalg.det(matrix) == pytest.approx(1.0, rel=1e-7)
-        assert np.trace(matrix) == pytest.approx(4.0 + across + 1.0 / across, rel=1e-6)
+        assert np.linalg.det(matrix) == approx(1.0, rel=1e-7)
+        assert np.trace(matrix) == approx(4.0 + across + 1.0 / across, rel=1e-6)
         across_of[point.log_multiplier < 0.0] = across
     # Across the manifold the stable cycle repels and the unstable one attracts.
     assert across_of[True] > 20.0
@@ -302,7 +300,7 @@ def test_the_body_is_a_sleigh_on_a_sphere_and_its_track_that_of_the_sleigh_as_th
         place = rho * end.reshape(3, 3)[:, 0]
         off.append(math.hypot(-place[2] - x, place[1] - y))
     assert off[0] < 0.05
-    assert off[0] / off[1] == pytest.approx(100.0, rel=0.05)
+    assert off[0] / off[1] == approx(100.0, rel=0.05)
 
 
 def test_the_motion_that_attracts_is_closed_on_some_groups_and_not_on_others():

@@ -18,7 +18,7 @@ from oracle.circle_maps import (
     stable_cycle,
     turning_roots,
 )
-from oracle.closed_forms import pendulum, steady_rotation
+from oracle.closed_forms import pendulum, steady_rotation, turned
 from oracle.kept import ANSWERED, FUNCTIONS, KEPT, found_anew, plain
 from oracle.orbits import (
     Along,
@@ -55,6 +55,7 @@ __all__ = [
     "stable_cycle",
     "steady_rotation",
     "taylor",
+    "turned",
     "turning_roots",
     "uncompiled",
 ]

@@ -42,18 +42,18 @@ def pendulum(a, h, phi, times, since=0.0, digits=40):
         return np.array(rows, dtype=float)
 
 
+def turned(gamma, omega, t):
+    """γ after the time t of γ̇ = γ × ω with constant ω, by the formula of Rodrigues; matrices and numbers of mpmath."""
+    speed = mpmath.norm(omega)
+    axis, angle = omega / speed, speed * t
+    along = axis * mpmath.fdot(axis, gamma)
+    (g1, g2, g3), (e1, e2, e3) = gamma, axis
+    across = mpmath.matrix([g2 * e3 - g3 * e2, g3 * e1 - g1 * e3, g1 * e2 - g2 * e1])
+    return along + (gamma - along) * mpmath.cos(angle) + across * mpmath.sin(angle)
+
+
 def steady_rotation(omega, gamma, times, digits=40):
-    """γ̇ = γ × ω with constant ω = (ω1, ω2, 0), by the formula of Rodrigues; the state of `Biz131`, doubles (n, 5)."""
+    """The motion with constant ω = (ω1, ω2, 0), the state of `Biz131`, doubles (n, 5)."""
     with mpmath.workdps(digits):
-        w = mpmath.matrix([*omega, 0])
-        speed = mpmath.norm(w)
-        axis, g = w / speed, mpmath.matrix(gamma)
-        along = axis * mpmath.fdot(axis, g)
-        across = mpmath.matrix(
-            [g[1] * axis[2] - g[2] * axis[1], g[2] * axis[0] - g[0] * axis[2], g[0] * axis[1] - g[1] * axis[0]]
-        )
-        rows = []
-        for t in times:
-            angle = speed * mpmath.mpf(t)
-            rows.append([*omega, *(along + (g - along) * mpmath.cos(angle) + across * mpmath.sin(angle))])
-        return np.array(rows, dtype=float)
+        w, g = mpmath.matrix([*omega, 0]), mpmath.matrix(gamma)
+        return np.array([[*omega, *turned(g, w, mpmath.mpf(t))] for t in times], dtype=float)

@@ -20,6 +20,7 @@ import json
 import math
 import time
 from collections.abc import Callable
+from math import atan2, log, pi, remainder, sin, sqrt
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +29,7 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 from scipy.special import ellipk
 
-TAU = 2.0 * math.pi
+TAU = 2.0 * pi
 
 
 # ---- equations of motion
@@ -115,10 +116,10 @@ class Suslov:
         self.p, self.E = [*I, *b], E
 
     def start(self, psi, delta):
-        u = np.array([math.cos(psi + delta), math.sin(psi + delta)])
-        kinetic = self.E - self.p[4] * math.cos(psi) - self.p[5] * math.sin(psi)
-        w = u * math.sqrt(2.0 * kinetic / (self.p[0] * u[0] ** 2 + self.p[1] * u[1] ** 2))
-        return np.array([*w, math.cos(psi), math.sin(psi), 0.0])
+        u = np.array([math.cos(psi + delta), sin(psi + delta)])
+        kinetic = self.E - self.p[4] * math.cos(psi) - self.p[5] * sin(psi)
+        w = u * sqrt(2.0 * kinetic / (self.p[0] * u[0] ** 2 + self.p[1] * u[1] ** 2))
+        return np.array([*w, math.cos(psi), sin(psi), 0.0])
 
     def energy(self, y):
         p = self.p
@@ -138,7 +139,7 @@ class Quartic(Suslov):
         I11, I22, b3 = self.p[0], self.p[1], self.p[6]
         q = (0.0, x) if self.across == 0 else (x, 0.0)
         g3 = self.E / b3 - 0.5 * b3 * (q[0] ** 2 / I22 + q[1] ** 2 / I11)
-        other = -math.sqrt(1.0 - g3 * g3 - y * y)
+        other = -sqrt(1.0 - g3 * g3 - y * y)
         p = (other, y) if self.across == 0 else (y, other)
         return np.array([-b3 * q[1] / I11, b3 * q[0] / I22, *p, g3])
 
@@ -156,10 +157,10 @@ class Ball:
         self.p, self.E = [*I, D, *b], h
 
     def start(self, psi, delta):
-        g, u = (math.cos(psi), math.sin(psi)), (math.cos(psi + delta), math.sin(psi + delta))
+        g, u = (math.cos(psi), sin(psi)), (math.cos(psi + delta), sin(psi + delta))
         I11, I22, _, _, D, b1, b2, _ = self.p
         twice = I11 * u[0] ** 2 + I22 * u[1] ** 2 + D * (g[0] * u[1] - g[1] * u[0]) ** 2
-        w = math.sqrt(2.0 * (self.E - b1 * g[0] - b2 * g[1]) / twice)
+        w = sqrt(2.0 * (self.E - b1 * g[0] - b2 * g[1]) / twice)
         return np.array([w * u[0], w * u[1], *g, 0.0])
 
     def energy(self, y):
@@ -180,17 +181,17 @@ class Top:
         self.value = f
 
     def state(self, l, x, G):
-        s, c = math.sqrt(1.0 - x * x), self.f / G
-        M = G * np.array([s * math.sin(l), s * math.cos(l), x])
+        s, c = sqrt(1.0 - x * x), self.f / G
+        M = G * np.array([s * sin(l), s * math.cos(l), x])
         # On g = π/2 the part of γ across M is along v.
-        return np.array([*M, *(c * M / G + math.sqrt(1.0 - c * c) * np.array([math.cos(l), -math.sin(l), 0.0]))])
+        return np.array([*M, *(c * M / G + sqrt(1.0 - c * c) * np.array([math.cos(l), -sin(l), 0.0]))])
 
     def excess(self, l, x, G):
         """The energy minus its value at the momenta G of a place."""
-        s = math.sqrt(1.0 - x * x)
-        n = np.array([s * math.sin(l), s * math.cos(l), x])
+        s = sqrt(1.0 - x * x)
+        n = np.array([s * sin(l), s * math.cos(l), x])
         cos = self.f / G
-        across = math.cos(l) * self.mr[0] - math.sin(l) * self.mr[1]
+        across = math.cos(l) * self.mr[0] - sin(l) * self.mr[1]
         return (
             0.5 * self.A @ n**2 * G * G
             - cos * (self.mr @ n)
@@ -200,7 +201,7 @@ class Top:
 
     def momentum(self, l, x):
         """The largest G with this energy."""
-        top = math.sqrt(2.0 * (self.E + np.linalg.norm(self.mr)) / self.A.min()) + abs(self.f) + 1.0
+        top = sqrt(2.0 * (self.E + np.linalg.norm(self.mr)) / self.A.min()) + abs(self.f) + 1.0
         low = max(abs(self.f) * (1.0 + 1e-15), 1e-9)
         G = low + (top - low) * np.linspace(0.0, 1.0, 1001) ** 3
         last = np.flatnonzero(self.excess(l, x, G) < 0.0)[-1]
@@ -210,7 +211,7 @@ class Top:
         return self.state(l, x, self.momentum(l, x))
 
     def place(self, y):
-        return np.array([math.atan2(y[0], y[1]), y[2] / np.linalg.norm(y[:3])])
+        return np.array([atan2(y[0], y[1]), y[2] / np.linalg.norm(y[:3])])
 
     def energy(self, y):
         return 0.5 * self.A @ y[:3] ** 2 - self.mr @ y[3:]
@@ -237,14 +238,14 @@ class Torus:
         self.n3 = self.value = 0.5 * (roots[1] + roots[2])
 
     def start(self, phi):
-        rho = math.sqrt(2.0 * (self.E + self.n3))
+        rho = sqrt(2.0 * (self.E + self.n3))
         along = self.f / rho
-        across = math.sqrt(1.0 - self.n3**2 - along**2)
-        s, c = math.sin(phi), math.cos(phi)
+        across = sqrt(1.0 - self.n3**2 - along**2)
+        s, c = sin(phi), math.cos(phi)
         return np.array([rho * s, rho * c, along * s + across * c, along * c - across * s, self.n3])
 
     def place(self, y):
-        return np.array([math.atan2(y[0], y[1])])
+        return np.array([atan2(y[0], y[1])])
 
     def energy(self, y):
         return 0.5 * (y[0] ** 2 + y[1] ** 2) - y[4]
@@ -358,7 +359,7 @@ def growth(of, start, T):
         near.propagate_until(float(t))
         v = near.state[d : 3 * d].reshape(2, d)
         size = np.linalg.norm(v, axis=1)
-        total += math.log(size[0])
+        total += log(size[0])
         v = v / size[:, None]
         near.state[d : 3 * d] = v.ravel()
         if t in (int(T), int(2 * T)):
@@ -405,7 +406,7 @@ def zero_one(series):
     n = len(series)
     lags = np.arange(1, n // 10 + 1)
     found = []
-    for c in np.random.default_rng(7).uniform(0.2, math.pi - 0.2, 40):
+    for c in np.random.default_rng(7).uniform(0.2, pi - 0.2, 40):
         steps = np.exp(1j * c * np.arange(n)) * (series - series.mean())
         path = np.cumsum(steps)
         square = [np.mean(np.abs(path[m:] - path[:-m]) ** 2) for m in lags]
@@ -423,7 +424,7 @@ def after(of, place, m):
 
 def shifted(of, away):
     """Differences of places, angles to the nearest turn."""
-    return np.array([math.remainder(x, TAU) if turning else x for x, turning in zip(away, of.angles, strict=True)])
+    return np.array([remainder(x, TAU) if turning else x for x, turning in zip(away, of.angles, strict=True)])
 
 
 def derivative(of, place, m, step=1e-6):
@@ -469,7 +470,7 @@ def trace(a, h, f):
     ta.time = 0.0
     ta.state[:] = [n1, 0.0, 1.0, 0.0, 0.0, 0.0]
     ta.pars[:] = [a, h, f]
-    ta.propagate_until(2.0 * math.sqrt(2.0 / (n2 - n0)) * ellipk((n2 - n1) / (n2 - n0)))
+    ta.propagate_until(2.0 * sqrt(2.0 / (n2 - n0)) * ellipk((n2 - n1) / (n2 - n0)))
     return 2.0 * ta.state[2]
 
 
@@ -519,7 +520,7 @@ def judged(m, T):
     if early > 30.0 and late > early + 30.0 and sali < 1e-10 and (m["K"][1] > 0.8 or m["drift"][1] > 1e-4):
         return "CHAOTIC", 0
     # After t a neighbour of a regular motion has grown at most as t², and hardly more from T to 2T.
-    if not (late < 2.2 * math.log(2.0 * T) and late - early < 2.5 and sali > 1e-8):
+    if not (late < 2.2 * log(2.0 * T) and late - early < 2.5 and sali > 1e-8):
         return "", 0
     if period := m["period"]:
         return "FIXED_POINT" if period == 1 else "PERIODIC" if period <= 64 else "LONG_PERIOD", period

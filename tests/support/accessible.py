@@ -1,7 +1,5 @@
 """Rules of WCAG, asked of a page as it is: axe."""
 
-from __future__ import annotations
-
 from axe_playwright_python.sync_playwright import Axe
 
 # Of the rules that hold a name is enough, and of those that do not the HTML; no sheet of styles is fetched again.

@@ -1,9 +1,7 @@
 """Heavy tops and their Andoyer–Deprit section, followed by SciPy from the equations written out."""
 
-from __future__ import annotations
-
-import math
 from functools import cache
+from math import cos, sin, sqrt
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -13,7 +11,7 @@ from hess_mechanics.euler_poisson.equations import HeavyBody
 
 GESS1 = HeavyBody.hess((1.0, 0.625, 0.375), 9.975)
 """Figure 11, with h = 50 and f = 5: r = (3, 0, 4), μ = 1.995, so μ|r| = 9.975."""
-RIS = HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5))
+RIS = HeavyBody.hess((1.0, 1.5, 2.0), -sqrt(0.5))
 """Figures 13 and 14: H = ½(M1² + ⅔M2² + ½M3²) + γ1/√3 + γ3/√6."""
 
 
@@ -55,11 +53,9 @@ def angles(states):
 def energies_at(body, f, l, x, G):
     """The energy of g = π/2 for each G ≥ |f|, from the state itself."""
     G = np.atleast_1d(G)
-    s, c = math.sqrt(max(0.0, 1.0 - x * x)), f / G
-    along = np.array([s * math.sin(l), s * math.cos(l), x])
-    gamma = c[:, None] * along + np.sqrt(np.maximum(0.0, 1.0 - c * c))[:, None] * np.array(
-        [math.cos(l), -math.sin(l), 0.0]
-    )
+    s, c = sqrt(max(0.0, 1.0 - x * x)), f / G
+    along = np.array([s * sin(l), s * cos(l), x])
+    gamma = c[:, None] * along + np.sqrt(np.maximum(0.0, 1.0 - c * c))[:, None] * np.array([cos(l), -sin(l), 0.0])
     return energy(body, np.column_stack([G[:, None] * along, gamma]))
 
 
@@ -71,22 +67,20 @@ def dense(body, f, l, x, top, count=4000):
 
 def start_by_hand(body, h, f, l, x):
     """The state at (l, x) with the largest G: a dense search from above, then Brent's method."""
-    top = math.sqrt(2.0 * (h + body.strength) / min(body.a))
+    top = sqrt(2.0 * (h + body.strength) / min(body.a))
     G, energies = dense(body, f, l, x, top)
     i = np.flatnonzero(energies <= h)[-1]
     largest = brentq(lambda G: energies_at(body, f, l, x, G)[0] - h, G[i], G[i + 1], xtol=1e-14)
-    s, c = math.sqrt(1.0 - x * x), f / largest
-    along = np.array([s * math.sin(l), s * math.cos(l), x])
-    return np.concatenate(
-        [largest * along, c * along + math.sqrt(1.0 - c * c) * np.array([math.cos(l), -math.sin(l), 0.0])]
-    )
+    s, c = sqrt(1.0 - x * x), f / largest
+    along = np.array([s * sin(l), s * cos(l), x])
+    return np.concatenate([largest * along, c * along + sqrt(1.0 - c * c) * np.array([cos(l), -sin(l), 0.0])])
 
 
 def crossings_by_scipy(body, state, end):
     """Times and states where the angle g grows through π/2."""
 
     def event(_, y):
-        return math.cos(angles(y)[1][0])
+        return cos(angles(y)[1][0])
 
     event.direction = -1
     run = solve_ivp(

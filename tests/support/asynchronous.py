@@ -3,8 +3,6 @@
 import asyncio
 from concurrent.futures import ThreadPoolExecutor
 
-__all__ = ["finished"]
-
 
 def finished(coroutine):
     """The result of a coroutine, run in a thread of its own: in that of the tests Playwright's loop may be running."""

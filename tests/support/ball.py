@@ -1,19 +1,18 @@
 """The Chaplygin ball of the scenes: its equations as a 2 × 2 system solved at every call, its energy and circles."""
 
-from __future__ import annotations
-
-import math
+from math import atan2, cos, hypot, pi, sin, sqrt
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 from hess_explorer.scenes import scenes
 from hess_mechanics.chaplygin_ball.equations import SYSTEM
+from support.mechanics import scipy_crossings
 
 
 def occupied(points, across=32):
     """The cells of an even grid over the section that hold a point."""
-    counts, _, _ = np.histogram2d(*points.T, bins=across, range=[[-math.pi, math.pi], [0.0, math.pi]])
+    counts, _, _ = np.histogram2d(*points.T, bins=across, range=[[-pi, pi], [0.0, pi]])
     return set(np.flatnonzero(counts).tolist())
 
 
@@ -59,13 +58,13 @@ def divergence(body, y):
 
 
 def xi_of(values):
-    return np.array([values["I23"], -values["I13"]]) / math.hypot(values["I13"], values["I23"])
+    return np.array([values["I23"], -values["I13"]]) / hypot(values["I13"], values["I23"])
 
 
 def circle_of(values, state):
     """The angle between ξ and γ."""
     xi = xi_of(values)
-    return math.atan2(math.hypot(xi[0] * state[3] - xi[1] * state[2], state[4]), state[2:4] @ xi)
+    return atan2(hypot(xi[0] * state[3] - xi[1] * state[2], state[4]), state[2:4] @ xi)
 
 
 def shown(value, digits=4):
@@ -74,14 +73,7 @@ def shown(value, digits=4):
 
 def upward_crossings(field, start, end, i=4):
     """Times (n,) and states (n, 5), by SciPy, where component i, or γ3, grows through 0; the start is no crossing."""
-
-    def height(_, y):
-        return y[i]
-
-    height.direction = 1.0
-    run = solve_ivp(field, (0.0, end), start, method="DOP853", rtol=1e-12, atol=1e-13, events=height)
-    later = run.t_events[0] > 1e-6
-    return run.t_events[0][later], run.y_events[0][later]
+    return scipy_crossings(lambda y: field(0.0, y), start, lambda y: y[i], end, 1)
 
 
 def first_returns(values, start, count):
@@ -91,16 +83,16 @@ def first_returns(values, start, count):
 
 def angles(states):
     psi = np.arctan2(states[:, 3], states[:, 2])
-    return np.column_stack([psi, np.mod(np.arctan2(states[:, 1], states[:, 0]) - psi, 2.0 * math.pi)])
+    return np.column_stack([psi, np.mod(np.arctan2(states[:, 1], states[:, 0]) - psi, 2.0 * pi)])
 
 
 def returned(values, place):
     """(ψ, δ) where SciPy's motion of the ball next comes through γ3 = 0 upwards."""
     psi, delta = place
-    gamma, u = [math.cos(psi), math.sin(psi), 0.0], np.array([math.cos(psi + delta), math.sin(psi + delta)])
+    gamma, u = [cos(psi), sin(psi), 0.0], np.array([cos(psi + delta), sin(psi + delta)])
     unit, rest = (energy_of(values, [*(size * u), *gamma]) for size in (1.0, 0.0))
-    E = values["h"] - math.hypot(values["b1"], values["b2"])
-    start = [*(math.sqrt((E - rest) / (unit - rest)) * u), *gamma]
+    E = values["h"] - hypot(values["b1"], values["b2"])
+    start = [*(sqrt((E - rest) / (unit - rest)) * u), *gamma]
     return angles(first_returns(values, start, 1))[0]
 
 

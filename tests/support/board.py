@@ -1,7 +1,5 @@
 """A scene without a browser: the messages of its stage, as the browser receives them."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
 from functools import cache

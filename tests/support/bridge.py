@@ -1,9 +1,7 @@
 """The leak off the Hess manifold and the bridge, by the reduced equations written out."""
 
-from __future__ import annotations
-
-import math
 from functools import cache
+from math import copysign, cos, sin, sqrt
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -19,15 +17,15 @@ def torus(values):
     """a, h, f in units b = 1 and the unit of frequency √b, by hand from the moments."""
     a1, a2, a3 = (1.0 / values[name] for name in ("I1", "I2", "I3"))
     # Here r1, r3 > 0: b' has the sign of a1 − a3.
-    a = math.copysign(math.sqrt((a3 - a2) * (a2 - a1)), a1 - a3) / a2
+    a = copysign(sqrt((a3 - a2) * (a2 - a1)), a1 - a3) / a2
     b = a2 * values["m"]
-    return a, a2 * values["h"] / b, -a2 * values["f"] / math.sqrt(b), math.sqrt(b)
+    return a, a2 * values["h"] / b, -a2 * values["f"] / sqrt(b), sqrt(b)
 
 
 def period_of(h, f):
     """One period of n3 in units b = 1, from the roots of 2(h+n)(1−n²) − f²."""
     n0, n1, n2 = np.sort(np.roots([-2.0, -2.0 * h, 2.0, 2.0 * h - f * f]).real)
-    return 2.0 * math.sqrt(2.0 / (n2 - n0)) * ellipk((n2 - n1) / (n2 - n0)), n1
+    return 2.0 * sqrt(2.0 / (n2 - n0)) * ellipk((n2 - n1) / (n2 - n0)), n1
 
 
 def reduced(a):
@@ -52,8 +50,8 @@ def exact_growth(name):
     """Return the exponent that an example gains on its stable cycle from the 15th to the 16th period."""
     a, h, f, _ = torus(values_of(LEAK, name))
     period, lowest = period_of(h, f)
-    rho, phi = math.sqrt(2.0 * (h + lowest)), 0.5
-    w = rho * np.array([math.sin(phi), math.cos(phi)])
+    rho, phi = sqrt(2.0 * (h + lowest)), 0.5
+    w = rho * np.array([sin(phi), cos(phi)])
     start = [*w, *(f / rho**2 * w), lowest, 0.0]
     y = solve_ivp(
         reduced(a), (0.0, 16.0 * period), start, "DOP853", [15.0 * period, 16.0 * period], rtol=1e-11, atol=1e-12

@@ -1,7 +1,5 @@
 """Captions as text."""
 
-from __future__ import annotations
-
 from hess_explorer.views.caption import Caption
 
 

@@ -1,15 +1,11 @@
 """A headless Chromium for the tests, installed where there is none."""
 
-from __future__ import annotations
-
 import platform
 import subprocess
 import sys
 from contextlib import ExitStack, contextmanager
 
 from hess_explorer.headless.browser import VARIABLE, BrowserError, is_root, launched
-
-__all__ = ["install_browser", "launched_or_installed"]
 
 _INSTALL_SECONDS = 900
 

@@ -7,8 +7,6 @@ from contextlib import contextmanager
 
 from distributed import LocalCluster
 
-__all__ = ["local_cluster"]
-
 
 @contextmanager
 def local_cluster(processes):

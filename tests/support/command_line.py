@@ -1,7 +1,5 @@
 """The command line: as a process of its own, and its outputs read strictly."""
 
-from __future__ import annotations
-
 import csv
 import json
 import shlex

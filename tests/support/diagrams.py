@@ -1,7 +1,5 @@
 """Orbit diagrams without a browser, and their return map on γ3 = 0 by SciPy."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.integrate import solve_ivp
 

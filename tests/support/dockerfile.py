@@ -13,8 +13,6 @@ import sys
 import sysconfig
 from pathlib import Path
 
-__all__ = ["Image", "ImageInVenv", "instructions"]
-
 
 def instructions(text):
     """[(INSTRUCTION, rest)] of a Dockerfile, continued lines joined, comments left out."""

@@ -1,7 +1,5 @@
 """The scene of the Euler–Poisson sections with all its computations."""
 
-from __future__ import annotations
-
 from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes import scenes
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection

@@ -1,7 +1,5 @@
 """Files of the dialog *Export*, read again."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

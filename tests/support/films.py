@@ -1,7 +1,5 @@
 """Read films frame by frame."""
 
-from __future__ import annotations
-
 import subprocess
 
 import imageio_ffmpeg

@@ -1,7 +1,5 @@
 """Fuzzing: random links, messages and command lines, and counts of the responses."""
 
-from __future__ import annotations
-
 import argparse
 import io
 import json
@@ -34,8 +32,6 @@ from hess_explorer.sweep.quantity import Outcome
 from hess_mechanics.numerics.jit import seconds_compiling
 from hess_mechanics.numerics.parallel import THREADS
 from support.board import Browser
-
-__all__ = ["Findings", "fuzz_commands", "fuzz_links", "fuzz_messages"]
 
 STALL = 5.0
 """Seconds of the processor after which an answer counts as a stall."""

@@ -7,8 +7,6 @@ from pathlib import Path
 import hess_mechanics
 from hess_mechanics.numerics.jit import CACHE_FOLDER
 
-__all__ = ["copy_kernels"]
-
 
 def copy_kernels(base, package=None):
     """Copy the kernels of this copy of `hess_mechanics` for the one at `package` (default: this one) below `base`.

@@ -1,7 +1,5 @@
 """The scenes of a principal axis: positions of their moving points."""
 
-from __future__ import annotations
-
 from hess_explorer.scenes import scenes
 
 ARC, POINT = scenes()["kharlamova"], scenes()["quartic"]

@@ -1,7 +1,5 @@
 """A largest Lyapunov exponent by finite differences."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

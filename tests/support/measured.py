@@ -1,8 +1,16 @@
-"""Tables in a README that a script measures: they lie between two comments and are replaced as a whole."""
+"""Tables in Markdown that a script measures, and the part of a README that it replaces with them."""
 
 import re
 
-__all__ = ["write_measured"]
+
+def line(cells):
+    """A line of a table."""
+    return f"| {' | '.join(cells)} |"
+
+
+def table(head, rows):
+    """A table."""
+    return "\n".join(map(line, [head, ["---"] * len(head), *rows]))
 
 
 def write_measured(readme, text):

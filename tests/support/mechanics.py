@@ -2,17 +2,27 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
+from pytest import approx, mark
 from scipy.integrate import solve_ivp
 
-from hess_mechanics import turning_points
+from hess_mechanics import LEVELS, systems, turning_points
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = json.loads((Path(__file__).parent / "reference.json").read_text())
+SYSTEMS = systems()
+every_system = mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
+every_level = mark.parametrize("name", LEVELS)
+every_known_torus = mark.parametrize(
+    "row", REFERENCE["hess_monodromy"], ids=lambda row: f"h={row['h']},f={row['f']},a={row['a']}"
+)
+PROMISE = {"draft": 1e-3, "standard": 1e-6, "precise": 1e-9, "reference": 1e-12}
+"""`reference` goes to the floor of double precision, wherever the motion puts that."""
 EQUILIBRIA = {
     "suslov": ((0.0, 0.0, 0.0, 0.0, 1.0), (2.0, 1.0, 0.3, 0.5, 0.0, 0.0, 1.0)),
     "ball": ((0.0, 0.0, 0.0, 0.0, 1.0), (2.0, 1.0, 0.3, 0.5, 2.0, 0.0, 0.0, 1.0)),
@@ -27,9 +37,14 @@ def numbers(texts):
     return np.array([float(text) for text in texts])
 
 
+def apart(left, right):
+    """The distances of angles on the circle."""
+    return np.abs(np.angle(np.exp(1j * (np.asarray(left) - np.asarray(right)))))
+
+
 def angle_between(left, right):
     """The largest distance of two sets of angles, on the circle."""
-    return float(np.max(np.abs(np.angle(np.exp(1j * (np.asarray(left) - np.asarray(right)))))))
+    return float(np.max(apart(left, right)))
 
 
 def scipy_states(system, state, parameters, times, rtol=1e-12, atol=1e-13):
@@ -99,3 +114,27 @@ def without_jit(code, *arguments):
     )
     assert run.returncode == 0, run.stderr
     return json.loads(run.stdout)
+
+
+def inertia_of(masses, positions):
+    """The tensor of point masses, its axes turned about e3 so that I12 = 0, as `Biz03` has them; and Σ m x xᵀ."""
+    second = (masses[:, None] * positions).T @ positions
+    angle = 0.5 * np.arctan2(2 * second[0, 1], second[0, 0] - second[1, 1])
+    c, s = np.cos(angle), np.sin(angle)
+    turn = np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+    second = turn @ second @ turn.T
+    return np.trace(second) * np.eye(3) - second, second
+
+
+def assert_same_without_jit(code, within=1e-11):
+    """Assert that code, which prints JSON, gives the same numbers to round-off compiled, here, and without the JIT."""
+    captured = []
+    # Only the check that the JIT is off must go.
+    statements = re.sub(r" *assert not hasattr.*\n", "", code)
+    statements = statements.replace("json.dump(results, sys.stdout)", "captured.append(results)")
+    exec(statements, {"captured": captured})
+    (compiled,) = captured
+    plain = without_jit(code)
+    assert plain.keys() == compiled.keys()
+    for key, values in compiled.items():
+        assert plain[key] == approx(values, rel=within, abs=within), key

@@ -4,8 +4,6 @@ hess.plots, hess.source(name), hess.has(scene) are the gallery's; hess.tell(name
 the bus's; hess.plotted() names the sources of the planar pictures on show; hess.clouds(source, t).
 """
 
-from __future__ import annotations
-
 from hess_explorer.assets import modules_path
 
 # By Panel's loader, as the page does: the browser's own `import` would make a second instance of each module.

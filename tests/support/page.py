@@ -1,7 +1,5 @@
 """The page in a browser: user actions (`Explorer`), and what the page shows."""
 
-from __future__ import annotations
-
 import json
 import re
 from urllib.parse import parse_qsl, urlsplit

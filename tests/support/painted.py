@@ -1,7 +1,5 @@
 """Checks of painted pictures: present, finite, and in the right place."""
 
-from __future__ import annotations
-
 import math
 import re
 

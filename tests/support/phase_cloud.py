@@ -1,7 +1,5 @@
 """The cloud of the ball: the scene and its captions."""
 
-from __future__ import annotations
-
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes

@@ -1,7 +1,5 @@
 """Pixels of planar pictures, clicks and fingers on them, and the turn of a sphere."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -5,8 +5,6 @@ import signal
 from contextlib import contextmanager
 from pathlib import Path
 
-__all__ = ["below", "interruptible", "memory", "worked"]
-
 
 @contextmanager
 def interruptible():

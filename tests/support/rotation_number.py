@@ -1,8 +1,6 @@
 """Rotation numbers by iteration."""
 
-from __future__ import annotations
-
-import math
+from math import pi, sin
 
 import numpy as np
 
@@ -13,12 +11,12 @@ from hess_mechanics.numerics.accuracy import REFERENCE
 def displacement(a, h, f):
     """Θ(φ) − φ as a continuous function of φ, from the angles that the map gives, lifted by hand."""
     theta = circle_map(a, h, f, REFERENCE)
-    grid = np.linspace(-math.pi, math.pi, 40_001)
+    grid = np.linspace(-pi, pi, 40_001)
     turn = np.unwrap(theta.theta(grid) - grid)
-    turn -= 2.0 * math.pi * round(turn.mean() / (2.0 * math.pi))
+    turn -= 2.0 * pi * round(turn.mean() / (2.0 * pi))
 
     def lifted(phi):
-        return np.interp(np.remainder(phi + math.pi, 2.0 * math.pi) - math.pi, grid, turn)
+        return np.interp(np.remainder(phi + pi, 2.0 * pi) - pi, grid, turn)
 
     return lifted
 
@@ -28,6 +26,6 @@ def iterated(a, h, f, epsilon=0.0, count=10_000):
     lifted = displacement(a, h, f)
     phi = 0.3
     for _ in range(count):
-        first = phi + epsilon * math.sin(3.0 * phi)
+        first = phi + epsilon * sin(3.0 * phi)
         phi = first + float(lifted(first))
-    return (phi - 0.3) / (2.0 * math.pi * count)
+    return (phi - 0.3) / (2.0 * pi * count)

@@ -1,7 +1,5 @@
 """Serve the page in the test's process, so that leftover objects can be counted."""
 
-from __future__ import annotations
-
 import logging
 import time
 from contextlib import contextmanager
@@ -12,8 +10,6 @@ from hess_explorer.headless.screenshot import free_port
 from hess_explorer.server import serving
 from hess_explorer.server.handlers import replace_handlers
 from hess_explorer.server.liveness import is_alive
-
-__all__ = ["UNWARMED", "served"]
 
 # It gets no scene ready before somebody enters it: that takes longer than the test of one or two.
 UNWARMED = (

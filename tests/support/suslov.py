@@ -1,8 +1,6 @@
 """The Suslov problem with gravity, written out."""
 
-from __future__ import annotations
-
-import math
+from math import atan2, cos, pi, sin, sqrt
 
 import numpy as np
 from scipy.optimize import brentq
@@ -39,16 +37,16 @@ def permanent_rotations(body, E):
     """States γ3 = 0, ω = wγ with w²(I13γ1 + I23γ2) = b3 and energy E: the body turns for ever about the vertical."""
 
     def excess(psi):
-        g1, g2 = math.cos(psi), math.sin(psi)
+        g1, g2 = cos(psi), sin(psi)
         squared = body.b3 / (body.I13 * g1 + body.I23 * g2)
-        return energy(body, (math.sqrt(squared) * g1, math.sqrt(squared) * g2, g1, g2, 0.0)) - E
+        return energy(body, (sqrt(squared) * g1, sqrt(squared) * g2, g1, g2, 0.0)) - E
 
     # I13γ1 + I23γ2 has the sign of b3 within 90° of its maximum.
-    middle = math.atan2(body.I23, body.I13) + (0.0 if body.b3 > 0.0 else math.pi)
+    middle = atan2(body.I23, body.I13) + (0.0 if body.b3 > 0.0 else pi)
     psi = np.linspace(middle - 1.56, middle + 1.56, 2001)
     values = np.array([excess(x) for x in psi])
     roots = [brentq(excess, *psi[i : i + 2], xtol=1e-14) for i in np.flatnonzero(values[1:] * values[:-1] < 0.0)]
     for x in roots:
-        g = np.array([math.cos(x), math.sin(x), 0.0])
+        g = np.array([cos(x), sin(x), 0.0])
         for w in (1.0, -1.0):
-            yield np.array([*(w * math.sqrt(body.b3 / (body.I13 * g[0] + body.I23 * g[1])) * g[:2]), *g])
+            yield np.array([*(w * sqrt(body.b3 / (body.I13 * g[0] + body.I23 * g[1])) * g[:2]), *g])

@@ -1,13 +1,11 @@
 """The orbit of the Suslov–Hess scene, by the general system."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
 from hess_explorer.protocol.parameters import Number
 from hess_explorer.scenes import scenes
-from hess_mechanics import HessBody, level, solve, systems, turning_points
+from hess_mechanics import HessBody, solve, systems, turning_points
 
 
 def body_of(values):
@@ -19,7 +17,7 @@ def exact_states(values, times):
     body = body_of(values)
     start = turning_points(values["h"], values["f"]).state_at_lower_turn(values["phi0"])
     state = body.from_reduced(body.from_units_of_b(start))
-    return solve(body.suslov, state, times, level("reference")).states
+    return solve(body.suslov, state, times, "reference").states
 
 
 def rounding(values, times, states):

@@ -2,8 +2,6 @@
 
 from hypothesis import settings
 
-__all__ = ["examples", "load_profile", "sample"]
-
 MORE = 10
 """Examples of hypothesis with --thorough, relative to a default run."""
 

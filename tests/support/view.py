@@ -1,7 +1,5 @@
 """View of a scene for given values, without a browser."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

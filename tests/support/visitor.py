@@ -1,7 +1,5 @@
 """Client without a browser: opens the page over HTTP and websocket, as a browser does, and requests states."""
 
-from __future__ import annotations
-
 import asyncio
 import html
 import itertools
@@ -13,8 +11,6 @@ from bokeh.protocol import Protocol
 from bokeh.protocol.receiver import Receiver
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import websocket_connect
-
-__all__ = ["Closed", "Visitor"]
 
 _numbers = itertools.count(1)
 

@@ -1,7 +1,5 @@
 """Decoding of messages as in the browser."""
 
-from __future__ import annotations
-
 import json
 import struct
 

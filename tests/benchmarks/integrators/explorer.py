@@ -1,20 +1,13 @@
 """The method of this project: Taylor series of chosen order and tolerance, one run of each kernel."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Sequence
-
 import numpy as np
 
 from hess_mechanics import systems
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.suslov_hess.circle_map import matrices
 
-from .method import OURS, Ladder, Method, Run, Setting, half_decades, version
+from .method import OURS, Method, half_decades, version
 from .threads import shared
-from .works import Array, MapWorkload, MotionWorkload, Workload
-
-__all__ = ["METHOD"]
 
 _ORDERS = (8, 10, 12, 14, 16, 18, 20, 22, 24)
 _MAX_STEPS = 1_000_000
@@ -23,16 +16,16 @@ _BLOCK = 64
 _MAX_CROSSINGS = 1000
 
 
-def _ladders(work: Workload) -> Sequence[Ladder]:
+def _ladders(work):
     return [tuple((order, tolerance) for tolerance in half_decades(2, 17)) for order in _ORDERS]
 
 
-def _orbit(work: MotionWorkload, order: int, tolerance: float, threads: int) -> Run:
+def _orbit(work, order, tolerance, threads):
     """A, A2."""
     integrate = systems()["suslov"].orbit
     start, p, out = work.initial[0], np.array(work.parameters), np.empty((work.times.size, 5))
 
-    def run() -> Array:
+    def run():
         if integrate(start, p, work.times, order, tolerance, _MAX_STEPS, out) < 0:
             out.fill(np.nan)
         return out
@@ -40,14 +33,14 @@ def _orbit(work: MotionWorkload, order: int, tolerance: float, threads: int) -> 
     return run
 
 
-def _free_ensemble(work: MotionWorkload, order: int, tolerance: float, threads: int) -> Run:
+def _free_ensemble(work, order, tolerance, threads):
     """B: all orbits have one ω, and γ̇ = γ × ω is linear, so three of them carry every γ."""
     integrate = systems()["suslov"].ensemble
     p, gamma = np.array(work.parameters), work.initial[:, 2:]
     axes = np.hstack([np.tile(work.initial[0, :2], (3, 1)), np.eye(3)])
     carried, out = np.empty((3, 1, 5)), np.empty(work.initial.shape)
 
-    def run() -> Array:
+    def run():
         if integrate(axes, p, work.times, order, tolerance, _MAX_STEPS, carried) < 0:
             carried.fill(np.nan)
         out[:, :2] = carried[0, 0, :2]
@@ -57,12 +50,12 @@ def _free_ensemble(work: MotionWorkload, order: int, tolerance: float, threads: 
     return run
 
 
-def _ensemble(work: MotionWorkload, order: int, tolerance: float, threads: int) -> Run:
+def _ensemble(work, order, tolerance, threads):
     """B2."""
     integrate = systems()["suslov"].ensemble
     p, out = np.array(work.parameters), np.empty((len(work.initial), 1, 5))
 
-    def part(thread: int) -> None:
+    def part(thread):
         for i in range(thread * _BLOCK, len(out), threads * _BLOCK):
             block = slice(i, i + _BLOCK)
             if integrate(work.initial[block], p, work.times, order, tolerance, _MAX_STEPS, out[block]) < 0:
@@ -70,26 +63,26 @@ def _ensemble(work: MotionWorkload, order: int, tolerance: float, threads: int) 
 
     all_parts = shared(part, threads)
 
-    def run() -> Array:
+    def run():
         all_parts()
         return out[:, 0]
 
     return run
 
 
-def _circle_map(work: MapWorkload, order: int, tolerance: float, threads: int) -> Run:
+def _circle_map(work, order, tolerance, threads):
     """C."""
     torus = np.array([work.h]), np.array([work.f])
     cos, sin, level = np.cos(work.phi), np.sin(work.phi), Level("benchmark", 0.0, tolerance, order)
 
-    def run() -> Array:
+    def run():
         re, im, im_beta = matrices(*torus, work.a, level)[0, :3]
         return 2.0 * np.arctan2(re * sin + im * cos + im_beta, re * cos - im * sin) - work.phi
 
     return run
 
 
-def _crossings(work: MotionWorkload, order: int, tolerance: float, threads: int) -> Run:
+def _crossings(work, order, tolerance, threads):
     """D; the crossings of several orbits one after the other."""
     cross = systems()["suslov"].cross
     p, normal, end = np.array(work.parameters), np.array([0.0, 0.0, 0.0, 0.0, 1.0]), float(work.times[0])
@@ -97,7 +90,7 @@ def _crossings(work: MotionWorkload, order: int, tolerance: float, threads: int)
     states = np.empty((len(work.initial), _MAX_CROSSINGS, 5))
     found = np.zeros(len(work.initial), int)
 
-    def part(thread: int) -> None:
+    def part(thread):
         for i in range(thread, len(found), threads):
             found[i], _ = cross(
                 work.initial[i], p, normal, 0.0, 1, end, order, tolerance, _MAX_STEPS, times[i], states[i]
@@ -105,14 +98,14 @@ def _crossings(work: MotionWorkload, order: int, tolerance: float, threads: int)
 
     all_parts = shared(part, threads)
 
-    def run() -> Array:
+    def run():
         all_parts()
         return np.concatenate([own[: max(n, 0)] for own, n in zip(states, found, strict=True)])
 
     return run
 
 
-_WAYS: dict[str, Callable[..., Run]] = {
+_WAYS = {
     "A": _orbit,
     "A2": _orbit,
     "B": _free_ensemble,
@@ -122,7 +115,7 @@ _WAYS: dict[str, Callable[..., Run]] = {
 }
 
 
-def _prepare(work: Workload, setting: Setting, threads: int = 1) -> Run:
+def _prepare(work, setting, threads=1):
     order, tolerance = setting
     run = _WAYS[work.name](work, order, tolerance, threads)
     run()

@@ -1,16 +1,12 @@
 """Describe the conditions of a run: the day, the machine and the versions."""
 
-from __future__ import annotations
-
 import os
 import platform
 from datetime import UTC, datetime
 from pathlib import Path
 
-__all__ = ["describe"]
 
-
-def _processor() -> str:
+def _processor():
     """Model name of the processor, as far as the system reports it."""
     info = Path("/proc/cpuinfo")
     if info.exists():
@@ -20,7 +16,7 @@ def _processor() -> str:
     return platform.processor() or platform.machine()
 
 
-def describe() -> dict[str, str | int]:
+def describe():
     """Date (UTC), processor, cores that may be used, Python."""
     return {
         "date": datetime.now(UTC).date().isoformat(),
@@ -28,3 +24,9 @@ def describe() -> dict[str, str | int]:
         "cores": len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1,
         "python": platform.python_version(),
     }
+
+
+def conditions():
+    """`describe` as a text."""
+    facts = describe()
+    return f"{facts['date']}, {facts['processor']}, {facts['cores']} cores, Python {facts['python']}"

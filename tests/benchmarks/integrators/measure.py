@@ -5,13 +5,11 @@ from __future__ import annotations
 import gc
 import statistics
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from .method import Method, Run, Setting, named
+from .method import named
 from .works import Workload
-
-__all__ = ["FULL", "QUICK", "Effort", "MethodSample", "Timing", "cheapest", "climb", "measure", "race"]
 
 
 @dataclass(frozen=True)
@@ -40,10 +38,10 @@ QUICK = Effort(tries=1, enough=0.0, slow=0.5, budget=1.0, turns=2, turn=0.0, sha
 class MethodSample:
     """One setting of a method: its error, the fastest of its first runs in seconds, and the run for more."""
 
-    setting: Setting
+    setting: tuple
     error: float
     seconds: float
-    run: Run
+    run: Callable
 
 
 @dataclass(frozen=True)
@@ -55,17 +53,17 @@ class Timing:
     runs: int
 
 
-def cheapest(samples: Iterable[MethodSample], target: float) -> MethodSample | None:
+def cheapest(samples, target):
     """The fastest sample whose error is at most the target, or None."""
     return min(
         (sample for sample in samples if sample.error <= target), key=lambda sample: sample.seconds, default=None
     )
 
 
-def climb(work: Workload, method: Method, effort: Effort) -> tuple[list[MethodSample], list[str]]:
+def climb(work, method, effort):
     """Return one sample per setting, and a message for each setting that was skipped as too slow."""
-    samples: list[MethodSample] = []
-    notes: list[str] = []
+    samples = []
+    notes = []
     spent = 0.0
     for ladder in method.ladders(work):
         for i, setting in enumerate(ladder):
@@ -88,13 +86,13 @@ def climb(work: Workload, method: Method, effort: Effort) -> tuple[list[MethodSa
     return samples, notes
 
 
-def _left_out(method: Method, work: Workload, settings: Sequence[Setting], why: str) -> str:
+def _left_out(method, work, settings, why):
     return f"{method.name}, work {work.name}: left out {named(settings[0])} to {named(settings[-1])}, as {why}."
 
 
-def race(runs: Sequence[Run], effort: Effort) -> list[Timing]:
+def race(runs, effort):
     """Time the runs in turn, so that other load on the machine affects all of them alike."""
-    seconds: list[list[float]] = [[] for _ in runs]
+    seconds = [[] for _ in runs]
     collecting = gc.isenabled()
     gc.disable()
     try:
@@ -108,7 +106,7 @@ def race(runs: Sequence[Run], effort: Effort) -> list[Timing]:
     return [Timing(min(own), statistics.median(own), len(own)) for own in seconds]
 
 
-def _turn(run: Run, seconds: list[float], length: float) -> None:
+def _turn(run, seconds, length):
     begin = time.perf_counter()
     while True:
         start = time.perf_counter()
@@ -137,12 +135,10 @@ class MeasuredWorkload:
     notes: Sequence[str]
 
 
-def measure(
-    work: Workload, methods: Sequence[Method], targets: Sequence[float], effort: Effort, progress: Callable[[str], None]
-) -> MeasuredWorkload:
+def measure(work, methods, targets, effort, progress):
     """All methods in one work."""
-    samples: dict[str, list[MethodSample]] = {}
-    notes: list[str] = []
+    samples = {}
+    notes = []
     for method in methods:
         if work.name in method.without:
             notes.append(f"{method.name}, work {work.name}: {method.without[work.name]}.")

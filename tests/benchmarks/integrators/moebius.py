@@ -4,22 +4,14 @@ The method is that of `hess_mechanics.suslov_hess.circle_map`.  The peers are gi
 the half period; this project computes them in every run.
 """
 
-from __future__ import annotations
-
 import math
-from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 
 from hess_mechanics import turning_points
 
-from .works import Array, MapWorkload
 
-__all__ = ["field", "half_period", "start", "theta_after", "theta_of_matrix"]
-
-
-def field(y: Sequence[Any], half_a: float) -> tuple[Any, ...]:
+def field(y, half_a):
     """(w1, w2, n1, n2, n3) of `eq01` at a = 0 with A = (5, 6) and B = (7, 8), in plain arithmetic; b = 1."""
     w1, w2, n1, n2, n3, a_re, a_im, b_re, b_im = y
     return (
@@ -35,19 +27,19 @@ def field(y: Sequence[Any], half_a: float) -> tuple[Any, ...]:
     )
 
 
-def start(work: MapWorkload) -> Array:
+def start(work):
     """The state (9,) at the lower turning point of n3, where A = 1 and B = 0."""
     turning = turning_points(work.h, work.f)
     n2 = math.copysign(math.sqrt(turning.sine_squared), work.f)
     return np.array([0.0, math.sqrt(turning.w_squared), 0.0, n2, turning.roots[1], 1.0, 0.0, 0.0, 0.0])
 
 
-def half_period(work: MapWorkload) -> float:
+def half_period(work):
     """The time to the upper turning point."""
     return 0.5 * turning_points(work.h, work.f).period
 
 
-def theta_of_matrix(alpha: complex, im_beta: float, phi: Array, z: Array) -> Array:
+def theta_of_matrix(alpha, im_beta, phi, z):
     """Θ(φ) modulo 2π of the matrix with β = i Im β; φ and z = e^{iφ} (n,)."""
     numerator = alpha * z
     numerator += 1j * im_beta
@@ -58,11 +50,11 @@ def theta_of_matrix(alpha: complex, im_beta: float, phi: Array, z: Array) -> Arr
     return theta
 
 
-def theta_after(phi: Array) -> Callable[[Array], Array]:
+def theta_after(phi):
     """Θ(φ) modulo 2π as a function of the state (9,) at the upper turning point."""
     z = np.exp(1j * phi)
 
-    def theta(y: Array) -> Array:
+    def theta(y):
         w1, w2, _, _, _, a_re, a_im, b_re, b_im = y.tolist()
         chi = 0.5 * math.atan2(w1, w2)
         turn = complex(math.cos(chi), math.sin(chi))

@@ -1,27 +1,19 @@
 """Work and precision: time over error, a panel for each work, a curve for each method."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Sequence
 from io import BytesIO
 
-from .measure import MethodSample
-from .report import BenchmarkReport
 
-__all__ = ["draw"]
-
-
-def _frontier(samples: Sequence[MethodSample]) -> list[MethodSample]:
+def _frontier(samples):
     """Return the Pareto-optimal samples in time and error, from the fastest."""
-    kept: list[MethodSample] = []
+    kept = []
     for sample in sorted(samples, key=lambda sample: (sample.seconds, sample.error)):
         if math.isfinite(sample.error) and (not kept or sample.error < kept[-1].error):
             kept.append(sample)
     return kept
 
 
-def draw(report: BenchmarkReport, suffix: str) -> bytes:
+def draw(report, suffix):
     """The picture as a file of this suffix (".svg", ".png").  Raises `ImportError` without Matplotlib."""
     from matplotlib.figure import Figure
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
-from .measure import Chosen, MeasuredWorkload
+from support.measured import table
+
+from .measure import MeasuredWorkload
 from .method import OURS, named, short
 from .scaling import Scaling
-
-__all__ = ["BenchmarkReport", "as_json", "as_text"]
 
 
 @dataclass(frozen=True)
@@ -30,26 +29,21 @@ class BenchmarkReport:
     scaling: Sequence[Scaling]
 
     @property
-    def methods(self) -> list[str]:
+    def methods(self):
         """Return the names of all methods that solved a problem, in order of appearance."""
         return list(dict.fromkeys(name for one in self.measured for name in one.samples))
 
 
-def _digits(x: float, digits: int) -> str:
+def _digits(x, digits):
     """Format with at least this many digits, without an exponent."""
     return f"{x:.{max(0, digits - 1 - math.floor(math.log10(x)))}f}"
 
 
-def _ms(seconds: float) -> str:
+def _ms(seconds):
     return _digits(1e3 * seconds, 3)
 
 
-def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    lines = [head, ["---"] * len(head), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
-
-
-def _cell(name: str, chosen: Chosen | None, ours: Chosen | None) -> str:
+def _cell(name, chosen, ours):
     if chosen is None:
         return "–"
     text = _ms(chosen.timing.minimum)
@@ -58,11 +52,11 @@ def _cell(name: str, chosen: Chosen | None, ours: Chosen | None) -> str:
     return f"{text} ({_digits(_ratio(chosen, ours), 2)} ×)" if ours is not None else text
 
 
-def _ratio(chosen: Chosen, ours: Chosen) -> float:
+def _ratio(chosen, ours):
     return chosen.timing.minimum / ours.timing.minimum
 
 
-def as_text(report: BenchmarkReport) -> str:
+def as_text(report):
     """Return Markdown: machine and versions, the problems, the table, threads, and omissions with reasons."""
     facts = report.facts
     versions = ", ".join(f"{name} {version}" for name, version in report.versions.items())
@@ -85,12 +79,12 @@ def as_text(report: BenchmarkReport) -> str:
         f"error keeps the target.  {OURS}: also this error, and order and tolerance of the Taylor steps; the "
         f"others: also their time as a multiple of {OURS}'s.  –: the target is not reached.",
         "\n".join(f"- {one.work.name}: {one.work.title}" for one in report.measured),
-        _table(["work", "error", *methods], rows),
+        table(["work", "error", *methods], rows),
     ]
     if report.scaling:
         blocks += [
             "Two cores: milliseconds on one and on two threads.",
-            _table(
+            table(
                 ["work", "method", "setting", "1 thread", "2 threads", "faster by"],
                 [
                     [
@@ -112,7 +106,7 @@ def as_text(report: BenchmarkReport) -> str:
     return "\n\n".join(blocks) + "\n"
 
 
-def as_json(report: BenchmarkReport) -> dict[str, Any]:
+def as_json(report):
     """All that was measured, for strict JSON: times in seconds, errors as numbers, null for a result that failed."""
     return {
         **report.facts,
@@ -134,7 +128,7 @@ def as_json(report: BenchmarkReport) -> dict[str, Any]:
     }
 
 
-def _work(one: MeasuredWorkload) -> dict[str, Any]:
+def _work(one):
     ours = one.chosen.get(OURS, {})
     return {
         "name": one.work.name,

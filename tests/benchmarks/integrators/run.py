@@ -1,25 +1,18 @@
 """The whole benchmark."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Sequence
-
 import numba
 import numpy as np
 
 from .explorer import METHOD
 from .machine import describe
 from .measure import FULL, QUICK, measure
-from .method import Method
 from .peers import PEERS, load
 from .report import BenchmarkReport
 from .scaling import scaling
 from .works import works
 
-__all__ = ["participants", "run"]
 
-
-def participants() -> tuple[list[Method], dict[str, str]]:
+def participants():
     """Return this project and the installed peers; and the other peers with the reason."""
     methods, missing = [METHOD], {}
     for name in PEERS:
@@ -32,9 +25,7 @@ def participants() -> tuple[list[Method], dict[str, str]]:
     return methods, missing
 
 
-def run(
-    names: Sequence[str], targets: Sequence[float], quick: bool, progress: Callable[[str], None]
-) -> BenchmarkReport:
+def run(names, targets, quick, progress):
     """Do the works of these names with every method, and those that can be shared between threads on two."""
     effort = QUICK if quick else FULL
     methods, missing = participants()

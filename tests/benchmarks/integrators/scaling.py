@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .measure import Effort, MeasuredWorkload, Timing, race
-from .method import Method, Setting
-from .works import MotionWorkload, Workload, works
-
-__all__ = ["Scaling", "scaling"]
+from .measure import Timing, race
+from .works import MotionWorkload, works
 
 
 @dataclass(frozen=True)
@@ -20,17 +16,17 @@ class Scaling:
 
     title: str
     method: str
-    setting: Setting
+    setting: tuple
     one: Timing
     two: Timing
 
     @property
-    def factor(self) -> float:
+    def factor(self):
         """One thread's time over that of two."""
         return self.one.minimum / self.two.minimum
 
 
-def _many(work: Workload) -> Workload:
+def _many(work):
     """A work that threads can share: the work itself; for D, which is one orbit, the sections of 64 orbits."""
     ensemble = works()["B2"]
     if work.name != "D" or not (isinstance(work, MotionWorkload) and isinstance(ensemble, MotionWorkload)):
@@ -43,9 +39,7 @@ def _many(work: Workload) -> Workload:
     )
 
 
-def scaling(
-    measured: Sequence[MeasuredWorkload], methods: Sequence[Method], effort: Effort, progress: Callable[[str], None]
-) -> list[Scaling]:
+def scaling(measured, methods, effort, progress):
     """Every method in the works that it can share between threads, at its setting for the smallest error it reached."""
     found = []
     for one in measured:

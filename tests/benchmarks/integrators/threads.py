@@ -1,12 +1,7 @@
 """Threads: libraries use one each; only deliberate work is shared between threads."""
 
-from __future__ import annotations
-
 import os
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-
-__all__ = ["one_each", "shared"]
 
 _ONE_THREAD = {
     "OMP_NUM_THREADS": "1",
@@ -17,18 +12,18 @@ _ONE_THREAD = {
 }
 
 
-def one_each() -> None:
+def one_each():
     """Tell the libraries to use one thread each.  They read this only when they are first imported."""
     os.environ.update(_ONE_THREAD)
 
 
-def shared(part: Callable[[int], None], threads: int) -> Callable[[], None]:
+def shared(part, threads):
     """A function that calls part(0), …, part(threads − 1), each in its own thread; directly if there is only one."""
     if threads == 1:
         return lambda: part(0)
     pool = ThreadPoolExecutor(threads)
 
-    def run() -> None:
+    def run():
         list(pool.map(part, range(threads)))
 
     return run

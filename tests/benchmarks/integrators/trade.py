@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
-from hess_explorer.protocol.parameters import Choice, Value
+from hess_explorer.protocol.parameters import Choice
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.framework.scene import Scene
-from hess_explorer.scenes.framework.trial import Trial, bare
+from hess_explorer.scenes.framework.trial import bare
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.trade import LevelCost, enough, measure
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, PLANS, REFERENCE, Computation
+from support.measured import line, table
 
-__all__ = ["Failed", "Row", "as_json", "as_text", "by_kind", "costliest", "heading", "line_of", "names", "trade"]
-
-_COUNTED: dict[Computation, tuple[str, str]] = {
+_COUNTED = {
     Computation.ORBIT: ("", ""),
     Computation.SECTION: ("crossings", ""),
     Computation.ROTATION: ("crossings", "orbits"),
@@ -45,12 +41,12 @@ class Row:
     enough: str
 
     @property
-    def ratio(self) -> float:
+    def ratio(self):
         """Ratio of the run times at `reference` and at `draft`."""
         return self.samples[-1].ms / self.samples[0].ms
 
 
-def names() -> tuple[str, ...]:
+def names():
     """Return the scenes whose computations depend on the accuracy level."""
     return tuple(name for name, scene in scenes().items() if scene.origin is None and scene.trials)
 
@@ -64,7 +60,7 @@ class Failed:
     why: str
 
 
-def _states(scene: Scene[Any]) -> Iterator[dict[str, Value]]:
+def _states(scene):
     """Yield the default state, the presets, and variants of each with a single choice changed."""
     shown = [{**scene.defaults(), **values} for values in ({}, *map(scene.example, scene.presets))]
     yield from shown
@@ -74,7 +70,7 @@ def _states(scene: Scene[Any]) -> Iterator[dict[str, Value]]:
                 yield from ({**values, spec.name: option} for option in spec.options)
 
 
-def _example(scene: Scene[Any], trial: Trial[Any]) -> Any:
+def _example(scene, trial):
     """Return the first state that shows this computation.  Raises `InvalidParameter`."""
     for values in _states(scene):
         state = bare(scene.of(values))
@@ -86,7 +82,7 @@ def _example(scene: Scene[Any], trial: Trial[Any]) -> Any:
     )
 
 
-def _row(name: str, scene: Scene[Any], trial: Trial[Any], repeats: int) -> Row | Failed:
+def _row(name, scene, trial, repeats):
     try:
         state = _example(scene, trial)
         samples = measure(
@@ -97,7 +93,7 @@ def _row(name: str, scene: Scene[Any], trial: Trial[Any], repeats: int) -> Row |
     return Row(name, str(trial.kind), trial.unit, samples, enough(samples, trial.seen))
 
 
-def trade(chosen: Sequence[str], repeats: int, progress: Callable[[str], None]) -> Iterator[Row | Failed]:
+def trade(chosen, repeats, progress):
     """A row for each kind of computation of the chosen scenes, in their first state that shows it."""
     for name in chosen:
         scene = scenes()[name]
@@ -106,69 +102,52 @@ def trade(chosen: Sequence[str], repeats: int, progress: Callable[[str], None]) 
             yield _row(name, scene, trial, repeats)
 
 
-def costliest(rows: Sequence[Row], count: int) -> list[Row]:
+def costliest(rows, count):
     """Return the rows that take longest at `reference`, the longest first."""
     return sorted(rows, key=lambda row: -row.samples[-1].ms)[:count]
 
 
-def _round(value: float) -> str:
+def _round(value):
     return f"{value:.0f}" if value >= 10.0 else digits(value, 2)
 
 
-def _line(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cells)} |\n"
-
-
-def _heading(cells: Sequence[str]) -> str:
-    return _line(cells) + _line(["---"] * len(cells))
-
-
-def heading() -> str:
+def heading():
     """The first lines of the table whose others are `line_of` each row."""
-    return _heading(["scene", "computation", *LEVELS, "ratio", "enough", "error in"])
+    return table(["scene", "computation", *LEVELS, "ratio", "enough", "error in"], []) + "\n"
 
 
-def line_of(row: Row | Failed) -> str:
+def line_of(row):
     """A line in Markdown: milliseconds and error of each level, and how many times as long the last one takes."""
     if isinstance(row, Failed):
-        return _line([row.scene, row.kind, *["–"] * (len(LEVELS) + 2), row.why])
+        return line([row.scene, row.kind, *["–"] * (len(LEVELS) + 2), row.why]) + "\n"
     cells = (f"{_round(one.ms)} ms, {_round(one.error)}" for one in row.samples)
-    return _line([row.scene, row.kind, *cells, f"{_round(row.ratio)} ×", row.enough, row.unit])
+    return line([row.scene, row.kind, *cells, f"{_round(row.ratio)} ×", row.enough, row.unit]) + "\n"
 
 
-def as_text(rows: Sequence[Row]) -> str:
+def as_text(rows):
     """The table of these rows."""
     return heading() + "".join(map(line_of, rows))
 
 
-def by_kind(rows: Sequence[Row]) -> str:
+def by_kind(rows):
     """A table in Markdown, a line for each kind of computation.
 
     It says what `draft` leaves out, how many times as long `reference` takes in the scenes (from the least to the
     most), and the largest error of each level among them.
     """
-    lines = [_heading(["computation", "draft computes", "reference takes", *LEVELS, "error in"])]
+    lines = []
     for kind in Computation:
         own = [row for row in rows if row.kind == kind]
         if own:
             ratios = sorted(row.ratio for row in own)
             least, most = _round(ratios[0]), _round(ratios[-1])
             errors = (_round(max(row.samples[i].error for row in own)) for i in range(len(LEVELS)))
-            lines.append(
-                _line(
-                    [
-                        str(kind),
-                        _draft_computes(kind),
-                        f"{least} ×" if least == most else f"{least} to {most} ×",
-                        *errors,
-                        own[0].unit,
-                    ]
-                )
-            )
-    return "".join(lines)
+            takes = f"{least} ×" if least == most else f"{least} to {most} ×"
+            lines.append([str(kind), _draft_computes(kind), takes, *errors, own[0].unit])
+    return table(["computation", "draft computes", "reference takes", *LEVELS, "error in"], lines) + "\n"
 
 
-def _draft_computes(kind: Computation) -> str:
+def _draft_computes(kind):
     draft, last = PLANS[kind][DRAFT.name], PLANS[kind][REFERENCE.name]
     parts = zip((draft.share, draft.cells), (last.share, last.cells), _COUNTED[kind], strict=True)
     return (
@@ -177,7 +156,7 @@ def _draft_computes(kind: Computation) -> str:
     )
 
 
-def as_json(rows: Sequence[Row]) -> list[dict[str, Any]]:
+def as_json(rows):
     """An entry for each level of each row."""
     return [
         {

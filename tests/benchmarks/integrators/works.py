@@ -9,24 +9,6 @@ from pathlib import Path
 
 import numpy as np
 
-__all__ = [
-    "FIELD_BODY",
-    "FREE_BODY",
-    "MAP_TORUS",
-    "REFERENCES",
-    "Array",
-    "MapWorkload",
-    "MotionWorkload",
-    "Workload",
-    "dense_times",
-    "end",
-    "long_end",
-    "phases",
-    "works",
-]
-
-Array = np.ndarray
-
 FIELD_BODY = (2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0)
 """p = (I11, I22, I13, I23, b1, b2, b3) of the works A, A2, B2, D."""
 FREE_BODY = (3.56, 1.0, 0.0, 0.8, 0.0, 0.0, 0.0)
@@ -38,22 +20,22 @@ REFERENCES = Path(__file__).with_name("references.npz")
 """Initial states and exact results, made by tests/benchmarks/make_benchmark_references.py."""
 
 
-def dense_times() -> Array:
+def dense_times():
     """The times of work A, shape (4000,)."""
     return np.linspace(0.0, 200.0, 4000)
 
 
-def end() -> Array:
+def end():
     """The end of the ensembles' motions, shape (1,)."""
     return np.array([60.0])
 
 
-def long_end() -> Array:
+def long_end():
     """The end of the long motions, shape (1,)."""
     return np.array([2000.0])
 
 
-def phases() -> Array:
+def phases():
     """The angles of work C, shape (256,)."""
     return np.linspace(-math.pi, math.pi, 256, endpoint=False)
 
@@ -70,11 +52,11 @@ class Workload:
     name: str
     title: str
     shape: tuple[int, ...]
-    rows: Array | slice
-    reference: Array
+    rows: np.ndarray | slice
+    reference: np.ndarray
     period: float | None
 
-    def error(self, result: Array) -> float:
+    def error(self, result):
         """The largest absolute error; ∞ for a result that has another shape or is not finite."""
         if result.shape != self.shape or not np.all(np.isfinite(result)):
             return math.inf
@@ -89,8 +71,8 @@ class MotionWorkload(Workload):
     """Motions of the Suslov problem: p (7,), initial states (n, 5), and times: of the results, or the end."""
 
     parameters: tuple[float, ...]
-    initial: Array
-    times: Array
+    initial: np.ndarray
+    times: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,11 +82,11 @@ class MapWorkload(Workload):
     h: float
     f: float
     a: float
-    phi: Array
+    phi: np.ndarray
 
 
 @cache
-def works() -> dict[str, Workload]:
+def works():
     """All works by name, with the stored references."""
     with np.load(REFERENCES) as file:
         stored = dict(file)

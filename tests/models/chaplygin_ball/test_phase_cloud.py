@@ -1,11 +1,11 @@
 """Clouds: orbits in decimals, volumes by finite differences, captions.  Liouville's equation: `test_equations`."""
 
 import dataclasses
-import math
 import re
+from math import cos, exp, hypot, inf, log, pi, sin, sqrt
 
 import numpy as np
-import pytest
+from pytest import approx, mark, raises
 
 import oracle
 from hess_explorer.protocol.wire import Wire
@@ -22,11 +22,13 @@ from hess_mechanics.chaplygin_ball.phase_cloud import (
     shell,
 )
 from hess_mechanics.chaplygin_ball.phase_cloud_density import sides
-from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
+from hess_mechanics.errors import NotPositiveDefinite, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
 from support.ball import divergence as divergence_of
 from support.ball import energy_of
+from support.mechanics import every_level
 from support.phase_cloud import SCENE, captions, complete
+from support.refusals import refused
 from support.thorough import sample
 
 BALL = systems()["ball"]
@@ -34,14 +36,13 @@ FREE = BallBody(2.0, 1.5, 0.5, 0.7, 0.0)
 HEAVY = BallBody(1.0, 1.5, 0.7, 1.2, 3.0)
 PRINCIPAL = BallBody(1.0, 1.5, 0.0, 0.0, 3.0, 0.4, -0.3, 1.0)
 GENERAL = BallBody(1.0, 1.5, 0.7, 1.2, 3.0, 0.4, -0.3, 1.0)
-both_bodies = pytest.mark.parametrize("body", [FREE, HEAVY], ids=["Suslov", "ball"])
-every_level = pytest.mark.parametrize("name", LEVELS)
+both_bodies = mark.parametrize("body", [FREE, HEAVY], ids=["Suslov", "ball"])
 
 
-@pytest.mark.parametrize("body", [FREE, HEAVY, PRINCIPAL, GENERAL])
+@mark.parametrize("body", [FREE, HEAVY, PRINCIPAL, GENERAL])
 def test_the_divergence_is_the_sum_of_the_exact_slopes(body):
     for y in np.array([[0.5, -0.75, 0.6, 0.0, 0.8], [-2.0, 1.25, 2 / 3, -1 / 3, 2 / 3]]):
-        assert float(divergence(body, y[:2], y[2:])) == pytest.approx(divergence_of(body, y), rel=1e-14, abs=1e-15)
+        assert float(divergence(body, y[:2], y[2:])) == approx(divergence_of(body, y), rel=1e-14, abs=1e-15)
 
 
 # ---- volumes ----------------------------------------------------------------------------------------------------
@@ -50,7 +51,7 @@ def test_the_divergence_is_the_sum_of_the_exact_slopes(body):
 def jacobian(body, state, t, step=1e-4):
     """The determinant of the flow map from nearby orbits, to about step⁴."""
     steps = np.multiply.outer((-2, -1, 1, 2), step * np.eye(5)).reshape(20, 5)
-    ends = ensemble(body, state + steps, [t], level("reference")).states.reshape(4, 5, 5)
+    ends = ensemble(body, state + steps, [t], "reference").states.reshape(4, 5, 5)
     return np.linalg.det(np.tensordot([1, -8, 8, -1], ends, 1) / (12 * step))
 
 
@@ -58,10 +59,10 @@ START = np.array([0.8, -0.3, 0.48, 0.6, 0.64])
 
 
 @both_bodies
-@pytest.mark.parametrize("t", [1.5, -2.0])
+@mark.parametrize("t", [1.5, -2.0])
 def test_small_volumes_grow_by_the_ratio_of_s(body, t):
-    found = carried(body, START[None], np.array([0.0, t]), level("reference"))
-    assert jacobian(body, START, t) == pytest.approx(math.exp(found.log_growth[0, 1]), rel=1e-9)
+    found = carried(body, START[None], np.array([0.0, t]), "reference")
+    assert jacobian(body, START, t) == approx(exp(found.log_growth[0, 1]), rel=1e-9)
     assert abs(found.log_growth[0, 1]) > 0.3
 
 
@@ -78,9 +79,9 @@ def growth_in_closed_form(body, states, t):
 def test_the_volume_of_a_patch_is_that_of_the_closed_form():
     states = patch(FREE, 2.0, -0.3, 0.1, 4000)
     times = np.linspace(0.0, 14.0, 15)
-    found = carried(FREE, states, times, level("standard"))
+    found = carried(FREE, states, times, "standard")
     exact = [growth_in_closed_form(FREE, states, t)[0].mean() for t in times]
-    assert found.volume == pytest.approx(exact, rel=1e-6)
+    assert found.volume == approx(exact, rel=1e-6)
 
 
 # ---- orbits -----------------------------------------------------------------------------------------------------
@@ -88,12 +89,12 @@ def test_the_volume_of_a_patch_is_that_of_the_closed_form():
 
 @every_level
 @both_bodies
-@pytest.mark.parametrize("sense", [1.0, -1.0])
+@mark.parametrize("sense", [1.0, -1.0])
 def test_points_are_carried_along_the_orbits_within_the_promise(body, sense, name):
     states = shell(body, 2.0, 0.3, 33)
     times = sense * np.array([0.0, 0.5, 3.0, 7.0])
-    found = carried(body, states, times, level(name))
-    nu = math.sqrt(2.0 * 2.6 / min(body.I11, body.I22))
+    found = carried(body, states, times, name)
+    nu = sqrt(2.0 * 2.6 / min(body.I11, body.I22))
     for i in (0, 16, 32):
         exact = np.array(oracle.orbit_in_decimals(BALL, list(states[i]), body.parameters, list(times), 40), float)
         s = np.array([body.I13, body.I23]) @ exact[:, :2].T
@@ -107,21 +108,21 @@ def test_points_are_carried_along_the_orbits_within_the_promise(body, sense, nam
 
 def test_s_keeps_its_digits_where_doubles_would_have_lost_it():
     states = shell(FREE, 2.0, 0.1, 64)
-    found = carried(FREE, states, np.array([0.0, 250.0]), level("precise"))
+    found = carried(FREE, states, np.array([0.0, 250.0]), "precise")
     exact, _ = growth_in_closed_form(FREE, states, 250.0)
     assert np.all(found.log_s[:, 1] < -150.0)
     # The errors of the rate grow with time.
-    assert found.log_growth[:, 1] == pytest.approx(np.log(exact), abs=1e-9)
+    assert found.log_growth[:, 1] == approx(np.log(exact), abs=1e-9)
 
 
-@pytest.mark.parametrize("scale", [1e-6, 1e6])
+@mark.parametrize("scale", [1e-6, 1e6])
 def test_a_cloud_of_another_energy_is_the_same_at_other_times(scale):
     states = shell(HEAVY, 2.0, 0.2, 40)
     times = np.array([0.0, 1.0, 4.0])
-    faster = carried(HEAVY, states * [scale, scale, 1, 1, 1], times / scale, level("standard"))
-    found = carried(HEAVY, states, times, level("standard"))
-    assert faster.gamma == pytest.approx(found.gamma, abs=1e-12)
-    assert faster.log_s - math.log(scale) == pytest.approx(found.log_s, abs=1e-12)
+    faster = carried(HEAVY, states * [scale, scale, 1, 1, 1], times / scale, "standard")
+    found = carried(HEAVY, states, times, "standard")
+    assert faster.gamma == approx(found.gamma, abs=1e-12)
+    assert faster.log_s - log(scale) == approx(found.log_s, abs=1e-12)
 
 
 # ---- points and densities ---------------------------------------------------------------------------------------
@@ -133,10 +134,10 @@ def test_a_shell_is_evenly_filled(body):
     states = shell(body, h, spread, count)
     E = energy_of(vars(body), states)
     assert np.all((h * (1 - spread) < E) & (h * (1 + spread) > E))
-    assert np.linalg.norm(states[:, 2:], axis=1) == pytest.approx(np.ones(count), abs=1e-14)
+    assert np.linalg.norm(states[:, 2:], axis=1) == approx(np.ones(count), abs=1e-14)
     # Points of a box, evenly spread, of which those in the shell are kept.
     random = np.random.default_rng(5)
-    most = math.sqrt(2 * h * (1 + spread) / min(body.I11, body.I22))
+    most = sqrt(2 * h * (1 + spread) / min(body.I11, body.I22))
     gamma = random.normal(size=(2_000_000, 3))
     gamma /= np.linalg.norm(gamma, axis=1)[:, None]
     box = np.column_stack([random.uniform(-most, most, (len(gamma), 2)), gamma])
@@ -156,34 +157,29 @@ def test_a_shell_is_evenly_filled(body):
 def test_a_patch_is_evenly_filled(body):
     count, spread, angle = 20_000, 0.4, 2.0
     states = patch(body, 2.0, angle, spread, count)
-    speed = math.sqrt(2.0 / energy_of(vars(body), [math.cos(angle), math.sin(angle), 0.0, 0.0, 1.0]))
-    out = (states[:, :2] - speed * np.array([math.cos(angle), math.sin(angle)])) / (spread * speed)
+    speed = sqrt(2.0 / energy_of(vars(body), [cos(angle), sin(angle), 0.0, 0.0, 1.0]))
+    out = (states[:, :2] - speed * np.array([cos(angle), sin(angle)])) / (spread * speed)
     radius2 = (out**2).sum(axis=1)
     assert radius2.max() < 1.0
-    for even in (radius2, (1.0 - states[:, 4]) / (1.0 - math.cos(spread))):
+    for even in (radius2, (1.0 - states[:, 4]) / (1.0 - cos(spread))):
         assert even.min() >= 0.0
         counts, _ = np.histogram(even, 10, (0.0, 1.0))
-        assert counts == pytest.approx(np.full(10, count / 10), abs=5 * math.sqrt(count / 10))
+        assert counts == approx(np.full(10, count / 10), abs=5 * sqrt(count / 10))
     assert np.abs(out.mean(axis=0)).max() < 0.02
     assert np.abs(states[:, 2:4].mean(axis=0)).max() < 0.01
-
-
-def test_the_same_points_come_again():
-    assert np.array_equal(shell(HEAVY, 2.0, 0.2, 500), shell(HEAVY, 2.0, 0.2, 500))
-    assert np.array_equal(patch(HEAVY, 2.0, 0.1, 0.2, 500), patch(HEAVY, 2.0, 0.1, 0.2, 500))
 
 
 def test_on_the_average_over_time_the_density_is_the_invariant_one():
     states = shell(FREE, 2.0, 0.1, 5000)
     times = np.linspace(0.0, 40.0, 161)
-    found = carried(FREE, states, times, level("standard"))
+    found = carried(FREE, states, times, "standard")
     edges = np.arange(-40.0, 2.0, 1.0)
     share = occupation(found, edges)
     _, rate = growth_in_closed_form(FREE, states, 0.0)
     # Over ln|s| the density 1/|s| is even; each point spends 1/ω0 per unit, of 40.
     passed = (edges[:-1] > -18.0) & (edges[1:] < -4.0)
-    assert share[passed] == pytest.approx(np.full(passed.sum(), np.mean(1.0 / rate) / 40.0), rel=5e-3)
-    assert share.sum() * 1.0 == pytest.approx(1.0, abs=1e-3)
+    assert share[passed] == approx(np.full(passed.sum(), np.mean(1.0 / rate) / 40.0), rel=5e-3)
+    assert share.sum() * 1.0 == approx(1.0, abs=1e-3)
 
 
 ODD = BallBody(1.64, 1.0, 0.0, 0.8, 0.0)
@@ -207,7 +203,7 @@ def test_a_density_that_vanishes_where_F2_does_is_invariant_and_nothing_crosses_
         y = rng.normal(size=5)
         terms = [(flow(y + e)[i] - flow(y - e)[i]) / 2e-5 for i, e in enumerate(1e-5 * np.eye(5))]
         assert abs(sum(terms)) < 1e-7 * max(map(abs, terms))
-    found = carried(ODD, shell(ODD, 2.0, 0.1, 2000), np.linspace(0.0, 14.0, 29), level("standard"))
+    found = carried(ODD, shell(ODD, 2.0, 0.1, 2000), np.linspace(0.0, 14.0, 29), "standard")
     values = F2_by_hand(found.omega, found.gamma)
     positive, negative, changed = sides(found)
     assert changed == 0
@@ -218,7 +214,7 @@ def test_a_density_that_vanishes_where_F2_does_is_invariant_and_nothing_crosses_
 
 
 def test_points_that_do_cross_would_be_counted():
-    found = carried(ODD, shell(ODD, 2.0, 0.1, 500), np.linspace(0.0, 14.0, 29), level("standard"))
+    found = carried(ODD, shell(ODD, 2.0, 0.1, 500), np.linspace(0.0, 14.0, 29), "standard")
     # γ turned by half a turn about the third axis, for half of the points, at the last time.
     wrong = found.gamma.copy()
     wrong[:250, -1] *= -1.0
@@ -227,36 +223,36 @@ def test_points_that_do_cross_would_be_counted():
     )
 
 
-@pytest.mark.parametrize("body", [HEAVY, FREE, BallBody(1.64, 1.0, 0.0, 0.8, 1.0)], ids=str)
+@mark.parametrize("body", [HEAVY, FREE, BallBody(1.64, 1.0, 0.0, 0.8, 1.0)], ids=str)
 def test_without_F2_there_are_no_sides(body):
-    found = carried(body, shell(body, 2.0, 0.1, 20), np.linspace(0.0, 1.0, 3), level("draft"))
+    found = carried(body, shell(body, 2.0, 0.1, 20), np.linspace(0.0, 1.0, 3), "draft")
     assert sides(found) is None
 
 
-@pytest.mark.parametrize("direction", ["forward", "backward"])
+@mark.parametrize("direction", ["forward", "backward"])
 def test_the_entropy_gains_the_mean_of_the_logarithm(direction):
     """−∫ρ ln ρ by its definition, of a density carried along: each point's is s(0)/s(t) times its first one."""
     end = 6.0 if direction == "forward" else -6.0
-    found = carried(FREE, shell(FREE, 2.0, 0.1, 2000), np.linspace(0.0, end, 13), level("standard"))
+    found = carried(FREE, shell(FREE, 2.0, 0.1, 2000), np.linspace(0.0, end, 13), "standard")
     first = 0.3
     density = first * np.exp(found.log_s[:, :1] - found.log_s)
     entropy = -np.log(density).mean(axis=0)
-    assert entropy - entropy[0] == pytest.approx(found.log_growth.mean(axis=0), abs=1e-12)
+    assert entropy - entropy[0] == approx(found.log_growth.mean(axis=0), abs=1e-12)
     # Liouville's equation gives its rate: the mean divergence.
     rates = np.gradient(entropy, found.times)
-    assert rates[2:-2] == pytest.approx(found.divergence.mean(axis=0)[2:-2], rel=0.1, abs=0.02)
+    assert rates[2:-2] == approx(found.divergence.mean(axis=0)[2:-2], rel=0.1, abs=0.02)
     # The cloud gathers either way, as the scene says.
     assert entropy[-1] < entropy[0] - 1.0
     assert "It is what the entropy" in SCENE.words
     assert "the entropy falls." in SCENE.words
 
 
-@pytest.mark.parametrize("frame", [0, -1])
+@mark.parametrize("frame", [0, -1])
 def test_a_histogram_counts_the_points(frame):
-    found = carried(HEAVY, shell(HEAVY, 2.0, 0.1, 1000), np.linspace(0.0, 5.0, 9), level("standard"))
+    found = carried(HEAVY, shell(HEAVY, 2.0, 0.1, 1000), np.linspace(0.0, 5.0, 9), "standard")
     edges = 0.25 * np.arange(-40, 9)
     counts, _ = np.histogram(found.log_s[:, frame], edges)
-    assert histogram(found, frame, edges) == pytest.approx(counts / (1000 * 0.25))
+    assert histogram(found, frame, edges) == approx(counts / (1000 * 0.25))
 
 
 def test_frames_are_close_enough_and_not_too_many():
@@ -266,9 +262,9 @@ def test_frames_are_close_enough_and_not_too_many():
     assert 5 * times.size * len(states) * 4 <= 6_000_000
     fastest = np.sqrt((states[:, :2] ** 2).sum(axis=1).max())
     assert (times[1] - times[0]) * fastest < 1.0
-    assert frame_times(FREE, states[:1000], -14.0) == pytest.approx(-frame_times(FREE, states[:1000], 14.0), abs=1e-12)
+    assert frame_times(FREE, states[:1000], -14.0) == approx(-frame_times(FREE, states[:1000], 14.0), abs=1e-12)
     assert frame_times(FREE, states, 0.1).size == 9
-    with pytest.raises(WorkLimit, match=r"below [0-9.]+"):
+    with raises(WorkLimit, match=r"below [0-9.]+"):
         frame_times(FREE, states, 100.0)
     assert frame_times(FREE, states[:1000], 100.0).size > times.size
 
@@ -279,25 +275,19 @@ def test_frames_are_close_enough_and_not_too_many():
 ONE, DRAFT = np.array([1.0]), LEVELS["draft"]
 
 
-@pytest.mark.parametrize(
-    ("error", "action"),
-    [
-        (InvalidParameter, lambda: carried(BallBody(2.0, 1.0, 0.0, 0.0, 1.0), START[None], ONE, DRAFT)),
-        (InvalidParameter, lambda: carried(GENERAL, START[None], ONE, DRAFT)),
-        (InvalidParameter, lambda: carried(FREE, np.array([[0.0, 0.0, 0.0, 0.0, 1.0]]), ONE, DRAFT)),
-        (InvalidParameter, lambda: carried(FREE, START[None], np.array([0.0, 1.0, -1.0]), DRAFT)),
-        (WorkLimit, lambda: carried(HEAVY, np.repeat(START[None], 10_000, 0), 3e3 * ONE, DRAFT)),
-        (InvalidParameter, lambda: shell(FREE, 0.0, 0.1, 10)),
-        (InvalidParameter, lambda: shell(FREE, 1.0, 1.0, 10)),
-        (InvalidParameter, lambda: patch(FREE, 1.0, math.inf, 0.1, 10)),
-        (InvalidParameter, lambda: patch(FREE, 1.0, 0.0, 0.0, 10)),
-        (InvalidParameter, lambda: patch(FREE, 1.0, 0.0, 0.1, 0)),
-        (NotPositiveDefinite, lambda: shell(BallBody(0.0, 1.0, 0.0, 0.1, 0.0), 1.0, 0.1, 10)),
-    ],
+test_what_cannot_be_is_refused_with_a_sentence = refused(
+    (lambda: carried(BallBody(2.0, 1.0, 0.0, 0.0, 1.0), START[None], ONE, DRAFT), "\\w.*\\.$"),
+    (lambda: carried(GENERAL, START[None], ONE, DRAFT), "\\w.*\\.$"),
+    (lambda: carried(FREE, np.array([[0.0, 0.0, 0.0, 0.0, 1.0]]), ONE, DRAFT), "\\w.*\\.$"),
+    (lambda: carried(FREE, START[None], np.array([0.0, 1.0, -1.0]), DRAFT), "\\w.*\\.$"),
+    (lambda: carried(HEAVY, np.repeat(START[None], 10000, 0), 3000.0 * ONE, DRAFT), "\\w.*\\.$", WorkLimit),
+    (lambda: shell(FREE, 0.0, 0.1, 10), "\\w.*\\.$"),
+    (lambda: shell(FREE, 1.0, 1.0, 10), "\\w.*\\.$"),
+    (lambda: patch(FREE, 1.0, inf, 0.1, 10), "\\w.*\\.$"),
+    (lambda: patch(FREE, 1.0, 0.0, 0.0, 10), "\\w.*\\.$"),
+    (lambda: patch(FREE, 1.0, 0.0, 0.1, 0), "\\w.*\\.$"),
+    (lambda: shell(BallBody(0.0, 1.0, 0.0, 0.1, 0.0), 1.0, 0.1, 10), "\\w.*\\.$", NotPositiveDefinite),
 )
-def test_what_cannot_be_is_refused_with_a_sentence(error, action):
-    with pytest.raises(error, match=r"\w.*\.$"):
-        action()
 
 
 # ---- the scene --------------------------------------------------------------------------------------------------
@@ -308,7 +298,7 @@ def numbers_in(text):
     return [float(found) for found in re.findall(r"(?<![\w.])-?\d+\.?\d*(?:e-?\d+)?", plain)]
 
 
-@pytest.mark.parametrize("preset", sample(SCENE.presets, 3), ids=lambda preset: preset.name)
+@mark.parametrize("preset", sample(SCENE.presets, 3), ids=lambda preset: preset.name)
 def test_the_captions_say_what_the_general_equations_give(preset):
     values = {**SCENE.defaults(), **preset.values}
     body = BallBody(*(values[name] for name in ("I11", "I22", "I13", "I23", "D")))
@@ -319,35 +309,35 @@ def test_the_captions_say_what_the_general_equations_give(preset):
     states = make(body, *(values[name] for name in where), count)
     span = values["span"] * (-1.0 if values["direction"] == "backward" else 1.0)
     # The captions have three digits.
-    end = ensemble(body, states, [span], level("standard")).states[:, 0]
+    end = ensemble(body, states, [span], "standard").states[:, 0]
     s = [np.abs(body.I13 * y[:, 0] + body.I23 * y[:, 1]) for y in (states, end)]
-    xi = np.array([body.I23, -body.I13, 0.0]) / math.hypot(body.I13, body.I23)
+    xi = np.array([body.I23, -body.I13, 0.0]) / hypot(body.I13, body.I23)
     said = captions(values)
-    assert numbers_in(said["omega"]) == pytest.approx([count, *(np.median(one) for one in s)], rel=6e-3)
+    assert numbers_in(said["omega"]) == approx([count, *(np.median(one) for one in s)], rel=6e-3)
     spread = numbers_in(said["sphere"])
     # A mean that stays is said once.
-    assert spread * (3 - len(spread)) == pytest.approx([((y[:, 2:] @ xi) ** 2).mean() for y in (states, end)], rel=6e-3)
+    assert spread * (3 - len(spread)) == approx([((y[:, 2:] @ xi) ** 2).mean() for y in (states, end)], rel=6e-3)
     growth = s[1] / s[0]
     if is_patch and values["along"] == "volume":
-        assert numbers_in(said["divergence"])[0] == pytest.approx(growth.mean(), rel=6e-3)
+        assert numbers_in(said["divergence"])[0] == approx(growth.mean(), rel=6e-3)
         assert growth.mean() < 0.01
         assert ("the second cloud preserves volume" in said["divergence"]) == beside
     else:
         mean = [float(divergence(body, y[:, :2], y[:, 2:]).mean()) for y in (states, end)]
         numbers = numbers_in(said["divergence"])
-        assert [*numbers[:2], numbers[-1]] == pytest.approx([*mean, np.log(growth).mean()], rel=6e-3)
+        assert [*numbers[:2], numbers[-1]] == approx([*mean, np.log(growth).mean()], rel=6e-3)
     place, share, height = numbers_in(said["density"])
     assert s[1].min() < place < s[0].max()
-    assert share == pytest.approx(height, rel=0.03)
+    assert share == approx(height, rel=0.03)
     if body.D == 0.0:
         _, rate = growth_in_closed_form(body, states, 0.0)
-        assert height == pytest.approx(1.0 / (np.median(rate) * values["span"]), rel=0.01)
+        assert height == approx(1.0 / (np.median(rate) * values["span"]), rel=0.01)
 
 
 def test_on_the_sphere_a_cloud_stays_even_without_the_ball_and_gathers_with_it():
     even, gathered = (numbers_in(captions({**SCENE.defaults(), **SCENE.presets[i].values})["sphere"]) for i in (0, -1))
     # Every ω(0) turns its γ together: the mean of (γ, ξ)² stays 1/3, within what 10 000 points can say.
-    assert even == pytest.approx([1 / 3, 1 / 3], abs=4 * math.sqrt(4 / 45 / 10_000))
+    assert even == approx([1 / 3, 1 / 3], abs=4 * sqrt(4 / 45 / 10_000))
     assert gathered[1] > gathered[0] + 0.05
 
 
@@ -355,7 +345,7 @@ def test_fewer_points_while_a_slider_is_dragged():
     assert SCENE.compute(SCENE.defaults(), SCENE.pictures, True).clouds.cloud.signs.size == 1000
 
 
-@pytest.mark.parametrize("beside", ["nothing", "principal axis"])
+@mark.parametrize("beside", ["nothing", "principal axis"])
 def test_fewer_points_until_all_of_them_are_known(beside):
     values = {**SCENE.defaults(), "I11": 2.015, "beside": beside, "b3": 1.0, "points": "3000"}
     clouds = 2 if beside == "principal axis" else 1
@@ -372,5 +362,5 @@ def test_fewer_points_until_all_of_them_are_known(beside):
 def test_a_click_in_the_plane_chooses_a_patch_there():
     stage = Stage(SCENE, Wire())
     stage.show(SCENE.compute(SCENE.defaults(), SCENE.pictures, True), False)
-    assert stage.pick("omega", -1.0, 1.0) == {"start": "small patch", "angle": pytest.approx(0.75 * math.pi)}
+    assert stage.pick("omega", -1.0, 1.0) == {"start": "small patch", "angle": approx(0.75 * pi)}
     assert stage.pick("sphere", 1.0, 1.0) == {}

@@ -1,10 +1,10 @@
 """θ⁻ → θ⁺ of the Chaplygin ball: the free Suslov problem where 𝒟 → 0, and a plain integrator otherwise."""
 
-import math
 from functools import cache
+from math import acos, atan2, cos, hypot, inf, nan, pi, sin, sqrt
 
 import numpy as np
-import pytest
+from pytest import approx, mark, raises
 from scipy.integrate import solve_ivp
 
 from hess_mechanics import level
@@ -13,8 +13,9 @@ from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.scattering import all_phases, ball_scattering, starts
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
+from support.mechanics import scipy_states
 
-PHASES = np.linspace(0.0, 2.0 * math.pi, 128, endpoint=False)
+PHASES = np.linspace(0.0, 2.0 * pi, 128, endpoint=False)
 CAPTION = BallBody(1.0, 1.5, 0.7, 1.2, 10.0)
 
 # (I11, I22, I13, I23) and cos χ of the free Suslov problem, computed independently with 40 digits.
@@ -32,43 +33,41 @@ def harmonics(result):
     columns = np.stack([np.ones_like(result.phis), np.cos(result.phis), np.sin(result.phis)], axis=1)
     values = np.cos(result.theta_plus)
     (c0, c, s), *_ = np.linalg.lstsq(columns, values, rcond=None)
-    return c0, math.hypot(c, s), np.max(np.abs(columns @ (c0, c, s) - values))
+    return c0, hypot(c, s), np.max(np.abs(columns @ (c0, c, s) - values))
 
 
-@pytest.mark.parametrize(("tensor", "cosine"), ROTATIONS)
-@pytest.mark.parametrize("theta", [0.4, 1.0, 2.2])
-@pytest.mark.parametrize(("distance", "h"), [(1e-7, 1.5), (-1e-7, 1e6), (1e-7, 1e-6)])
+@mark.parametrize(("tensor", "cosine"), ROTATIONS)
+@mark.parametrize("theta", [0.4, 1.0, 2.2])
+@mark.parametrize(("distance", "h"), [(1e-7, 1.5), (-1e-7, 1e6), (1e-7, 1e-6)])
 def test_without_the_inner_ball_scattering_is_the_rotation_of_the_free_suslov_problem(
     tensor, cosine, theta, distance, h
 ):
     # Γ⁺ = cos χ Γ⁻ + sin χ √(1 − Γ⁻²) cos(φ − φ*), the same at every energy.
     for D, slack in ((0.0, 0.0), (1e-5, 2e-4)):
-        found = ball_scattering(BallBody(*tensor, D), theta, PHASES, h, distance, level("standard"))
+        found = ball_scattering(BallBody(*tensor, D), theta, PHASES, h, distance, "standard")
         assert found.status is Status.OK
         mean, amplitude, rest = harmonics(found)
         error = found.errors.max() + slack
-        assert mean == pytest.approx(cosine * math.cos(theta), abs=error)
-        assert amplitude == pytest.approx(math.sqrt(1.0 - cosine**2) * math.sin(theta), abs=error)
+        assert mean == approx(cosine * cos(theta), abs=error)
+        assert amplitude == approx(sqrt(1.0 - cosine**2) * sin(theta), abs=error)
         assert rest <= error
 
 
 @cache
 def plainly_scattered(body, theta, phi, h, distance):
     """θ⁺ by SciPy."""
-    xi = np.array([body.I23, -body.I13]) / math.hypot(body.I13, body.I23)
+    xi = np.array([body.I23, -body.I13]) / hypot(body.I13, body.I23)
     (state,), _ = starts(Strip(body, h), theta, np.array([phi]), distance)
-    run = solve_ivp(
-        lambda _, y: SYSTEM.field(y, body.parameters), (0.0, 400.0), state, method="DOP853", rtol=1e-13, atol=1e-20
-    )
-    return math.acos(run.y[2:4, -1] @ xi)
+    end = scipy_states(SYSTEM, state, body.parameters, [400.0], 1e-13, 1e-20)[0]
+    return acos(end[2:4] @ xi)
 
 
-@pytest.mark.parametrize("body", [CAPTION, BallBody(2.0, 1.0, -0.3, 0.5, 1.0)])
-@pytest.mark.parametrize("name", LEVELS)
+@mark.parametrize("body", [CAPTION, BallBody(2.0, 1.0, -0.3, 0.5, 1.0)])
+@mark.parametrize("name", LEVELS)
 def test_scattering_agrees_with_a_plain_integrator(body, name):
     theta, phi, h, distance = 1.1, 0.7, 10.0, 1e-6
     theta_plus = plainly_scattered(body, theta, phi, h, distance)
-    found = ball_scattering(body, theta, [phi], h, distance, level(name))
+    found = ball_scattering(body, theta, [phi], h, distance, name)
     # From the same state; what the start's own distance does is the matter of the next test.
     assert abs(found.theta_plus[0] - theta_plus) <= max(1e-8, 0.5 * level(name).promise)
     assert found.errors[0] >= abs(found.theta_plus[0] - theta_plus)
@@ -82,7 +81,7 @@ BODIES = [
 ]
 
 
-THETAS, DISTANCES = (0.0, 0.4, 1.1, math.pi / 2, 2.9), (1e-2, -1e-3)
+THETAS, DISTANCES = (0.0, 0.4, 1.1, pi / 2, 2.9), (1e-2, -1e-3)
 SOME_PHASES = np.array([-2.5, 0.0, 0.7, 2.0])
 
 
@@ -108,25 +107,21 @@ def long_before(body):
     return {key: (*found[key], end) for key, end in zip(found, ends, strict=True)}
 
 
-@pytest.mark.parametrize("body", BODIES, ids=lambda body: f"D={body.D:g}")
-@pytest.mark.parametrize("theta", THETAS)
+@mark.parametrize("body", BODIES, ids=lambda body: f"D={body.D:g}")
+@mark.parametrize("theta", THETAS)
 def test_the_start_is_where_motions_of_its_circle_pass_but_for_the_square_of_the_distance(body, theta):
-    xi = np.array([body.I23, -body.I13]) / math.hypot(body.I13, body.I23)
+    xi = np.array([body.I23, -body.I13]) / hypot(body.I13, body.I23)
     worst = []
     for distance in DISTANCES:
         away = []
         for state, error, back, phi in zip(*long_before(body)[theta, distance], SOME_PHASES, strict=True):
-            assert SYSTEM.integrals(state, body.parameters) == pytest.approx({"E": 10.0, "F1": 1.0}, rel=1e-13)
-            assert state[0] * -xi[1] + state[1] * xi[0] == pytest.approx(distance * (state[:2] @ xi), rel=1e-12)
-            across = math.sin(theta) * math.cos(phi)
-            circle = [
-                math.cos(theta) * xi[0] - across * xi[1],
-                math.cos(theta) * xi[1] + across * xi[0],
-                math.sin(theta) * math.sin(phi),
-            ]
+            assert SYSTEM.integrals(state, body.parameters) == approx({"E": 10.0, "F1": 1.0}, rel=1e-13)
+            assert state[0] * -xi[1] + state[1] * xi[0] == approx(distance * (state[:2] @ xi), rel=1e-12)
+            across = sin(theta) * cos(phi)
+            circle = [cos(theta) * xi[0] - across * xi[1], cos(theta) * xi[1] + across * xi[0], sin(theta) * sin(phi)]
             assert np.linalg.norm(state[2:] - circle) <= 1.5 * abs(distance)
-            along, up = back[2:4] @ xi, math.hypot(back[3] * xi[0] - back[2] * xi[1], back[4])
-            away.append(abs(math.atan2(up, along) - theta))
+            along, up = back[2:4] @ xi, hypot(back[3] * xi[0] - back[2] * xi[1], back[4])
+            away.append(abs(atan2(up, along) - theta))
             assert away[-1] <= error
         worst.append(max(away))
     # A hundred times less at a tenth of the distance, as far as the integrator sees.
@@ -136,16 +131,16 @@ def test_the_start_is_where_motions_of_its_circle_pass_but_for_the_square_of_the
 
 def test_what_would_take_too_long_is_refused_before_it_is_begun():
     slow = BallBody(1.0, 1.5, 1e-3, 0.0, 300.0)
-    with pytest.raises(WorkLimit, match=r"about \de\+\d\d steps: choose larger I13"):
-        ball_scattering(slow, 1.0, PHASES, 10.0, 1e-10, level("standard"))
-    with pytest.raises(WorkLimit, match="smaller 𝒟"):
-        ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-4, level("standard"), most_steps=1000)
+    with raises(WorkLimit, match=r"about \de\+\d\d steps: choose larger I13"):
+        ball_scattering(slow, 1.0, PHASES, 10.0, 1e-10, "standard")
+    with raises(WorkLimit, match="smaller 𝒟"):
+        ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-4, "standard", most_steps=1000)
     # What is allowed is what it takes, roughly.
-    found = ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-4, level("standard"), most_steps=300_000)
+    found = ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-4, "standard", most_steps=300_000)
     assert found.cost.steps < 300_000
 
 
-@pytest.mark.parametrize("D", [0.0, 300.0])
+@mark.parametrize("D", [0.0, 300.0])
 def test_where_the_line_is_left_within_a_fraction_of_a_turn_the_errors_say_what_is_known(D):
     # ∫μ beyond double range: no first-order term, and no NaN either.
     body = BallBody(1e-3, 1.0, 800.0, 600.0, D)
@@ -156,26 +151,26 @@ def test_where_the_line_is_left_within_a_fraction_of_a_turn_the_errors_say_what_
 
 def test_errors_fall_with_the_distance_until_it_is_rounded():
     errors = [
-        ball_scattering(CAPTION, 1.0, PHASES[:16], 10.0, distance, level("reference")).errors.max()
+        ball_scattering(CAPTION, 1.0, PHASES[:16], 10.0, distance, "reference").errors.max()
         for distance in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)
     ]
     assert errors[0] > 10 * errors[1] > 100 * errors[2]
     assert errors[2] < errors[3] < errors[4]
-    draft = ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-7, level("draft"))
-    exact = ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-7, level("reference"))
+    draft = ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-7, "draft")
+    exact = ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-7, "reference")
     assert np.max(np.abs(draft.theta_plus - exact.theta_plus)) <= draft.errors.max() < 1e-3
     assert draft.status is Status.OK
 
 
-@pytest.mark.parametrize("theta", [0.0, math.pi])
+@mark.parametrize("theta", [0.0, pi])
 def test_the_ends_of_the_axis_have_one_image(theta):
-    found = ball_scattering(CAPTION, theta, PHASES, 10.0, 1e-7, level("standard"))
+    found = ball_scattering(CAPTION, theta, PHASES, 10.0, 1e-7, "standard")
     assert np.ptp(found.theta_plus) <= 2 * found.errors.max()
 
 
 def test_results_are_read_only_and_share_nothing_with_the_caller():
     phases = np.array([0.0, 1.0])
-    found = ball_scattering(CAPTION, 1.0, phases, 10.0, 1e-6, level("draft"))
+    found = ball_scattering(CAPTION, 1.0, phases, 10.0, 1e-6, "draft")
     phases[0] = 5.0
     assert found.phis[0] == 0.0
     for array in (found.phis, found.theta_plus, found.errors):
@@ -183,32 +178,32 @@ def test_results_are_read_only_and_share_nothing_with_the_caller():
     assert found.cost.steps > 0
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("change", "match"),
     [
         ({"theta": -0.1}, "0 ≤ θ⁻ ≤ π"),
-        ({"theta": math.nan}, "theta_minus"),
+        ({"theta": nan}, "theta_minus"),
         ({"distance": 0.5}, "from 1e-10 to 0.1"),
         ({"h": 0.0}, "choose h > 0"),
-        ({"phis": [math.inf]}, "phases"),
+        ({"phis": [inf]}, "phases"),
         ({"body": BallBody(1.0, 1.0, 0.0, 0.0, 1.0)}, "I13 or I23"),
         ({"body": BallBody(1.0, 1.0, 0.1, 0.0, 1.0, 0.0, 0.0, 1.0)}, "b1 = b2 = b3 = 0"),
     ],
 )
 def test_what_cannot_be_is_refused_in_a_sentence(change, match):
     given = {"body": CAPTION, "theta": 1.0, "phis": [0.0], "h": 10.0, "distance": 1e-6} | change
-    with pytest.raises(InvalidParameter, match=match):
-        ball_scattering(*given.values(), level("draft"))
+    with raises(InvalidParameter, match=match):
+        ball_scattering(*given.values(), "draft")
 
 
 def test_all_phases_go_round_once_and_know_no_energy():
-    found = all_phases(CAPTION, 1.2, 9, 1e-4, level("draft"), 1e7)
-    assert found.phis == pytest.approx(np.linspace(-math.pi, math.pi, 9))
-    other = ball_scattering(CAPTION, 1.2, found.phis, 7.0, 1e-4, level("standard"))
-    assert found.theta_plus == pytest.approx(other.theta_plus, abs=float((found.errors + other.errors).max()))
+    found = all_phases(CAPTION, 1.2, 9, 1e-4, "draft", 1e7)
+    assert found.phis == approx(np.linspace(-pi, pi, 9))
+    other = ball_scattering(CAPTION, 1.2, found.phis, 7.0, 1e-4, "standard")
+    assert found.theta_plus == approx(other.theta_plus, abs=float((found.errors + other.errors).max()))
 
 
 def test_the_semi_axes_of_the_strip_are_where_the_energy_is_kinetic_alone():
     strip = Strip(CAPTION, 10.0)
     for axes, added in ((strip.outer, 0.0), (strip.inner, 10.0)):
-        assert 0.5 * np.array([1.0 + added, 1.5 + added]) * axes**2 == pytest.approx([10.0, 10.0], rel=1e-14)
+        assert 0.5 * np.array([1.0 + added, 1.5 + added]) * axes**2 == approx([10.0, 10.0], rel=1e-14)

@@ -1,12 +1,12 @@
 """The section of the ball with a field: its coordinates, its points, and the claims of the scene's examples."""
 
-import math
+from math import cos, hypot, inf, nan, pi, remainder, sin, sqrt
 
 import numpy as np
-import pytest
+from pytest import approx, mark, raises
 
 from hess_explorer.scenes import scenes
-from hess_mechanics import level, section
+from hess_mechanics import section
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import area_integral
 from hess_mechanics.chaplygin_ball.section import (
@@ -25,11 +25,12 @@ from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
 from support.ball import divergence, first_returns, integrate, occupied
+from support.refusals import refused
 from support.thorough import sample
 
 GENERAL = BallBody(1.5, 3.0, -0.3, 0.2, 1.0, 1.0, -0.7, 0.7)
 PLAIN = BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.0, 0.8)
-bodies = pytest.mark.parametrize(
+bodies = mark.parametrize(
     "body",
     [GENERAL, PLAIN, BallBody(1.0, 2.0, 0.1, 0.2, 0.0, 0.0, 0.0, 1.0)],
     ids=["general", "volume kept", "no inner ball"],
@@ -46,7 +47,7 @@ def example(name):
     """The ball of an example of the scene and its energy E, h above the lowest one of the plane γ3 = 0."""
     values = SCENE.defaults() | EXAMPLES[name].values
     body = BallBody(*(values[key] for key in ("I11", "I22", "I13", "I23", "D", "b1", "b2", "b3")))
-    return body, values["h"] - math.hypot(body.b1, body.b2)
+    return body, values["h"] - hypot(body.b1, body.b2)
 
 
 # ---- coordinates ------------------------------------------------------------------------------------------------
@@ -56,42 +57,36 @@ def example(name):
 def test_a_state_of_the_section_has_its_energy_and_its_coordinates(body):
     random = np.random.default_rng(1)
     for _ in range(200):
-        h = random.uniform(0.1, 3.0) + math.hypot(body.b1, body.b2)
-        psi, delta = random.uniform(-math.pi, math.pi), random.uniform(1e-6, math.pi - 1e-6)
+        h = random.uniform(0.1, 3.0) + hypot(body.b1, body.b2)
+        psi, delta = random.uniform(-pi, pi), random.uniform(1e-6, pi - 1e-6)
         state = state_at(body, h, psi, delta)
-        assert SYSTEM.integrals(state, body.parameters) == pytest.approx({"E": h, "F1": 1.0}, rel=1e-13)
+        assert SYSTEM.integrals(state, body.parameters) == approx({"E": h, "F1": 1.0}, rel=1e-13)
         w1, w2, g1, g2, g3 = state
-        assert (g1, g2, g3) == pytest.approx((math.cos(psi), math.sin(psi), 0.0), abs=1e-15)
+        assert (g1, g2, g3) == approx((cos(psi), sin(psi), 0.0), abs=1e-15)
         # γ̇3 = γ1ω2 − γ2ω1 = |ω| sin δ.
-        assert g1 * w2 - g2 * w1 == pytest.approx(math.hypot(w1, w2) * math.sin(delta), rel=1e-9)
+        assert g1 * w2 - g2 * w1 == approx(hypot(w1, w2) * sin(delta), rel=1e-9)
         assert SYSTEM.field(state, body.parameters)[4] > 0.0
-        assert coordinates(np.array([state]))[0] == pytest.approx((psi, delta), abs=1e-9)
+        assert coordinates(np.array([state]))[0] == approx((psi, delta), abs=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("psi", "delta", "match"),
-    [
-        (0.0, math.pi, "between 0 and π"),
-        (math.nan, 1.0, "psi"),
-        (0.0, math.inf, "delta"),
-    ],
+test_what_is_no_point_of_the_section_is_refused = refused(
+    (lambda: state_at(PLAIN, 2.0, 0.0, pi), "between 0 and π"),
+    (lambda: state_at(PLAIN, 2.0, nan, 1.0), "psi"),
+    (lambda: state_at(PLAIN, 2.0, 0.0, inf), "delta"),
 )
-def test_what_is_no_point_of_the_section_is_refused(psi, delta, match):
-    with pytest.raises(InvalidParameter, match=match):
-        state_at(PLAIN, 2.0, psi, delta)
 
 
-@pytest.mark.parametrize("angle", [0.0, 2.0, -3.0])
-@pytest.mark.parametrize("share", [-0.999, -0.5, 0.0, 0.7, 0.999])
+@mark.parametrize("angle", [0.0, 2.0, -3.0])
+@mark.parametrize("share", [-0.999, -0.5, 0.0, 0.7, 0.999])
 def test_the_forbidden_band_is_where_the_potential_exceeds_the_energy(angle, share):
-    body = BallBody(1.0, 2.0, 0.3, 0.1, 1.0, 0.8 * math.cos(angle), 0.8 * math.sin(angle), -0.4)
+    body = BallBody(1.0, 2.0, 0.3, 0.1, 1.0, 0.8 * cos(angle), 0.8 * sin(angle), -0.4)
     h = 0.8 * share
     middle, half = forbidden_band(body, h)
-    for psi in np.linspace(-math.pi, math.pi, 500):
-        forbidden = body.b1 * math.cos(psi) + body.b2 * math.sin(psi) > h
-        away = abs(math.remainder(psi - middle, 2.0 * math.pi))
+    for psi in np.linspace(-pi, pi, 500):
+        forbidden = body.b1 * cos(psi) + body.b2 * sin(psi) > h
+        away = abs(remainder(psi - middle, 2.0 * pi))
         assert forbidden == (away < half) or abs(away - half) < 1e-9
-    with pytest.raises(OutsideRegion, match="choose h above"):
+    with raises(OutsideRegion, match="choose h above"):
         state_at(body, h, middle, 1.0)
     assert state_at(body, h, middle + half + 1e-3, 1.0)
 
@@ -100,25 +95,25 @@ def test_an_energy_that_forbids_nothing_or_all():
     assert forbidden_band(PLAIN, 0.51) is None
     assert forbidden_band(BallBody(1.0, 2.0, 0.3, 0.1, 1.0, 0.0, 0.0, 1.0), 0.1) is None
     for h in (-0.5, -0.7):
-        with pytest.raises(InvalidParameter, match=r"choose h above -0\.5"):
+        with raises(InvalidParameter, match=r"choose h above -0\.5"):
             forbidden_band(PLAIN, h)
-    with pytest.raises(InvalidParameter, match="never reaches the plane"):
+    with raises(InvalidParameter, match="never reaches the plane"):
         seeds(BallBody(1.0, 2.0, 0.3, 0.1, 1.0, 0.0, 0.0, 1.0), 0.0, 3)
 
 
-@pytest.mark.parametrize("h", [-0.49, 0.0, 0.499, 0.6, 5.0])
+@mark.parametrize("h", [-0.49, 0.0, 0.499, 0.6, 5.0])
 def test_seeds_cover_what_the_energy_allows(h):
     found = np.array(seeds(PLAIN, h, 200))
-    assert SYSTEM.integrals(found.T, PLAIN.parameters)["E"] == pytest.approx(h, abs=1e-13)
+    assert SYSTEM.integrals(found.T, PLAIN.parameters)["E"] == approx(h, abs=1e-13)
     psi, delta = coordinates(found).T
     band = forbidden_band(PLAIN, h)
     half = 0.0 if band is None else band[1]
     # PLAIN's b points to ψ = 0: so does the middle of the band.
-    from_middle = np.sort(np.mod(psi, 2.0 * math.pi))
+    from_middle = np.sort(np.mod(psi, 2.0 * pi))
     assert from_middle[0] >= half
-    assert from_middle[-1] <= 2.0 * math.pi - half
-    gaps = np.diff(np.concatenate([[half], from_middle, [2.0 * math.pi - half]]))
-    assert gaps.max() <= 4.0 * (2.0 * math.pi - 2.0 * half) / 200
+    assert from_middle[-1] <= 2.0 * pi - half
+    gaps = np.diff(np.concatenate([[half], from_middle, [2.0 * pi - half]]))
+    assert gaps.max() <= 4.0 * (2.0 * pi - 2.0 * half) / 200
     assert np.diff(np.sort(np.cos(delta))).max() <= 2.0 / 200 + 1e-9
 
 
@@ -128,17 +123,17 @@ def test_seeds_cover_what_the_energy_allows(h):
 @bodies
 def test_the_first_crossings_are_those_of_another_integrator(body):
     for start in seeds(body, 1.5, 4):
-        points = ball_section(body, 1.5, [start], 4, level("precise")).states[0]
+        points = ball_section(body, 1.5, [start], 4, "precise").states[0]
         assert np.max(np.abs(points - first_returns(vars(body), start, 4))) <= 1e-7
 
 
 def test_cells_are_counted_as_those_of_a_histogram():
     random = np.random.default_rng(2)
     for count in (1, 10, 3000):
-        points = random.uniform(size=(count, 2)) * [2.0 * math.pi, math.pi] - [math.pi, 0.0]
+        points = random.uniform(size=(count, 2)) * [2.0 * pi, pi] - [pi, 0.0]
         assert occupied_cells(points) == len(occupied(points))
         assert occupied_cells(points, 7) == len(occupied(points, 7))
-    assert occupied_cells(np.array([[math.pi, math.pi], [-math.pi, 0.0]])) == 2
+    assert occupied_cells(np.array([[pi, pi], [-pi, 0.0]])) == 2
     assert occupied_cells(np.empty((0, 2))) == 0
 
 
@@ -147,21 +142,21 @@ def test_more_steps_than_allowed_are_refused_in_a_sentence():
         (40, "40 crossings take an orbit more than 60 steps here: choose fewer of them"),
         (10**7, "choose fewer of them, or smaller I13 and I23"),
     ):
-        with pytest.raises(WorkLimit, match=words):
-            ball_section(PLAIN, 1.5, seeds(PLAIN, 1.5, 9), crossings, level("draft"), most_steps=60)
-    assert [len(one) for one in ball_section(PLAIN, 1.5, seeds(PLAIN, 1.5, 9), 40, level("draft")).states] == [40] * 9
+        with raises(WorkLimit, match=words):
+            ball_section(PLAIN, 1.5, seeds(PLAIN, 1.5, 9), crossings, "draft", most_steps=60)
+    assert [len(one) for one in ball_section(PLAIN, 1.5, seeds(PLAIN, 1.5, 9), 40, "draft").states] == [40] * 9
 
 
 def test_an_orbit_that_stops_crossing_is_not_followed_to_the_end():
     # Without a field ω comes to rest along the line, and γ turns about it: those with γ3 = 0 for ever cross no more.
     body = BallBody(1.0, 1.5, 0.7, 1.2, 1.0, 0.0, 0.0, 0.0)
-    many = ball_section(body, 1.0, seeds(body, 1.0, 9), 200, level("standard"))
+    many = ball_section(body, 1.0, seeds(body, 1.0, 9), 200, "standard")
     assert [len(one) for one in many.states] == [200] * 9
     # At the lowest energy but little the ball swings beside the plane, and does not come back to it.
     low = BallBody(1.0, 2.0, 0.0, 0.0, 1.0, 0.2, 0.0, 1.0)
-    start = state_at(low, -0.199, math.pi, 1.0)
-    exact = section(low, start, EQUATOR, 2000.0, level("precise"), crossings=200)
-    found = ball_section(low, -0.199, [start], 200, level("standard"))
+    start = state_at(low, -0.199, pi, 1.0)
+    exact = section(low, start, EQUATOR, 2000.0, "precise", crossings=200)
+    found = ball_section(low, -0.199, [start], 200, "standard")
     assert len(found.states[0]) <= 200
     # The second crossing comes 440 units of time later, and which it is depends on round-off.
     assert np.max(np.abs(found.states[0][0] - exact.states[0])) <= 1e-4
@@ -173,13 +168,13 @@ def test_an_orbit_that_stops_crossing_is_not_followed_to_the_end():
 def late_cells(name, count=24, crossings=1200):
     """For each of many orbits of an example, the cells of the later half of its points."""
     body, h = example(name)
-    points = ball_section(body, h, seeds(body, h, count), crossings, level("standard"))
+    points = ball_section(body, h, seeds(body, h, count), crossings, "standard")
     assert max(points.drift.values()) <= 1e-4
     assert all(len(states) == crossings for states in points.states)
     return [occupied(coordinates(states[crossings // 2 :])) for states in points.states]
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     "body",
     [
         BallBody(1.0, 2.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0),
@@ -192,24 +187,24 @@ def late_cells(name, count=24, crossings=1200):
 def test_with_b3_and_I13_and_I23_zero_every_orbit_closes_after_one_turn(body):
     for h in (-0.3, 0.4, 1.7):
         for start in seeds(body, h, 12):
-            found = section(body, start, EQUATOR, 1000.0, level("precise"), crossings=3)
+            found = section(body, start, EQUATOR, 1000.0, "precise", crossings=3)
             assert len(found.states) == 3
             assert np.max(np.abs(found.states - start)) <= 1e-8
             assert found.error_estimate <= 1e-8
     # b3 = 0.3 is enough to open them.
     open_body = BallBody(*body.parameters[:7], 0.3)
     start = seeds(open_body, 1.7, 12)[5]
-    found = section(open_body, start, EQUATOR, 1000.0, level("precise"), crossings=1)
+    found = section(open_body, start, EQUATOR, 1000.0, "precise", crossings=1)
     assert np.max(np.abs(found.states[0] - start)) > 1e-3
 
 
 def test_regular_the_product_of_omega_and_gamma_is_an_integral():
     body, h = example("Regular")
     assert (body.I11, body.b1, body.b2, body.I13, body.I23) == (body.I22, 0.0, 0.0, 0.0, 0.0)
-    points = ball_section(body, h, seeds(body, h, 24), 300, level("precise"))
+    points = ball_section(body, h, seeds(body, h, 24), 300, "precise")
     for states in points.states:
         assert np.ptp(area_integral(states)) <= 1e-8
-        assert area_integral(states) == pytest.approx(np.sum(states[:, :2] * states[:, 2:4], axis=1), abs=1e-14)
+        assert area_integral(states) == approx(np.sum(states[:, :2] * states[:, 2:4], axis=1), abs=1e-14)
         assert np.ptp(coordinates(states)[:, 1]) <= 1e-7
         # On a level of δ the return is a rotation.
         turns = np.diff(np.unwrap(coordinates(states)[:, 0]))
@@ -238,7 +233,7 @@ def test_a_sea_nearly_everywhere():
     assert 1 <= sum(len(one) < 80 for one in found) <= 6
 
 
-@pytest.mark.parametrize(("name", "most", "least"), [("Strange attractor", 60, 0.8), ("A wider one", 700, 0.4)])
+@mark.parametrize(("name", "most", "least"), [("Strange attractor", 60, 0.8), ("A wider one", 700, 0.4)])
 def test_all_starts_end_in_one_set(name, most, least):
     found = late_cells(name, crossings=2000)
     together = set().union(*found)
@@ -249,46 +244,46 @@ def test_all_starts_end_in_one_set(name, most, least):
     assert min(map(len, found)) > 20
 
 
-@pytest.mark.parametrize("name", sample(["Strange attractor", "A wider one"], 1))
+@mark.parametrize("name", sample(["Strange attractor", "A wider one"], 1))
 def test_on_an_attractor_neighbours_part_and_volume_shrinks(name):
     body, h = example(name)
-    starts = ball_section(body, h, seeds(body, h, 32), 200, level("standard")).states
+    starts = ball_section(body, h, seeds(body, h, 32), 200, "standard").states
     states = np.array([one[-1] for one in starts])
-    along = ensemble(body, states, np.linspace(0.0, 1500.0, 6001)[1:], level("draft")).states
+    along = ensemble(body, states, np.linspace(0.0, 1500.0, 6001)[1:], "draft").states
     shrinking = [divergence(body, orbit.T).mean() for orbit in along]
     # Both by far more than they scatter from start to start.
     largest = [lyapunov_exponent(body, state, 300.0).value for state in states]
     assert np.mean(largest) > 0.01
-    assert np.mean(largest) > 5.0 * np.std(largest) / math.sqrt(32)
-    assert np.mean(shrinking) < -5.0 * np.std(shrinking) / math.sqrt(32)
+    assert np.mean(largest) > 5.0 * np.std(largest) / sqrt(32)
+    assert np.mean(shrinking) < -5.0 * np.std(shrinking) / sqrt(32)
 
 
-@pytest.mark.parametrize("h", [-0.9, -0.2, 0.7])
+@mark.parametrize("h", [-0.9, -0.2, 0.7])
 def test_a_direction_in_the_forbidden_band_moves_to_its_nearer_edge_and_others_stay(h):
     b = (0.3, -1.0)
     band = forbidden_band(BallBody(1.0, 2.0, 0.1, 0.2, 1.0, *b, 0.4), h)
-    for psi in np.linspace(-math.pi, math.pi, 181):
+    for psi in np.linspace(-pi, pi, 181):
         moved = outside_band(band, psi)
-        assert -math.pi <= moved <= math.pi
-        directions = np.linspace(-math.pi, math.pi, 20001)
+        assert -pi <= moved <= pi
+        directions = np.linspace(-pi, pi, 20001)
         possible = directions[b[0] * np.cos(directions) + b[1] * np.sin(directions) < h]
-        apart = np.abs(np.remainder(possible - psi + math.pi, 2.0 * math.pi) - math.pi).min()
-        assert b[0] * math.cos(moved) + b[1] * math.sin(moved) < h
+        apart = np.abs(np.remainder(possible - psi + pi, 2.0 * pi) - pi).min()
+        assert b[0] * cos(moved) + b[1] * sin(moved) < h
         # No further than the next possible direction and the room that is left at the edge.
-        assert abs(math.remainder(moved - psi, 2.0 * math.pi)) <= apart + 3e-3
-        assert moved == psi or apart < 1.1e-3 or b[0] * math.cos(psi) + b[1] * math.sin(psi) >= h
+        assert abs(remainder(moved - psi, 2.0 * pi)) <= apart + 3e-3
+        assert moved == psi or apart < 1.1e-3 or b[0] * cos(psi) + b[1] * sin(psi) >= h
 
 
 def test_many_orbits_spread_over_the_section_are_those_of_its_seeds():
-    spread = spread_section(GENERAL, 1.0, 7, 5, level("draft"), 15_000)
-    alone = ball_section(GENERAL, 1.0, seeds(GENERAL, 1.0, 7), 5, level("draft"), 15_000)
+    spread = spread_section(GENERAL, 1.0, 7, 5, "draft", 15_000)
+    alone = ball_section(GENERAL, 1.0, seeds(GENERAL, 1.0, 7), 5, "draft", 15_000)
     assert len(spread.states) == 7
     for found, expected in zip(spread.states, alone.states, strict=True):
-        assert found == pytest.approx(expected, abs=1e-12)
+        assert found == approx(expected, abs=1e-12)
 
 
 def test_the_fastest_moment_of_an_orbit_is_that_of_another_integrator():
     start = state_at(GENERAL, 1.0, 0.4, 1.1)
     found = integrate(vars(GENERAL), start, np.linspace(0.0, 12.0, 5001))
     # A few samples miss the peak itself by little.
-    assert fastest(GENERAL, start, 12.0) == pytest.approx(np.hypot(*found[:, :2].T).max(), rel=0.01)
+    assert fastest(GENERAL, start, 12.0) == approx(np.hypot(*found[:, :2].T).max(), rel=0.01)

@@ -1,7 +1,5 @@
 """Rotation numbers of orbits with known ones: explicit rotations, seen in another angle."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

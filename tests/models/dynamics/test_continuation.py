@@ -1,12 +1,10 @@
 """Branches of periodic orbits of known maps: folds, flips, pitchforks and invariant curves where they have to be."""
 
-from __future__ import annotations
-
-import math
 from itertools import pairwise
+from math import asin, pi, sqrt
 
 import numpy as np
-import pytest
+from pytest import approx, mark, raises
 
 from hess_mechanics.dynamics.continuation import continued, gone_on
 from hess_mechanics.dynamics.periodic import find_periodic
@@ -30,10 +28,10 @@ def test_a_branch_goes_through_a_fold_and_comes_back():
     found = branch(arnold, 0.1, (0.3,), 1.0)
     fold = the(found, "fold")
     assert abs(fold.value - 0.8) <= fold.error < 1e-12
-    assert abs(fold.places[0, 0] - math.pi / 2) < 1e-6
+    assert abs(fold.places[0, 0] - pi / 2) < 1e-6
     assert np.abs(np.sin(found.places[:, 0, 0]) - found.values / 0.8).max() < 1e-13
-    assert found.values[-1] == pytest.approx(0.1, abs=1e-12)
-    assert found.places[-1, 0, 0] == pytest.approx(math.pi - math.asin(0.125), abs=1e-12)
+    assert found.values[-1] == approx(0.1, abs=1e-12)
+    assert found.places[-1, 0, 0] == approx(pi - asin(0.125), abs=1e-12)
     assert np.abs(found.multipliers[:, 0].real - (1.0 - 0.8 * np.cos(found.places[:, 0, 0]))).max() < 1e-12
     assert found.kinds[0] == "stable node"
     assert found.kinds[-1] == "unstable node"
@@ -47,8 +45,8 @@ def test_a_branch_comes_in_parts_and_goes_on_past_where_it_began():
     while parts[-1].heading is not None:
         parts.append(gone_on(arnold, parts[-1], 1.0, -0.5, points=6, longest=0.05))
     for before, after in pairwise(parts):
-        assert after.values[0] == pytest.approx(before.values[-1], abs=1e-12)
-        assert after.places[0] == pytest.approx(before.places[-1], abs=1e-12)
+        assert after.values[0] == approx(before.values[-1], abs=1e-12)
+        assert after.places[0] == approx(before.places[-1], abs=1e-12)
     values, phi = (np.concatenate([getattr(one, name).reshape(-1) for one in parts]) for name in ("values", "places"))
     assert len(parts) > 5
     assert np.abs(np.sin(phi) - values / 0.8).max() < 1e-12
@@ -56,15 +54,15 @@ def test_a_branch_comes_in_parts_and_goes_on_past_where_it_began():
     assert np.hypot(np.diff(values) / 1.5, np.diff(phi)).max() < 0.06
     (fold,) = (one for part in parts for one in part.bifurcations)
     assert (fold.kind, abs(fold.value - 0.8) <= fold.error) == ("fold", True)
-    assert values[-1] == pytest.approx(-0.5, abs=1e-12)
-    assert phi[-1] == pytest.approx(math.pi + math.asin(0.625), abs=1e-12)
-    with pytest.raises(InvalidParameter, match=r"cannot be continued: At λ = -0\.5"):
+    assert values[-1] == approx(-0.5, abs=1e-12)
+    assert phi[-1] == approx(pi + asin(0.625), abs=1e-12)
+    with raises(InvalidParameter, match=r"cannot be continued: At λ = -0\.5"):
         gone_on(arnold, parts[-1], 1.0, -0.5)
-    with pytest.raises(InvalidParameter, match="runs from"):
+    with raises(InvalidParameter, match="runs from"):
         branch(arnold, 0.1, (0.3,), 1.0, edge=0.5)
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("kind", "start", "end", "period", "place", "exact"),
     [
         ("fold", 0.1, -1.0, 1, (0.6, 0.2), -0.25 * (1 - B) ** 2),
@@ -87,7 +85,7 @@ def test_an_invariant_curve_is_born():
     found = branch(delayed_logistic, 1.5, (0.3, 0.3), 2.5)
     one = the(found, "Neimark–Sacker")
     assert abs(one.value - 2.0) <= one.error < 1e-7
-    assert one.multipliers == pytest.approx(np.exp(1j * math.pi / 3 * np.array([1, -1])), abs=1e-8)
+    assert one.multipliers == approx(np.exp(1j * pi / 3 * np.array([1, -1])), abs=1e-8)
     assert found.values[-1] == 2.5
     assert np.abs(found.places[:, 0, 0] - (1.0 - 1.0 / found.values)).max() < 1e-13
     assert (found.kinds[0], found.kinds[-1]) == ("stable focus", "unstable focus")
@@ -106,10 +104,10 @@ def test_a_pitchfork_is_one_only_where_a_symmetry_is_broken():
     other = branch(pitchfork, 1.5, (0.7, 0.1), 0.5, points=80, symmetries=mirrored)
     (one,) = other.bifurcations
     assert abs(one.value - 1.0) <= one.error < 1e-2
-    assert other.places[-1, 0, 0] == pytest.approx(-math.sqrt(0.5), abs=1e-9)
+    assert other.places[-1, 0, 0] == approx(-sqrt(0.5), abs=1e-9)
     assert np.abs(other.places[:, 0, 0] ** 2 - (other.values - 1.0)).max() < 1e-12
     # x → r x − x³ reflects at r = −1.
-    assert the(branch(pitchfork, 0.5, (0.1, 0.1), -1.5), "flip").value == pytest.approx(-1.0, abs=1e-12)
+    assert the(branch(pitchfork, 0.5, (0.1, 0.1), -1.5), "flip").value == approx(-1.0, abs=1e-12)
 
 
 def test_what_it_says_over_its_points():
@@ -120,7 +118,7 @@ def test_what_it_says_over_its_points():
 
 
 def test_what_cannot_be_continued_is_refused():
-    with pytest.raises(InvalidParameter, match="two different finite"):
+    with raises(InvalidParameter, match="two different finite"):
         branch(arnold, 0.1, (0.3,), 0.1)
-    with pytest.raises(NotConverged, match="Start at a slightly different value"):
+    with raises(NotConverged, match="Start at a slightly different value"):
         continued(arnold, find_periodic(arnold(0.1), (0.3,), 1), "λ", 0.9, 1.0)

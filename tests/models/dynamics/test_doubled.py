@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import oracle
-from hess_mechanics import level, solve, systems
+from hess_mechanics import solve, systems
 from hess_mechanics.dynamics.doubled import doubled
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from support.thorough import sample
@@ -37,7 +37,7 @@ def test_an_orbit_has_all_but_two_of_the_digits_of_a_pair_and_shows_the_error_of
     exact = oracle.orbit_in_decimals(SYSTEMS[name], state, parameters, times, digits=45)
     found = doubled(*motion, times)
     assert away(found, exact) < 1e-29
-    orbit = solve(*motion, times, level("reference"))
+    orbit = solve(*motion, times, "reference")
     errors = found.away(orbit.states)
     assert np.max(errors) == pytest.approx(np.max(oracle.distances(orbit.states, exact)), rel=1e-9)
     # In doubles the truth itself would be off by as much as that.

@@ -1,7 +1,5 @@
 """Kinds found by `regime` for motions labelled by theorems or integrations; see `oracle/make_labelled_motions.py`."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections import Counter

@@ -1,11 +1,9 @@
 """Lyapunov exponents against the variational equations, rotation numbers against rotations that are known."""
 
-from __future__ import annotations
-
-import math
+from math import pi, sqrt
 
 import numpy as np
-import pytest
+from pytest import approx, mark, raises
 
 from hess_mechanics import systems
 from hess_mechanics.dynamics.birkhoff import rotation_number
@@ -17,7 +15,7 @@ from hess_mechanics.numerics.accuracy import STANDARD
 from support.andoyer import GESS1, RIS
 from support.lyapunov import finite_exponent
 
-GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
+GOLDEN = (sqrt(5.0) - 1.0) / 2.0
 CHAOTIC = HeavyBody((1.0, 1.6, 2.1), (0.3, -0.5, 0.7), 6.0), 4.0, 1.0, 0.3, 0.2
 """Body, h, f, l, L/G of a motion that wanders everywhere; in the layers of gess1 orbits stick to islands for long."""
 REGULAR = [(RIS, -0.4, 0.0, 2.8, 0.3), (RIS, 0.0, 0.0, 2.8, 0.3), (GESS1, 20.0, 2.0, 1.0, 0.1)]
@@ -31,26 +29,26 @@ def state_of(case):
 # ---- Exponents --------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("case", [(GESS1, 50.0, 5.0, 0.0, 0.2), (RIS, 2.0, 1.0, 1.0, 0.1), CHAOTIC, *REGULAR])
-@pytest.mark.parametrize("span", [5.0, -4.0])
+@mark.parametrize("case", [(GESS1, 50.0, 5.0, 0.0, 0.2), (RIS, 2.0, 1.0, 1.0, 0.1), CHAOTIC, *REGULAR])
+@mark.parametrize("span", [5.0, -4.0])
 def test_the_growth_up_to_a_time_is_that_of_the_variational_equations(case, span):
     body, state = state_of(case)
     found = lyapunov_exponent(body, state, span)
-    assert found.times[-1] == pytest.approx(abs(span))
-    assert found.value == pytest.approx(finite_exponent(body, state, span), abs=2e-5)
+    assert found.times[-1] == approx(abs(span))
+    assert found.value == approx(finite_exponent(body, state, span), abs=2e-5)
 
 
 def test_every_earlier_rate_is_that_of_a_shorter_span():
     body, state = state_of(CHAOTIC)
     long = lyapunov_exponent(body, state, 8.0)
     for i in (3, len(long.times) // 2):
-        assert long.rates[i] == pytest.approx(finite_exponent(body, state, float(long.times[i])), abs=2e-5)
+        assert long.rates[i] == approx(finite_exponent(body, state, float(long.times[i])), abs=2e-5)
     later = long.rates[len(long.rates) // 2 :]
-    assert long.spread == pytest.approx(np.ptp(later))
+    assert long.spread == approx(np.ptp(later))
     assert not long.rates.flags.writeable
 
 
-@pytest.mark.parametrize("case", REGULAR)
+@mark.parametrize("case", REGULAR)
 def test_of_a_regular_motion_it_falls_as_ln_t_over_t(case):
     body, state = state_of(case)
     times = np.array([100.0, 1000.0, 8000.0])
@@ -63,7 +61,7 @@ def test_of_a_regular_motion_it_falls_as_ln_t_over_t(case):
 def test_of_a_chaotic_motion_it_is_the_same_after_a_long_time_and_after_twice_that():
     body, state = state_of(CHAOTIC)
     one, other = (lyapunov_exponent(body, state, span) for span in (1500.0, 3000.0))
-    assert one.value == pytest.approx(other.value, rel=0.05)
+    assert one.value == approx(other.value, rel=0.05)
     assert one.value > 0.3
     assert one.spread < 0.1 * one.value
 
@@ -75,19 +73,19 @@ def test_beside_an_equilibrium_the_distance_grows_with_its_eigenvalue():
     grown = found.rates * found.times
     third = len(grown) // 3
     slope = (grown[-1] - grown[third]) / (found.times[-1] - found.times[third])
-    assert slope == pytest.approx(math.sqrt(1.3 * 0.7), rel=1e-3)
+    assert slope == approx(sqrt(1.3 * 0.7), rel=1e-3)
 
 
-@pytest.mark.parametrize("system", systems().values(), ids=systems())
+@mark.parametrize("system", systems().values(), ids=systems())
 def test_any_system_has_one(system):
     found = lyapunov_exponent(*system.example_motion, 5.0)
     assert np.all(np.isfinite(found.rates))
-    assert found.times[-1] == pytest.approx(5.0)
+    assert found.times[-1] == approx(5.0)
 
 
-@pytest.mark.parametrize("span", [1e7, -1e7, 1e300])
+@mark.parametrize("span", [1e7, -1e7, 1e300])
 def test_too_long_a_span_is_refused(span):
-    with pytest.raises(WorkLimit, match=f"at most {MAX_RETURNS} are allowed: choose a shorter time span"):
+    with raises(WorkLimit, match=f"at most {MAX_RETURNS} are allowed: choose a shorter time span"):
         lyapunov_exponent(*SYSTEM.example_motion, span)
 
 
@@ -100,43 +98,43 @@ def test_a_very_short_span_has_one_rate():
 
 def circle(rho, count, bend=0.0, centre=(0.0, 0.0), first=0.3):
     """Points of a rotation, on an ellipse, with a change of the angle that leaves the rotation number."""
-    phi = 2.0 * math.pi * rho * np.arange(count) + first
+    phi = 2.0 * pi * rho * np.arange(count) + first
     phi = phi + bend * np.sin(phi)
     return np.column_stack([centre[0] + 0.7 * np.cos(phi), centre[1] + 0.2 * np.sin(phi)]), phi
 
 
 # Next to 0 and ½ the points hardly leave their places on the curve: what is seen of it in 4000 is little.
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("rho", "error"),
     [
         (GOLDEN - 1.0, 1e-9),
         (1.0 - GOLDEN, 1e-9),
-        (math.sqrt(2.0) - 1.3, 1e-9),
-        (1.0 / math.pi, 1e-9),
+        (sqrt(2.0) - 1.3, 1e-9),
+        (1.0 / pi, 1e-9),
         (-0.4999, 2e-4),
         (0.499, 1e-6),
         (0.001, 1e-5),
     ],
 )
-@pytest.mark.parametrize("bend", [0.0, 0.4])
+@mark.parametrize("bend", [0.0, 0.4])
 def test_the_number_of_a_rotation_in_other_coordinates_is_found(rho, error, bend):
     points, phi = circle(rho, 4000, bend, (1.2, -0.4))
     found, spread = rotation_number(points, (1.2, -0.4))
-    assert found == pytest.approx(rho, abs=error)
+    assert found == approx(rho, abs=error)
     assert spread < 1e-3
     by_angle, _ = rotation_number(np.column_stack([np.angle(np.exp(1j * phi)), np.zeros_like(phi)]))
-    assert by_angle == pytest.approx(found, abs=error)
+    assert by_angle == approx(found, abs=error)
 
 
 def test_half_a_turn_is_half_a_turn_and_not_none():
     points, _ = circle(0.5, 501)
-    assert rotation_number(points, (0.0, 0.0)) == (pytest.approx(0.5), pytest.approx(0.0, abs=1e-12))
+    assert rotation_number(points, (0.0, 0.0)) == (approx(0.5), approx(0.0, abs=1e-12))
 
 
-@pytest.mark.parametrize("steps", [1, 2, 3])
+@mark.parametrize("steps", [1, 2, 3])
 def test_it_is_a_number_of_turns_up_to_whole_ones(steps):
     points, _ = circle(GOLDEN + steps, 2000)
-    assert rotation_number(points, (0.0, 0.0))[0] == pytest.approx(GOLDEN - 1.0, abs=1e-10)
+    assert rotation_number(points, (0.0, 0.0))[0] == approx(GOLDEN - 1.0, abs=1e-10)
 
 
 def test_a_plain_mean_would_be_far_worse():
@@ -153,12 +151,12 @@ def test_points_without_order_are_no_closed_curve():
     assert all(rotation_number(random.uniform(-1.0, 1.0, (500, 2)), (0.0, 0.0))[1] > 1e-3 for _ in range(10))
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("body", "h", "f", "place", "centre"),
     [
         (GESS1, 50.0, 5.0, (-1.7, 0.03), (-1.85, 0.03)),
         (RIS, 0.0, 0.0, (2.8, 0.3), None),
-        (RIS, -0.4, 0.0, (2.8, 0.3), (math.pi, 0.0)),
+        (RIS, -0.4, 0.0, (2.8, 0.3), (pi, 0.0)),
     ],
 )
 def test_with_500_points_it_is_that_of_10000(body, h, f, place, centre):
@@ -168,18 +166,18 @@ def test_with_500_points_it_is_that_of_10000(body, h, f, place, centre):
     assert len(states) == 10_000
     points = coordinates(states)
     if centre is not None and centre[0] > 3.0:
-        points[:, 0] %= 2.0 * math.pi
+        points[:, 0] %= 2.0 * pi
     few, spread = rotation_number(points[:500], centre)
     many, rest = rotation_number(points, centre)
     assert rest < 1e-6
-    assert few == pytest.approx(many, abs=1e-4)
+    assert few == approx(many, abs=1e-4)
     # The halves may agree by chance.
     assert abs(few - many) < max(1e-6, 10.0 * spread)
 
 
-@pytest.mark.parametrize("count", [0, 1, 4])
+@mark.parametrize("count", [0, 1, 4])
 def test_too_few_points_are_refused_in_a_sentence(count):
-    with pytest.raises(InvalidParameter, match=f"there are {count}: follow it for longer"):
+    with raises(InvalidParameter, match=f"there are {count}: follow it for longer"):
         rotation_number(circle(0.3, count)[0])
 
 

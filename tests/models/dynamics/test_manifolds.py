@@ -1,11 +1,9 @@
 """Manifolds of saddles of maps with known ones, the points on them as dense as asked, and where they cross."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
-import pytest
+from pytest import approx, mark, raises
 
 from hess_mechanics.dynamics.manifolds import crossings_of, grown, heights_at, split
 from hess_mechanics.dynamics.periodic import find_periodic
@@ -17,8 +15,8 @@ def length_of_parabola(x):
     return 0.5 * x * math.hypot(1.0, 2.0 * x) + 0.25 * math.asinh(2.0 * x)
 
 
-@pytest.mark.parametrize("side", [1, -1])
-@pytest.mark.parametrize("stretch", [2.5, -1.7])
+@mark.parametrize("side", [1, -1])
+@mark.parametrize("stretch", [2.5, -1.7])
 def test_the_manifolds_of_a_bent_saddle_are_its_parabola_and_its_axis(side, stretch):
     m = bent_saddle(stretch)
     saddle = find_periodic(m, (0.1, 0.2), 1)
@@ -27,10 +25,10 @@ def test_the_manifolds_of_a_bent_saddle_are_its_parabola_and_its_axis(side, stre
     assert np.abs(y - x * x).max() <= unstable.error_estimate < 1e-12
     assert side * x[-1] > 1.5
     assert 4.0 <= length_of_parabola(abs(x[-1])) < 4.1
-    assert unstable.length == pytest.approx(length_of_parabola(abs(x[-1])), abs=4e-3)
-    assert unstable.multiplier == pytest.approx(2.5 if stretch > 0 else 1.7**2, abs=1e-12)
+    assert unstable.length == approx(length_of_parabola(abs(x[-1])), abs=4e-3)
+    assert unstable.multiplier == approx(2.5 if stretch > 0 else 1.7**2, abs=1e-12)
     # W(τ + 1) = F(W(τ)): where x is multiplied.
-    assert unstable.at(3.3)[0] / unstable.at(2.3)[0] == pytest.approx(unstable.multiplier, abs=1e-12)
+    assert unstable.at(3.3)[0] / unstable.at(2.3)[0] == approx(unstable.multiplier, abs=1e-12)
     stable = grown(m, saddle, 2.0, stable=True, side=side)
     assert np.abs(stable.points[:, 0]).max() <= stable.error_estimate < 1e-12
     assert side * stable.points[-1, 1] >= 2.0
@@ -92,7 +90,7 @@ def test_homoclinic_points_of_henon_are_homoclinic():
         assert min(float(np.abs((back := m.inverse().image(back)) - saddle.places[0]).max()) for _ in range(14)) < 1e-3
 
 
-@pytest.mark.parametrize(("ripple", "there"), [(0.0, False), (0.1, True)])
+@mark.parametrize(("ripple", "there"), [(0.0, False), (0.1, True)])
 def test_curves_that_run_together_do_not_cross_for_certain(ripple, there):
     m = pendulum(0.0, 1.5, ripple)
     saddle = find_periodic(m, (0.01, 0.01), 1)
@@ -118,29 +116,29 @@ def test_separatrices_split_in_proportion_to_a_perturbation(mu=1.5):
         gaps.append(split(unstable, stable, 0, 0.5))
     assert abs(gaps[0][0]) <= gaps[0][1] < 1e-11
     assert abs(gaps[1][0]) > 1e3 * gaps[1][1]
-    assert gaps[2][0] / gaps[1][0] == pytest.approx(2.0, abs=1e-2)
+    assert gaps[2][0] / gaps[1][0] == approx(2.0, abs=1e-2)
 
 
 def test_where_a_manifold_comes_to():
     m = bent_saddle()
     curve = grown(m, find_periodic(m, (0.1, 0.2), 1), 3.0)
-    assert heights_at(curve, 0, 1.1) == pytest.approx([1.21], abs=1e-13)
-    assert heights_at(curve, 1, 1.21) == pytest.approx([1.1], abs=1e-13)
-    with pytest.raises(NotConverged, match="greater length"):
+    assert heights_at(curve, 0, 1.1) == approx([1.21], abs=1e-13)
+    assert heights_at(curve, 1, 1.21) == approx([1.1], abs=1e-13)
+    with raises(NotConverged, match="greater length"):
         heights_at(curve, 0, 5.0)
 
 
 def test_what_has_no_manifolds_is_refused():
-    with pytest.raises(InvalidParameter, match="Only a saddle"):
+    with raises(InvalidParameter, match="Only a saddle"):
         grown(henon(0.1), find_periodic(henon(0.1), (0.6, 0.2), 1), 1.0)
-    with pytest.raises(InvalidParameter, match="Manifolds need a section with two coordinates"):
+    with raises(InvalidParameter, match="Manifolds need a section with two coordinates"):
         grown(arnold(0.1), find_periodic(arnold(0.1), (0.3,), 1), 1.0)
     m = bent_saddle()
     saddle = find_periodic(m, (0.1, 0.2), 1)
-    with pytest.raises(InvalidParameter, match="positive"):
+    with raises(InvalidParameter, match="positive"):
         grown(m, saddle, -1.0)
-    with pytest.raises(InvalidParameter, match="The side must be 1"):
+    with raises(InvalidParameter, match="The side must be 1"):
         grown(m, saddle, 1.0, side=2)
     assert grown(m, saddle, 1e9, most=40).ended == "After 40 points."
-    with pytest.raises(NoReturn):
+    with raises(NoReturn):
         grown(pitchfork(1.5), find_periodic(pitchfork(1.5), (0.01, 0.0), 1), 1.0, stable=True)

@@ -1,11 +1,9 @@
 """MEGNO over sections: each cell is the motion from its middle, and known regular and chaotic bodies are told apart."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
-import pytest
+from pytest import approx, mark, raises
 
 from hess_mechanics import BallBody, HeavyBody, HessBody, QuarticBody, SuslovBody, megno, megno_map, return_map
 from hess_mechanics.dynamics.megno_map import time_of
@@ -21,7 +19,7 @@ MAPS = {
 }
 
 
-@pytest.mark.parametrize("name", MAPS)
+@mark.parametrize("name", MAPS)
 def test_each_cell_is_the_motion_from_its_middle(name):
     body, at = MAPS[name]
     P = return_map(body, **at, accuracy="draft")
@@ -31,14 +29,14 @@ def test_each_cell_is_the_motion_from_its_middle(name):
     start = P.state_at(np.array([found.x[j], found.y[i]]))
     alone = megno(P.section, [start], 60.0, P.accuracy)
     # Alone it has a unit of time of its own, and so other steps.
-    assert found.values[i, j] == pytest.approx(alone.values[0], rel=0.2)
+    assert found.values[i, j] == approx(alone.values[0], rel=0.2)
     assert (found.kind[~np.isfinite(found.values)] == -1).all()
     assert set(found.kind[np.isfinite(found.values)].tolist()) <= {0, 1, 2, 3}
     whole = found.to_xarray()["MEGNO"]
     assert whole.dims == (P.names[1], P.names[0])
     # The middles of cells all over the section.
     (x0, x1), _ = P.section.window
-    assert found.x == pytest.approx(x0 + (x1 - x0) * np.array([0.1, 0.3, 0.5, 0.7, 0.9]))
+    assert found.x == approx(x0 + (x1 - x0) * np.array([0.1, 0.3, 0.5, 0.7, 0.9]))
 
 
 def test_integrable_bodies_are_regular_all_over_and_a_sea_is_chaotic():
@@ -71,7 +69,7 @@ def test_where_volume_shrinks_cells_are_attracted():
     assert (megno_map(kept, cells=(4, 3), t=100.0).kind < 2).all()
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("asked", "said"),
     [
         ({"window": ((0.0, 0.0), (0.0, 1.0))}, "x0 < x1"),
@@ -83,10 +81,10 @@ def test_where_volume_shrinks_cells_are_attracted():
 )
 def test_what_cannot_be_is_refused(asked, said):
     P = return_map(STRANGE, E=2.0)
-    with pytest.raises(InvalidParameter, match=said):
+    with raises(InvalidParameter, match=said):
         megno_map(P, **asked)
 
 
 def test_a_line_has_no_plane_to_fill():
-    with pytest.raises(InvalidParameter, match="the single coordinate φ"):
+    with raises(InvalidParameter, match="the single coordinate φ"):
         megno_map(return_map(HessBody(1.0, 0.5, -1.0), h=1.5, f=0.6))

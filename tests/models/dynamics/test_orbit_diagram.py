@@ -1,13 +1,11 @@
 """Orbit diagrams of sections, and of maps with known periods, doublings and hysteresis."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
-import pytest
+from pytest import approx, mark, raises
 
-from hess_mechanics import BallBody, HeavyBody, HessBody, SuslovBody, circle_map, level, return_map
+from hess_mechanics import BallBody, HeavyBody, HessBody, SuslovBody, circle_map, return_map
 from hess_mechanics.dynamics.orbit_diagram import cascade, diagram_over, hysteresis, period_of
 from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.errors import InvalidParameter, WorkLimit
@@ -35,11 +33,11 @@ def test_the_doublings_of_the_map_of_henon_are_its_own_and_their_ratios_tend_to_
             M = np.array([[-2.0 * value * x, 1.0], [B, 0.0]]) @ M
         images = np.column_stack([1.0 - value * places[:, 0] ** 2 + places[:, 1], B * places[:, 0]])
         assert np.abs(images - np.roll(places, -1, axis=0)).max() < 1e-12
-        assert np.linalg.eigvals(M).min() == pytest.approx(-1.0, abs=1e-8)
+        assert np.linalg.eigvals(M).min() == approx(-1.0, abs=1e-8)
     assert np.all(found.ratio_errors < 1e-9)
     assert abs(found.ratios[-1] - 4.669201609) < abs(found.ratios[-2] - 4.669201609) < 0.2
     # The accumulation point is known: 1.058 (Derrida, Gervois and Pomeau 1979).
-    assert found.limit == pytest.approx(1.058, abs=5e-4)
+    assert found.limit == approx(1.058, abs=5e-4)
 
 
 def test_a_cascade_says_why_it_ends():
@@ -83,13 +81,13 @@ def test_the_way_back_is_another_one_between_the_folds():
     fold = 2.0 / (3.0 * math.sqrt(3.0))
     inside = np.abs(values) < fold
     ((low, high),) = hysteresis(PLANE, there, back)
-    assert (low, high) == pytest.approx((values[inside][0], values[inside][-1]))
+    assert (low, high) == approx((values[inside][0], values[inside][-1]))
     # From the same place each time there is no memory.
     anew = [diagram_over(bistable, "r", some, (-1.0, 0.0), follow=False) for some in (values, values[::-1])]
     assert hysteresis(PLANE, *anew) == ()
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("body", "constants", "place"),
     [
         (SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), {"E": 1.842}, (0.3, 1.2)),
@@ -115,12 +113,10 @@ def test_the_section_of_a_torus_comes_to_the_limit_cycle_of_the_moebius_matrix_a
     forward = diagram_over(lambda h: P.moved("h", h), "h", values, (0.3,), 60, 16)
     backward = diagram_over(lambda h: P.moved("h", h).inverse(), "h", values, (0.3,), 60, 16)
     for h, attractor, repeller in zip(values, forward.places, backward.places, strict=True):
-        for places, point in zip(
-            (attractor, repeller), circle_map(a, h, 0.6, level("reference")).fixed_points, strict=True
-        ):
+        for places, point in zip((attractor, repeller), circle_map(a, h, 0.6, "reference").fixed_points, strict=True):
             assert np.ptp(places) < 1e-8
             slope = P.moved("h", h).with_derivative(places[-1])[1]
-            assert slope[0, 0] == pytest.approx(point.multiplier, rel=1e-7)
+            assert slope[0, 0] == approx(point.multiplier, rel=1e-7)
     assert forward.periods.tolist() == backward.periods.tolist() == [1] * 5
 
 
@@ -134,7 +130,7 @@ def test_what_keeps_volume_says_that_nothing_attracts_there():
 
 
 def test_what_is_too_much_is_refused():
-    with pytest.raises(InvalidParameter, match="1 to 2000 finite values"):
+    with raises(InvalidParameter, match="1 to 2000 finite values"):
         diagram_over(henon, "a", [math.nan], (0.5, 0.1))
-    with pytest.raises(WorkLimit, match="choose fewer"):
+    with raises(WorkLimit, match="choose fewer"):
         diagram_over(henon, "a", [1.0], (0.5, 0.1), transient=20_000)

@@ -1,18 +1,16 @@
 """Periodic orbits of maps with known ones: places, multipliers, types, errors, and messages where none is found."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
-import pytest
+from pytest import approx, mark, raises
 
 from hess_mechanics.dynamics.periodic import find_periodic, kind_of
 from hess_mechanics.errors import InvalidParameter, NotConverged
 from support.maps import arnold, bent_saddle, delayed_logistic, henon
 
 
-@pytest.mark.parametrize("a", [0.1, 0.9, 1.4])
+@mark.parametrize("a", [0.1, 0.9, 1.4])
 def test_the_fixed_point_of_the_map_of_henon(a, b=0.3):
     # a x² + (1 − b) x − 1 = 0, λ² + 2 a x λ − b = 0.
     x = (-(1.0 - b) + math.sqrt((1.0 - b) ** 2 + 4.0 * a)) / (2.0 * a)
@@ -31,9 +29,9 @@ def test_an_orbit_of_period_two_is_known_too(a=0.8, b=0.3):
     found = find_periodic(henon(a, b), (1.0, 0.0), 2)
     s, p = (1.0 - b) / a, ((1.0 - b) ** 2 - a) / a**2
     half = math.sqrt(s * s / 4 - p)
-    assert sorted(found.places[:, 0]) == pytest.approx([s / 2 - half, s / 2 + half])
-    assert complex(found.multipliers.sum()).real == pytest.approx(4.0 * a * a * p + 2.0 * b, abs=1e-13)
-    assert complex(found.multipliers.prod()).real == pytest.approx(b * b, abs=1e-14)
+    assert sorted(found.places[:, 0]) == approx([s / 2 - half, s / 2 + half])
+    assert complex(found.multipliers.sum()).real == approx(4.0 * a * a * p + 2.0 * b, abs=1e-13)
+    assert complex(found.multipliers.prod()).real == approx(b * b, abs=1e-14)
     assert found.period == 2
     assert found.labels().facts["period"] == 2
 
@@ -66,7 +64,7 @@ def test_near_looks_from_the_place_alone():
     m, place = henon(0.95), (0.3, 0.05)
     found = find_periodic(m, place, 4)
     assert found.period == 4
-    with pytest.raises(NotConverged, match="period 1 but none of period 4"):
+    with raises(NotConverged, match="period 1 but none of period 4"):
         find_periodic(m, place, 4, near=True)
     again = find_periodic(m, found.places[0] + 1e-3, 4, near=True)
     assert np.abs(again.places - found.places).max() < 1e-12
@@ -86,13 +84,13 @@ def test_types():
 def test_an_angle_is_met_again_after_a_turn():
     # φ′ = φ + 0.1 − 0.8 sin φ: the same place, whichever turn Newton's method starts on.
     found = [find_periodic(arnold(0.1), (start,), 1).places[0, 0] for start in (0.2, 0.2 + 2.0 * math.pi, -6.0)]
-    assert found == pytest.approx([math.asin(0.125)] * 3, abs=1e-14)
+    assert found == approx([math.asin(0.125)] * 3, abs=1e-14)
 
 
 def test_what_is_not_there_is_refused_with_what_to_do():
-    with pytest.raises(NotConverged, match=r"period 2.*start closer"):
+    with raises(NotConverged, match=r"period 2.*start closer"):
         find_periodic(henon(0.1), (0.6, 0.2), 2)
-    with pytest.raises(NotConverged, match="start closer"):
+    with raises(NotConverged, match="start closer"):
         find_periodic(arnold(1.5), (0.3,), 1)
-    with pytest.raises(InvalidParameter, match="2 finite coordinates here: x, y"):
+    with raises(InvalidParameter, match="2 finite coordinates here: x, y"):
         find_periodic(henon(0.1), (0.6, math.nan))

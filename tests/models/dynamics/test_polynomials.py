@@ -1,7 +1,5 @@
 """Polynomials with bounds, and dual numbers, over rational functions: exact values lie inside."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

@@ -1,13 +1,11 @@
 """Kinds of motions and dynamics known by other means: Möbius matrix, integrable cases, long runs."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
-import pytest
-from scipy.integrate import solve_ivp
+from pytest import approx, mark, raises
 
 from hess_mechanics import (
     HeavyBody,
@@ -15,7 +13,6 @@ from hess_mechanics import (
     QuarticBody,
     SuslovBody,
     circle_map,
-    level,
     lyapunov_spectrum,
     megno,
     return_map,
@@ -25,6 +22,7 @@ from hess_mechanics.dynamics import return_map as return_map_module
 from hess_mechanics.dynamics.point_sets import Apart
 from hess_mechanics.dynamics.regime import Dynamics, MotionKind, dynamics_of, regime
 from hess_mechanics.errors import InvalidParameter, NoReturn
+from support.mechanics import apart, scipy_crossings
 from support.suslov import field, permanent_rotations
 
 SUSLOV = systems()["suslov"]
@@ -35,11 +33,11 @@ STRANGE_E = 0.681
 PLAIN = SuslovBody(1.5, 0.7, 0.0, 0.0, 1.4, -1.3, 0.8)
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("a", "h", "f", "kind"), [(0.5, 1.5, 0.6, MotionKind.FIXED_POINT), (0.1, 0.8, 0.6, MotionKind.QUASI_PERIODIC)]
 )
 def test_on_a_torus_the_trace_of_the_moebius_matrix_decides(a, h, f, kind):
-    exact = circle_map(a, h, f, level("reference"))
+    exact = circle_map(a, h, f, "reference")
     assert exact.kind == ("hyperbolic" if kind is MotionKind.FIXED_POINT else "elliptic")
     found = regime(return_map(HessBody(1.0, a, -math.hypot(1.0, a)), h=h, f=f), (0.3,), t=100.0)
     assert found.kind is kind
@@ -88,7 +86,7 @@ def test_a_sea_whose_volume_shrinks_is_not_conservative_and_shows_the_number_tha
     assert f"|mean divergence| < {short.bound:.1g}" in short.sentence
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("settled", "apart", "touching", "verdict"),
     [
         (8, 8, 0, "dissipative"),
@@ -110,7 +108,7 @@ def test_orbits_on_their_way_tell_nothing_and_the_others_must_agree(settled, apa
     kinds += [Apart(1.0, 0.2, 0.9, 0.0, False)] * (8 - settled)
     found = Dynamics(motion, np.zeros((1, 2)), np.zeros((1, 2)), tuple(kinds))
     assert found.verdict == verdict
-    assert found.distance == pytest.approx(
+    assert found.distance == approx(
         {8: 3.0, 6: 3.0, 5: 3.0, 0: 1.0}[settled] if not touching else (3.0 * apart + 0.5 * touching) / 8
     )
 
@@ -128,7 +126,7 @@ def test_the_time_of_a_return_is_waited_for_as_long_as_its_place(monkeypatch):
     """Newton's method gives up earlier, since it tries many places."""
     P = return_map(QuarticBody(1.3, 1.3, 1.0, 0.999))
     monkeypatch.setattr(return_map_module, "_LONGEST", 1.0)
-    with pytest.raises(NoReturn):
+    with raises(NoReturn):
         P.image((0.01, 0.02))
     assert len(P.orbit(np.array((0.01, 0.02)), 1)) == 1
     assert 20.0 < P.time_of(np.array((0.01, 0.02))) < 30.0
@@ -141,19 +139,14 @@ def test_what_is_not_seen_to_return_is_said_with_the_time_waited():
     assert found.kind is MotionKind.NO_RETURN
     assert found.sentence == f"The motion was not seen to return to the section within t = {found.t:.4g}."
 
-    def height(t, y):
-        return y[2]
-
-    height.direction = 1.0
     # The start lies on the plane, so a crossing at t = 0 is the start itself.
     start = P.state_at(found.places[-1] if len(found.places) else np.array([1.0, 1.0]))
-    followed = solve_ivp(
-        lambda t, y: field(REVERSAL, y), (0.0, found.t), start, method="DOP853", rtol=1e-10, atol=1e-11, events=height
-    )
-    assert not np.any(followed.t_events[0] > 1e-3)
+    rates = partial(field, REVERSAL)
+    times, _ = scipy_crossings(rates, start, lambda y: y[2], found.t, 1, rtol=1e-10, atol=1e-11)
+    assert not np.any(times > 1e-3)
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("body", "h", "f", "place", "case"),
     [
         (HeavyBody((1.0, 0.625, 0.25), (0.0, 0.0, 1.0), 0.0), 1.5, 0.7, (0.001, 0.001), "Euler"),
@@ -184,7 +177,7 @@ def test_permanent_rotations_attract_and_repel_apart_from_each_other():
     exact = np.array(list(permanent_rotations(REVERSAL, REVERSAL_E)))
     psi = np.arctan2(exact[:, 3], exact[:, 2])
     for places in (found.attractor, found.repeller):
-        away = np.abs(np.angle(np.exp(1j * (places[-1, 0] - psi))))
+        away = apart(places[-1, 0], psi)
         assert away.min() < 1e-3
     assert found.verdict == "dissipative"
     assert found.distance > 1.0
@@ -192,7 +185,7 @@ def test_permanent_rotations_attract_and_repel_apart_from_each_other():
 
 def test_what_cannot_be_told_is_refused():
     P = return_map(PLAIN, E=1.5)
-    with pytest.raises(InvalidParameter, match="kept = 2 is not a whole number from 8 to 20000"):
+    with raises(InvalidParameter, match="kept = 2 is not a whole number from 8 to 20000"):
         dynamics_of(P, (1.0, 1.0), kept=2)
-    with pytest.raises(InvalidParameter, match="kept = 0 is not a whole number from 1 to 20000"):
+    with raises(InvalidParameter, match="kept = 0 is not a whole number from 1 to 20000"):
         regime(P, (1.0, 1.0), kept=0)

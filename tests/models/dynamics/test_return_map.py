@@ -1,12 +1,10 @@
 """Return maps of the sections: derivative against differences, limit cycles against the Möbius matrix, separatrices."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
 import numpy as np
-import pytest
+from pytest import approx, mark, raises
 
 from hess_mechanics import (
     BallBody,
@@ -49,7 +47,7 @@ def tori(a):
     return HessBody(1.0, a, -math.hypot(1.0, a))
 
 
-@pytest.mark.parametrize(("body", "constants", "place"), CASES)
+@mark.parametrize(("body", "constants", "place"), CASES)
 def test_the_derivative_is_that_of_the_map_and_the_inverse_undoes_it(body, constants, place):
     P = return_map(body, **constants)
     image, DP = P.with_derivative(np.array(place))
@@ -66,14 +64,14 @@ def test_where_an_area_is_kept_the_determinant_says_so():
     before, after = (
         SuslovSection(body, 1.842, 3).invariant_density(*np.array(one)[:, None])[0] for one in ((0.3, 1.2), image)
     )
-    assert np.linalg.det(DP) == pytest.approx(before / after, rel=1e-9)
+    assert np.linalg.det(DP) == approx(before / after, rel=1e-9)
     # The Andoyer section is of a Hamiltonian system, in canonical coordinates (l, L) with dL = G dx + x dG.
     P = return_map(HEAVY, h=1.5, f=-0.7)
     orbit = periodic_orbit(P, (-2.84, 0.288), 1)
     assert abs(complex(orbit.multipliers.prod()).real - 1.0) < 1e-9
 
 
-@pytest.mark.parametrize(("a", "h", "f"), [(0.5, 1.5, 0.6), (0.6, 0.8, 0.5), (1.3, 0.4, -0.7)])
+@mark.parametrize(("a", "h", "f"), [(0.5, 1.5, 0.6), (0.6, 0.8, 0.5), (1.3, 0.4, -0.7)])
 def test_the_limit_cycles_are_those_of_the_moebius_matrix(a, h, f):
     exact = circle_map(a, h, f, REFERENCE)
     assert exact.kind == "hyperbolic"
@@ -90,7 +88,7 @@ def test_the_limit_cycles_are_those_of_the_moebius_matrix(a, h, f):
         assert found[kind].error_estimate < 1e-9
 
 
-@pytest.mark.parametrize(("h", "f"), [(1.5, 0.6), (0.8, 0.5)])
+@mark.parametrize(("h", "f"), [(1.5, 0.6), (0.8, 0.5)])
 def test_on_the_real_flow_of_euler_poisson_they_are_saddles_with_the_same_multipliers(h, f):
     # On the Hess manifold a cycle attracts as another one repels; the flow keeps an area, so across it is the inverse.
     bridge = Bridge.of_heavy(HEAVY)
@@ -102,12 +100,12 @@ def test_on_the_real_flow_of_euler_poisson_they_are_saddles_with_the_same_multip
     for orbit in found:
         assert orbit.kind == "saddle"
         assert abs(orbit.places[0, 1] - hess_curve(HEAVY, orbit.places[:1, 0])[0]) < 1e-10
-        assert orbit.multipliers.real / np.array([cycle.multiplier, 1.0 / cycle.multiplier]) == pytest.approx(
+        assert orbit.multipliers.real / np.array([cycle.multiplier, 1.0 / cycle.multiplier]) == approx(
             [1.0, 1.0], abs=1e-9
         )
 
 
-@pytest.mark.parametrize(("parameter", "a", "end"), [("a", 0.7, 0.3), ("f", 0.5, 1.5)])
+@mark.parametrize(("parameter", "a", "end"), [("a", 0.7, 0.3), ("f", 0.5, 1.5)])
 def test_cycles_are_born_in_a_fold_on_the_boundary_of_the_locks(parameter, a, end):
     h, f = 0.5, 0.6 if parameter == "a" else lock_boundary_f(a, 0.5, REFERENCE) - 0.1
     if circle_map(a, h, f, REFERENCE).kind != "hyperbolic":
@@ -128,8 +126,8 @@ def test_cycles_are_born_in_a_fold_on_the_boundary_of_the_locks(parameter, a, en
     assert abs(fold.value - exact) <= fold.error + 2e-12
     assert (branch.kinds[0], branch.kinds[-1]) == ("stable node", "unstable node")
     # Beyond the fold it comes back, with the inverse multiplier.
-    assert branch.values[-1] == pytest.approx(branch.values[0], abs=1e-12)
-    assert float((branch.multipliers[0, 0] * branch.multipliers[-1, 0]).real) == pytest.approx(1.0, abs=1e-9)
+    assert branch.values[-1] == approx(branch.values[0], abs=1e-12)
+    assert float((branch.multipliers[0, 0] * branch.multipliers[-1, 0]).real) == approx(1.0, abs=1e-9)
 
 
 def test_the_separatrices_of_the_hess_manifold_split_in_proportion_to_what_is_off_the_condition():
@@ -148,16 +146,16 @@ def test_the_separatrices_of_the_hess_manifold_split_in_proportion_to_what_is_of
         gaps.append(split(unstable, stable, 0, -1.5))
     assert abs(gaps[0][0]) <= gaps[0][1] < 1e-8
     assert abs(gaps[1][0]) > 100.0 * gaps[1][1]
-    assert gaps[2][0] / gaps[1][0] == pytest.approx(2.0, abs=1e-2)
+    assert gaps[2][0] / gaps[1][0] == approx(2.0, abs=1e-2)
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("body", "place"), [(QuarticBody(2.0, 1.0, -1.2, 0.8), (0.4, -0.3)), (QuarticBody(0.7, 1.0, 1.0, 1.5), (1.9, 0.3))]
 )
 def test_places_of_the_quartic_section_are_canonical_and_their_states_those_of_clicks(body, place):
     P = return_map(body)
-    assert P.state_at(place) == pytest.approx(state_on_section(body, *place), abs=1e-13)
-    assert np.linalg.det(P.with_derivative(np.array(place))[1]) == pytest.approx(1.0, abs=1e-9)
+    assert P.state_at(place) == approx(state_on_section(body, *place), abs=1e-13)
+    assert np.linalg.det(P.with_derivative(np.array(place))[1]) == approx(1.0, abs=1e-9)
     for name, value in (("h", 1.3), ("b3", 0.9), ("I11", 1.7)):
         moved = P.moved(name, value)
         assert (moved.section.constants[name], moved.section.body) == (value, replace(body, **{name: value}))
@@ -169,7 +167,7 @@ def test_where_every_orbit_closes_each_place_is_one_of_a_family():
     for near in (False, True):
         orbit = find_periodic(P, (0.5, 1.5), 1, near=near)
         assert orbit.kind == "parabolic"
-        assert orbit.places[0] == pytest.approx([0.5, 1.5], abs=1e-8)
+        assert orbit.places[0] == approx([0.5, 1.5], abs=1e-8)
         assert 0.0 < orbit.error_estimate < 1e-9
 
 
@@ -177,32 +175,32 @@ def test_a_reversor_is_found_and_a_symmetric_orbit_known():
     # I13 = 0 and b1 = 0: ω1, γ1, t → −; on γ1 = 0 it is δ → π − δ.
     P = return_map(SuslovBody(1.5, 1.0, 0.0, 0.2, 0.0, -0.5, 1.0), E=3.0, plane=1)
     (mirror,) = [one for one in P.mirrors if one.reverses]
-    assert P.mirrored(mirror, np.array([0.3, 1.2])) == pytest.approx([0.3, math.pi - 1.2], abs=1e-13)
+    assert P.mirrored(mirror, np.array([0.3, 1.2])) == approx([0.3, math.pi - 1.2], abs=1e-13)
     back = P.mirrored(mirror, P.image(P.mirrored(mirror, np.array([2.0, 1.2]))))
-    assert back == pytest.approx(P.inverse().image(np.array([2.0, 1.2])), abs=1e-9)
+    assert back == approx(P.inverse().image(np.array([2.0, 1.2])), abs=1e-9)
     assert return_map(SuslovBody(1.5, 1.0, 0.1, 0.2, 0.3, -0.5, 1.0), E=3.0, plane=1).mirrors == ()
 
 
 def test_what_a_body_does_not_have_is_refused():
     body = CASES[0][0]
-    with pytest.raises(InvalidParameter, match="give E"):
+    with raises(InvalidParameter, match="give E"):
         return_map(body)
-    with pytest.raises(InvalidParameter, match="no h"):
+    with raises(InvalidParameter, match="no h"):
         return_map(body, E=1.8, h=1.0)
-    with pytest.raises(InvalidParameter, match="its own energy and no h"):
+    with raises(InvalidParameter, match="its own energy and no h"):
         return_map(QuarticBody(2.0, 1.0, 1.0, 0.8), h=1.0)
-    with pytest.raises(OutsideRegion, match="choose E above"):
+    with raises(OutsideRegion, match="choose E above"):
         return_map(body, E=-5.0)
     P = return_map(body, E=1.842)
-    with pytest.raises(InvalidParameter, match="There is no mass"):
+    with raises(InvalidParameter, match="There is no mass"):
         continued_orbit(P, periodic_orbit(return_map(tori(0.5), h=1.5, f=0.6), (-2.0,)), "mass", 2.0)
-    with pytest.raises(OutsideRegion, match=r"ψ = 0\.3, δ = 4"):
+    with raises(OutsideRegion, match=r"ψ = 0\.3, δ = 4"):
         P.image((0.3, 4.0))
-    with pytest.raises(NotConverged):
+    with raises(NotConverged):
         periodic_orbit(P, (0.3, 4.0), 1)
-    with pytest.raises(InvalidParameter, match="from 1 to 64"):
+    with raises(InvalidParameter, match="from 1 to 64"):
         periodic_orbit(P, (0.3, 1.2), 65)
-    with pytest.raises(InvalidParameter, match="from 2 to 2000"):
+    with raises(InvalidParameter, match="from 2 to 2000"):
         continued_orbit(P, periodic_orbit(P, (0.3, 1.2)), "E", 2.0, points=10**6)
 
 

@@ -1,14 +1,12 @@
 """Samples of an orbit: few, but dense enough that the polyline looks like the curve at every time."""
 
-from __future__ import annotations
-
 import math
 import time
 
 import numpy as np
-import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from pytest import approx, mark
 
 from hess_explorer.scenes.suslov_hess import SuslovHess
 from hess_mechanics import HessBody, circle_map, f_max, level, systems
@@ -96,13 +94,13 @@ def test_with_any_a_of_the_sliders_it_is_the_curve_to_half_a_pixel(body, h, shar
     assert error < 2.0 * SAGITTA
 
 
-@pytest.mark.parametrize("accuracy", ["draft", "standard", "precise"])
+@mark.parametrize("accuracy", ["draft", "standard", "precise"])
 def test_samples_of_cheaper_levels_lie_where_those_of_the_reference_lie(accuracy):
     times = [track(BODY, 1.5, 0.6, 0.5, 40.0, rung, 4.0).times for rung in (level(accuracy), REFERENCE)]
     assert np.array_equal(*times)
 
 
-@pytest.mark.parametrize(("h", "f", "span"), [(0.999999, 1e-6, 200.0), (1.0, 1e-6, 200.0), (1.0 + 1e-9, 1e-8, 90.0)])
+@mark.parametrize(("h", "f", "span"), [(0.999999, 1e-6, 200.0), (1.0, 1e-6, 200.0), (1.0 + 1e-9, 1e-8, 90.0)])
 def test_close_to_the_separatrix_the_samples_lie_where_the_orbit_bends_too(h, f, span):
     error, samples = error_of_track(HessBody(1.0, -0.5, -1.0), h, f, 0.5, span)
     assert samples < MOST
@@ -121,7 +119,7 @@ def test_limit_cycles_are_their_polylines_too(body, h, share):
     times, states = stable.orbit.times, stable.orbit.states
     assert farthest(times, states, orbit_of(body, states[0]), between(times), weights) < SAGITTA * ALMOST
     # The other one is its mirror image, sample by sample.
-    assert unstable.orbit.times == pytest.approx(times[-1] - times[::-1])
+    assert unstable.orbit.times == approx(times[-1] - times[::-1])
 
 
 def middles(body, h, f, phi0, span):
@@ -135,7 +133,7 @@ def middles(body, h, f, phi0, span):
     return times, np.linalg.norm(apart, axis=1)
 
 
-@pytest.mark.parametrize(("h", "f"), [(1.5, 0.6), (0.2, 0.5), (1.001, 0.001), (3.0, -1.0), (-0.5, 0.1)])
+@mark.parametrize(("h", "f"), [(1.5, 0.6), (0.2, 0.5), (1.001, 0.001), (3.0, -1.0), (-0.5, 0.1)])
 def test_no_sample_is_wasted_every_chord_is_equally_far_from_its_curve(h, f):
     times, distances = middles(BODY, h, f, 0.5, 40.0)
     assert len(times) > 100
@@ -161,10 +159,10 @@ def of_default(span=40.0, factor=1.0, sagitta=SAGITTA, most=10**6):
 
 def test_four_times_the_size_or_a_quarter_of_the_sagitta_takes_twice_the_samples():
     gaps = len(of_default()) - 1
-    assert len(of_default(factor=4.0)) - 1 == pytest.approx(2 * gaps, abs=2)
+    assert len(of_default(factor=4.0)) - 1 == approx(2 * gaps, abs=2)
     assert np.array_equal(of_default(factor=4.0), of_default(sagitta=SAGITTA / 4))
     # And twice the span about twice as many.
-    assert len(of_default(80.0)) == pytest.approx(2 * gaps, rel=0.05)
+    assert len(of_default(80.0)) == approx(2 * gaps, rel=0.05)
 
 
 def test_the_same_motion_in_another_unit_of_time_is_sampled_at_the_same_places():
@@ -172,23 +170,23 @@ def test_the_same_motion_in_another_unit_of_time_is_sampled_at_the_same_places()
     first = track(one, 1.5, 0.6, 0.5, 40.0, REFERENCE, half_width(one, 1.5))
     # 1.5 times as fast.  Its frame is a rounder number, so that its samples are a few more or less.
     second = track(other, 1.5, 0.6, 0.5, 40.0 / 1.5, REFERENCE, 1.5 * half_width(one, 1.5))
-    assert second.times * 1.5 == pytest.approx(first.times, rel=1e-9)
-    assert second.gamma == pytest.approx(first.gamma, abs=1e-9)
+    assert second.times * 1.5 == approx(first.times, rel=1e-9)
+    assert second.gamma == approx(first.gamma, abs=1e-9)
 
 
-@pytest.mark.parametrize("body", [HessBody(0.5, 0.4, -2.5), HessBody(1.0, -3.0, 0.7)])
+@mark.parametrize("body", [HessBody(0.5, 0.4, -2.5), HessBody(1.0, -3.0, 0.7)])
 def test_a_unit_of_each_variable_is_as_many_pixels_in_the_pictures_as_is_said(body):
     states = body.from_reduced(body.from_units_of_b(np.eye(5)))
     # A picture shows ω up to 4 to each side, the other one the unit sphere.
     omega = np.linalg.norm(states[:, :2], axis=1) / 4.0 * (PIXELS / 2)
     gamma = np.linalg.norm(states[:, 2:], axis=1) * (PIXELS / 2)
-    assert pixels_per_unit(body, 4.0) == pytest.approx(np.concatenate([omega[:2], gamma[2:]]))
+    assert pixels_per_unit(body, 4.0) == approx(np.concatenate([omega[:2], gamma[2:]]))
 
 
 random_spans = st.builds(lambda sign, e: sign * 10.0**e, st.sampled_from([-1.0, 1.0]), st.floats(-6.0, 4.0))
 
 
-@pytest.mark.parametrize("name", systems())
+@mark.parametrize("name", systems())
 @settings(max_examples=examples(6))
 @given(seed=st.integers(0, 10**6), span=random_spans, most=st.sampled_from([2, 3, 50, 6000]))
 def test_times_run_from_0_to_the_end_and_keep_their_budget(name, seed, span, most):
@@ -207,7 +205,7 @@ def test_a_budget_is_spent_where_it_is_needed_too():
     assert len(short) == 200
     # The same density, everywhere less: the k-th sample of the few lies at the same share of the many.
     shares_of_full = np.interp(short, full, np.linspace(0.0, 1.0, len(full)))
-    assert shares_of_full == pytest.approx(np.linspace(0.0, 1.0, 200), abs=2.0 / len(full))
+    assert shares_of_full == approx(np.linspace(0.0, 1.0, 200), abs=2.0 / len(full))
 
 
 def test_back_in_time_the_samples_lie_at_the_same_places():
@@ -217,18 +215,18 @@ def test_back_in_time_the_samples_lie_at_the_same_places():
     forward = sample_times(SYSTEM.at(parameters), start, 12.0, weights, SAGITTA, MOST)
     backward = sample_times(SYSTEM.at(parameters), end, -12.0, weights, SAGITTA, MOST)
     # The same but for the rule by which the density is summed up: to a twentieth of a gap.
-    assert 12.0 + backward[::-1] == pytest.approx(forward, abs=0.05 * np.diff(forward).min())
+    assert 12.0 + backward[::-1] == approx(forward, abs=0.05 * np.diff(forward).min())
 
 
-@pytest.mark.parametrize("n3", [-1.0, 1.0])
+@mark.parametrize("n3", [-1.0, 1.0])
 def test_at_an_equilibrium_some_even_samples_are_enough(n3):
     state = np.array([0.0, 0.0, 0.0, 0.0, n3])
     times = sample_times(SYSTEM.at(np.array([0.3, 1.0])), state, 40.0, np.full(5, 300.0), SAGITTA, MOST)
     assert 8 <= len(times) <= 32
-    assert np.diff(times) == pytest.approx(40.0 / (len(times) - 1))
+    assert np.diff(times) == approx(40.0 / (len(times) - 1))
 
 
-@pytest.mark.parametrize("name", sample(systems(), 1))
+@mark.parametrize("name", sample(systems(), 1))
 def test_absurd_spans_take_no_longer_than_the_budget_allows(name):
     system = systems()[name]
     state, parameters = map(np.array, system.example)
@@ -248,4 +246,4 @@ def test_an_orbit_that_cannot_be_followed_is_asked_for_at_even_times():
     # Its computation proper then says why.
     state, parameters = map(np.array, SYSTEM.example)
     times = sample_times(SYSTEM.at(parameters), state, 1e12, np.full(5, 300.0), SAGITTA, MOST)
-    assert np.diff(times) == pytest.approx(1e12 / (MOST - 1))
+    assert np.diff(times) == approx(1e12 / (MOST - 1))

@@ -1,17 +1,15 @@
 """Tubes of every system enclose the motion computed to many digits; orbits are checked against them."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 
 import mpmath
 import numpy as np
-import pytest
+from pytest import approx, mark, raises
 
 import oracle
-from hess_mechanics import level, proved_error, right_until, solve, systems, tube
+from hess_mechanics import proved_error, right_until, solve, systems, tube
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.dynamics.tube import _Walk, error_bounds
 from hess_mechanics.errors import InvalidParameter
@@ -21,7 +19,7 @@ from support.thorough import sample
 TIMES = [0.0, 0.3, 1.0]
 
 
-@pytest.mark.parametrize(("name", "sign"), sample(product(sorted(systems()), (1, -1)), 3))
+@mark.parametrize(("name", "sign"), sample(product(sorted(systems()), (1, -1)), 3))
 def test_the_motion_to_thirty_digits_lies_in_its_tube(name, sign):
     """By mpmath's own Taylor series of the plain field."""
     system = systems()[name]
@@ -42,7 +40,7 @@ def test_the_motion_to_thirty_digits_lies_in_its_tube(name, sign):
                 assert one.width < Fraction(5, 10**20)
 
 
-@pytest.mark.parametrize("name", sample(["suslov", "ball"], 1))
+@mark.parametrize("name", sample(["suslov", "ball"], 1))
 def test_a_long_motion_lies_in_its_tube(name):
     """The tube's radii exceed the requested digits; checked in decimal arithmetic, backward in time."""
     system = systems()[name]
@@ -70,7 +68,7 @@ def test_an_orbit_is_judged():
     state, parameters = system.example
     times = np.linspace(0.0, 3.0, 7)
     found = tube(system.at(parameters), state, times)
-    fine, rough = (solve(system.at(parameters), state, times, level(name)) for name in ("reference", "draft"))
+    fine, rough = (solve(system.at(parameters), state, times, name) for name in ("reference", "draft"))
     truth = np.array([[float((one.low + one.high) / 2) for one in row] for row in found.states])
     for orbit in (fine, rough):
         low, high = proved_error(orbit, found)
@@ -87,7 +85,7 @@ def test_an_orbit_is_judged():
     moved[4, 2] += 1e-6
     wrong = replace(fine, states=moved)
     assert right_until(wrong, found, 1e-7) == times[3]
-    assert proved_error(wrong, found) == pytest.approx((1e-6, 1e-6), rel=1e-6)
+    assert proved_error(wrong, found) == approx((1e-6, 1e-6), rel=1e-6)
 
 
 def test_a_tube_ends_where_the_work_does():
@@ -98,10 +96,10 @@ def test_a_tube_ends_where_the_work_does():
     assert len(found.states) == 2
     # Before the first of its times: nothing is proved.
     none = tube(*system.example_motion, [50.0], most_work=1e3)
-    orbit = solve(*system.example_motion, [50.0], level("draft"))
+    orbit = solve(*system.example_motion, [50.0], "draft")
     assert error_bounds(orbit, none).shape == (0, 5)
     assert right_until(orbit, none, 1.0) == 0.0
-    with pytest.raises(InvalidParameter, match="allow more work"):
+    with raises(InvalidParameter, match="allow more work"):
         proved_error(orbit, none)
 
 
@@ -190,7 +188,7 @@ def test_sizes_whose_quotient_is_no_double_are_divided_in_balls():
         assert rate - flint().arb(1) / 6 < flint().arb(2) ** -45
 
 
-@pytest.mark.parametrize("digits", [40, 100])
+@mark.parametrize("digits", [40, 100])
 def test_many_digits_are_found_within_the_first_step_too(digits):
     system = systems()["hess"]
     found = tube(*system.example_motion, [0.01], digits)
@@ -205,9 +203,9 @@ def test_many_digits_are_found_within_the_first_step_too(digits):
 def test_what_has_no_tube_is_refused():
     system = systems()["hess"]
     for words, said in ((([0.1, -0.1],), "must be monotonic"), (([1.0], 0), "choose 1 to 100")):
-        with pytest.raises(InvalidParameter, match=said):
+        with raises(InvalidParameter, match=said):
             tube(*system.example_motion, *words)
     other = systems()["suslov"]
-    orbit = solve(*other.example_motion, [0.1], level("draft"))
-    with pytest.raises(InvalidParameter, match="same system"):
+    orbit = solve(*other.example_motion, [0.1], "draft")
+    with raises(InvalidParameter, match="same system"):
         proved_error(orbit, tube(*system.example_motion, [0.1]))

@@ -1,22 +1,13 @@
 """Derivatives of the flow and of return maps, against differences with more digits and a matrix exponential."""
 
-from __future__ import annotations
-
 import math
 
 import mpmath
 import numpy as np
-import pytest
+from pytest import approx, mark, raises
 from scipy.linalg import expm
 
-from hess_mechanics import (
-    Plane,
-    SuslovBody,
-    level,
-    return_matrix,
-    systems,
-    transition_matrix,
-)
+from hess_mechanics import Plane, SuslovBody, level, return_matrix, systems, transition_matrix
 from hess_mechanics.dynamics.section import section
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.dynamics.variation import onto_surface
@@ -50,7 +41,7 @@ def by_differences(system, state, p, span):
     return (ends.reshape(size, size, 4) @ weights).astype(float)
 
 
-@pytest.mark.parametrize("system", systems().values(), ids=systems())
+@mark.parametrize("system", systems().values(), ids=systems())
 def test_the_matrix_is_that_of_differences_with_more_digits(system):
     found = transition_matrix(*system.example_motion, 3.0, REFERENCE)
     exact = by_differences(system, *system.example, 3.0)
@@ -58,20 +49,20 @@ def test_the_matrix_is_that_of_differences_with_more_digits(system):
     assert found.error_estimate < 1e-12
 
 
-@pytest.mark.parametrize("system", systems().values(), ids=systems())
+@mark.parametrize("system", systems().values(), ids=systems())
 def test_for_every_system_flows_compose_turn_back_and_keep_the_integrals(system):
     state, p = system.example
     whole = transition_matrix(system.at(p), state, [2.0, 5.0], PRECISE)
     first, both = whole.matrices
     rest = transition_matrix(system.at(p), whole.states[0], 3.0, PRECISE).matrices[0]
     size = np.abs(both).max()
-    assert rest @ first == pytest.approx(both, abs=1e-8 * size)
+    assert rest @ first == approx(both, abs=1e-8 * size)
     back = transition_matrix(system.at(p), whole.states[1], -5.0, PRECISE).matrices[0]
-    assert back @ both == pytest.approx(np.eye(len(state)), abs=1e-7 * size)
-    assert np.log(np.linalg.det(whole.matrices)) == pytest.approx(whole.log_volume, abs=1e-8 * size)
+    assert back @ both == approx(np.eye(len(state)), abs=1e-7 * size)
+    assert np.log(np.linalg.det(whole.matrices)) == approx(whole.log_volume, abs=1e-8 * size)
     # The rate is carried along, and the gradients of the integrals backwards.
     rates = [np.array(system.field(y, p)) for y in (state, whole.states[1].tolist())]
-    assert both @ rates[0] == pytest.approx(rates[1], abs=1e-8 * size)
+    assert both @ rates[0] == approx(rates[1], abs=1e-8 * size)
     for name in system.integrals(state, p):
         before, after = (
             np.array(
@@ -87,7 +78,7 @@ def test_for_every_system_flows_compose_turn_back_and_keep_the_integrals(system)
             )
             for at in (state, whole.states[1])
         )
-        assert after @ both == pytest.approx(before, abs=1e-7 * size)
+        assert after @ both == approx(before, abs=1e-7 * size)
 
 
 def test_its_numbers_have_names_units_and_an_error():
@@ -100,27 +91,27 @@ def test_its_numbers_have_names_units_and_an_error():
 
 
 def test_what_cannot_be_is_refused_in_a_sentence():
-    with pytest.raises(InvalidParameter, match="times must be"):
+    with raises(InvalidParameter, match="times must be"):
         transition_matrix(*SUSLOV.example_motion, math.nan, PRECISE)
-    with pytest.raises(WorkLimit, match="choose a shorter"):
+    with raises(WorkLimit, match="choose a shorter"):
         transition_matrix(*SUSLOV.example_motion, 1e9, PRECISE)
     # Beside the upper equilibrium neighbours part as e^t.
-    with pytest.raises(WorkLimit, match="part beyond the range of double precision: choose a shorter time span"):
+    with raises(WorkLimit, match="part beyond the range of double precision: choose a shorter time span"):
         transition_matrix(SUSLOV.at((1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)), (0.0, 0.0, 0.0, 0.0, 1.0), 800.0, PRECISE)
-    with pytest.raises(InvalidParameter, match="touches the surface"):
+    with raises(InvalidParameter, match="touches the surface"):
         onto_surface(np.eye(2), np.array([1.0, 0.0]), np.array([0.0, 1.0]))
 
 
 # ---- return maps ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("surface", [GAMMA3, Reversal()], ids=["a plane", "a curved surface"])
+@mark.parametrize("surface", [GAMMA3, Reversal()], ids=["a plane", "a curved surface"])
 def test_the_derivative_of_a_return_is_that_of_differences(surface):
     state, p = SUSLOV.example
     found = return_matrix(SUSLOV.at(p), state, surface, 60.0, REFERENCE, returns=2)
     exact = differences(lambda y: section(SUSLOV.at(p), y, surface, 60.0, REFERENCE, 2).states[1], state, 1e-5)
-    assert found.matrix == pytest.approx(exact, abs=1e-7 * np.abs(found.matrix).max())
-    assert found.matrix @ SUSLOV.field(state, p) == pytest.approx(np.zeros(5), abs=1e-10)
+    assert found.matrix == approx(exact, abs=1e-7 * np.abs(found.matrix).max())
+    assert found.matrix @ SUSLOV.field(state, p) == approx(np.zeros(5), abs=1e-10)
 
 
 def test_without_a_return_there_is_none():

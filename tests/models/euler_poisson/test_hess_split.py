@@ -1,14 +1,12 @@
 """Separatrices of the Hess manifold: unsplit in the Hess case; their splitting against Melnikov's integral."""
 
-from __future__ import annotations
-
-import math
+from math import exp, pi, remainder, sin, sqrt
 
 import numpy as np
-import pytest
+from pytest import approx, mark, raises
 from scipy.integrate import solve_ivp
 
-from hess_mechanics import HeavyBody, circle_map, level
+from hess_mechanics import HeavyBody, circle_map
 from hess_mechanics.errors import NotConverged, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
@@ -16,7 +14,7 @@ from hess_mechanics.euler_poisson.hess_split import HessTorus, saddles, slope_of
 from hess_mechanics.numerics.accuracy import PRECISE
 from support.thorough import sample
 
-TORI = [HessTorus((1.0, 0.625, 0.375), 9.975, 50.0, 5.0), HessTorus((1.0, 1.5, 2.0), -math.sqrt(0.5), 2.0, 1.0)]
+TORI = [HessTorus((1.0, 0.625, 0.375), 9.975, 50.0, 5.0), HessTorus((1.0, 1.5, 2.0), -sqrt(0.5), 2.0, 1.0)]
 
 
 def melnikov(torus, l):
@@ -37,21 +35,21 @@ def melnikov(torus, l):
             *(sense * (np.cross(M, A * M) + mu * np.cross(r, g))),
             *(sense * np.cross(g, A * M)),
             -sense * growth,
-            -mu * g[1] * math.exp(y[6]),
+            -mu * g[1] * exp(y[6]),
         ]
 
     bridge = Bridge.of_heavy(body)
-    theta = circle_map(bridge.hess.a, *bridge.in_units_of_b(torus.h, torus.f), level("reference"))
+    theta = circle_map(bridge.hess.a, *bridge.in_units_of_b(torus.h, torus.f), "reference")
     end = 25.0 / theta.fixed_points[1].log_multiplier * theta.period / bridge.hess.frequency_unit
     both = [
         solve_ivp(field, (0.0, end), [*start, 0.0, 0.0], "DOP853", rtol=1e-11, atol=1e-13, args=(sense,)).y[7, -1]
         for sense in (1.0, -1.0)
     ]
     G = np.linalg.norm(start[:3])
-    return sum(both) / (G * (r[2] - r[0] * math.sin(l) * x / math.sqrt(1.0 - x * x)))
+    return sum(both) / (G * (r[2] - r[0] * sin(l) * x / sqrt(1.0 - x * x)))
 
 
-@pytest.mark.parametrize("torus", sample(TORI, 1))
+@mark.parametrize("torus", sample(TORI, 1))
 def test_the_separatrices_part_as_melnikovs_integral_says(torus):
     there = split_at(torus, 0.0, PRECISE)
     assert abs(there.value) <= there.error < 1e-9
@@ -61,7 +59,7 @@ def test_the_separatrices_part_as_melnikovs_integral_says(torus):
     assert abs(slope - exact) <= error + 1e-8
     assert error < 1e-3 * abs(exact)
     for one in close:
-        assert one.value == pytest.approx(exact * one.away, rel=2e-2)
+        assert one.value == approx(exact * one.away, rel=2e-2)
         assert abs(one.value) > 1e3 * one.error
 
 
@@ -70,20 +68,20 @@ def test_the_saddles_are_the_cycles_of_the_moebius_matrix():
     body = HeavyBody.hess(torus.moments, torus.strength)
     found = saddles(torus, PRECISE)
     for places in (found.repels, found.attracts):
-        assert places[0, 1] == pytest.approx(hess_curve(body, places[:1, 0])[0], abs=1e-9)
-        assert torus.map_at(0.0, PRECISE).after(places[0], len(places)) == pytest.approx(places[0], abs=1e-7)
+        assert places[0, 1] == approx(hess_curve(body, places[:1, 0])[0], abs=1e-9)
+        assert torus.map_at(0.0, PRECISE).after(places[0], len(places)) == approx(places[0], abs=1e-7)
     # Along the Hess curve one repels and the other attracts.
     P = torus.map_at(0.0, PRECISE)
     for places, repels in ((found.repels, True), (found.attracts, False)):
         l = places[0, 0] + 1e-4
         moved = P.image(np.array([l, hess_curve(body, np.array([l]))[0]]))
-        assert (abs(math.remainder(moved[0] - places[0, 0], 2.0 * math.pi)) > 1e-4) is repels
+        assert (abs(remainder(moved[0] - places[0, 0], 2.0 * pi)) > 1e-4) is repels
 
 
 def test_where_there_is_nothing_to_split_that_is_said():
-    with pytest.raises(OutsideRegion, match="no limit cycles"):
-        split_at(HessTorus((1.0, 1.5, 2.0), -math.sqrt(0.5), 0.2, 1.0), 0.0, PRECISE)
-    with pytest.raises(OutsideRegion, match="no motion with these h and f"):
-        split_at(HessTorus((1.0, 1.5, 2.0), -math.sqrt(0.5), 0.0, 1.0), 0.0, PRECISE)
-    with pytest.raises(NotConverged):
-        split_at(HessTorus((1.0, 1.5, 2.0), -math.sqrt(0.5), 0.8, 1.0), 0.1, PRECISE)
+    with raises(OutsideRegion, match="no limit cycles"):
+        split_at(HessTorus((1.0, 1.5, 2.0), -sqrt(0.5), 0.2, 1.0), 0.0, PRECISE)
+    with raises(OutsideRegion, match="no motion with these h and f"):
+        split_at(HessTorus((1.0, 1.5, 2.0), -sqrt(0.5), 0.0, 1.0), 0.0, PRECISE)
+    with raises(NotConverged):
+        split_at(HessTorus((1.0, 1.5, 2.0), -sqrt(0.5), 0.8, 1.0), 0.1, PRECISE)

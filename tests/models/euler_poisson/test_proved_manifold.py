@@ -1,7 +1,5 @@
 """The Hess manifold is invariant, and its separatrices coincide: an identity, and proofs with thirty digits."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import mpmath

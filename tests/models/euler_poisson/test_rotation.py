@@ -1,11 +1,9 @@
 """Rotation numbers along a line of the section: orbits that have one, and orbits that do not rotate."""
 
-from __future__ import annotations
-
-import math
+from math import pi, sqrt
 
 import numpy as np
-import pytest
+from pytest import approx, mark
 
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, coordinates
 from hess_mechanics.euler_poisson.rotation import RESOLVED, on_line, rotation_along
@@ -15,32 +13,32 @@ from support.andoyer import RIS
 
 def circle(turn, count=400, centre=(0.0, 0.0), radius=0.3):
     """Return points that rotate on a circle by this many turns each."""
-    angle = 2.0 * math.pi * turn * np.arange(count) + 0.2
+    angle = 2.0 * pi * turn * np.arange(count) + 0.2
     return np.column_stack([centre[0] + radius * np.cos(angle), centre[1] + radius * np.sin(angle)])
 
 
 def rotating(turn, count=400):
     """Points of a curve that goes round in l."""
-    angle = 2.0 * math.pi * turn * np.arange(count)
+    angle = 2.0 * pi * turn * np.arange(count)
     return np.column_stack([np.angle(np.exp(1j * (angle + 0.4 * np.sin(angle)))), 0.3 * np.cos(angle)])
 
 
-GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
+GOLDEN = (sqrt(5.0) - 1.0) / 2.0
 
 
 def test_a_closed_curve_that_does_not_go_round_has_no_number():
     ends = ((0.0, -0.5), (0.0, 0.5))
     orbits = [circle(GOLDEN / 3.0, radius=radius) for radius in (0.1, 0.3)] + [rotating(0.3 * GOLDEN)]
     found = rotation_along(ends, [0.1, 0.2, 0.3], orbits, about_first=False, count=10)
-    assert found.standing == pytest.approx([-0.4, -0.3])
+    assert found.standing == approx([-0.4, -0.3])
     assert found.sea.size == 0
-    assert found.numbers == pytest.approx([0.3 * GOLDEN], abs=1e-6)
-    assert found.places == pytest.approx([-0.2])
+    assert found.numbers == approx([0.3 * GOLDEN], abs=1e-6)
+    assert found.places == approx([-0.2])
     # About a centre inside, the same circle has one; about one outside, none.
     inside = rotation_along(((0.0, 0.0), (1.0, 0.0)), [0.3], [circle(GOLDEN / 3.0)], about_first=True, count=10)
-    assert (inside.standing.size, inside.numbers) == (0, pytest.approx([GOLDEN / 3.0], abs=1e-6))
+    assert (inside.standing.size, inside.numbers) == (0, approx([GOLDEN / 3.0], abs=1e-6))
     outside = rotation_along(((0.5, 0.0), (1.0, 0.0)), [0.3], [circle(GOLDEN / 3.0)], about_first=True, count=10)
-    assert (outside.standing.tolist(), outside.numbers.size) == ([pytest.approx(0.65)], 0)
+    assert (outside.standing.tolist(), outside.numbers.size) == ([approx(0.65)], 0)
 
 
 def test_numbers_on_both_sides_of_a_half_are_one_curve_and_what_is_far_apart_stays():
@@ -53,21 +51,21 @@ def test_numbers_on_both_sides_of_a_half_are_one_curve_and_what_is_far_apart_sta
 
     # ½ + x and −½ + x are the same rotation: side by side they lie about −½, or about ½, and make one curve.
     near, parts = numbers(0.4931, 0.5007, -0.4853, -0.4513)
-    assert (near, parts) == (pytest.approx([-0.5069, -0.4993, -0.4853, -0.4513], abs=1e-5), 1)
+    assert (near, parts) == (approx([-0.5069, -0.4993, -0.4853, -0.4513], abs=1e-5), 1)
     near, parts = numbers(0.4131, 0.4507, 0.4853, -0.4913)
-    assert (near, parts) == (pytest.approx([0.4131, 0.4507, 0.4853, 0.5087], abs=1e-5), 1)
+    assert (near, parts) == (approx([0.4131, 0.4507, 0.4853, 0.5087], abs=1e-5), 1)
     far, parts = numbers(0.3507, 0.0131, -0.3153, 0.4513)
-    assert (far, parts) == (pytest.approx([0.3507, 0.0131, -0.3153, 0.4513], abs=1e-5), 2)
+    assert (far, parts) == (approx([0.3507, 0.0131, -0.3153, 0.4513], abs=1e-5), 2)
 
 
 def test_parts_of_the_line_at_sea_reach_half_way_to_the_closed_curves():
     ends = ((0.0, -1.0), (0.0, 1.0))
-    chaos = np.random.default_rng(3).uniform(-1.0, 1.0, (400, 2)) * (math.pi, 1.0)
+    chaos = np.random.default_rng(3).uniform(-1.0, 1.0, (400, 2)) * (pi, 1.0)
     curve, short = rotating(0.3 * GOLDEN), rotating(0.3)[:10]
     orbits = [chaos, chaos, curve, chaos, short, chaos]
     found = rotation_along(ends, (np.arange(6) + 0.5) / 6, orbits, about_first=False, count=6)
-    assert found.sea == pytest.approx(np.array([[-1.0, -1.0 / 3.0], [0.0, 1.0 / 3.0], [2.0 / 3.0, 1.0]]))
-    assert found.places == pytest.approx([-1.0 / 6.0])
+    assert found.sea == approx(np.array([[-1.0, -1.0 / 3.0], [0.0, 1.0 / 3.0], [2.0 / 3.0, 1.0]]))
+    assert found.places == approx([-1.0 / 6.0])
 
 
 def test_levels_that_place_a_half_on_either_side_agree():
@@ -76,11 +74,11 @@ def test_levels_that_place_a_half_on_either_side_agree():
     def along(*turns):
         return rotation_along(ends, [0.25, 0.75], [rotating(turn) for turn in turns], about_first=False, count=2)
 
-    assert along(0.4931, 0.4953).distance(along(-0.5069, -0.5047)) == pytest.approx(0.0, abs=1e-6)
-    assert along(0.4931, 0.4953).distance(along(0.4941, 0.4963)) == pytest.approx(1e-3, abs=1e-6)
+    assert along(0.4931, 0.4953).distance(along(-0.5069, -0.5047)) == approx(0.0, abs=1e-6)
+    assert along(0.4931, 0.4953).distance(along(0.4941, 0.4963)) == approx(1e-3, abs=1e-6)
 
 
-@pytest.mark.parametrize(("h", "f"), [(0.0, 0.0), (-0.4, 0.0)])
+@mark.parametrize(("h", "f"), [(0.0, 0.0), (-0.4, 0.0)])
 def test_in_gess_ris1_a_and_b_the_curves_through_the_line_do_not_go_round(h, f):
     section = AndoyerSection(RIS, h, f)
     line = ((2.8, -1.0), (2.8, 1.0))
@@ -94,7 +92,7 @@ def test_in_gess_ris1_a_and_b_the_curves_through_the_line_do_not_go_round(h, f):
     gaps = []
     for (share, _), points in zip(starts, places, strict=True):
         l = np.sort(points[:, 0])
-        gap = max(np.max(np.diff(l)), 2.0 * math.pi - (l[-1] - l[0]))
+        gap = max(np.max(np.diff(l)), 2.0 * pi - (l[-1] - l[0]))
         if not np.any(np.isclose(found.places, -1.0 + 2.0 * share)):
             gaps.append(gap)
     assert len(gaps) >= found.standing.size

@@ -7,13 +7,12 @@ import numpy as np
 import pytest
 
 import oracle
-from hess_mechanics import level, solve, systems
+from hess_mechanics import solve
 from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.numerics.taylor_kernels import columns_of
 from hess_mechanics.numerics.unrolled import evaluation
+from support.mechanics import SYSTEMS, every_system
 
-SYSTEMS = systems()
-every_system = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
 ORDERS = (1, 2, 5, 10, 18, 24)
 STEPS = ("0.04", "0.02", "0.01")
 TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)
@@ -60,7 +59,7 @@ def global_error(system, order, tolerance, end=10.0):
     state, parameters = (np.array(values) for values in system.example)
     out = np.empty((1, state.size))
     steps = system.orbit(state, parameters, np.array([end]), order, tolerance, 100_000, out)
-    return np.max(np.abs(out - solve(system.at(parameters), state, [end], level("reference")).states)), steps
+    return np.max(np.abs(out - solve(system.at(parameters), state, [end], "reference").states)), steps
 
 
 @pytest.mark.parametrize("order", sorted({rung.order for rung in LEVELS.values()}))
@@ -83,8 +82,8 @@ def test_a_higher_order_takes_fewer_steps_for_the_same_tolerance(system):
 @every_system
 def test_the_levels_form_a_ladder(system):
     times = np.linspace(0.0, 10.0, 11)
-    truth = solve(*system.example_motion, times, level("reference")).states
-    orbits = [solve(*system.example_motion, times, level(name)) for name in ("draft", "standard", "precise")]
+    truth = solve(*system.example_motion, times, "reference").states
+    orbits = [solve(*system.example_motion, times, name) for name in ("draft", "standard", "precise")]
     errors = [np.max(np.abs(orbit.states - truth)) for orbit in orbits]
     estimates = [orbit.error_estimate for orbit in orbits]
     for values in (errors, estimates):

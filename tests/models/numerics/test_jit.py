@@ -7,7 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
+from pytest import approx, fixture, mark
 
 import hess_mechanics
 from hess_mechanics.numerics import jit
@@ -33,7 +33,7 @@ def run(code, folder, path, *arguments):
 # ---- what makes it stale ----------------------------------------------------------------------------------------
 
 
-@pytest.fixture(scope="module")
+@fixture(scope="module")
 def copied(tmp_path_factory):
     """A copy of the package, and a folder where its hashes are kept."""
     package, memory = (tmp_path_factory.mktemp(name) / "hess_mechanics" for name in ("models", "cache"))
@@ -42,7 +42,7 @@ def copied(tmp_path_factory):
     return package, memory
 
 
-@pytest.fixture
+@fixture
 def hashes(copied, monkeypatch):
     """hashes() → those of the copied package, as a process that has just begun finds them."""
     monkeypatch.setattr(jit, "_PACKAGE", copied[0])
@@ -60,7 +60,7 @@ def hashes(copied, monkeypatch):
     forget()
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("file", "change", "stale"),
     [
         ("suslov/equations.py", lambda text: f"# a comment\n\n{text}", set()),
@@ -105,7 +105,7 @@ def test_a_process_hashes_the_package_that_it_imports(hashes, copied, tmp_path):
 # ---- whose folder it is -----------------------------------------------------------------------------------------
 
 
-@pytest.fixture
+@fixture
 def nowhere(tmp_path, monkeypatch):
     """No folder of the user's own can be written; the shared one is tmp_path/shared."""
     file, shared = tmp_path / "file", tmp_path / "shared"
@@ -138,7 +138,7 @@ def test_in_a_shared_folder_its_name_cannot_be_guessed_and_it_is_found_again(now
     assert jit._cache_folder().name != folder.name
 
 
-@pytest.mark.parametrize("mode", [0o777, 0o770, 0o702])
+@mark.parametrize("mode", [0o777, 0o770, 0o702])
 def test_a_folder_that_others_may_write_to_is_not_used(nowhere, mode):
     theirs = nowhere / "hess-explorer-0"
     theirs.mkdir()
@@ -196,7 +196,7 @@ print(json.dumps(found))
 """
 
 
-@pytest.fixture(scope="module")
+@fixture(scope="module")
 def two_systems(tmp_path_factory):
     """Return a cache folder, and the output of the process that filled it."""
     folder = tmp_path_factory.mktemp("kernels")
@@ -205,7 +205,7 @@ def two_systems(tmp_path_factory):
 
 def test_systems_of_one_name_have_each_its_own_kernel_in_every_process(two_systems):
     folder, first = two_systems
-    grows, falls = pytest.approx(2.718281828459045, abs=1e-14), pytest.approx(0.36787944117144233, abs=1e-15)
+    grows, falls = approx(2.718281828459045, abs=1e-14), approx(0.36787944117144233, abs=1e-15)
     assert first == {"grows": [grows, 0], "falls": [falls, 0]}
     # Read from disk, in another order.
     found = run(TWO_OF_ONE_NAME, folder, PACKAGE.parent, "falls", "grows")

@@ -9,7 +9,7 @@ import sys
 from itertools import product
 from pathlib import Path
 
-import pytest
+from pytest import fixture, mark
 
 import hess_mechanics
 from hess_mechanics.numerics import jit
@@ -18,7 +18,7 @@ from support.thorough import sample
 SOURCE = "def twice(x):\n    return 2 * x + 1\n"
 
 
-@pytest.fixture
+@fixture
 def kernels(tmp_path, monkeypatch):
     """made() → the kernel as a process that has just begun has it; its files are below `made.folder`."""
     folder = tmp_path / "hess-explorer"
@@ -51,32 +51,27 @@ def filled(kernels):
     return files(kernels)
 
 
-@pytest.mark.parametrize(("which", "left"), sample(product(["index", "data"], [0.0, 0.5, 0.99]), 2))
-def test_a_file_cut_short_is_replaced(kernels, which, left):
+VERSION = pickle.dumps(jit.numba.__version__)
+DAMAGES = [
+    *(lambda whole, left=left: whole[: int(left * len(whole))] for left in (0.0, 0.5, 0.99)),
+    *(
+        lambda _, foreign=foreign: foreign
+        for foreign in (
+            b"no pickle at all",
+            pickle.dumps("0.0.1") + b"of another Numba",
+            pickle.dumps(["another", "thing"]),
+            VERSION + pickle.dumps(("another stamp", {})),
+            VERSION + pickle.dumps(17),
+        )
+    ),
+]
+
+
+@mark.parametrize(("which", "damage"), sample(product(["index", "data"], DAMAGES), 12))
+def test_a_file_cut_short_or_foreign_is_replaced(kernels, which, damage):
     index, (data,) = filled(kernels)
     file = index if which == "index" else data
-    whole = file.read_bytes()
-    file.write_bytes(whole[: int(left * len(whole))])
-    mended = kernels()
-    assert (mended(1.5), read(mended)) == (4.0, 0)
-    after = kernels()
-    assert (after(1.5), read(after)) == (4.0, 1)
-
-
-@pytest.mark.parametrize(
-    "foreign",
-    [
-        b"no pickle at all",
-        pickle.dumps("0.0.1") + b"of another Numba",
-        pickle.dumps(["another", "thing"]),
-        pickle.dumps(jit.numba.__version__) + pickle.dumps(("another stamp", {})),
-        pickle.dumps(jit.numba.__version__) + pickle.dumps(17),
-    ],
-)
-@pytest.mark.parametrize("which", ["index", "data"])
-def test_a_foreign_file_is_replaced(kernels, which, foreign):
-    index, (data,) = filled(kernels)
-    (index if which == "index" else data).write_bytes(foreign)
+    file.write_bytes(damage(file.read_bytes()))
     mended = kernels()
     assert (mended(1.5), read(mended)) == (4.0, 0)
     after = kernels()
@@ -103,7 +98,7 @@ def test_a_derived_source_cut_short_is_written_again(kernels):
     assert source.read_text() == SOURCE
 
 
-@pytest.mark.parametrize("said", ["", "{", "[]", "17", '{"errors.py": 3}', '{"errors.py": [1, 2]}', '"text"'])
+@mark.parametrize("said", ["", "{", "[]", "17", '{"errors.py": 3}', '{"errors.py": [1, 2]}', '"text"'])
 def test_hashes_that_cannot_be_read_are_found_anew(tmp_path, monkeypatch, said):
     package, memory = tmp_path / "package", tmp_path / "memory"
     for folder in (package, memory):

@@ -5,10 +5,10 @@ from fractions import Fraction
 
 import mpmath
 import numpy as np
-import pytest
 import sympy
+from pytest import approx, mark, raises
 
-from hess_mechanics import System, ensemble, level, solve, systems
+from hess_mechanics import System, ensemble, solve, systems
 from hess_mechanics.chaplygin_ball import phase_cloud_kernels
 from hess_mechanics.numerics.taylor_kernels import columns_of
 from hess_mechanics.numerics.tracing import NotTraceable, Symbol, constant, derivative, trace
@@ -69,12 +69,12 @@ def assert_reproduced(field, variables, parameters):
         assert sympy.cancel(one - rate) == 0
 
 
-@pytest.mark.parametrize(("field", "variables", "parameters"), FIELDS.values(), ids=FIELDS)
+@mark.parametrize(("field", "variables", "parameters"), FIELDS.values(), ids=FIELDS)
 def test_what_is_derived_from_a_field_is_the_field(field, variables, parameters):
     assert_reproduced(field, variables, parameters)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@mark.parametrize("seed", range(12))
 def test_what_is_derived_from_any_field_is_the_field(seed):
     assert_reproduced(random_field(seed, quotients=seed % 2 == 1), 4, 3)
 
@@ -90,7 +90,7 @@ def derivatives(field, y, p, order):
     return values
 
 
-@pytest.mark.parametrize("seed", sample(range(6), 2))
+@mark.parametrize("seed", sample(range(6), 2))
 def test_the_recursion_is_exact_at_every_order_in_rationals(seed):
     field = random_field(seed, quotients=seed % 2 == 1)
     y = [sympy.Rational(k + 1, 3 + k) for k in range(4)]
@@ -167,7 +167,7 @@ def system_of(field, variables, example):
     )
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     "system",
     [
         system_of(roessler, ("x", "y", "z"), ((0.3, -0.2, 0.1), (0.2, 0.2, 5.7))),
@@ -178,15 +178,15 @@ def system_of(field, variables, example):
 def test_a_system_of_ones_own_needs_its_field_only(system):
     state, p = system.example
     times = [0.5, 3.0]
-    found = solve(system.at(p), state, times, level("reference")).states
+    found = solve(system.at(p), state, times, "reference").states
     with mpmath.workdps(30):
         exact_solution = mpmath.odefun(lambda _, x: list(system.field(x, p)), 0, [mpmath.mpf(x) for x in state])
         expected = np.array([[float(x) for x in exact_solution(t)] for t in times])
-    assert found == pytest.approx(expected, abs=1e-13)
+    assert found == approx(expected, abs=1e-13)
     if system.recursion.is_quadratic:
         starts = np.array(state) * np.linspace(0.9, 1.1, 11)[:, None]
-        many = ensemble(system.at(p), starts, times, level("reference")).states
-        assert many[5] == pytest.approx(expected, abs=1e-13)
+        many = ensemble(system.at(p), starts, times, "reference").states
+        assert many[5] == approx(expected, abs=1e-13)
 
 
 NOT_ARITHMETIC = {
@@ -210,16 +210,16 @@ NOT_ARITHMETIC = {
 }
 
 
-@pytest.mark.parametrize("field", NOT_ARITHMETIC.values(), ids=NOT_ARITHMETIC)
+@mark.parametrize("field", NOT_ARITHMETIC.values(), ids=NOT_ARITHMETIC)
 def test_what_is_no_arithmetic_is_refused(field):
-    with pytest.raises(NotTraceable, match=r"^This field cannot be traced: .*") as caught:
+    with raises(NotTraceable, match=r"^This field cannot be traced: .*") as caught:
         trace(field, 2, 1)
     assert "Use +, −, *, /" in str(caught.value) or "divides by 0" in str(caught.value)
 
 
-@pytest.mark.parametrize("count", [1, 3])
+@mark.parametrize("count", [1, 3])
 def test_a_field_returns_one_rate_for_each_variable(count):
-    with pytest.raises(NotTraceable, match=f"2 variables and returns {count} rates: return one for each"):
+    with raises(NotTraceable, match=f"2 variables and returns {count} rates: return one for each"):
         trace(lambda y, p: (y[0],) * count, 2, 0)
 
 
@@ -231,7 +231,7 @@ def test_numbers_of_numpy_and_symbols_mix():
     assert coefficients(trace(field, 2, 0), [1.0, 1.0], [], 1)[1].tolist() == [5.0, 0.5]
 
 
-@pytest.mark.parametrize("name", sample(FIELDS, 3))
+@mark.parametrize("name", sample(FIELDS, 3))
 def test_the_jacobian_that_is_observed_along_is_the_derivative_of_the_field(name):
     field, n, parameters = FIELDS[name]
     of = variation(field, n, parameters)
@@ -265,5 +265,5 @@ def test_a_derivative_of_what_is_no_symbol_is_none():
 
     found = trace(field, 2, 1, observed=1)
     assert found.observed == 1
-    with pytest.raises(NotTraceable, match="2 variables and returns 1 rates"):
+    with raises(NotTraceable, match="2 variables and returns 1 rates"):
         trace(lambda y, p: (y[0], 1.0), 2, 1, observed=1)

@@ -1,12 +1,10 @@
 """Attitude of a body: orthonormal, and against SciPy's rotations; the loxodromic pendulum against closed forms."""
 
-from __future__ import annotations
-
 import json
-import math
+from math import acos, asin, cos, inf, pi, sqrt
 
 import numpy as np
-import pytest
+from pytest import approx, mark, raises
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
@@ -31,7 +29,7 @@ P = (0.75, 1.0)
 
 
 def followed(start, p, span, name, most=400):
-    return attitude(WITH_ATTITUDE.at(p), [*start, *across(start[2:])], span, level(name), WEIGHTS, 0.25, most)
+    return attitude(WITH_ATTITUDE.at(p), [*start, *across(start[2:])], span, name, WEIGHTS, 0.25, most)
 
 
 def turned(velocity, field, start, times):
@@ -51,7 +49,7 @@ def turned(velocity, field, start, times):
 # --- The attitude ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", LEVELS)
+@mark.parametrize("name", LEVELS)
 def test_the_axes_are_orthonormal_to_round_off_and_agree_with_a_quaternion(name):
     found = followed(START, P, 12.0, name)
     products = found.axes @ found.axes.transpose(0, 2, 1)
@@ -71,7 +69,7 @@ def test_how_far_it_was_from_orthonormal_is_said():
     assert 1e-9 < draft.defect < 1e-3
     assert {"e²", "(e,γ)"} < set(draft.orbit.drift)
     g, e = draft.orbit.states[:, 2:5], draft.orbit.states[:, 5:]
-    assert draft.orbit.drift["(e,γ)"] == pytest.approx(np.max(np.abs(np.sum(g * e, axis=1))), abs=1e-16)
+    assert draft.orbit.drift["(e,γ)"] == approx(np.max(np.abs(np.sum(g * e, axis=1))), abs=1e-16)
 
 
 def test_a_steady_rotation_turns_by_its_angle():
@@ -82,7 +80,7 @@ def test_a_steady_rotation_turns_by_its_angle():
     assert np.max(np.abs(found.axes - found.axes[0] @ turn)) < 1e-14
     # The rotation takes a vector fixed in the body to its direction in space.
     body = np.array([0.2, 0.5, -0.7])
-    assert found.in_space(body) == pytest.approx((turn @ body) @ found.axes[0].T, abs=1e-14)
+    assert found.in_space(body) == approx((turn @ body) @ found.axes[0].T, abs=1e-14)
 
 
 FIELDS = {
@@ -97,7 +95,7 @@ FIELDS = {
 }
 
 
-@pytest.mark.parametrize(("system", "parameters", "omega"), FIELDS.values(), ids=FIELDS)
+@mark.parametrize(("system", "parameters", "omega"), FIELDS.values(), ids=FIELDS)
 def test_every_field_can_follow_another_direction(system, parameters, omega):
     with_e, n = with_attitude(system), len(system.variables)
     expand = uncompiled(with_e.recursion)["expand"]
@@ -106,11 +104,11 @@ def test_every_field_can_follow_another_direction(system, parameters, omega):
     for _ in range(5):
         c[0, : n + 3] = y = rng.normal(size=n + 3)
         expand(c, left, right, inverses, parameters)
-        assert c[1, :n] == pytest.approx(system.field(y[:n], parameters), abs=1e-13)
-        assert c[1, n : n + 3] == pytest.approx(np.cross(y[n:], omega(y)), abs=1e-13)
+        assert c[1, :n] == approx(system.field(y[:n], parameters), abs=1e-13)
+        assert c[1, n : n + 3] == approx(np.cross(y[n:], omega(y)), abs=1e-13)
 
 
-@pytest.mark.parametrize(("system", "parameters", "omega"), FIELDS.values(), ids=FIELDS)
+@mark.parametrize(("system", "parameters", "omega"), FIELDS.values(), ids=FIELDS)
 def test_what_does_not_turn_e_is_not_computed_for_it(system, parameters, omega):
     own, more, n = system.recursion, with_attitude(system).recursion, len(system.variables)
     e = range(n, n + 3)
@@ -137,15 +135,15 @@ def test_attitudes_of_many_are_those_of_each():
     # Only this test needs the kernel: compiling it would take ten seconds.
     found = without_jit(MANY, json.dumps([np.array(starts).tolist(), P, [1.0, 5.0]]))
     for start, states in zip(starts, found, strict=True):
-        exact = solve(WITH_ATTITUDE.at(P), start, [1.0, 5.0], level("precise")).states
-        assert np.array(states) == pytest.approx(exact, abs=1e-9)
+        exact = solve(WITH_ATTITUDE.at(P), start, [1.0, 5.0], "precise").states
+        assert np.array(states) == approx(exact, abs=1e-9)
 
 
-@pytest.mark.parametrize("vertical", [(0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (0.6, 0.0, 0.8), (1e-9, 1.0, 0.0)])
+@mark.parametrize("vertical", [(0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (0.6, 0.0, 0.8), (1e-9, 1.0, 0.0)])
 def test_across_is_a_unit_vector_across(vertical):
     e = across(vertical)
-    assert np.linalg.norm(e) == pytest.approx(1.0, abs=1e-15)
-    assert e @ vertical == pytest.approx(0.0, abs=1e-15)
+    assert np.linalg.norm(e) == approx(1.0, abs=1e-15)
+    assert e @ vertical == approx(0.0, abs=1e-15)
 
 
 def test_the_same_numbers_are_read_only():
@@ -156,13 +154,13 @@ def test_the_same_numbers_are_read_only():
 # --- The body of the Suslov–Hess case ----------------------------------------------------------------
 
 
-@pytest.mark.parametrize("I33", [0.2, 0.96, 1.7])
+@mark.parametrize("I33", [0.2, 0.96, 1.7])
 def test_the_section_across_the_centre_of_mass_is_a_circle_whatever_I33(I33):
     body = HessBody(0.96, 0.28, -1.0)
     inverse = np.linalg.inv(body.tensor(I33))
-    assert inverse[:2, :2] == pytest.approx(np.eye(2) / body.I11, abs=1e-14)
+    assert inverse[:2, :2] == approx(np.eye(2) / body.I11, abs=1e-14)
     # The centre of mass, opposite to b, lies along n3.
-    assert body.turn @ (0.0, -body.b2, -body.b3) == pytest.approx([0.0, 0.0, body.b * body.I11], abs=1e-14)
+    assert body.turn @ (0.0, -body.b2, -body.b3) == approx([0.0, 0.0, body.b * body.I11], abs=1e-14)
 
 
 # --- The loxodromic pendulum -------------------------------------------------------------------------
@@ -172,14 +170,14 @@ def pendulum(I=(1.0, 1.5, 2.0), h=1.5, l=0.4, mu=0.7):
     return LoxodromicPendulum(HeavyBody.hess(I, mu), h, l)
 
 
-@pytest.mark.parametrize("I", [(1.0, 1.5, 2.0), (2.0, 1.5, 1.0), (1.0, 0.625, 0.375), (1.0, 1.02, 1.3)], ids=str)
-@pytest.mark.parametrize("h", [-0.9, 0.3, 1.0, 1.5, 12.0])
+@mark.parametrize("I", [(1.0, 1.5, 2.0), (2.0, 1.5, 1.0), (1.0, 0.625, 0.375), (1.0, 1.02, 1.3)], ids=str)
+@mark.parametrize("h", [-0.9, 0.3, 1.0, 1.5, 12.0])
 def test_the_angle_of_the_track_is_that_of_the_paper(I, h):
     one = pendulum(I, h, 1.2)
     a1, a2, a3 = (1.0 / moment for moment in I)
-    promised = math.asin(a2 / math.sqrt(a2 * (a1 + a3) - a1 * a3))  # klas-gess-3
-    assert one.angle == pytest.approx(promised, rel=1e-14)
-    found = loxodromic_motion(one, 12.0, level("reference"))
+    promised = asin(a2 / sqrt(a2 * (a1 + a3) - a1 * a3))  # klas-gess-3
+    assert one.angle == approx(promised, rel=1e-14)
+    found = loxodromic_motion(one, 12.0, "reference")
     times, theta = found.measured
     assert theta.size > 20
     assert np.max(np.abs(theta - promised)) < 1e-9
@@ -197,28 +195,28 @@ def test_the_angle_of_the_track_is_that_of_the_paper(I, h):
 
 def test_what_is_drawn_solves_the_equations_of_euler_and_poisson():
     one = pendulum(h=0.6, l=0.9, mu=1.3)
-    found = loxodromic_motion(one, 6.0, level("reference"))
+    found = loxodromic_motion(one, 6.0, "reference")
     a, r = np.array(one.body.a), np.array(one.body.r)
     gamma = found.attitude.axes[0, 0]
-    K = math.sqrt(2.0 * (one.h + 1.0) * one.body.mu / a[1])
+    K = sqrt(2.0 * (one.h + 1.0) * one.body.mu / a[1])
     M = K * found.attitude.axes[0, 1]  # e along M
-    assert gamma == pytest.approx(r, abs=1e-15)
-    assert M @ r == pytest.approx(0.0, abs=1e-14)  # the Hess relation
-    assert M[1] == pytest.approx(K * math.cos(one.l), abs=1e-14)
+    assert gamma == approx(r, abs=1e-15)
+    assert M @ r == approx(0.0, abs=1e-14)  # the Hess relation
+    assert M[1] == approx(K * cos(one.l), abs=1e-14)
     states, turn = turned(
         lambda y: a * y[:3], lambda y: euler_poisson.field(y, one.body.parameters), [*M, *gamma], found.times
     )
-    assert found.attitude.axes == pytest.approx(found.attitude.axes[0] @ turn, abs=3e-11)
-    assert found.attitude.axes[:, 0] == pytest.approx(states[:, 3:], abs=3e-11)
+    assert found.attitude.axes == approx(found.attitude.axes[0] @ turn, abs=3e-11)
+    assert found.attitude.axes[:, 0] == approx(states[:, 3:], abs=3e-11)
     # M keeps its direction in space, and l is its angle with the middle axis.
-    assert np.cross(states[:, :3], found.attitude.axes[:, 1]) == pytest.approx(0.0, abs=3e-11)
-    assert found.middle[:, 1] == pytest.approx(np.cos(found.l), abs=1e-14)
+    assert np.cross(states[:, :3], found.attitude.axes[:, 1]) == approx(0.0, abs=3e-11)
+    assert found.middle[:, 1] == approx(np.cos(found.l), abs=1e-14)
 
 
 def test_the_logarithm_of_the_printed_formula_needs_a_dot():
     # klas-gess-4: ln tan(l/2) = ±a13 K as printed would change sign with K at a turning point; its rate does.
     one = pendulum(h=0.3, l=1.1)
-    found = loxodromic_motion(one, 10.0, level("reference"))
+    found = loxodromic_motion(one, 10.0, "reference")
     value = np.log(np.tan(0.5 * found.l))
     K = np.hypot(*found.attitude.orbit.states[:, :2].T)
     assert np.ptp(value - value[0] - one.a * found.swing) < 1e-12
@@ -227,39 +225,39 @@ def test_the_logarithm_of_the_printed_formula_needs_a_dot():
 
 def test_an_oscillation_draws_a_segment_again_and_again():
     below = pendulum(h=0.3, l=1.1)
-    found = loxodromic_motion(below, 60.0, level("precise"))
-    assert np.max(np.abs(found.swing)) == pytest.approx(math.acos(-0.3), abs=1e-3)
+    found = loxodromic_motion(below, 60.0, "precise")
+    assert np.max(np.abs(found.swing)) == approx(acos(-0.3), abs=1e-3)
     ends = below.l_at(np.array([-below.amplitude, below.amplitude]))
-    assert (found.l.min(), found.l.max()) == pytest.approx(tuple(ends), abs=1e-3)
-    assert loxodromic_motion(pendulum(h=1.0), 1e4, level("draft")).swing[-1] == pytest.approx(math.pi, abs=1e-2)
+    assert (found.l.min(), found.l.max()) == approx(tuple(ends), abs=1e-3)
+    assert loxodromic_motion(pendulum(h=1.0), 1e4, "draft").swing[-1] == approx(pi, abs=1e-2)
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("make", "error", "words"),
     [
         (lambda: pendulum(h=-1.0), OutsideRegion, "Choose h > −1"),
         (lambda: pendulum(l=0.0), InvalidParameter, "Choose 0 < l < π"),
         (lambda: pendulum(mu=-1.0), InvalidParameter, "choose μ > 0"),
         (lambda: LoxodromicPendulum(HeavyBody.hess((1.0, 1.5, 2.0), 1.0, 0.1), 1.5, 0.4), InvalidParameter, "Hess"),
-        (lambda: loxodromic_motion(pendulum(), math.inf, level("draft")), InvalidParameter, "span"),
-        (lambda: loxodromic_motion(pendulum(), 1e9, level("draft")), ModelError, "shorter"),
+        (lambda: loxodromic_motion(pendulum(), inf, "draft"), InvalidParameter, "span"),
+        (lambda: loxodromic_motion(pendulum(), 1e9, "draft"), ModelError, "shorter"),
     ],
     ids=range(6),
 )
 def test_what_is_no_loxodromic_pendulum_is_refused_in_a_sentence(make, error, words):
-    with pytest.raises(error, match=words) as refused:
+    with raises(error, match=words) as refused:
         make()
     assert str(refused.value).endswith(".")
 
 
-@pytest.mark.parametrize("l", [0.2, 1.4, 2.9])
-@pytest.mark.parametrize("turns", [0.4, 30.0])
+@mark.parametrize("l", [0.2, 1.4, 2.9])
+@mark.parametrize("turns", [0.4, 30.0])
 def test_a_loxodrome_is_drawn_to_its_poles_or_as_often_as_it_may_wind(l, turns):
     one = pendulum(h=1.5, l=l)
     ends = np.array(one.windings(0.02, turns))
     poles = one.l_at(ends)
     if turns == 0.4:
-        assert ends == pytest.approx([-0.8 * math.pi, 0.8 * math.pi])
+        assert ends == approx([-0.8 * pi, 0.8 * pi])
     else:
-        assert np.sort(poles) == pytest.approx([0.02, math.pi - 0.02], rel=1e-9)
+        assert np.sort(poles) == approx([0.02, pi - 0.02], rel=1e-9)
     assert ends[0] < ends[1]

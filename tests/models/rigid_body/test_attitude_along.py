@@ -1,13 +1,10 @@
 """The attitude from the samples of an orbit, against SciPy's rotation of the same motion."""
 
-from __future__ import annotations
-
 import numpy as np
-import pytest
+from pytest import approx, mark
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from hess_mechanics import level
 from hess_mechanics.chaplygin_ball import equations as ball
 from hess_mechanics.dynamics.sampling import sampled_orbit
 from hess_mechanics.euler_poisson import equations as heavy
@@ -26,11 +23,11 @@ MOTIONS = {
 def along(system, parameters, start, omega, span):
     """Return the attitude from the samples that the pictures use."""
     weights = (100.0,) * (len(start) - 3) + (300.0,) * 3
-    orbit = sampled_orbit(system.at(parameters), start, span, weights, level("standard"))
+    orbit = sampled_orbit(system.at(parameters), start, span, weights, "standard")
     return attitude_along(orbit.times, np.array([omega(y) for y in orbit.states]), orbit.states[:, -3:])
 
 
-@pytest.mark.parametrize("motion", MOTIONS.values(), ids=MOTIONS)
+@mark.parametrize("motion", MOTIONS.values(), ids=MOTIONS)
 def test_it_is_right_to_a_quarter_of_a_pixel_for_as_long_as_an_orbit_is_shown(motion):
     system, parameters, start, omega = motion
     found = along(*motion, span=40.0)
@@ -41,13 +38,13 @@ def test_it_is_right_to_a_quarter_of_a_pixel_for_as_long_as_an_orbit_is_shown(mo
 
     exact = solve_ivp(rates, (0.0, 40.0), [*start, *found.axes[0, 1]], "DOP853", found.times, rtol=1e-11, atol=1e-12)
     assert found.times[0] == 0.0
-    assert found.times[-1] == pytest.approx(40.0, abs=1e-12)
+    assert found.times[-1] == approx(40.0, abs=1e-12)
     # Half of the largest picture, in radii of the sphere, is some 250 pixels.
     assert np.max(np.abs(found.axes[:, 0] - exact.y[n - 3 : n].T)) < 1e-3
     assert np.max(np.abs(found.axes[:, 1] - exact.y[n:].T)) < 1e-3
     products = np.einsum("nij,nkj->nik", found.axes, found.axes)
     assert np.max(np.abs(products - np.eye(3))) < 1e-14
-    assert np.linalg.det(found.axes) == pytest.approx(1.0, abs=1e-14)
+    assert np.linalg.det(found.axes) == approx(1.0, abs=1e-14)
     assert found.defect < 1e-3
     # Neighbours are so close that the chord between them is the rotation.
     steps = Rotation.from_matrix(found.axes[1:] @ found.axes[:-1].transpose(0, 2, 1)).magnitude()
@@ -65,20 +62,20 @@ def test_a_steady_spin_about_the_vertical_is_followed_though_nothing_else_moves(
         ]
     )
     # Seen from the body, what is fixed in space turns backward.
-    assert found.axes[:, 1, :2] == pytest.approx(np.einsum("jin,j->ni", turn, found.axes[0, 1, :2]), abs=1e-12)
+    assert found.axes[:, 1, :2] == approx(np.einsum("jin,j->ni", turn, found.axes[0, 1, :2]), abs=1e-12)
     assert abs(len(found.times) - 241) <= 1
     assert found.defect < 1e-15
 
 
 def test_a_body_at_rest_stays_as_it_lies():
     found = attitude_along(np.array([0.0, 5.0, 10.0]), np.zeros((3, 3)), np.tile(GAMMA, (3, 1)))
-    assert found.times[[0, -1]] == pytest.approx([0.0, 10.0])
-    assert found.axes == pytest.approx(np.broadcast_to(found.axes[0], found.axes.shape), abs=1e-15)
+    assert found.times[[0, -1]] == approx([0.0, 10.0])
+    assert found.axes == approx(np.broadcast_to(found.axes[0], found.axes.shape), abs=1e-15)
 
 
 def test_samples_too_far_apart_are_told_by_their_defect():
     system, parameters, start, omega = MOTIONS["heavy"]
-    fine = sampled_orbit(system.at(parameters), start, 40.0, (100.0,) * 3 + (300.0,) * 3, level("standard"))
+    fine = sampled_orbit(system.at(parameters), start, 40.0, (100.0,) * 3 + (300.0,) * 3, "standard")
     coarse = slice(None, None, 40)
     found = attitude_along(
         fine.times[coarse], np.array([omega(y) for y in fine.states])[coarse], fine.states[coarse, -3:]

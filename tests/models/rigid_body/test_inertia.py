@@ -1,14 +1,15 @@
 """Tensors that belong to rigid bodies: against point masses, and against a scan over I33."""
 
-import math
+from math import inf, nan, sqrt
 
 import numpy as np
-import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from pytest import approx, mark, raises
 
 from hess_mechanics import HessBody, check_body
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
+from support.mechanics import inertia_of
 
 moments = st.floats(0.05, 20.0)
 shares = st.one_of(st.just(0.0), st.floats(-1.2, 1.2))
@@ -28,12 +29,7 @@ def least_second_moment(inertia):
 @given(point_masses)
 def test_any_heap_of_point_masses_is_a_body_and_its_I33_is_admissible(masses):
     m, positions = np.array(masses)[:, 0], np.array(masses)[:, 1:]
-    second = (m[:, None] * positions).T @ positions
-    # Turn the axes about e3 so that I12 = 0, as `Biz03` has them.
-    angle = 0.5 * math.atan2(2 * second[0, 1], second[0, 0] - second[1, 1])
-    turn = np.array([[math.cos(angle), math.sin(angle), 0], [-math.sin(angle), math.cos(angle), 0], [0, 0, 1]])
-    second = turn @ second @ turn.T
-    inertia = np.trace(second) * np.eye(3) - second
+    inertia, second = inertia_of(m, positions)
     # Masses in one plane are the limit of bodies: a rounding error puts them on either side.
     assume(np.linalg.eigvalsh(second)[0] > 1e-9 * np.trace(second))
     assert abs(inertia[0, 1]) < 1e-12 * np.trace(inertia)
@@ -44,7 +40,7 @@ def test_any_heap_of_point_masses_is_a_body_and_its_I33_is_admissible(masses):
 
 @given(moments, moments, shares, shares)
 def test_at_the_ends_of_the_interval_the_body_is_flat(I11, I22, share13, share23):
-    root = math.sqrt(I11 * I22)
+    root = sqrt(I11 * I22)
     I13, I23 = 0.5 * share13 * root, 0.5 * share23 * root
     found = check_body(I11, I22, I13, I23)
     assume(found.is_body)
@@ -57,7 +53,7 @@ def test_at_the_ends_of_the_interval_the_body_is_flat(I11, I22, share13, share23
 
 @given(moments, moments, shares, shares, st.integers(-200, 200))
 def test_the_answer_knows_no_axis_no_sign_and_no_unit(I11, I22, share13, share23, exponent):
-    root = math.sqrt(I11 * I22)
+    root = sqrt(I11 * I22)
     I13, I23 = 0.7 * share13 * root, 0.7 * share23 * root
     found = check_body(I11, I22, I13, I23)
     unit = 2.0**exponent
@@ -65,11 +61,11 @@ def test_the_answer_knows_no_axis_no_sign_and_no_unit(I11, I22, share13, share23
     for other in others:
         assert other.is_body == found.is_body
         if found.is_body:
-            assert np.array(other.I33) == pytest.approx(found.I33, rel=1e-11, abs=1e-13 * (I11 + I22))
+            assert np.array(other.I33) == approx(found.I33, rel=1e-11, abs=1e-13 * (I11 + I22))
     scaled = check_body(I11 * unit, I22 * unit, I13 * unit, I23 * unit)
     assert scaled.is_body == found.is_body
     if found.is_body:
-        assert np.array(scaled.I33) / unit == pytest.approx(found.I33, rel=1e-12)
+        assert np.array(scaled.I33) / unit == approx(found.I33, rel=1e-12)
 
 
 @given(st.floats(1e-3, 1e3), st.one_of(st.floats(-3.0, 3.0), st.floats(-1e6, 1e6)))
@@ -85,25 +81,25 @@ def test_under_bizi1_the_interval_of_I33_has_a_closed_form(I22, a):
     body = HessBody(I22, a * I22, 1.0)
     found = check_body(body.I11, body.I22, 0.0, body.I23)
     for interval in (body.check.I33, found.I33):
-        assert np.array(interval) / I22 == pytest.approx([a * a, 2 - a * a], rel=0, abs=1e-9)
+        assert np.array(interval) / I22 == approx([a * a, 2 - a * a], rel=0, abs=1e-9)
     assert body.check.is_body == found.is_body
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("given_tensor", "interval"),
     [
         ((1.0, 1.0, 0.0, 0.0), (0.0, 2.0)),  # from a rod along e3 to a disc
         ((2.0, 1.0, 0.0, 0.0), (1.0, 3.0)),  # the plain triangle inequality
-        ((1.0, 1.0, 0.0, 0.1), (1 - math.sqrt(0.96), 1 + math.sqrt(0.96))),  # y + 0.01/y = 1, I33 = 2y
+        ((1.0, 1.0, 0.0, 0.1), (1 - sqrt(0.96), 1 + sqrt(0.96))),  # y + 0.01/y = 1, I33 = 2y
     ],
 )
 def test_equal_and_principal_moments_have_closed_forms(given_tensor, interval):
     found = check_body(*given_tensor)
-    assert pytest.approx(interval, rel=1e-12, abs=1e-15) == found.I33
+    assert approx(interval, rel=1e-12, abs=1e-15) == found.I33
 
 
 # (0.3, 0.4): y + 0.25/y = 1 has a double root, for flat bodies only.
-@pytest.mark.parametrize("products", [(0.3, 0.4), (0.0, 1.2), (5.0, 5.0), (1e300, 0.0), (0.0, 1e308)])
+@mark.parametrize("products", [(0.3, 0.4), (0.0, 1.2), (5.0, 5.0), (1e300, 0.0), (0.0, 1e308)])
 def test_too_large_products_of_inertia_are_no_body_and_the_sentence_says_why(products):
     found = check_body(1.0, 1.0, *products)
     assert not found.is_body
@@ -115,15 +111,15 @@ def test_the_sentence_names_the_interval():
     assert "between 1 and 3" in check_body(2.0, 1.0, 0.0, 0.0).sentence
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("name", "bad", "error", "words"),
     [
         ("I11", -1.0, NotPositiveDefinite, "choose I11 > 0"),
         ("I22", -0.0, NotPositiveDefinite, "choose I22 > 0"),
-        *((name, math.nan, InvalidParameter, "is not a finite number") for name in ("I11", "I22", "I13", "I23")),
-        ("I23", -math.inf, InvalidParameter, "is not a finite number"),
+        *((name, nan, InvalidParameter, "is not a finite number") for name in ("I11", "I22", "I13", "I23")),
+        ("I23", -inf, InvalidParameter, "is not a finite number"),
     ],
 )
 def test_impossible_values_are_refused_by_their_name(name, bad, error, words):
-    with pytest.raises(error, match=f"{name}.*{words}"):
+    with raises(error, match=f"{name}.*{words}"):
         check_body(**{"I11": 1.0, "I22": 1.0, "I13": 0.0, "I23": 0.0, name: bad})

@@ -1,15 +1,13 @@
 """Moments of reversal against SciPy's events; a permanent rotation has none."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
-from hess_mechanics import BallBody, SuslovBody, level, section, systems
+from hess_mechanics import BallBody, SuslovBody, section, systems
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.rigid_body.reversal import Reversal, rate, reversals
 from support.ball import rates as ball_rates
+from support.mechanics import scipy_crossings
 from support.suslov import field, permanent_rotations
 
 BODY = SuslovBody(2.0, 1.0, 0.0, 0.1, 0.3, -0.5, 1.0)
@@ -26,10 +24,8 @@ START = (0.5, 1.2, 0.6, 0.0, 0.8)
     ],
 )
 def test_the_moments_are_those_of_another_integrator_and_none_is_lost(body, rates, span, least):
-    found = reversals(body, START, span, level("precise"))
-    times = solve_ivp(
-        rates, (0.0, span), START, "DOP853", rtol=1e-12, atol=1e-13, events=lambda t, y: y[0] * y[2] + y[1] * y[3]
-    ).t_events[0]
+    found = reversals(body, START, span, "precise")
+    times, _ = scipy_crossings(lambda y: rates(0.0, y), START, lambda y: y[0] * y[2] + y[1] * y[3], span)
     assert len(found.times) == len(times) >= least
     assert np.abs(found.times - times).max() < 1e-7
     assert np.abs(rate(found.states)).max() < 1e-9
@@ -39,7 +35,7 @@ def test_the_moments_are_those_of_another_integrator_and_none_is_lost(body, rate
 def test_a_permanent_rotation_never_reverses():
     body = SuslovBody(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3)
     for state in permanent_rotations(body, 1.743):
-        assert len(reversals(body, state, 5.0, level("precise")).times) == 0
+        assert len(reversals(body, state, 5.0, "precise").times) == 0
         assert abs(rate(state[None])[0]) == pytest.approx(np.hypot(*state[:2]), abs=1e-12)
 
 
@@ -47,4 +43,4 @@ def test_there_are_none_of_a_body_that_may_turn_about_all_axes():
     system = systems()["euler-poisson"]
     state, p = system.example
     with pytest.raises(InvalidParameter, match="ω1, ω2, γ1, γ2, γ3"):
-        section(system.at(p), state, Reversal(), 1.0, level("draft"))
+        section(system.at(p), state, Reversal(), 1.0, "draft")

@@ -4,10 +4,10 @@ import math
 from fractions import Fraction
 
 import numpy as np
-import pytest
 import sympy
+from pytest import approx, mark, raises
 
-from hess_mechanics import SuslovBody, level, solve, systems
+from hess_mechanics import SuslovBody, solve, systems
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
 from hess_mechanics.suslov.additional_integral import I11_of, additional_integral, coefficients, formula, of_body, order
 from hess_mechanics.suslov.free import equilibria
@@ -15,7 +15,7 @@ from hess_mechanics.suslov.free import equilibria
 SUSLOV = systems()["suslov"]
 ODD = range(1, 16, 2)
 UP = (0.6, 0.0, 0.8)
-every_k = pytest.mark.parametrize("k", ODD)
+every_k = mark.parametrize("k", ODD)
 
 
 def case_1(k, I22=1.0, I23=0.4):
@@ -27,7 +27,7 @@ def case_2(k, I11=1.0, I13=0.4):
 
 
 BODIES = [(case_1, "I13 = 0"), (case_2, "I23 = 0")]
-both_cases = pytest.mark.parametrize("case", [case for case, _ in BODIES], ids=[name for _, name in BODIES])
+both_cases = mark.parametrize("case", [case for case, _ in BODIES], ids=[name for _, name in BODIES])
 
 
 def vector(exact, w1, w2):
@@ -41,7 +41,7 @@ def vector(exact, w1, w2):
 
 
 @every_k
-@pytest.mark.parametrize(("I22", "I23"), [(Fraction(1), Fraction(2, 5)), (Fraction(7, 3), Fraction(-5, 2))])
+@mark.parametrize(("I22", "I23"), [(Fraction(1), Fraction(2, 5)), (Fraction(7, 3), Fraction(-5, 2))])
 def test_F2_is_conserved_exactly(k, I22, I23):
     # dF2/dt is a polynomial in ω, and vanishes.
     exact = coefficients(k, I22, I23)
@@ -56,7 +56,7 @@ def test_F2_is_conserved_exactly(k, I22, I23):
 
 
 @both_cases
-@pytest.mark.parametrize("k", [1, 3, 5])
+@mark.parametrize("k", [1, 3, 5])
 def test_the_field_vanishes_on_the_levels_of_F2_that_the_paper_leaves_out_too(case, k):
     # Before `biz138` only f ≠ f⁺, f⁻ is asked for.  These are equal, and at (ω^(±), −γ^(±)), where the field vanishes
     # as well, F2 has the other sign: that level is no torus either.
@@ -69,13 +69,13 @@ def test_the_field_vanishes_on_the_levels_of_F2_that_the_paper_leaves_out_too(ca
     for sign in (1, -1):
         for turned in (1, -1):
             state = np.array([*(sign * omega), *(turned * sign * xi)])
-            assert SUSLOV.field(state, body.parameters) == pytest.approx(np.zeros(5), abs=1e-13)
-            assert SUSLOV.integrals(state, body.parameters)["E"] == pytest.approx(h, rel=1e-13)
+            assert SUSLOV.field(state, body.parameters) == approx(np.zeros(5), abs=1e-13)
+            assert SUSLOV.integrals(state, body.parameters)["E"] == approx(h, rel=1e-13)
             values[sign, turned] = float(F2(state[:2], state[2:]))
     size = abs(values[1, 1])
     assert size > 0.1
-    assert values[-1, 1] == pytest.approx(values[1, 1], rel=1e-12)
-    assert [values[1, -1], values[-1, -1]] == pytest.approx([-values[1, 1]] * 2, rel=1e-12)
+    assert values[-1, 1] == approx(values[1, 1], rel=1e-12)
+    assert [values[1, -1], values[-1, -1]] == approx([-values[1, 1]] * 2, rel=1e-12)
 
 
 def test_the_first_two_are_those_of_the_paper():
@@ -97,7 +97,7 @@ def test_the_first_two_are_those_of_the_paper():
 def test_F2_is_not_conserved_by_other_bodies():
     body = SuslovBody(I11_of(3, 1.0, 0.4) * 1.01, 1.0, 0.0, 0.4)
     assert of_body(body) is None
-    orbit = solve(body, [0.5, 0.4, *UP], [40.0], level("precise"))
+    orbit = solve(body, [0.5, 0.4, *UP], [40.0], "precise")
     integral = additional_integral(3, body)
     change = integral(orbit.states[0, :2], orbit.states[0, 2:]) - integral(np.array([0.5, 0.4]), np.array(UP))
     assert abs(change) > 1e-3
@@ -110,16 +110,16 @@ def test_values_and_cycles_at_the_fixed_points(case, k):
     h = 1.3
     integral, points = of_body(body), equilibria(body, h)
     plus, minus = integral.at_fixed_points(h)
-    assert integral(points.stable, points.xi) == pytest.approx(plus, rel=1e-12)
-    assert integral(points.unstable, -points.xi) == pytest.approx(minus, rel=1e-12)
+    assert integral(points.stable, points.xi) == approx(plus, rel=1e-12)
+    assert integral(points.unstable, -points.xi) == approx(minus, rel=1e-12)
     f = 0.37 * plus
     for omega, Gamma in zip((points.stable, points.unstable), integral.cycles(h, f), strict=True):
         across = math.sqrt(1 - Gamma**2)
         eta = np.cross([0.0, 0.0, 1.0], points.xi)
         for phase in (0.0, 1.0, 4.0):
             gamma = Gamma * points.xi + across * (math.cos(phase) * eta + math.sin(phase) * np.array([0.0, 0.0, 1.0]))
-            assert integral(omega, gamma) == pytest.approx(f, rel=1e-12)
-    with pytest.raises(InvalidParameter, match=r"choose .f. ≤"):
+            assert integral(omega, gamma) == approx(f, rel=1e-12)
+    with raises(InvalidParameter, match=r"choose .f. ≤"):
         integral.cycles(h, 1.01 * plus)
 
 
@@ -138,7 +138,7 @@ def test_the_order_is_told_from_doubles(case, k):
     assert order(near) is None
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     "body",
     [
         SuslovBody(1.64, 1.0, 0.8, 0.8),
@@ -160,21 +160,21 @@ def test_no_order(body):
 
 def test_refusals():
     for k in (0, 2, 17, -1):
-        with pytest.raises(InvalidParameter, match="odd k from 1 to 15"):
+        with raises(InvalidParameter, match="odd k from 1 to 15"):
             I11_of(k, 1.0, 0.4)
-        with pytest.raises(InvalidParameter, match="odd k from 1 to 15"):
+        with raises(InvalidParameter, match="odd k from 1 to 15"):
             formula(k)
-    with pytest.raises(NotPositiveDefinite):
+    with raises(NotPositiveDefinite):
         I11_of(1, -1.0, 0.4)
-    with pytest.raises(InvalidParameter, match="I23 other than 0"):
+    with raises(InvalidParameter, match="I23 other than 0"):
         coefficients(3, Fraction(1), Fraction(0))
-    with pytest.raises(InvalidParameter, match="set one of them to 0"):
+    with raises(InvalidParameter, match="set one of them to 0"):
         additional_integral(3, SuslovBody(2.0, 1.0, 0.3, 0.4))
-    with pytest.raises(InvalidParameter, match="set one of them to 0"):
+    with raises(InvalidParameter, match="set one of them to 0"):
         additional_integral(3, SuslovBody(2.0, 1.0, 0.0, 0.0))
-    with pytest.raises(InvalidParameter, match="other units"):
+    with raises(InvalidParameter, match="other units"):
         additional_integral(15, SuslovBody(1e20, 1e20, 0.0, 1e20))
-    with pytest.raises(InvalidParameter, match="choose h > 0"):
+    with raises(InvalidParameter, match="choose h > 0"):
         of_body(case_1(3)).cycles(0.0, 0.1)
 
 

@@ -1,11 +1,9 @@
 """Groups of averages, and volume contraction: by hand, and by SciPy from the written-out equations."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
-import pytest
+from pytest import approx, mark
 from scipy.integrate import solve_ivp
 
 from hess_mechanics import SuslovBody
@@ -21,7 +19,7 @@ KEPT = SuslovBody(1.5, 3.0, 0.0, 0.0, -0.5, 0.6, 0.7), 0.95
 WINDOW = (-math.pi, 0.0), (math.pi, math.pi)
 
 
-@pytest.mark.parametrize("centres", [(-0.3, 0.8), (-0.3, 0.1, 0.8), (-1.0, -0.4, 0.1, 0.9)], ids=len)
+@mark.parametrize("centres", [(-0.3, 0.8), (-0.3, 0.1, 0.8), (-1.0, -0.4, 0.1, 0.9)], ids=len)
 def test_averages_far_apart_are_told_apart(centres):
     rng = np.random.default_rng(5)
     which = rng.integers(0, len(centres), 300)
@@ -33,7 +31,7 @@ def test_averages_far_apart_are_told_apart(centres):
         assert abs(averages[i] - centre) < 0.01
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     "averages", [np.empty(0), np.array([0.4]), np.full(30, 0.7), 0.5 + 1e-4 * np.arange(8), np.linspace(-1.0, 1.0, 50)]
 )
 def test_averages_of_one_group_are_one(averages):
@@ -67,13 +65,13 @@ def test_the_mean_divergence_is_that_of_scipy():
         return [*field(body, y), float(np.dot(slopes, y))]
 
     for start in starts(body, E):
-        assert np.dot(slopes, start) == pytest.approx(divergence(body, start), abs=1e-14)
+        assert np.dot(slopes, start) == approx(divergence(body, start), abs=1e-14)
         found = contraction(body, start.tolist(), 600.0)
         run = solve_ivp(rates, (0.0, 600.0), [*start, 0.0], "DOP853", [200.0, 600.0], rtol=1e-9, atol=1e-10)
-        assert found.mean == pytest.approx((run.y[5, 1] - run.y[5, 0]) / 400.0, abs=4.0 * found.error + 1e-4)
+        assert found.mean == approx((run.y[5, 1] - run.y[5, 0]) / 400.0, abs=4.0 * found.error + 1e-4)
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("body", "E", "attracts"),
     [(*STRANGE, True), (*TWO, True), (*SEA, False), (*KEPT, False)],
     ids=["strange", "two", "sea", "volume kept"],

@@ -3,12 +3,10 @@
 The equations are written out here and integrated by SciPy; nothing is compared with itself.
 """
 
-from __future__ import annotations
-
-import math
+from math import hypot, log, nan, pi, sin, sqrt
 
 import numpy as np
-import pytest
+from pytest import approx, mark, raises
 from scipy.integrate import simpson
 
 from hess_mechanics import SuslovBody, solve
@@ -18,6 +16,7 @@ from hess_mechanics.numerics.accuracy import DRAFT, PRECISE, REFERENCE, STANDARD
 from hess_mechanics.suslov.basins import groups
 from hess_mechanics.suslov.section import SuslovSection, divergence
 from support.mechanics import differences, scipy_crossings
+from support.refusals import refused
 from support.suslov import divergence as divergence_of_field
 from support.suslov import energy, field, permanent_rotations
 from support.thorough import sample
@@ -28,19 +27,19 @@ STRANGE = SuslovBody(1.0, 2.5, 0.6, 0.6, -1.0, -0.5, 0.7), 0.681
 TWO = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842
 CYCLE = SuslovBody(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3), 1.743
 SEEN = SuslovSection(BODY, 0.6, 3)
-WHOLE = ((-math.pi, 0.0), (math.pi, math.pi))
+WHOLE = ((-pi, 0.0), (pi, pi))
 
 
 def random_places(count, seed):
     rng = np.random.default_rng(seed)
-    return rng.uniform(-math.pi, math.pi, count), rng.uniform(0.01, math.pi - 0.01, count)
+    return rng.uniform(-pi, pi, count), rng.uniform(0.01, pi - 0.01, count)
 
 
 # ---- coordinates -------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("k", [1, 2, 3])
-@pytest.mark.parametrize("E", [-0.3, 0.4, 50.0])
+@mark.parametrize("k", [1, 2, 3])
+@mark.parametrize("E", [-0.3, 0.4, 50.0])
 def test_states_are_on_the_plane_have_the_energy_and_grow_and_coordinates_bring_them_back(k, E):
     psi, delta = random_places(400, seed=k)
     states, ok = SuslovSection(BODY, E, k).states_at(psi, delta)
@@ -49,62 +48,54 @@ def test_states_are_on_the_plane_have_the_energy_and_grow_and_coordinates_bring_
     assert 20 < ok.sum() <= 400
     assert ok.all() == (E > 1.0)
     assert np.all(states[:, k + 1] == 0.0)
-    assert np.linalg.norm(states[:, 2:], axis=1) == pytest.approx(np.ones(400), abs=1e-15)
+    assert np.linalg.norm(states[:, 2:], axis=1) == approx(np.ones(400), abs=1e-15)
     for state in states[ok]:
-        assert energy(BODY, state) == pytest.approx(E, abs=1e-13 * max(1.0, E))
+        assert energy(BODY, state) == approx(E, abs=1e-13 * max(1.0, E))
         assert field(BODY, state)[k + 1] > 0.0
-    assert SuslovSection(BODY, 0.0, k).places_of(states[ok]) == pytest.approx(
-        np.column_stack([psi, delta])[ok], abs=1e-7
-    )
+    assert SuslovSection(BODY, 0.0, k).places_of(states[ok]) == approx(np.column_stack([psi, delta])[ok], abs=1e-7)
 
 
-@pytest.mark.parametrize("k", [1, 2, 3])
+@mark.parametrize("k", [1, 2, 3])
 def test_delta_is_counted_from_where_gamma_stays(k):
     # At both ends of δ the component stays, in between it grows fastest relative to |ω| at δ = π/2.
     psi = np.full(3, 0.8)
-    states, ok = SuslovSection(BODY, 2.0, k).states_at(psi, np.array([1e-9, math.pi / 2, math.pi - 1e-9]))
+    states, ok = SuslovSection(BODY, 2.0, k).states_at(psi, np.array([1e-9, pi / 2, pi - 1e-9]))
     assert ok.all()
     rates = np.array([field(BODY, state)[k + 1] / np.hypot(*state[:2]) for state in states])
-    expected = 1.0 if k == 3 else math.sin(0.8)
-    assert rates == pytest.approx([0.0, expected, 0.0], abs=1e-8)
+    expected = 1.0 if k == 3 else sin(0.8)
+    assert rates == approx([0.0, expected, 0.0], abs=1e-8)
 
 
-@pytest.mark.parametrize("k", [1, 2, 3])
+@mark.parametrize("k", [1, 2, 3])
 def test_below_the_lowest_energy_nothing_is_possible_and_above_it_something(k):
     lowest = SuslovSection(BODY, 0.0, k).lowest_energy
-    psi = np.linspace(-math.pi, math.pi, 100_001)
+    psi = np.linspace(-pi, pi, 100_001)
     gamma = np.zeros((3, psi.size))
     gamma[[i for i in range(3) if i != k - 1]] = np.cos(psi), np.sin(psi)
-    assert lowest == pytest.approx(np.min(np.array([BODY.b1, BODY.b2, BODY.b3]) @ gamma), abs=1e-8)
+    assert lowest == approx(np.min(np.array([BODY.b1, BODY.b2, BODY.b3]) @ gamma), abs=1e-8)
     assert not SuslovSection(BODY, lowest - 1e-9, k).possible(psi).any()
     assert SuslovSection(BODY, lowest + 1e-6, k).possible(psi).any()
     assert SuslovSection(BODY, lowest, k).spread(WHOLE, 5) == ()
-    with pytest.raises(InvalidParameter, match="choose a larger energy, or another point"):
+    with raises(InvalidParameter, match="choose a larger energy, or another point"):
         SuslovSection(BODY, lowest - 1e-9, k).state_at(0.0, 1.0)
 
 
-@pytest.mark.parametrize(
-    ("call", "error", "words"),
-    [
-        *((lambda delta=delta: SEEN.state_at(0.5, delta), InvalidParameter, "0 < δ < π") for delta in (0.0, math.pi)),
-        (lambda: SEEN.state_at(0.5, math.nan), InvalidParameter, "0 < δ < π"),
-        *((lambda k=k: SuslovSection(BODY, 1.0, k), InvalidParameter, "choose 1, 2 or 3") for k in (0, 4)),
-        (lambda: SuslovSection(BODY, math.nan, 3).states_at(np.zeros(1), np.ones(1)), InvalidParameter, "E"),
-        (lambda: SEEN.points(SEEN.spread(WHOLE, 2), 1000, True, PRECISE, most_steps=500), WorkLimit, "a shorter"),
-        (lambda: SEEN.points(SEEN.spread(WHOLE, 2), 10**7, True, PRECISE), WorkLimit, "number of crossings"),
-    ],
+test_what_is_no_point_or_too_much_is_refused = refused(
+    *((lambda delta=delta: SEEN.state_at(0.5, delta), "0 < δ < π") for delta in (0.0, pi)),
+    (lambda: SEEN.state_at(0.5, nan), "0 < δ < π"),
+    *((lambda k=k: SuslovSection(BODY, 1.0, k), "choose 1, 2 or 3") for k in (0, 4)),
+    (lambda: SuslovSection(BODY, nan, 3).states_at(np.zeros(1), np.ones(1)), "E"),
+    (lambda: SEEN.points(SEEN.spread(WHOLE, 2), 1000, True, PRECISE, most_steps=500), "a shorter", WorkLimit),
+    (lambda: SEEN.points(SEEN.spread(WHOLE, 2), 10**7, True, PRECISE), "number of crossings", WorkLimit),
 )
-def test_what_is_no_point_or_too_much_is_refused(call, error, words):
-    with pytest.raises(error, match=words):
-        call()
 
 
 # ---- seeds -------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("k", [1, 2, 3])
-@pytest.mark.parametrize("above", [1e-9, 1e-4, 0.1, 1.0, 30.0])
-@pytest.mark.parametrize("window", [WHOLE, ((-0.2, 0.5), (2.9, 1.0)), ((-3.0 * math.pi, 0.0), (3.0 * math.pi, 2.0))])
+@mark.parametrize("k", [1, 2, 3])
+@mark.parametrize("above", [1e-9, 1e-4, 0.1, 1.0, 30.0])
+@mark.parametrize("window", [WHOLE, ((-0.2, 0.5), (2.9, 1.0)), ((-3.0 * pi, 0.0), (3.0 * pi, 2.0))])
 def test_seeds_are_as_many_as_asked_for_wherever_the_energy_allows_any(k, above, window):
     E = SuslovSection(BODY, 0.0, k).lowest_energy + above
     found = np.array(SuslovSection(BODY, E, k).spread(window, 25)).reshape(-1, 5)
@@ -114,10 +105,10 @@ def test_seeds_are_as_many_as_asked_for_wherever_the_energy_allows_any(k, above,
         assert len(found) == 25
         assert len({tuple(state) for state in found}) == 25
         for state in found:
-            assert energy(BODY, state) == pytest.approx(E, abs=1e-12 * max(1.0, E))
+            assert energy(BODY, state) == approx(E, abs=1e-12 * max(1.0, E))
             assert field(BODY, state)[k + 1] > 0.0
         psi, delta = SuslovSection(BODY, 0.0, k).places_of(found).T
-        turns = np.abs(psi[:, None] + 2.0 * math.pi * np.arange(-3, 4) - 0.5 * (psi0 + psi1))
+        turns = np.abs(psi[:, None] + 2.0 * pi * np.arange(-3, 4) - 0.5 * (psi0 + psi1))
         assert np.all(turns.min(axis=1) <= (psi1 - psi0) / 2 + 1e-9)
         assert np.all((delta > delta0) & (delta < delta1 + 1e-9))
     else:
@@ -127,19 +118,19 @@ def test_seeds_are_as_many_as_asked_for_wherever_the_energy_allows_any(k, above,
 def test_seeds_fill_what_is_possible_evenly():
     E = 0.1
     psi, delta = SuslovSection(BODY, 0.0, 3).places_of(np.array(SuslovSection(BODY, E, 3).spread(WHOLE, 400))).T
-    fine = np.linspace(-math.pi, math.pi, 8001)[:-1]
+    fine = np.linspace(-pi, pi, 8001)[:-1]
     allowed = np.sort(fine[SuslovSection(BODY, E, 3).possible(fine)])
     # The seeds have the same share below each quarter of what is possible.
     for share in (0.25, 0.5, 0.75):
-        assert np.mean(psi < allowed[int(share * len(allowed))]) == pytest.approx(share, abs=0.02)
-        assert np.mean(delta < share * math.pi) == pytest.approx(share, abs=0.02)
+        assert np.mean(psi < allowed[int(share * len(allowed))]) == approx(share, abs=0.02)
+        assert np.mean(delta < share * pi) == approx(share, abs=0.02)
 
 
 # ---- points ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("k", [1, 2, 3])
-@pytest.mark.parametrize("forward", [True, False])
+@mark.parametrize("k", [1, 2, 3])
+@mark.parametrize("forward", [True, False])
 def test_points_are_on_the_plane_and_keep_the_integrals(k, forward):
     body, E = SEA[0], 0.4
     starts = SuslovSection(body, E, k).spread(WHOLE, 6)
@@ -157,7 +148,7 @@ def test_points_are_on_the_plane_and_keep_the_integrals(k, forward):
     assert max(found.drift.values()) < 1e-9
 
 
-@pytest.mark.parametrize(("k", "forward", "count"), [(1, True, 3), (2, False, 8), (3, True, 8), (3, False, 8)])
+@mark.parametrize(("k", "forward", "count"), [(1, True, 3), (2, False, 8), (3, True, 8), (3, False, 8)])
 def test_the_first_points_are_those_of_scipy(k, forward, count):
     body = SEA[0]
     start = SuslovSection(body, 0.4, k).state_at(-0.3, 0.9)
@@ -166,7 +157,7 @@ def test_the_first_points_are_those_of_scipy(k, forward, count):
     sense = 1 if forward else -1
     _, exact = scipy_crossings(lambda y: field(body, y), start, lambda y: y[k + 1], 120.0 * sense, sense)
     # A sea: neighbours part between crossings.
-    assert found == pytest.approx(exact[:count], abs=1e-6)
+    assert found == approx(exact[:count], abs=1e-6)
 
 
 def test_what_attracts_forward_are_permanent_rotations_and_their_mirror_images_attract_backward():
@@ -183,7 +174,7 @@ def test_what_attracts_forward_are_permanent_rotations_and_their_mirror_images_a
             jacobian = differences(lambda y: field(body, y), at_rest[np.argmin(distances)])
             rates = np.sort(np.linalg.eigvals(jacobian).real * (1.0 if forward else -1.0))
             assert rates[2] < -1e-3
-            assert rates[3:] == pytest.approx([0.0, 0.0], abs=1e-4)
+            assert rates[3:] == approx([0.0, 0.0], abs=1e-4)
 
 
 # ---- divergence --------------------------------------------------------------------------------------------------
@@ -191,11 +182,11 @@ def test_what_attracts_forward_are_permanent_rotations_and_their_mirror_images_a
 
 def test_the_divergence_is_that_of_the_field():
     states = np.random.default_rng(3).normal(size=(40, 5))
-    assert divergence(BODY, states) == pytest.approx([divergence_of_field(BODY, y) for y in states], abs=1e-12)
+    assert divergence(BODY, states) == approx([divergence_of_field(BODY, y) for y in states], abs=1e-12)
     assert not divergence(SuslovBody(1.0, 2.0, 0.0, 0.0, 1.0), states).any()
 
 
-@pytest.mark.parametrize("span", [5.0, -5.0])
+@mark.parametrize("span", [5.0, -5.0])
 def test_volume_grows_by_the_integral_of_the_divergence(span):
     # Liouville: the determinant of five neighbours' differences against ∫ div dt.
     start = SuslovSection(BODY, 0.6, 3).state_at(1.2, 0.9)
@@ -203,7 +194,7 @@ def test_volume_grows_by_the_integral_of_the_divergence(span):
     times = np.linspace(0.0, span, 2001)
     integral = simpson(divergence(BODY, solve(BODY, start, times, REFERENCE).states), x=times)
     assert abs(integral) > 0.01
-    assert math.log(np.linalg.det(matrix)) == pytest.approx(integral, abs=1e-7)
+    assert log(np.linalg.det(matrix)) == approx(integral, abs=1e-7)
 
 
 # ---- exponents ---------------------------------------------------------------------------------------------------
@@ -219,28 +210,22 @@ def exponents(problem, span, count=6):
         lyapunov_exponent(body, SuslovSection(body, E, 3).state_at(1.0 + 1e-3 * k, 1.0), span).value
         for k in range(count)
     ]
-    return np.mean(found), np.std(found, ddof=1) / math.sqrt(count)
+    return np.mean(found), np.std(found, ddof=1) / sqrt(count)
 
 
 def test_the_exponents_of_chaotic_examples_are_positive_and_do_not_depend_on_the_time():
     for problem in (SEA, STRANGE):
         (shorter, off), (longer, less) = exponents(problem, 2500.0), exponents(problem, 5000.0)
         assert shorter > 0.05 + 3.0 * off
-        assert abs(longer - shorter) < 5.0 * math.hypot(off, less)
+        assert abs(longer - shorter) < 5.0 * hypot(off, less)
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("problem", "place", "forward", "backward", "count"),
     sample(
         [
             # The example "A chaotic sea" of the orbit diagram, then that of the section.
-            (
-                (SHRINKING, 1.9 - math.hypot(SHRINKING.b1, SHRINKING.b2, SHRINKING.b3)),
-                (-1.0063, 1.1872),
-                -0.0069,
-                0.0064,
-                3,
-            ),
+            ((SHRINKING, 1.9 - hypot(SHRINKING.b1, SHRINKING.b2, SHRINKING.b3)), (-1.0063, 1.1872), -0.0069, 0.0064, 3),
             (SEA, (1.0, 1.0), -0.00046, 0.00045, 16),
         ],
         1,
@@ -258,9 +243,9 @@ def test_the_chaotic_seas_of_the_scenes_keep_no_volume(problem, place, forward, 
                 states = solve(body, state, sense * np.linspace(0.0, 2000.0, 40_001), DRAFT).states
                 pieces.append(float(np.mean(states[1:] @ slopes)))
                 state = tuple(states[-1])
-        mean, error = np.mean(pieces), np.std(pieces, ddof=1) / math.sqrt(len(pieces))
+        mean, error = np.mean(pieces), np.std(pieces, ddof=1) / sqrt(len(pieces))
         assert abs(mean) > 4.0 * error
-        assert mean == pytest.approx(expected, abs=5.0 * error)
+        assert mean == approx(expected, abs=5.0 * error)
 
 
 def test_a_periodic_attractor_has_no_positive_exponent():

@@ -1,13 +1,13 @@
 """The region of (h, f), its edge, and the turning points, against multiple precision."""
 
-import math
 from functools import cache
+from math import atan2, inf, log, log10, nan, pi, remainder, sqrt
 
 import mpmath
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from pytest import approx, mark, raises
 
 from hess_mechanics import curve, curve_point, f_max, systems, turning_points
 from hess_mechanics.errors import InvalidParameter, ModelError, OutsideRegion, Separatrix
@@ -27,10 +27,7 @@ energies = st.one_of(
 )
 # f/f_max: anything, next to 0, next to the edge, the edge itself.
 shares = st.one_of(
-    st.floats(-1.0, 1.0),
-    st.floats(-140.0, -1.0).map(lambda e: 10.0**e),
-    tiny.map(lambda e: 1 - e),
-    st.just(1.0),
+    st.floats(-1.0, 1.0), st.floats(-140.0, -1.0).map(lambda e: 10.0**e), tiny.map(lambda e: 1 - e), st.just(1.0)
 )
 # f² must not underflow; f = 0 at h = 1 is the separatrix.
 tori = st.tuples(energies, shares).filter(lambda t: abs(t[1]) > 1e-140 or (t[1] == 0 and t[0] != 1.0))
@@ -65,8 +62,8 @@ CASES = [
 
 def digits(h, f):
     """Digits that leave 40 after every cancellation in the cubic."""
-    small = sum(max(0, int(-math.log10(abs(value)))) for value in (f, f, f, f, h) if value)
-    return 60 + int(6 * math.log10(abs(h) + 10)) + small
+    small = sum(max(0, int(-log10(abs(value)))) for value in (f, f, f, f, h) if value)
+    return 60 + int(6 * log10(abs(h) + 10)) + small
 
 
 @cache
@@ -97,7 +94,7 @@ def double_root(h):
 
 @cache
 def exact_f_max(h):
-    with mpmath.workdps(60 + int(6 * math.log10(abs(h) + 10))):
+    with mpmath.workdps(60 + int(6 * log10(abs(h) + 10))):
         h = mpmath.mpf(h)
         n = double_root(h)
         return mpmath.sqrt(2 * (h + n) * (1 - n * n))
@@ -113,7 +110,7 @@ def exact_neighbours(h, f):
 
 @cache
 def on_the_edge(h):
-    with mpmath.workdps(60 + int(6 * math.log10(abs(h) + 10))):
+    with mpmath.workdps(60 + int(6 * log10(abs(h) + 10))):
         h = mpmath.mpf(h)
         n = double_root(h)
         return values_of(h, -h - 2 * n, n, n)
@@ -133,23 +130,23 @@ def check_against_multiple_precision(h, f):
 
 @given(energies)
 def test_the_largest_f_is_that_of_multiple_precision(h):
-    assert f_max(h) == pytest.approx(float(exact_f_max(h)), rel=2e-15)
+    assert f_max(h) == approx(float(exact_f_max(h)), rel=2e-15)
 
 
-@pytest.mark.parametrize(("h", "f"), CASES)
+@mark.parametrize(("h", "f"), CASES)
 def test_turning_points_at_special_places_keep_their_relative_accuracy(h, f):
     check_against_multiple_precision(h, f)
 
 
-@pytest.mark.parametrize("h", [-1 + 1e-12, -0.9999999, -0.99, -0.8956597165020208, -0.5, 0.0, 1.0, 7.0, 1e6])
-@pytest.mark.parametrize("inside", [0.0, 1e-15, 1e-12, 1e-9])
+@mark.parametrize("h", [-1 + 1e-12, -0.9999999, -0.99, -0.8956597165020208, -0.5, 0.0, 1.0, 7.0, 1e6])
+@mark.parametrize("inside", [0.0, 1e-15, 1e-12, 1e-9])
 def test_turning_points_at_the_edge_are_those_of_the_curve(h, inside):
     found = check_against_multiple_precision(h, f_max(h) * (1 - inside))
     edge = on_the_edge(h)
     # The gap of the two roots opens like the square root of the distance to the curve.
-    opening = 4 * math.sqrt(inside + ULP)
-    assert found.w_squared == pytest.approx(float(edge["w_squared"]), rel=opening)
-    assert found.sine_squared == pytest.approx(float(edge["sine_squared"]), rel=opening)
+    opening = 4 * sqrt(inside + ULP)
+    assert found.w_squared == approx(float(edge["w_squared"]), rel=opening)
+    assert found.sine_squared == approx(float(edge["sine_squared"]), rel=opening)
 
 
 @given(tori)
@@ -158,7 +155,7 @@ def test_turning_points_and_the_period_keep_their_accuracy_everywhere(torus):
     check_against_multiple_precision(h, share * f_max(h))
 
 
-@pytest.mark.parametrize(("h", "f"), [(0.5, 0.5), (1.5, 0.6), (-0.9, 0.05), (0.2, 0.0), (3.0, 0.0), (100.0, 5.0)])
+@mark.parametrize(("h", "f"), [(0.5, 0.5), (1.5, 0.6), (-0.9, 0.05), (0.2, 0.0), (3.0, 0.0), (100.0, 5.0)])
 def test_the_period_is_the_time_between_two_returns(h, f):
     values = exact(h, f)
     middle, half = (values["n1"] + values["n2"]) / 2, (values["n2"] - values["n1"]) / 2
@@ -167,16 +164,16 @@ def test_the_period_is_the_time_between_two_returns(h, f):
         lambda s: 1 / mpmath.sqrt(2 * (middle + half * mpmath.sin(s) - values["n0"])),
         [-mpmath.pi / 2, 0, mpmath.pi / 2],
     )
-    assert turning_points(h, f).period == pytest.approx(float(time), rel=1e-13)
+    assert turning_points(h, f).period == approx(float(time), rel=1e-13)
 
 
 def test_next_to_the_separatrix_the_period_grows_like_a_logarithm():
     # Near the saddle x = 1 + n3 obeys ẋ² = 4x² − f²: the period is ln(1/f) and a constant.
     periods = [turning_points(1.0, 10.0**-k).period for k in (20, 40, 60, 80)]
-    assert np.diff(periods) == pytest.approx([20 * math.log(10.0)] * 3, rel=1e-9)
+    assert np.diff(periods) == approx([20 * log(10.0)] * 3, rel=1e-9)
 
 
-@given(tori, st.floats(-math.pi, math.pi))
+@given(tori, st.floats(-pi, pi))
 def test_the_state_at_the_lower_turn_is_on_the_torus_and_turns_there(torus, phi):
     h, share = torus
     f = share * f_max(h)
@@ -184,14 +181,14 @@ def test_the_state_at_the_lower_turn_is_on_the_torus_and_turns_there(torus, phi)
     y = turning.state_at_lower_turn(phi)
     hess = systems()["hess"]
     found = hess.integrals(y, (0.7, 1.0))
-    assert found["E"] == pytest.approx(h, abs=1e-15 * (abs(h) + 10))
-    assert found["F1"] == pytest.approx(1.0, abs=1e-14)
-    assert found["F2"] == pytest.approx(f, rel=1e-6 if abs(share) > 0.999 else 1e-13, abs=1e-300)
-    assert hess.field(y, (0.7, 1.0))[4] == pytest.approx(0.0, abs=1e-15 * (1 + turning.initial_rho))
+    assert found["E"] == approx(h, abs=1e-15 * (abs(h) + 10))
+    assert found["F1"] == approx(1.0, abs=1e-14)
+    assert found["F2"] == approx(f, rel=1e-6 if abs(share) > 0.999 else 1e-13, abs=1e-300)
+    assert hess.field(y, (0.7, 1.0))[4] == approx(0.0, abs=1e-15 * (1 + turning.initial_rho))
     assert y[4] == turning.roots[1] <= turning.roots[2]
     if turning.initial_rho > 0:
-        assert math.remainder(math.atan2(y[0], y[1]) - phi, 2 * math.pi) == pytest.approx(0.0, abs=1e-15)
-    assert turning.initial_rho**2 == pytest.approx(turning.w_squared, rel=1e-15)
+        assert remainder(atan2(y[0], y[1]) - phi, 2 * pi) == approx(0.0, abs=1e-15)
+    assert turning.initial_rho**2 == approx(turning.w_squared, rel=1e-15)
 
 
 def test_the_turning_points_do_not_know_the_sign_of_f_and_of_zero():
@@ -209,26 +206,26 @@ def test_the_turning_points_do_not_know_the_sign_of_f_and_of_zero():
 def test_points_of_the_curve_are_where_the_cubic_has_a_double_root(n):
     h, f = curve_point(n)
     size = abs(h) + 1
-    assert 2 * (h + n) * (1 - n * n) - f * f == pytest.approx(0.0, abs=1e-14 * size)  # p(n) = 0
-    assert 2 * (1 - n * n) - 4 * n * (h + n) == pytest.approx(0.0, abs=1e-14 * size)  # p'(n) = 0
+    assert 2 * (h + n) * (1 - n * n) - f * f == approx(0.0, abs=1e-14 * size)  # p(n) = 0
+    assert 2 * (1 - n * n) - 4 * n * (h + n) == approx(0.0, abs=1e-14 * size)  # p'(n) = 0
     assert f >= 0
     if h > -1.0:
         # dh along the curve at fixed f is what the rounding of h does to f: small next to (−1, 0) only.
-        assert f == pytest.approx(f_max(h), rel=1e-14, abs=4 * ULP / max(1 - n, ULP))
+        assert f == approx(f_max(h), rel=1e-14, abs=4 * ULP / max(1 - n, ULP))
 
 
 def test_the_curve_is_the_corrected_equation_from_the_bottom_to_its_end():
     points = curve(4.0, points=300)
     assert points.shape == (300, 2)
     assert tuple(points[0]) == (-1.0, 0.0)
-    assert points[-1, 0] == pytest.approx(4.0, abs=1e-12)
+    assert points[-1, 0] == approx(4.0, abs=1e-12)
     assert np.all(np.diff(points, axis=0) > 0)
     for h, f in points[1:]:
-        assert f == pytest.approx(f_max(h), rel=1e-11)
+        assert f == approx(f_max(h), rel=1e-11)
     # Even enough to draw: no gap is longer than a few times the mean.
     lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
     assert lengths.max() < 10 * lengths.mean()
-    with pytest.raises(ValueError, match="read-only"):
+    with raises(ValueError, match="read-only"):
         points[0, 0] = 0.0
 
 
@@ -244,7 +241,7 @@ def test_the_special_points_are_the_two_equilibria():
     assert set(SPECIAL_POINTS) == found
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("h", "f", "error", "words"),
     [
         (-1.0, 0.0, OutsideRegion, "choose h > −1"),
@@ -254,46 +251,46 @@ def test_the_special_points_are_the_two_equilibria():
         (1.0, 0.0, Separatrix, "no return"),
         (1.0, -0.0, Separatrix, "no return"),
         (1.0, 1e-300, Separatrix, "no return. Move h or f a little"),
-        (math.nan, 0.0, InvalidParameter, "h is not a finite number"),
-        (0.0, -math.inf, InvalidParameter, "f is not a finite number"),
+        (nan, 0.0, InvalidParameter, "h is not a finite number"),
+        (0.0, -inf, InvalidParameter, "f is not a finite number"),
         (1e13, 0.0, InvalidParameter, "choose h ≤ 1e12"),
     ],
 )
 def test_values_without_a_torus_raise_a_sentence(h, f, error, words):
     assert issubclass(error, ModelError)
-    with pytest.raises(error, match=f"(?i){words}"):
+    with raises(error, match=f"(?i){words}"):
         turning_points(h, f)
 
 
-@pytest.mark.parametrize("h", [-0.5, 0.3, 0.7])
+@mark.parametrize("h", [-0.5, 0.3, 0.7])
 def test_at_f_0_the_state_is_the_limit_from_above(h):
     above, at = (turning_points(h, f).state_at_lower_turn(0.7) for f in (1e-12, 0.0))
     assert np.allclose(at, above, atol=1e-9)
     assert np.hypot(*at[2:4]) > 0.7
 
 
-@pytest.mark.parametrize("use", [f_max, curve])
+@mark.parametrize("use", [f_max, curve])
 def test_no_edge_is_drawn_below_the_bottom(use):
-    for h, error in ((-1.0, OutsideRegion), (math.nan, InvalidParameter)):
-        with pytest.raises(error):
+    for h, error in ((-1.0, OutsideRegion), (nan, InvalidParameter)):
+        with raises(error):
             use(h)
 
 
-@pytest.mark.parametrize("n", [0.0, 1.0 + 1e-15, math.nan])
+@mark.parametrize("n", [0.0, 1.0 + 1e-15, nan])
 def test_points_beside_the_curve_raise_a_sentence(n):
-    with pytest.raises(InvalidParameter, match="choose 0 < n3 ≤ 1"):
+    with raises(InvalidParameter, match="choose 0 < n3 ≤ 1"):
         curve_point(n)
 
 
-@pytest.mark.parametrize(("h", "f"), [(1.5, 0.6), (-0.5, 0.1), (30.0, -4.0)])
+@mark.parametrize(("h", "f"), [(1.5, 0.6), (-0.5, 0.1), (30.0, -4.0)])
 def test_w_is_smallest_and_largest_where_n3_turns(h, f):
     turning = turning_points(h, f)
     for rho, n3 in ((turning.initial_rho, turning.roots[1]), (turning.final_rho, turning.roots[2])):
-        assert 0.5 * rho * rho - n3 == pytest.approx(h, rel=1e-12)
+        assert 0.5 * rho * rho - n3 == approx(h, rel=1e-12)
     assert turning.initial_rho < turning.final_rho
 
 
 def test_the_least_energy_is_where_f_is_the_largest():
-    assert h_min(0.0) == pytest.approx(-1.0, abs=1e-12)
+    assert h_min(0.0) == approx(-1.0, abs=1e-12)
     for f in (1e-6, -0.3, 17.0):
-        assert f_max(h_min(f)) == pytest.approx(abs(f), rel=1e-9)
+        assert f_max(h_min(f)) == approx(abs(f), rel=1e-9)

@@ -1,7 +1,5 @@
 """The edge of the possible (h, f): no torus, but a circle of states with two equilibria, or one periodic orbit."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import product
 

@@ -1,14 +1,15 @@
 """The Suslov–Hess case: the body, and the map between `Biz131` and `eq01`."""
 
-import math
+from math import atan2, copysign, hypot, inf, nan, sqrt, tan
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from pytest import approx, mark, raises
 
 from hess_mechanics import HessBody, systems
-from hess_mechanics.errors import InvalidParameter, NoField, NotPositiveDefinite
+from hess_mechanics.errors import NoField, NotPositiveDefinite
+from support.refusals import refused
 
 SUSLOV, HESS = systems()["suslov"], systems()["hess"]
 
@@ -34,10 +35,10 @@ def angular_momentum_about_the_vertical(body, y):
 @given(bodies)
 def test_derived_values_satisfy_the_conditions_of_hess(body):
     product_of_moments = body.I11 * body.I22
-    assert product_of_moments == pytest.approx(body.I22**2 + body.I23**2, rel=1e-14)  # bizi1
+    assert product_of_moments == approx(body.I22**2 + body.I23**2, rel=1e-14)  # bizi1
     assert abs(body.I22 * body.b2 + body.I23 * body.b3) <= 1e-14 * abs(body.I23 * body.b3) + 1e-300  # bizi2
-    assert math.tan(math.atan2(body.I23, body.I22)) == pytest.approx(body.a, rel=1e-13)
-    assert body.b**2 * (body.I22**2 + body.I23**2) == pytest.approx(body.b3**2, rel=1e-13, abs=1e-300)
+    assert tan(atan2(body.I23, body.I22)) == approx(body.a, rel=1e-13)
+    assert body.b**2 * (body.I22**2 + body.I23**2) == approx(body.b3**2, rel=1e-13, abs=1e-300)
     assert body.b * body.b3 <= 0
     assert body.suslov.parameters == (body.I11, body.I22, 0.0, body.I23, 0.0, body.b2, body.b3)
 
@@ -46,26 +47,26 @@ def test_derived_values_satisfy_the_conditions_of_hess(body):
 def test_the_third_coordinate_of_the_centre_of_mass_has_b2_where_the_paper_prints_b3(I22, I23, b):
     # After `eq02`, before `bizi2` is used: the potential (b, γ) is (c, n) for every γ, c the new coordinates.
     body, (b1, b2, b3) = HessBody(I22, I23, 1.0), b
-    c = (b1, (I22 * b2 + I23 * b3) / math.hypot(I22, I23), (I22 * b3 - I23 * b2) / math.hypot(I22, I23))
+    c = (b1, (I22 * b2 + I23 * b3) / hypot(I22, I23), (I22 * b3 - I23 * b2) / hypot(I22, I23))
     size = 1e-13 * (1.0 + max(map(abs, b)))
     for gamma in np.eye(3):
         n = body.to_reduced(np.array([0.0, 0.0, *gamma]))[2:]
-        assert n @ c == pytest.approx(gamma @ np.array(b), abs=size)
-    printed = (I22 * b3 - I23 * b3) / math.hypot(I22, I23)
-    assert abs(printed - c[2]) == pytest.approx(abs(I23 * (b3 - b2)) / math.hypot(I22, I23), abs=size)
+        assert n @ c == approx(gamma @ np.array(b), abs=size)
+    printed = (I22 * b3 - I23 * b3) / hypot(I22, I23)
+    assert abs(printed - c[2]) == approx(abs(I23 * (b3 - b2)) / hypot(I22, I23), abs=size)
 
 
 @given(bodies, states)
 def test_the_map_to_the_reduced_variables_has_an_inverse(body, y):
     size = 1.0 + np.max(np.abs(y))
-    assert body.from_reduced(body.to_reduced(y)) == pytest.approx(y, abs=1e-14 * size)
-    assert body.to_reduced(body.from_reduced(y)) == pytest.approx(y, abs=1e-14 * size)
+    assert body.from_reduced(body.to_reduced(y)) == approx(y, abs=1e-14 * size)
+    assert body.to_reduced(body.from_reduced(y)) == approx(y, abs=1e-14 * size)
 
 
 @given(bodies_in_a_field, states)
 def test_the_change_of_units_has_an_inverse(body, y):
-    assert body.from_units_of_b(body.in_units_of_b(y)) == pytest.approx(y, rel=1e-14)
-    assert body.in_units_of_b(body.from_units_of_b(y)) == pytest.approx(y, rel=1e-14)
+    assert body.from_units_of_b(body.in_units_of_b(y)) == approx(y, rel=1e-14)
+    assert body.in_units_of_b(body.from_units_of_b(y)) == approx(y, rel=1e-14)
 
 
 def test_maps_take_whole_orbits():
@@ -78,9 +79,9 @@ def test_maps_take_whole_orbits():
 @given(bodies, states)
 def test_the_reduction_is_a_rotation_of_the_vertical(body, y):
     reduced = body.to_reduced(y)
-    assert np.linalg.norm(reduced[2:]) == pytest.approx(np.linalg.norm(y[2:]), rel=1e-14, abs=1e-300)
+    assert np.linalg.norm(reduced[2:]) == approx(np.linalg.norm(y[2:]), rel=1e-14, abs=1e-300)
     assert reduced[0] == y[0]
-    assert reduced[1] * math.hypot(1.0, body.a) == pytest.approx(y[1], rel=1e-14)  # eq02, corrected
+    assert reduced[1] * hypot(1.0, body.a) == approx(y[1], rel=1e-14)  # eq02, corrected
 
 
 @given(bodies, states)
@@ -97,53 +98,47 @@ def test_energy_and_angular_momentum_are_those_of_suslov_divided_by_I11(body, y)
     suslov = SUSLOV.integrals(y, body.suslov.parameters)
     hess = HESS.integrals(body.to_reduced(y), (body.a, body.b))
     size = 1.0 + (1.0 + abs(body.b)) * np.max(np.abs(y)) ** 2
-    assert hess["E"] == pytest.approx(suslov["E"] / body.I11, abs=1e-13 * size)
-    assert hess["F1"] == pytest.approx(suslov["F1"], rel=1e-13, abs=1e-300)
-    assert hess["F2"] == pytest.approx(angular_momentum_about_the_vertical(body, y) / body.I11, abs=1e-13 * size)
+    assert hess["E"] == approx(suslov["E"] / body.I11, abs=1e-13 * size)
+    assert hess["F1"] == approx(suslov["F1"], rel=1e-13, abs=1e-300)
+    assert hess["F2"] == approx(angular_momentum_about_the_vertical(body, y) / body.I11, abs=1e-13 * size)
 
 
 @given(bodies_in_a_field, states)
 def test_in_units_of_b_the_field_and_the_integrals_have_b_one(body, y):
-    nu, sign = math.sqrt(abs(body.b)), math.copysign(1.0, body.b)
-    assert body.frequency_unit == pytest.approx(nu, rel=1e-15)
+    nu, sign = sqrt(abs(body.b)), copysign(1.0, body.b)
+    assert body.frequency_unit == approx(nu, rel=1e-15)
     unit = body.in_units_of_b(y)
     image = body.in_units_of_b(np.array(HESS.field(y, (body.a, body.b)))) / nu
     expected = np.array(HESS.field(unit, (body.a, 1.0)))
     size = (1.0 + abs(body.a)) * (1.0 + np.max(np.abs(unit))) ** 2
     assert np.max(np.abs(image - expected)) < 1e-14 * size
     own, in_units = HESS.integrals(y, (body.a, body.b)), HESS.integrals(unit, (body.a, 1.0))
-    assert in_units["E"] == pytest.approx(own["E"] / nu**2, abs=1e-13 * size)
-    assert in_units["F2"] == pytest.approx(sign * own["F2"] / nu, abs=1e-13 * size)
+    assert in_units["E"] == approx(own["E"] / nu**2, abs=1e-13 * size)
+    assert in_units["F2"] == approx(sign * own["F2"] / nu, abs=1e-13 * size)
 
 
-@pytest.mark.parametrize("b3", [0.0, -0.0])
+@mark.parametrize("b3", [0.0, -0.0])
 def test_without_a_field_there_are_no_units_of_b(b3):
     body = HessBody(1.0, 0.5, b3)
     assert body.suslov.parameters[4:] == (0.0, 0.0, 0.0)
     assert np.all(np.isfinite(body.to_reduced(START)))
     for use in (lambda: body.frequency_unit, lambda: body.in_units_of_b(START), lambda: body.from_units_of_b(START)):
-        with pytest.raises(NoField, match="b3 = 0"):
+        with raises(NoField, match="b3 = 0"):
             use()
 
 
-@pytest.mark.parametrize(
-    ("values", "error", "words"),
-    [
-        ((1e-200, 1e200, 1.0), InvalidParameter, "choose"),
-        ((1e308, 1e308, 1.0), InvalidParameter, "choose"),
-        ((1e-320, 0.0, 1e300), InvalidParameter, "choose"),
-        ((math.nan, 0.5, 1.0), InvalidParameter, "I22 is not a finite number"),
-        ((1.0, math.inf, 1.0), InvalidParameter, "I23 is not a finite number"),
-        ((1.0, 0.5, -math.inf), InvalidParameter, "b3 is not a finite number"),
-        ((-0.0, 0.5, 1.0), NotPositiveDefinite, "choose I22 > 0"),
-        ((-1.0, 0.5, 1.0), NotPositiveDefinite, "choose I22 > 0"),
-    ],
+test_numbers_that_make_no_body_are_refused = refused(
+    (lambda: HessBody(1e-200, 1e200, 1.0), "choose"),
+    (lambda: HessBody(1e308, 1e308, 1.0), "choose"),
+    (lambda: HessBody(1e-320, 0.0, 1e300), "choose"),
+    (lambda: HessBody(nan, 0.5, 1.0), "I22 is not a finite number"),
+    (lambda: HessBody(1.0, inf, 1.0), "I23 is not a finite number"),
+    (lambda: HessBody(1.0, 0.5, -inf), "b3 is not a finite number"),
+    (lambda: HessBody(-0.0, 0.5, 1.0), "choose I22 > 0", NotPositiveDefinite),
+    (lambda: HessBody(-1.0, 0.5, 1.0), "choose I22 > 0", NotPositiveDefinite),
 )
-def test_numbers_that_make_no_body_are_refused(values, error, words):
-    with pytest.raises(error, match=words):
-        HessBody(*values)
 
 
 def test_a_body_cannot_be_changed_after_it_was_checked():
-    with pytest.raises(AttributeError):
+    with raises(AttributeError):
         BODY.I22 = -1.0

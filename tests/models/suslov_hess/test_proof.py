@@ -1,7 +1,5 @@
 """Proofs of two limit cycles, or none: compared with multiple-precision values; altered certificates are refused."""
 
-from __future__ import annotations
-
 import json
 import random
 import re
@@ -10,17 +8,18 @@ import sys
 from fractions import Fraction
 
 import mpmath
-import pytest
 from mpmath import iv
+from pytest import approx, mark, raises
 
 import oracle
 from check_certificate import Refused, verify
-from hess_mechanics import EdgeProof, certificate, circle_map, curve_point, f_max, level, prove
+from hess_mechanics import EdgeProof, certificate, circle_map, curve_point, f_max, prove
 from hess_mechanics.errors import InvalidParameter, MissingLibrary, OutsideRegion, Separatrix, WorkLimit
 from hess_mechanics.numerics.balls import Enclosure, exact
 from hess_mechanics.suslov_hess.certificate import claim
 from oracle.kept import KEPT
-from support.mechanics import REFERENCE, ROOT
+from support.mechanics import REFERENCE, ROOT, every_known_torus
+from support.refusals import refused
 from support.thorough import sample
 
 STATEMENTS = {True: "two cycles", False: "no cycle"}
@@ -46,7 +45,7 @@ def kept_maps(most):
 # ---- enclosures hold what is known ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("row", REFERENCE["hess_monodromy"], ids=lambda row: f"h={row['h']},f={row['f']},a={row['a']}")
+@every_known_torus
 def test_the_trace_and_the_roots_of_the_reference_are_enclosed(row):
     proof = prove(row["a"], row["h"], row["f"])
     low, high = map(Fraction, certificate(proof)["trace"])
@@ -60,7 +59,7 @@ def test_the_trace_and_the_roots_of_the_reference_are_enclosed(row):
         assert root.width < Fraction(1, 10**19)
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("moved", "row"),
     [(name, row) for name, rows in (("f", "lock_boundary"), ("a", "a_critical")) for row in REFERENCE[rows]],
     ids=str,
@@ -98,16 +97,16 @@ def test_cycles_and_rotation_numbers_are_those_of_the_map_to_forty_digits():
                 image = (known.A * z + known.B) / (mpmath.conj(known.B) * z + mpmath.conj(known.A))
                 steep = rational(1 / abs(known.A * z + known.B) ** 2)
                 assert abs(image - z) < 1e-9 * max(1, steep)
-                assert steep == pytest.approx(float(multiplier.low), rel=1e-6)
-        approximate = circle_map(float(a), float(h), float(f), level("reference")).rotation_number
-        assert float(proof.rotation_number.low) == pytest.approx(approximate, abs=1e-7)
+                assert steep == approx(float(multiplier.low), rel=1e-6)
+        approximate = circle_map(float(a), float(h), float(f), "reference").rotation_number
+        assert float(proof.rotation_number.low) == approx(approximate, abs=1e-7)
         if proof.statement == "no cycle":
             with mpmath.workdps(40):
                 share = mpmath.mpf(proof.rotation_number.low.numerator) / proof.rotation_number.low.denominator
-                assert abs(2 * mpmath.cospi(share)) == pytest.approx(float(proof.trace.low), abs=1e-14)
+                assert abs(2 * mpmath.cospi(share)) == approx(float(proof.trace.low), abs=1e-14)
 
 
-@pytest.mark.parametrize("a", ["0", "0.3", "-2", "100"])
+@mark.parametrize("a", ["0", "0.3", "-2", "100"])
 def test_a_pendulum_that_goes_round_has_the_trace_of_its_closed_form(a):
     """f = 0, h > 1: 2 cosh(πa), whatever h."""
     proof = prove(a, "1.7", "0", 64)
@@ -133,11 +132,11 @@ def test_signs_of_a_and_f_change_nothing_but_senses():
 def test_numbers_are_taken_as_exact_decimals():
     assert exact("a", 0.1) == exact("a", "0.1") == exact("a", "1/10") == Fraction(1, 10)
     for text in ("", "x", "nan", "inf", "1/0", "1/2/3", "1e999999999", "1/1e-999", "9" * 101, "1_0_", "１"):
-        with pytest.raises(InvalidParameter, match="no number that can be taken as exact"):
+        with raises(InvalidParameter, match="no number that can be taken as exact"):
             exact("a", text)
 
 
-@pytest.mark.parametrize("decimals", [None, 3, 12])
+@mark.parametrize("decimals", [None, 3, 12])
 def test_decimals_enclose_the_ends(decimals):
     rng = random.Random(4)
     for _ in range(200):
@@ -149,30 +148,24 @@ def test_decimals_enclose_the_ends(decimals):
         assert Fraction(low) <= found.low <= found.high <= Fraction(high)
 
 
-@pytest.mark.parametrize(
-    ("torus", "error", "words"),
-    [
-        (("0.5", "1", "0"), Separatrix, "separatrix"),
-        (("0.5", "-1", "0"), OutsideRegion, "at or below the bottom"),
-        (("0.5", "0", "2"), OutsideRegion, "choose"),
-        (("2e6", "0", "0.1"), InvalidParameter, "choose"),
-        (("0.5", "2e12", "0.1"), InvalidParameter, "choose"),
-        (("0.5", "0", "1e-150"), InvalidParameter, "choose f = 0 or"),
-        (("1e5", "0.5", "0.3"), WorkLimit, "smaller"),
-    ],
+test_what_cannot_be_proved_is_refused_with_a_sentence = refused(
+    (lambda: prove("0.5", "1", "0"), "separatrix", Separatrix),
+    (lambda: prove("0.5", "-1", "0"), "at or below the bottom", OutsideRegion),
+    (lambda: prove("0.5", "0", "2"), "choose", OutsideRegion),
+    (lambda: prove("2e6", "0", "0.1"), "choose"),
+    (lambda: prove("0.5", "2e12", "0.1"), "choose"),
+    (lambda: prove("0.5", "0", "1e-150"), "choose f = 0 or"),
+    (lambda: prove("1e5", "0.5", "0.3"), "smaller", WorkLimit),
 )
-def test_what_cannot_be_proved_is_refused_with_a_sentence(torus, error, words):
-    with pytest.raises(error, match=words):
-        prove(*torus)
 
 
 def test_the_edge_is_told_exactly_from_both_sides():
     """Beyond the edge by 1e-60, undetectable in doubles, no motion exists; before it a torus; on it a circle."""
     h, f = Fraction(13, 8), Fraction(15, 8)
-    assert (float(h), float(f)) == pytest.approx(curve_point(0.25), abs=1e-15)
-    assert f_max(float(h)) == pytest.approx(float(f), abs=1e-15)
+    assert (float(h), float(f)) == approx(curve_point(0.25), abs=1e-15)
+    assert f_max(float(h)) == approx(float(f), abs=1e-15)
     tiny = Fraction(1, 10**60)
-    with pytest.raises(OutsideRegion, match="exactly"):
+    with raises(OutsideRegion, match="exactly"):
         prove("0.5", h, f + tiny)
     assert prove("0.5", h, f - tiny).statement == "two cycles"
     on_it = prove("0.5", h, f)
@@ -193,7 +186,7 @@ def test_where_the_trace_is_2_nothing_is_claimed():
 
 def test_without_the_library_a_sentence_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "flint", None)
-    with pytest.raises(MissingLibrary, match=r"pip install 'hess-explorer\[prove\]'"):
+    with raises(MissingLibrary, match=r"pip install 'hess-explorer\[prove\]'"):
         prove("0.5", "1.5", "0.6")
 
 
@@ -208,7 +201,7 @@ def certified(torus):
     return json.loads(json.dumps(certificate(prove(*torus))))
 
 
-@pytest.mark.parametrize("torus", [LOCKED, TURNING, LIMIT])
+@mark.parametrize("torus", [LOCKED, TURNING, LIMIT])
 def test_a_certificate_holds_for_a_checker_that_shares_no_code(torus):
     verify(certified(torus))
 
@@ -229,7 +222,7 @@ def pair(ends):
     return [shifted(end) for end in ends]
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("torus", "path", "change"),
     [
         (LOCKED, ["statement"], lambda _: "no cycle"),
@@ -262,7 +255,7 @@ def pair(ends):
 def test_a_certificate_with_a_change_is_refused(torus, path, change):
     found = certified(torus)
     changed(found, path, change)
-    with pytest.raises(Refused):
+    with raises(Refused):
         verify(found)
 
 
@@ -270,7 +263,7 @@ NO_CYCLE = {"statement": "undecided", "fixed_points": [], "multipliers": [], "ro
 WIDE = {"statement": "undecided", "rotation_number": None, "trace": ["0", "3"], "trace_ball": ["0", "3"]}
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("torus", "change", "words"),
     [
         (LOCKED, {"roots": None}, "only for f = 0, h < 1 is the map a limit"),
@@ -316,11 +309,11 @@ def test_a_forged_certificate_is_refused_with_a_sentence(torus, change, words):
         found.pop(name, None)
         if value is not ...:
             found[name] = value
-    with pytest.raises(Refused, match=re.escape(words)):
+    with raises(Refused, match=re.escape(words)):
         verify(found)
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"format": 1}'])
+@mark.parametrize("text", ["", "{", "[]", "{}", '{"format": 1}'])
 def test_the_checker_says_in_a_sentence_what_it_refuses(text, tmp_path):
     path = tmp_path / "certificate.json"
     path.write_text(text)

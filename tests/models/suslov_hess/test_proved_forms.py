@@ -1,18 +1,16 @@
 """Closed forms of the Suslov–Hess case to thirty digits, against the reference and against proofs by Taylor steps."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
-import pytest
+from pytest import mark, raises
 
 from hess_mechanics import prove
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, Separatrix
 from hess_mechanics.suslov_hess.proved_forms import proved_torus_period, proved_trace_on_curve
-from support.mechanics import REFERENCE
+from support.mechanics import every_known_torus
 
 
-@pytest.mark.parametrize("row", REFERENCE["hess_monodromy"], ids=lambda row: f"h={row['h']},f={row['f']}")
+@every_known_torus
 def test_the_period_of_the_reference_is_enclosed(row):
     found = proved_torus_period(row["h"], row["f"])
     known = Fraction(row["period"])
@@ -21,11 +19,11 @@ def test_the_period_of_the_reference_is_enclosed(row):
     assert found.width < Fraction(1, 10**29)
 
 
-@pytest.mark.parametrize(
+@mark.parametrize(
     ("n", "root"),
     [(Fraction(1, 4), Fraction(1, 2)), (Fraction(1, 9), Fraction(1, 3)), (Fraction(81, 100), Fraction(9, 10))],
 )
-@pytest.mark.parametrize("a", ["0.5", "-1.5"])
+@mark.parametrize("a", ["0.5", "-1.5"])
 def test_the_trace_on_the_edge_is_the_limit_of_the_traces_of_tori(a, n, root):
     """Both are proved, by different means; next to the edge |t| is off by as much as (h, f) is."""
     found = proved_trace_on_curve(a, n)
@@ -35,14 +33,14 @@ def test_the_trace_on_the_edge_is_the_limit_of_the_traces_of_tori(a, n, root):
 
 
 def test_on_the_edge_n3_has_no_period():
-    with pytest.raises(InvalidParameter, match="n3 is constant and has no period"):
+    with raises(InvalidParameter, match="n3 is constant and has no period"):
         proved_torus_period("13/8", "15/8")
 
 
 def test_what_has_no_closed_form_is_refused():
     for torus, error in ((("1", "0"), Separatrix), (("0", "2"), OutsideRegion), (("-1", "0"), OutsideRegion)):
-        with pytest.raises(error):
+        with raises(error):
             proved_torus_period(*torus)
     for n in ("0", "1.5"):
-        with pytest.raises(InvalidParameter, match="not on the curve"):
+        with raises(InvalidParameter, match="not on the curve"):
             proved_trace_on_curve("0.5", n)

@@ -8,8 +8,6 @@ import numpy as np
 import oracle
 from hess_mechanics.chaplygin_ball.equations import SYSTEM
 
-__all__ = ["rows"]
-
 TENSOR = (2.0, 1.0, 0.3, 0.5)
 FIELD = np.array([0.3, -0.5, 1.0])
 OMEGA, GAMMA = (0.8, -0.4), (0.6, 0.0, 0.8)

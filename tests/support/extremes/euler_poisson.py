@@ -7,11 +7,9 @@ import mpmath
 import numpy as np
 
 import oracle
-from hess_mechanics import level, section, solve
+from hess_mechanics import section, solve
 from hess_mechanics.euler_poisson.andoyer import AndoyerPlane, AndoyerSection, hess_curve
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
-
-__all__ = ["rows"]
 
 GESS1 = HeavyBody.hess((1.0, 0.625, 0.375), 9.975)
 GAMMA = (0.36, 0.48, 0.8)
@@ -32,7 +30,7 @@ def an_orbit(Row, name, body, state, times, truth=None, against=None, digits=40,
         return truth() if truth else oracle.orbit_in_decimals(SYSTEM, state, body.parameters, times, digits)
 
     def error(grade):
-        found = solve(body, state, times, level(grade)).states
+        found = solve(body, state, times, grade).states
         apart = oracle.distances(found, once())
         return float(max(np.max(apart[:, :3]) / unit_of(body, state), np.max(apart[:, 3:])))
 
@@ -48,7 +46,7 @@ def crossings(Row, name, body, h, f, place, count, **options):
     truth = oracle.Along(SYSTEM, state, body.parameters, 40)
 
     def error(grade):
-        found = section(body, state, AndoyerPlane(f), 1e4, level(grade), count)
+        found = section(body, state, AndoyerPlane(f), 1e4, grade, count)
         exact = truth.at(found.times.tolist())
         apart = oracle.distances(found.states, exact)
         M, gamma = exact[:, :3].astype(float), exact[:, 3:].astype(float)

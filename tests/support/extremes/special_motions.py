@@ -1,11 +1,11 @@
 """The rows of `test_extremes` for the bridge to Euler–Poisson, the loxodromic pendulum and e on a principal axis."""
 
-import math
 from functools import cache
+from math import atan2, cos, inf, sin, sqrt
 
 import numpy as np
 
-from hess_mechanics import HessBody, f_max, level, solve, systems, turning_points
+from hess_mechanics import HessBody, f_max, solve, systems, turning_points
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.euler_poisson.hess_manifold import on_manifold
@@ -14,8 +14,6 @@ from hess_mechanics.suslov import kharlamova, quartic
 from hess_mechanics.suslov.kharlamova import PlaneBody
 from hess_mechanics.suslov.quartic import QuarticBody
 from support.loxodrome import closed_form
-
-__all__ = ["rows"]
 
 SUSLOV = systems()["suslov"]
 GESS1 = Bridge.of_heavy(HeavyBody.hess((1.0, 0.625, 0.375), 9.975))
@@ -35,17 +33,17 @@ def bridge_row(Row, name, bridge, h, share=0.3, periods=20, samples=801):
     @cache
     def truth():
         other = solve(
-            bridge.hess.suslov, bridge.to_suslov(np.array(start)), np.linspace(0.0, end, samples), level("reference")
+            bridge.hess.suslov, bridge.to_suslov(np.array(start)), np.linspace(0.0, end, samples), "reference"
         )
         return bridge.hess.in_units_of_b(bridge.hess.to_reduced(other.states))
 
     def error(grade):
-        run = on_manifold(bridge.heavy, start, end, samples, level(grade))
+        run = on_manifold(bridge.heavy, start, end, samples, grade)
         # Off the manifold the two have no state in common.
         return (
-            math.inf
+            inf
             if np.max(np.abs(run.off)) >= 1e-12
-            else float(np.max(bridge.distance(run.states, truth())) / math.sqrt(2.0 * (h + 1.0)))
+            else float(np.max(bridge.distance(run.states, truth())) / sqrt(2.0 * (h + 1.0)))
         )
 
     return Row(f"bridge: {name}", f"Suslov's motion, {periods} periods", error, floor=2e-11)
@@ -54,16 +52,16 @@ def bridge_row(Row, name, bridge, h, share=0.3, periods=20, samples=801):
 def pendulum_row(Row, name, span, moments=(1.0, 1.5, 2.0), h=1.5, l=0.4, mu=0.7, because=""):
     """Both directions in space against the closed form, in units of their speed."""
     one = LoxodromicPendulum(HeavyBody.hess(moments, mu), h, l)
-    scale = 4.0 * math.sqrt(2.0 * (h + 1.0) + 4.0)
+    scale = 4.0 * sqrt(2.0 * (h + 1.0) + 4.0)
 
     def motion(grade):
-        return loxodromic_motion(one, span / one.frequency_unit, level(grade))
+        return loxodromic_motion(one, span / one.frequency_unit, grade)
 
     def error(grade):
         found = motion(grade)
         axes = found.attitude.axes
         if np.max(np.abs(axes @ axes.transpose(0, 2, 1) - np.eye(3))) >= 1e-14:
-            return math.inf
+            return inf
         centre, middle = closed_form(one, found.attitude.times)
         return float(max(np.max(np.abs(found.centre - centre)), np.max(np.abs(found.middle - middle)))) / scale
 
@@ -80,7 +78,7 @@ def arc_row(Row, name, body, q, p, floor=1e-12, because=""):
     unit = np.array([arc.rate, arc.rate, 1.0, 1.0, 1.0])
 
     def error(grade):
-        there = solve(body, start, [arc.period], level(grade)).states[0]
+        there = solve(body, start, [arc.period], grade).states[0]
         return float(np.max(np.abs(there - start) / unit))
 
     return Row(
@@ -91,14 +89,14 @@ def arc_row(Row, name, body, q, p, floor=1e-12, because=""):
 def quartic_row(Row, name, body, q):
     """γ² = 1, with γ1 and γ2 from the momenta, and γ3 against the height of the place, relative to h/b3."""
     start = quartic.state_at(body, q, 0.5)
-    times = np.linspace(0.0, 5.0 * math.sqrt(body.I11 / abs(body.b3)), 60)
+    times = np.linspace(0.0, 5.0 * sqrt(body.I11 / abs(body.b3)), 60)
     ratio = abs(body.h / body.b3)
 
     def error(grade):
-        states = solve(body, start, times, level(grade)).states
+        states = solve(body, start, times, grade).states
         places, p = body.to_plane(states)
         # The error of γ² is twice that of γ, whose length is at most √3 times a component's.
-        length = np.abs(np.sum(p * p, axis=1) + states[:, 4] ** 2 - 1.0) / (2.0 * math.sqrt(3.0))
+        length = np.abs(np.sum(p * p, axis=1) + states[:, 4] ** 2 - 1.0) / (2.0 * sqrt(3.0))
         return float(max(length.max(), np.abs(states[:, 4] - body.height(places)).max() / max(1.0, ratio)))
 
     # γ3 from ω cancels where ω is large: what h/b3 loses of it.
@@ -113,8 +111,8 @@ def rows(Row):
 
     def beside_asymptotic(angle):
         """The parabola that touches the equator has tan α = 1/2 at this place."""
-        alpha = math.atan2(1.0, 0.5) + angle
-        return (0.5, -0.5), (math.sqrt(1.25) * math.cos(alpha), math.sqrt(1.25) * math.sin(alpha))
+        alpha = atan2(1.0, 0.5) + angle
+        return (0.5, -0.5), (sqrt(1.25) * cos(alpha), sqrt(1.25) * sin(alpha))
 
     return [
         bridge_row(Row, "gess1", GESS1, 2.0),
@@ -140,12 +138,12 @@ def rows(Row):
         arc_row(Row, "b = 1e-10", weak, (0.3, -0.2), (1.0, 0.5)),
         arc_row(Row, "b = 1e-10, from rest, T = 6e5", weak, (0.3, -0.2), (0.0, 0.0)),
         arc_row(Row, "|p| = 1e3", plane, (0.3, -0.2), (1e3, 10.0)),
-        arc_row(Row, "1e-12 inside the edge", plane, (0.0, -math.sqrt(1.0 - 1e-11)), (1.0, 0.5)),
+        arc_row(Row, "1e-12 inside the edge", plane, (0.0, -sqrt(1.0 - 1e-11)), (1.0, 0.5)),
         arc_row(
             Row, "1e-6 from the asymptotic orbit", round_body, *beside_asymptotic(1e-6), floor=1e-9, because=SADDLE
         ),
         quartic_row(Row, "I11/I22 = 1e4", QuarticBody(1e2, 1e-2, 1.0, 0.8), (0.05, 3.0)),
         quartic_row(Row, "b3 = 1e-6", QuarticBody(2.0, 1.0, 1e-6, 8e-7), (600.0, 300.0)),
-        quartic_row(Row, "h = 1e6 |b3|", QuarticBody(2.0, 1.0, 1.0, 1e6), (math.sqrt(2e6), 0.0)),
+        quartic_row(Row, "h = 1e6 |b3|", QuarticBody(2.0, 1.0, 1.0, 1e6), (sqrt(2e6), 0.0)),
         quartic_row(Row, "1e-9 above the bottom", QuarticBody(2.0, 1.0, 1.0, -1.0 + 1e-9), (1e-5, 0.0)),
     ]

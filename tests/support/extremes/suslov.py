@@ -1,20 +1,18 @@
 """The rows of `test_extremes` for sections of the Suslov problem, and for the rotation number over a, h, f."""
 
-import math
 from functools import cache
+from math import cos, isinf, pi
 
 import mpmath
 import numpy as np
 
 import oracle
-from hess_mechanics import SuslovBody, f_max, level, section
+from hess_mechanics import SuslovBody, f_max, section
 from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.section import SuslovSection
 from hess_mechanics.suslov_hess.rotation_number import values_at
 
-__all__ = ["rows"]
-
-WHOLE = ((-math.pi, 0.0), (math.pi, math.pi))
+WHOLE = ((-pi, 0.0), (pi, pi))
 
 
 def body_of(b=1.0, I11=1.5, I22=3.0, I13=0.4, I23=0.4):
@@ -28,7 +26,7 @@ def crossings(Row, name, body, k, E, count=3, sense=1, **options):
     truth = oracle.Along(SYSTEM, start, body.parameters, 30)
 
     def error(grade):
-        found = section(body, start, SuslovSection(body, E, k).surface, sense * 400.0 / nu, level(grade), count)
+        found = section(body, start, SuslovSection(body, E, k).surface, sense * 400.0 / nu, grade, count)
         if not found.times.size:
             return 1.0
         states = truth.at(found.times.tolist()).astype(float)
@@ -38,52 +36,50 @@ def crossings(Row, name, body, k, E, count=3, sense=1, **options):
     return Row(f"Suslov section: {name}", "Taylor series, 30 digits, at their times", error, **options)
 
 
-def rotation(Row, name, a, h, f, half_trace, against, **options):
-    """Return a row for ρ, the trace (its logarithm beyond 700) and locking; half_trace() is an mpmath number."""
-    once = cache(half_trace)
+def rotation(Row, name, torus, truth, against, **options):
+    """Return a row for ρ, the trace (its logarithm beyond 700) and locking; truth() is the circle map."""
+    once = cache(truth)
 
     def error(grade):
-        found, half = values_at(a, h, f, level(grade)), abs(once())
-        locked = half > 1
+        with mpmath.workdps(40):
+            half = abs(mpmath.re(once().A))
+        found, locked = values_at(*torus, grade), half > 1
         rho = -float(mpmath.acos(min(half, mpmath.mpf(1))) / mpmath.pi)
         if mpmath.log(2 * half) > 700:
-            apart = 0.0 if math.isinf(found.trace[0]) or found.trace[0] > 1e300 else 1.0
+            apart = 0.0 if isinf(found.trace[0]) or found.trace[0] > 1e300 else 1.0
         else:
             apart = abs(float((found.trace[0] - 2 * half) / max(1, 2 * half)))
         # Where the maps turn by more than half a turn only the trace says which.
-        turned = abs(math.cos(math.pi * found.rho[0]) - math.cos(math.pi * rho))
+        turned = abs(cos(pi * found.rho[0]) - cos(pi * rho))
         return max(apart, turned, float(found.locked[0] != locked), float(not found.possible[0]))
 
     return Row(f"rotation number: {name}", against, error, **options)
 
 
-def on_the_curve(a, n):
-    with mpmath.workdps(40):
-        return mpmath.re(oracle.map_on_the_curve(mpmath.mpf(a), mpmath.mpf(n)).A)
+def by_orbits(Row, name, torus):
+    return rotation(Row, name, torus, lambda: oracle.map_by_three_orbits(*torus, 40), "three orbits, 40 digits")
 
 
-def without_a(h, f):
-    with mpmath.workdps(40):
-        return mpmath.re(oracle.map_without_a(h, f).A)
+def without_a(Row, name, h, f):
+    return rotation(Row, name, (0.0, h, f), lambda: oracle.map_without_a(h, f), "closed form, Π(n, m)")
 
 
-def by_orbits(a, h, f):
-    with mpmath.workdps(40):
-        return mpmath.re(oracle.map_by_three_orbits(a, h, f, 40).A)
+def on_the_curve(Row, name, a, n=0.4):
+    h = (1.0 - 3.0 * n * n) / (2.0 * n)
+    return rotation(Row, name, (a, h, f_max(h)), lambda: oracle.map_on_the_curve(a, n), "closed form, on the curve")
 
 
-def by_cycle(a, h, f):
-    _, log_trace = oracle.stable_cycle(a, h, f)
-    return mpmath.exp(log_trace) / 2
+def by_cycle(Row, name, torus):
+    def truth():
+        return oracle.MoebiusMap(mpmath.exp(oracle.stable_cycle(*torus)[1]) / 2, 0)
+
+    return rotation(Row, name, torus, truth, "the cycle, Fourier collocation")
 
 
 def rows(Row):
     """The rows."""
     plain, strong, weak = body_of(), body_of(1e6), body_of(1e-6)
     flat = SuslovBody(1.5, 3.0, 0.4, 0.4, -0.5, -0.5, 0.0)
-    n = 0.4
-    h_n = (1.0 - 3.0 * n * n) / (2.0 * n)
-    f_n = f_max(h_n)
     return [
         crossings(Row, "γ3 = 0, E at the bottom + 1e-9", flat, 3, SuslovSection(flat, 0.0, 3).lowest_energy + 1e-9),
         crossings(Row, "γ3 = 0, E = 1e6", plain, 3, 1e6),
@@ -96,37 +92,11 @@ def rows(Row):
         crossings(Row, "γ1 = 0", plain, 1, 0.3, 2),
         crossings(Row, "γ2 = 0", plain, 2, 0.3, 2),
         crossings(Row, "γ3 = 0, backward", plain, 3, 0.3, sense=-1),
-        rotation(Row, "a = 0", 0.0, 0.5, 0.5, lambda: without_a(0.5, 0.5), "closed form, Π(n, m)"),
-        rotation(Row, "a = 0, h = 1e6", 0.0, 1e6, 1.0, lambda: without_a(1e6, 1.0), "closed form, Π(n, m)"),
-        rotation(
-            Row,
-            "a = 100, h = 1.5",
-            100.0,
-            1.5,
-            0.6,
-            lambda: by_cycle(100.0, 1.5, 0.6),
-            "the cycle, Fourier collocation",
-        ),
-        rotation(
-            Row, "a = 100, f at its edge", 100.0, h_n, f_n, lambda: on_the_curve(100.0, n), "closed form, on the curve"
-        ),
-        rotation(Row, "f at its edge", 0.5, h_n, f_n, lambda: on_the_curve(0.5, n), "closed form, on the curve"),
-        rotation(
-            Row,
-            "h = −1 + 1e-9",
-            0.5,
-            -1.0 + 1e-9,
-            0.5 * f_max(-1.0 + 1e-9),
-            lambda: by_orbits(0.5, -1.0 + 1e-9, 0.5 * f_max(-1.0 + 1e-9)),
-            "three orbits, 40 digits",
-        ),
-        rotation(
-            Row,
-            "h = 1 + 1e-6, f = 1e-6",
-            0.5,
-            1.0 + 1e-6,
-            1e-6,
-            lambda: by_orbits(0.5, 1.0 + 1e-6, 1e-6),
-            "three orbits, 40 digits",
-        ),
+        without_a(Row, "a = 0", 0.5, 0.5),
+        without_a(Row, "a = 0, h = 1e6", 1e6, 1.0),
+        by_cycle(Row, "a = 100, h = 1.5", (100.0, 1.5, 0.6)),
+        on_the_curve(Row, "a = 100, f at its edge", 100.0),
+        on_the_curve(Row, "f at its edge", 0.5),
+        by_orbits(Row, "h = −1 + 1e-9", (0.5, -1.0 + 1e-9, 0.5 * f_max(-1.0 + 1e-9))),
+        by_orbits(Row, "h = 1 + 1e-6, f = 1e-6", (0.5, 1.0 + 1e-6, 1e-6)),
     ]

@@ -1,13 +1,11 @@
 """Starts at and near unstable equilibria, where at first only rounding errors move the motion."""
 
-import math
+from math import cos, hypot, sin, sqrt
 
 import numpy as np
 from scipy.optimize import root
 
 from hess_mechanics import systems
-
-__all__ = ["unstable_starts"]
 
 _NEAR = 1e-9
 _GROWTH = (22.0, 32.0)
@@ -40,8 +38,8 @@ def on_a_pole(parameters, random):
     """On the separatrix of eq01, which comes to the saddle and would rest there; or next to the saddle."""
     parameters[:] = random.uniform(-1.0, 1.0), random.uniform(0.5, 2.0)
     if random.random() < 0.5:
-        angle, speed = random.uniform(-3.0, 3.0), 2.0 * math.sqrt(parameters[1])
-        return np.array([speed * math.sin(angle), speed * math.cos(angle), 0.0, 0.0, 1.0])
+        angle, speed = random.uniform(-3.0, 3.0), 2.0 * sqrt(parameters[1])
+        return np.array([speed * sin(angle), speed * cos(angle), 0.0, 0.0, 1.0])
     return beside([0.0, 0.0, 0.0, 0.0, -1.0], 2, random)
 
 
@@ -51,14 +49,14 @@ def at_rest_in_the_potential(parameters, random):
     field = systems()["plane-potential"].field
 
     def torque(place):
-        third = math.sqrt(max(0.0, 1.0 - place @ place))
+        third = sqrt(max(0.0, 1.0 - place @ place))
         return np.array(field([0.0, 0.0, *place, third], parameters)[:2])
 
     found = root(torque, random.uniform(-0.6, 0.6, 2), method="hybr", options={"xtol": 1e-15})
-    size = math.hypot(*found.x)
+    size = hypot(*found.x)
     if not (0.05 < size < 0.95 and np.abs(torque(found.x)).max() < 1e-14):
         return None
-    return np.array([0.0, 0.0, *found.x, math.sqrt(1.0 - size**2)])
+    return np.array([0.0, 0.0, *found.x, sqrt(1.0 - size**2)])
 
 
 _STARTS = {
@@ -92,7 +90,7 @@ def unstable_starts(system, count, seed=1):
         if state is None:
             continue
         # On the separatrix the rate is that of the saddle it comes to.
-        rate = math.sqrt(parameters[1]) if system.name == "hess" else growth_rate(system, state, parameters)
+        rate = sqrt(parameters[1]) if system.name == "hess" else growth_rate(system, state, parameters)
         if rate < 0.05:
             continue
         if len(found) % 3 == 2 and system.name != "hess":

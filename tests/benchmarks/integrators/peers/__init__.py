@@ -3,13 +3,7 @@
 Each has a `METHOD` and imports its library; a peer whose file cannot be imported is left out.
 """
 
-from __future__ import annotations
-
 from importlib import import_module
-
-from ..method import Method
-
-__all__ = ["PEERS", "load"]
 
 PEERS = {
     "heyoka": "heyoka_peer",
@@ -21,7 +15,6 @@ PEERS = {
 """Name → module, in the order of the table's columns."""
 
 
-def load(name: str) -> Method:
+def load(name):
     """The peer of that name.  Raises `ImportError` where it is not installed or does not work."""
-    method: Method = import_module(f".{PEERS[name]}", __name__).METHOD
-    return method
+    return import_module(f".{PEERS[name]}", __name__).METHOD

@@ -1,9 +1,4 @@
-# mypy: allow-untyped-defs
 """The fields as Numba functions, for the peers that take compiled right-hand sides."""
-
-from __future__ import annotations
-
-from typing import Any
 
 import numba
 
@@ -11,24 +6,22 @@ from hess_mechanics import systems
 
 from ..moebius import field as map_field
 from ..moebius import start
-from ..works import Array, MapWorkload, MotionWorkload, Workload
+from ..works import MapWorkload
 
-__all__ = ["dimension", "initial_state", "rates"]
-
-_OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}}
+_OPTIONS = {"error_model": "numpy", "fastmath": {"contract"}}
 
 
-def dimension(work: Workload) -> int:
+def dimension(work):
     """The number of variables: 9 for the circle map, 5 for a motion."""
     return 9 if isinstance(work, MapWorkload) else 5
 
 
-def initial_state(work: MapWorkload | MotionWorkload) -> Array:
+def initial_state(work):
     """The first state, (9,) or (5,)."""
     return start(work) if isinstance(work, MapWorkload) else work.initial[0]
 
 
-def rates(work: MapWorkload | MotionWorkload) -> Any:
+def rates(work):
     """The compiled rates(y, dy), which fills dy; y and dy are arrays or pointers.  Parameters are compiled in."""
     if isinstance(work, MapWorkload):
         map_rates = numba.njit(**_OPTIONS)(map_field)

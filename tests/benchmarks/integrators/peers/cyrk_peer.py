@@ -1,30 +1,22 @@
-# mypy: allow-untyped-defs
 """CyRK: its C++ Runge–Kutta methods, called from Numba code."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Sequence
 from functools import cache
-from typing import Any
 
 import numba
 import numpy as np
 from CyRK import cyjit, nbsolve2_ivp
 
-from ..method import Ladder, Method, Run, Setting, half_decades, version
+from ..method import Method, half_decades, version
 from ..moebius import half_period, start, theta_after
-from ..works import Array, MapWorkload, MotionWorkload, Workload
 from .compiled import rates
 
-__all__ = ["METHOD"]
 
-
-def _ladders(work: Workload) -> Sequence[Ladder]:
+def _ladders(work):
     return [tuple((name, tolerance) for tolerance in half_decades(3, 14)) for name in ("DOP853", "Vern8")]
 
 
 @cache
-def _right_hand_side(work: MapWorkload | MotionWorkload) -> Any:
+def _right_hand_side(work):
     """The C function, kept: its address is good as long as it lives."""
     field = rates(work)
 
@@ -48,36 +40,34 @@ def _solve(address, method, initial, times, tolerance, out):
         solution.free()
 
 
-def _run(
-    work: MapWorkload | MotionWorkload, initial: Array, times: Array, setting: Setting, finish: Callable[[Array], Array]
-) -> Run:
+def _run(work, initial, times, setting, finish):
     method, tolerance = setting
     address, out = _right_hand_side(work).address, np.empty((len(initial), len(times), initial.shape[1]))
 
-    def run() -> Array:
+    def run():
         _solve(address, method, initial, times, tolerance, out)
         return finish(out)
 
     return run
 
 
-def _dense(work: MotionWorkload, setting: Setting) -> Run:
+def _dense(work, setting):
     return _run(work, work.initial, work.times, setting, lambda out: out[0])
 
 
-def _ends(work: MotionWorkload, setting: Setting) -> Run:
+def _ends(work, setting):
     return _run(work, work.initial, work.times, setting, lambda out: out[:, -1])
 
 
-def _circle_map(work: MapWorkload, setting: Setting) -> Run:
+def _circle_map(work, setting):
     theta = theta_after(work.phi)
     return _run(work, start(work)[None], np.array([half_period(work)]), setting, lambda out: theta(out[0, -1]))
 
 
-_WAYS: dict[str, Callable[..., Run]] = {"A": _dense, "A2": _ends, "B": _ends, "B2": _ends, "C": _circle_map}
+_WAYS = {"A": _dense, "A2": _ends, "B": _ends, "B2": _ends, "C": _circle_map}
 
 
-def _prepare(work: Workload, setting: Setting, threads: int = 1) -> Run:
+def _prepare(work, setting, threads=1):
     run = _WAYS[work.name](work, setting)
     run()
     return run

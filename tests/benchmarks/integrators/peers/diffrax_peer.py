@@ -1,10 +1,6 @@
 """diffrax: Runge–Kutta methods in JAX, compiled by XLA; an ensemble is mapped over its orbits."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Sequence
 from functools import cache
-from typing import Any
 
 import diffrax
 import jax
@@ -13,11 +9,9 @@ import numpy as np
 
 from hess_mechanics import systems
 
-from ..method import Ladder, Method, Run, Setting, half_decades, version
+from ..method import Method, half_decades, version
 from ..moebius import field, half_period, start, theta_after
-from ..works import Array, MapWorkload, MotionWorkload, Workload
-
-__all__ = ["METHOD"]
+from ..works import MapWorkload, MotionWorkload
 
 jax.config.update("jax_enable_x64", True)
 
@@ -25,22 +19,22 @@ _SOLVERS = {"Dopri8": diffrax.Dopri8, "Tsit5": diffrax.Tsit5}
 _MAX_STEPS = 1_000_000
 
 
-def _ladders(work: Workload) -> Sequence[Ladder]:
+def _ladders(work):
     return [tuple((name, tolerance) for tolerance in half_decades(3, 14)) for name in _SOLVERS]
 
 
-def _rates(work: MapWorkload | MotionWorkload) -> Callable[..., Any]:
+def _rates(work):
     if isinstance(work, MapWorkload):
         return lambda t, y, args: jnp.stack(field(y, 0.5 * work.a))
     return lambda t, y, args: jnp.stack(systems()["suslov"].field(y, work.parameters))
 
 
 @cache
-def _solver(work: MapWorkload | MotionWorkload, name: str) -> Any:
+def _solver(work, name):
     """(initial (n, d), times, tolerance) → states (n, times, d), compiled once for all tolerances."""
     term, solver = diffrax.ODETerm(_rates(work)), _SOLVERS[name]()
 
-    def one(initial: Any, times: Any, tolerance: Any) -> Any:
+    def one(initial, times, tolerance):
         solution = diffrax.diffeqsolve(
             term,
             solver,
@@ -60,37 +54,35 @@ def _solver(work: MapWorkload | MotionWorkload, name: str) -> Any:
     return jax.jit(lambda initial, times, tolerance: one(initial[0], times, tolerance)[None])
 
 
-def _run(
-    work: MapWorkload | MotionWorkload, initial: Array, times: Array, setting: Setting, finish: Callable[[Array], Array]
-) -> Run:
+def _run(work, initial, times, setting, finish):
     name, tolerance = setting
     solve = _solver(work, name)
     arguments = initial, times, np.float64(tolerance)
 
-    def run() -> Array:
+    def run():
         return finish(np.asarray(solve(*arguments)))
 
     run()
     return run
 
 
-def _dense(work: MotionWorkload, setting: Setting) -> Run:
+def _dense(work, setting):
     return _run(work, work.initial, work.times, setting, lambda states: states[0])
 
 
-def _ends(work: MotionWorkload, setting: Setting) -> Run:
+def _ends(work, setting):
     return _run(work, work.initial, work.times, setting, lambda states: states[:, -1])
 
 
-def _circle_map(work: MapWorkload, setting: Setting) -> Run:
+def _circle_map(work, setting):
     theta = theta_after(work.phi)
     return _run(work, start(work)[None], np.array([half_period(work)]), setting, lambda states: theta(states[0, -1]))
 
 
-_WAYS: dict[str, Callable[..., Run]] = {"A": _dense, "A2": _ends, "B": _ends, "B2": _ends, "C": _circle_map}
+_WAYS = {"A": _dense, "A2": _ends, "B": _ends, "B2": _ends, "C": _circle_map}
 
 
-def _prepare(work: Workload, setting: Setting, threads: int = 1) -> Run:
+def _prepare(work, setting, threads=1):
     return _WAYS[work.name](work, setting)
 
 

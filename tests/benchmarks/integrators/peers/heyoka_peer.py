@@ -1,8 +1,5 @@
 """heyoka: Taylor series by JIT-compiled automatic differentiation, of the order that the tolerance asks for."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Sequence
 from copy import deepcopy
 
 import heyoka
@@ -10,20 +7,16 @@ import numpy as np
 
 from hess_mechanics import systems
 
-from ..method import Ladder, Method, Run, Setting, half_decades, version
+from ..method import Method, half_decades, version
 from ..moebius import field, half_period, start, theta_after
 from ..threads import shared
-from ..works import Array, MapWorkload, MotionWorkload, Workload
-
-__all__ = ["METHOD"]
-
 
 _ENSEMBLES = frozenset({"B", "B2"})
 
 
-def _ladders(work: Workload) -> Sequence[Ladder]:
+def _ladders(work):
     plain = [(tolerance,) for tolerance in half_decades(2, 18)]
-    ladder: Ladder = (*plain, *((tolerance, "high accuracy") for tolerance in half_decades(15, 18)))
+    ladder = (*plain, *((tolerance, "high accuracy") for tolerance in half_decades(15, 18)))
     if work.name == "D":
         return [tuple((*setting, kind) for setting in ladder) for kind in ("nt_event", "t_event")]
     if work.name in _ENSEMBLES:
@@ -33,42 +26,42 @@ def _ladders(work: Workload) -> Sequence[Ladder]:
     return [ladder]
 
 
-def _options(setting: Setting) -> dict[str, float | bool]:
+def _options(setting):
     return {"tol": float(setting[0]), "high_accuracy": "high accuracy" in setting}
 
 
-def _motion_equations(work: MotionWorkload) -> list[tuple[heyoka.expression, heyoka.expression]]:
+def _motion_equations(work):
     variables = heyoka.make_vars("w1", "w2", "g1", "g2", "g3")
     # Numbers instead of parameters: factors 0 and 1 fall out.
     return list(zip(variables, systems()["suslov"].field(variables, work.parameters), strict=True))
 
 
-def _dense(work: MotionWorkload, setting: Setting, threads: int) -> Run:
+def _dense(work, setting, threads):
     integrator = heyoka.taylor_adaptive(_motion_equations(work), work.initial[0], **_options(setting))
 
-    def run() -> Array:
+    def run():
         integrator.time = 0.0
         integrator.state[:] = work.initial[0]
-        states: Array = integrator.propagate_grid(work.times)[-1]
+        states = integrator.propagate_grid(work.times)[-1]
         return states
 
     return run
 
 
-def _end(work: MotionWorkload, setting: Setting, threads: int) -> Run:
+def _end(work, setting, threads):
     integrator = heyoka.taylor_adaptive(_motion_equations(work), work.initial[0], **_options(setting))
 
-    def run() -> Array:
+    def run():
         integrator.time = 0.0
         integrator.state[:] = work.initial[0]
         integrator.propagate_until(work.times[0])
-        state: Array = integrator.state[None].copy()
+        state = integrator.state[None].copy()
         return state
 
     return run
 
 
-def _ensemble(work: MotionWorkload, setting: Setting, threads: int) -> Run:
+def _ensemble(work, setting, threads):
     """Batch after batch, each lane with its own step."""
     width = int(str(setting[-1]).split()[0])
     blocks = [work.initial[i : i + width].T.copy() for i in range(0, len(work.initial), width)]
@@ -76,7 +69,7 @@ def _ensemble(work: MotionWorkload, setting: Setting, threads: int) -> Run:
     first = heyoka.taylor_adaptive_batch(_motion_equations(work), blocks[0], **_options(setting))
     integrators = [first, *(deepcopy(first) for _ in range(threads - 1))]
 
-    def part(thread: int) -> None:
+    def part(thread):
         integrator = integrators[thread]
         for i in range(thread, len(blocks), threads):
             integrator.set_time(0.0)
@@ -86,20 +79,20 @@ def _ensemble(work: MotionWorkload, setting: Setting, threads: int) -> Run:
 
     all_parts = shared(part, threads)
 
-    def run() -> Array:
+    def run():
         all_parts()
         return out
 
     return run
 
 
-def _circle_map(work: MapWorkload, setting: Setting, threads: int) -> Run:
+def _circle_map(work, setting, threads):
     variables = heyoka.make_vars("w1", "w2", "n1", "n2", "n3", "ar", "ai", "br", "bi")
     equations = list(zip(variables, field(variables, 0.5 * work.a), strict=True))
     state, end, theta = start(work), half_period(work), theta_after(work.phi)
     integrator = heyoka.taylor_adaptive(equations, state, **_options(setting))
 
-    def run() -> Array:
+    def run():
         integrator.time = 0.0
         integrator.state[:] = state
         integrator.propagate_until(end)
@@ -108,15 +101,15 @@ def _circle_map(work: MapWorkload, setting: Setting, threads: int) -> Run:
     return run
 
 
-def _crossings(work: MotionWorkload, setting: Setting, threads: int) -> Run:
+def _crossings(work, setting, threads):
     equations = _motion_equations(work)
-    found: list[Array] = []
+    found = []
 
-    def passed(integrator: heyoka.taylor_adaptive, time: float, direction: int) -> None:
+    def passed(integrator, time, direction):
         integrator.update_d_output(time)
         found.append(integrator.d_output.copy())
 
-    def stopped(integrator: heyoka.taylor_adaptive, direction: int) -> bool:
+    def stopped(integrator, direction):
         found.append(integrator.state.copy())
         return True  # go on
 
@@ -127,7 +120,7 @@ def _crossings(work: MotionWorkload, setting: Setting, threads: int) -> Run:
         events = {"t_events": [heyoka.t_event(height, callback=stopped, direction=upward)]}
     integrator = heyoka.taylor_adaptive(equations, work.initial[0], **events, **_options(setting))
 
-    def run() -> Array:
+    def run():
         found.clear()
         integrator.time = 0.0
         integrator.state[:] = work.initial[0]
@@ -137,7 +130,7 @@ def _crossings(work: MotionWorkload, setting: Setting, threads: int) -> Run:
     return run
 
 
-_WAYS: dict[str, Callable[..., Run]] = {
+_WAYS = {
     "A": _dense,
     "A2": _end,
     "B": _ensemble,
@@ -147,7 +140,7 @@ _WAYS: dict[str, Callable[..., Run]] = {
 }
 
 
-def _prepare(work: Workload, setting: Setting, threads: int = 1) -> Run:
+def _prepare(work, setting, threads=1):
     return _WAYS[work.name](work, setting, threads)
 
 

@@ -1,31 +1,23 @@
-# mypy: allow-untyped-defs
 """SciPy: solve_ivp with a right-hand side compiled by Numba; an ensemble is one large system."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Sequence
 from functools import cache
-from typing import Any
 
 import numba
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from ..method import Ladder, Method, Run, Setting, version
+from ..method import Method, version
 from ..moebius import half_period, theta_after
-from ..works import Array, MapWorkload, MotionWorkload, Workload
 from .compiled import dimension, initial_state, rates
 
-__all__ = ["METHOD"]
 
-
-def _ladders(work: Workload) -> Sequence[Ladder]:
+def _ladders(work):
     # solve_ivp takes no relative tolerance below 2.2e-14.
     return [tuple((name, float(f"1e-{k}")) for k in range(3, 14)) for name in ("DOP853", "LSODA")]
 
 
 @cache
-def _right_hand_side(work: MapWorkload | MotionWorkload) -> Any:
+def _right_hand_side(work):
     """f(t, y) for one state, or for many in a row."""
     field, n = rates(work), dimension(work)
 
@@ -39,33 +31,31 @@ def _right_hand_side(work: MapWorkload | MotionWorkload) -> Any:
     return right_hand_side
 
 
-def _solve(
-    work: MotionWorkload | MapWorkload, state: Array, times: Array, setting: Setting, **options: Any
-) -> Callable[[], Any]:
+def _solve(work, state, times, setting, **options):
     """The solution up to the last of the times, with its values at them as `y`, (d, n)."""
     name, tolerance = setting
     function = _right_hand_side(work)
     function(0.0, state)
 
-    def run() -> Any:
+    def run():
         return solve_ivp(function, (0.0, times[-1]), state, name, times, rtol=tolerance, atol=tolerance, **options)
 
     return run
 
 
-def _motion(work: MotionWorkload, setting: Setting) -> Run:
+def _motion(work, setting):
     solve = _solve(work, work.initial.ravel(), work.times, setting)
     # One state at many times, or many states at one time.
     return lambda: solve().y.T.reshape(-1, 5)
 
 
-def _circle_map(work: MapWorkload, setting: Setting) -> Run:
+def _circle_map(work, setting):
     solve, theta = _solve(work, initial_state(work), np.array([half_period(work)]), setting), theta_after(work.phi)
     return lambda: theta(solve().y[:, -1])
 
 
-def _crossings(work: MotionWorkload, setting: Setting) -> Run:
-    def height(t: float, y: Array) -> float:
+def _crossings(work, setting):
+    def height(t, y):
         return float(y[4])
 
     # solve_ivp's option for upward crossings only.
@@ -74,7 +64,7 @@ def _crossings(work: MotionWorkload, setting: Setting) -> Run:
     return lambda: solve().y_events[0]
 
 
-_WAYS: dict[str, Callable[..., Run]] = {
+_WAYS = {
     "A": _motion,
     "A2": _motion,
     "B": _motion,
@@ -84,7 +74,7 @@ _WAYS: dict[str, Callable[..., Run]] = {
 }
 
 
-def _prepare(work: Workload, setting: Setting, threads: int = 1) -> Run:
+def _prepare(work, setting, threads=1):
     return _WAYS[work.name](work, setting)
 
 

@@ -1,0 +1,58 @@
+"""What holds of every run of every system: one orbit, several at once, the crossings of a plane."""
+
+import numpy as np
+from pytest import mark, raises
+
+from hess_mechanics import Level, Plane, Status, ensemble, section, solve
+from support.mechanics import every_system
+
+
+def crossings(system, level):
+    """Those of the plane at half the height of the last component."""
+    last = solve(*system.example_motion, np.linspace(0.0, 20.0, 201), "standard").states[:, -1]
+    normal = np.eye(len(system.variables))[-1]
+    return section(*system.example_motion, Plane(tuple(normal), 0.5 * (last.min() + last.max()), 0), 20.0, level)
+
+
+RUNS = {
+    "orbit": lambda system, level: solve(*system.example_motion, [20.0], level),
+    "ensemble": lambda system, level: ensemble(system.at(system.example[1]), [system.example[0]] * 3, [20.0], level),
+    "section": crossings,
+}
+every_run = mark.parametrize("run", RUNS.values(), ids=RUNS)
+
+
+@every_system
+@every_run
+def test_a_level_that_cannot_keep_its_promise_says_so(run, system):
+    for level, status in (
+        (Level("standard", 1e-300, 1e-8, 14), Status.PROMISE_NOT_MET),
+        (Level("reference", 1e-300, 1e-17, 24), Status.FLOOR),
+    ):
+        found = run(system, level)
+        assert found.status is status
+        assert np.isfinite(found.error_estimate)
+
+
+@every_system
+@every_run
+def test_a_run_that_misses_its_promise_is_replaced_by_a_tighter_one(run, system):
+    # Steps far too long for the promise.
+    found, truth = run(system, Level("standard", 1e-9, 1e-1, 14)), run(system, "reference")
+    assert found.status is Status.OK
+    assert found.states.shape == truth.states.shape > (0,)
+    assert np.max(np.abs(found.states - truth.states)) <= 1e-9
+
+
+@every_system
+@every_run
+def test_results_are_read_only_and_say_what_they_are(run, system):
+    found = run(system, "draft")
+    assert (found.system, found.level) == (system.name, "draft")
+    assert set(found.drift) == set(system.integrals(*system.example))
+    assert min(found.cost.steps, found.cost.wall_ms) > 0
+    for array in (found.times, found.states):
+        with raises(ValueError, match="read-only"):
+            array[0] = 0.0
+    with raises(AttributeError):
+        found.status = Status.FLOOR
