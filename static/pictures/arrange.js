@@ -89,7 +89,10 @@ function leadAndRest({ width, height, count, gap, share, caption }, leading, lea
  */
 function largest({ width, height, gap, caption }, leading) {
   const wide = (width - gap * (leading - 1)) / leading
-  return Math.floor(Math.min(wide, height - caption(Math.min(wide, height))))
+  let edge = Math.floor(Math.min(wide, height - caption(Math.min(wide, height))))
+  // A smaller picture may have a higher caption.
+  while (edge > 0 && edge + caption(edge) > height) edge -= 1
+  return edge
 }
 
 /** @param {Arrangement} arrangement */

@@ -62,3 +62,11 @@ test("the first of three pictures is larger where that costs the others nothing"
 })
 
 test("no pictures, no boxes", () => assert.deepEqual(arranged(900, 600, 0), []))
+
+test("an enlarged picture fits with the caption that it has in its size, not with that of the room", () => {
+  // Two lines of caption below 900 pixels.
+  const caption = Object.assign((wide) => (wide < 900 ? 72 : 38), { title: () => 38, wide: 400 })
+  const boxes = arrange({ width: 1142, height: 930, count: 4, gap: GAP, share: 0.82, caption }, [0])
+  assertInsideAndApart(boxes, 1142, 930)
+  assert.equal(boxes[0].caption, caption(boxes[0].edge))
+})
