@@ -2,6 +2,7 @@
 // The cell of a picture: caption, corner button, host of the picture, and a line about the place under the mouse.
 
 import { element } from "../page/elements.js"
+import { unbroken } from "./unbroken.js"
 
 // Tooltips of pictures by what the mouse does there.
 /** @type {Record<string, string>} */
@@ -48,6 +49,9 @@ export const isFolded = (cell) => cell.classList.contains("folded")
 /** Return whether a picture is visible. @param {HTMLElement} cell */
 export const isInSight = (cell) => cell.checkVisibility()
 
+/** Return the nodes of a text whose expressions between bars stay on one line. @param {string} text */
+const spans = (text) => unbroken(text).map((part, i) => i % 2 ? element("span.unbroken", part) : part)
+
 /**
  * Fill a cell with its caption, if that has changed.
  * @param {HTMLElement} cell
@@ -55,7 +59,7 @@ export const isInSight = (cell) => cell.checkVisibility()
  */
 export function fillCaption(cell, { [nameOf(cell)]: caption }) {
   if (caption === undefined) return
-  for (const [part, text] of Object.entries(caption)) cell.querySelector(`.${part}`).textContent = text
+  for (const [part, text] of Object.entries(caption)) cell.querySelector(`.${part}`).replaceChildren(...spans(text))
 }
 
 /**

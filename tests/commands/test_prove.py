@@ -50,8 +50,8 @@ def test_undecided_is_said_with_the_bits(capsys):
     ("words", "said"),
     [
         (("--f", "9"), "No motion has exactly h = 1.5 and f = 9"),
-        (("--f", "x"), "f = 'x' is no number that can be taken as exact; write it like 1.5, -2e-3 or 3/4"),
-        (("--h", "-2"), "at or below the bottom"),
+        (("--f", "x"), "f = 'x' is not an exact number; write it like 1.5, -2e-3 or 3/4"),
+        (("--h", "-2"), "not above the lowest energy"),
         (("--h", "1", "--f", "0"), "separatrix"),
         (("--bits", "1"), "is not a whole number from 64 to 4096"),
     ],

@@ -149,7 +149,7 @@ def test_what_is_wrong_is_one_sentence(refusal, words, said):
 def test_a_motion_beyond_double_range_has_no_exponent(body, t):
     with (
         np.errstate(all="ignore"),
-        pytest.raises(ModelError, match="The motion left the range of double precision: choose less extreme"),
+        pytest.raises(ModelError, match="The motion exceeded the range of double precision: choose less extreme"),
     ):
         lyapunov_exponent(body, (0.5, 0.9, 0.6, 0.0, 0.8), t)
 

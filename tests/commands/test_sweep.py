@@ -47,7 +47,7 @@ def test_a_store_is_kept_read_back_and_refused_to_others(answer, refusal, tmp_pa
     assert main(["sweep", "--read", store, "--out", str(tmp_path / "rho.csv"), "--format", "csv"]) == 0
     assert (tmp_path / "rho.csv").read_text() == wanted
     assert "another sweep: it has a = 0.5, not 0.6" in refusal(*replaced(SWEEP, "--set", "a=0.6"), "--store", store)
-    assert "no store of a sweep" in refusal("sweep", "--read", str(tmp_path))
+    assert "does not contain a sweep" in refusal("sweep", "--read", str(tmp_path))
     assert "--read can be combined only with --format and --out" in refusal(*SWEEP, "--read", store)
 
 
@@ -113,7 +113,7 @@ def test_a_sweep_that_is_killed_and_then_interrupted_goes_on_and_is_the_loop_by_
     assert out == b""
     said = err.decode().splitlines()[-1]
     assert said.startswith("hess-explorer: stopped after ")
-    assert said.endswith("the same sweep goes on there.")
+    assert said.endswith("run the same sweep again to continue.")
     now = int((read(store).status.values > 0).sum())
     assert done < now < 64
     found = answer(*LAMBDA, "--store", str(store), "--format", "json")

@@ -552,8 +552,10 @@ def test_the_names_of_examples_are_shown_whole_and_move_nothing(explorer):
     place = slider.bounding_box()
     for name in (min(names[1:], key=len), max(names, key=len)):
         explorer.change(menu.select_option, name)
-        text = explorer.page.locator(".param-preset").get_by_text(name, exact=True).and_(
-            explorer.page.locator("span:not(.longest)")
+        text = (
+            explorer.page.locator(".param-preset")
+            .get_by_text(name, exact=True)
+            .and_(explorer.page.locator("span:not(.longest)"))
         )
         inner, outer = text.bounding_box(), menu.bounding_box()
         assert outer["y"] <= inner["y"]

@@ -126,7 +126,7 @@ def test_the_strange_attractor_is_what_its_example_says():
 
 def test_a_ball_that_turns_the_wrong_way_turns_round_to_a_permanent_rotation():
     state, captions = complete(SCENE, "Apart: permanent", ("section", "reversal"))
-    assert "The body turns round once. First at t = 80.7" in captions["reversal"]
+    assert "The rotation reverses once. First at t = 80.7" in captions["reversal"]
     values, body, E = at(state, "D", state.D)
     moment, orbit = float(state.turned.times[0]), state.orbit.path
     assert state.turning[0] > 0.0 > state.turning[-1]

@@ -229,7 +229,7 @@ def test_while_a_slider_is_held_only_what_is_known_is_drawn():
         assert len(one) == len(other) > 20
         assert one == pytest.approx(other)
     moved = View(SCENES["ball-section"], {**values, "b3": 0.71}, seen=["branch"], dragging=True, whole=False)
-    assert moved.text["branch"].split("\n")[1] == "A periodic orbit is found when a slider is let go."
+    assert moved.text["branch"].split("\n")[1] == "A periodic orbit is computed when the slider is released."
     assert moved.result.branch.continuation.branches == []
     assert moved.report.todo == ()
 

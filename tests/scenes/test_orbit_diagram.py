@@ -68,7 +68,7 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
     state, captions = complete(SCENE, "Period doubling", SEEN)
     found = state.diagram.cascade
     assert found.periods.tolist() == [1, 2, 4, 8]
-    assert "4 period doublings located. The first of period 1 at I₂₃ = −0.0498281" in captions["diagram"]
+    assert "4 period doublings located. The first of period 1 at I₂₃ = −0.04983" in captions["diagram"]
     # The numbers of the words beside the pictures.
     assert found.values == pytest.approx([-0.0498281, 0.0873376, 0.1281912, 0.1376316], abs=6e-8)
     assert found.ratios == pytest.approx([3.357, 4.328], abs=6e-4)
@@ -416,7 +416,7 @@ def test_reversals_are_where_the_rate_about_the_vertical_is_zero():
     state, captions = complete(SCENE, "Apart: permanent", ("reversal",))
     times, rate = state.orbit.path.times, state.turning
     crossings = np.flatnonzero(rate[1:] * rate[:-1] < 0.0)
-    said = int(re.search(r"turns round (\d+) times", captions["reversal"])[1])
+    said = int(re.search(r"reverses (\d+) times", captions["reversal"])[1])
     assert len(crossings) == len(state.turned.times) == said
     assert np.all((times[crossings] <= state.turned.times) & (state.turned.times <= times[crossings + 1]))
     # From one sense of turning to the other.

@@ -281,8 +281,8 @@ def test_a_point_in_the_quartic_potential_goes_round():
     ring = view.data["domain-start"]
     assert (ring["x"][0], ring["y"][0]) == pytest.approx((0.0, orbit.places[0, 0]), abs=1e-6)
     assert len(view.result.periodic_orbit.manifolds) == 12
-    assert [line for line in view.report.derived if line.startswith("its own image")] == [
-        "its own image: ω1, ω2, t → −"
+    assert [line for line in view.report.derived if line.startswith("symmetric under")] == [
+        "symmetric under: ω1, ω2, t → −"
     ]
 
 
@@ -320,7 +320,7 @@ def test_before_it_is_known_the_caption_says_so_and_the_chosen_orbit_is_shown():
     view = View(scenes()["suslov"], values, seen=["section", "exponent"], whole=False)
     assert view.text["section"].split("\n")[1] == "Searching for a periodic orbit."
     assert drawn(view) == set()
-    assert view.text["exponent"].split("\n")[1] == "They are being computed."
+    assert view.text["exponent"].split("\n")[1] == "Being computed."
     known = View(scenes()["suslov"], values, seen=["section", "exponent"])
     assert "Searching" not in known.text["section"]
     assert drawn(known)
@@ -330,9 +330,9 @@ def test_while_a_slider_is_held_it_follows_and_its_manifolds_come_later():
     view = shown("ball-section", "period 1", dragging=True)
     assert view.text["section"].split("\n")[1].startswith("Period 1, saddle. Multipliers μ = 2.19, 0.4566, to ")
     assert drawn(view) == {"repels"}
-    assert "Its manifolds are found when a slider is let go." in view.report.derived
+    assert "Its manifolds are computed when the slider is released." in view.report.derived
     let_go = shown("ball-section", "period 1")
-    assert not any("let go" in line for line in let_go.report.derived)
+    assert not any("released" in line for line in let_go.report.derived)
     assert "4 of 4 branches of its manifolds are 5 long" in let_go.report.derived
 
 

@@ -71,10 +71,13 @@ def test_the_rational_number_of_an_example_is_where_its_caption_says(name):
         assert f"No torus here has ρ = {view.values['rational']}." in view.text["line"]
         assert name == "Euler–Poisson, figure 11"
         return
-    place, power, defect = view.numbers("line", f"ρ = {view.values['rational']} at {line} = #: |Θ^# − id| ≤ #")
+    (place,) = view.numbers("line", f"ρ = {view.values['rational']} at {line} = #: |Θ")
+    (defect,) = view.numbers("line", " − id| ≤ #.")
     exact = brentq(excess, x[changes[0]], x[changes[0] + 1], xtol=1e-13)
-    assert place == pytest.approx(exact, rel=2e-5)
-    assert power == rational.denominator
+    found = view.result
+    assert found.on_line.place(found.periodic.torus) == pytest.approx(exact, rel=2e-5)
+    assert place == pytest.approx(exact, rel=6e-4)
+    assert f"|Θ{'⁰¹²³⁴⁵⁶⁷⁸⁹'[rational.denominator]} − id|" in view.text["line"]
     assert defect < 1e-12
     assert iterated(*{**torus, line: exact}.values(), count=1200) == pytest.approx(float(rational), abs=1e-6)
     # The dotted line in the graph.
@@ -200,7 +203,7 @@ def test_every_plane_and_line_shows_finite_numbers(plane, line, f):
 def test_f_outside_the_region_is_put_on_its_edge_and_said():
     view = View(SCENE, {"h": 0.2, "f": -2.9}, noted=True)
     assert view.values["f"] == -f_max(0.2)
-    assert "f is at that edge now" in view.notes[0]
+    assert "f was set to this limit" in view.notes[0]
     view.assert_finite()
 
 

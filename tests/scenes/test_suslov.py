@@ -75,7 +75,7 @@ def test_an_example_is_complete_and_counts_its_points(name):
     if name != TWO:
         said = view.numbers("section", "\n# points forward")
         assert said == [len(forward)]
-        cells, of = view.numbers("section", "forward orbits in # of # cells.")
+        cells, of = view.numbers("section", "late forward points occupy # of # cells.")
         later = joined(orbit[len(orbit) // 2 :] for orbit in view.result.section.kind(True))
         assert len(later) == pytest.approx(len(forward) * (0.5 if view.values["drop"] == "all" else 1.0), rel=0.01)
         counted, _, _ = np.histogram2d(*later.T, bins=32, range=[[-math.pi, math.pi], [0.0, math.pi]])
@@ -150,7 +150,10 @@ def test_the_exponent_of_a_regular_orbit_goes_on_falling():
 
 
 def test_the_sea_fills_the_section_and_attractors_do_not():
-    cells = {name: example(name).numbers("section", "forward orbits in # of #")[0] for name in (SEA, STRANGE, REVERSAL)}
+    cells = {
+        name: example(name).numbers("section", "late forward points occupy # of #")[0]
+        for name in (SEA, STRANGE, REVERSAL)
+    }
     assert cells[SEA] > 400
     assert 50 < cells[STRANGE] < 300
     assert cells[REVERSAL] < 4
@@ -404,7 +407,7 @@ def test_on_a_principal_axis_both_times_and_the_brackets_are_drawn():
         y = run.sol(at)
         assert value == pytest.approx(sign * y[k] / (moment * y[4]), rel=1e-3, abs=1e-4)
         assert len(view.data[f"conformal-{source}"]["xs"]) > 3
-    left, turns = view.numbers("conformal", "ẋ = γ₃{x, E} to #; τ turns round # times on the equator.")
+    left, turns = view.numbers("conformal", "ẋ = γ₃{x, E} to #; τ reverses # times on the equator.")
     assert left < 1e-14
     # The start lies on the equator.
     g3 = run.sol(np.linspace(1e-3, 20.0, 4001))[4]

@@ -202,7 +202,7 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     assert any(row.startswith("map: ") and row.endswith(" pixels") for row in report.derived)
     # A draft of the map has a quarter of the cells: it is right, but not all.
     assert samples[0].error < 0.5
-    assert state.costs.about().numbers == "Accurate enough for the eye: orbit draft, map standard."
+    assert state.costs.about().numbers == "Cheapest levels without a visible error: orbit draft, map standard."
 
 
 def test_what_is_too_large_to_be_measured_or_compared_says_so_and_leaves_no_axes_of_before():

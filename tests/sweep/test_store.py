@@ -47,7 +47,7 @@ def test_a_second_run_goes_on_where_the_first_ended(tmp_path, computed, name, ov
     in_memory = sweep(name, over, a=0.5)
     pieces = len(computed)
     assert pieces > 2
-    with pytest.raises(Interrupted, match=r"kept in .*rho\.zarr.*the same sweep goes on there") as ended:
+    with pytest.raises(Interrupted, match=r"saved in .*rho\.zarr.*run the same sweep again to continue") as ended:
         sweep(name, over, a=0.5, store=tmp_path / "rho.zarr", progress=interrupted_after(9))
     begun = len(computed) - pieces
     assert 0 < begun < pieces
@@ -123,7 +123,7 @@ def test_a_store_is_plain_zarr_that_says_what_it_is(tmp_path):
         ({"quantity": "trace"}, "has quantity 'rotation-number', not 'trace'"),
         ({"level": "draft"}, "has level 'precise', not 'draft'"),
         ({"over": {"h": (-1.2, 2.0, 13), "f": (0.0, 1.2, 9)}}, "has other values of h"),
-        ({"over": {"f": (0.0, 1.2, 9), "h": (-1.2, 2.0, 12)}}, "goes over h, f, not f, h"),
+        ({"over": {"f": (0.0, 1.2, 9), "h": (-1.2, 2.0, 12)}}, "is over h, f, not f, h"),
         ({"a": 0.25}, "has a = 0.5, not 0.25"),
     ],
 )
@@ -149,13 +149,15 @@ def test_what_is_no_store_is_refused(tmp_path):
     (tmp_path / "folder").mkdir()
     (tmp_path / "folder" / "letter").write_text("a letter")
     for place in ("file", "folder"):
-        with pytest.raises(StoreError, match="no store of a sweep: choose another folder"):
+        with pytest.raises(StoreError, match="does not contain a sweep: choose another folder"):
             tori(store=tmp_path / place)
-        said = {"folder": "no store of a sweep: choose another folder", "file": "holds no whole chart"}[place]
+        said = {"folder": "does not contain a sweep: choose another folder", "file": "not contain a complete chart"}[
+            place
+        ]
         with pytest.raises(StoreError, match=said):
             read(tmp_path / place)
     assert (tmp_path / "folder" / "letter").read_text() == "a letter"
-    with pytest.raises(StoreError, match="no store of a sweep"):
+    with pytest.raises(StoreError, match="does not contain a sweep"):
         read(tmp_path / "nothing")
     with pytest.raises(StoreError, match="cannot be written"):
         tori(store=tmp_path / "file" / "below")
@@ -164,7 +166,7 @@ def test_what_is_no_store_is_refused(tmp_path):
 def test_a_store_that_loses_an_array_is_no_whole_store(tmp_path):
     tori(store=tmp_path / "rho.zarr")
     shutil.rmtree(tmp_path / "rho.zarr" / "status")
-    with pytest.raises(StoreError, match="no whole store"):
+    with pytest.raises(StoreError, match="damaged or incomplete store"):
         tori(store=tmp_path / "rho.zarr")
 
 
@@ -181,7 +183,7 @@ def test_a_disk_that_is_full_is_said_and_the_rest_is_kept(tmp_path, monkeypatch)
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(working, "compute", until_full)
-    with pytest.raises(StoreError, match=r"No space left on device.*the same sweep goes on there"):
+    with pytest.raises(StoreError, match=r"No space left on device.*run the same sweep again to continue"):
         tori(store=store)
     monkeypatch.undo()
     monkeypatch.setattr(running, "_cells_of_a_piece", lambda *_: 8)

@@ -69,9 +69,9 @@ def test_a_cell_without_a_number_says_why():
     cycles = sweep("limit-cycles", {"h": [1.0, 0.2]}, a=0.5, f=0.0)
     assert "separatrix" in explain(cycles, h=1.0).lower()
     assert "elliptic" in explain(cycles, h=0.2) or "two limit cycles" in explain(cycles, h=0.2)
-    with pytest.raises(InvalidParameter, match="coordinates h: give each"):
+    with pytest.raises(InvalidParameter, match="the coordinates h: give all"):
         explain(cycles, f=0.0)
-    with pytest.raises(ModelError, match="not of a sweep"):
+    with pytest.raises(ModelError, match="not the result of a sweep"):
         explain(cycles.drop_attrs(), h=1.0)
 
 
@@ -193,18 +193,18 @@ WRONG = [
     (("rotation-number", {}, {}), "one to 3 parameters, not 0"),
     (("rotation-number", {"x": [1.0]}, {}), "no parameter 'x'; choose from a, h, f"),
     (("rotation-number", {"h": [1.0]}, {"a": 0.5}), r"needs f \(Area integral f\)"),
-    (("rotation-number", {"h": [1.0], "f": [0.1]}, {"h": 1.0, "a": 0.5}), "h is swept and has one value too"),
+    (("rotation-number", {"h": [1.0], "f": [0.1]}, {"h": 1.0, "a": 0.5}), "h is both swept and fixed"),
     (("rotation-number", {"h": (0.0, 1.0, 1)}, {"a": 0.5, "f": 0.1}), "has 1 values: choose 2 or more"),
-    (("rotation-number", {"h": []}, {"a": 0.5, "f": 0.1}), "one or more numbers in a row"),
-    (("rotation-number", {"h": ["x"]}, {"a": 0.5, "f": 0.1}), "are not all numbers"),
-    (("rotation-number", {"h": 1.0}, {"a": 0.5, "f": 0.1}), "give one of these"),
-    (("rotation-number", {"h": [1.0, 1.0]}, {"a": 0.5, "f": 0.1}), "is there twice"),
+    (("rotation-number", {"h": []}, {"a": 0.5, "f": 0.1}), "one-dimensional list of numbers"),
+    (("rotation-number", {"h": ["x"]}, {"a": 0.5, "f": 0.1}), "must all be numbers"),
+    (("rotation-number", {"h": 1.0}, {"a": 0.5, "f": 0.1}), "a list of values or"),
+    (("rotation-number", {"h": [1.0, 1.0]}, {"a": 0.5, "f": 0.1}), "occurs twice"),
     (("rotation-number", {"h": [np.nan]}, {"a": 0.5, "f": 0.1}), "h = nan is not between"),
     (("rotation-number", {"h": [1.0]}, {"a": 1e9, "f": 0.1}), "a = 1e\\+09 is not between -1000 and 1000"),
-    (("rotation-number", {"h": [1.0]}, {"a": "much", "f": 0.1}), "a is a number, not 'much'"),
+    (("rotation-number", {"h": [1.0]}, {"a": "much", "f": 0.1}), "a must be a number, not 'much'"),
     (("crossings-suslov", {"variable": [1.5]}, {}), "variable = 1.5 is not a whole number between 1 and 5"),
     (("rotation-number", {"h": [1.0]}, {"a": 0.5, "f": 0.1, "level": "sloppy"}), "choose one of draft"),
-    (("rotation-number", {"h": [1.0]}, {"a": 0.5, "f": 0.1, "workers": "many"}), "no address of a Dask scheduler"),
+    (("rotation-number", {"h": [1.0]}, {"a": 0.5, "f": 0.1, "workers": "many"}), "not the address of a Dask scheduler"),
 ]
 
 
@@ -219,10 +219,10 @@ def test_work_is_capped_before_anything_is_made():
     huge = {"h": (0.0, 1.0, 10**6), "f": (0.0, 1.0, 10**6)}
     with pytest.raises(WorkLimit, match=r"1000000000000 numbers; at most 10000000 are allowed.*most_cells"):
         sweep("rotation-number", huge, a=0.5)
-    with pytest.raises(WorkLimit, match="At most 1e\\+10 numbers can be allowed"):
+    with pytest.raises(WorkLimit, match="most_cells must lie between 1 and 1e\\+10"):
         sweep("rotation-number", huge, a=0.5, most_cells=10**13)
     # Three numbers at a cell count as three.
-    with pytest.raises(WorkLimit, match="These are 30 numbers"):
+    with pytest.raises(WorkLimit, match="The sweep has 30 numbers"):
         sweep("limit-cycles", {"h": (0.0, 1.0, 10)}, a=0.5, f=0.1, most_cells=20)
 
 

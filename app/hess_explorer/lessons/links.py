@@ -13,7 +13,7 @@ __all__ = ["example_of", "not_one_of", "place_of"]
 
 def not_one_of(what: str, given: object, allowed: tuple[str, ...]) -> str:
     """Return the message that a value is not allowed, with those that are."""
-    return f"{what} is one of {', '.join(allowed)}, not {str(given)[:40]!r}."
+    return f"{what} must be one of {', '.join(allowed)}, not {str(given)[:40]!r}."
 
 
 def place_of(link: object, line: int) -> StateLink:
@@ -23,7 +23,7 @@ def place_of(link: object, line: int) -> StateLink:
     scene = scenes().get(given.get("scene", ""))
     if scene is None:
         raise LessonError(
-            "state is a link of this page with its scene, one of "
+            "a link of this page needs a scene, one of "
             f"{', '.join(name for name, one in scenes().items() if one.origin is None)}.",
             line,
         )
@@ -33,12 +33,12 @@ def place_of(link: object, line: int) -> StateLink:
     unknown = [name for name in given if name not in names and name not in PAGE_KEYS]
     if unknown:
         raise LessonError(
-            f"the link has {unknown[0][:40]!r}, which the scene {scene.name} does not: allowed are {', '.join(names)}.",
+            f"the scene {scene.name} has no parameter {unknown[0][:40]!r}: choose from {', '.join(names)}.",
             line,
         )
     values, notes = decode(query, scene.specs)
     if notes:
-        raise LessonError(f"the link cannot be followed as it is. {refusal(notes[0])}", line)
+        raise LessonError(f"the link is not valid. {refusal(notes[0])}", line)
     return StateLink(scene.name, values)
 
 
@@ -49,7 +49,7 @@ def example_of(begins: object, place: StateLink | None, line: int) -> StateLink:
     if len(found) != 1:
         raise LessonError(
             not_one_of(
-                f"example is the beginning of just one of the examples of {scene.name}; it",
+                f"example must match the beginning of exactly one example of {scene.name}; it",
                 begins,
                 tuple(preset.name for preset in scene.presets),
             ),

@@ -42,7 +42,7 @@ def parts_of(text: str, tag: str, problems: Problems) -> Iterator[Part]:
         inside = [token for token in tokens if token.map and begin <= token.map[0] < end]
         fences = [token for token in inside if _is_fence(token)]
         for token in fences[1:]:
-            message = "this is the second fence named step of one step: leave one."
+            message = "the step has two fences named step: keep one."
             problems.found.append(LessonError(message, _line(token)))
         kept = list(lines[begin:end])
         for token in fences:
@@ -101,7 +101,7 @@ def _yaml(text: str, line: int) -> Any:
     try:
         # Aliases could expand a short text to a huge structure.
         if any(isinstance(event, yaml.AliasEvent) for event in yaml.parse(text, yaml.SafeLoader)):
-            raise LessonError("references with * are not read here: write it out.", line)
+            raise LessonError("YAML references (*) are not supported: write the value out.", line)
         found = yaml.safe_load(text)
     except (yaml.YAMLError, ValueError) as error:
         mark = getattr(error, "problem_mark", None)
@@ -111,5 +111,5 @@ def _yaml(text: str, line: int) -> Any:
             line + (mark.line if mark else 0),
         ) from error
     except RecursionError as error:
-        raise LessonError("this is nested too deeply.", line) from error
+        raise LessonError("this YAML is nested too deeply.", line) from error
     return {} if found is None else found

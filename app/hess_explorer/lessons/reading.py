@@ -105,7 +105,7 @@ def _read(text: str, name: str, images: Images, problems: Problems) -> Lesson | 
     first = next(iter(parser().parse(text)), None)
     if first is None or first.type != "front_matter":
         problems.found.append(
-            LessonError("the file begins with front matter: --- above and below title: and minutes:.", 1)
+            LessonError("the file must begin with front matter: the keys title and minutes between two lines ---.", 1)
         )
         facts = Fields()
     else:
@@ -122,7 +122,9 @@ def _check_facts(facts: Fields) -> None:
     if not isinstance(title, str) or not title.strip():
         raise LessonError("the front matter has no title; write one, like title: Two cycles are born.", 1)
     if not is_number(minutes) or not 0 < float(minutes) <= _MOST_MINUTES:
-        raise LessonError(f"minutes is a number up to {_MOST_MINUTES:g}, like minutes: 20.", facts.line_of("minutes"))
+        raise LessonError(
+            f"minutes must be a positive number up to {_MOST_MINUTES:g}, like minutes: 20.", facts.line_of("minutes")
+        )
 
 
 def read_tries(scene: Scene[Any]) -> Lesson | None:
@@ -174,7 +176,7 @@ def _steps(
 def _step(part: Part, tag: str, before: StateLink | None, images: Images, problems: Problems) -> LessonStep | None:
     """Return a step, None if it has no state; before : the state of the step before."""
     if not part.title:
-        problems.found.append(LessonError("the step has no title: write one after the signs #.", part.line - 1))
+        problems.found.append(LessonError("the step has no title: write one after #.", part.line - 1))
     fields = Fields() if part.fields is None else fields_of(part.fields, part.fields_line, KEYS, problems)
     words, asked = _split(part, tag, problems)
     for text, line in ((part.title, part.line - 1), *((one.text, one.line) for one in (words, *asked.values()))):
@@ -227,14 +229,15 @@ def _split(part: Part, tag: str, problems: Problems) -> tuple[Part, dict[str, Pa
         if name not in ("question", "answer"):
             problems.found.append(
                 LessonError(
-                    f"{one.title[:40]!r} is no part of a step: headings in it are Question and Answer.", one.line - 1
+                    f"{one.title[:40]!r} is not a part of a step: use only the headings Question and Answer.",
+                    one.line - 1,
                 )
             )
     asked = {name: one for name, one in found.items() if name in ("question", "answer")}
     if len(asked) == 1:
         problems.found.append(
             LessonError(
-                "a question needs an answer, and an answer a question: write both headings.",
+                "a step needs both a question and an answer, or neither: add the missing heading.",
                 next(iter(asked.values())).line - 1,
             )
         )

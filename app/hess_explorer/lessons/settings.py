@@ -30,10 +30,10 @@ def is_number(value: Any) -> TypeGuard[float]:
 def only(found: Any, line: int, what: str, allowed: tuple[str, ...]) -> dict[str, Any]:
     """Return a mapping, whose keys must be among the allowed ones."""
     if not isinstance(found, dict) or not all(isinstance(key, str) for key in found):
-        raise LessonError(f"{what} is not a list of names with values: allowed are {', '.join(allowed)}.", line)
+        raise LessonError(f"{what} must be a list of keys with values; the keys are {', '.join(allowed)}.", line)
     unknown = [key for key in found if key not in allowed]
     if unknown:
-        raise LessonError(f"{unknown[0][:40]!r} means nothing here: allowed are {', '.join(allowed)}.", line)
+        raise LessonError(f"{unknown[0][:40]!r} is not a known key: choose from {', '.join(allowed)}.", line)
     return found
 
 
@@ -62,9 +62,9 @@ def animation_of(found: object, scene: Scene[Any], line: int) -> Animation | Non
         raise LessonError(not_one_of("name of animate", name, tuple(bounds)), line)
     low, high = bounds[name]
     if not all(is_number(given[end]) and low <= given[end] <= high for end in ("from", "to")):
-        raise LessonError(f"from and to of {name} are numbers from {low:g} to {high:g}.", line)
+        raise LessonError(f"from and to of {name} must be numbers from {low:g} to {high:g}.", line)
     if not is_number(given["seconds"]) or not 0 < given["seconds"] <= _MOST_SECONDS:
-        raise LessonError(f"seconds is a number up to {_MOST_SECONDS:g}.", line)
+        raise LessonError(f"seconds must be a positive number up to {_MOST_SECONDS:g}.", line)
     return Animation(name, float(given["from"]), float(given["to"]), float(given["seconds"]))
 
 
@@ -73,7 +73,7 @@ def controls_of(found: object, animation: Animation | None, scene: Scene[Any], l
     if found is None:
         return (animation.name,) if animation and animation.name != TIME else ()
     if not isinstance(found, list) or len(found) > _MOST_CONTROLS:
-        raise LessonError(f"controls is a list of at most {_MOST_CONTROLS} names, like controls: [h, f].", line)
+        raise LessonError(f"controls must be a list of at most {_MOST_CONTROLS} names, like controls: [h, f].", line)
     names = tuple(spec.name for spec in scene.specs if isinstance(spec, Number | Choice))
     for name in found:
         if name not in names:
@@ -96,7 +96,7 @@ def prediction_of(found: object, place: StateLink, line: int) -> Prediction | No
     given = only(found, line, "predict", ("picture", "layer", "then"))
     then = place_of(given["then"], line) if "then" in given else place
     if then.scene != place.scene:
-        raise LessonError(f"what is revealed is a state of the same scene, {place.scene}.", line)
+        raise LessonError(f"then must be a state of the same scene, {place.scene}.", line)
     plot, layer = _layer(given, "predict", scenes()[place.scene], line, (*_CURVES, *_POINTS))
     return Prediction(
         plot.name,

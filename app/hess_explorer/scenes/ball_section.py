@@ -197,7 +197,7 @@ class BallSection(State):
         psi = self.psi if self.band is None else outside_band(self.band, self.psi)
         if psi != self.psi:
             notes.append(
-                f"With this energy γ cannot point at ψ = {digits(self.psi)} on the plane: ψ is {digits(psi)} now."
+                f"With this energy γ cannot lie on the plane at ψ = {digits(self.psi)}: ψ was set to {digits(psi)}."
             )
         return self.changed({"psi": psi})
 
@@ -331,7 +331,7 @@ class BallSection(State):
             return Caption("One point: every orbit closes.", "Proved by the symmetry γ₃ → −γ₃, t → −t.")
         if has_area_integral(self.body):
             return Caption("A curve: there is another integral.", "ω₁γ₁ + ω₂γ₂ is constant.")
-        return Caption("ψ and the next ψ.", "Closed orbit: a point; regular: a curve; chaotic: a cloud.")
+        return Caption("Each ψ against the next.", "Closed orbit: a point; regular: a curve; chaotic: a cloud.")
 
     def derived(self) -> Iterator[str]:
         """Yield the energies and the start of the orbit."""

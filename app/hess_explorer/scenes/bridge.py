@@ -124,7 +124,7 @@ class BothSides(State):
             return self.changed(self.heavy.admitted(notes))
         h = max(self.h, _BOTTOM)
         if self.h < _BOTTOM:
-            notes.append("In units b = 1 the energy is above −1: h is there now.")
+            notes.append("In units b = 1 the energy must exceed −1: h was set to its lowest value.")
         return replace(
             self, h=h, I23=hess_case.possible_I23(self.I22, self.I23, notes), f=hess_case.possible_f(h, self.f, notes)
         )
@@ -261,13 +261,13 @@ class BothSides(State):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_torus(self) -> Caption:
-        h, f = digits(self.map.h, 6), digits(self.map.f, 6)
+        h, f = digits(self.map.h), digits(self.map.f)
         width = ranging(self.turning.initial_rho, self.turning.final_rho)
         return Caption(numbers=f"h = {h}, f = {f} in units b = 1; |w| {width}.")
 
     def _about_andoyer(self) -> Caption:
         H, F1 = self.bridge.from_units_of_b(self.map.h, self.map.f)
-        return Caption("The Hess relation holds along the orbit.", f"H = {digits(H, 6)}, F₁ = {digits(F1, 6)}.")
+        return Caption("The Hess relation holds along the orbit.", f"H = {digits(H)}, F₁ = {digits(F1)}.")
 
     def _about_difference(self) -> Caption:
         held, free = (digits(float(one.max()), 2) for one in (self.difference.held, self.difference.free))

@@ -255,7 +255,7 @@ def _change(first: float, last: float) -> Caption:
     shown = in_digits(first), in_digits(last)
     if shown[0] == shown[1]:
         return Caption("Γ returns to its initial value.", f"Γ = {shown[0]}.")
-    return Caption(f"Γ {'grows' if last > first else 'falls'}.", f"From {shown[0]} to {shown[1]}.")
+    return Caption(f"Γ {'increases' if last > first else 'decreases'}.", f"From {shown[0]} to {shown[1]}.")
 
 
 SCENE = Scene(

@@ -266,10 +266,10 @@ class DiagramState(State, ABC):
     def _about_turning(self) -> Caption:
         times = self.turned.times
         if not len(times):
-            return Caption("The body does not turn round.")
+            return Caption("The rotation does not reverse.")
         many = "once" if len(times) == 1 else f"{len(times)} times"
-        first, error = digits(float(times[0]), 6), digits(self.turned.error_estimate, 1)
-        return Caption(f"The body turns round {many}.", f"First at t = {first} ± {error}.")
+        first, error = digits(float(times[0])), digits(self.turned.error_estimate, 1)
+        return Caption(f"The rotation reverses {many}.", f"First at t = {first} ± {error}.")
 
     def derived(self) -> list[str]:
         """Return the energy, the chosen place, the bifurcations of the branch and the check of the body."""
@@ -345,7 +345,7 @@ def pictures(state: type[S], ball: bool = False) -> tuple[Picture[S], ...]:
         ),
         Plot(
             name="reversal",
-            title="Turning about the vertical, (ω, γ)",
+            title="Rotation about the vertical, (ω, γ)",
             caption=lambda s: s._about_turning(),
             axes=("t", "(ω, γ)"),
             dot=("t", "turning"),

@@ -273,7 +273,7 @@ class FreeSuslov(State):
     def notes(self) -> Iterator[str]:
         """Yield warnings: a thinned curve, a passage beyond the time span."""
         if self.known("orbit") and self.orbit.times.size >= MOST_SAMPLES:
-            yield f"So long a motion is drawn with {MOST_SAMPLES} points: its uniform turning is thinned out."
+            yield f"This long motion is drawn with {MOST_SAMPLES} points, so its uniform rotation is thinned out."
         needed = -self.passage.u0 / self.points.rate
         if needed > self.span:
             yield f"The passage comes at t = {digits(needed)}: choose a longer time span to see it."

@@ -175,13 +175,13 @@ class HessLeak(State):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_leak(self) -> Caption:
-        exact, growth = digits(mechanics.exact_growth(self.map), 6), self.leaks["own"].growth
+        exact, growth = digits(mechanics.exact_growth(self.map)), self.leaks["own"].growth
         if self.map.kind != "hyperbolic":
             largest = digits(float(np.max(np.abs(self.run.off))), 2)
             return Caption("Stable: no cycles, no growth.", f"After {self._periods} periods |r·M| ≤ {largest}.")
         if growth is None:
             return Caption("Too short a growth to measure.", f"Exact growth {exact} per period.")
-        measured = digits(growth.per_period, 6)
+        measured = digits(growth.per_period)
         return Caption(
             "r·M grows exponentially.",
             f"ln |r·M|: {measured} per period, measured over {growth.periods} periods; exact {exact}.",
@@ -199,7 +199,7 @@ class HessLeak(State):
         return Caption(layer, "It stays there." if stays else "It changes layer later.")
 
     def _about_sphere(self) -> Caption:
-        return Caption("The exact γ and the leaking one.", f"n₃ {ranging(*self.hess.turning.roots[1:])}.")
+        return Caption("γ of the exact and the leaking orbit.", f"n₃ {ranging(*self.hess.turning.roots[1:])}.")
 
     def derived(self) -> Iterator[str]:
         """Yield the reduced body and torus, the exact growth and the measured growth."""

@@ -44,7 +44,7 @@ from hess_mechanics.suslov.principal_axis import divergence
 _LEVELS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)  # equipotentials, in units of the potential's largest value
 _ROUND = {"I11": 1.0, "I22": 1.0, "b1": 1.0, "b2": 0.0}
 PRESETS = (
-    Preset("Periodic: a parabola's arc, to and fro"),
+    Preset("Periodic: an arc of a parabola, back and forth"),
     Preset("Periodic: a straight line, b = 0", b1=0.0, b2=0.0),
     Preset("Periodic: from rest, along the force", p=0.0),
     Preset("Periodic: two orbits on one parabola", **_ROUND, q1=0.5, q2=-0.55, p=1.12, alpha=1.107),
@@ -124,7 +124,7 @@ class Kharlamova(State):
             return self
         state = replace(self, q1=self.q1 / size, q2=self.q2 / size)
         notes.append(
-            f"The start was outside the ellipse: it is on its edge now, q = ({digits(state.q1)}, {digits(state.q2)})."
+            f"The start was outside the ellipse: moved to its edge, q = ({digits(state.q1)}, {digits(state.q2)})."
         )
         return state
 
@@ -254,11 +254,11 @@ class Kharlamova(State):
         if self.arc.kind == "asymptotic":
             return Caption("Asymptotic to an unstable fixed point.", "The arc touches the edge from inside there.")
         shape = "arc of a parabola" if np.any(self.arc.a) else "straight line"
-        return Caption(f"Periodic: {shape}, back and forth.", f"T = {digits(self.arc.period, 6)}.")
+        return Caption(f"Periodic: {shape}, back and forth.", f"T = {digits(self.arc.period)}.")
 
     def _about_sphere(self) -> Caption:
         if self.arc.kind == "fixed":
-            return Caption("γ stays.", "γ̇₃ = γ₁ω₂ − γ₂ω₁ = 0 and γ₃ = 0." if self.arc.rate > 0.0 else "")
+            return Caption("γ is constant.", "γ̇₃ = γ₁ω₂ − γ₂ω₁ = 0 and γ₃ = 0." if self.arc.rate > 0.0 else "")
         first, second = map(digits, self.arc.crossing_speeds)
         if self.arc.kind == "asymptotic":
             last = second if self.arc.touch == self.arc.tau[0] else first
@@ -267,7 +267,7 @@ class Kharlamova(State):
 
     def _about_curve(self) -> Caption:
         if self.arc.kind == "fixed":
-            return Caption("τ stands still.", "dτ = γ₃ dt = 0." if self.arc.rate > 0.0 else "Nothing depends on it.")
+            return Caption("τ is constant.", "dτ = γ₃ dt = 0." if self.arc.rate > 0.0 else "Nothing depends on it.")
         verdict = "γ₃² = P(τ) between two zeros."
         zeros = "Zeros {} and {}".format(*map(digits, self.arc.tau))
         if self.arc.kind == "asymptotic":
@@ -276,11 +276,11 @@ class Kharlamova(State):
 
     def _about_period(self) -> Caption:
         if self.arc.kind == "fixed":
-            return Caption("Periods of other directions from here.")
+            return Caption("Periods in other directions from here.")
         if self.arc.kind == "asymptotic":
             return Caption("T = ∞ in this direction.", "∫dτ/γ₃ diverges.")
         return Caption(
-            f"T = {digits(self.arc.period, 6)} in this direction.",
+            f"T = {digits(self.arc.period)} in this direction.",
             f"After T the orbit returns to its start, to {power(self.missed)}.",
         )
 
@@ -307,7 +307,7 @@ class Kharlamova(State):
     def notes(self) -> Iterator[str]:
         """Yield a warning if the orbit is too long to draw in detail."""
         if self.known("sampled") and self.orbit.times.size >= MOST_SAMPLES:
-            yield f"So long a motion is drawn with {MOST_SAMPLES} points: choose a shorter time span to see its curves."
+            yield f"This long motion is drawn with only {MOST_SAMPLES} points: choose a shorter time span for details."
 
 
 _MIRROR: Layer[Kharlamova] = points(

@@ -34,10 +34,10 @@ _MOST_TURNS = 30.0
 _DRAWN = 2000
 
 PRESETS = (
-    Preset("h above: the whole loxodrome (body of figure 13)"),
+    Preset("High energy: the whole loxodrome (body of figure 13)"),
     Preset("Almost round: many turns", I1=1.0, I2=1.03, I3=1.06, energy=2.0, l=0.1, span=150.0),
-    Preset("h below: a segment of it", energy=0.3, l=1.1),
-    Preset("h at the separatrix: once, to the top", energy=1.0, l=0.6),
+    Preset("Low energy: a segment of it", energy=0.3, l=1.1),
+    Preset("Separatrix: once along it, to the top", energy=1.0, l=0.6),
     Preset("Small swings", energy=-0.9, l=1.2),
     Preset("The body of figure 11, f = 0", I1=1.0, I2=0.625, I3=0.375, m=9.975, energy=5.0, l=2.9, span=5.0),
 )
@@ -118,34 +118,36 @@ class Loxodrome(State):
         said = "" if self.pendulum.body.check.is_body else "Not a rigid body, so no ellipsoid. "
         return Caption(
             "The centre of mass swings in a plane.",
-            f"{said}It leaves the vertical plane by {power(self.found.off_plane)}.",
+            f"{said}Largest distance from the vertical plane: {power(self.found.off_plane)}.",
         )
 
     def _about_space(self) -> Caption:
         p, l = self.pendulum, self.found.l
         if p.h < 1.0:
             low, high = sorted(map(float, p.l_at(np.array([-p.amplitude, p.amplitude]))))
-            return Caption("Middle axis: oscillates along a loxodrome.", f"l {ranging(low, high)}.")
+            return Caption("The middle axis oscillates along a loxodrome.", f"l {ranging(low, high)}.")
         if p.h == 1.0:
             top = float(p.l_at(np.array([math.pi]))[0])
-            return Caption("Middle axis: once along the loxodrome.", f"l from {digits(l[0])} towards {digits(top)}.")
-        return Caption("Middle axis: along a loxodrome to a pole.", f"l {ranging(l[0], l[-1])}.")
+            return Caption(
+                "The middle axis follows the loxodrome once.", f"l from {digits(l[0])} towards {digits(top)}."
+            )
+        return Caption("The middle axis follows the whole loxodrome.", f"l {ranging(l[0], l[-1])}.")
 
     def _about_angle(self) -> Caption:
         measured, theta = self.found.measured[1], self.pendulum.angle
-        error = f", to {power(np.max(np.abs(measured - theta)))}" if measured.size else ""
-        return Caption(
-            "The angle θ is constant.", f"sin θ = 1/√(1+a²), θ = {digits(theta, 6)}; measured on the track{error}."
-        )
+        error = f"; the track agrees to {power(np.max(np.abs(measured - theta)))}" if measured.size else ""
+        return Caption("The angle θ is constant.", f"θ = arcsin(1/√(1+a²)) = {digits(theta)}{error}.")
 
     def _about_height(self) -> Caption:
         p = self.pendulum
         if p.h < 1.0:
-            return Caption("It swings.", f"α = ±{digits(p.amplitude)} at most; the height reaches h = {digits(p.h)}.")
+            return Caption(
+                "The body swings.", f"α = ±{digits(p.amplitude)} at most; the height reaches h = {digits(p.h)}."
+            )
         if p.h == 1.0:
-            return Caption("It rises towards the top for ever.", "The height tends to 1.")
+            return Caption("The body approaches the top for ever.", "The height tends to 1.")
         turns = abs(float(self.found.swing[-1])) / (2.0 * math.pi)
-        return Caption("It rotates.", f"{digits(turns)} turns in this time.")
+        return Caption("The body rotates.", f"{digits(turns)} turns in this time.")
 
     def derived(self) -> Iterator[str]:
         """Yield a, the angle of the loxodrome and the derived data of the body."""
@@ -157,12 +159,12 @@ class Loxodrome(State):
         yield f"Unit of time = {digits(1.0 / p.frequency_unit, 6)}"
         yield f"l(0) = {digits(p.l, 6)}"
         yield f"A rigid body? {'yes' if heavy.check.is_body else 'no'}"
-        yield f"ln of what full equations leave it by in a turn, 2π|a| = {digits(2.0 * math.pi * abs(p.a))}"
+        yield f"ln of the departure per turn in the full equations, 2π|a| = {digits(2.0 * math.pi * abs(p.a))}"
 
     def status(self) -> Iterator[str]:
         """Yield the status of the attitude and of its orbit."""
         yield from orbit_status(self.found.attitude.orbit)
-        yield f"γ, e made orthonormal from {power(self.found.attitude.defect)}"
+        yield f"γ, e orthonormalised, defect {power(self.found.attitude.defect)}"
 
     def notes(self) -> Iterator[str]:
         """Yield warnings: not a rigid body, a truncated motion."""
@@ -170,8 +172,8 @@ class Loxodrome(State):
             yield self.pendulum.body.check.sentence
         if self.found.times[-1] < self.span * (1 - 1e-9):
             yield (
-                f"The motion is shown up to t = {digits(float(self.found.times[-1]))}: after that it is at rest to "
-                "the eye."
+                f"The motion is shown up to t = {digits(float(self.found.times[-1]))}: after that it is visibly "
+                "at rest."
             )
 
 
@@ -242,7 +244,7 @@ SCENE = Scene(
         ),
         Plot(
             name="height",
-            title="Height of the mass centre",
+            title="Centre-of-mass height",
             caption=Loxodrome._about_height,
             axes=("t", "height"),
             x=lambda s: (0.0, s.span),

@@ -130,7 +130,7 @@ class Quartic(State):
         """Move a start that the energy forbids to the edge of the region."""
         q = self.body.inside((self.Q1, self.Q2))
         if q != (self.Q1, self.Q2):
-            notes.append(f"With this energy the point cannot be at the start: it is at the edge now, q = {vector(q)}.")
+            notes.append(f"With this energy the start is impossible: it was moved to the edge, q = {vector(q)}.")
         return self.changed({"Q1": q[0], "Q2": q[1]})
 
     def limits(self) -> Mapping[str, Slider]:
@@ -265,7 +265,7 @@ class Quartic(State):
         hole = self.body.hole > 0.0
         return Caption(
             "Motion in a ring." if hole else "Motion in a region without a hole.",
-            f"Level ½: half axes {first} and {second}{f', hole (grey) {digits(self.body.hole)}' if hole else ''}.",
+            f"Level ½: semi-axes {first} and {second}{f', hole (grey) {digits(self.body.hole)}' if hole else ''}.",
         )
 
     def _about_section(self) -> Caption:

@@ -25,7 +25,7 @@ from hess_explorer.views.comparison import Cells, Curves, Frame
 from hess_explorer.views.graph import pieces
 from hess_explorer.views.layers import Axes, CellGrid
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.text import digits
+from hess_explorer.views.text import digits, superscript
 from hess_mechanics import parameters as known
 from hess_mechanics.numerics.accuracy import REFERENCE, Computation, Level, Plan
 from hess_mechanics.numerics.results import Array
@@ -262,12 +262,12 @@ class RotationNumber(State):
     def _about_line(self) -> Caption:
         rho = str(self.sought).replace("-", "−")
         if self.periodic is not None:
-            place = digits(self.on_line.place(self.periodic.torus), 6)
-            # No line break within the bars.
-            difference = f"|Θ^{self.sought.denominator} − id|".replace(" ", "\N{NO-BREAK SPACE}")
+            place = digits(self.on_line.place(self.periodic.torus))
+            difference = f"|Θ{superscript(self.sought.denominator)} − id|"
             defect = digits(self.periodic.defect, 1)
             return Caption(
-                "Every orbit is periodic there.", f"ρ = {rho} at {self.line} = {place}: {difference} ≤ {defect}."
+                "All orbits of this torus are periodic.",
+                f"ρ = {rho} at {self.line} = {place}: {difference} ≤ {defect}.",
             )
         return Caption("The only plateau is ρ = 0." if self.perturbed is None else f"No torus here has ρ = {rho}.")
 
@@ -402,7 +402,7 @@ SCENE = Scene(
             name="map",
             title=lambda s: f"Rotation number ρ over ({s.over})",
             axes=lambda s: s.sides,
-            caption=lambda s: Caption("Locked on one plateau, ρ = 0.", "Elsewhere ρ changes everywhere."),
+            caption=lambda s: Caption("The only plateau is ρ = 0.", "Elsewhere ρ is nowhere constant."),
             x=lambda s: s.window[0],
             y=lambda s: s.window[1],
             on_click=lambda s, x, y: {s.sides[0]: x, s.sides[1]: y},

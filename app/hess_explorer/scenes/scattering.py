@@ -80,7 +80,7 @@ class Scattering(State):
         """Limit the distance to 1e-16 beside an oblique line, where doubles round the start."""
         if self.I13 * self.I23 == 0.0 or self.digits <= _MOST_DIGITS:
             return self
-        notes.append(f"With I₁₃I₂₃ ≠ 0 a start is known to 1e−16 only: its distance is 1e−{_MOST_DIGITS:g} now.")
+        notes.append(f"With I₁₃I₂₃ ≠ 0 a start is known only to 1e−16: its distance was set to 1e−{_MOST_DIGITS:g}.")
         return replace(self, digits=_MOST_DIGITS)
 
     @cached_property
@@ -177,7 +177,7 @@ class Scattering(State):
     def derived(self) -> Iterator[str]:
         """Yield I11 and k², the rotation and the start."""
         yield from free_body.about_I11(self.k, self.body)
-        yield f"cos χ = {in_digits(self.limit.cos_chi, 12)}"
+        yield f"cos χ = {in_digits(self.limit.cos_chi, 6)}"
         yield f"φ* = {in_digits(self.map.phi_star, 6)}"
         yield f"δ = {in_digits(self.distance, 3)}"
         yield f"ξ = {vector(self.points.xi)}"

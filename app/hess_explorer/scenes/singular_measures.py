@@ -37,10 +37,10 @@ _CHOICES: Values = {"start": "energy shell", "direction": "forward", "beside": "
 _PATCH: Values = {"start": "small patch", "direction": "forward", "along": "volume"}
 
 PRESETS = (
-    Preset("Free Suslov problem: on the average 1/|s|", **_CHOICES),
+    Preset("Free Suslov problem: 1/|s| on average", **_CHOICES),
     Preset("Backward: onto the unstable half", **{**_CHOICES, "direction": "backward"}),
     Preset("A small patch and its volume", **_PATCH, beside="nothing"),
-    Preset("Beside: on a principal axis volume is kept", **_PATCH, beside="principal axis"),
+    Preset("Beside: on a principal axis, volume is preserved", **_PATCH, beside="principal axis"),
     Preset("A density that vanishes: |F₂|/|s| on F₂ = 0", **_CHOICES, I11=1.64, I22=1.0, I13=0.0, I23=0.8),
     Preset(
         "Chaplygin ball, 𝒟 = 3: γ gathers too (not a rigid body)",
@@ -190,7 +190,9 @@ class SingularMeasures(State):
     def _about_density(self) -> Caption:
         s, mean = self.clouds.density.passed_by_most
         height = digits(self.clouds.density.height, 3)
-        return Caption(numbers=f"Mean over time · |s| at {digits(s, 2)}: {digits(mean, 3)}; dotted: {height}/|s|.")
+        return Caption(
+            numbers=f"Mean density times |s| at |s| = {digits(s, 2)}: {digits(mean, 3)}; dotted: {height}/|s|."
+        )
 
     def _about_course(self) -> Caption:
         return cloud.about_course(self.clouds, of_patch=self.along == "volume" and self.start == "small patch")
@@ -276,7 +278,7 @@ SCENE = Scene(
             name="divergence",
             caption=SingularMeasures._about_course,
             axes=("t", "div v, or ln s(t)/s(0)"),
-            title=lambda s: f"{'Divergence' if s.along == 'divergence' else 'Small volumes'} along the way",
+            title=lambda s: f"{'Divergence' if s.along == 'divergence' else 'Small volumes'} along the orbits",
             x=lambda s: (0.0, float(s.times[-1])),
             y=lambda s: s.heights,
             dot=("t", "mean"),

@@ -100,14 +100,14 @@ PRESETS = (
                 drop="the later half",
             ),
             Preset(
-                "Reversal: what attracts, and what repels (not a rigid body)",
+                "Reversal: attractor and repeller (not a rigid body)",
                 **_body(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3, E=1.743),
                 colours=_BOTH,
                 count=100.0,
                 drop="all",
             ),
             Preset(
-                "On a principal axis, I₁₃ = I₂₃ = 0: volume is kept",
+                "On a principal axis, I₁₃ = I₂₃ = 0: volume is preserved",
                 **_body(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.8, E=0.7),
                 colours="forward only",
                 drop="all",
@@ -158,7 +158,7 @@ class Suslov(State):
         bottom = self.poincare.lowest_energy + math.hypot(self.b1, self.b2, self.b3)
         if self.h <= bottom * (1.0 + 1e-9):
             state = replace(state, h=bottom * 1.01 + 1e-6)
-            notes.append(f"Motions reach {self.plane} only for h > {digits(bottom)}: h is {digits(state.h)} now.")
+            notes.append(f"Motions reach {self.plane} only for h > {digits(bottom)}: h was set to {digits(state.h)}.")
         return state
 
     # ---- the motion ---------------------------------------------------------------------------------------------
@@ -325,7 +325,7 @@ class Suslov(State):
         # The later halves of the forward orbits show the attractors.
         later = joined(orbit[len(orbit) // 2 :] for orbit in self.section.kind(True))
         return Caption(
-            numbers=f"{len(first)} points forward{backward}; second halves of the forward orbits in "
+            numbers=f"{len(first)} points forward{backward}; late forward points occupy "
             f"{occupied_cells(later, _CELLS)} of {_CELLS**2} cells."
         )
 
@@ -337,7 +337,7 @@ class Suslov(State):
             )
         exponent, course = self.exponent.found, self.course
         if exponent is None or course is None:
-            return Caption(self.awaited("They are"))
+            return Caption(self.awaited())
         end = digits(float(course.times[-1]))
         return Caption(
             numbers=f"λ = {with_error(exponent.value, exponent.spread)}, "

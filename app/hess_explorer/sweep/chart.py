@@ -82,7 +82,7 @@ class Chart:
         scene = scenes().get(link.given.get("scene", ""))
         if scene is None:
             raise InvalidParameter(
-                "A chart needs the link of a state, with the name of its scene: open the scene and choose Chart again."
+                "A chart needs the link of a state that names its scene: open the scene and choose Chart again."
             )
         charted = next((one for one in scene.charts if one.quantity == given.get("quantity")), None)
         if charted is None:
@@ -95,7 +95,7 @@ class Chart:
         over = swept(scene.name, charted.quantity)
         x, y = (_side(scene, over, given.get(side)) for side in ("x", "y"))
         if x.name == y.name:
-            raise InvalidParameter(f"Both sides are {x.name}: choose two parameters.")
+            raise InvalidParameter(f"Both axes are {x.name}: choose two different parameters.")
         values, _ = scene.admit(link.values(scene.specs))
         return cls(scene, values, charted, part, x, y)
 
@@ -261,7 +261,7 @@ def _side(scene: Scene[Any], over: tuple[str, ...], given: Any) -> Side:
             except OverflowError:
                 ends = math.nan, math.nan
             if not all(map(math.isfinite, ends)):
-                raise InvalidParameter(f"The ends of {symbol} are no numbers: give two.")
+                raise InvalidParameter(f"The range of {symbol} must be two numbers.")
             low, high = sorted(min(max(end, least), most) for end in ends)
             if not high > low:
                 raise InvalidParameter(

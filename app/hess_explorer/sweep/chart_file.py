@@ -52,7 +52,7 @@ def read_chart(path: Path) -> xr.Dataset:
         raise StoreError(f"{str(path)!r} cannot be read ({failure.strerror}): choose another file.") from failure
     except (ValueError, TypeError, KeyError, IndexError, AttributeError, OverflowError, InvalidParameter) as failure:
         raise StoreError(
-            f"{str(path)!r} holds no whole chart: choose a file that Save in the page has written, or the "
+            f"{str(path)!r} does not contain a complete chart: choose a file written by Save on the page, or the "
             "folder of a sweep."
         ) from failure
     given = {name: value for name, value in Link(state).given.items() if name not in places}

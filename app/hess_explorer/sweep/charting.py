@@ -28,7 +28,7 @@ _MOST = 4096
 
 STOPPED = "Stopped."
 USED_UP = (
-    f"A chart may take {SECONDS:g} s of the processor, and this one has: choose fewer cells, a cheaper accuracy "
+    f"The chart was stopped after {SECONDS:g} s of processor time, the limit: choose fewer cells, a cheaper accuracy "
     "or a shorter time."
 )
 FAILED = "This chart could not be computed. Please report the link."

@@ -39,20 +39,20 @@ class SweepGrid:
     def of(cls, quantity: Quantity, over: Mapping[str, Axis], fixed: Mapping[str, float], most: int) -> SweepGrid:
         """Return the checked grid.  Raises `InvalidParameter`, `WorkLimit`."""
         if not 1 <= len(over) <= _MOST_AXES:
-            raise InvalidParameter(f"A sweep goes over one to {_MOST_AXES} parameters, not {len(over)}.")
+            raise InvalidParameter(f"A sweep takes one to {_MOST_AXES} parameters, not {len(over)}.")
         both = sorted(set(over) & set(fixed))
         if both:
-            raise InvalidParameter(f"{both[0]} is swept and has one value too: give it once.")
+            raise InvalidParameter(f"{both[0]} is both swept and fixed: give it only once.")
         for name in (*over, *fixed):
             quantity.parameter(name)
         counts = {name: _count(values, name) for name, values in over.items()}
         numbers = math.prod(counts.values()) * quantity.numbers
         if not 1 <= most <= HARD_LIMIT:
-            raise WorkLimit(f"At most {HARD_LIMIT:g} numbers can be allowed, and at least 1, not {most:g}.")
+            raise WorkLimit(f"most_cells must lie between 1 and {HARD_LIMIT:g}, not be {most:g}.")
         if numbers > most:
             raise WorkLimit(
-                f"These are {numbers} numbers; at most {most} are allowed: choose fewer values, or allow "
-                f"more with most_cells (on the command line --most-cells), up to {HARD_LIMIT:g}."
+                f"The sweep has {numbers} numbers; at most {most} are allowed: choose fewer values, or raise "
+                f"most_cells (on the command line --most-cells), up to {HARD_LIMIT:g}."
             )
         axes = {name: _axis(quantity.parameter(name), values) for name, values in over.items()}
         return cls(
@@ -119,7 +119,7 @@ def _count(values: Axis, name: str) -> int:
     try:
         return len(values)
     except TypeError:
-        raise InvalidParameter(f"{name} is swept over values, or (low, high, count): give one of these.") from None
+        raise InvalidParameter(f"The range of {name} must be a list of values or (low, high, count).") from None
 
 
 def _axis(one: Parameter, values: Axis) -> Array:
@@ -132,14 +132,14 @@ def _axis(one: Parameter, values: Axis) -> Array:
         try:
             found = np.array(values, float)
         except (TypeError, ValueError):
-            raise InvalidParameter(f"The values of {one.name} are not all numbers.") from None
+            raise InvalidParameter(f"The values of {one.name} must all be numbers.") from None
     if found.ndim != 1 or found.size == 0:
-        raise InvalidParameter(f"The values of {one.name} are one or more numbers in a row.")
+        raise InvalidParameter(f"The values of {one.name} must be a one-dimensional list of numbers.")
     # Check only the smallest and the largest of many values.
     for value in (float(found.min()), float(found.max()), *(found.tolist() if one.whole else ())):
         one.check(value)
     if np.unique(found).size < found.size:
-        raise InvalidParameter(f"A value of {one.name} is there twice: give each once.")
+        raise InvalidParameter(f"A value of {one.name} occurs twice: give each value once.")
     return found
 
 
@@ -149,5 +149,5 @@ def _value(one: Parameter, quantity: Quantity, fixed: Mapping[str, float]) -> fl
     try:
         value = float(fixed.get(one.name, one.default))
     except (TypeError, ValueError):
-        raise InvalidParameter(f"{one.name} is a number, not {fixed[one.name]!r}.") from None
+        raise InvalidParameter(f"{one.name} must be a number, not {fixed[one.name]!r}.") from None
     return one.check(value)

@@ -150,7 +150,7 @@ def _on_heavy(values: Values) -> tuple[Body, Start]:
 _ON_SECTIONS = (
     _Motions(
         "suslov-section",
-        "Suslov problem, a place of a section",
+        "Suslov problem, a point of a section",
         SUSLOV,
         (*SUSLOV_ENERGY, known.PSI, known.DELTA),
         _on_suslov,
@@ -159,7 +159,7 @@ _ON_SECTIONS = (
     ),
     _Motions(
         "ball-section",
-        "Chaplygin ball, a place of a section",
+        "Chaplygin ball, a point of a section",
         BALL,
         (*_body(BALL), known.H_BALL, known.PSI, known.DELTA),
         _on_ball,
@@ -168,7 +168,7 @@ _ON_SECTIONS = (
     ),
     _Motions(
         "euler-poisson-section",
-        "Euler–Poisson, a place of the Andoyer–Deprit section",
+        "Euler–Poisson, a point of the Andoyer–Deprit section",
         HEAVY,
         (*_body(HEAVY), usual(known.H_HEAVY, 2.0), usual(known.F_HEAVY, 0.5), known.L, known.X, known.SHEET),
         _on_heavy,
@@ -264,7 +264,7 @@ def _quantities(of: _Motions) -> tuple[Quantity, ...]:
             "λ",
             "Largest Lyapunov exponent",
             "1/time",
-            "Mean rate at which neighbours part over the time t (Benettin, Galgani, Strelcyn 1976).",
+            "Mean rate at which nearby orbits separate over the time t (Benettin, Galgani, Strelcyn 1976).",
             _lyapunov,
             long,
             error="range of the running average in its second half",
@@ -274,8 +274,8 @@ def _quantities(of: _Motions) -> tuple[Quantity, ...]:
             "λᵢ",
             "All Lyapunov exponents",
             "1/time",
-            "Mean rates at which a frame of neighbours grows over the last four fifths of the time t, the largest "
-            "first, by the variational equations.",
+            "Mean growth rates of a frame of tangent vectors over the last four fifths of the time t, the largest "
+            "first.",
             _spectrum,
             long,
             parts=tuple(str(i + 1) for i in range(size)),
@@ -286,7 +286,7 @@ def _quantities(of: _Motions) -> tuple[Quantity, ...]:
             "D",
             "Kaplan–Yorke dimension",
             "1",
-            "Of what the motion fills on its level of the integrals, from all exponents over the time t.",
+            "Dimension of the set that the motion fills at fixed integrals, from all exponents over the time t.",
             _dimension,
             long,
             error="from those of the exponents",
@@ -324,7 +324,7 @@ def _quantities(of: _Motions) -> tuple[Quantity, ...]:
                 "n",
                 "Returns to the section",
                 "1",
-                "How often the motion comes back to the section up to the time t.",
+                "How often the motion returns to the section up to the time t.",
                 _returns,
                 counted,
                 error="of the states at the crossings",
@@ -356,7 +356,7 @@ def _regime(of: _Motions, level: Level, transient: float, kept: float, t: float,
     if found.kind in _UNDECIDED:
         raise NoValue(
             f"The motion is {found.kind.words}: MEGNO is {found.megno:.3g} after t = {found.t:.4g}. Choose a "
-            "longer time, or leave more crossings out."
+            "longer time, or skip more crossings."
         )
     return Cell((float(found.kind), float(found.period), float(found.volume)))
 
@@ -373,8 +373,8 @@ def _regimes(of: _Motions) -> Quantity:
         "three times the error. What is undecided has no value.",
         (
             *of.parameters,
-            whole("transient", "N₀", 300, 0, 20_000, "Crossings left out."),
-            whole("kept", "N", 200, 8, 20_000, "Crossings looked at."),
+            whole("transient", "N₀", 300, 0, 20_000, "Crossings skipped."),
+            whole("kept", "N", 200, 8, 20_000, "Crossings analysed."),
             usual(known.SPAN, 200.0, "Time of MEGNO and of the mean divergence."),
         ),
         one_by_one(partial(_regime, of), 3),

@@ -93,7 +93,7 @@ class _Process:
                 raise found
             assert isinstance(found, Done)
             return found
-        raise RuntimeError(f"{_DEATHS} processes died of it")
+        raise RuntimeError(f"{_DEATHS} worker processes crashed on it")
 
     def _again(self, child: subprocess.Popen[bytes]) -> None:
         _kill(child)

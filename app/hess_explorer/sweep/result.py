@@ -125,7 +125,7 @@ class Store:
         group = _group(path, "r+")
         found = {name: group.get(name) for name in _names(what)}
         if not all(isinstance(array, zarr.Array) for array in found.values()):
-            raise StoreError(f"{str(path)!r} is no whole store of a sweep: choose another folder.")
+            raise StoreError(f"{str(path)!r} is a damaged or incomplete store: choose another folder.")
         self._arrays: dict[str, Any] = found
         self.shape: tuple[int, ...] = found["status"].chunks
 
@@ -163,7 +163,7 @@ class Store:
     @property
     def said(self) -> str:
         """A sentence on where the results are and how to resume."""
-        return f"What is done is kept in {str(self.path)!r}: the same sweep goes on there."
+        return f"Finished cells are saved in {str(self.path)!r}: run the same sweep again to continue."
 
     def require(self, grid: SweepGrid, level: str) -> None:
         """Raise `OtherSweep` if the store was created for a different sweep."""
@@ -174,7 +174,7 @@ class Store:
                 self._refuse(f"has {name} {held.get(name)!r}, not {value!r}")
         axes = tuple(self._arrays["status"].metadata.dimension_names or ())
         if axes != tuple(grid.axes):
-            self._refuse(f"goes over {', '.join(axes)}, not {', '.join(grid.axes)}")
+            self._refuse(f"is over {', '.join(axes)}, not {', '.join(grid.axes)}")
         for name, places in grid.axes.items():
             if not np.array_equal(np.asarray(_group(self.path, "r")[name]), places):
                 self._refuse(f"has other values of {name}")
@@ -185,8 +185,7 @@ class Store:
 
     def _refuse(self, why: str) -> None:
         raise OtherSweep(
-            f"{str(self.path)!r} is the store of another sweep: it {why}.  Choose another folder, or ask "
-            "for the same sweep."
+            f"{str(self.path)!r} contains another sweep: it {why}.  Choose another folder, or repeat that sweep."
         )
 
     def has(self, box: Box) -> bool:
@@ -218,7 +217,7 @@ def _group(path: Path, mode: Any) -> Any:
     try:
         return zarr.open_group(path, mode=mode, zarr_format=3)
     except (OSError, ValueError) as error:
-        raise StoreError(f"{str(path)!r} is no store of a sweep: choose another folder.") from error
+        raise StoreError(f"{str(path)!r} does not contain a sweep: choose another folder.") from error
 
 
 def read(path: str | Path) -> xr.Dataset:
@@ -249,13 +248,13 @@ def read(path: str | Path) -> xr.Dataset:
 
         return read_chart(path)
     if _group(path, "r").attrs.get("program") != _PROGRAM:
-        raise StoreError(f"{str(path)!r} is no store of a sweep: choose another folder.")
+        raise StoreError(f"{str(path)!r} does not contain a sweep: choose another folder.")
     found: xr.Dataset = xr.open_zarr(path, consolidated=False, zarr_format=3, chunks=None)
     try:
         return found.load() if math.prod(found.sizes.values()) <= MAX_NUMBERS else found
     except (OSError, ValueError, RuntimeError) as error:
         raise StoreError(
-            f"A part of {str(path)!r} cannot be read: run the same sweep again, which computes it anew."
+            f"A part of {str(path)!r} cannot be read: run the same sweep again to recompute it."
         ) from error
 
 
@@ -266,8 +265,8 @@ def opened(path: Path, what: Quantity, grid: SweepGrid, level: str) -> Store | N
     held = _group(path, "r").attrs.get("quantity")
     if held != what.name and held in QUANTITIES:
         raise OtherSweep(
-            f"{str(path)!r} is the store of another sweep: it has quantity {held!r}, not {what.name!r}.  "
-            "Choose another folder, or ask for the same sweep."
+            f"{str(path)!r} contains another sweep: it has quantity {held!r}, not {what.name!r}.  "
+            "Choose another folder, or repeat that sweep."
         )
     found = Store(path, what)
     found.require(grid, level)

@@ -214,10 +214,10 @@ def explain(found: xr.Dataset, **cell: float) -> str:
         If the Dataset is not a result of `sweep`.
     """
     if "quantity" not in found.attrs:
-        raise StoreError("This Dataset is not of a sweep: pass one that `sweep` or `read` has returned.")
+        raise StoreError("This Dataset is not the result of a sweep: pass one returned by `sweep` or `read`.")
     axes = tuple(map(str, found.status.dims))
     if set(cell) != set(axes):
-        raise InvalidParameter(f"A cell of this sweep has coordinates {', '.join(axes)}: give each.")
+        raise InvalidParameter(f"A cell of this sweep has the coordinates {', '.join(axes)}: give all of them.")
     if "state" in found.attrs:
         # The cells of a chart are states of a scene.
         from hess_explorer.sweep.chart_file import chart_of

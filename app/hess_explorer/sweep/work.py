@@ -56,8 +56,8 @@ def compute(piece: Chunk) -> Done:
     """Compute a box.  Raises `WorkersLost` if this process has another version than the caller."""
     if piece.version != version():
         raise WorkersLost(
-            f"A worker has version {version()} of hess-explorer, and {piece.version} is asked for: "
-            "install the same on all."
+            f"A worker has version {version()} of hess-explorer, but the sweep needs {piece.version}: "
+            "install the same version on all workers."
         )
     what = quantity(piece.quantity)
     found = evaluate(what, expanded(piece.axes, piece.fixed), level(piece.level))

@@ -106,7 +106,7 @@ class _Others:
             for future in waiting:
                 future.cancel()
         if lost:
-            raise WorkersLost(f"{len(lost)} pieces were given up, the first because: {_sentence(lost[0])}")
+            raise WorkersLost(f"{len(lost)} pieces failed; reason of the first: {_sentence(lost[0])}")
 
 
 def _sentence(error: BaseException) -> str:
@@ -115,7 +115,7 @@ def _sentence(error: BaseException) -> str:
 
 
 def _gone() -> WorkersLost:
-    return WorkersLost("The cluster does not answer any more: start it again.")
+    return WorkersLost("The cluster has stopped responding: restart it.")
 
 
 @contextmanager
@@ -154,7 +154,9 @@ def _connected(stack: ExitStack, address: str, stopped: Callable[[], bool]) -> C
     Raises `InvalidParameter`, `MissingLibrary`, `WorkersLost`.
     """
     if "://" not in address:
-        raise InvalidParameter(f"{address!r} is no address of a Dask scheduler: write it like tcp://host:8786, or all.")
+        raise InvalidParameter(
+            f"{address!r} is not the address of a Dask scheduler: write it like tcp://host:8786, or all."
+        )
     try:
         from distributed import Client
     except ImportError as error:
@@ -168,7 +170,7 @@ def _connected(stack: ExitStack, address: str, stopped: Callable[[], bool]) -> C
             time.sleep(_LOOK)
     except (OSError, TimeoutError, ValueError) as error:
         raise WorkersLost(
-            f"At {address} no Dask scheduler with a worker answers within {_WAIT:g} s: "
+            f"No Dask scheduler with a worker answered at {address} within {_WAIT:g} s: "
             "start one with `dask scheduler`, and workers with `dask worker`."
         ) from error
     return client

@@ -146,7 +146,7 @@ def about(theta: CircleMap | None, proof: str = "") -> Caption:
         return Caption(numbers=proof)
     cycles = {"hyperbolic": "two limit cycles", "parabolic": "the two cycles have merged"}.get(theta.kind, "no cycle")
     kind = f"{theta.kind.capitalize()}: {cycles}."
-    trace, rho = f"|trace| {digits(theta.trace, 5)}", f"ρ = {digits(theta.rotation_number)}"
+    trace, rho = f"|trace| = {digits(theta.trace)}", f"ρ = {digits(theta.rotation_number)}"
     if "cycle" in proof:
         statement, bounds = proof.split(", ", 1)
         return Caption(f"{statement}.", f"{rho}, {bounds}" if "|trace|" in bounds else f"{trace}, {rho}, {bounds}")
@@ -169,7 +169,7 @@ def riccati_matrix(theta: CircleMap) -> str:
 
 def about_cycles(theta: CircleMap) -> Caption:
     """Return the cycles of a map, and its trace."""
-    trace = f"|trace| {digits(theta.trace, 5)}"
+    trace = f"|trace| = {digits(theta.trace)}"
     if theta.kind == "hyperbolic":
         stable, unstable = (digits(point.multiplier) for point in theta.fixed_points)
         return Caption("Two limit cycles.", f"Multipliers {stable}, {unstable}; {trace}.")

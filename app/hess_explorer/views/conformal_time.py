@@ -30,7 +30,7 @@ def about(found: Conformal) -> Caption:
     turned = {0: "never", 1: "once"}.get(found.turns, f"{found.turns} times")
     return Caption(
         "Hamiltonian in the time τ.",
-        f"ẋ = γ₃{{x, E}} to {power(found.left_over)}; τ turns round {turned} on the equator.",
+        f"ẋ = γ₃{{x, E}} to {power(found.left_over)}; τ reverses {turned} on the equator.",
     )
 
 

@@ -97,8 +97,7 @@ def momentum_picture(
             return Caption(
                 "An integral, as I₁₁ = I₂₂.", f"{digits(float(values[0]))}, constant to {power(float(np.ptp(values)))}."
             )
-        stays = staying(values)
-        return Caption("No integral, as I₁₁ ≠ I₂₂.", f"{'Here it ' if stays.startswith('stays') else ''}{stays}.")
+        return Caption("No integral, as I₁₁ ≠ I₂₂.", f"Here it is {staying(values)}.")
 
     return Plot(
         name="momentum",

@@ -39,7 +39,7 @@ def about(body: PotentialBody, motion: PlaneMotion) -> Caption:
     if motion.period is not None:
         return Caption(
             "Periodic: it crosses the equator twice.",
-            f"T = {digits(motion.period, 6)}, back to the start to {power(motion.missed)}.",
+            f"T = {digits(motion.period)}, back to the start to {power(motion.missed)}.",
         )
     integral = (
         f"F₂ is constant to {power(motion.integral)}: integrable."

@@ -114,8 +114,7 @@ def over_orders(
     def about(state: S) -> Caption:
         computed, exact = here(state)[1], closed(state)
         return Caption(
-            numbers=f"Computed {digits(computed, 6)}; closed form {digits(exact, 6)}, "
-            f"difference {digits(abs(computed - exact), 2)}."
+            numbers=f"cos χ = {digits(computed)}; the closed form differs by {digits(abs(computed - exact), 2)}."
         )
 
     return Plot(

@@ -10,7 +10,17 @@ from latex2mathml.converter import convert
 
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["conjugates", "digits", "power", "ranging", "staying", "vector", "with_error", "with_formulas"]
+__all__ = [
+    "conjugates",
+    "digits",
+    "power",
+    "ranging",
+    "staying",
+    "superscript",
+    "vector",
+    "with_error",
+    "with_formulas",
+]
 
 
 def digits(value: float, count: int = 4) -> str:
@@ -39,7 +49,7 @@ def ranging(low: float, high: float, count: int = 4) -> str:
 def staying(values: Array) -> str:
     """Return the range of values (n,) in words."""
     low, high = digits(float(values.min())), digits(float(values.max()))
-    return f"stays {low}" if low == high else f"between {low} and {high}"
+    return f"constant at {low}" if low == high else f"between {low} and {high}"
 
 
 def conjugates(value: complex) -> str:
@@ -50,6 +60,11 @@ def conjugates(value: complex) -> str:
 def vector(components: Iterable[float], count: int = 4) -> str:
     """Return the components in parentheses, with `count` digits each."""
     return f"({', '.join(digits(one, count) for one in components)})"
+
+
+def superscript(number: int) -> str:
+    """Return a natural number as an exponent: 12 becomes "¹²"."""
+    return str(number).translate(str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹"))
 
 
 def with_formulas(text: str) -> str:

@@ -36,14 +36,14 @@ def phases(track: Track, theta: CircleMap | None) -> Array:
 def why_none(theta: CircleMap | None, turning: TurningPoints | None) -> str:
     """Return the reason for a missing density, "" if it exists; both arguments are None on the separatrix."""
     if theta is None or turning is None:
-        return "No density: on the separatrix no motion returns."
+        return "On the separatrix no motion returns."
     if turning.roots[2] - turning.roots[1] < 1e-6:
-        return "No density: on the bifurcation curve the torus is a circle."
+        return "On the bifurcation curve the torus is a circle."
     if theta.kind == "hyperbolic":
-        return "No density: |t| > 2, every motion but one tends to the stable limit cycle."
+        return "|trace| > 2: all motions but one tend to the stable limit cycle."
     if theta.kind == "parabolic":
-        return "No density at |t| = 2, where the two limit cycles merge."
-    return "No density is drawn at f = 0: φ jumps where w = 0. Choose another f." if theta.f == 0.0 else ""
+        return "|trace| = 2: the two limit cycles merge."
+    return "At f = 0 the angle φ jumps where w = 0: choose another f." if theta.f == 0.0 else ""
 
 
 def about(density: Array) -> Caption:
@@ -59,7 +59,7 @@ def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
 
     def caption(state: S) -> Caption:
         found, reason = density(state)
-        return Caption(numbers=reason) if found is None else about(found)
+        return Caption("No density is drawn.", reason) if found is None else about(found)
 
     def shares(state: S) -> CellGrid | None:
         found, _ = density(state)

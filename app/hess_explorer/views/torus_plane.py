@@ -89,5 +89,5 @@ def about_heights(turning: TurningPoints | None) -> Caption:
         return Caption("The vertical tends to n₃ = −1.", "The upper equilibrium.")
     n1, n2 = turning.roots[1:]
     if digits(n1) == digits(n2):
-        return Caption("The vertical γ keeps its height.", f"n₃ = {digits(n1)}.")
+        return Caption("The vertical γ has constant height.", f"n₃ = {digits(n1)}.")
     return Caption("The vertical γ between two heights.", f"n₃ = {digits(n1)} and {digits(n2)}.")

@@ -122,7 +122,7 @@ def _axes(body: BallBody) -> tuple[float, float, float]:
     J = math.hypot(body.I13, body.I23)
     if not J > 0.0:
         raise InvalidParameter(
-            "With I13 = I23 = 0 and no field ω is constant, and 1/|I13ω1 + I23ω2| has no meaning. "
+            "With I13 = I23 = 0 and no field ω is constant, and 1/|I13ω1 + I23ω2| is undefined. "
             "Choose I13 or I23 other than 0."
         )
     return J, body.I13 / J, body.I23 / J

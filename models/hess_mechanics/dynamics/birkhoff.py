@@ -56,7 +56,7 @@ def rotation_number(points: Array, centre: tuple[float, float] | None = None) ->
     """
     if len(points) < 5:
         raise InvalidParameter(
-            f"A rotation number needs five points of an orbit, and there are {len(points)}: follow it for longer."
+            f"A rotation number needs five points of an orbit, but there are {len(points)}: follow it for longer."
         )
     if centre is None:
         angle = points[:, 0]

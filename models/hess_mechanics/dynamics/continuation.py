@@ -260,14 +260,14 @@ class _Track:
             if length > 4.0 * before and length > promise:
                 break
             z, before = z + step, length
-        raise NotConverged("Newton's method does not come back to the branch.")
+        raise NotConverged("Newton's method does not return to the branch.")
 
     def beside(self, guess: Array, across: Array, t: Array) -> tuple[_Point, Array]:
         """Return the `corrected` point and its tangent, which must be close to t.  Raises `NotConverged`."""
         point = self.corrected(guess, across)
         turned = point.tangent(t)
         if math.acos(min(1.0, float(turned @ t))) > _TURN:
-            raise NotConverged("The branch turns too much.")
+            raise NotConverged("The branch turns too sharply.")
         return point, turned
 
     def error(self, point: _Point, across: Array) -> float:

@@ -151,7 +151,7 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
         require_finite_neighbours(np.array(distance))
         if distance == 0.0:
             raise InvalidParameter(
-                "A neighbour falls onto the motion, to the last digit of double precision, and has "
+                "A nearby orbit merges with the motion in double precision, and has "
                 "no rate: choose less extreme parameters, or take all exponents, which need no "
                 "distance."
             )

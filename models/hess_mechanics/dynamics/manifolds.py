@@ -484,7 +484,7 @@ def heights_at(curve: Manifold, axis: int, value: float) -> Array:
     change = np.flatnonzero((along[1:-1] <= 0.0) != (along[2:] <= 0.0)) + 1
     if not change.size:
         raise NotConverged(
-            f"This manifold does not come to {curve.names[axis]} = {value:g}: grow it to a greater length."
+            f"This manifold does not reach {curve.names[axis]} = {value:g}: grow it to a greater length."
         )
     return np.array([_height_on(curve, axis, value, int(i)) for i in change])
 

@@ -163,7 +163,7 @@ def megno(
     problem = Problem.of(body, states)
     if abs(span) * problem.nu > _LONGEST:
         raise WorkLimit(
-            f"An indicator takes a time of at most {_LONGEST / problem.nu:.4g} here: it is meant to be short."
+            f"The time of an indicator may be at most {_LONGEST / problem.nu:.4g} here: choose a shorter one."
         )
     count, size = problem.states.shape
     # At least one sample per 1/ν, in twelve stretches after the first fifth.

@@ -188,7 +188,7 @@ def _corners(section: PoincareSection, window: Window | None) -> Window:
     if not (x0 < x1 and y0 < y1 and inside):
         across, up = (f"{low:.6g} to {high:.6g}" for low, high in sides)
         raise InvalidParameter(
-            "A window is (x0, y0), (x1, y1) with x0 < x1 and y0 < y1. "
+            "A window must be (x0, y0), (x1, y1) with x0 < x1 and y0 < y1. "
             f"On this section {names[0]} runs from {across}, {names[1]} from {up}."
         )
     return (x0, y0), (x1, y1)

@@ -71,14 +71,14 @@ def require_steps(steps: int, too_long: str) -> None:
 def require_finite_states(states: Array) -> None:
     """Raise `InvalidParameter` if a state is not finite."""
     if not np.all(np.isfinite(states)):
-        raise InvalidParameter("The motion left the range of double precision: choose less extreme parameters.")
+        raise InvalidParameter("The motion exceeded the range of double precision: choose less extreme parameters.")
 
 
 def require_finite_neighbours(*found: Array) -> None:
     """Raise `WorkLimit` if the variational equations have overflowed."""
     if not all(np.all(np.isfinite(one)) for one in found):
         raise WorkLimit(
-            "Neighbours part beyond the range of double precision: choose a shorter time span, or less "
+            "Nearby orbits separate beyond the range of double precision: choose a shorter time span, or less "
             "extreme parameters."
         )
 
@@ -87,7 +87,7 @@ def require_finite_rates(*rates: Array | float) -> None:
     """Raise `InvalidParameter` if a rate has overflowed."""
     if not all(np.all(np.isfinite(one)) for one in rates):
         raise InvalidParameter(
-            "Rates over this time span leave the range of double precision: choose a longer one, or "
+            "Rates over this time span exceed the range of double precision: choose a longer one, or "
             "less extreme parameters."
         )
 

@@ -376,7 +376,7 @@ def _of_period(map_: Map, place: Array, m: int, near: bool) -> PeriodicOrbit:
     orbit = _orbit_from(map_, place, m - 1 if near else _FOLLOWED * m + m)
     if len(orbit) < m:
         raise NotConverged(
-            f"From here a motion returns {len(orbit) - 1} times only: start elsewhere for an orbit of period {m}."
+            f"From here a motion returns only {len(orbit) - 1} times: start elsewhere for an orbit of period {m}."
         )
     later = np.argsort(_closeness(map_, orbit[m:], orbit[:-m]), kind="stable") if len(orbit) > m else np.empty(0, int)
     others: set[int] = set()
@@ -411,7 +411,7 @@ def _orbit_from(map_: Map, place: Array, count: int) -> Array:
                 return np.array(orbit[:-1])
     except ModelError as error:
         if len(orbit) == 1:
-            raise NotConverged(f"From here there is no orbit to start from: {error}") from error
+            raise NotConverged(f"No orbit can be started here: {error}") from error
     return np.array(orbit)
 
 

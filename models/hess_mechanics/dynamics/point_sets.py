@@ -86,7 +86,9 @@ def how_far_apart(turns: Sequence[float], a: Array, b: Array) -> Apart:
     Raises `InvalidParameter` if a set has fewer than 8 points.
     """
     if min(len(a), len(b)) < _LEAST:
-        raise InvalidParameter(f"Two sets of places are compared from {_LEAST} places on: follow the orbits longer.")
+        raise InvalidParameter(
+            f"A comparison needs at least {_LEAST} points in each set: follow the orbits for longer."
+        )
     halves = [(one[: len(one) // 2], one[len(one) // 2 :]) for one in (a, b)]
     grains = [max(_RESOLVED, distance(turns, *both)) for both in halves]
     sizes = [float(np.abs(apart(turns, one, one[0])).max()) for one in (a, b)]

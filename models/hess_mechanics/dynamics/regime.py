@@ -152,11 +152,11 @@ class Regime(Result):
     def sentence(self) -> str:
         """The result in one or two sentences."""
         if self.kind is MotionKind.NO_RETURN:
-            return f"The motion was not seen to return to the section within t = {self.t:.4g}."
+            return f"The motion did not return to the section within t = {self.t:.4g}."
         kind = f"periodic, period {self.period}" if self.kind is MotionKind.PERIODIC else self.kind.words
         case = f" ({self.integrable})" if self.integrable else ""
         if self.volume_kept:
-            return f"{kind[0].upper()}{kind[1:]}{case}; phase volume is kept."
+            return f"{kind[0].upper()}{kind[1:]}{case}; phase volume is conserved."
         if self.volume:
             volume = f"phase volume {'shrinks' if self.volume < 0 else 'grows'}"
             return (
@@ -457,7 +457,7 @@ class Dynamics(Result):
     def sentence(self) -> str:
         """The verdict with its evidence."""
         if self.motion.volume_kept:
-            return "Conservative: the field keeps the volume."
+            return "Conservative: the flow preserves volume."
         if self.verdict == "not told apart":
             return f"Not told apart: |mean divergence| < {self.motion.bound:.1g}."
         return (
@@ -549,8 +549,7 @@ def compared(map_: ReturnMap, motion: Regime, start: Sequence[float] | Array, tr
             if len(orbit) < transient + kept:
                 way = "backward" if one.backward else "forward"
                 raise NoReturn(
-                    f"Followed {way} in time, the motion was seen to return {len(orbit)} times only: choose "
-                    "another place."
+                    f"Followed {way} in time, the motion returned only {len(orbit)} times: choose another point."
                 )
             pair.append(frozen(orbit[transient:].copy()))
         pairs.append((pair[0], pair[1]))

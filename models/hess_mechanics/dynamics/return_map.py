@@ -462,12 +462,12 @@ class ReturnMap:
         require_steps(found, _TOO_LONG)
         if found < wanted:
             raise NoReturn(
-                f"From here the motion was not seen to return to the section {_times(count)} within t = "
+                f"From here the motion did not return to the section {_times(count)} within t = "
                 f"{longest * count * self.section.slowness / problem.nu:.4g}: choose another place."
             )
         require_finite_states(states)
         if not self.section.is_on(states[-1:] * problem.scale)[0]:
-            raise NoReturn("From here the motion returns on another sheet of the section: choose another place.")
+            raise NoReturn("From here the motion returns on another sheet of the section: choose another point.")
         return problem, float(times[-1]), states[-1]
 
     def _tangents(self, place: Array) -> Array:
@@ -486,7 +486,7 @@ class ReturnMap:
                     return np.asarray(both[0])
             step *= 0.25
             if step < 1e-6:
-                raise OutsideRegion("This place is too close to the edge of the section: choose another one.")
+                raise OutsideRegion("This point is too close to the edge of the section: choose another one.")
 
     def _in_plane(self, state: Array, place: Array, away: Array) -> Array:
         """Return ∂x/∂Y at a state along directions (k, d); column j belongs to direction j."""

@@ -435,7 +435,7 @@ class Problem:
             scaled, p = system.rescale(given.T, p, nu)
         if not all(np.all(np.isfinite(one)) for one in (scaled, p, scale)):
             raise InvalidParameter(
-                "In units in which the state is of size 1 these numbers leave the range of double "
+                "In units in which the state is of size 1 these numbers exceed the range of double "
                 "precision: choose less extreme parameters."
             )
         return cls(np.ascontiguousarray(scaled.T), p, nu, scale)

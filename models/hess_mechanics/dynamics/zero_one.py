@@ -54,7 +54,7 @@ def zero_one_test(series: Array) -> float:
     """
     if len(series) < LEAST:
         raise InvalidParameter(
-            f"The 0–1 test needs {LEAST} crossings, and there are {len(series)}: follow the motion for longer."
+            f"The 0–1 test needs {LEAST} crossings, but there are {len(series)}: follow the motion for longer."
         )
     phi = np.array(series, float)
     n = phi.size

@@ -84,7 +84,7 @@ class LoxodromicPendulum:
         if not self.body.is_hess or not self.body.mu > 0.0:
             raise InvalidParameter("A loxodromic pendulum needs a field and the Hess condition: choose μ > 0.")
         if not self.h > -1.0:
-            raise OutsideRegion(f"h = {self.h:.12g} is at or below the bottom: no motion. Choose h > −1.")
+            raise OutsideRegion(f"h = {self.h:.12g} is not above the lowest energy: choose h > −1.")
         if not 0.0 < self.l < math.pi:
             raise InvalidParameter(
                 f"l = {self.l:g}: the middle axis stays at a pole and has no track. Choose 0 < l < π."

@@ -85,7 +85,7 @@ def exact(name: str, value: ExactNumber | Decimal) -> Fraction:
     except (ValueError, InvalidOperation):
         shown = text if len(text) <= 60 else text[:60] + "…"
         raise InvalidParameter(
-            f"{name} = {shown!r} is no number that can be taken as exact; write it like 1.5, -2e-3 "
+            f"{name} = {shown!r} is not an exact number; write it like 1.5, -2e-3 "
             f"or 3/4, with at most {_MOST_DIGITS} digits and exponents within ±{_MOST_EXPONENT}."
         ) from None
     return parts[0] / parts[1] if len(parts) == 2 else parts[0]

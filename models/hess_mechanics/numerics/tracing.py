@@ -164,7 +164,7 @@ class _Tape:
             return x.node
         if isinstance(x, _Number) and math.isfinite(x):
             return self.number(x.item() if isinstance(x, np.generic) else x)
-        raise NotTraceable(f"This field cannot be traced: {x!r} is no finite number. {_ALLOWED}")
+        raise NotTraceable(f"This field cannot be traced: {x!r} is not a finite number. {_ALLOWED}")
 
     def start(self, a: _Node) -> _Node:
         return self._node("start", (a,), None, False, True) if a.moves else a
@@ -195,7 +195,7 @@ class _Tape:
 
     def power(self, a: _Node, exponent: Any) -> _Node:
         if not isinstance(exponent, int | np.integer):
-            raise NotTraceable(f"This field cannot be traced: {exponent!r} is no whole power. {_ALLOWED}")
+            raise NotTraceable(f"This field cannot be traced: {exponent!r} is not an integer exponent. {_ALLOWED}")
         if exponent < 0:
             return self.apply("/", self.number(1), self.power(a, -exponent))
         if exponent < 2:

@@ -209,7 +209,7 @@ class AdditionalIntegral:
         """
         require_finite(h=h)
         if not h > 0.0:
-            raise InvalidParameter(f"E = h = {h:g}, but without a field energy is positive: choose h > 0.")
+            raise InvalidParameter(f"E = h = {h:g}, but without a field the energy is positive: choose h > 0.")
         # At ω^(±) V = ∓a_0 |ω|^k ξ for all signs of I13 and I23, as k is odd.
         f = -float(self.a[0]) * math.sqrt(2.0 * h / self.inertia) ** self.k
         return f, f
@@ -237,9 +237,7 @@ class AdditionalIntegral:
         top, _ = self.at_fixed_points(h)
         require_finite(f=f)
         if not abs(f) <= abs(top):
-            raise InvalidParameter(
-                f"F2 = f = {f:g} is beyond every motion with h = {h:g}: choose |f| ≤ {abs(top):.6g}."
-            )
+            raise InvalidParameter(f"No motion with h = {h:g} has F2 = f = {f:g}: choose |f| ≤ {abs(top):.6g}.")
         return f / top, -f / top
 
 

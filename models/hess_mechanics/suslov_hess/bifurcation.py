@@ -105,7 +105,7 @@ class TurningPoints:
 def _check_h(h: float) -> None:
     require_finite(h=h)
     if not h > -1.0:
-        raise OutsideRegion(f"h = {h:.12g} is at or below the bottom: no motion. Choose h > −1.")
+        raise OutsideRegion(f"h = {h:.12g} is not above the lowest energy: choose h > −1.")
     if h > 1e12:
         raise InvalidParameter(f"h = {h:g} is beyond what double precision can show: choose h ≤ 1e12.")
 

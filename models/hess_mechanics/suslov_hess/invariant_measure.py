@@ -212,6 +212,4 @@ def density_on_torus(theta: CircleMap, level: Accuracy, cells: tuple[int, int] =
             phi = (2.0 * np.arange(n) + 1.0 - n) * math.pi / n
             relative = 2.0 * math.pi * measure.period * found.density(phi)
             return frozen(np.roll(relative, m // 2, axis=0).T.copy())
-    raise InvalidParameter(
-        "The density is too thin to draw, as it lies almost on one line: choose a smaller |a| or another torus."
-    )
+    raise InvalidParameter("The density lies almost on one line: choose a smaller |a| or another torus.")

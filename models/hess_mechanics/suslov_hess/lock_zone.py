@@ -192,7 +192,7 @@ def lock_zone(a: ExactNumber, h_end: float = 4.0, cells: int = 200) -> LockZone:
     if abs(number) > MOST_A:
         raise InvalidParameter(f"a = {float(number):g}: cells of the lock zone are proved for |a| ≤ {MOST_A:g}.")
     if not h_end > -1.0:
-        raise OutsideRegion(f"h = {h_end:g} is at or below the bottom: no motion. Choose h > −1.")
+        raise OutsideRegion(f"h = {h_end:g} is not above the lowest energy: choose h > −1.")
     if not h_end <= _MOST_H:
         raise InvalidParameter(f"h = {h_end:g}: the lock zone is proved up to h = {_MOST_H:g} at most.")
     return refined(LockZone(number, float(h_end), (ZoneCell(_ENDS, _ENDS),), 0), cells)

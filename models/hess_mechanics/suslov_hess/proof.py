@@ -287,7 +287,7 @@ def check_possible(a: Fraction, h: Fraction, f: Fraction) -> None:
     if f and abs(f) < _LEAST_F:
         raise InvalidParameter(f"f = {float(f):g} is too close to 0: choose f = 0 or |f| ≥ 1e-100.")
     if h <= -1:
-        raise OutsideRegion(f"h = {float(h):.12g} is at or below the bottom: no motion. Choose h > −1.")
+        raise OutsideRegion(f"h = {float(h):.12g} is not above the lowest energy: choose h > −1.")
     if f == 0 and h == 1:
         raise Separatrix("h = 1, f = 0 is the separatrix: no return. Move h or f a little.")
     if _discriminant(h, f) < 0:

@@ -137,7 +137,7 @@ def test_what_is_not_seen_to_return_is_said_with_the_time_waited():
     P = return_map(REVERSAL, E=REVERSAL_E, plane=1, accuracy="draft")
     found = regime(P, (1.0, 1.0))
     assert found.kind is MotionKind.NO_RETURN
-    assert found.sentence == f"The motion was not seen to return to the section within t = {found.t:.4g}."
+    assert found.sentence == f"The motion did not return to the section within t = {found.t:.4g}."
 
     # The start lies on the plane, so a crossing at t = 0 is the start itself.
     start = P.state_at(found.places[-1] if len(found.places) else np.array([1.0, 1.0]))

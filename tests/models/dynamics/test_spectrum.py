@@ -220,7 +220,7 @@ EXTREME = {
 )
 def test_of_a_motion_beyond_double_range_there_is_a_sentence_and_no_number(find, name):
     parameters, state = EXTREME[name]
-    with raises(InvalidParameter, match="left the range of double precision: choose less extreme parameters"):
+    with raises(InvalidParameter, match="exceeded the range of double precision: choose less extreme parameters"):
         find(systems()[name].at(parameters), state, 50.0)
 
 
@@ -235,7 +235,7 @@ def test_a_neighbour_that_falls_onto_the_motion_is_refused():
 def test_numbers_that_are_beyond_double_range_in_units_of_the_motion_are_refused():
     # p/ν is infinite.
     slow = replace(ALONE, rescale=lambda y, p, nu: (y, p / nu), frequency=lambda y, p: 1e-310)
-    with raises(InvalidParameter, match="leave the range of double precision: choose less extreme"):
+    with raises(InvalidParameter, match="exceed the range of double precision: choose less extreme"):
         Problem.of(slow.at((0.0, -0.3)), [(0.0,)])
 
 

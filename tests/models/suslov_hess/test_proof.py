@@ -132,7 +132,7 @@ def test_signs_of_a_and_f_change_nothing_but_senses():
 def test_numbers_are_taken_as_exact_decimals():
     assert exact("a", 0.1) == exact("a", "0.1") == exact("a", "1/10") == Fraction(1, 10)
     for text in ("", "x", "nan", "inf", "1/0", "1/2/3", "1e999999999", "1/1e-999", "9" * 101, "1_0_", "１"):
-        with raises(InvalidParameter, match="no number that can be taken as exact"):
+        with raises(InvalidParameter, match="is not an exact number"):
             exact("a", text)
 
 
@@ -150,7 +150,7 @@ def test_decimals_enclose_the_ends(decimals):
 
 test_what_cannot_be_proved_is_refused_with_a_sentence = refused(
     (lambda: prove("0.5", "1", "0"), "separatrix", Separatrix),
-    (lambda: prove("0.5", "-1", "0"), "at or below the bottom", OutsideRegion),
+    (lambda: prove("0.5", "-1", "0"), "not above the lowest energy", OutsideRegion),
     (lambda: prove("0.5", "0", "2"), "choose", OutsideRegion),
     (lambda: prove("2e6", "0", "0.1"), "choose"),
     (lambda: prove("0.5", "2e12", "0.1"), "choose"),

@@ -19,7 +19,7 @@ I13 = replace(
     default=0.0,
     softbounds=_NEAR_0,
     bounds=_PRODUCT,
-    doc="Product of inertia; with I₁₃ = I₂₃ = 0 the flow keeps volume.",
+    doc="Product of inertia; with I₁₃ = I₂₃ = 0 the flow preserves volume.",
 )
 I23 = replace(parameters.I23, default=0.0, softbounds=_NEAR_0, bounds=_PRODUCT)
 D = replace(

@@ -56,7 +56,7 @@ _INSIDE = 1.0 - 1e-12
 """Margin for the round-off of the translation at the edge of the possible region."""
 
 UNSURE = 1e-9
-BY_THE_UNSTABLE_CYCLE = "This motion starts next to the unstable cycle: on the torus too any round-off grows there."
+BY_THE_UNSTABLE_CYCLE = "This motion starts next to the unstable cycle: there round-off grows even on the torus."
 
 I22 = replace(
     known.I22,
@@ -95,7 +95,7 @@ def possible_f(h: float, f: float, notes: list[str]) -> float:
     largest = f_max(h)
     if abs(f) <= largest:
         return f
-    notes.append(f"At h = {digits(h)} only |f| ≤ {digits(largest)} is possible: f is at that edge now.")
+    notes.append(f"At h = {digits(h)} the largest possible |f| is {digits(largest)}: f was set to this limit.")
     return math.copysign(largest, f)
 
 
@@ -105,7 +105,7 @@ def possible_I23(I22: float, I23: float, notes: list[str]) -> float:
     if abs(I23) <= bound:
         return I23
     I23 = math.copysign(bound, I23)
-    notes.append(f"a = I₂₃/I₂₂ is kept within ±{_MAX_A:g}: I₂₃ is {digits(I23)} now.")
+    notes.append(f"|a| = |I₂₃/I₂₂| can be at most {_MAX_A:g}: I₂₃ was set to {digits(I23)}.")
     return I23
 
 
@@ -190,13 +190,13 @@ class HeavyHess:
             return {}
         h, f = max(self.h, -abs(self.m) * _INSIDE), self.f
         if h > self.h:
-            notes.append(f"The energy is above −μ|r|: h is {digits(h)} now.")
+            notes.append(f"The energy must exceed −μ|r|: h was set to {digits(h)}.")
         largest = self._largest_f(h)
         if abs(f) > largest:
             f = math.copysign(largest, f)
             notes.append(
-                f"At h = {digits(h)} only |f| ≤ {digits(largest)} is possible on the Hess manifold: f is at "
-                "that edge now."
+                f"At h = {digits(h)} the largest |f| on the Hess manifold is {digits(largest)}: f was set to "
+                "this limit."
             )
         return {"h": h, "f": f}
 

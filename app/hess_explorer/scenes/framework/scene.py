@@ -106,7 +106,7 @@ class State:
         """Return a cached property if a picture in sight has computed it, else None."""
         return vars(self).get(name)
 
-    def awaited(self, what: str = "It is") -> str:
+    def awaited(self, what: str = "") -> str:
         """Return the caption of a result that is not known yet."""
         return self.work.awaited(what)
 

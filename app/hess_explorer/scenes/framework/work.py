@@ -63,9 +63,10 @@ class Work:
         found = plan(kind, self.level.name)
         return replace(found, share=1.0, cells=1.0) if self.dragging else found
 
-    def awaited(self, what: str = "It is") -> str:
-        """Return the caption of a result that is not known yet."""
-        return f"{what} found when a slider is let go." if self.dragging else f"{what} being computed."
+    def awaited(self, what: str = "") -> str:
+        """Return the caption of a result that is not known yet; what : its name and "is" or "are"."""
+        soon = "computed when the slider is released." if self.dragging else "being computed."
+        return f"{what} {soon}" if what else soon.capitalize()
 
     def get(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T:
         """Return the result of function(*arguments), from the cache if it is known."""

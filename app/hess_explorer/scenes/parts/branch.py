@@ -263,7 +263,7 @@ class Continuation(Part[_Host]):
         i = near.i + round(near.share)
         multipliers = ", ".join(conjugates(complex(one)) for one in near.branch.multipliers[i])
         return (
-            f"{self._symbol} = {digits(float(near.branch.values[i]), 6)}: period {near.branch.period}, "
+            f"{self._symbol} = {digits(float(near.branch.values[i]))}: period {near.branch.period}, "
             f"{near.branch.kinds[i]}, μ = {multipliers}"
         )
 

@@ -100,7 +100,7 @@ class Costs:
         ]
         if self.enough:
             least = ", ".join(f"{trial.kind} {name}" for trial, name in self.enough.items())
-            said.insert(0, f"Accurate enough for the eye: {least}.")
+            said.insert(0, f"Cheapest levels without a visible error: {least}.")
         sentence = " ".join(said)
         return Caption(numbers=sentence[:1].upper() + sentence[1:])
 

@@ -81,14 +81,14 @@ class HessSplit(Part[Host]):
     def caption(self) -> Caption:
         """Return the caption of the picture."""
         if self._splits is None:
-            return Caption(self.work.awaited("They are"))
+            return Caption(self.work.awaited())
         if self.split is None or self.slope is None:
             return Caption("No separatrices are found here.")
         value, error = self.split.value, self.split.error
         place = f"at l = {digits(self.split.l)}; as ε → 0: {digits(self.slope[0], 4)} ε."
         if abs(value) <= error:
             return Caption("The separatrices are not split.", f"Less than {power(error)} {place}")
-        return Caption("The separatrices are split.", f"By {digits(value, 5)} ± {power(error)} {place}")
+        return Caption("The separatrices are split.", f"By {digits(value)} ± {power(error)} {place}")
 
     def message(self) -> str:
         """Return the reason why the graph is empty; an empty string if it is not."""

@@ -298,7 +298,7 @@ class OrbitDiagram(Part[_Host]):
                 if self.flips.size > 1
                 else "One period doubling located."
             )
-            period, place = self.cascade.periods[0], digits(self.flips[0], 6)
+            period, place = self.cascade.periods[0], digits(self.flips[0])
             return Caption(many, f"The first of period {period} at {self.host.along} = {place}{ratio}.")
         periods = sorted({int(m) for one in self.branches[_RISING] for m in one.periods if m})
         if not periods:

@@ -254,7 +254,7 @@ class PeriodicOrbit(Part[_Host]):
             return
         orbit = self.closed.orbit
         yield f"T = {digits(self.closed.time, 6)}, periodic; places to {power(orbit.error_estimate)}"
-        yield from (f"its own image: {name}" for name in orbit.symmetric)
+        yield from (f"symmetric under: {name}" for name in orbit.symmetric)
         if self._saddle is not None and self._branches is None:
             yield self.work.awaited("Its manifolds are")
         elif self._branches:

@@ -130,7 +130,7 @@ class Precision:
         largest = ", ".join(
             f"({i + 1}) {name} {digits(float(drift.max()), 2)}" for i, (name, drift) in enumerate(self._drifts.items())
         )
-        return Caption(numbers=f"{self.work.chosen}: at most {largest}.")
+        return Caption(numbers=f"{self.work.chosen}: largest drift {largest}.")
 
     def _about_pixels(self) -> Caption:
         t, pixels = self.times, self.growing.pixels[self.work.chosen]
@@ -163,7 +163,7 @@ class Precision:
         if motion.span < self.motion.span:
             yield f"Measured up to t = {digits(motion.span * motion.unit)}: a longer span takes seconds."
         if "measured" in vars(self) and mechanics.others_take_long(*motion.named):
-            yield "SciPy's methods are left out: over so long a span they take long. Choose a shorter one."
+            yield "SciPy's methods are left out, as they are slow over this time span: choose a shorter one."
 
     @staticmethod
     def pictures() -> tuple[Plot[Precision], ...]:

@@ -77,7 +77,7 @@ class Regime(Part[_Host]):
             return Caption(f"{kind}.", "Attractor and repeller are not compared: the orbit leaves.")
         if found.dynamics.verdict == "not told apart":
             return Caption(
-                f"{kind}.", f"Attractor and repeller: not told apart; |mean div| < {digits(motion.bound, 1)}."
+                f"{kind}.", f"Attractor and repeller not distinguished; |mean div| < {digits(motion.bound, 1)}."
             )
         if motion.volume_kept:
             return Caption(f"{kind}. Conservative: volume is preserved.")

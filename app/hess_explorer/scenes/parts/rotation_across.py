@@ -144,9 +144,9 @@ class RotationAcross(Part[_Host]):
         if self.found.numbers.size or not self._orbits_on_line[1]:
             return ""
         return (
-            "No closed curve of the line goes round"
+            "No closed curve on the line makes a turn"
             if self.found.standing.size
-            else "No orbit of the line is a closed curve"
+            else "No orbit on the line is a closed curve"
         )
 
     @property
@@ -172,15 +172,15 @@ class RotationAcross(Part[_Host]):
         # A line across the whole section meets orbits of many kinds: ρ is no single function of the place.
         turning = self.found.extremum if self.about_middle else None
         still = self.found.standing.size
-        standing = f"; {still} without rotation" if still else ""
+        standing = f"; {still} do not rotate" if still else ""
         low, high = self._turns(rho.min()), self._turns(rho.max())
         if low == high:
             return Caption("One rotation number for all closed curves.", f"ρ = {low}{standing}.")
         if turning is None:
-            return Caption("ρ of the closed curves.", f"ρ = {low} … {high}{standing}.")
+            return Caption("ρ of the closed curves.", f"From {low} to {high}{standing}.")
         return Caption(
             "No twist where ρ has an extremum.",
-            f"ρ = {low} … {high}, extremum {self._turns(turning[1])} at {digits(turning[0])}.",
+            f"ρ from {low} to {high}, extremum {self._turns(turning[1])} at {digits(turning[0])}.",
         )
 
     def _turns(self, rho: float) -> str:
@@ -243,7 +243,7 @@ def rotation_picture(of: Callable[[S], RotationAcross]) -> Picture[S]:
                 hollow=True,
                 color=theme.MUTED,
                 edge_width=1.5,
-                label="does not go round: 0 turns",
+                label="no rotation: 0 turns",
             ),
             curves("rho", lambda s: _branches(s.found), color=theme.ORBIT),
             # An orbit between two gaps is a curve of one point, which only a mark shows.
