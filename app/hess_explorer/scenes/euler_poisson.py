@@ -356,7 +356,7 @@ class EulerPoisson(State):
             return special
         kept = [one for batch in self.section.batches for one in batch.kept]
         other = len(inside([(float(l), float(x)) for l, x in self.section.elsewhere], self.section.frame))
-        apart = f" {other} points on another sheet." if other else ""
+        apart = f" {other} on another sheet." if other else ""
         return Caption(
             "The two layers never mix." if self.away == 0.0 else "",
             f"r·M keeps its sign along {sum(kept)} of {len(kept)} orbits.{apart}",

@@ -22,7 +22,7 @@ from hess_explorer.views import branch as view
 from hess_explorer.views import theme
 from hess_explorer.views.branch import bifurcations
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.layers import Axes, curves, points
+from hess_explorer.views.layers import Axes, Range, curves, points
 from hess_explorer.views.periodic import seen
 from hess_explorer.views.picture import Corners, Picture
 from hess_explorer.views.plot import Plot
@@ -527,11 +527,15 @@ def branch_picture(of: Callable[[S], Branch]) -> Picture[S]:
     """Return the picture of the branch over its parameter."""
 
     def at_the_value(s: Branch, axes: Axes) -> list[Array]:
-        return [np.array([[s.at, axes.y[0]], [s.at, axes.y[1]]])]
+        return [] if s.upwards_range is None else [np.array([[s.at, axes.y[0]], [s.at, axes.y[1]]])]
 
     def shown(s: Branch, axes: Axes) -> Array | None:
         here = s.here
         return None if here is None else seen(here[::-1].T, s.continuation.turn, Axes(axes.y, axes.x))[:, ::-1].T
+
+    def upwards(s: Branch) -> Range | None:
+        # Without a branch the axes are not those of an earlier one.
+        return s.host.poincare.window[s.side] if s.message else s.upwards_range
 
     return Plot[Branch](
         name="branch",
@@ -544,7 +548,7 @@ def branch_picture(of: Callable[[S], Branch]) -> Picture[S]:
         on_box=Branch.boxed,
         on_hover=lambda s, x, y: s.continuation.about(x, y),
         x=lambda s: s.ends,
-        y=lambda s: s.upwards_range,
+        y=upwards,
         layers=(
             curves("value", within=at_the_value, color=theme.INK, width=1.5, label="the state on show"),
             *view.layers(lambda s: s.continuation.branches, lambda s: s.side, lambda s: s.continuation.turn),
