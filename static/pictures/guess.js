@@ -86,13 +86,29 @@ export function createGuess(prediction, say, guessed = null) {
   let clicks = []
   /** @type {number[][] | null} */
   let truth = null
+  let isOver = false
 
   /** @type {(place: number[]) => [number, number]} */
   const toPixels = ([x, y]) => [plot.frame.x_scale.compute(x), plot.frame.y_scale.compute(y)]
   /** @type {(place: number[]) => [number, number]} */
   const toData = ([x, y]) => [plot.frame.x_scale.invert(x), plot.frame.y_scale.invert(y)]
 
+  /** Say how near the guess was.  In some pictures the truth comes later than the state: then a repainting calls this again. */
+  function measure() {
+    const lines = linesOf(prediction).map((line) => line.map(toPixels))
+    const found = clicks.map((click) => nearest(lines, toPixels(click)))
+    if (found.length === 0) return say("Revealed. There was no guess.")
+    if (found.some(({ place }) => place === null)) return say("Revealed: there is none here.")
+    truth = found.map(({ place }) => toData(place))
+    draw()
+    const off = [0, 1].map((i) => mean(clicks.map((click, j) => Math.abs(click[i] - truth[j][i]))))
+    const [[x], [y]] = [plot.model.below, plot.model.left]
+    say(`${isCurve ? "On average" : "You were"} ${Math.round(mean(found.map(({ distance }) => distance)))} pixels away: ` +
+      `${shown(off[0])} in ${x.axis_label}, ${shown(off[1])} in ${y.axis_label}.`)
+  }
+
   function draw() {
+    if (isOver && truth === null) measure()
     const ctx = fit(sheet, plot.bbox.width, plot.bbox.height)
     for (const [i, click] of clicks.map(toPixels).entries()) {
       if (truth !== null) {
@@ -163,16 +179,8 @@ export function createGuess(prediction, say, guessed = null) {
       sheet.blur()
       sheet.tabIndex = -1
       sheet.style.pointerEvents = "none"
-      const lines = linesOf(prediction).map((line) => line.map(toPixels))
-      const found = clicks.map((click) => nearest(lines, toPixels(click)))
-      if (found.length === 0) return say("Revealed. There was no guess.")
-      if (found.some(({ place }) => place === null)) return say("Revealed: there is none here.")
-      truth = found.map(({ place }) => toData(place))
-      draw()
-      const off = [0, 1].map((i) => mean(clicks.map((click, j) => Math.abs(click[i] - truth[j][i]))))
-      const [[x], [y]] = [plot.model.below, plot.model.left]
-      say(`${isCurve ? "On average" : "You were"} ${Math.round(mean(found.map(({ distance }) => distance)))} pixels away: ` +
-        `${shown(off[0])} in ${x.axis_label}, ${shown(off[1])} in ${y.axis_label}.`)
+      isOver = true
+      measure()
     },
     /** Remove the guess from the picture. */
     end() {

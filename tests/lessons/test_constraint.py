@@ -33,8 +33,8 @@ def test_a_free_body_comes_back_and_keeps_volume():
 
     for seed in range(6):
         start = np.random.default_rng(seed).normal(size=3)
-        run = solve_ivp(rates, (0.0, 200.0), start, "DOP853", dense_output=True, rtol=1e-11, atol=1e-12)
-        times = np.linspace(1.0, 200.0, 20001)
+        run = solve_ivp(rates, (0.0, 60.0), start, "DOP853", dense_output=True, rtol=1e-11, atol=1e-12)
+        times = np.linspace(0.1, 60.0, 6001)
         later = np.linalg.norm(run.sol(times).T - start, axis=1)
         away = int(np.argmax(later > 0.1))
         assert later[away] > 0.1

@@ -15,7 +15,7 @@ from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.scattering import ball_scattering
 from hess_mechanics.euler_poisson.hess_isomorphism import hess_body
 from hess_mechanics.suslov.additional_integral import I11_at
-from support import lesson_on_constraints
+from support import lesson_on_constraints, lesson_on_doubling, lesson_on_evidence
 
 PRECISE = level("precise")
 WORDS = {
@@ -207,6 +207,8 @@ ROWS = {
     "scattering-by-a-nonholonomic-top": SCATTERING,
     "two-chaotic-layers-that-never-mix": LAYERS,
     "what-a-nonholonomic-constraint-does": lesson_on_constraints.ROWS,
+    lesson_on_doubling.NAME: lesson_on_doubling.ROWS,
+    lesson_on_evidence.NAME: lesson_on_evidence.ROWS,
 }
 # The name of the problem's constraint is no claim of its own.
 ALWAYS = {"$\\omega_3=0$": lambda s: (0.0,)}

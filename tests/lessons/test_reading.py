@@ -17,6 +17,7 @@ from hess_explorer.lessons.markdown import BadFormula, to_html
 from hess_explorer.lessons.reading import MAX_BYTES, MAX_STEPS, examine, read, read_file, without_tries
 from hess_explorer.page.description import describe_lesson
 from support.board import SCENES
+from support.view import View
 
 WHOLE = """---
 title: Two cycles are born
@@ -277,11 +278,8 @@ def test_every_step_is_admitted_unchanged_and_drawn(lesson, step):
         if view.name in seen:
             assert view.said(state).title
     if step.prediction:
-        # There is something to reveal.
-        plot = next(view for view in scene.views if view.name == step.prediction.picture)
-        drawn = state.drawn[step.prediction.source] | plot.framed(state, plot.ranges(state) or plot.first_axes).get(
-            step.prediction.source, {}
-        )
+        # There is something to reveal, once all is computed.
+        drawn = View(scene, place.values, seen={step.prediction.picture}).data[step.prediction.source]
         assert all(len(drawn[column]) for column in step.prediction.columns)
     if step.animation and step.animation.name != "time":
         for value in (step.animation.start, step.animation.end):
@@ -296,7 +294,7 @@ def test_words_of_a_scene_are_whole_without_what_can_be_tried():
 
 
 def test_the_longest_lesson_comes_first():
-    assert [lesson.minutes for lesson in shipped().values()] == [45.0, 20.0, 20.0, 20.0]
+    assert [lesson.minutes for lesson in shipped().values()] == [45.0] + 5 * [20.0]
 
 
 def test_a_displayed_formula_can_stand_in_a_line():

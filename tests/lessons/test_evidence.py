@@ -1,0 +1,109 @@
+"""Statements of the lesson "How do we know?", computed by other means or up to twice the time."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from hess_explorer.scenes import scenes
+from hess_mechanics import level, prove, regime, return_map, solve
+from hess_mechanics.dynamics.tube import error_bounds, tube
+from support.lesson_on_constraints import free_body
+from support.lesson_on_evidence import STEPS, growth, passage
+from support.suslov import field
+
+
+def test_a_thousand_times_smaller_error_costs_hardly_more_and_errors_do_not_explode():
+    values = STEPS["How the error grows"].at.values
+    errors = growth(values).errors
+    assert errors["precise"].max() < 1e-2 * errors["standard"].max() < 1e-4 * errors["draft"].max()
+    # Terms of a step, each as dear as the terms before it: an upper bound of the work of a step.
+    motion = scenes()["suslov-hess-accuracy"].of(values).precision.followed
+    times = np.linspace(0.0, motion.span, 400)
+    body = motion.system.at(motion.parameters)
+    work = [
+        solve(body, motion.state, times, level(name)).cost.steps * level(name).order ** 2
+        for name in ("standard", "precise")
+    ]
+    assert work[1] < 2.5 * work[0]
+    # Up to twice the time of the picture.
+    for span in (values["span"], 2.0 * values["span"]):
+        found = growth({**values, "span": span}).errors["draft"]
+        half = len(found) // 2
+        # An exponent of 0.143, as that of the chaotic body, would make it 17 to 300 times as large.
+        assert found[half:].max() < 10.0 * found[:half].max()
+        assert found.max() < level("draft").promise
+
+
+def test_the_drift_of_the_energy_is_less_than_a_tenth_of_the_error():
+    found = growth(STEPS["A small drift proves little"].at.values)
+    [energy] = [drift for name, drift in found.drifts["draft"].items() if name == "E"]
+    assert energy.max() < 0.1 * found.errors["draft"].max()
+
+
+def test_a_point_at_the_wrong_speed_keeps_the_energy_and_is_at_the_wrong_place():
+    values = STEPS["Nothing happens, for ever?"].prediction.then.values
+    body = free_body(values)
+    motion = passage(STEPS["Nothing happens, for ever?"])
+    times = np.linspace(-3.0, 3.0, 61)
+    right, slow = (motion.omega(factor * times) for factor in (1.0, 0.8))
+    energies = [0.5 * (body.I11 * w[..., 0] ** 2 + body.I22 * w[..., 1] ** 2) for w in (right, slow)]
+    np.testing.assert_allclose(energies[0], energies[1], rtol=1e-12)
+    assert np.abs(right - slow).max() > 0.3
+
+
+def test_in_chaos_the_error_grows_to_the_size_of_the_picture_and_in_a_shorter_time_it_does_not():
+    step = STEPS["Chaos eats digits"]
+    assert growth(step.at.values).pixels["standard"].max() < 1.0
+    found = growth(step.prediction.then.values).errors["standard"]
+    assert found[-20:].max() > 0.1
+    assert found.max() < 30.0
+
+
+def test_the_mean_divergence_of_the_chaotic_body_agrees_at_twice_the_time():
+    state = scenes()["orbit-diagram"].of(STEPS["What is a picture of chaos worth?"].at.values)
+    map_ = return_map(state.body, E=state.E)
+    one, twice = (regime(map_, state.diagram.place, t=t) for t in (state.long, 2.0 * state.long))
+    assert abs(one.divergence - twice.divergence) < 3.0 * np.hypot(one.divergence_error, twice.divergence_error)
+    assert one.kind.words == twice.kind.words == "chaotic"
+
+
+def test_the_slow_rotation_is_steady_up_to_half_the_time_and_gone_after_it():
+    step = STEPS["Nothing happens, for ever?"]
+    state = scenes()["free-suslov"].of(step.prediction.then.values)
+    times, Gamma = state.orbit.times, state.orbit.Gamma
+    assert np.ptp(Gamma[times <= 400.0]) < 1e-6
+    assert abs(Gamma[-1] - Gamma[0]) > 0.5
+    # Before: the stable rotation, for ever.
+    assert np.ptp(scenes()["free-suslov"].of(step.at.values).orbit.Gamma) < 1e-6
+
+
+def test_the_less_extreme_start_looks_steady_up_to_the_first_time_and_not_up_to_the_last():
+    step = STEPS["Corrected by twice the time"]
+    body, values = free_body(step.at.values), step.at.values
+    state = scenes()["free-suslov"].of(values)
+
+    def rates(_, y):
+        return field(body, y)
+
+    start = [values["w1"], values["w2"], *state.gamma]
+    times = np.linspace(0.0, step.animation.end, 401)
+    run = solve_ivp(rates, (0.0, times[-1]), start, "DOP853", times, rtol=1e-11, atol=1e-13)
+    Gamma = state.points.xi @ run.y[2:]
+    assert np.ptp(Gamma[times <= step.animation.start]) < 0.01
+    assert abs(Gamma[-1] - Gamma[0]) > 0.5
+
+
+def test_the_theorem_is_proved_and_the_tube_of_the_chaotic_motion_ends_before_its_curve():
+    pytest.importorskip("flint")
+    values = STEPS["From an estimate to a theorem"].at.values
+    found = prove(values["I23"] / values["I22"], values["h"], values["f"])
+    assert found.statement == "two cycles"
+    state = scenes()["orbit-diagram"].of(STEPS["Where a proof gives up"].at.values)
+    motion, orbit = state.motion(), state.orbit.path
+    bounds = error_bounds(orbit, tube(motion, motion.state, orbit.times, 16, 1e6))
+    assert 10.0 < orbit.times[len(bounds) - 1] < 0.9 * orbit.times[-1]
+    # The curve goes on to be right: the truth to 31 digits.
+    errors = growth({**STEPS["Chaos eats digits"].at.values, "span": state.span}).pixels["standard"]
+    assert errors.max() < 1.0
