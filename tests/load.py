@@ -2,6 +2,7 @@
 
 Each session opens a scene, the scenes in turn, and changes one of its numbers every 2 s.  Then the same with one more
 that asks for the dearest scene at `reference` without a pause.  `--leave 2000`: what is left of sessions that are gone.
+`--followers 300`: a lecturer drags a slider for 20 s, alone and before a room of so many followers.
 On a quiet machine: `python tests/load.py 10 50 200 500 --workers 1 2 --leave 2000 --write`.
 """
 
@@ -10,6 +11,8 @@ from __future__ import annotations
 import argparse
 import asyncio
 import gc
+import itertools
+import multiprocessing
 import os
 import random
 import statistics
@@ -27,6 +30,7 @@ from hess_explorer.protocol.parameters import Number
 from hess_explorer.scenes import scenes
 from support.measured import write_measured
 from support.processes import memory, worked
+from support.room import Follower, Lecturer
 from support.visitor import Visitor
 
 EVERY = 2.0
@@ -184,6 +188,114 @@ async def leave(base, pid, count):
         )
 
 
+async def drag(visitor, lecturer, seconds):
+    """Drag a slider to and fro, as a browser does; return the times to the answers and the last state."""
+    answered, shown, ends = [], 0.0, time.monotonic() + seconds
+    values = itertools.cycle([round(1.0 + 0.005 * abs(i), 3) for i in range(-100, 100)])
+    while time.monotonic() < ends:
+        begun = time.monotonic()
+        state = await visitor.ask(values={"h": next(values)}, held=True)
+        answered.append(time.monotonic() - begun)
+        # Four times a second, as "page/room.js".
+        if begun - shown > 0.25:
+            shown = begun
+            await lecturer.show(state["query"], picture="omega")
+        await asyncio.sleep(0.016)
+    await lecturer.show(state["query"], picture="omega")
+    return answered, state["query"]
+
+
+class Audience:
+    """The followers of a room, and when each of them had the state that it shows."""
+
+    def __init__(self):
+        self.followers, self.reading, self.errors = [], [], 0
+        self.arrived = {}
+
+    async def join(self, base, code, count):
+        """Open the page and the websocket, sixteen at a time."""
+        door = asyncio.Semaphore(16)
+
+        async def one():
+            async with door:
+                await AsyncHTTPClient().fetch(f"{base}/r/{code}")
+                follower = await Follower.follow(base, code)
+                self.followers.append(follower)
+                self.reading.append(asyncio.create_task(self._read(follower)))
+
+        begun = time.monotonic()
+        await asyncio.gather(*(one() for _ in range(count)))
+        return time.monotonic() - begun
+
+    async def _read(self, follower):
+        try:
+            while True:
+                told = await follower.hear(timeout=600.0)
+                if "state" in told:
+                    self.arrived[follower] = told["state"]["query"], time.monotonic()
+        # Whatever it is, it counts.
+        except Exception as error:
+            self.errors += 1
+            print(f"follower: {error!r}", file=sys.stderr)
+
+    async def all_at(self, query, since, timeout=30.0):
+        """Return how long after `since` each follower had a state."""
+        ends = time.monotonic() + timeout
+        while sum(shown == query for shown, _ in self.arrived.values()) < len(self.followers):
+            if time.monotonic() > ends:
+                break
+            await asyncio.sleep(0.05)
+        return [when - since for shown, when in self.arrived.values() if shown == query]
+
+
+async def _follow(pipe, base, code, count):
+    audience = Audience()
+    pipe.send(await audience.join(base, code, count))
+    query, since = await asyncio.get_running_loop().run_in_executor(None, pipe.recv)
+    pipe.send((await audience.all_at(query, since), audience.errors))
+    await asyncio.get_running_loop().run_in_executor(None, pipe.recv)
+
+
+def _audience(pipe, base, code, count):
+    """Hold an audience in a process of its own: phones take no time of the lecturer's browser, nor of the server."""
+    os.nice(19)
+    gc.disable()
+    asyncio.run(_follow(pipe, base, code, count))
+
+
+async def lecture(base, pid, count, seconds):
+    """Yield a table: a lecturer who drags a slider alone, and before an audience."""
+    visitor = await Visitor.open(base, "scene=suslov-hess", timeout=120.0)
+    lecturer = await Lecturer.open(base)
+    # As a browser does; otherwise pings have no answer.
+    counts = asyncio.create_task(lecturer.end(3600.0))
+    await drag(visitor, lecturer, 5.0)
+    yield "| followers | joined in | alone | with followers | p95, ratio | at the last state | memory each | errors |"
+    yield "|---|---|---|---|---|---|---|---|"
+    alone = _row((await drag(visitor, lecturer, seconds))[0])
+    await asyncio.sleep(2.0)
+    before = memory(pid)
+    pipe, theirs = multiprocessing.Pipe()
+    hall = multiprocessing.get_context("spawn").Process(target=_audience, args=(theirs, base, lecturer.code, count))
+    hall.start()
+    wait = asyncio.get_running_loop().run_in_executor
+    joined = await wait(None, pipe.recv)
+    answered, query = await drag(visitor, lecturer, seconds)
+    pipe.send((query, time.monotonic()))
+    times, errors = await wait(None, pipe.recv)
+    held, late, together = memory(pid), _row(times), _row(answered)
+    pipe.send("end")
+    hall.join()
+    yield (
+        f"| {len(times)} of {count} | {joined:.1f} s | {1e3 * alone[0]:.0f}, {1e3 * alone[1]:.0f} ms | "
+        f"{1e3 * together[0]:.0f}, {1e3 * together[1]:.0f} ms | {together[1] / alone[1]:.2f} | "
+        f"{late[0]:.2f}, {late[1]:.2f} s | {(held - before) / count / 2**20:.2f} MB | {errors} |"
+    )
+    await visitor.leave()
+    await lecturer.say({"end": True})
+    await counts
+
+
 async def _printed(rows, kept):
     async for row in rows:
         print(row, flush=True)
@@ -211,6 +323,7 @@ def main():
     parser.add_argument("counts", type=int, nargs="*")
     parser.add_argument("--seconds", type=float, default=20.0, help="of each of the two parts")
     parser.add_argument("--leave", type=int, default=0, metavar="N", help="also open and leave so many sessions")
+    parser.add_argument("--followers", type=int, default=0, metavar="N", help="also hold a lecture before so many")
     parser.add_argument("--workers", type=int, nargs="+", default=[1], help="processes that serve, one table for each")
     parser.add_argument("--write", action="store_true", help="keep what is printed in the README of the server")
     options = parser.parse_args()
@@ -223,6 +336,13 @@ def main():
             time.sleep(2.0)
             asyncio.run(_ready(base))
             asyncio.run(_printed(measure(base, process.pid, options.counts, options.seconds), kept))
+        kept.append("")
+    for workers in options.workers if options.followers else ():
+        kept += [f"A lecture, served by {workers} process{'es' * (workers > 1)} (median, p95):", ""]
+        with server_process(LOG, options=["--workers", str(workers)]) as (process, base):
+            time.sleep(2.0)
+            asyncio.run(_ready(base))
+            asyncio.run(_printed(lecture(base, process.pid, options.followers, options.seconds), kept))
         kept.append("")
     if options.leave:
         kept += [f"{options.leave} sessions opened and left, after each quarter has expired:", ""]

@@ -24,6 +24,11 @@ GRACE = 60.0
 LONGEST = 3 * 3600.0
 """Maximum age of a room in seconds."""
 MOST_FOLLOWERS = 500
+AT_ONCE, PAUSE = 10, 0.005
+"""Number of followers that a state is sent to at once, and the seconds before the next ones.
+
+Between them the event loop answers the lecturer's own requests.
+"""
 
 ENDED = 4001, "The lecture has ended."
 REPLACED = 4002, "This room is led from another page now."
@@ -85,7 +90,8 @@ class Room:
         if len(self._followers) >= MOST_FOLLOWERS:
             return False
         self._followers[member] = name
-        self._send([member])
+        if self._frames is not None:
+            self._send(member, self._frames, with_scene=True)
         self._news.set()
         return True
 
@@ -136,9 +142,10 @@ class Room:
                 with suppress(TimeoutError):
                     await asyncio.wait_for(self._news.wait(), PERIOD)
                 self._news.clear()
+                begun = time.monotonic()
                 await self._draw()
                 self._tell_lead()
-                await asyncio.sleep(PERIOD)
+                await asyncio.sleep(max(0.0, begun + PERIOD - time.monotonic()))
         finally:
             self._drawing.end()
             for member in [*self._followers, *([self._lead] if self._lead is not None else [])]:
@@ -159,15 +166,16 @@ class Room:
             return
         is_new = self._frames is None or frames.scene != self._frames.scene
         self._frames = frames
-        self._send([*self._followers], with_scene=is_new)
+        followers = [*self._followers]
+        for first in range(0, len(followers), AT_ONCE):
+            for member in followers[first : first + AT_ONCE]:
+                self._send(member, frames, with_scene=is_new)
+            await asyncio.sleep(PAUSE)
 
-    def _send(self, members: list[Member], *, with_scene: bool = True) -> None:
-        if self._frames is None:
-            return
-        for member in members:
-            if with_scene:
-                member.put("scene", self._frames.scene)
-            member.put("state", self._frames.state)
+    def _send(self, member: Member, frames: Frames, *, with_scene: bool) -> None:
+        if with_scene:
+            member.put("scene", frames.scene)
+        member.put("state", frames.state)
 
     def _tell_lead(self) -> None:
         told = len(self._followers), len(self._guesses)
