@@ -27,6 +27,7 @@ from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 
 from hess_explorer.headless.screenshot import wait_alive
 from support.processes import below
+from support.room import Follower, Lecturer
 from support.serving import UNWARMED, free_port
 from support.visitor import Visitor
 
@@ -93,6 +94,18 @@ async def _main(base, trusted, replicas):
     state = await visitor.ask(values={"b1": 0.7})
     link = state["query"]
     print(f"websocket through the proxy: {json.dumps(link)[:90]}…")
+    # Rooms of both replicas and of all workers; nobody in them has a cookie.
+    for _ in range(8):
+        lecturer = await Lecturer.open(base, ssl_options=trusted)
+        followers = [await Follower.follow(base, lecturer.code, ssl_options=trusted) for _ in range(4)]
+        await lecturer.until(lambda one: one.followers == 4)
+        await lecturer.show(link)
+        for follower in followers:
+            await follower.until(lambda one: one.state["query"] == link)
+        await lecturer.say({"end": True})
+        for member in (*followers, lecturer):
+            await member.end()
+    print("eight rooms with four followers each: all at the lecturer's state")
     # The replica that serves this visitor ends; the other one goes on.
     serving, other = sorted((process for process, _ in replicas), key=connections, reverse=True)
     begun = time.monotonic()
