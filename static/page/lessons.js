@@ -247,7 +247,8 @@ export function render({ index, el }) {
   listen({
     enter(scene) {
       showTries(scene)
-      if (expected !== null) arrange(expected)
+      // When all parts of the page have heard of the scene, and still before its painting.
+      queueMicrotask(() => { if (expected !== null) arrange(expected) })
     },
     audience(text) {
       /** @type {HTMLElement | null} */
