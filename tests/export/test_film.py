@@ -70,7 +70,7 @@ def clock_in(picture, among):
 def test_the_moving_point_is_where_the_orbit_is_at_that_time(found, kind, tmp_path):
     told = []
     path = tmp_path / f"film.{kind}"
-    path.write_bytes(as_film(found, kind, 60.0, seconds=1.0, tell=lambda *done: told.append(done)))
+    path.write_bytes(as_film(found, kind, 60.0, seconds=1.0, report=lambda *done: told.append(done)))
     assert told == [(i + 1, 25) for i in range(25)]
     pictures = frames_of(path, SIDE)
     assert len(pictures) == 25
@@ -144,7 +144,7 @@ def test_a_film_that_is_stopped_leaves_nothing_behind(found, tmp_path, monkeypat
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        as_film(found, "webm", 60.0, tell=stop)
+        as_film(found, "webm", 60.0, report=stop)
     assert list(tmp_path.iterdir()) == []
 
 

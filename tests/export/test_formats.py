@@ -46,14 +46,14 @@ def test_every_picture_is_there_in_every_format(scene, picture):
         figure.set_layout_engine("none")
         files = {kind: saved(figure, found, kind) for kind in holding("figure")}
     drawn = Image.open(io.BytesIO(files["png"]))
-    assert found.said in drawn.info["Description"]
+    assert found.metadata_text in drawn.info["Description"]
     ink = np.asarray(drawn.convert("L")) < 200
     # Something inside the frame: the plain frame with its ticks and names is on the outer fifth.
     inner = ink[ink.shape[0] // 5 : -ink.shape[0] // 5, ink.shape[1] // 5 : -ink.shape[1] // 5]
     assert inner.mean() > 0.002
     svg = files["svg"].decode()
     assert ET.fromstring(svg).tag.endswith("svg")
-    assert escape(found.said, quote=False) in svg
+    assert escape(found.metadata_text, quote=False) in svg
     assert files["pdf"].startswith(b"%PDF")
     assert files["pdf"].rstrip().endswith(b"%%EOF")
 

@@ -276,7 +276,7 @@ def test_every_step_is_admitted_unchanged_and_drawn(lesson, step):
     state = scene.compute(place.values, seen, dragging=False)
     for view in scene.views:
         if view.name in seen:
-            assert view.said(state).title
+            assert view.full_caption(state).title
     if step.prediction:
         # There is something to reveal, once all is computed.
         drawn = View(scene, place.values, seen={step.prediction.picture}).data[step.prediction.source]

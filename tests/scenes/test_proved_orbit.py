@@ -59,11 +59,11 @@ def test_a_short_orbit_is_right_to_its_end_and_nothing_is_drawn(name):
     view = shown(scene, {"span": 1.0}, whole=False)
     (task,) = tasks(view)
     found = task.now()
-    assert found.said.startswith("proved error ≤ ")
-    assert found.said.endswith("certainly right to ½ pixel to its end")
+    assert found.sentence.startswith("proved error ≤ ")
+    assert found.sentence.endswith("certainly right to ½ pixel to its end")
     assert (found.band, found.around) == ((), ())
     # So small as the level promises, in units in which the state is O(1), and not nothing.
-    assert 0.0 < float(found.said.split("≤ ")[1].split(",")[0].replace("−", "-")) < 1e-4
+    assert 0.0 < float(found.sentence.split("≤ ")[1].split(",")[0].replace("−", "-")) < 1e-4
 
 
 def test_a_band_holds_the_true_orbit_where_it_is_wider_than_a_pixel():
@@ -129,7 +129,7 @@ def test_an_estimate_that_is_too_small_is_given_away():
     least = np.abs(found.orbit.states - true_states(motion, found.orbit.times)).max()
     for estimate, too_small in ((1.1 * least, False), (0.9 * least, True)):
         judgement = judged(Task(_told, (Told(found, estimate),)), motion, units)
-        assert ("the estimate is too small, as the error reaches" in judgement.said) == too_small
+        assert ("the estimate is too small, as the error reaches" in judgement.sentence) == too_small
 
 
 @dataclass(frozen=True, eq=False)

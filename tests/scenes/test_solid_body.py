@@ -23,7 +23,7 @@ def body_of(name, preset):
     values, _ = scene.admit({**scene.defaults(), **scene.example(preset)})
     state = scene.compute(values, ("body", "sphere") if "sphere" in scene.pictures else ("body",), False)
     view = next(view for view in scene.views if view.name == "body")
-    return state, state.drawn["body"], as_text(view.said(state))
+    return state, state.drawn["body"], as_text(view.full_caption(state))
 
 
 def test_while_a_slider_is_held_the_body_has_every_second_sample():

@@ -249,5 +249,5 @@ def test_on_the_edge_the_caption_says_that_there_is_no_torus_and_names_no_cycle(
     found = proved(1.0, 0.5, 1.625, 1.875)
     assert about(theta, found.badge) == Caption(numbers=found.badge)
     assert found.badge == "Proved: no torus, but a circle with n₃ constant: two equilibria."
-    assert "exactly two equilibria" in found.said
+    assert "exactly two equilibria" in found.sentence
     assert "one periodic orbit" in proved(1.0, 0.1, 1.625, 1.875).badge

@@ -14,7 +14,7 @@ def complete(scene, beginning, seen, **changes):
     while True:
         state = scene.compute(values, seen, False)
         # Captions may ask for more.
-        captions = {view.name: as_text(view.said(state)) for view in scene.views if view.name in seen}
+        captions = {view.name: as_text(view.full_caption(state)) for view in scene.views if view.name in seen}
         if not state.work.todo:
             return state, captions
         for task in state.work.todo:

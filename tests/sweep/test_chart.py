@@ -363,7 +363,7 @@ def test_it_takes_turns_with_what_others_wait_for(slow):
     assert sorted(ran) == [0, 1, 2, 3, 4]
     let.release(100)
     wait_until(lambda: not chart.running)
-    assert chart.said == ""
+    assert chart.reason == ""
 
 
 def test_a_chart_has_so_much_of_the_processor_and_says_so(monkeypatch):
@@ -376,7 +376,7 @@ def test_a_chart_has_so_much_of_the_processor_and_says_so(monkeypatch):
         seconds=0.3,
     )
     wait_until(lambda: not chart.running)
-    assert chart.said == running.USED_UP
+    assert chart.reason == running.USED_UP
     where, values, status = chart.since(0)
     assert 0 < where.size < chart.chart.cells
     assert np.isfinite(values).all() and (status == Outcome.OK).all()
@@ -389,7 +389,7 @@ def test_a_fault_is_said_and_logged(monkeypatch, caplog):
     monkeypatch.setattr(Chart, "compute", broken)
     chart = Charting(Chart.read(wish()))
     wait_until(lambda: not chart.running)
-    assert chart.said == running.FAILED and "a chart failed" in caplog.text
+    assert chart.reason == running.FAILED and "a chart failed" in caplog.text
 
 
 def test_a_fault_in_one_cell_is_of_this_cell_alone(monkeypatch, caplog):

@@ -103,12 +103,12 @@ def number(of: Parameter, default: float | None = None, *, name: str = "", help:
 
     name, help : replace those of the parameter.
     """
-    said = help or of.doc
+    description = help or of.doc
     if default is not None:
-        said += f" (default {default:g})"
+        description += f" (default {default:g})"
     return option(
         name or f"--{of.name}",
-        said,
+        description,
         type=arguments.checked(of),
         metavar=of.name.upper(),
         **{**_required(default), **settings},
@@ -125,8 +125,8 @@ def vector(
 
 def whole(name: str, low: int, high: int, help: str, default: int | None = None) -> Option:
     """Return the option of an integer from `low` to `high`."""
-    said = help if default is None else f"{help} (default {default})"
-    return option(name, said, type=arguments.integer(low, high), metavar="N", default=default)
+    description = help if default is None else f"{help} (default {default})"
+    return option(name, description, type=arguments.integer(low, high), metavar="N", default=default)
 
 
 def samples(of: Parameter, help: str, default: list[float] | None = None) -> Option:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 
-from hess_explorer.export.formats import FILM_WIDTHS, SECONDS, WIDTHS, Wish, holding
+from hess_explorer.export.formats import FILM_WIDTHS, SECONDS, WIDTHS, FileRequest, holding
 
 from . import CommandError
 from .command import Command, Options, flag, option, picture
@@ -16,17 +16,17 @@ __all__ = ["COMMAND"]
 _TEXTS = ("csv", "json", "svg", "html")
 
 
-def _teller(lines: bool) -> Callable[[int, int], None]:
+def _progress_printer(lines: bool) -> Callable[[int, int], None]:
     """Return a function that prints the progress of a film: as lines, or as one changing line in a terminal."""
     seen = sys.stderr.isatty()
 
-    def tell(done: int, of: int) -> None:
+    def report(done: int, of: int) -> None:
         if lines:
             print(f"{done}/{of}", file=sys.stderr, flush=True)
         elif seen:
             print(f"\rframe {done} of {of}", end="" if done < of else "\n", file=sys.stderr, flush=True)
 
-    return tell
+    return report
 
 
 def _page(options: Options) -> bytes:
@@ -41,15 +41,15 @@ def _picture(options: Options) -> bytes:
     from hess_explorer.export.shown import shown
 
     found = shown(options.state, options.picture, lenient=options.lenient)
-    wish = Wish(options.format, options.width, options.black, options.seconds)
-    return content(found, wish, _teller(options.progress))
+    request = FileRequest(options.format, options.width, options.black, options.seconds)
+    return content(found, request, _progress_printer(options.progress))
 
 
 def _run(options: Options) -> None:
     if options.out is None and options.format not in _TEXTS:
         raise CommandError(f"{options.format.upper()} is a binary format: name a file with --out FILE.")
     # A film prints its own progress.
-    with computing(told=options.format in holding("film")):
+    with computing(own_progress=options.format in holding("film")):
         data = _page(options) if options.format == "html" else _picture(options)
     show(data, options.out)
 
@@ -66,21 +66,21 @@ COMMAND = Command(
             "--format",
             "file format (default: csv)",
             choices=holding("data", "figure", "film", "state"),
-            default=Wish.kind,
+            default=FileRequest.kind,
         ),
         option(
             "--width",
             f"width in millimetres (default 85, a journal column): {WIDTHS} for a figure, {FILM_WIDTHS} for a film, "
             "which has 8 pixels per millimetre",
             type=float,
-            default=Wish.width,
+            default=FileRequest.width,
             metavar="MM",
         ),
         option(
             "--seconds",
             f"duration of a film of the whole motion, {SECONDS} seconds (default 10), 25 frames per second",
             type=float,
-            default=Wish.seconds,
+            default=FileRequest.seconds,
             metavar="S",
         ),
         flag("--black", "draw in black on white instead of the colours of the page"),

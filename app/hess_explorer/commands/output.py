@@ -88,10 +88,10 @@ def text(compute: Callable[[argparse.Namespace], str]) -> Callable[[argparse.Nam
 
 
 @contextmanager
-def computing(told: bool = False) -> Iterator[None]:
+def computing(own_progress: bool = False) -> Iterator[None]:
     """Convert errors of the mechanics to `CommandError`, and report on stderr a computation that takes long.
 
-    told : True if the command prints its own progress.
+    own_progress : True if the command prints its own progress.
     """
     import numpy as np
 
@@ -99,7 +99,7 @@ def computing(told: bool = False) -> Iterator[None]:
 
     try:
         # `hess_mechanics` checks its results for overflow itself, so NumPy's warnings would be noise.
-        with np.errstate(all="ignore"), nullcontext() if told else _patience():
+        with np.errstate(all="ignore"), nullcontext() if own_progress else _patience():
             yield
     except ModelError as error:
         raise CommandError(str(error)) from error
@@ -113,7 +113,7 @@ def _patience() -> Iterator[None]:
     """Report after `LONG` seconds that the command is still running; in a terminal also count the seconds."""
     done, seen, begun = threading.Event(), sys.stderr.isatty(), time.monotonic()
 
-    def tell() -> None:
+    def report() -> None:
         if done.wait(LONG):
             return
         if not seen:
@@ -126,13 +126,13 @@ def _patience() -> Iterator[None]:
         # Carriage return, then clear the line.
         print("\r\x1b[K", end="", file=sys.stderr, flush=True)
 
-    teller = threading.Thread(target=tell, name="patience", daemon=True)
-    teller.start()
+    reporter = threading.Thread(target=report, name="patience", daemon=True)
+    reporter.start()
     try:
         yield
     finally:
         done.set()
-        teller.join()
+        reporter.join()
 
 
 def quality(result: CircleMap | Cloud | Orbit | Period | Scattering | SectionCrossings | Spectrum) -> dict[str, Any]:

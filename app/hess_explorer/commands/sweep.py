@@ -45,7 +45,7 @@ def _once(pairs: list[tuple[str, Any]], option: str) -> dict[str, Any]:
 
 def _run(options: Options) -> None:
     # A sweep prints its own progress.
-    with computing(told=True):
+    with computing(own_progress=True):
         if options.list:
             show(_listed(options.quantity).encode())
             return

@@ -75,11 +75,11 @@ def as_file(shown: Shown, kind: str, width: float = 85.0, black: bool = False) -
 
 def saved(figure: Figure, shown: Shown, kind: str) -> bytes:
     """Return a figure as a file whose metadata contain link, parameters and version."""
-    program, said = shown.facts["program"], shown.said
+    program, text = shown.facts["program"], shown.metadata_text
     metadata: dict[str, Any] = {
-        "png": {"Title": shown.title, "Description": said, "Comment": shown.caption, "Software": program},
-        "svg": {"Title": shown.title, "Description": f"{shown.caption} {said}", "Date": None},
-        "pdf": {"Title": shown.title, "Subject": said, "Keywords": shown.caption, "CreationDate": None},
+        "png": {"Title": shown.title, "Description": text, "Comment": shown.caption, "Software": program},
+        "svg": {"Title": shown.title, "Description": f"{shown.caption} {text}", "Date": None},
+        "pdf": {"Title": shown.title, "Subject": text, "Keywords": shown.caption, "CreationDate": None},
     }[kind]
     out = io.BytesIO()
     figure.savefig(out, format=kind, dpi=_DOTS_PER_INCH, metadata=metadata)

@@ -6,18 +6,18 @@ from collections.abc import Callable
 
 from hess_explorer.export.figure import as_file
 from hess_explorer.export.film import as_film
-from hess_explorer.export.formats import FORMATS, Wish
+from hess_explorer.export.formats import FORMATS, FileRequest
 from hess_explorer.export.shown import Shown
 from hess_explorer.export.table import as_csv, as_json
 
 __all__ = ["content"]
 
 
-def content(found: Shown, wish: Wish, tell: Callable[[int, int], None] = lambda done, of: None) -> bytes:
-    """Return the contents of the file; tell : progress callback of `as_film`.  Raises `InvalidParameter`."""
-    holds = FORMATS[wish.kind].holds
+def content(found: Shown, request: FileRequest, report: Callable[[int, int], None] = lambda done, of: None) -> bytes:
+    """Return the contents of the file; report : progress callback of `as_film`.  Raises `InvalidParameter`."""
+    holds = FORMATS[request.kind].holds
     if holds == "film":
-        return as_film(found, wish.kind, wish.width, wish.black, wish.seconds, tell)
+        return as_film(found, request.kind, request.width, request.black, request.seconds, report)
     if holds == "figure":
-        return as_file(found, wish.kind, wish.width, wish.black)
-    return (as_csv if wish.kind == "csv" else as_json)(found).encode()
+        return as_file(found, request.kind, request.width, request.black)
+    return (as_csv if request.kind == "csv" else as_json)(found).encode()

@@ -113,7 +113,7 @@ def as_film(
     width: float = 85.0,
     black: bool = False,
     seconds: float = 10.0,
-    tell: Callable[[int, int], None] = lambda done, of: None,
+    report: Callable[[int, int], None] = lambda done, of: None,
 ) -> bytes:
     """Return a square film of the whole motion, whose tags contain link, parameters and version.
 
@@ -129,7 +129,7 @@ def as_film(
         True for black on white instead of the colours of the page.
     seconds : float
         Duration in seconds.
-    tell : callable
+    report : callable
         Called after each frame with the number of frames done and their total.
 
     Returns
@@ -160,7 +160,7 @@ def as_film(
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"film.{kind}"
         times = times_of(shown, seconds)
-        tags = {"title": shown.title, "comment": shown.said, "description": shown.caption}
+        tags = {"title": shown.title, "comment": shown.metadata_text, "description": shown.caption}
         command = [
             imageio_ffmpeg.get_ffmpeg_exe(),
             *f"-loglevel error -f rawvideo -pix_fmt rgb24 -s {_side(width)}x{_side(width)} -r {RATE} -i -".split(),
@@ -174,17 +174,17 @@ def as_film(
             try:
                 for done, picture in enumerate(pictures_at(shown, times, width, black), 1):
                     encoder.stdin.write(picture.tobytes())
-                    tell(done, len(times))
+                    report(done, len(times))
                 encoder.stdin.close()
-                said = encoder.stderr.read().decode(errors="replace").strip()
+                log = encoder.stderr.read().decode(errors="replace").strip()
             except BrokenPipeError:
-                said = encoder.stderr.read().decode(errors="replace").strip() or "it has ended"
+                log = encoder.stderr.read().decode(errors="replace").strip() or "it has ended"
             except BaseException:
                 # Do not leave the encoder running.
                 encoder.kill()
                 raise
         if encoder.returncode or not path.exists():
-            raise InvalidParameter(f"The film could not be encoded ({said.splitlines()[-1] if said else 'no reason'}).")
+            raise InvalidParameter(f"The film could not be encoded ({log.splitlines()[-1] if log else 'no reason'}).")
         film = path.read_bytes()
         return _commented(film, "\n".join(tags.values())) if kind == "gif" else film
 

@@ -6,7 +6,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
-__all__ = ["FILM_WIDTHS", "FORMATS", "SECONDS", "SERVED_SECONDS", "WIDTHS", "Bounds", "Format", "Wish", "holding"]
+__all__ = [
+    "FILM_WIDTHS",
+    "FORMATS",
+    "SECONDS",
+    "SERVED_SECONDS",
+    "WIDTHS",
+    "Bounds",
+    "FileRequest",
+    "Format",
+    "holding",
+]
 
 
 class Bounds(NamedTuple):
@@ -49,7 +59,7 @@ SECONDS, SERVED_SECONDS = Bounds(1.0, 60.0), Bounds(1.0, 30.0)
 
 
 @dataclass(frozen=True)
-class Wish:
+class FileRequest:
     """Requested file: suffix; width in mm and black on white, for figures and films; duration in s, for films."""
 
     kind: str = "csv"

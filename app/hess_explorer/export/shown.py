@@ -98,7 +98,7 @@ class Shown:
         }
 
     @property
-    def said(self) -> str:
+    def metadata_text(self) -> str:
         """The metadata as one paragraph, for formats whose metadata are text."""
         parameters = ", ".join(f"{name} = {value}" for name, value in self.values.items())
         return f"{self.facts['program']}, ?{self.link} | {parameters} | {'; '.join(self.status)}" + "".join(
@@ -174,8 +174,8 @@ def picture_of(scene: Scene[Any], name: str) -> Picture[Any]:
 def show(address: Address) -> Shown:
     """Compute a picture completely.  Raises `ModelError`."""
     scene, view = address.scene, address.picture
-    state, (columns, axes, caption, status, said) = complete(
-        scene, address.values, [view.name], lambda state: _said(view, state)
+    state, (columns, axes, caption, status, notes) = complete(
+        scene, address.values, [view.name], lambda state: _described(view, state)
     )
     return Shown(
         scene,
@@ -188,7 +188,7 @@ def show(address: Address) -> Shown:
         caption.title,
         caption.words,
         (f"accuracy: {state.work.chosen}", *status),
-        tuple(dict.fromkeys([*address.notes, *said])),
+        tuple(dict.fromkeys([*address.notes, *notes])),
     )
 
 
@@ -204,9 +204,9 @@ def complete(scene: Scene[Any], values: Values, pictures: Collection[str], made:
     return state, found
 
 
-def _said(view: Picture[Any], state: Any) -> tuple[Any, ...]:
+def _described(view: Picture[Any], state: Any) -> tuple[Any, ...]:
     """Return the columns, axes, caption, status and notes of a picture."""
-    caption = view.said(state)
+    caption = view.full_caption(state)
     axes = view.ranges(state) or view.first_axes
     columns = dict(state.drawn)
     for source, more in view.framed(state, axes).items():

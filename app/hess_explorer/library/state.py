@@ -17,7 +17,7 @@ import numpy as np
 from hess_explorer.export.code import code
 from hess_explorer.export.columns import Table, columns_of
 from hess_explorer.export.file import content
-from hess_explorer.export.formats import Wish, holding
+from hess_explorer.export.formats import FileRequest, holding
 from hess_explorer.export.shown import CLIENT_KEPT, Address, Shown, address, picture_of, show
 from hess_explorer.protocol.parameters import Number, Places, Spec, Value, query_in, refusal, written
 from hess_explorer.scenes import scenes
@@ -242,7 +242,7 @@ class SceneState:
             raise InvalidParameter(
                 f"The file format {path.suffix!r} is not supported: choose one of .{', .'.join(_ENDINGS)}."
             )
-        path.write_bytes(content(self._shown(picture), Wish(kind, width, black, seconds)))
+        path.write_bytes(content(self._shown(picture), FileRequest(kind, width, black, seconds)))
         return path
 
     def code(self, picture: str = "") -> str:

@@ -14,7 +14,7 @@ import panel_material_ui as pmui
 from bokeh.palettes import Cividis256
 from panel.util import edit_readonly
 
-from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, Wish
+from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, FileRequest
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.component import Explorer, styles
 from hess_explorer.page.description import describe_lesson
@@ -29,8 +29,8 @@ logger = logging.getLogger("hess_explorer")
 
 _FILES = {
     "formats": [[kind, one.words, one.holds] for kind, one in FORMATS.items() if one.words],
-    "width": [*WIDTHS, Wish.width],
-    "seconds": [*SERVED_SECONDS, Wish.seconds],
+    "width": [*WIDTHS, FileRequest.width],
+    "seconds": [*SERVED_SECONDS, FileRequest.seconds],
 }
 # Colours of charts, the same as in other maps.
 _PALETTES = {"plain": [*Cividis256], "round": [*theme.TURN_MAP]}

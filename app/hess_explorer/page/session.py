@@ -117,9 +117,9 @@ class Session:
             self.values = dict(self.requested.values)
             self._say(self._refuse(FAILED), [])
         lesson = self._lessons.get(request.lesson or "")
-        told = describe_lesson(lesson) if lesson else ""
+        lesson_text = describe_lesson(lesson) if lesson else ""
         if request.requested is None:
-            return Answer(lesson=told)
+            return Answer(lesson=lesson_text)
         self._number += 1
         tree, block = self.wire.pack()
         state = StateAnswer(
@@ -132,7 +132,7 @@ class Session:
         )
         # Describe a scene that may be chosen next only if the scene did not change now.
         near = request.near if self.scene is scene else None
-        return Answer(self._description(near), told, state, block)
+        return Answer(self._description(near), lesson_text, state, block)
 
     def start_tasks(self) -> None:
         """Start the background work of the state; call it after the response has been sent."""

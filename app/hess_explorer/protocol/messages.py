@@ -294,9 +294,9 @@ class Answer:
             "show": self.show,
             "chart": _json(self.chart),
         }
-        told = ", ".join(f'"{name}": {text}' for name, text in parts.items() if text)
-        head = f"{{{told}}}".encode()
-        return struct.pack("<II", len(head), len(self.block)) + head + self.block + self.cells if told else b""
+        fields = ", ".join(f'"{name}": {text}' for name, text in parts.items() if text)
+        head = f"{{{fields}}}".encode()
+        return struct.pack("<II", len(head), len(self.block)) + head + self.block + self.cells if fields else b""
 
 
 def _json(part: StateAnswer | ChartCells | ChartEnded | CellExplained | None) -> str:

@@ -206,7 +206,7 @@ class SuslovHess(State):
     def about_diagram(self) -> Caption:
         """Return the caption of the bifurcation diagram."""
         found = diagram.about(self.h, self.f, self.map)
-        return found if self.zone is None else replace(found, numbers=f"{found.numbers} {self.zone.said}")
+        return found if self.zone is None else replace(found, numbers=f"{found.numbers} {self.zone.sentence}")
 
     def orbit_columns(self) -> Columns:
         """Return the columns of the orbit and of the moving points in the other pictures."""
@@ -255,7 +255,7 @@ class SuslovHess(State):
         if self.map is not None:
             yield f"Period of n₃ = {digits(self.map.period / body.frequency_unit, 6)}"
             if self.known("proof") and self.proof is not None:
-                yield self.proof.said
+                yield self.proof.sentence
             if self.map.kind == "elliptic":
                 yield f"ζ of the invariant density = {digits(invariant_measure(self.map).zeta, 6)}"
 

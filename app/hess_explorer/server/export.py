@@ -14,7 +14,7 @@ from tornado.web import RequestHandler
 
 from hess_explorer.compute.budget import Abandoned, limited
 from hess_explorer.export.file import content
-from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, Wish, holding
+from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, FileRequest, holding
 from hess_explorer.export.notebook import PROGRAMS
 from hess_explorer.export.shown import address, show
 from hess_explorer.page.offline import as_html
@@ -29,8 +29,8 @@ __all__ = ["Export"]
 _SPECS = (
     Choice("format", "Format", tuple(FORMATS), "csv"),
     Choice("black", "Black", ("0", "1"), "0"),
-    Number("width", "width", "Width", Wish.width, WIDTHS, 5.0, WIDTHS),
-    Number("seconds", "seconds", "Seconds", Wish.seconds, SERVED_SECONDS, 1.0, SERVED_SECONDS),
+    Number("width", "width", "Width", FileRequest.width, WIDTHS, 5.0, WIDTHS),
+    Number("seconds", "seconds", "Seconds", FileRequest.seconds, SERVED_SECONDS, 1.0, SERVED_SECONDS),
     Choice("progress", "Progress", ("0", "1"), "0"),
 )
 
@@ -84,9 +84,11 @@ class Export(RequestHandler):
             if is_film:
                 await self._answer_film(state, picture, read)
             else:
-                wish = Wish(str(read["format"]), float(read["width"]), read["black"] == "1")
-                name, data = await asyncio.get_running_loop().run_in_executor(_files, self._file, state, picture, wish)
-                self._send(name, wish.kind, data)
+                request = FileRequest(str(read["format"]), float(read["width"]), read["black"] == "1")
+                name, data = await asyncio.get_running_loop().run_in_executor(
+                    _files, self._file, state, picture, request
+                )
+                self._send(name, request.kind, data)
         except (Abandoned, StreamClosedError):
             return
         except ModelError as error:
@@ -95,18 +97,18 @@ class Export(RequestHandler):
             Export.filming -= is_film
             Export.waiting -= not is_film
 
-    def _file(self, state: dict[str, str], picture: str, wish: Wish) -> tuple[str, bytes]:
+    def _file(self, state: dict[str, str], picture: str, request: FileRequest) -> tuple[str, bytes]:
         """Return name and contents of the file.  Raises `ModelError`, `Abandoned`."""
-        if wish.kind == "html":
+        if request.kind == "html":
             home = self.request.full_url().partition("?")[0].removesuffix("export")
             with limited(self._left, _SECONDS), np.errstate(all="ignore"):
                 return as_html(urlencode(state), picture.split(",") if picture else (), home, lenient=True)
         where = address(urlencode(state), picture, lenient=True)
         name = f"{where.scene.name}-{where.picture.name}"
-        if wish.kind in PROGRAMS:
-            return name, PROGRAMS[wish.kind](where).encode()
+        if request.kind in PROGRAMS:
+            return name, PROGRAMS[request.kind](where).encode()
         with limited(self._left, _SECONDS), np.errstate(all="ignore"):
-            return name, content(show(where), wish)
+            return name, content(show(where), request)
 
     async def _answer_film(self, state: dict[str, str], picture: str, read: dict[str, Any]) -> None:
         """Send the film, after progress lines if they are requested.  Raises `ModelError`, `Abandoned`."""

@@ -42,11 +42,11 @@ class Charting:
     error : largest estimated error so far, None without an estimate.
     progress : progress of the computation.
     running : True while more cells are to come.
-    said : reason for an early end, otherwise empty.
+    reason : reason for an early end, otherwise empty.
     """
 
     def __init__(self, chart: Chart, seconds: float = SECONDS) -> None:
-        self.chart, self.said, self.running = chart, "", True
+        self.chart, self.reason, self.running = chart, "", True
         self._order = chart.order
         self._values, self._status = np.full(chart.cells, np.nan), np.zeros(chart.cells, np.uint8)
         self.error: float | None = None
@@ -71,10 +71,10 @@ class Charting:
     def _hear(self, progress: Progress) -> None:
         self.progress = progress
 
-    def _end(self, said: str) -> None:
+    def _end(self, reason: str) -> None:
         with self._lock:
             if self.running:
-                self.running, self.said = False, said
+                self.running, self.reason = False, reason
 
     def _step(self) -> bool:
         """Compute one piece; return True if more remain."""

@@ -36,6 +36,6 @@ class Interrupted(KeyboardInterrupt):
     dataset : the finished cells; all other cells have the status 0, "not computed".
     """
 
-    def __init__(self, said: str, dataset: xr.Dataset) -> None:
-        super().__init__(said)
+    def __init__(self, message: str, dataset: xr.Dataset) -> None:
+        super().__init__(message)
         self.dataset = dataset

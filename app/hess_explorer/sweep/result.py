@@ -49,7 +49,7 @@ class Kept(Protocol):
         """Return the results; unfinished cells have the status 0."""
 
     @property
-    def said(self) -> str:
+    def resume_hint(self) -> str:
         """A sentence on where the results are and how to resume."""
 
 
@@ -99,7 +99,7 @@ def _empty(what: Quantity, grid: SweepGrid, level: str, filled: Callable[[tuple[
 class Memory:
     """Finished boxes in memory."""
 
-    said = ""
+    resume_hint = ""
 
     def __init__(self, what: Quantity, grid: SweepGrid, level: str) -> None:
         self._dataset = _empty(what, grid, level, np.full)
@@ -161,7 +161,7 @@ class Store:
         return cls(path, what)
 
     @property
-    def said(self) -> str:
+    def resume_hint(self) -> str:
         """A sentence on where the results are and how to resume."""
         return f"Finished cells are saved in {str(self.path)!r}: run the same sweep again to continue."
 
@@ -204,7 +204,7 @@ class Store:
         try:
             _write(self._arrays, box, done)
         except OSError as error:
-            raise StoreError(f"{str(self.path)!r} cannot be written ({error.strerror}).  {self.said}") from error
+            raise StoreError(f"{str(self.path)!r} cannot be written ({error.strerror}).  {self.resume_hint}") from error
 
     def dataset(self) -> xr.Dataset:
         """Return the results, loaded up to `MAX_NUMBERS` values and lazily above that."""

@@ -160,10 +160,10 @@ def sweep(
         found = kept.dataset()
         ended = int(np.count_nonzero(found.status))
         raise Interrupted(
-            " ".join([f"stopped after {ended} of {grid.cells} cells.", kept.said]).strip(), found
+            " ".join([f"stopped after {ended} of {grid.cells} cells.", kept.resume_hint]).strip(), found
         ) from error
     except WorkersLost as error:
-        raise WorkersLost(" ".join([str(error), kept.said if kept else ""]).strip()) from error
+        raise WorkersLost(" ".join([str(error), kept.resume_hint if kept else ""]).strip()) from error
     return kept.dataset()
 
 

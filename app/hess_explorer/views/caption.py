@@ -15,7 +15,7 @@ class Caption:
     ----------
     verdict : the main result, in at most eight words.
     numbers : the numbers behind it.
-    title : the heading, in two to five words.  `Picture.said` fills in the title of the picture.
+    title : the heading, in two to five words.  `Picture.full_caption` fills in the title of the picture.
     """
 
     verdict: str = ""

@@ -26,7 +26,7 @@ class Picture(ABC, Generic[S]):
     Parameters
     ----------
     name : identifier; title : heading, or a function of the state.
-    caption(state) : verdict and numbers; `said` adds the title.
+    caption(state) : verdict and numbers; `full_caption` adds the title.
     on_click(state, x, y) : parameter values set by a click; on_drag : name of the layer whose point a drag moves.
     on_box(state, corners) : parameter values set by a box selection.
     on_hover(state, x, y) : tooltip for the place under the mouse.  Raises `ModelError`.
@@ -109,7 +109,7 @@ class Picture(ABC, Generic[S]):
         """Return the columns of an empty picture; only a plot shows the reason."""
         return {self.name: {}}
 
-    def said(self, state: S) -> Caption:
+    def full_caption(self, state: S) -> Caption:
         """Return the caption with its title."""
         title = self.title if isinstance(self.title, str) else self.title(state)
         return replace(self.caption(state), title=title)

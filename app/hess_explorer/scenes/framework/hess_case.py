@@ -131,7 +131,7 @@ class Proved:
     """The proved statement on a torus: a short sentence for the caption of its map, and one with more digits."""
 
     badge: str
-    said: str
+    sentence: str
 
 
 def proved(I22: float, I23: float, h: float, f: float) -> Proved:

@@ -26,7 +26,7 @@ ROUNDS = (30, 50, 75, 110, 160, 230, 320, 450, 600, 800, 1000)
 class ProvedZone:
     """The known zone: a sentence for a caption, and outlines (n, 2) of proved cells for f > 0."""
 
-    said: str
+    sentence: str
     outlines: tuple[Array, ...] = ()
 
 

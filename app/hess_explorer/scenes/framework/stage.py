@@ -35,7 +35,7 @@ class Stage(Generic[S]):
         """Draw a state from `Scene.compute`; `hold_axes` keeps the axes, for a held slider.  Raises `ModelError`."""
         # Everything that can fail comes first, so that a refused state is not drawn in part.
         views = [view for view in self.scene.views if view.name in state.seen]
-        captions = {view.name: view.said(state) for view in views}
+        captions = {view.name: view.full_caption(state) for view in views}
         axes = {view.name: (None if hold_axes else view.ranges(state)) or self._axes[view.name] for view in views}
         drawn = dict(state.drawn)
         for view in views:

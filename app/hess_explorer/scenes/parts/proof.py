@@ -49,7 +49,7 @@ class ProvedError:
     band : convex polygons (n, 2) of (ω1, ω2); around : pairs of a centre γ and an angular radius.
     """
 
-    said: str
+    sentence: str
     band: tuple[Array, ...] = ()
     around: tuple[tuple[tuple[float, float, float], float], ...] = ()
 
@@ -96,7 +96,7 @@ class Proof(Part[_Host]):
     def status(self) -> Iterator[str]:
         """Yield the proved error."""
         if self.error is not None:
-            yield self.error.said
+            yield self.error.sentence
 
 
 def judged(finding: Task, motion: Motion, units: tuple[float, float]) -> ProvedError:
@@ -127,10 +127,10 @@ def judged(finding: Task, motion: Motion, units: tuple[float, float]) -> ProvedE
             + ("" if wrong.size else ", where the proof breaks off")
         )
     )
-    said = f"proved error ≤ {errors[: last + 1].max():.1e}, certainly right to ½ pixel {until}"
+    sentence = f"proved error ≤ {errors[: last + 1].max():.1e}, certainly right to ½ pixel {until}"
     least = proved_error(orbit, true)[0]
     if least > orbit.error_estimate:
-        said += f"; the estimate is too small, as the error reaches {least:.1e}"
+        sentence += f"; the estimate is too small, as the error reaches {least:.1e}"
     band, around = [], []
     if first == 2 and motion.weights[0] > 0.0:
         band = _band(omega[: len(errors)], errors[:, :2] * np.array(units), sizes[0])
@@ -139,7 +139,7 @@ def judged(finding: Task, motion: Motion, units: tuple[float, float]) -> ProvedE
         x, y, z = (float(value) for value in gamma[i] / np.linalg.norm(gamma[i]))
         # An angle is a little larger than its chord, and the computed γ is slightly off the sphere.
         around.append(((x, y, z), 1.05 * float(np.linalg.norm(errors[i, first:]))))
-    return ProvedError(said, tuple(band), tuple(around))
+    return ProvedError(sentence, tuple(band), tuple(around))
 
 
 def _drawn(sizes: Array) -> list[int]:
