@@ -19,7 +19,7 @@ interface BokehScale {
   invert(pixel: number): number
 }
 
-/** What a canvas over a plot or a chart needs of a scale. */
+/** The part of a scale that a canvas over a plot or a chart uses. */
 type Scale = Pick<BokehScale, "compute" | "invert">
 
 interface BokehSignal {
@@ -247,7 +247,7 @@ interface Answer {
   show?: Followed
 }
 
-/** What a follower of a room reads beside the state; lesson is the title, and number that of the step. */
+/** Text for the followers of a room: `lesson` is its title, `number` the number of the step. */
 interface Followed {
   scene: string
   number: number
@@ -335,7 +335,7 @@ interface Grid {
   numbers: Float32Array
 }
 
-/** What an earlier state looks like; its form depends on the kind of the picture. */
+/** Look of an earlier state; its form depends on the kind of the picture. */
 type GhostImage = any
 /** A faint copy of an earlier state: take() copies the state on show, show(copy or null) draws it. */
 interface Ghost {
@@ -366,7 +366,7 @@ interface Scene {
   sizes: Map<PlotView, string>
 }
 
-/** What a self-painted canvas knows: its side or size in its own units, device pixels per unit, colour of text, theme. */
+/** Properties of a painted canvas: its side or size in its own units, device pixels per unit, colour of text, theme. */
 interface CanvasLook { width: number, height: number, text: string, dark: boolean }
 interface SquareLook { edge: number, ratio: number, text: string, dark: boolean }
 type PaintSquare = (ctx: CanvasRenderingContext2D, look: SquareLook) => void
@@ -400,7 +400,7 @@ interface Compared {
   queries: [string, string]
 }
 
-/** What the export dialog offers: [kind, label, content] of each format; [least, most, usual] of the numbers. */
+/** Options of the export dialog: [kind, label, content] of each format; [least, most, usual] of the numbers. */
 interface ExportFiles {
   formats: [string, string, string][]
   width: [number, number, number]

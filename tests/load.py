@@ -128,7 +128,7 @@ async def measure(base, pid, counts, seconds):
     yield "| sessions | opened in | median | p95 | cores | memory each | beside one at reference | errors |"
     yield "|---|---|---|---|---|---|---|---|"
     for count in counts:
-        # Nor is the end of those that were there before.
+        # The end of earlier sessions must not be measured.
         await _expired(base)
         before, crowd = memory(pid), Crowd(base)
         opening = await crowd.open(count)

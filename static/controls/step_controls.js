@@ -20,7 +20,7 @@ export function stepControls() {
   let names = []
   /** @type {ControlDescription[]} */
   let known = []
-  // What the server has sent about the scene on show.
+  // Latest values from the server for the current scene.
   /** @type {Record<string, ControlValue>} */
   let values = {}
   /** @type {Record<string, {show: (value: any) => void, refuse?: (why: string) => void, follow?: (value: number) => void}>} */

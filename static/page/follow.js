@@ -126,7 +126,7 @@ function start() {
     root.dataset.ready = "true"
   }
 
-  // Of the states that arrive while one is painted, only the last one is drawn.
+  // While a state is painted, only the newest arrival is kept.
   /** @type {(() => Promise<void>) | null} */
   let next = null
   let isDrawing = false

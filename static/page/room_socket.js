@@ -23,7 +23,7 @@ export const newName = () => Array.from(crypto.getRandomValues(new Uint8Array(16
 /** Return the address at which the audience follows. @param {string} code */
 export const addressOf = (code) => new URL(`r/${code}`, document.baseURI).href
 
-/** What a tab keeps until it is closed; nothing where the browser allows no storage. */
+/** Session storage of the tab; does nothing if the browser forbids it. */
 export const kept = {
   /** @param {string} key @returns {string | null} */
   get(key) {

@@ -1,4 +1,4 @@
-"""What a change costs a server: `python tests/benchmarks/benchmark_change.py`; `--beside FOLDER`: and another checkout.
+"""Cost of a change on the server: `python tests/benchmarks/benchmark_change.py`; `--beside FOLDER` for two checkouts.
 
 In milliseconds of one core, never of the clock: the answer to one change of a scene's first number, what is filled in
 behind it when nobody moves on, and an answer where 42 sessions ask without a pause, with all computed meanwhile.

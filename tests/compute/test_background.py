@@ -609,7 +609,7 @@ def test_a_step_back_is_read_as_a_link_is(free_gate):
     assert dict(decode(state["query"], EP.specs)[0])["h"] == high
     assert f"h must lie between {low:g} and {high:g}" in browser.texts["notes"]
     assert "f must be a finite number" in browser.texts["notes"]
-    # Of no scene that there is: this one.
+    # An unknown scene: the current one is kept.
     state = browser.ask(2, restore="scene=nowhere&h=1")
     assert state["scene"] == EP.name
     assert "Scene must be one of" in browser.texts["notes"]

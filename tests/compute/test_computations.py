@@ -559,7 +559,7 @@ def test_a_state_asks_the_cache_for_each_of_its_parts_once(cache):
 
 def test_warming_up_computes_the_first_state_of_every_scene(cache, monkeypatch):
     tasks = []
-    # What can wait is asked for, one of each kind; how long it takes is of no interest here.
+    # One request of each kind that can wait; its duration does not matter here.
     later = types.SimpleNamespace(get=lambda function, *arguments: tasks.append((function, arguments)), asked=0)
     monkeypatch.setattr(warm, "CACHE", later)
     monkeypatch.setattr(warm, "QUIET_SECONDS", 0.0)

@@ -27,7 +27,7 @@ PICTURES = [(name, picture) for name, scene in scenes().items() if scene.origin 
 ELSEWHERE = {("suslov", "conformal"): "On a principal axis"}
 """Pictures that are empty at first, and the examples that fill them."""
 GLYPHS = get_font(findfont("DejaVu Sans")).get_charmap().keys()
-"""What the font of figures can write; of other letters in a figure Matplotlib warns."""
+"""Characters of the font of figures; Matplotlib warns about others."""
 
 
 @pytest.mark.parametrize(("scene", "picture"), sample(PICTURES, 17))

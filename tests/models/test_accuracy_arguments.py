@@ -99,7 +99,7 @@ def test_a_level_and_its_name_mean_the_same_and_a_name_that_no_level_has_is_refu
 
 
 INTERNAL = {"measured", "evaluate", "cost_of_a_cell", "create", "require", "opened"}
-"""What takes the level that was read before, or the name that a store has kept."""
+"""Functions that take a level that is already read, or its name in a store."""
 
 
 def test_every_public_function_says_that_it_takes_either():

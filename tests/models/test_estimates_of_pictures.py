@@ -85,7 +85,7 @@ def test_up_to_the_crossing_that_is_named_an_orbit_is_where_it_is_drawn(followed
     ]
     assert len(worst) >= 290
     assert within_a_factor_of_ten(worst, np.full(len(worst), 0.5))
-    # Nor is it a cautious guess: for most orbits that are lost, the crossing named is next to the true one.
+    # The estimate is not merely cautious: for most lost orbits it is within one crossing of the true one.
     true_counts = np.array(right_crossings(own, truth, PIXELS, PERIODS))
     lost = true_counts < np.array([min(map(len, pair)) for pair in zip(own, truth, strict=True)])
     assert lost.sum() > 40
@@ -312,5 +312,5 @@ def test_a_cloud_is_as_exact_as_the_points_that_are_computed_twice_say(clouds, n
         errors.append(max(np.abs(getattr(found, one) - getattr(exact, one)).max() / units[one] for one in units))
         estimates.append(found.error_estimate)
     assert within_a_factor_of_ten(errors, estimates)
-    # Of a few points only the estimate may be missed by a little.
+    # A few points may exceed the estimate slightly.
     assert np.mean(np.array(errors) <= 3.0 * PLANS[Computation.CLOUD][name].promise) >= 0.99

@@ -138,7 +138,7 @@ def test_the_change_log_begins_with_the_version():
 
 
 SECTIONS = {"1", "1.1", "2", "2.1", "3"}
-"""Of the paper; its appendix has no number."""
+"""Numbered sections of the paper; its appendix has no number."""
 FIGURES = range(1, 15)
 
 

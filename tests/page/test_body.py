@@ -15,7 +15,7 @@ from support.page import brought, wait_frames
 
 QUARTIC = scenes()["quartic"]
 RADIUS = 0.84
-"""Of the sphere, in halves of the canvas."""
+"""Radius of the sphere, in halves of the canvas."""
 
 
 @pytest.fixture

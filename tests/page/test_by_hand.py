@@ -22,7 +22,7 @@ from support.thorough import sample
 
 SCENES = scenes()
 MOST = 4
-"""Of more examples than these one in two, or in three, is chosen: what an earlier one left is seen at the end."""
+"""With more examples, a sample is tested: leftovers of an earlier one show at the end."""
 
 # Planar picture → the events of Bokeh that choose something in it.
 PICKS = "() => Object.fromEntries(hess.plots.map(({ model }) => [model.name, Object.keys(model.js_event_callbacks)]))"
@@ -116,7 +116,7 @@ ERRORS = {len(scene.views): name for name, scene in reversed(SCENES.items()) if 
 @pytest.mark.parametrize("scene", [*sample(OWN, 4), *sample(ERRORS, 1)])
 def test_a_state_reached_by_hand_looks_as_the_one_its_link_opens(tab, artefacts, scene):
     tab.fresh(scene)
-    # What a level draws is drawn alike at all of them.
+    # All levels draw the same picture.
     tab.change(tab.choose, "accuracy", "draft")
     through_examples(tab)
     through_pictures(tab)

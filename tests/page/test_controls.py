@@ -27,7 +27,7 @@ ENDS = {
     "span": (1.0, 200.0),
 }
 SCALES = {**ENDS, "f": (-3.0, 3.0)}
-"""Of each slider: that of f is longer than what is possible, for it stays when h changes."""
+"""Ends of each slider; the slider of f exceeds the possible range, because it does not change with h."""
 every_number = pytest.mark.parametrize("name", SLIDERS)
 # All numbers are controls of one kind; what tells them apart, ends and steps, is tested for each.
 some_numbers = pytest.mark.parametrize("name", ["h", "f", "span"])

@@ -391,7 +391,7 @@ def test_what_is_done_by_hand_is_recorded_and_replayed(tab, server):
         if here(tab)[:2] != (step.at.scene, step.at.values):
             tab.change(lambda query=query: page.evaluate("query => hess.tell('restore', query)", query))
         assert here(tab)[:2] == (step.at.scene, step.at.values)
-    # What is discarded leaves nothing.
+    # Discarding leaves nothing behind.
     page.locator(".param-record").click()
     page.locator(".param-drop-recording").click()
     assert page.locator(".param-record").is_visible()

@@ -19,7 +19,7 @@ from support.thorough import sample
 SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844), "sideways": (844, 390)}
 WINDOWS = ((1280, 720), (1920, 1080), (3840, 2160), SIZES["wide"])
 LEAST = 0.36
-"""Of the window's height: the edge of the smallest picture where five are open, with controls and text beside them."""
+"""Least edge of the smallest of five pictures, beside controls and text, as a share of the window's height."""
 THUMBNAIL = 0.39
 """The share of the frame in the smallest pictures there are: four beside an enlarged one, in the smallest window."""
 SCENES = [name for name, scene in scenes().items() if scene.origin in (None, HESS)]
@@ -151,7 +151,7 @@ def assert_in_sight(places, width, height, count, share=0.5):
         assert over <= 1, text
 
 
-# What must keep clear of each other: in the main part and beside it.
+# Elements that must not overlap: in the main part and beside it.
 PARTS = (
     "h1, .param-reset, .param-share, h2.caption, .bk-Figure, canvas.sphere, canvas.solid, .player[role=group], .reader",
     ".param-scenes, .menu, .number, .text.help, .text.derived",
@@ -590,7 +590,7 @@ WRITTEN = """async (change) => {
   CanvasRenderingContext2D.prototype.fillText = own
   return [...written.values()].map((labels) => [...labels.values()])
 }"""
-"""What is written on each canvas after a change: a list of [text, left, top, right, bottom] in pixels of CSS."""
+"""Text on each canvas after a change: a list of [text, left, top, right, bottom] in pixels of CSS."""
 
 
 def gaps_of(labels):

@@ -89,7 +89,7 @@ def test_the_newest_of_fifty_changes_wins_and_none_arrives_later(explorer, pause
     )
     wait_ready(explorer.page, after=at_the_end)
     painted = explorer.state
-    # Of the changes during a request only the newest is requested; later results arrive in pieces.
+    # Only the newest of the changes during a request is sent; later results arrive in pieces.
     assert painted - at_the_end <= 6
     assert pause_ms > 0 or painted - before <= 6
     assert_orbit(explorer, {**DEFAULTS, "h": 2.0})

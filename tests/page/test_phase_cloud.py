@@ -23,7 +23,7 @@ DARK_BLUE = (77, 174, 235)
 WIDTH = 600
 """Pixels of a picture that interpolation is to be right for."""
 EVERY = 20
-"""Of so many points one is compared: all go the same way through the code."""
+"""One point in so many is compared: all take the same path through the code."""
 SOME = 1e-4
 """The share of a small patch: some ten pixels."""
 

@@ -35,7 +35,7 @@ from support.suslov_hess import assert_defaults, assert_orbit, exact_states
 from support.thorough import sample
 
 SCENES = scenes()
-# Of what looks into another scene only that of the scene on show is offered.
+# The menu offers only the accuracy page of the current scene.
 OFFERED = [name for name, scene in SCENES.items() if scene.origin in (None, HESS)]
 PHONE = (390, 844)
 PIXELS = 600

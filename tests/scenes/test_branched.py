@@ -163,7 +163,7 @@ def test_a_click_on_the_branch_shows_that_orbit_and_away_from_it_nothing_happens
     # The orbit is marked.
     assert after.data["branch-shown"]["x"][0] == pytest.approx(chosen[parameter], abs=1e-6)
     assert after.data["branch-shown"]["y"] == pytest.approx(orbit.places[:, side], abs=1e-6)
-    # What stands in the way of clicks: other chosen orbits stay.
+    # A click keeps the other chosen orbits.
     if "starts" in chosen:
         assert len(places(chosen["starts"])) == len(places(view.values["starts"]))
     low, high = state.branch.upwards_range

@@ -250,7 +250,7 @@ def test_a_change_of_sides_keeps_the_motion_and_one_back_the_values(values):
         other = sides[1 - sides.index(side)]
         # Those of the other side are disabled, and none else.
         assert {name for name, one in browser.controls.items() if one[4:] == [True]} == set(body[other])
-        # What came alive says what it said before; for b < 0 the vertical is reversed.
+        # The newly enabled controls show the same values as before; for b < 0 the vertical is reversed.
         for name in body[side]:
             wanted = before[name][0]
             if values.get("m", 1.0) < 0.0 and seen and name in ("m", "b3"):

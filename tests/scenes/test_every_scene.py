@@ -1134,7 +1134,7 @@ def test_whatever_is_raised_while_a_page_opens_it_gets_a_state(where, caplog):
     state = browser.ask(1, values={"h": 8.0})
     assert (state["answers"], browser.session.values["h"]) == (1, 8.0)
     assert browser.texts["status"] != session.FAILED
-    # What is filled in behind it would go on as the process ends.
+    # Background pieces would continue while the process ends.
     browser.session.background.stop()
 
 

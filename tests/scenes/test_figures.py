@@ -41,7 +41,7 @@ LABELS = [
     "gess-ris1",
     "gess-ris2",
 ]
-"""Of the source, in its order; the scheme of the ellipsoid has none."""
+"""Labels of the figures in the source, in order; the scheme of the ellipsoid has none."""
 
 
 def example(scene, name):

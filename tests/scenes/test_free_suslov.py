@@ -251,7 +251,7 @@ def test_all_four_signs_have_a_portrait():
 STARTS = {"I₁₃ = 0": ((-0.44, 0.28, 0.85), (-0.44, 0.72, 0.53)), "d": ((-0.88, -0.48, 0.0), (-0.49, 0.26, 0.88))}
 """γ(0) of both orbits in the caption of figure 3, as printed."""
 READ = np.array([0.1, 0.0, 0.0])
-"""What the second of d is read with."""
+"""Correction of γ(0) of the second orbit of d."""
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""What a lesson's Markdown cannot show: each is reported with its line, instead of being shown as text."""
+"""Checks of a lesson's Markdown: unsupported elements are reported with their lines instead of being shown as text."""
 
 from __future__ import annotations
 

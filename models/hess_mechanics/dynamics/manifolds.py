@@ -463,7 +463,7 @@ def _changes_sides(one: Manifold, other: Manifold, tau: Array, chord: float, alo
             point, t = one.at(tau[0] + side * chord), float(tau[1])
             for _ in range(_FEET):
                 away = apart(one.turns, point, other.at(t))
-                # What is left along it changes the distance across it by its square.
+                # An error along the curve changes the distance across it only in second order.
                 if abs(float(away @ u)) <= 1e-3 * float(np.linalg.norm(away)):
                     break
                 t += float(away @ u) / speed

@@ -371,7 +371,7 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, l
     first = _SETTLES * _SAMPLES
     together = np.column_stack([growth, volume])
     mean, error = batch_error(together[first:], times[first:])
-    # What the steps themselves may have lost.
+    # Error of the steps themselves.
     floor = (level.tolerance + 1e-15) * steps / abs(span)
     order = np.argsort(-mean[:-1], kind="stable")
     rates = growth[1:, order] / times[1:, None]

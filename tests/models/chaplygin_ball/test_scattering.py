@@ -135,7 +135,7 @@ def test_what_would_take_too_long_is_refused_before_it_is_begun():
         ball_scattering(slow, 1.0, PHASES, 10.0, 1e-10, "standard")
     with raises(WorkLimit, match="smaller 𝒟"):
         ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-4, "standard", most_steps=1000)
-    # What is allowed is what it takes, roughly.
+    # Within the limit the computation succeeds.
     found = ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-4, "standard", most_steps=300_000)
     assert found.cost.steps < 300_000
 

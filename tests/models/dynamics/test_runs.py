@@ -1,4 +1,4 @@
-"""What holds of every run of every system: one orbit, several at once, the crossings of a plane."""
+"""Properties of every run of every system: one orbit, several at once, the crossings of a plane."""
 
 import numpy as np
 from pytest import mark, raises

@@ -357,7 +357,7 @@ def test_sections_of_many_orbits_are_those_of_each(system):
                 errors = 10 * (one.error_estimate + other.error_estimate)
                 assert np.max(np.abs(one.states - other.states), initial=0.0) <= errors
                 assert one.status == other.status
-    # Whoever computes them, they are the same.
+    # The crossings do not depend on the number of threads.
     for one, other in zip(sections(body, states, plane, 20.0, "precise", threads=1), together, strict=True):
         assert np.array_equal(one.times, other.times)
         assert np.array_equal(one.states, other.states)

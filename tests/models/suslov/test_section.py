@@ -232,7 +232,7 @@ def test_the_exponents_of_chaotic_examples_are_positive_and_do_not_depend_on_the
     ),
 )
 def test_the_chaotic_seas_of_the_scenes_keep_no_volume(problem, place, forward, backward, count):
-    # Of an ensemble, not of one orbit: the mean over pieces of 2000, and its error from how much they differ.
+    # An ensemble mean over pieces of 2000, with an error from their spread.
     body, E = problem
     slopes = np.array([divergence_of_field(body, one) for one in np.eye(5)])
     for expected, sense in ((forward, 1.0), (backward, -1.0)):

@@ -110,7 +110,7 @@ def test_the_half_map_of_any_torus_of_a_cell_is_enclosed(a, h, f, radius):
             assert enclosed.low < known.low <= known.high < enclosed.high
             middle = (enclosed.low + enclosed.high) / 2
             reached = max(reached, float(2 * abs(known.low - middle) / enclosed.width))
-    # Nor is it so wide that anything would be inside.
+    # The enclosure is also narrow enough to exclude wrong values.
     assert reached > 0.02
 
 
