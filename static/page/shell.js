@@ -75,10 +75,10 @@ function opener() {
   return link
 }
 
-/** Return the link back to the lecture that this tab has left to play on its own. */
-function rejoin() {
+/** Return the link back to the lecture that this tab has left to play on its own. @param {ClientKeys} own */
+function rejoin({ embed }) {
   const code = kept.followed
-  return code === null ? [] : [element("a.rejoin", { href: `r/${code}` }, "Back to the lecture")]
+  return code === null || embed === "1" ? [] : [element("a.rejoin", { href: `r/${code}` }, "Back to the lecture")]
 }
 
 /**
@@ -122,7 +122,7 @@ export function render({ model, view, el }) {
   el.classList.add("frame")
   el.append(
     element("header.bar", mount("bar", renderBar, { scenes, files, palettes }),
-      ...rejoin(), element("div.news", text("busy"), mount("progress", renderProgress))),
+      ...rejoin(model.client), element("div.news", text("busy"), mount("progress", renderProgress))),
     tabsOf({ Controls: controls, Text: reader }), controls, stage, reader,
     element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener(), drawer(el), spot())
   sayWhatMoves(stage, /** @type {HTMLElement} */ (reader.firstChild))

@@ -203,7 +203,8 @@ def serve(
     told = options(port, address, origins, lessons, sessions=sessions, follow=follow, rooms=rooms, relay=relay)
     server = get_server(told.pop("panels"), start=False, show=show and workers == 1, num_procs=workers, **told)
     end_on_signals(server.io_loop)
-    relay.listen(Application([(f"/rooms/({CODE})", RoomSocket, {"rooms": rooms})]))
+    rooms_only = [(f"/rooms/({CODE})", RoomSocket, {"rooms": rooms})]
+    relay.listen(Application(rooms_only, websocket_max_message_size=MESSAGE_LIMIT))
     if together is not None:
         # Only one worker reports that the explorer is ready, and all end with the parent process.
         ready = ready if task_id() == 0 else lambda: None
