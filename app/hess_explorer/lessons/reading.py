@@ -185,18 +185,17 @@ def _step(part: Part, tag: str, before: StateLink | None, images: Images, proble
     if place is None:
         return None
     scene = scenes()[place.scene]
-
-    def line_of(key: str) -> int:
-        return fields.line_of(key)
-
+    line_of = fields.line_of
     animation = problems.attempt(None, animation_of, fields.get("animate"), scene, line_of("animate"))
+    question, answer = (asked[name].text.strip() if name in asked else "" for name in ("question", "answer"))
     return LessonStep(
         part.title,
         words.text.strip(),
         place,
         problems.attempt("", look_of, fields.get("look"), scene, line_of("look")),
         animation,
-        *(asked[name].text.strip() if name in asked else "" for name in ("question", "answer")),
+        question,
+        answer,
         problems.attempt(None, prediction_of, fields.get("predict"), place, line_of("predict")),
         problems.attempt((), controls_of, fields.get("controls"), animation, scene, line_of("controls")),
         problems.attempt(None, hidden_of, fields.get("hide"), scene, line_of("hide")),
