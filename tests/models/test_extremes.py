@@ -708,7 +708,7 @@ def test_next_to_its_limit_the_triangle_inequality_is_decided_right(tensor):
 def main():
     """Write the measured rows as a table, with a column for each level."""
     lines = [
-        "| what is extreme | checked against | draft | standard | precise | reference |",
+        "| extreme case | checked against | draft | standard | precise | reference |",
         "|---|---|---|---|---|---|",
     ]
     for row in ROWS:
