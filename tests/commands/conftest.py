@@ -1,12 +1,10 @@
 """The command line in this process: `answer` returns the output, `refusal` the message of a rejected request."""
 
-from __future__ import annotations
-
 import pytest
 
 from hess_explorer.__main__ import main
 from hess_explorer.commands import output
-from support.command_line import strict_json
+from support.command_line import strict_json, table
 
 
 @pytest.fixture(autouse=True)
@@ -22,6 +20,17 @@ def answer(capsys):
         out, err = capsys.readouterr()
         assert err == ""
         return strict_json(out)
+
+    return call
+
+
+@pytest.fixture
+def as_table(capsys):
+    """Return facts, header and rows of the answer as CSV."""
+
+    def call(*words):
+        assert main([*words, "--format", "csv"]) == 0
+        return table(capsys.readouterr().out)
 
     return call
 

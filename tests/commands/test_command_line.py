@@ -1,7 +1,5 @@
 """The command line: its numbers, its formats, and a one-sentence message for every error."""
 
-from __future__ import annotations
-
 import gc
 import math
 import os
@@ -20,6 +18,7 @@ from urllib.request import urlopen
 import numpy as np
 import pytest
 from PIL import Image
+from pytest import approx
 
 import hess_explorer.headless.screenshot
 import oracle
@@ -103,9 +102,9 @@ PERIOD = 3.668400280441695618498
 
 def test_circle_map(answer):
     found = answer(*CIRCLE_MAP)
-    assert found["theta"] == pytest.approx(THETA, abs=1e-12)
-    assert found["trace"] == pytest.approx(TRACE, rel=1e-12)
-    assert found["period"] == pytest.approx(PERIOD, rel=1e-12)
+    assert found["theta"] == approx(THETA, abs=1e-12)
+    assert found["trace"] == approx(TRACE, rel=1e-12)
+    assert found["period"] == approx(PERIOD, rel=1e-12)
     assert found["kind"] == "hyperbolic"
     assert found["rotation_number"] == 0.0
     assert (found["status"], found["level"], found["notes"]) == ("ok", "reference", [])
@@ -113,9 +112,9 @@ def test_circle_map(answer):
     stable, unstable = found["multipliers"]
     assert stable < 1 < unstable
     # The multipliers are the squares of the eigenvalues of a matrix with determinant 1.
-    assert stable**0.5 + unstable**0.5 == pytest.approx(TRACE, rel=1e-12)
+    assert stable**0.5 + unstable**0.5 == approx(TRACE, rel=1e-12)
     fixed = ",".join(map(repr, found["fixed_points"]))
-    assert answer(*replaced(CIRCLE_MAP, "--phi", fixed))["theta"] == pytest.approx(found["fixed_points"], abs=1e-12)
+    assert answer(*replaced(CIRCLE_MAP, "--phi", fixed))["theta"] == approx(found["fixed_points"], abs=1e-12)
 
 
 def test_circle_map_without_cycles(answer):
@@ -129,7 +128,7 @@ def test_circle_map_beyond_double_range(answer):
     assert found["trace"] is None
     assert found["log_trace"] > 709
     assert found["multipliers"][1] is None
-    assert found["log_multipliers"][1] == pytest.approx(2 * found["log_trace"], rel=1e-12)
+    assert found["log_multipliers"][1] == approx(2 * found["log_trace"], rel=1e-12)
     assert [note.partition(":")[0] for note in found["notes"]] == ["trace", "multipliers"]
 
 
@@ -150,11 +149,11 @@ def test_an_orbit_that_rests_at_an_unstable_equilibrium_knows_how_wrong_it_is(an
 
 def test_range_of_times(answer):
     assert answer(*replaced(HESS, "--t", "0:1:5"))["t"] == [0.0, 0.25, 0.5, 0.75, 1.0]
-    assert answer(*replaced(HESS, "--t", "-0.1:-0.3:3"))["t"] == pytest.approx([-0.1, -0.2, -0.3], abs=1e-16)
+    assert answer(*replaced(HESS, "--t", "-0.1:-0.3:3"))["t"] == approx([-0.1, -0.2, -0.3], abs=1e-16)
 
 
 @pytest.mark.parametrize(
-    ("words", "states", "variables", "integrals", "notes"),
+    "words, states, variables, integrals, notes",
     [
         (SUSLOV, SUSLOV_STATES, ["ω1", "ω2", "γ1", "γ2", "γ3"], {"E", "F1"}, 1),
         (HESS, HESS_STATES, ["w1", "w2", "n1", "n2", "n3"], {"E", "F1", "F2"}, 1),
@@ -164,7 +163,7 @@ def test_range_of_times(answer):
 def test_orbit(answer, words, states, variables, integrals, notes):
     found = answer(*words)
     assert found["t"] == [float(t) for t in words[words.index("--t") + 1].split(",")]
-    assert np.array(found["y"]) == pytest.approx(np.array(states), abs=1e-11)
+    assert np.array(found["y"]) == approx(np.array(states), abs=1e-11)
     assert (found["variables"], set(found["drift"])) == (variables, integrals)
     assert max(found["drift"].values()) < 1e-12
     assert found["status"] in ("ok", "double-precision floor")
@@ -211,7 +210,7 @@ def test_out_writes_a_file_and_prints_nothing(answer, capsys, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("words", "part"),
+    "words, part",
     [
         (replaced(CIRCLE_MAP, "--h", "nan"), "--h: 'nan' is not a finite number"),
         (replaced(CIRCLE_MAP, "--phi", "0,x"), "--phi: 'x' is not a number"),
@@ -308,7 +307,7 @@ def test_commands_do_not_wait_for_what_they_do_not_use():
     )
     done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, timeout=120, check=False)
     assert (done.returncode, without_patience(done.stderr)) == (0, b"")
-    assert strict_json(done.stdout)["theta"] == pytest.approx(THETA, abs=1e-12)
+    assert strict_json(done.stdout)["theta"] == approx(THETA, abs=1e-12)
 
 
 def test_version_and_help(capsys):
@@ -362,7 +361,7 @@ def test_several_lessons_are_served_in_their_order(served, free_port, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("compiled", "words"), [(False, "Compiling, ready in about 20 s."), (True, "Starting, ready in a few seconds.")]
+    "compiled, words", [(False, "Compiling, ready in about 20 s."), (True, "Starting, ready in a few seconds.")]
 )
 def test_the_address_is_printed_only_when_the_server_is_ready(monkeypatch, free_port, capsys, compiled, words):
     said = []
@@ -382,7 +381,7 @@ def test_the_address_is_printed_only_when_the_server_is_ready(monkeypatch, free_
 
 
 @pytest.mark.parametrize(
-    ("words", "changed"),
+    "words, changed",
     [
         ("--allow-origin a.org:80 b.org", {"origins": ["a.org:80", "b.org"]}),
         ("--workers 2 --sessions 300", {"workers": 2, "sessions": 300}),
@@ -539,13 +538,13 @@ SUSLOV_SECTION = typed(
 def test_section_of_a_heavy_body(answer):
     found = answer(*HEAVY_SECTION)
     start = start_by_hand(GESS1, 50.0, 5.0, 0.7, -0.3)
-    assert found["start"] == pytest.approx(start.tolist(), abs=1e-11)
+    assert found["start"] == approx(start.tolist(), abs=1e-11)
     times, states = crossings_by_scipy(GESS1, start, 1.01 * found["t"][-1])
-    assert found["t"] == pytest.approx(times.tolist(), abs=1e-8)
+    assert found["t"] == approx(times.tolist(), abs=1e-8)
     for M, gamma, l, x, state in zip(*(found[name] for name in ("M", "gamma", "l", "x")), states, strict=True):
-        assert [*M, *gamma] == pytest.approx(state.tolist(), abs=1e-6)
-        assert x == pytest.approx(M[2] / math.hypot(*M), abs=1e-14)
-        assert l == pytest.approx(math.atan2(M[0], M[1]), abs=1e-14)
+        assert [*M, *gamma] == approx(state.tolist(), abs=1e-6)
+        assert x == approx(M[2] / math.hypot(*M), abs=1e-14)
+        assert l == approx(math.atan2(M[0], M[1]), abs=1e-14)
     assert set(found["drift"]) == {"H", "F1", "F2"}
     assert max(found["drift"].values()) < 1e-9
     assert (found["status"], found["level"], found["notes"]) == ("ok", "precise", [])
@@ -558,18 +557,18 @@ def test_section_of_the_suslov_problem(answer):
     # The ball without an inner ball.
     body = {"I11": 2.0, "I22": 1.0, "I13": 0.3, "I23": 0.5, "D": 0.0, "b1": 0.3, "b2": -0.5, "b3": 1.0}
     times, states = upward_crossings(rates(body), [0.8, -0.4, 0.6, 0.0, 0.8], 20.0, 3)
-    assert found["t"] == pytest.approx(times.tolist(), abs=1e-9)
-    assert np.array(found["y"]) == pytest.approx(states, abs=1e-8)
+    assert found["t"] == approx(times.tolist(), abs=1e-9)
+    assert np.array(found["y"]) == approx(states, abs=1e-8)
     assert found["notes"] == [f"There are only {len(found['t'])} of 100 crossings up to t = 20."]
     both, down = (answer(*SUSLOV_SECTION, "--sense", sense)["t"] for sense in ("0", "-1"))
-    assert both == pytest.approx(sorted(found["t"] + down), abs=1e-9)
+    assert both == approx(sorted(found["t"] + down), abs=1e-9)
     assert len(down) >= 3
     moved = answer(*SUSLOV_SECTION, "--offset", "0.25")
-    assert np.array(moved["y"])[:, 3] == pytest.approx(0.25, abs=1e-12)
+    assert np.array(moved["y"])[:, 3] == approx(0.25, abs=1e-12)
 
 
 @pytest.mark.parametrize(
-    ("words", "part"),
+    "words, part",
     [
         (replaced(HEAVY_SECTION, "--h", "-30"), "choose a larger h, or another point"),
         (replaced(HEAVY_SECTION, "--f", "30"), "no real G ≥ |f|"),

@@ -37,7 +37,7 @@ def site(tmp_path_factory):
 
 @thorough
 @pytest.mark.parametrize(
-    ("page", "package"),
+    "page, package",
     [("hess_mechanics", hess_mechanics), ("hess_explorer", hess_explorer), ("sweep", sweep)],
 )
 def test_every_public_name_is_in_the_api(site, page, package):

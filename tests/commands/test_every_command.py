@@ -1,11 +1,6 @@
 """The example in the help of every command that computes runs, and says the same as JSON and as CSV."""
 
-from __future__ import annotations
-
 import pytest
-
-from hess_explorer.__main__ import main
-from support.command_line import table
 
 SYSTEMS = {
     "orbit": ("suslov", "hess", "euler-poisson", "ball"),
@@ -28,12 +23,11 @@ def flat(value):
     [[name] for name in ALONE] + [[name, system] for name, systems in SYSTEMS.items() for system in systems],
     ids=" ".join,
 )
-def test_the_example_of_the_help_says_the_same_as_json_and_as_csv(answer, example, capsys, words):
+def test_the_example_of_the_help_says_the_same_as_json_and_as_csv(answer, example, as_table, words):
     found = example(*words)
     assert found[: len(words)] == words
     expected = answer(*found, "--format", "json")
-    assert main([*found, "--format", "csv"]) == 0
-    facts, header, rows = table(capsys.readouterr().out)
+    facts, header, rows = as_table(*found)
     series = {name: column for name, column in expected.items() if name not in facts}
     assert rows == [flat(list(row)) for row in zip(*series.values(), strict=True)]
     assert len(rows) > 0

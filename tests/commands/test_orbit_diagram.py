@@ -1,15 +1,13 @@
 """The commands `orbit-diagram` and `regime`: against the Möbius matrix and Newton's method, and refused inputs."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
+from pytest import approx
 
-from hess_explorer.__main__ import main
 from hess_mechanics import circle_map, level, turning_points
-from support.command_line import replaced, table, typed
+from support.command_line import replaced, typed
 
 REFERENCE = level("reference")
 TORUS = typed("--a 0.5 --h 1.5 --f 0.6 --at 0.3")
@@ -17,11 +15,11 @@ DIAGRAM = ["orbit-diagram", "hess", *TORUS, "--over", "h=1.3:1.7:5", "--transien
 SUSLOV = typed("--I 1,2.11,0.6,0.6 --b=-1,-0.5,0.7 --E 0.681 --at 0.83,1.89")
 
 
-def test_over_tori_an_orbit_comes_to_the_stable_limit_cycle_and_backward_to_the_other(answer, capsys):
+def test_over_tori_an_orbit_comes_to_the_stable_limit_cycle_and_backward_to_the_other(answer, as_table):
     words = [*DIAGRAM, "--back", "--backward"]
     found = answer(*words)
     way, h, phi = (np.array(found[name]) for name in ("way", "h", "φ"))
-    assert np.unique(h) == pytest.approx([1.3, 1.4, 1.5, 1.6, 1.7], abs=1e-12)
+    assert np.unique(h) == approx([1.3, 1.4, 1.5, 1.6, 1.7], abs=1e-12)
     for value in np.unique(h):
         seen = {name: phi[(way == name) & (h == value)] for name in ("there", "back", "backward")}
         assert all(len(some) == 16 and np.ptp(some) < 1e-8 for some in seen.values())
@@ -32,13 +30,12 @@ def test_over_tori_an_orbit_comes_to_the_stable_limit_cycle_and_backward_to_the_
         orbit = answer("periodic", "hess", *replaced(TORUS, "--at", place), "--period", "1")
         assert abs(orbit["φ"][0] - float(place)) < 1e-7
         exact = of(one.multiplier for one in circle_map(0.5, 1.5, 0.6, REFERENCE).fixed_points)
-        assert orbit["multipliers"][0][0] == pytest.approx(exact, rel=1e-9)
+        assert orbit["multipliers"][0][0] == approx(exact, rel=1e-9)
     assert found["hysteresis"] == []
     assert found["gaps"] == {"there": [], "back": [], "backward": []}
     assert set(found["period"]) == {1}
     # The same as a table.
-    assert main([*words, "--format", "csv"]) == 0
-    _, header, rows = table(capsys.readouterr().out)
+    _, header, rows = as_table(*words)
     assert header == ["way", "h", "period", "settled", "φ"]
     assert [float(row[4]) for row in rows] == found["φ"]
 
@@ -61,7 +58,7 @@ def test_a_doubling_is_where_newtons_method_finds_the_multiplier_minus_one(answe
     (doubling,) = found["doublings"]
     words = replaced(["periodic", "suslov", *SUSLOV, "--period", "1"], "--I", f"1,{doubling['value']!r},0.6,0.6")
     orbit = answer(*replaced(words, "--at", ",".join(map(repr, doubling["place"]))))
-    assert min(value for value, _ in orbit["multipliers"]) == pytest.approx(-1.0, abs=1e-6)
+    assert min(value for value, _ in orbit["multipliers"]) == approx(-1.0, abs=1e-6)
     assert (doubling["period"], found["ended"], found["limit"]) == (1, "After 1 doublings.", None)
 
 
@@ -81,7 +78,7 @@ def test_on_a_torus_the_mean_divergence_is_that_of_the_multiplier_and_attractor_
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    "words, said",
     [
         (replaced(DIAGRAM, "--over", "mass=1:2:3"), "There is no mass here to change: choose one of a, h, f"),
         (replaced(DIAGRAM, "--over", "h"), "write it like E=1:2:50"),

@@ -1,17 +1,16 @@
 """The command `periodic`: periodic orbits, branches and manifolds against exact ones, and refused inputs."""
 
-from __future__ import annotations
-
-import math
+from math import pi, sin, sqrt
 
 import numpy as np
 import pytest
-from scipy.integrate import quad, solve_ivp
+from pytest import approx
+from scipy.integrate import quad
 
-from hess_explorer.__main__ import main
 from hess_mechanics import HeavyBody, circle_map, critical_a, level
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
-from support.command_line import replaced, table, typed
+from support.command_line import replaced, typed
+from support.mechanics import followed
 
 REFERENCE = level("reference")
 CYCLE = typed("periodic hess --a 0.7 --h 0.5 --f 0.6 --at 1 --period 1")
@@ -30,18 +29,17 @@ def test_a_limit_cycle_has_the_multiplier_of_the_moebius_matrix(answer):
     assert found["notes"] == []
 
 
-def test_a_branch_goes_through_the_fold_where_the_lock_ends(answer, capsys):
+def test_a_branch_goes_through_the_fold_where_the_lock_ends(answer, as_table):
     words = [*CYCLE, "--along", "a=0.3"]
     found = answer(*words)
     (fold,) = found["bifurcations"]
     assert fold["kind"] == "fold"
     assert abs(fold["value"] - critical_a(0.5, 0.6, REFERENCE)) < 1e-9
-    assert found["a"][0] == pytest.approx(0.7, abs=1e-12)
+    assert found["a"][0] == approx(0.7, abs=1e-12)
     assert {"stable node", "unstable node"} <= set(found["kind"])
     assert "a = 0.7" in found["ended"]
     # The same as a table.
-    assert main([*words, "--format", "csv"]) == 0
-    facts, header, rows = table(capsys.readouterr().out)
+    facts, header, rows = as_table(*words)
     assert header == ["a", "φ", "real1", "imag1", "kind", "error"]
     assert [float(row[0]) for row in rows] == found["a"]
     assert facts["bifurcations"] == found["bifurcations"]
@@ -55,26 +53,26 @@ def test_the_motion_along_the_short_axis_is_known_by_quadrature(answer):
     def height(q):
         return 0.8 - 0.5 * q * q
 
-    end = math.sqrt(2.0 * 1.8)
+    end = sqrt(2.0 * 1.8)
     # q = end sin u: 1 − γ3² = (1 − γ3)(1 + γ3), of which the second is ½(end² − q²).
-    time = 4.0 * quad(lambda u: math.sqrt(2.0 / (1.0 - height(end * math.sin(u)))), 0.0, math.pi / 2.0, epsabs=1e-13)[0]
+    time = 4.0 * quad(lambda u: sqrt(2.0 / (1.0 - height(end * sin(u)))), 0.0, pi / 2.0, epsabs=1e-13)[0]
 
     def hill(_, y):
         q, v, a, da, b, db = y
         return [v, height(q) * q, da, 0.5 * height(q) * a, db, 0.5 * height(q) * b]
 
-    speed = math.sqrt(1.0 - 0.8**2)
-    end = solve_ivp(hill, (0.0, time), [0.0, speed, 1.0, 0.0, 0.0, 1.0], "DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
-    assert end[:2] == pytest.approx([0.0, speed], abs=1e-9)
+    speed = sqrt(1.0 - 0.8**2)
+    (end,) = followed(hill, [0.0, speed, 1.0, 0.0, 0.0, 1.0], [time], rtol=1e-12)
+    assert end[:2] == approx([0.0, speed], abs=1e-9)
     trace = end[2] + end[5]
     values = np.array([complex(*one) for one in found["multipliers"]])
-    assert complex(values.sum()).real == pytest.approx(trace, rel=1e-9)
-    assert complex(values.prod()).real == pytest.approx(1.0, abs=1e-9)
+    assert complex(values.sum()).real == approx(trace, rel=1e-9)
+    assert complex(values.prod()).real == approx(1.0, abs=1e-9)
     assert found["kind"] == ("elliptic" if abs(trace) < 2.0 else "saddle" if trace > 2.0 else "saddle with reflection")
     assert len(found["symmetric"]) > 0
 
 
-def test_the_separatrices_of_a_saddle_have_the_length_that_is_given(answer, capsys):
+def test_the_separatrices_of_a_saddle_have_the_length_that_is_given(answer, as_table):
     body = HeavyBody.hess((1.0, 1.6, 4.0), 1.0)
     h, f = Bridge.of_heavy(body).from_units_of_b(1.5, 0.6)
     words = [
@@ -103,14 +101,13 @@ def test_the_separatrices_of_a_saddle_have_the_length_that_is_given(answer, caps
         for side in (1, -1):
             assert np.array(found["length"])[(names == name) & (sides == side)].max() >= 0.6
     assert found["ended"] == ["At its length."] * 4
-    assert main([*words, "--format", "csv"]) == 0
-    _, header, rows = table(capsys.readouterr().out)
+    _, header, rows = as_table(*words)
     assert header == ["manifold", "side", "length", "l", "L/G"]
     assert len(rows) == len(names)
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    "words, said",
     [
         ([*CYCLE, "--along", "a"], "write it like E=2.5"),
         ([*CYCLE, "--along", "a=0.3", "--manifolds", "1"], "not allowed with"),

@@ -1,7 +1,5 @@
 """`hess-explorer prove`: words, a certificate that a checker accepts, and a one-sentence message for every error."""
 
-from __future__ import annotations
-
 import json
 import sys
 from fractions import Fraction
@@ -47,7 +45,7 @@ def test_undecided_is_said_with_the_bits(capsys):
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    "words, said",
     [
         (("--f", "9"), "No motion has exactly h = 1.5 and f = 9"),
         (("--f", "x"), "f = 'x' is not an exact number; write it like 1.5, -2e-3 or 3/4"),

@@ -1,8 +1,7 @@
 """`hess-explorer prove-zone`: cells, their share over time, in words, JSON and CSV."""
 
-from __future__ import annotations
-
 import pytest
+from pytest import approx
 from scipy.integrate import quad
 
 from check_certificate import Refused
@@ -17,10 +16,10 @@ def test_cells_in_json_csv_and_words_are_the_same(answer, capsys):
     found = answer(*WORDS, "--format", "json")
     assert found["a"] == "1/2"
     assert found["progress"][-1]["cells"] == 25
-    assert found["progress"][-1]["decided"] == pytest.approx(found["decided"], abs=1e-6)
+    assert found["progress"][-1]["decided"] == approx(found["decided"], abs=1e-6)
     area = quad(f_max, -1 + 1e-12, 2)[0]
-    assert sum(found["areas"].values()) == pytest.approx(area, rel=1e-6)
-    assert found["decided"] == pytest.approx(1 - found["areas"]["undecided"] / area, rel=1e-6)
+    assert sum(found["areas"].values()) == approx(area, rel=1e-6)
+    assert found["decided"] == approx(1 - found["areas"]["undecided"] / area, rel=1e-6)
     proved = next(cell for cell in found["cells"] if cell["statement"] == "two cycles")
     # As the JSON says what α and β mean.
     (a0, a1), (b0, b1) = proved["alpha"], proved["beta"]
@@ -49,7 +48,7 @@ def test_it_stops_at_a_share(answer, example):
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    "words, said",
     [
         (("--a", "9"), "|a| ≤ 3"),
         (("--h-end", "-2"), "h > −1"),
@@ -95,7 +94,7 @@ def test_cells_hold_for_a_checker_that_shares_no_code_and_changed_ones_do_not(an
 
 
 @pytest.mark.parametrize(
-    ("change", "words"),
+    "change, words",
     [
         ({"format": "another"}, "the format is not"),
         ({"a": 0.5}, "a is not of its kind"),

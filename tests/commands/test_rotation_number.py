@@ -1,18 +1,16 @@
 """The commands `rotation-number` and `lyapunov`: their numbers, formats, and one sentence for whatever is wrong."""
 
-from __future__ import annotations
-
 import math
 from argparse import Namespace
 
 import numpy as np
 import pytest
+from pytest import approx
 
-from hess_explorer.__main__ import main
 from hess_explorer.commands import CommandError
 from hess_explorer.commands.output import Answer, write
 from hess_mechanics import BallBody, ModelError, SuslovBody, f_max, lyapunov_exponent
-from support.command_line import replaced, table, typed
+from support.command_line import replaced, typed
 from support.rotation_number import iterated
 
 ROTATION = typed("rotation-number --a 0.5 --h -0.5,0.5,1.5 --f -0.3,0.6")
@@ -33,21 +31,20 @@ def test_rotation_numbers_are_those_of_iteration(answer):
             assert (rho, trace, found["locked"][i]) == (None, None, None)
             continue
         exact = iterated(0.5, found["h"][i], found["f"][i])
-        assert rho == pytest.approx(exact, abs=1e-4)
+        assert rho == approx(exact, abs=1e-4)
         assert found["locked"][i] == (trace > 2.0)
-        assert trace == pytest.approx(abs(2.0 * math.cos(math.pi * rho)), abs=1e-9) or found["locked"][i]
+        assert trace == approx(abs(2.0 * math.cos(math.pi * rho)), abs=1e-9) or found["locked"][i]
     assert found["locked"] == [False, None, False, False, True, True]
 
 
-def test_the_separatrix_and_the_outside_are_not_possible(answer, capsys):
+def test_the_separatrix_and_the_outside_are_not_possible(answer, as_table):
     words = ("rotation-number", "--a", "0.5", "--h", "-1,1,0", "--f", "0,5")
     found = answer(*words)
     assert found["possible"] == [False, False, False, False, True, False]
     for name in ("rotation_number", "trace", "locked"):
         assert [value is not None for value in found[name]] == found["possible"]
     # In a table an impossible torus has empty fields.
-    assert main([*words, "--format", "csv"]) == 0
-    _, header, rows = table(capsys.readouterr().out)
+    _, header, rows = as_table(*words)
     first = header.index("rotation_number")
     assert [row[first:] for row in rows if row[-1] == "False"] == [["", "", "", "False"]] * 5
     assert all(map(float, rows[4][first : first + 1]))
@@ -58,7 +55,7 @@ def test_a_range_of_all_three_parameters(answer):
     assert len(found["rotation_number"]) == 12
     assert found["a"] == [0.0] * 4 + [0.5] * 4 + [1.0] * 4
     alone = answer("rotation-number", "--a", "0.5", "--h", "0.4", "--f", "0.1")
-    assert alone["rotation_number"][0] == pytest.approx(found["rotation_number"][6], abs=1e-12)
+    assert alone["rotation_number"][0] == approx(found["rotation_number"][6], abs=1e-12)
 
 
 def test_a_trace_beyond_double_range_is_a_number(answer):
@@ -71,11 +68,11 @@ def test_the_exponent_of_a_suslov_orbit(answer):
     found = answer(*LYAPUNOV)
     assert len(found["t"]) == len(found["average"]) == 100
     assert found["t"] == sorted(found["t"])
-    assert found["t"][-1] == pytest.approx(200.0)
+    assert found["t"][-1] == approx(200.0)
     assert found["average"][-1] == found["exponent"]
     assert found["notes"] == []
     later = [rate for t, rate in zip(found["t"], found["average"], strict=True) if t > 102.0]
-    assert found["spread"] == pytest.approx(max(later) - min(later), rel=0.2)
+    assert found["spread"] == approx(max(later) - min(later), rel=0.2)
     # The sea of the first example of the scene.
     assert 0.05 < found["exponent"] < 0.2
 
@@ -89,7 +86,7 @@ def test_the_exponent_of_the_upright_body_is_a_closed_form(answer):
     growth = t * np.array(found["average"])
     late = t > 14.0
     assert late.sum() > 3
-    assert np.polyfit(t[late], growth[late], 1)[0] == pytest.approx(1.0, abs=1e-4)
+    assert np.polyfit(t[late], growth[late], 1)[0] == approx(1.0, abs=1e-4)
 
 
 def test_the_exponent_backward_and_of_a_vector_that_is_normalised(answer):
@@ -106,27 +103,26 @@ def test_a_free_body_about_a_fixed_point_has_no_exponent(answer):
     assert long < 0.05
 
 
-def test_all_exponents_with_errors_signs_and_a_dimension(answer, capsys):
+def test_all_exponents_with_errors_signs_and_a_dimension(answer, as_table):
     words = typed(
         "lyapunov suslov --I 1.7,3,0.3,0.1 --b=-2,-2.1,2.6 --omega 0.8,1.3 --gamma 0.6,0,0.8 --t 1500 --spectrum"
     )
     found = answer(*words)
     assert found["signs"] == ["+", "0", "0", "0", "-"]
-    assert found["sum"] == pytest.approx(found["divergence"], abs=1e-7)
-    assert found["dimension"] == pytest.approx(
+    assert found["sum"] == approx(found["divergence"], abs=1e-7)
+    assert found["dimension"] == approx(
         2.0 + (found["divergence"] - found["exponents"][4]) / -found["exponents"][4], abs=1e-9
     )
     assert found["pairs_forced"] is False
     alone = answer(*words[:-1])["exponent"]
-    assert found["exponents"][0] == pytest.approx(alone, abs=4.0 * found["errors"][0])
-    assert main([*words, "--format", "csv"]) == 0
-    _, header, rows = table(capsys.readouterr().out)
+    assert found["exponents"][0] == approx(alone, abs=4.0 * found["errors"][0])
+    _, header, rows = as_table(*words)
     assert header == ["t", *(f"average {i}" for i in range(1, 6))]
     assert float(rows[-1][1]) == found["average 1"][-1]
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    "words, said",
     [
         (replaced(ROTATION, "--h", "2e12"), "--h: h = 2e+12 is not between -1e+06 and 1e+06"),
         (replaced(ROTATION, "--h", "0:1:1"), "whole number from 2"),
@@ -140,7 +136,7 @@ def test_what_is_wrong_is_one_sentence(refusal, words, said):
 
 
 @pytest.mark.parametrize(
-    ("body", "t"),
+    "body, t",
     [
         (BallBody(1.0, 4.0, 1.37e179, 0.0, 2.0, 0.3, 0.0, 1.0), 500.0),
         (SuslovBody(1.0, 2.5, 0.6, 8.23e230, -1.0, -0.5, 0.7), 2000.0),

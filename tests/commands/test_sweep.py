@@ -1,7 +1,5 @@
 """`hess-explorer sweep`: numbers, formats, stores; killed, interrupted and resumed runs; one-sentence errors."""
 
-from __future__ import annotations
-
 import signal
 import subprocess
 import sys
@@ -148,7 +146,7 @@ def test_ctrl_c_without_a_store_writes_what_is_done(capsys, monkeypatch, tmp_pat
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    "words, said",
     [
         (["sweep"], "run hess-explorer sweep --list to see all of them"),
         (replaced(SWEEP, "--set", "a"), "is not a parameter; write it like h=1.5"),
@@ -165,8 +163,3 @@ def test_ctrl_c_without_a_store_writes_what_is_done(capsys, monkeypatch, tmp_pat
 )
 def test_what_is_wrong_is_one_sentence(refusal, words, said):
     assert said in refusal(*words)
-
-
-def test_a_library_that_is_missing_is_named_with_the_command_that_installs_it(refusal, monkeypatch):
-    monkeypatch.setitem(sys.modules, "xarray", None)
-    assert "pip install 'hess-explorer[sweep]'" in refusal(*SWEEP)

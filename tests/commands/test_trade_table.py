@@ -1,7 +1,5 @@
 """`hess-explorer bench --trade`: every scene runs, no row is lost, and one table says what a level costs."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

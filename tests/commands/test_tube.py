@@ -1,7 +1,5 @@
 """`hess-explorer tube`: decimals that enclose a motion, and an orbit judged by them."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest
@@ -43,7 +41,7 @@ def test_a_tube_that_takes_too_much_work_ends_early_and_says_what_to_do(answer, 
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    "words, said",
     [
         (("tube", "moon", *WORDS[2:]), "choose one of"),
         ((*WORDS[:3], "1,2", *WORDS[4:]), "takes 5 numbers here"),

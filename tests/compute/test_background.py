@@ -1,7 +1,5 @@
 """Background computation: order, cancellation, stored places, and the session's part."""
 
-from __future__ import annotations
-
 import math
 import threading
 import time
@@ -332,7 +330,7 @@ def test_a_link_with_all_places_is_not_too_long():
 
 
 @pytest.mark.parametrize(
-    ("window", "admitted"),
+    "window, admitted",
     [
         ("0,0;1,0.5", "0,0;1,0.5"),
         ("1,0.5;0,0", "0,0;1,0.5"),
@@ -569,14 +567,24 @@ def test_a_box_beyond_the_section_is_cut_and_one_that_is_none_is_not_taken(free_
         {"values": {"window": {}}},
         {"values": {"starts": "0" * 5000}},
         {"values": {"window": "1,2,3;4"}},
+        {"values": [["h", 1]]},
+        {"values": {"h": "2.5", "f": [1], "nobody": 1.0, "accuracy": 2}},
+        {"values": {"preset": "Separatrix: no return", "scene": "suslov-hess-accuracy"}},
+        {"picked": ["section", "1", "1"]},
+        {"picked": ["sphere", 1.0, 1.0]},
+        {"requested": None, "held": "yes"},
+        {"reset": 1},
+        {"preset": "nobody"},
+        {"scene": "nowhere"},
+        {"scene": EP.name},
     ],
 )
 def test_a_message_that_means_nothing_changes_nothing(free_gate, message):
     browser = Browser(EP, SMALL)
     before = dict(browser.session.values)
-    state = browser.ask(1, **message)
-    assert state["answers"] == 1
-    assert browser.session.values == before
+    browser.send(message)
+    assert browser.ask(1)["answers"] == 1
+    assert (browser.session.values, browser.entered) == (before, [EP.name])
 
 
 def test_a_click_where_nothing_is_possible_is_answered_by_another_start(free_gate):

@@ -1,7 +1,5 @@
 """Computations started by each user action: only those the visible pictures need, and none twice."""
 
-from __future__ import annotations
-
 import dataclasses
 import functools
 import gc
@@ -166,7 +164,7 @@ CHANGES = [
 ]
 
 
-@pytest.mark.parametrize(("change", "expected"), CHANGES, ids=[str(change) for change, _ in CHANGES])
+@pytest.mark.parametrize("change, expected", CHANGES, ids=[str(change) for change, _ in CHANGES])
 def test_a_change_computes_what_depends_on_it_and_going_back_nothing(cache, change, expected):
     browser = Browser(HESS)
     cache.take()
@@ -330,7 +328,7 @@ STATES = [(scene, elsewhere(scene)) for scene in SCENES.values()] + [
     for scene in (HESS, ACCURACY)
     for change in ({"h": 1.25, "phi0": -1.0, "I23": 0.35}, {"h": 1.0, "f": 0.0}, {"h": 30.0})
 ]
-every_other = pytest.mark.parametrize(("scene", "values"), sample(STATES, 14), ids=lambda one: getattr(one, "name", ""))
+every_other = pytest.mark.parametrize("scene, values", sample(STATES, 14), ids=lambda one: getattr(one, "name", ""))
 
 
 @every_other
@@ -400,7 +398,7 @@ STUDY_CHANGES = [
 ]
 
 
-@pytest.mark.parametrize(("change", "expected"), STUDY_CHANGES, ids=[str(change) for change, _ in STUDY_CHANGES])
+@pytest.mark.parametrize("change, expected", STUDY_CHANGES, ids=[str(change) for change, _ in STUDY_CHANGES])
 def test_a_change_measures_the_motion_anew_where_it_is_another_one(cache, change, expected):
     browser = Browser(ACCURACY, SHORT)
     cache.take()
@@ -558,7 +556,8 @@ def test_a_state_asks_the_cache_for_each_of_its_parts_once(cache):
 
 
 def test_warming_up_computes_the_first_state_of_every_scene(cache, monkeypatch):
-    tasks = []
+    tasks, chosen = [], sample(SCENES.values(), 8)
+    monkeypatch.setattr(warm, "scenes", lambda: {scene.name: scene for scene in chosen})
     # One request of each kind that can wait; its duration does not matter here.
     later = types.SimpleNamespace(get=lambda function, *arguments: tasks.append((function, arguments)), asked=0)
     monkeypatch.setattr(warm, "CACHE", later)
@@ -566,12 +565,12 @@ def test_warming_up_computes_the_first_state_of_every_scene(cache, monkeypatch):
     warm.warm()
     assert gc.isenabled()
     cache.calls.clear()
-    for scene in SCENES.values():
+    for scene in chosen:
         Browser(scene)
         assert cache.take() == set(), scene.name
         left = {task.function for task in Board(scene).show(compute(scene, scene.defaults())).todo}
         assert left <= {function for function, _ in tasks}, scene.name
-    assert len(tasks) > len(SCENES)
+    assert tasks
 
 
 def test_a_scene_that_refuses_its_first_state_keeps_no_other_from_being_ready(cache, monkeypatch, caplog):

@@ -1,7 +1,5 @@
 """Pending answers take priority over background work, which still progresses under load and ends cleanly."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import threading

@@ -1,7 +1,5 @@
 """Requests run outside the serving thread: one at a time per session, in turn, within a budget."""
 
-from __future__ import annotations
-
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor

@@ -1,7 +1,5 @@
 """Copy Python: the copied code computes exactly the exported data, bit by bit."""
 
-from __future__ import annotations
-
 import csv
 import json
 
@@ -40,7 +38,7 @@ def link_of(name, number, **more):
     return encode(name, {**scene.defaults(), **scene.example(scene.presets[number]), "accuracy": "draft", **more})
 
 
-@pytest.mark.parametrize(("name", "number"), sample(OWN, 16))
+@pytest.mark.parametrize("name, number", sample(OWN, 16))
 def test_the_lines_leave_what_is_exported_of_every_picture_of_every_preset(name, number, monkeypatch):
     drawn = []
     # Drawing has tests of its own, and takes as long as all the rest.
@@ -56,7 +54,7 @@ def test_the_lines_leave_what_is_exported_of_every_picture_of_every_preset(name,
 
 
 @pytest.mark.parametrize(
-    ("link", "picture"),
+    "link, picture",
     [
         ("h=1.2&f=0.3&accuracy=precise", "circle"),
         ("scene=suslov&accuracy=draft&starts=0.1,0.2;1,1", "section"),

@@ -1,7 +1,5 @@
 """Films: they decode, have the requested number of frames, and show the point at the right place."""
 
-from __future__ import annotations
-
 import json
 import math
 import re
@@ -12,7 +10,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from scipy.integrate import solve_ivp
+from pytest import approx
 
 from hess_explorer.__main__ import main
 from hess_explorer.export.film import as_film, moves, pictures_at, times_of
@@ -20,6 +18,9 @@ from hess_explorer.export.formats import holding
 from hess_explorer.export.shown import shown
 from hess_mechanics.errors import ModelError
 from support.films import frames_of, tags_of
+from support.mechanics import followed
+from support.suslov import HESS_BODY, field
+from support.view import STATE
 
 LINK = "I22=0.96&I23=0.28&b3=-1&h=1.5&f=0.6&phi0=0.5&span=10&accuracy=precise"
 SIDE = 480
@@ -75,24 +76,16 @@ def test_the_moving_point_is_where_the_orbit_is_at_that_time(found, kind, tmp_pa
     pictures = frames_of(path, SIDE)
     assert len(pictures) == 25
     track = found.columns["data-orbit"]
-    I11, I22, I23 = 0.96 + 0.28**2 / 0.96, 0.96, 0.28
-    b = np.array([0.0, I23 / I22, -1.0])
-
-    def right_side(_, y):
-        w, g = np.array([y[0], y[1], 0.0]), y[2:]
-        torque = np.cross([I11 * w[0], I22 * w[1], I23 * w[1]], w) + np.cross(g, b)
-        return [torque[0] / I11, torque[1] / I22, *np.cross(g, w)]
-
     chosen = np.array([5, 14, 24])
-    start = [track[name][0] for name in ("omega1", "omega2", "g1", "g2", "g3")]
-    run = solve_ivp(right_side, (0.0, 10.0), start, rtol=1e-10, atol=1e-12, t_eval=10.0 * chosen / 24.0)
+    start = [track[name][0] for name in STATE]
+    exact = followed(lambda _, y: field(HESS_BODY, y), start, 10.0 * chosen / 24.0)
     left, right, top, bottom = box_of(pictures[0])
-    for i, (w1, w2) in zip(chosen, run.y[:2].T, strict=True):
+    for i, (w1, w2) in zip(chosen, exact[:, :2], strict=True):
         x, y = point_in(pictures[i])
         (x0, x1), (y0, y1) = found.axes.x, found.axes.y
         # The point is 13 pixels wide; it may be off by one, where the film has its colours for four pixels together.
-        assert x == pytest.approx(left + (right - left) * (w1 - x0) / (x1 - x0), abs=1.2)
-        assert y == pytest.approx(bottom - (bottom - top) * (w2 - y0) / (y1 - y0), abs=1.2)
+        assert x == approx(left + (right - left) * (w1 - x0) / (x1 - x0), abs=1.2)
+        assert y == approx(bottom - (bottom - top) * (w2 - y0) / (y1 - y0), abs=1.2)
         # The clock says that time, and not that of a frame beside it.
         said, far = clock_in(pictures[i], [f"t = {10.0 * k / 24.0:.2f}" for k in (i - 1, i, i + 1)])
         assert said == f"t = {10.0 * i / 24.0:.2f}"

@@ -1,20 +1,22 @@
 """Bodies and clouds in figures, at the time and the turn of the link: against closed forms and SciPy."""
 
-from __future__ import annotations
-
 import io
-import math
+from math import cos, exp, floor, log, pi, sin
 
 import numpy as np
 import pytest
 from matplotlib.patches import Circle, Ellipse
 from PIL import Image
-from scipy.integrate import solve_ivp
+from pytest import approx
 
 from hess_explorer.export import solid
 from hess_explorer.export.figure import as_file, draw
 from hess_explorer.export.moment import clouds_at, density_at
 from hess_explorer.export.shown import shown
+from support.ball import TENSOR, rates
+from support.mechanics import followed
+from support.suslov import HESS_BODY, field
+from support.view import STATE
 
 DRAFT = "accuracy=draft"
 BODY = "I22=0.96&I23=0.28&b3=-1&h=1.5&f=0.6&phi0=0.5&span=10&accuracy=reference"
@@ -31,17 +33,17 @@ def on_surface(count=20_000):
 def test_the_outline_of_an_ellipsoid_is_the_edge_of_its_points():
     a, b, angle = solid.outline(AXES, SEMI)
     x, y, _ = on_surface().T
-    c, s = math.cos(angle), math.sin(angle)
+    c, s = cos(angle), sin(angle)
     reach = np.hypot((c * x + s * y) / a, (c * y - s * x) / b)
     assert reach.max() <= 1.0 + 1e-12
     # And it touches them all round.
-    turns = np.floor((np.arctan2(c * y - s * x, c * x + s * y) + math.pi) / (math.pi / 6.0)).astype(int) % 12
+    turns = np.floor((np.arctan2(c * y - s * x, c * x + s * y) + pi) / (pi / 6.0)).astype(int) % 12
     assert min(reach[turns == k].max() for k in range(12)) > 0.999
     assert solid.covers(AXES, SEMI, 0.9 * a * c, 0.9 * a * s)
     assert not solid.covers(AXES, SEMI, 1.1 * a * c, 1.1 * a * s)
     for point in on_surface(20):
         at, _ = solid.leaves(AXES, SEMI, 3.0 * point)
-        assert at == pytest.approx(1.0 / 3.0)
+        assert at == approx(1.0 / 3.0)
 
 
 def test_the_shading_is_that_of_the_surface_that_is_seen_and_no_other():
@@ -66,28 +68,24 @@ def test_the_shading_is_that_of_the_surface_that_is_seen_and_no_other():
 @pytest.mark.parametrize("t", [0.0, 3.7, 10.0])
 def test_the_centre_of_mass_is_where_the_motion_has_it(t):
     """Seen along the axis y of the picture: to the right r·e, e fixed in space, upwards −r·γ."""
-    found = shown(f"{BODY}&t={t}&az={-0.5 * math.pi}&el=0", "body")
-    I11, I22, I23 = 0.96 + 0.28**2 / 0.96, 0.96, 0.28
-    b = np.array([0.0, I23 / I22, -1.0])
+    found = shown(f"{BODY}&t={t}&az={-0.5 * pi}&el=0", "body")
+    b = np.array([HESS_BODY.b1, HESS_BODY.b2, HESS_BODY.b3])
     r = -b / np.linalg.norm(b)
 
     def right_side(_, y):
-        w, g, e = np.array([y[0], y[1], 0.0]), y[2:5], y[5:]
-        M = np.array([I11 * w[0], I22 * w[1], I23 * w[1]])
-        torque = np.cross(M, w) + np.cross(g, b)
-        return [torque[0] / I11, torque[1] / I22, *np.cross(g, w), *np.cross(e, w)]
+        return [*field(HESS_BODY, y[:5]), *np.cross(y[5:], [y[0], y[1], 0.0])]
 
     track, own = found.columns["data-orbit"], found.columns["body"]
     start = [
-        *(track[name][0] for name in ("omega1", "omega2", "g1", "g2", "g3")),
+        *(track[name][0] for name in STATE),
         *(own[name][0] for name in ("e1", "e2", "e3")),
     ]
-    run = solve_ivp(right_side, (0.0, t), start, rtol=1e-11, atol=1e-12) if t else None
-    gamma, e = (start[2:5], start[5:]) if run is None else (run.y[2:5, -1], run.y[5:, -1])
+    end = followed(right_side, start, [t])[0] if t else np.array(start)
+    gamma, e = end[2:5], end[5:]
     balls = [patch for patch in draw(found).axes[0].patches if isinstance(patch, Circle) and patch.radius > 0.05]
     assert len(balls) == 1
     # The track and the attitude are sampled for half a pixel.
-    assert balls[0].center == pytest.approx((r @ e, -r @ gamma), abs=2e-3)
+    assert balls[0].center == approx((r @ e, -r @ gamma), abs=2e-3)
 
 
 def test_a_body_has_its_ellipsoid_its_section_its_wheels_and_its_trail():
@@ -115,20 +113,6 @@ def test_in_black_a_body_is_grey():
     assert 0.05 < np.mean((red > 60) & (red < 230)) < 0.6
 
 
-def rates(body):
-    """ω̇ and γ̇ of the ball without a field: Îω̇ = s (−ω2, ω1), s = I13ω1 + I23ω2, Î = I + 𝒟(E − γγᵀ) in the plane."""
-    I11, I22, I13, I23, D, _ = body
-
-    def right_side(_, y):
-        w1, w2, *gamma = y
-        g = np.array(gamma)
-        tensor = np.diag([I11, I22]) + D * (g @ g * np.eye(2) - np.outer(g[:2], g[:2]))
-        s = I13 * w1 + I23 * w2
-        return [*np.linalg.solve(tensor, s * np.array([-w2, w1])), *np.cross(g, [w1, w2, 0.0])]
-
-    return right_side
-
-
 def test_clouds_between_two_frames_are_where_the_motion_takes_them():
     found = shown("scene=singular-measures&points=1000&accuracy=precise", "omega")
     columns = found.columns["omega"]
@@ -136,21 +120,20 @@ def test_clouds_between_two_frames_are_where_the_motion_takes_them():
     before, after = float(times[3]), float(times[4])
     middle = 0.5 * (before + after)
     (start,), (there,) = clouds_at(columns, before), clouds_at(columns, middle)
-    right_side = rates(columns["body"])
+    right_side = rates(dict(zip((*TENSOR, "b"), columns["body"], strict=True)))
     for i in range(0, 1000, 97):
-        run = solve_ivp(right_side, (0.0, middle - before), [*start.omega[i], *start.gamma[i]], rtol=1e-10, atol=1e-12)
-        half = columns["half"]
+        (exact,) = followed(right_side, [*start.omega[i], *start.gamma[i]], [middle - before])
         # To a pixel of pictures 600 pixels wide.
-        assert there.omega[i] == pytest.approx(run.y[:2, -1], abs=half / 300.0)
-        assert there.gamma[i] == pytest.approx(run.y[2:, -1], abs=1.0 / 300.0)
+        assert there.omega[i] == approx(exact[:2], abs=columns["half"] / 300.0)
+        assert there.gamma[i] == approx(exact[2:], abs=1.0 / 300.0)
     s = np.abs(there.omega @ columns["body"][2:4])
-    assert s == pytest.approx(np.exp(there.log_s), rel=1e-9)
+    assert s == approx(np.exp(there.log_s), rel=1e-9)
     at, share = density_at(columns, middle)
     first, wide, _ = columns["bins"]
     for x, y in zip(at, share, strict=True):
-        k = math.floor((math.log(x) - first) / wide)
-        low, high = math.exp(first + k * wide), math.exp(first + (k + 1) * wide)
-        assert y * wide * x * 1000 == pytest.approx(np.sum((s >= low) & (s < high)), abs=1e-6)
+        k = floor((log(x) - first) / wide)
+        low, high = exp(first + k * wide), exp(first + (k + 1) * wide)
+        assert y * wide * x * 1000 == approx(np.sum((s >= low) & (s < high)), abs=1e-6)
 
 
 @pytest.mark.parametrize("picture", ["omega", "sphere"])

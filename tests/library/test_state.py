@@ -1,7 +1,5 @@
 """States of the explorer in Python: parameters by name, error messages, drawing, and the underlying mechanics."""
 
-from __future__ import annotations
-
 import io
 import math
 import subprocess
@@ -15,6 +13,7 @@ import pytest
 from matplotlib.collections import PatchCollection
 from matplotlib.colors import to_hex
 from PIL import Image
+from pytest import approx
 
 import hess_explorer as hess
 from hess_explorer.export.figure import as_file
@@ -40,7 +39,7 @@ def test_a_link_and_its_parameters_are_the_same_state():
     assert (state.scene, state.notes) == ("suslov", ())
     assert state.but(b1=0.25, t=0.0).parameters == {**again.parameters, "b1": 0.25}
     noted = hess.from_link("h=-7&scene=suslov-hess", lenient=True)
-    assert noted.parameters["h"] == pytest.approx(-1.0)
+    assert noted.parameters["h"] == approx(-1.0)
     assert noted.notes[0].startswith("h must lie between -1 and")
 
 
@@ -53,7 +52,7 @@ def test_a_notebook_shows_a_state_by_its_parameters_and_link():
 
 
 @pytest.mark.parametrize(
-    ("given", "sentence"),
+    "given, sentence",
     [
         (
             {"height": 1.0},
@@ -106,8 +105,8 @@ def test_the_mechanics_behind_a_state_are_objects_of_the_library():
     n3 = np.column_stack([orbit[name] for name in ("g1", "g2", "g3")]) @ state.body.n3
     at = np.interp(theta.period / state.body.frequency_unit, orbit["t"], n3)
     # Between samples n3 is not straight: 0.03 apart at most, of a swing whose second derivative is about 1.
-    assert at == pytest.approx(n3[0], abs=1e-3)
-    assert motion.span == pytest.approx(40.0 * state.body.frequency_unit)
+    assert at == approx(n3[0], abs=1e-3)
+    assert motion.span == approx(40.0 * state.body.frequency_unit)
     kinds = {"suslov": SuslovBody, "chaplygin-ball": BallBody, "euler-poisson": HeavyBody}
     assert {name: type(hess.state(name).body) for name in kinds} == kinds
     section = hess.state("euler-poisson", f=1.0, h=40.0).section
@@ -115,7 +114,7 @@ def test_the_mechanics_behind_a_state_are_objects_of_the_library():
     # On the section (M, γ) = f, and the energy is h.
     integrals = euler_poisson.integrals(states[0], section.body.parameters)
     assert possible.all()
-    assert (integrals["H"], integrals["F1"]) == pytest.approx((40.0, 1.0))
+    assert (integrals["H"], integrals["F1"]) == approx((40.0, 1.0))
 
 
 def test_columns_become_frames_of_pandas_and_xarray():
@@ -130,7 +129,7 @@ def test_columns_become_frames_of_pandas_and_xarray():
     assert "<table>" in data._repr_html_()
 
 
-@pytest.mark.parametrize(("scene", "picture", "layer", "columns"), DRAWN)
+@pytest.mark.parametrize("scene, picture, layer, columns", DRAWN)
 def test_a_plot_draws_the_numbers_of_the_data_on_the_axes_of_the_page(scene, picture, layer, columns):
     state = hess.state(scene, accuracy="draft")
     plot, data = state.plot(picture), state.data(picture)
@@ -148,8 +147,8 @@ def test_a_plot_draws_the_numbers_of_the_data_on_the_axes_of_the_page(scene, pic
     assert any(all(map(np.array_equal, map(np.sort, found), map(np.sort, wanted))) for found in drawn)
     figure = hv.render(plot, "bokeh")
     axes = shown(state.link, picture).axes
-    assert (figure.x_range.start, figure.x_range.end) == pytest.approx(axes.x)
-    assert (figure.y_range.start, figure.y_range.end) == pytest.approx(axes.y)
+    assert (figure.x_range.start, figure.x_range.end) == approx(axes.x)
+    assert (figure.y_range.start, figure.y_range.end) == approx(axes.y)
     assert figure.title.text == data.facts["title"]
 
 

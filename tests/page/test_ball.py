@@ -1,9 +1,8 @@
 """The scene "ball with a field" in a browser: the search for a periodic orbit."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
+from pytest import approx
 
 from support.ball import (
     SECTION,
@@ -45,8 +44,8 @@ def test_a_click_finds_the_periodic_orbit_next_to_it_and_undo_brings_the_one_bef
     assert "4 of 4 branches of its manifolds are 5 long" in field.text("derived")
     # Its orbit is that in the other pictures, and closes.
     values = {**SECTION.defaults(), "psi": float(saddle[0, 0]), "delta": float(saddle[0, 1])}
-    assert angles(first_returns(values, start_of(values), 1)) == pytest.approx(saddle, abs=1e-4)
-    assert track(field)[-1] == pytest.approx(track(field)[0], abs=1e-4)
+    assert angles(first_returns(values, start_of(values), 1)) == approx(saddle, abs=1e-4)
+    assert track(field)[-1] == approx(track(field)[0], abs=1e-4)
     field.change(field.choose, "periodic", "period 2")
     click_on(field, "section", -0.25, 1.5)
     elliptic = found("neither")
@@ -56,4 +55,4 @@ def test_a_click_finds_the_periodic_orbit_next_to_it_and_undo_brings_the_one_bef
     field.wait_url(periodic="period 2")
     field.change(page.locator(".param-undo").click)
     field.change(page.locator(".param-undo").click)
-    assert found("repels") == pytest.approx(saddle, abs=1e-6)
+    assert found("repels") == approx(saddle, abs=1e-6)

@@ -1,10 +1,8 @@
 """The solid body: its outline, hidden lines, and the moving point behind a sphere."""
 
-from __future__ import annotations
-
 import base64
 import io
-import math
+from math import cos, hypot, sin, sqrt
 
 import numpy as np
 import pytest
@@ -31,10 +29,8 @@ def canvas(explorer):
 def view_of(turn):
     """Return the view axes in space, right, up and towards the viewer, as rows of (3, 3)."""
     azimuth, elevation = turn
-    right = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
-    towards = np.array(
-        [math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation)]
-    )
+    right = np.array([-sin(azimuth), cos(azimuth), 0.0])
+    towards = np.array([cos(elevation) * cos(azimuth), cos(elevation) * sin(azimuth), sin(elevation)])
     return np.array([right, np.cross(towards, right), towards])
 
 
@@ -58,7 +54,7 @@ def hit(ellipsoid, ray):
     b = ellipsoid[2, 0] * x + ellipsoid[2, 1] * y
     c = np.array([x, y]) @ ellipsoid[:2, :2] @ np.array([x, y]) - 1.0
     square = b * b - a * c
-    return None if square < 0.0 else (-b + math.sqrt(square)) / a
+    return None if square < 0.0 else (-b + sqrt(square)) / a
 
 
 def seen(explorer, i):
@@ -116,7 +112,7 @@ def test_what_is_behind_the_body_is_hidden_and_what_is_before_it_is_not(quartic)
             if (
                 0.8 < place @ ellipsoid @ place < 1.3
                 or (front is not None and abs(z - front) < 0.05)
-                or min(math.hypot(*(place - wheel)[:2]) for wheel in wheels) < 0.25
+                or min(hypot(*(place - wheel)[:2]) for wheel in wheels) < 0.25
             ):
                 continue
             pixel = painted[round(half - RADIUS * half * y - 0.5), round(half + RADIUS * half * x - 0.5)]

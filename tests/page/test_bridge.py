@@ -1,8 +1,7 @@
 """The scene "bridge" in a browser: the sliders of the side that is not given."""
 
-from __future__ import annotations
-
 import pytest
+from pytest import approx
 
 from support.bridge import BRIDGE
 from support.page import brought
@@ -33,25 +32,11 @@ def test_the_sliders_of_the_side_that_is_not_given_are_disabled_and_show_it(brid
     bridge.change(bridge.choose, "given", "Suslov–Hess")
     assert disabled() == set(sides["Euler–Poisson"])
     assert [bridge.shown(name)[0] for name in sides["Euler–Poisson"]] == [1.0, 0.625, 0.375, 9.975]
-    assert bridge.shown("h")[0] == pytest.approx(50.0 / 9.975)
-    # The Tab key passes them over, and they say why.
-    bridge.slider("h").focus()
-    reached = set()
-    for _ in range(60):
-        bridge.page.keyboard.press("Tab")
-        reached.add(
-            bridge.page.evaluate("""() => {
-          let item = document.activeElement
-          while (item?.shadowRoot?.activeElement) item = item.shadowRoot.activeElement
-          return item?.closest(".number")?.className.split("param-")[1] ?? ""
-        }""")
-        )
-    assert set(sides["Suslov–Hess"]) <= reached
-    assert not reached.intersection(sides["Euler–Poisson"])
+    assert bridge.shown("h")[0] == approx(50.0 / 9.975)
     assert bridge.slider("I2").get_attribute("aria-description").startswith("Disabled: no effect")
     assert not bridge.slider("I22").get_attribute("aria-description").startswith("Disabled")
     bridge.change(lambda: bridge.slide(I22=0.7))
-    assert bridge.shown("I2")[0] == pytest.approx(0.7 + 0.25**2 / 0.7, rel=1e-5)
+    assert bridge.shown("I2")[0] == approx(0.7 + 0.25**2 / 0.7, rel=1e-5)
     bridge.change(bridge.choose, "given", "Euler–Poisson")
     assert disabled() == set(sides["Suslov–Hess"])
-    assert bridge.shown("I2")[0] == pytest.approx(0.7 + 0.25**2 / 0.7, rel=1e-14)
+    assert bridge.shown("I2")[0] == approx(0.7 + 0.25**2 / 0.7, rel=1e-14)

@@ -1,15 +1,13 @@
 """A chart beside the pictures: started, pointed at, clicked in, zoomed, stopped, saved and loaded."""
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path
 from urllib.parse import parse_qsl, urlsplit
 
 import numpy as np
-import pytest
 from playwright.sync_api import expect
+from pytest import approx
 
 from hess_explorer.sweep import read
 from hess_explorer.sweep.work import version
@@ -52,8 +50,8 @@ def test_a_chart_from_its_start_to_its_file(explorer, tmp_path):
     assert panel.locator(".param-quantity").input_value() == "rotation-number"
     assert (panel.locator(".param-x").input_value(), panel.locator(".param-y").input_value()) == ("h", "f")
     _, x1, y0, _ = explorer.axes("bifurcation")
-    assert float(panel.locator(".param-x-to").input_value()) == pytest.approx(x1, rel=1e-5)
-    assert float(panel.locator(".param-y-from").input_value()) == pytest.approx(y0, rel=1e-5)
+    assert float(panel.locator(".param-x-to").input_value()) == approx(x1, rel=1e-5)
+    assert float(panel.locator(".param-y-from").input_value()) == approx(y0, rel=1e-5)
     for side, ends in (("x", (-0.9, 2.1)), ("y", (-1.5, 1.5))):
         for what, value in (("from", ends[0]), ("to", ends[1]), ("cells", 61)):
             panel.locator(f".param-{side}-{what}").fill(str(value))
@@ -78,7 +76,7 @@ def test_a_chart_from_its_start_to_its_file(explorer, tmp_path):
     assert reached.keys() == wanted.keys()
     for key, value in wanted.items():
         assert (reached[key] if isinstance(value, str) else float(reached[key])) == (
-            value if isinstance(value, str) else pytest.approx(value, abs=1e-15)
+            value if isinstance(value, str) else approx(value, abs=1e-15)
         )
     explorer.change(lambda: page.locator(".param-undo").click())
     assert explorer.link() == before
@@ -157,14 +155,14 @@ def test_a_chart_from_its_start_to_its_file(explorer, tmp_path):
     assert name == "suslov-megno-suslov-ψ-δ.json"
     found = read(path)
     psi, delta = (found[name].values for name in found.megno_suslov.dims)
-    assert (psi[0], delta[-1]) == pytest.approx((-math.pi, math.pi), abs=1e-4)
+    assert (psi[0], delta[-1]) == approx((-math.pi, math.pi), abs=1e-4)
     canvas.focus()
     page.keyboard.press("ArrowRight")
     explorer.change(lambda: page.keyboard.press("Enter"))
     (start,) = dict(parse_qsl(urlsplit(explorer.link()).query))["starts"].split(";")
     place = [*map(float, start.split(","))]
     i, j = (int(np.abs(axis - x).argmin()) for axis, x in zip((psi, delta), place, strict=True))
-    assert place == pytest.approx([psi[i], delta[j]], abs=1e-9)
+    assert place == approx([psi[i], delta[j]], abs=1e-9)
     expect(reading).to_contain_text(f"Ȳ = {found.megno_suslov.values[i, j]:.6g}".replace("-", "−"))
     page.keyboard.press("Escape")
 

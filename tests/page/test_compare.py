@@ -1,7 +1,5 @@
 """Two states in the same pictures: the ghost of the one before, the pinned one, and how they differ."""
 
-from __future__ import annotations
-
 from support.accessible import assert_accessible
 from support.page import DEFAULTS, wait_frames
 from support.suslov_hess import assert_orbit

@@ -9,7 +9,7 @@ from support.thorough import examples
 
 
 @pytest.mark.parametrize(
-    ("fuzz", "count"),
+    "fuzz, count",
     [(fuzz_links, examples(4)), (fuzz_messages, examples(12)), (fuzz_commands, examples(12))],
     ids=["links", "messages", "commands"],
 )

@@ -1,7 +1,5 @@
 """Undo and Redo, and the browser's Back and Forward, over all that changes a state."""
 
-from __future__ import annotations
-
 import pytest
 
 from hess_explorer.headless.browser import wait_ready

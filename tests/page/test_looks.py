@@ -1,7 +1,5 @@
 """Layout, light and dark themes, and accessibility of the page."""
 
-from __future__ import annotations
-
 import io
 import re
 from itertools import combinations
@@ -9,9 +7,10 @@ from itertools import combinations
 import numpy as np
 import pytest
 from PIL import Image, ImageStat
+from pytest import approx
 
 from hess_explorer.scenes import scenes
-from support.accessible import assert_accessible
+from support.accessible import assert_accessible, contrast
 from support.page import HESS, SLIDERS, STUDY, Explorer, wait_frames
 from support.painted import assert_captions_fit
 from support.thorough import sample
@@ -129,7 +128,7 @@ def assert_in_sight(places, width, height, count, share=0.5):
     boxes = places["boxes"]
     assert len(boxes) == count
     for i, box in enumerate(boxes):
-        assert box["width"] == pytest.approx(box["height"], abs=2)
+        assert box["width"] == approx(box["height"], abs=2)
         for other in boxes[:i]:
             assert (
                 box["x"] >= other["x"] + other["width"] - 1
@@ -184,17 +183,6 @@ def assert_apart_and_whole(page, size):
     assert page.locator(".text:not(.details), .legend li, .number, h1").evaluate_all(CUT_OFF) == []
 
 
-def luminance(colour):
-    """Relative luminance of an (r, g, b), 0 to 1, as WCAG defines it."""
-    parts = [c / 255 / 12.92 if c / 255 <= 0.04045 else ((c / 255 + 0.055) / 1.055) ** 2.4 for c in colour[:3]]
-    return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
-
-
-def contrast(one, other):
-    light, dark = sorted((luminance(one), luminance(other)), reverse=True)
-    return (light + 0.05) / (dark + 0.05)
-
-
 TEXTS = """names => {
   const canvas = document.createElement("canvas").getContext("2d")
   const rgb = (colour) => {
@@ -242,8 +230,8 @@ def assert_looks(page, scene, size, theme, artefacts):
 # One visit for all that is to be seen of a scene: to enter one takes longer than to look at it.  All in one theme, for
 # a theme that turns paints all that was built.
 @pytest.mark.parametrize(
-    ("theme", "scene"),
-    [*(("light", scene) for scene in sample(SCENES, 8)), *(("dark", scene) for scene in sample(SCENES, 3))],
+    "theme, scene",
+    [*(("light", scene) for scene in sample(SCENES, 6)), *(("dark", scene) for scene in sample(SCENES, 2))],
 )
 def test_a_scene_has_its_columns_and_colours_and_nothing_is_covered_cut_off_or_hard_to_read(
     look_at, artefacts, theme, scene
@@ -264,7 +252,7 @@ def test_a_scene_has_its_columns_and_colours_and_nothing_is_covered_cut_off_or_h
 
 # Where a phone is the first that a page has seen; one that is turned.
 @pytest.mark.parametrize(
-    ("scene", "size", "theme"),
+    "scene, size, theme",
     [
         *((scene, "phone", "light") for scene in sample((HESS, "ball-section", "scattering", "singular-measures"), 2)),
         (HESS, "sideways", "light"),
@@ -316,7 +304,8 @@ def test_a_picture_is_enlarged_by_its_key_or_its_corner_and_the_link_keeps_it(lo
     page, keys = tab.page, tab.page.keyboard
     stage = page.locator(".shelf").bounding_box()["height"]
     equal = edges(page)
-    assert max(equal) - min(equal) <= 1
+    # All alike, but for the first, which may be larger.
+    assert max(equal[1:]) - min(equal) <= 1
     first, second, third, *_, last = scenes()[HESS].open_pictures
     for i, press in enumerate(
         (lambda: keys.press("1"), tab.picture(second).locator(".corner").click, lambda: keys.press("3"))
@@ -338,7 +327,7 @@ def test_a_picture_is_enlarged_by_its_key_or_its_corner_and_the_link_keeps_it(lo
     assert two[0] == two[2] > max(two[1], *two[3:])
     again = Explorer(open_page(tab.link().split("?")[1], size=SIZES["laptop"]), server)
     wait_frames(again, 4)
-    assert edges(again.page) == pytest.approx(two, abs=1)
+    assert edges(again.page) == approx(two, abs=1)
     # Keys typed into a box go to the box.
     tab.box("h").fill("1.2")
     tab.box("h").press("2")
@@ -384,7 +373,7 @@ def test_a_scene_that_is_entered_is_as_dark_as_one_that_a_link_opens(open_page, 
     entered = look_at(STUDY, theme="dark")
     for name in planar(STUDY):
         assert axis_colour(entered, name) == axis_colour(linked, name), name
-    assert brightness(seen(entered)) == pytest.approx(brightness(seen(linked)), abs=1)
+    assert brightness(seen(entered)) == approx(brightness(seen(linked)), abs=1)
 
 
 def test_the_page_follows_the_theme_of_the_system_until_one_is_chosen(open_page):
@@ -448,7 +437,7 @@ def test_no_rule_of_wcag_is_broken(look_at, theme):
     tab.change(tell, tab.page, "reset")
 
 
-@pytest.mark.parametrize(("size", "theme"), [("wide", "dark"), ("phone", "light")])
+@pytest.mark.parametrize("size, theme", [("wide", "dark"), ("phone", "light")])
 def test_no_rule_of_wcag_is_broken_in_the_accuracy_scene(look_at, size, theme):
     assert_accessible(look_at(STUDY, size, theme))
 
@@ -470,22 +459,8 @@ def test_every_control_is_reached_by_the_tab_key(look_at):
             return names
         }""")
         )
-    wanted = {
-        "param-preset",
-        "param-accuracy",
-        "param-reset",
-        "param-share",
-        "param-present",
-        "param-play",
-        "param-t",
-        "param-speed",
-        "solid",
-        "param-scenes",
-        "param-theme",
-        "param-fullscreen",
-        "corner",
-        *(f"param-{name}" for name in SLIDERS),
-    }
+    tools = ["preset", "accuracy", "reset", "share", "present", "play", "t", "speed", "scenes", "theme", "fullscreen"]
+    wanted = {"solid", "corner", *(f"param-{name}" for name in (*tools, *SLIDERS))}
     assert wanted <= reached, wanted - reached
     # No element is clipped by the edge of its column.
     right = page.locator("#controls").evaluate("item => item.getBoundingClientRect().left + item.clientWidth")
@@ -522,28 +497,18 @@ def test_on_a_phone_tools_without_room_in_the_bar_are_in_a_menu(look_at, size):
     page.set_viewport_size({"width": 1600, "height": 950})
     page.locator(".param-print").wait_for()
     assert page.locator(".param-more").is_hidden()
-    assert page.locator(".tools .label:visible").all_inner_texts() == [
-        "Undo",
-        "Redo",
-        "Reset",
-        "Pin",
-        "Chart",
-        "Share",
-        "Invite",
-        "Export",
-        "Print",
-        "Present",
-        "Full screen",
-        "Theme",
-    ]
-    page.set_viewport_size(dict(zip(("width", "height"), SIZES[size], strict=True)))
+    labels = " · ".join(page.locator(".tools .label:visible").all_inner_texts())
+    assert (
+        labels == "Undo · Redo · Reset · Pin · Chart · Share · Invite · Export · Print · Present · Full screen · Theme"
+    )
+    Explorer(page, "").resize(*SIZES[size])
 
 
 # --- Ticks -------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
-    ("scene", "values"),
+    "scene, values",
     [
         ("free-suslov", {"w1": 1e-4, "w2": 2e-4}),
         ("euler-poisson", {"window": "0.5,0.2;0.50004,0.20004", "orbits": 4, "count": 20}),
@@ -619,8 +584,7 @@ def test_on_a_large_screen_lines_are_as_much_wider_as_the_type(look_at):
     page = look_at("free-suslov", "laptop")
     seen = []
     for window in (SIZES["laptop"], (3840, 2160)):
-        page.set_viewport_size(dict(zip(("width", "height"), window, strict=True)))
-        wait_frames(Explorer(page, ""), 4)
+        Explorer(page, "").resize(*window)
         seen.append(
             page.locator(".gallery:not(.away) canvas.sphere").evaluate("""async (canvas) => {
           const ctx = canvas.getContext("2d")
@@ -638,12 +602,11 @@ def test_on_a_large_screen_lines_are_as_much_wider_as_the_type(look_at):
           return [Math.min(...widths), Math.max(...widths), Math.max(...lines), type]
         }""")
         )
-    page.set_viewport_size(dict(zip(("width", "height"), SIZES["laptop"], strict=True)))
-    wait_frames(Explorer(page, ""), 4)
+    Explorer(page, "").resize(*SIZES["laptop"])
     small, large = np.array(seen)
-    assert large[3] / small[3] == pytest.approx(25.92 / 14.0, rel=1e-3)
-    assert large / small == pytest.approx(large[3] / small[3], rel=1e-3)
-    assert small[:2] == pytest.approx([1.0, 3.0])
+    assert large[3] / small[3] == approx(25.92 / 14.0, rel=1e-3)
+    assert large / small == approx(large[3] / small[3], rel=1e-3)
+    assert small[:2] == approx([1.0, 3.0])
 
 
 def test_what_is_said_of_a_place_under_the_mouse_covers_neither_picture_nor_axis(look_at):

@@ -1,11 +1,10 @@
 """The loxodromic pendulum in a browser, and the body on the Suslov–Hess page."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
+from pytest import approx
 
 from support.loxodrome import LOXODROME, clock, swing_at
 from support.page import brought, flat, wait_frames
@@ -52,8 +51,8 @@ def test_the_body_moves_with_time_in_both_pictures(loxodrome):
         loxodrome.set_time(t)
         wait_frames(loxodrome)
         for picture in ("body", "space"):
-            assert colour_at(loxodrome, picture, *centre_at(values, t)) == pytest.approx(YELLOW, abs=3), (t, picture)
-            assert colour_at(loxodrome, picture, *centre_at(values, t + 0.6)) != pytest.approx(YELLOW, abs=3)
+            assert colour_at(loxodrome, picture, *centre_at(values, t)) == approx(YELLOW, abs=3), (t, picture)
+            assert colour_at(loxodrome, picture, *centre_at(values, t + 0.6)) != approx(YELLOW, abs=3)
     before = canvas(loxodrome, "body").screenshot()
     loxodrome.play_until(2.3)
     assert canvas(loxodrome, "body").screenshot() != before

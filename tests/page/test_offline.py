@@ -1,7 +1,5 @@
 """A state in one HTML file: it plays and turns from the disk, where every request is refused."""
 
-from __future__ import annotations
-
 import json
 from contextlib import contextmanager
 

@@ -1,9 +1,8 @@
 """The first ten seconds: automatic motion, the suggested drag, and the effect of the mouse."""
 
-from __future__ import annotations
-
 import pytest
 from playwright.sync_api import expect
+from pytest import approx
 
 from hess_explorer.scenes import scenes
 from support.page import HESS, WIDE, Explorer
@@ -88,7 +87,7 @@ def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_noth
     explorer.change(lambda: page.evaluate("name => hess.tell('scene', name)", HESS))
     assert not explorer.playing
     explorer.open(f"scene={HESS}&t=3.5")
-    assert (explorer.playing, explorer.time) == (False, pytest.approx(3.5))
+    assert (explorer.playing, explorer.time) == (False, approx(3.5))
 
 
 def test_the_one_handle_says_drag_me_once_and_what_the_mouse_does_is_said_where_it_does_it(fresh_browser):
@@ -100,7 +99,7 @@ def test_the_one_handle_says_drag_me_once_and_what_the_mouse_does_is_said_where_
     ring, _ = at(explorer, "bifurcation", *explorer.here())
     sign = page.locator(SIGN).bounding_box()
     assert 0 < sign["x"] - ring[0] < 40
-    assert sign["y"] + sign["height"] / 2 == pytest.approx(ring[1], abs=3)
+    assert sign["y"] + sign["height"] / 2 == approx(ring[1], abs=3)
     assert page.locator(".moves").inner_text() == scenes()[HESS].moves
     explorer.change(page.locator(".param-h .hand").press, "ArrowRight")
     assert page.locator(SIGN).count() == 0

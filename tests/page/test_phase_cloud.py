@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from PIL import Image
+from pytest import approx
 
 from hess_mechanics import ensemble, level, systems
 from hess_mechanics.chaplygin_ball.equations import BallBody
@@ -70,13 +71,13 @@ def test_every_example_is_drawn_and_says_what_the_scene_says(cloud):
         assert [one.shape for one in found] == [(5, 5000)] * 2 if beside else [(5, 10_000)]
         for one in found:
             assert np.all(np.isfinite(one))
-            assert np.linalg.norm(one[2:], axis=0) == pytest.approx(np.ones(one.shape[1]), abs=1e-6)
+            assert np.linalg.norm(one[2:], axis=0) == approx(np.ones(one.shape[1]), abs=1e-6)
         for picture in ("omega", "sphere"):
             assert share_of(cloud, picture, BLUE) > SOME, (preset.name, picture)
             assert (share_of(cloud, picture, PINK) > SOME) == beside
         x, y = map(np.array, cloud.page.evaluate(DENSITY))
         # Bins of 0.25 in ln|s|.
-        assert (y * x).sum() * 0.25 == pytest.approx(1.0, abs=1e-3)
+        assert (y * x).sum() * 0.25 == approx(1.0, abs=1e-3)
 
 
 INTERPOLATED = [
@@ -145,9 +146,9 @@ def test_a_click_in_the_plane_puts_a_patch_there(cloud):
     cloud.change(lambda: canvas.click(position=upper_left))
     assert cloud.chosen("start") == "small patch"
     angle = cloud.shown("angle")[0]
-    assert angle == pytest.approx(0.75 * math.pi, abs=0.01)
+    assert angle == approx(0.75 * math.pi, abs=0.01)
     (found,) = clouds(cloud)
-    assert math.atan2(found[1].mean(), found[0].mean()) == pytest.approx(angle, abs=0.01)
+    assert math.atan2(found[1].mean(), found[0].mean()) == approx(angle, abs=0.01)
 
 
 def test_a_state_without_a_manifold_is_refused_and_nothing_stale_is_drawn(cloud):
@@ -164,7 +165,7 @@ def test_a_state_without_a_manifold_is_refused_and_nothing_stale_is_drawn(cloud)
     assert share_of(cloud, "omega", BLUE) > 0.001
 
 
-@pytest.mark.parametrize(("theme", "blue"), [("light", BLUE), ("dark", DARK_BLUE)])
+@pytest.mark.parametrize("theme, blue", [("light", BLUE), ("dark", DARK_BLUE)])
 def test_the_plane_is_drawn_in_every_window_and_theme(cloud, artefacts, theme, blue):
     page = cloud.page
     cloud.set_time(4.0)
@@ -176,6 +177,6 @@ def test_the_plane_is_drawn_in_every_window_and_theme(cloud, artefacts, theme, b
         page.wait_for_function(FILLED, arg=canvas.element_handle())
         assert share_of(cloud, "omega", blue) > 0.002
         box = canvas.bounding_box()
-        assert box["width"] == pytest.approx(box["height"], abs=1.0)
+        assert box["width"] == approx(box["height"], abs=1.0)
         assert box["x"] + box["width"] <= width
         page.screenshot(path=artefacts / f"cloud-{width}-{theme}.png")

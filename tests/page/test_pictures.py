@@ -1,13 +1,12 @@
 """The pictures of the Suslov–Hess scene as they are painted, and their response to mouse, keys and finger."""
 
-from __future__ import annotations
-
-import math
 from io import BytesIO
+from math import atan2, cos, hypot, pi, sin
 
 import numpy as np
 import pytest
 from PIL import Image
+from pytest import approx
 
 from hess_explorer.views import theme
 from hess_mechanics import turning_points
@@ -38,23 +37,23 @@ def like(pixels, colour, tolerance=24):
 # --- Choosing by hand --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("h", "f"), [(0.5, 0.4), (2.75, -1.5)])
+@pytest.mark.parametrize("h, f", [(0.5, 0.4), (2.75, -1.5)])
 def test_a_click_in_the_bifurcation_diagram_chooses_the_torus_under_it(explorer, h, f):
     (x, y), (wide, high) = at(explorer, "bifurcation", h, f)
     x, y = round(x), round(y)
     explorer.change(explorer.page.mouse.click, x, y)
     found = explorer.here()
-    assert found[0] == pytest.approx(h, abs=wide)
-    assert found[1] == pytest.approx(f, abs=high)
+    assert found[0] == approx(h, abs=wide)
+    assert found[1] == approx(f, abs=high)
     # The controls follow, to the last digit, and so does all the rest.
     values = {**DEFAULTS, "h": explorer.shown("h")[0], "f": explorer.shown("f")[0]}
-    assert (values["h"], values["f"]) == pytest.approx(found, rel=1e-6)
+    assert (values["h"], values["f"]) == approx(found, rel=1e-6)
     assert_orbit(explorer, values)
     # At t = 0 n3 turns, so the moving point stands in the middle of the ring: under the pointer.
     explorer.page.mouse.move(5, 5)
     rows, columns = np.nonzero(like(picture(explorer, (x - 9, y - 9, 18, 18)), theme.POINT))
     assert rows.size > 40
-    assert (columns.mean() - 8.5, rows.mean() - 8.5) == pytest.approx((0, 0), abs=1.5)
+    assert (columns.mean() - 8.5, rows.mean() - 8.5) == approx((0, 0), abs=1.5)
 
 
 def test_a_drag_in_the_bifurcation_diagram_is_followed(explorer):
@@ -66,8 +65,8 @@ def test_a_drag_in_the_bifurcation_diagram_is_followed(explorer):
     for h, f in path[1:]:
         (x, y), _ = at(explorer, "bifurcation", h, f)
         explorer.change(explorer.page.mouse.move, x, y)
-        assert explorer.here()[0] == pytest.approx(h, abs=wide)
-        assert explorer.here()[1] == pytest.approx(f, abs=high)
+        assert explorer.here()[0] == approx(h, abs=wide)
+        assert explorer.here()[1] == approx(f, abs=high)
         # No more digits than a pixel resolves.
         assert explorer.here() == tuple(round(value, 3) for value in explorer.here())
         assert explorer.axes("bifurcation") == axes
@@ -76,16 +75,16 @@ def test_a_drag_in_the_bifurcation_diagram_is_followed(explorer):
     explorer.change(lambda: explorer.slide(phi0=1.0))
     assert explorer.state <= before + 2
     assert_orbit(explorer, {**DEFAULTS, "h": explorer.shown("h")[0], "f": explorer.shown("f")[0], "phi0": 1.0})
-    assert explorer.shown("h")[0] == pytest.approx(2.9, abs=wide)
+    assert explorer.shown("h")[0] == approx(2.9, abs=wide)
 
 
 def test_a_click_in_the_circle_map_chooses_the_phase_under_it(explorer):
     wide, _ = click_on(explorer, "circle", -2.5, 1.0)
     chosen = explorer.shown("phi0")[0]
-    assert chosen == pytest.approx(-2.5, abs=wide)
+    assert chosen == approx(-2.5, abs=wide)
     assert_orbit(explorer, {**DEFAULTS, "phi0": chosen})
     cobweb = explorer.data("circle-cobweb")
-    assert (cobweb["phi"][0], cobweb["theta"][0]) == pytest.approx((chosen, chosen), abs=1e-6)
+    assert (cobweb["phi"][0], cobweb["theta"][0]) == approx((chosen, chosen), abs=1e-6)
 
 
 def test_a_hand_that_takes_its_time_still_clicks_and_drags(explorer):
@@ -95,12 +94,12 @@ def test_a_hand_that_takes_its_time_still_clicks_and_drags(explorer):
     mouse.down()
     explorer.page.wait_for_timeout(800)
     explorer.change(mouse.up)
-    assert explorer.here() == (pytest.approx(1.8, abs=wide), pytest.approx(0.3, abs=high))
+    assert explorer.here() == (approx(1.8, abs=wide), approx(0.3, abs=high))
     mouse.down()
     explorer.page.wait_for_timeout(800)
     (x, y), _ = at(explorer, "bifurcation", 2.6, -0.4)
     explorer.change(mouse.move, x, y)
-    assert explorer.here() == (pytest.approx(2.6, abs=wide), pytest.approx(-0.4, abs=high))
+    assert explorer.here() == (approx(2.6, abs=wide), approx(-0.4, abs=high))
     mouse.up()
 
 
@@ -108,7 +107,7 @@ def test_two_clicks_in_quick_succession_both_count(explorer):
     (first, _), (second, (wide, _)) = at(explorer, "bifurcation", 1.8, 0.3), at(explorer, "bifurcation", 2.6, -0.4)
     explorer.change(explorer.page.mouse.click, *first)
     explorer.change(explorer.page.mouse.click, *second)
-    assert explorer.here()[0] == pytest.approx(2.6, abs=wide)
+    assert explorer.here()[0] == approx(2.6, abs=wide)
 
 
 def test_a_click_in_the_plane_of_angular_velocity_chooses_nothing(explorer):
@@ -152,7 +151,7 @@ def test_the_sphere_turns_with_the_arrow_keys_up_to_the_pole_and_home_again(expl
         ("ArrowRight", 3, (HOME[0] - STEP, HOME[1])),
         ("ArrowUp", 1, (HOME[0] - STEP, HOME[1] + STEP)),
         ("ArrowDown", 2, (HOME[0] - STEP, HOME[1] - STEP)),
-        ("ArrowDown", 25, (HOME[0] - STEP, -math.pi / 2)),
+        ("ArrowDown", 25, (HOME[0] - STEP, -pi / 2)),
         ("Home", 1, HOME),
         ("ArrowLeft", 40, (HOME[0] + 40 * STEP, HOME[1])),
     ):
@@ -165,8 +164,8 @@ def test_the_sphere_turns_with_the_arrow_keys_up_to_the_pole_and_home_again(expl
 def on_sphere(gamma, turn):
     """Project γ in an orthographic view: right, up and towards the viewer, on the unit sphere."""
     azimuth, elevation = turn
-    right = (-math.sin(azimuth), math.cos(azimuth), 0.0)
-    towards = (math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation))
+    right = (-sin(azimuth), cos(azimuth), 0.0)
+    towards = (cos(elevation) * cos(azimuth), cos(elevation) * sin(azimuth), sin(elevation))
     up = np.cross(towards, right)
     return float(np.dot(gamma, right)), float(np.dot(gamma, up)), float(np.dot(gamma, towards))
 
@@ -192,7 +191,7 @@ def test_the_point_on_the_sphere_is_the_vertical_seen_from_there(explorer, keys)
         assert rows.size > 40
         half = box["width"] / 2
         found = ((columns.mean() + 0.5 - half) / radius(explorer), (half - rows.mean() - 0.5) / radius(explorer))
-        assert found == pytest.approx((right, up), abs=0.02)
+        assert found == approx((right, up), abs=0.02)
     assert seen >= 2
 
 
@@ -202,17 +201,17 @@ def test_the_moving_point_is_at_the_state_of_its_time_in_every_plane(explorer, t
     state = exact_states(DEFAULTS, [t])[0]
     w1, w2, n1, n2, n3 = body_of(DEFAULTS).in_units_of_b(body_of(DEFAULTS).to_reduced(state))
     point = {name: explorer.data(f"{name}-point") for name in ("omega", "bifurcation", "circle")}
-    assert (point["omega"]["x"][0], point["omega"]["y"][0]) == pytest.approx(state[:2], abs=4e-3)
+    assert (point["omega"]["x"][0], point["omega"]["y"][0]) == approx(state[:2], abs=4e-3)
     rate = n1 * w2 - n2 * w1
-    assert rate**2 == pytest.approx(2 * (1.5 + n3) * (1 - n3 * n3) - 0.36, abs=1e-9)
-    assert point["bifurcation"]["x"][0] == pytest.approx(1.5)
-    assert point["bifurcation"]["y"][0] == pytest.approx(math.hypot(0.6, rate), abs=6e-3)
+    assert rate**2 == approx(2 * (1.5 + n3) * (1 - n3 * n3) - 0.36, abs=1e-9)
+    assert point["bifurcation"]["x"][0] == approx(1.5)
+    assert point["bifurcation"]["y"][0] == approx(hypot(0.6, rate), abs=6e-3)
     # Above the phase with which this period began stands the phase of now.
     phase = 0.5
     for _ in range(int(t / turning_points(1.5, 0.6).period)):
         phase = float(lifted_return(a, 1.5, 0.6, [phase])[0])
     assert angle_between(point["circle"]["x"][0], phase) < 2e-3
-    assert angle_between(point["circle"]["y"][0], math.atan2(w1, w2)) < 5e-3
+    assert angle_between(point["circle"]["y"][0], atan2(w1, w2)) < 5e-3
 
 
 # --- What is painted ---------------------------------------------------------------------------------
@@ -244,7 +243,7 @@ def test_every_picture_is_painted_in_its_colours(explorer):
     for _ in range(36):
         explorer.sphere.press("ArrowLeft")
     explorer.set_time(3.1)
-    assert_turned(explorer, HOME[0] - math.pi, HOME[1])
+    assert_turned(explorer, HOME[0] - pi, HOME[1])
     for name in PICTURES:
         pixels = canvas_of(explorer, name)
         for colour in PAINTED[name]:

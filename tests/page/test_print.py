@@ -1,7 +1,5 @@
 """Printing replaces the page by a handout."""
 
-from __future__ import annotations
-
 import io
 import re
 from urllib.parse import parse_qs, urlsplit

@@ -1,7 +1,5 @@
 """Sharing: the page's link, its QR code, and parts of the page embedded in another one."""
 
-from __future__ import annotations
-
 from urllib.error import HTTPError
 from urllib.parse import parse_qsl, quote, urlsplit
 from urllib.request import urlopen
@@ -106,7 +104,7 @@ def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(exp
 
 
 @pytest.mark.parametrize(
-    ("keys", "pictures", "controls", "is_noted"),
+    "keys, pictures, controls, is_noted",
     sample(
         [
             # A picture that is folded at first is shown when it is named.

@@ -1,7 +1,5 @@
 """The scenes "Suslov problem with gravity" and "rotation number" in a browser: cells and axes that are chosen."""
 
-from __future__ import annotations
-
 import io
 
 import numpy as np

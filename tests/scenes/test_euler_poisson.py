@@ -3,13 +3,12 @@
 The numbers are held against orbits followed by SciPy or for longer, and against the energy written out here.
 """
 
-from __future__ import annotations
-
-import math
 import re
+from math import cos, log, pi, remainder, sin, sqrt
 
 import numpy as np
 import pytest
+from pytest import approx
 from scipy.integrate import quad
 
 from hess_explorer.compute.cache import CACHE
@@ -28,14 +27,20 @@ from support.andoyer import GESS1, crossings_by_scipy, dense, energies_at
 from support.euler_poisson import EP, EulerPoisson
 from support.lyapunov import finite_exponent
 from support.thorough import sample
-from support.view import View
+from support.view import View, values_of
 
 
-def on_which_side(view, points):
-    """The sign of r·M at (l, L/G), from the place alone."""
+def relation(view, points):
+    """r·M over G at (l, L/G), from the place alone: its sign is the side, and on the Hess manifold it is 0."""
     l, x = points.T
     r1, _, r3 = view.body.r
-    return np.sign(r1 * np.sqrt(np.maximum(0.0, 1.0 - x * x)) * np.sin(l) + r3 * x)
+    return r1 * np.sqrt(np.maximum(0.0, 1.0 - x * x)) * np.sin(l) + r3 * x
+
+
+def places_from(view, start, count=10_000):
+    """The crossings of the orbit through (l, L/G)."""
+    section = AndoyerSection(view.body, view.h, view.f)
+    return coordinates(section.points([section.state_at(*start)], count, STANDARD).states[0])
 
 
 # ---- Examples ---------------------------------------------------------------------------------------------------
@@ -57,38 +62,38 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
     first, second, own = (view.points(layer) for layer in ("first", "second", "own"))
     assert len(first) + len(second) == count * view.values["count"]
     if hess:
-        assert np.all(on_which_side(view, first) >= -1e-6)
-        assert np.all(on_which_side(view, second) <= 1e-6)
+        assert np.all(relation(view, first) >= -1e-6)
+        assert np.all(relation(view, second) <= 1e-6)
     else:
-        assert np.any(on_which_side(view, first) < 0.0)
-        assert np.any(on_which_side(view, second) > 0.0)
+        assert np.any(relation(view, first) < 0.0)
+        assert np.any(relation(view, second) > 0.0)
     # The axes are those of a new page where they are not said.
     assert ("section" in view.axes) is bool(view.values["window"])
     if view.values["window"]:
         (l0, x0), (l1, x1) = places(view.values["window"])
-        assert view.axes["section"] == pytest.approx([l0, l1, x0, x1], abs=1e-6)
+        assert view.axes["section"] == approx([l0, l1, x0, x1], abs=1e-6)
     # The first returns of the chosen orbit, by SciPy.
-    slow = math.sqrt(2.0 * max(view.body.a) * (view.h + view.body.strength))
+    slow = sqrt(2.0 * max(view.body.a) * (view.h + view.body.strength))
     times, states = crossings_by_scipy(view.body, view.start, 30.0 / slow)
     assert len(times)
-    assert own[-int(view.values["count"]) :][: min(2, len(times))] == pytest.approx(coordinates(states)[:2], abs=1e-4)
+    assert own[-int(view.values["count"]) :][: min(2, len(times))] == approx(coordinates(states)[:2], abs=1e-4)
     # Statements about the exponent.
     exponent, spread, end = view.numbers("exponent", "λ = # ± # after t = #")
     assert end == view.values["long"]
     series = view.data["exponent-lambda"]
     spans, means = (np.asarray(series[key][0], float) for key in ("xs", "ys"))
-    assert means[-1] == pytest.approx(exponent, rel=6e-3, abs=0.05 * spread)
+    assert means[-1] == approx(exponent, rel=6e-3, abs=0.05 * spread)
     early = int(np.argmin(np.abs(spans - 3.0)))
-    assert means[early] == pytest.approx(finite_exponent(view.body, view.start, float(spans[early])), abs=1e-4)
+    assert means[early] == approx(finite_exponent(view.body, view.start, float(spans[early])), abs=1e-4)
     words = "Chaotic." if lyapunov_exponent(view.body, view.start, 2000.0).value > 0.03 else "Regular so far:"
     assert words in view.text["exponent"]
     # And of the orbit.
     track = view.data["data-orbit"]
-    gamma = np.column_stack([track[name] for name in ("g1", "g2", "g3")])
-    assert np.sum(gamma**2, axis=1) == pytest.approx(1.0, abs=1e-5)
+    gamma = view.columns("data-orbit", "g1", "g2", "g3")
+    assert np.sum(gamma**2, axis=1) == approx(1.0, abs=1e-5)
     there = solve(view.body, view.start, [float(track["t"][7])], REFERENCE).states[0]
-    assert gamma[7] == pytest.approx(there[3:], abs=1e-5)
-    assert (track["l"][7], track["x"][7]) == pytest.approx(tuple(coordinates(there[None])[0]), abs=1e-5)
+    assert gamma[7] == approx(there[3:], abs=1e-5)
+    assert (track["l"][7], track["x"][7]) == approx(tuple(coordinates(there[None])[0]), abs=1e-5)
     assert not re.search(r"nan|inf", " ".join(view.text.values()), re.IGNORECASE)
     for name in ("section", "exponent", "sphere"):
         title, second_line = view.text[name].split("\n")
@@ -97,77 +102,70 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
 
 
 def test_the_example_of_a_periodic_orbit_closes_and_says_how_fast_its_neighbours_leave():
-    (preset,) = (one for one in EP.presets if one.values["periodic"] != NONE)
-    view = EulerPoisson(preset.values, seen={"section", "exponent"})
+    (values,) = (one.values for one in EP.presets if one.values["periodic"] != NONE)
+    view = EulerPoisson(values, seen={"section", "exponent"})
     closed = view.result.periodic_orbit.closed
-    slow = math.sqrt(2.0 * max(view.body.a) * (view.h + view.body.strength))
+    slow = sqrt(2.0 * max(view.body.a) * (view.h + view.body.strength))
     times, states = crossings_by_scipy(view.body, closed.state, 30.0 / slow)
-    assert coordinates(states)[0] == pytest.approx(closed.orbit.places[0], abs=1e-6)
+    assert coordinates(states)[0] == approx(closed.orbit.places[0], abs=1e-6)
     m1, m2, _ = view.numbers("section", "Period 1, saddle. Multipliers μ = #, #, to #")
     # The return map keeps an area.
-    assert m1 * m2 == pytest.approx(1.0, rel=1e-3)
-    assert view.numbers("exponent", "ln|μ₁|/T = #") == [pytest.approx(math.log(m1) / times[0], rel=1e-3)]
+    assert m1 * m2 == approx(1.0, rel=1e-3)
+    assert view.numbers("exponent", "ln|μ₁|/T = #") == [approx(log(m1) / times[0], rel=1e-3)]
 
 
 @pytest.mark.parametrize("preset", sample([EP.presets[i] for i in (1, 5, 10, 15)], 2), ids=lambda one: one.name)
 def test_rotation_numbers_are_those_of_10000_points(preset):
     view = EulerPoisson({**preset.values, "orbits": 0.0})
-    low, high = view.numbers("rotation", "From # to #")
+    low, high = view.numbers("rotation", "rom # to #")
     title, second_line = view.text["rotation"].split("\n")
     assert title
     assert len(second_line) <= 110
-    series = view.data["rotation-rho"]
-    along, rho = (np.concatenate([*series[key]]).astype(float) for key in ("xs", "ys"))
-    assert (np.min(rho), np.max(rho)) == (pytest.approx(low, abs=6e-5), pytest.approx(high, abs=6e-5))
+    along, rho = view.curve("rotation-rho")
+    assert (np.min(rho), np.max(rho)) == (approx(low, abs=6e-5), approx(high, abs=6e-5))
     turning = view.values["turns"] == "about the middle"
-    ends = np.column_stack([view.data["section-line"][key] for key in ("x", "y")]).astype(float)
+    ends = view.columns("section-line", "x", "y")
     for i in np.linspace(0, len(rho) - 1, 5).astype(int):
         place = (along[i], ends[0, 1]) if turning else (ends[0, 0], along[i])
-        start = [AndoyerSection(view.body, view.h, view.f).state_at(*place)]
-        states = AndoyerSection(view.body, view.h, view.f).points(start, 10_000, STANDARD).states[0]
-        exact, spread = rotation_number(coordinates(states), tuple(ends[0]) if turning else None)
+        exact, spread = rotation_number(places_from(view, place), tuple(ends[0]) if turning else None)
         if spread < 1e-6:
-            assert math.remainder(rho[i] - exact, 1.0) == pytest.approx(0.0, abs=3e-4)
+            assert remainder(rho[i] - exact, 1.0) == approx(0.0, abs=3e-4)
 
 
 def test_an_orbit_between_two_gaps_is_seen_too():
     """A line of one point is none: every number that the caption speaks of is a point as well."""
-    preset = next(one for one in EP.presets if one.name.startswith("Figure 13 d"))
-    view = EulerPoisson({**preset.values, "orbits": 0.0}, seen={"rotation"})
+    view = EulerPoisson({**values_of(EP, "Figure 13 d"), "orbits": 0.0}, seen={"rotation"})
     low, high = view.numbers("rotation", "From # to #")
     lines, points = view.data["rotation-rho"], view.data["rotation-orbits"]
     assert any(len(line) == 1 for line in lines["ys"])
     for axis in "xy":
         assert points[axis].tolist() == [value for line in lines[f"{axis}s"] for value in line]
-    assert (points["y"].min(), points["y"].max()) == pytest.approx((low, high), abs=1e-4)
+    assert (points["y"].min(), points["y"].max()) == approx((low, high), abs=1e-4)
 
 
 def test_at_the_meandering_torus_the_rotation_number_turns_round_at_an_eighth():
     view = EulerPoisson({**EP.presets[1].values, "orbits": 0.0}, seen={"rotation"})
     *_, rho, place = view.numbers("rotation", "No twist where ρ has an extremum. ρ from # to #, extremum # at #.")
-    assert rho == pytest.approx(0.125, abs=1e-4)
+    assert rho == approx(0.125, abs=1e-4)
     centre = view.result.rotation.ends[0]
 
     def exact(l):
-        start = [AndoyerSection(GESS1, 50.0, 5.0).state_at(l, centre[1])]
-        points = coordinates(AndoyerSection(GESS1, 50.0, 5.0).points(start, 10_000, STANDARD).states[0])
+        points = places_from(view, (l, centre[1]))
         return rotation_number(points, centre)[0], points
 
     least, islands = exact(place)
-    assert least == pytest.approx(0.125, abs=1e-5)
+    assert least == approx(0.125, abs=1e-5)
     # A twist map has no extremum: here it is more on both sides, also between islands and the next minimum.
     meander, hump = exact(-1.5875)[0], exact(-1.5708)[0]
     assert least < meander < hump < exact(-1.65)[0]
-    assert meander == pytest.approx(0.1251, abs=2e-5)
+    assert meander == approx(0.1251, abs=2e-5)
     assert exact(-1.47)[0] > 0.1262
     # Eight islands: every eighth point stays in a small part of the picture.
-    eighth = islands[::8]
-    assert np.ptp(eighth, axis=0).max() < 0.35 * np.ptp(islands, axis=0).max()
+    assert np.ptp(islands[::8], axis=0).max() < 0.35 * np.ptp(islands, axis=0).max()
 
 
 def test_below_the_separatrix_points_of_the_hess_curve_are_fixed_or_change_places_in_pairs():
-    preset = next(one for one in EP.presets if one.name.startswith("On the Hess curve"))
-    view = EulerPoisson({**preset.values, "orbits": 0.0}, seen={"section"})
+    view = EulerPoisson({**values_of(EP, "On the Hess curve"), "orbits": 0.0}, seen={"section"})
     assert view.values["f"] == 0.0
     assert view.h < view.body.strength
     starts = np.array(places(view.values["starts"]))
@@ -180,9 +178,7 @@ def test_below_the_separatrix_points_of_the_hess_curve_are_fixed_or_change_place
         assert np.max(returns[1]) < 1e-3
         assert np.max(returns[0]) < 1e-3 or np.min(returns[0]) > 0.5
         fixed.append(bool(np.max(returns[0]) < 1e-3))
-        l, x = orbit.T
-        r1, _, r3 = view.body.r
-        assert np.max(np.abs(r1 * np.sqrt(1.0 - x * x) * np.sin(l) + r3 * x)) < 1e-3
+        assert np.max(np.abs(relation(view, orbit))) < 1e-3
     assert 2 <= sum(fixed) < len(fixed)
 
 
@@ -191,44 +187,39 @@ def free_rotation_number(l, x):
     a1, a2, a3 = 1.0 / 1.0, 1.0 / 0.625, 1.0 / 0.375
 
     def across(l):
-        return a1 * math.sin(l) ** 2 + a2 * math.cos(l) ** 2
+        return a1 * sin(l) ** 2 + a2 * cos(l) ** 2
 
     energy = (1.0 - x * x) * across(l) + a3 * x * x
     turn, _ = quad(
-        lambda l: across(l) / (math.sqrt((energy - across(l)) / (a3 - across(l))) * (a3 - across(l))),
+        lambda l: across(l) / (sqrt((energy - across(l)) / (a3 - across(l))) * (a3 - across(l))),
         0.0,
-        2.0 * math.pi,
+        2.0 * pi,
         epsabs=1e-12,
     )
-    return 2.0 * math.pi / turn
+    return 2.0 * pi / turn
 
 
 def test_at_high_energy_rotation_numbers_are_those_of_the_free_body():
-    preset = next(one for one in EP.presets if one.name.startswith("h → ∞"))
-    view = EulerPoisson({**preset.values, "orbits": 0.0}, seen={"rotation"})
+    view = EulerPoisson({**values_of(EP, "h → ∞"), "orbits": 0.0}, seen={"rotation"})
     along, rho = view.curve("rotation-rho")
     above = np.flatnonzero(along > 0.02)
     assert above.size > 10
-    apart = np.abs([math.remainder(rho[i] - free_rotation_number(0.0, along[i]), 1.0) for i in above])
+    apart = np.abs([remainder(rho[i] - free_rotation_number(0.0, along[i]), 1.0) for i in above])
     assert np.median(apart) < 1e-3
     # Next to a resonance, as 1/2, it is not as close.
     assert np.max(apart) < 5e-3
     # The difference falls as 1/h, for f = 0.
     missed = []
     for h in (5e3, 5e4):
-        orbit = (
-            AndoyerSection(GESS1, h, 0.0)
-            .points([AndoyerSection(GESS1, h, 0.0).state_at(0.0, 0.75)], 1000, STANDARD)
-            .states[0]
-        )
-        rho, _ = rotation_number(coordinates(orbit), None)
-        missed.append(math.remainder(rho - free_rotation_number(0.0, 0.75), 1.0))
-    assert missed[0] / missed[1] == pytest.approx(10.0, rel=0.02)
+        view.h, view.f = h, 0.0
+        rho, _ = rotation_number(places_from(view, (0.0, 0.75), 1000), None)
+        missed.append(remainder(rho - free_rotation_number(0.0, 0.75), 1.0))
+    assert missed[0] / missed[1] == approx(10.0, rel=0.02)
     # The Hess curve is a separatrix of the free body: there M·AM = a2 G², as in the turning about the middle axis.
-    l = np.linspace(-math.pi, math.pi, 25)
+    l = np.linspace(-pi, pi, 25)
     x = hess_curve(GESS1, l)
     M2 = np.array([(1.0 - x * x) * np.sin(l) ** 2, (1.0 - x * x) * np.cos(l) ** 2, x * x])
-    assert np.array(GESS1.a) @ M2 == pytest.approx(1.0 / 0.625, abs=1e-6)
+    assert np.array(GESS1.a) @ M2 == approx(1.0 / 0.625, abs=1e-6)
 
 
 def test_grey_is_where_no_motion_is_possible():
@@ -237,8 +228,8 @@ def test_grey_is_where_no_motion_is_possible():
     rows, columns = cells.shape
     assert 0.05 < np.mean(cells) < 0.95
     x0, y0, width, height = (float(view.data["section-impossible"][key][0]) for key in ("x", "y", "dw", "dh"))
-    assert (x0, y0, width, height) == pytest.approx((-math.pi, -1.0, 2.0 * math.pi, 2.0), abs=1e-6)
-    top = math.sqrt(2.0 * (view.h + view.body.strength) / min(view.body.a))
+    assert (x0, y0, width, height) == approx((-pi, -1.0, 2.0 * pi, 2.0), abs=1e-6)
+    top = sqrt(2.0 * (view.h + view.body.strength) / min(view.body.a))
     wrong = 0
     for j, i in np.random.default_rng(6).integers(0, (rows, columns), (300, 2)):
         l, x = x0 + (i + 0.5) * width / columns, y0 + (j + 0.5) * height / rows
@@ -250,15 +241,12 @@ def test_grey_is_where_no_motion_is_possible():
 
 def test_the_green_curve_is_the_hess_manifold():
     view = EulerPoisson({"orbits": 0.0, "away": 0.3})
-    curve = np.column_stack([view.data["section-curve"][key] for key in ("x", "y")]).astype(float)
-    r1, _, r3 = view.body.r
-    M = np.column_stack([np.sqrt(1.0 - curve[:, 1] ** 2) * np.sin(curve[:, 0]), curve[:, 1]])
-    assert np.max(np.abs(M @ [r1, r3])) < 1e-6
+    assert np.max(np.abs(relation(view, view.points("curve")))) < 1e-6
 
 
 def other_momenta(view, places):
     """Count the momenta with this energy at places (n, 2), by a dense search."""
-    top = math.sqrt(2.0 * (view.h + view.body.strength) / min(view.body.a))
+    top = sqrt(2.0 * (view.h + view.body.strength) / min(view.body.a))
     return [
         np.count_nonzero(np.diff(np.sign(dense(view.body, view.f, float(l), float(x), top)[1] - view.h)))
         for l, x in places
@@ -266,8 +254,7 @@ def other_momenta(view, places):
 
 
 def test_points_on_another_sheet_are_drawn_apart():
-    preset = next(one for one in EP.presets if one.name.startswith("Figure 14 c"))
-    view = EulerPoisson({**preset.values, "orbits": 60.0, "count": 100.0}, seen={"section"})
+    view = EulerPoisson({**values_of(EP, "Figure 14 c"), "orbits": 60.0, "count": 100.0}, seen={"section"})
     apart = view.points("elsewhere")
     everything = np.vstack([view.points("first"), view.points("second"), view.points("own")])
     assert 3 < len(apart) < 0.02 * len(everything)
@@ -290,30 +277,21 @@ def test_on_a_small_sheet_another_start_is_found():
 
 
 def test_on_the_second_sheet_orbits_start_with_the_smaller_momentum():
-    values = {
-        **EP.presets[0].values,
-        "I1": 1.0,
-        "I2": 1.5,
-        "I3": 2.0,
-        "m": -math.sqrt(0.5),
-        "h": 0.5,
-        "f": 0.3,
-        "orbits": 8.0,
-        "count": 30.0,
-    }
+    body = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -sqrt(0.5), "h": 0.5, "f": 0.3, "orbits": 8.0, "count": 30.0}
     largest, second = (
-        EulerPoisson({**values, "sheet": sheet}, seen={"section"}) for sheet in ("largest G", "second G")
+        EulerPoisson({**EP.presets[0].values, **body, "sheet": sheet}, seen={"section"})
+        for sheet in ("largest G", "second G")
     )
     start = np.array(second.result.start)
     l, x = coordinates(start[None])[0]
     G = float(np.linalg.norm(start[:3]))
-    assert second.h == pytest.approx(float(energies_at(second.body, 0.3, l, x, G)[0]), abs=1e-9)
+    assert second.h == approx(float(energies_at(second.body, 0.3, l, x, G)[0]), abs=1e-9)
     larger = AndoyerSection(second.body, 0.5, 0.3).state_at(float(l), float(x))
     assert np.linalg.norm(larger[:3]) > 1.01 * G
     # Nearly all of the section is grey then, as hardly any motion crosses that sheet.
-    grey = [np.mean(np.asarray(view.data["section-impossible"]["image"][0])) for view in (largest, second)]
-    assert grey[0] < 0.3
-    assert grey[1] > 0.9
+    first, other = (np.mean(np.asarray(view.data["section-impossible"]["image"][0])) for view in (largest, second))
+    assert first < 0.3
+    assert other > 0.9
 
 
 def test_where_there_is_no_second_sheet_that_is_said():
@@ -322,14 +300,12 @@ def test_where_there_is_no_second_sheet_that_is_said():
 
 
 def test_curves_that_do_not_go_round_have_no_rotation_number():
-    preset = next(one for one in EP.presets if one.name.startswith("Figure 13 b"))
-    view = EulerPoisson({**preset.values, "orbits": 0.0}, seen={"rotation"})
+    view = EulerPoisson({**values_of(EP, "Figure 13 b"), "orbits": 0.0}, seen={"rotation"})
     assert "No closed curve on the line makes a turn." in view.text["rotation"]
     assert len(view.data["rotation-orbits"]["x"]) == 0
     # l of an orbit from the middle of the line stays in a part of the circle.
-    start = [AndoyerSection(view.body, view.h, view.f).state_at(2.8, 0.1)]
-    l = np.sort(coordinates(AndoyerSection(view.body, view.h, view.f).points(start, 2000, STANDARD).states[0])[:, 0])
-    assert max(np.max(np.diff(l)), 2.0 * math.pi - np.ptp(l)) > 0.5
+    l = np.sort(places_from(view, (2.8, 0.1), 2000)[:, 0])
+    assert max(np.max(np.diff(l)), 2.0 * pi - np.ptp(l)) > 0.5
 
 
 # ---- What changes -----------------------------------------------------------------------------------------------
@@ -342,23 +318,16 @@ def test_a_new_start_is_drawn_and_its_neighbours_stay():
     assert np.array_equal(two.points("own")[: len(one.points("own"))], one.points("own"))
     assert len(two.points("own")) == 2 * len(one.points("own"))
     ring = two.data["section-chosen"]
-    assert np.column_stack([ring["x"], ring["y"]]) == pytest.approx(np.array([[0.0, 0.2], [0.5, -0.3]]))
+    assert np.column_stack([ring["x"], ring["y"]]) == approx(np.array([[0.0, 0.2], [0.5, -0.3]]))
 
 
 def test_a_window_is_filled_with_orbits_of_its_own():
     view = EulerPoisson({"orbits": 20.0, "window": "0.5,0.1;1.5,0.6"})
-    assert view.axes["section"] == pytest.approx([0.5, 1.5, 0.1, 0.6])
-    starts = np.array(CACHE.get(*seeds_of(view))[0])
-    l, x = coordinates(starts).T
-    assert l.min() > 0.5
-    assert l.max() < 1.5
-    assert x.min() > 0.1
-    assert x.max() < 0.6
+    assert view.axes["section"] == approx([0.5, 1.5, 0.1, 0.6])
+    seeds = filled_section._seeds, view.result.poincare, view.result.section.frame, 20
+    starts = coordinates(np.array(CACHE.get(*seeds)[0]))
     assert len(starts) == 20
-
-
-def seeds_of(view):
-    return filled_section._seeds, view.result.poincare, view.result.section.frame, int(view.values["orbits"])
+    assert np.all((starts > (0.5, 0.1)) & (starts < (1.5, 0.6)))
 
 
 def test_a_drag_shows_the_section_at_once_with_fewer_orbits():
@@ -376,7 +345,7 @@ def test_while_epsilon_is_dragged_the_rotation_number_is_that_of_few_orbits_righ
     places, exact = (rest.data["rotation-orbits"][axis].astype(float) for axis in "xy")
     above = along[along > 0.6]
     assert len(above) >= 3
-    apart = [math.remainder(y - np.interp(x, places, exact), 1.0) for x, y in zip(along, rho, strict=True) if x > 0.6]
+    apart = [remainder(y - np.interp(x, places, exact), 1.0) for x, y in zip(along, rho, strict=True) if x > 0.6]
     assert np.max(np.abs(apart)) < 0.01
     # The widest sea is shown as one: its middle is at sea in the drag too.
     seas = [[np.asarray(part[0][0])[[0, 1]] for part in view.data["rotation-sea"]["xs"]] for view in (rest, held)]
@@ -400,11 +369,11 @@ def test_the_rotation_picture_says_of_all_the_line_what_its_orbits_are():
     assert (-0.52 < low < -0.49) and (-0.3 < high < -0.27)
     x0, x1, y0, y1 = view.axes["rotation"]
     assert (x0, x1) == (-1.0, 1.0)
-    assert (y0, y1) == (pytest.approx(low, abs=0.06), pytest.approx(0.0, abs=0.06))
+    assert (y0, y1) == (approx(low, abs=0.06), approx(0.0, abs=0.06))
     seas = [np.asarray(part[0][0]) for part in view.data["rotation-sea"]["xs"]]
     covered = sum(float(np.ptp(part)) for part in seas)
     marked = len(view.data["rotation-orbits"]["x"]) + len(view.data["rotation-standing"]["x"])
-    assert covered + 2.0 * marked / 48 == pytest.approx(2.0, abs=1e-6)
+    assert covered + 2.0 * marked / 48 == approx(2.0, abs=1e-6)
     assert np.all(view.data["rotation-standing"]["y"] == 0.0)
     # The exponent of an orbit from the middle of the largest sea is positive, of one in an island it falls to 0.
     sea = max(seas, key=np.ptp)
@@ -416,78 +385,33 @@ def test_the_rotation_picture_says_of_all_the_line_what_its_orbits_are():
     assert exponents[1] < 0.05
 
 
-@pytest.mark.parametrize("seen", [set(), {"section"}, {"rotation"}, {"exponent"}, {"sphere"}])
-def test_what_is_not_seen_is_not_left_to_do(seen):
-    values = {**EP.defaults(), "h": 33.3, "orbits": 8.0}
-    result = EP.compute(values, seen, False)
-    names = {task.function.__name__ for task in result.work.todo}
-    expected = set()
-    if seen & {"section", "rotation"}:
-        expected.add("_batch")
-    if "exponent" in seen:
-        expected.add("lyapunov_exponent")
-    assert names == expected
-    assert result.work.pieces == len(result.work.todo)
+@pytest.mark.parametrize(
+    "seen, expected",
+    [
+        (set(), set()),
+        ({"section"}, {"_batch"}),
+        ({"rotation"}, {"_batch"}),
+        ({"exponent"}, {"lyapunov_exponent"}),
+        ({"sphere"}, set()),
+    ],
+)
+def test_what_is_not_seen_is_not_left_to_do(seen, expected):
+    work = EP.compute({**EP.defaults(), "h": 33.3, "orbits": 8.0}, seen, False).work
+    assert {task.function.__name__ for task in work.todo} == expected
+    assert work.pieces == len(work.todo)
 
 
 def test_the_motion_for_speed_and_accuracy_is_the_chosen_orbit():
     values = {**EP.defaults(), "starts": "0,0.2;0.5,-0.3"}
     found = EP.of(values).motion()
     assert found.system is SYSTEM
-    assert found.state == pytest.approx(AndoyerSection(GESS1, 50.0, 5.0).state_at(0.5, -0.3), abs=1e-12)
+    assert found.state == approx(AndoyerSection(GESS1, 50.0, 5.0).state_at(0.5, -0.3), abs=1e-12)
     assert found.span == values["span"]
 
 
 def test_sliders_end_where_the_potential_does():
-    low, high, step = EP.limits(EP.defaults())["h"]
-    assert low == pytest.approx(-9.98, abs=0.011)
-    assert low < 50.0 < high
-    assert step > 0.0
+    assert EP.limits(EP.defaults())["h"][0] == approx(-9.98, abs=0.011)
     assert EP.limits({**EP.defaults(), "m": 0.0})["h"][0] == 0.0
-
-
-# ---- Refusals ---------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("values", "words"),
-    [
-        ({"I2": 2.0}, "I2 = 2 must lie between I1 = 1 and I3 = 0.375"),
-        ({"I1": 1.0, "I2": 1.0, "I3": 1.0}, "which differ"),
-        (
-            {"h": -20.0},
-            "Nothing is possible here with h = -20 and f = 5: choose a larger h, a smaller .f., or press Clear",
-        ),
-        ({"f": 500.0}, "Nothing is possible here"),
-    ],
-)
-def test_what_cannot_be_shown_is_a_sentence(values, words):
-    admitted, _ = EP.admit({**EP.defaults(), **values})
-    with pytest.raises(ModelError, match=words):
-        EP.compute(admitted, EP.pictures, False)
-
-
-@pytest.mark.parametrize(
-    "values",
-    [
-        pytest.param({"I1": 1000.0, "I2": 1.0, "I3": 0.001}, marks=pytest.mark.thorough),
-        {"m": 0.0, "f": 0.0},
-        {"h": 1e5},
-        {"away": math.pi},
-        {"h": -9.9, "f": 0.0, "starts": "1.5,0"},
-        {"orbits": 0.0, "count": 2.0, "long": 1.0, "span": 0.01},
-    ],
-)
-def test_at_the_ends_of_what_may_be_typed_there_is_a_picture_or_a_sentence(values):
-    try:
-        view = EulerPoisson({"orbits": 8.0, "count": 20.0, "long": 5.0, "span": 2.0, **values}, refusing=True)
-    except ModelError as error:
-        assert re.search(r"choose|press", str(error))
-        return
-    # With moments that differ by 10⁶ some orbits would take too long.
-    assert all("choose" in one for one in view.refused)
-    assert not view.refused or "I3" in values
-    view.assert_finite()
 
 
 SECOND_SERIES = [one for one in EP.presets if one.name.startswith("Figure 14")]
@@ -496,9 +420,9 @@ SECOND_SERIES = [one for one in EP.presets if one.name.startswith("Figure 14")]
 @pytest.mark.parametrize("preset", SECOND_SERIES, ids=lambda one: one.name)
 def test_what_an_example_of_the_second_series_says_of_the_hess_motion_is_so(preset):
     """By the circle map of the same torus: a1′ = a2, b = a2 μ|r|, h → a2 H/b, f → a2 F1/√b."""
-    a2, b = 2.0 / 3.0, (2.0 / 3.0) * math.sqrt(0.5)
-    h, f = a2 * preset.values["h"] / b, a2 * preset.values["f"] / math.sqrt(b)
-    a = math.sqrt((1.0 - a2) * (a2 - 0.5)) / a2
+    a2, b = 2.0 / 3.0, (2.0 / 3.0) * sqrt(0.5)
+    h, f = a2 * preset.values["h"] / b, a2 * preset.values["f"] / sqrt(b)
+    a = sqrt((1.0 - a2) * (a2 - 0.5)) / a2
     if abs(f) > f_max(h):
         expected = "no Hess motion yet"
     else:
@@ -520,23 +444,23 @@ def test_the_split_of_the_separatrices_is_0_in_the_hess_case_and_begins_in_propo
         )
         found = view.result.split.split
         assert abs(found.value - exact.value) <= error + exact.error + 1e-8
-        assert value == pytest.approx(found.value, rel=6e-4)
-        assert value == pytest.approx(slope * away, rel=0.02)
+        assert value == approx(found.value, rel=6e-4)
+        assert value == approx(slope * away, rel=0.02)
         assert abs(value) > 1e3 * error
     else:
         error, l, shown = view.numbers(
             "split", "\nThe separatrices are not split. Less than # at l = #; as ε → 0: # ε."
         )
         assert abs(exact.value) <= error < 1e-9
-    assert (l, shown) == (pytest.approx(exact.l, abs=1e-3), pytest.approx(slope, rel=1e-3))
+    assert (l, shown) == (approx(exact.l, abs=1e-3), approx(slope, rel=1e-3))
     assert off < 1e-6
     drawn = view.data["split-splits"]
     assert len(drawn["x"]) == 13
-    assert np.interp(0.01, drawn["x"], drawn["y"]) == pytest.approx(0.01 * slope, rel=0.02)
+    assert np.interp(0.01, drawn["x"], drawn["y"]) == approx(0.01 * slope, rel=0.02)
     ((x, y),) = zip(*(view.data["split-here"][key] for key in "xy"), strict=True)
-    assert (x, y) == (pytest.approx(away), pytest.approx(exact.value, abs=1e-8))
+    assert (x, y) == (approx(away), approx(exact.value, abs=1e-8))
     line = np.array([view.data["split-slope"][key][0] for key in ("xs", "ys")])
-    assert line[1] / line[0] == pytest.approx([slope, slope], rel=1e-5)
+    assert line[1] / line[0] == approx([slope, slope], rel=1e-5)
 
 
 def test_where_there_are_no_separatrices_the_picture_says_why():

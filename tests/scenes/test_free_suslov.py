@@ -4,17 +4,16 @@ The numbers beside the pictures are held against the general Suslov system, inte
 motion's formulas, and against closed forms written out here.
 """
 
-from __future__ import annotations
-
-import math
 import re
 from itertools import pairwise
+from math import acos, atan2, cos, log, pi, sin, sqrt
 
 import numpy as np
 import pytest
+from pytest import approx
 
 from hess_explorer.scenes.scattering import PRESETS as EXAMPLES
-from hess_mechanics.errors import ModelError
+from hess_mechanics import SuslovBody, additional_integral
 from hess_mechanics.suslov.additional_integral import formula
 from support.free_suslov import (
     FREE,
@@ -33,7 +32,7 @@ from support.free_suslov import (
     start_of,
     tensor_of,
 )
-from support.view import NUMBER, View
+from support.view import NUMBER, View, example
 
 every_free = pytest.mark.parametrize("preset", FREE.presets, ids=lambda preset: preset.name)
 every_scattering = pytest.mark.parametrize("preset", SCATTERING.presets, ids=lambda preset: preset.name)
@@ -49,15 +48,15 @@ def test_the_rate_the_energy_and_the_last_turning_are_those_of_the_paper(preset)
     h = energy(view.values, (view.values["w1"], view.values["w2"]))
     J, xi, _ = axes_of(view.values)
     # biz138, its denominator corrected: |ω±| = J √(2h/(I11 I23² + I22 I13²)).
-    size = J * math.sqrt(2.0 * h / (I11 * I23**2 + I22 * I13**2))
+    size = J * sqrt(2.0 * h / (I11 * I23**2 + I22 * I13**2))
     rate, E = view.numbers("omega", "Rate ω₀ = #, E = #.")
     (speed,) = view.numbers("gamma1", "By # radians per unit of time")
     assert (rate, E, speed) == (shown(rate_of(view.values, h)), shown(h), shown(size))
-    assert view.derived("I₁₁ = #")[0] == pytest.approx(I11, rel=1e-5)
-    assert view.derived("ω₀ = #")[0] == pytest.approx(rate_of(view.values, h), rel=1e-5)
+    assert view.derived("I₁₁ = #")[0] == approx(I11, rel=1e-5)
+    assert view.derived("ω₀ = #")[0] == approx(rate_of(view.values, h), rel=1e-5)
     points = {name: [view.data[f"omega-{name}-point"][axis][0] for axis in "xy"] for name in ("stable", "unstable")}
-    assert points["stable"] == pytest.approx(-size * xi[:2], rel=1e-6)
-    assert points["unstable"] == pytest.approx(size * xi[:2], rel=1e-6)
+    assert points["stable"] == approx(-size * xi[:2], rel=1e-6)
+    assert points["unstable"] == approx(size * xi[:2], rel=1e-6)
 
 
 @every_free
@@ -71,17 +70,17 @@ def test_the_orbits_come_from_the_circle_and_go_to_the_circles_that_are_said(pre
     # The second orbit, from where it is drawn to start (next to the line it shares the first part with nothing).
     first = view.result.second.gamma[0]
     if abs(view.values["w2"]) < 1e-290:
-        t = math.log(1e-7) - math.log(view.values["w2"])
+        t = log(1e-7) - log(view.values["w2"])
         turned = complex(first[1], first[2]) * np.exp(-2j * t)
         first = np.array([first[0], turned.real, turned.imag])
     second_past, second_future = ends(view.values, omega, first)
     assert came == shown(second_past[2:] @ xi)
     assert other == shown(second_future[2:] @ xi)
-    assert second_past[2:] @ xi == pytest.approx(past[2:] @ xi, abs=1e-6)
+    assert second_past[2:] @ xi == approx(past[2:] @ xi, abs=1e-6)
     # Both turn alike there, φ′ − φ apart.
-    phases = [math.atan2(end[4], end[2:] @ eta) for end in (past, second_past)]
+    phases = [atan2(end[4], end[2:] @ eta) for end in (past, second_past)]
     asked = view.values["phi2"] - view.values["phi"]
-    assert np.exp(1j * (phases[1] - phases[0])) == pytest.approx(np.exp(1j * asked), abs=1e-5)
+    assert np.exp(1j * (phases[1] - phases[0])) == approx(np.exp(1j * asked), abs=1e-5)
     # The circles on the sphere and the dotted levels are these.
     heights = [height for *_, height, look in view.data["sphere"]["circles"] if look != "muted"]
     assert heights == shown([came, went, other])
@@ -95,7 +94,7 @@ def test_the_curves_are_those_of_the_general_system(preset):
     _, xi, eta = axes_of(view.values)
     orbit = {name: np.asarray(column, float) for name, column in view.data["data-orbit"].items()}
     assert orbit["t"][0] == 0.0
-    assert orbit["t"][-1] == pytest.approx(view.values["span"], rel=1e-6)
+    assert orbit["t"][-1] == approx(view.values["span"], rel=1e-6)
     chosen = np.flatnonzero((orbit["t"] > since) & (orbit["t"] < since + 25.0))[::17]
     assert chosen.size > 10
     exact = integrate(view.values, omega, gamma, orbit["t"][chosen] - since)
@@ -105,26 +104,26 @@ def test_the_curves_are_those_of_the_general_system(preset):
     found = np.column_stack([orbit[name][chosen] for name in ("omega1", "omega2", "g1", "g2", "g3")])
     near = 2e-6 if since == 0.0 else 1e-5
     assert np.max(np.abs(found - exact) - rounding) < near
-    assert orbit["Gamma"][chosen] == pytest.approx(found[:, 2:] @ xi, abs=1e-6)
+    assert orbit["Gamma"][chosen] == approx(found[:, 2:] @ xi, abs=1e-6)
     curve = view.data["gamma1-first"]
     x, y = np.concatenate(curve["xs"]), np.concatenate(curve["ys"])
     if view.values["across"] == "time":
         assert len(curve["xs"]) == 1
-        assert x == pytest.approx(orbit["t"])
-        assert y == pytest.approx(orbit["g1"])
+        assert x == approx(orbit["t"])
+        assert y == approx(orbit["g1"])
         assert view.data["gamma1-across"]["text"] == ["t"]
     else:
         # Against the azimuth; each part of the curve goes on where the last one left, at the other edge.
         phase = np.arctan2(exact[:, 4], exact[:, 2:] @ eta)
-        assert np.exp(1j * orbit["across"][chosen]) == pytest.approx(np.exp(1j * phase), abs=1e-5)
+        assert np.exp(1j * orbit["across"][chosen]) == approx(np.exp(1j * phase), abs=1e-5)
         ends_ = [(part[0], part[-1]) for part in curve["xs"]]
         assert len(ends_) > 5
         for (_, left), (entered, _) in pairwise(ends_):
-            assert abs(left) == pytest.approx(math.pi)
-            assert entered == pytest.approx(-left)
+            assert abs(left) == approx(pi)
+            assert entered == approx(-left)
         heights = [(part[0], part[-1]) for part in curve["ys"]]
         assert all(a[1] == b[0] for a, b in pairwise(heights))
-        assert all(np.max(np.abs(np.diff(part))) < math.pi for part in curve["xs"])
+        assert all(np.max(np.abs(np.diff(part))) < pi for part in curve["xs"])
         assert view.data["gamma1-across"]["text"] == ["φ"]
 
 
@@ -134,54 +133,40 @@ def test_the_curve_against_the_phase_misses_none_of_its_points():
     inside = [np.asarray(list(zip(x, y, strict=True))) for x, y in zip(curve["xs"], curve["ys"], strict=True)]
     # Without the two edge points that each cut adds.
     kept = np.concatenate([part[(i > 0) : len(part) - (i + 1 < len(inside))] for i, part in enumerate(inside)])
-    assert kept == pytest.approx(np.column_stack([orbit["across"], orbit["g1"]]))
+    assert kept == approx(np.column_stack([orbit["across"], orbit["g1"]]))
 
 
-@pytest.mark.parametrize(("k", "name"), [(1, "Γ(t), k = 1"), (3, "Γ(t), k = 3")])
+@pytest.mark.parametrize("k, name", [(1, "Γ(t), k = 1"), (3, "Γ(t), k = 3")])
 def test_with_F2_both_orbits_join_the_mirrored_circle_and_F2_is_that_of_the_paper(k, name):
-    preset = next(preset for preset in FREE.presets if preset.name.startswith(name))
-    view = View(FREE, preset.values)
+    view = example("free-suslov", name)
     came, went, other = view.numbers("Gamma", "From Γ⁻ = # to Γ⁺ = # and # (dotted)")
     assert went == other == -came
     for end in (view.result.orbit.limits[1], view.result.second.limits[1]):
-        assert end == pytest.approx(-view.result.orbit.limits[0], abs=1e-7)
+        assert end == approx(-view.result.orbit.limits[0], abs=1e-7)
     f, minus, plus = view.numbers("sphere", "F₂ = #; Γ = # on C⁻, Γ = # on C⁺.")
     assert (minus, plus) == (came, went)
-    # Written out (the misprints of n = 2 corrected), along the orbit by the general solver.
-    I11, I22, _, I23 = tensor_of(view.values)
-
-    def F2(w1, w2, g1, g2, g3):
-        if k == 1:
-            return I11 * g1 * w1 + (I22 * g2 + I23 * g3) * w2
-        return I11**2 * w1**2 * ((I22**2 + I23**2) * g1 * w1 + I22 * (I22 * g2 + I23 * g3) * w2) + I22 * w2**2 * (
-            I22 * (I22**2 + 5 * I23**2) * g2 * w2 + (I22**2 - 3 * I23**2) * (I11 * g1 * w1 + I23 * g3 * w2)
-        )
-
-    omega, gamma, _ = start_of(view.values)
-    exact = integrate(view.values, omega, gamma, [1.0, 7.0, 8.0, 20.0])
-    assert f == shown(F2(*omega, *gamma))
-    assert [F2(*state) for state in exact] == pytest.approx([F2(*omega, *gamma)] * 4, rel=1e-10)
+    body = SuslovBody(*tensor_of(view.values))
+    F2, (omega, gamma, _) = additional_integral(k, body), start_of(view.values)
+    assert f == shown(F2(omega, gamma))
     # Its level is, for some ω on the way, the grey circle (V(ω), γ) = f, where V is what F2 has before γ.
-    turn = np.linspace(0.0, math.pi, 20001)
-    h = energy(view.values, omega)
-    way = math.sqrt(2.0 * h) * np.array([np.cos(turn) / math.sqrt(I11), np.sin(turn) / math.sqrt(I22)])
-    V = np.column_stack([F2(*way, *unit) for unit in np.eye(3)])
+    turn = np.linspace(0.0, pi, 20001)
+    way = np.column_stack([np.cos(turn) / sqrt(body.I11), np.sin(turn) / sqrt(body.I22)])
+    V = F2.vector(sqrt(2.0 * energy(view.values, omega)) * way)
     length = np.linalg.norm(V, axis=1)
     grey = [circle for circle in view.data["sphere"]["circles"] if circle[4] == "muted"]
     # Enough to see how it turns, and few enough to see the orbits.
     assert len(grey) == 4
     for *axis, height, _ in grey:
         nearest = np.argmin(np.linalg.norm(V / length[:, None] - axis, axis=1))
-        assert V[nearest] / length[nearest] == pytest.approx(axis, abs=1e-3)
-        assert F2(*omega, *gamma) / length[nearest] == pytest.approx(height, abs=1e-3)
+        assert V[nearest] / length[nearest] == approx(axis, abs=1e-3)
+        assert F2(omega, gamma) / length[nearest] == approx(height, abs=1e-3)
     assert "F2" in view.report.status
     assert re.sub(r"\s", "", formula(k)) in re.sub(r"\s", "", FREE.words)
 
 
 @pytest.mark.parametrize("name", ["Γ(t), k = 1.5", "Γ(t), I₁₃ ≠ 0"])
 def test_without_F2_two_phases_join_two_circles(name):
-    preset = next(preset for preset in FREE.presets if preset.name.startswith(name))
-    view = View(FREE, preset.values)
+    view = example("free-suslov", name)
     _, went, other = view.numbers("sphere", "From Γ⁻ = # to Γ⁺ = # and #.")
     assert abs(went - other) > 0.05
     assert "F₂: none known" in " ".join(view.report.derived)
@@ -195,12 +180,12 @@ def test_the_slider_of_k_meets_F2_at_every_odd_k_up_to_15(k):
     assert view.result.orbit.drift["F2"] < 1e-9
     # Γ = ±f/f±: C⁺ and C⁻ are mirrored.
     came, went = view.result.orbit.limits
-    assert went == pytest.approx(-came, abs=1e-9)
+    assert went == approx(-came, abs=1e-9)
     f, top = (
         float(re.search(pattern, " ".join(view.report.derived))[1].replace("−", "-"))
         for pattern in (rf"f = {NUMBER}", rf"fixed points: ±{NUMBER}")
     )
-    assert abs(f) / top == pytest.approx(abs(came), rel=1e-4)
+    assert abs(f) / top == approx(abs(came), rel=1e-4)
     near = View(FREE, {"k": k + 0.05})
     assert "none known" in " ".join(near.report.derived)
     assert "F2" not in near.report.status
@@ -218,13 +203,13 @@ def test_a_portrait_has_the_signs_of_its_name_and_arrows_along_the_flow(preset):
     # Each half of the line is told apart by the sign of the eigenvalue of biz132 along the ellipse there.
     for name, sign in (("stable", -1.0), ("unstable", 1.0)):
         x, y = (np.asarray(view.data[f"omega-{name}"][axis], float) for axis in "xy")
-        assert I13 * x + I23 * y == pytest.approx(np.zeros(2), abs=1e-6)
+        assert I13 * x + I23 * y == approx(np.zeros(2), abs=1e-6)
         w1, w2 = x[1], y[1]
         # ∂ω̇1/∂ω1 + ∂ω̇2/∂ω2; the other eigenvalue is 0.
         assert sign * (-I13 * w2 / I11 + I23 * w1 / I22) > 0.0
         # To the edge of the picture.
         _, right, *_ = view.axes["omega"]
-        assert max(abs(w1), abs(w2)) == pytest.approx(right)
+        assert max(abs(w1), abs(w2)) == approx(right)
     for layer, count in (("arrows", 2), ("level-arrows", 6)):
         arrows = view.data[f"omega-{layer}"]
         assert len(arrows["x"]) == count
@@ -232,7 +217,7 @@ def test_a_portrait_has_the_signs_of_its_name_and_arrows_along_the_flow(preset):
         for w1, w2, angle in zip(arrows["x"], arrows["y"], arrows["angle"], strict=True):
             rate = np.array(SUSLOV.field([w1, w2, 0.0, 0.0, 1.0], (I11, I22, I13, I23, 0.0, 0.0, 0.0))[:2], float)
             # The triangle of the marker points upwards at angle 0.
-            ahead = np.array([-math.sin(angle), math.cos(angle)])
+            ahead = np.array([-sin(angle), cos(angle)])
             assert ahead @ rate > 0.995 * np.linalg.norm(rate)
             energies.add(round(energy(view.values, (w1, w2)), 6))
         # One on each side of the line, for every ellipse.
@@ -240,7 +225,7 @@ def test_a_portrait_has_the_signs_of_its_name_and_arrows_along_the_flow(preset):
     ellipses = view.data["omega-levels"]
     for x, y in zip(ellipses["xs"], ellipses["ys"], strict=True):
         along = I11 * np.asarray(x) ** 2 + I22 * np.asarray(y) ** 2
-        assert along == pytest.approx(np.full(len(x), along[0]), rel=1e-5)
+        assert along == approx(np.full(len(x), along[0]), rel=1e-5)
         assert max(np.max(np.abs(x)), np.max(np.abs(y))) < right
 
 
@@ -261,30 +246,30 @@ def test_figure_3_has_the_starts_of_its_caption(preset):
     values = {**FREE.defaults(), **preset.values}
     slanting = values["I13"] != 0.0
     assert (values["w1"], values["w2"]) == ((3.0, -2.001) if slanting else (2.0, 1e-3))
-    found = [gamma_at(values, math.acos(values["Gamma"]), values[name]) for name in ("phi", "phi2")]
+    found = [gamma_at(values, acos(values["Gamma"]), values[name]) for name in ("phi", "phi2")]
     first, second = map(np.array, STARTS["d" if slanting else "I₁₃ = 0"])
     if not slanting:
-        assert found == [pytest.approx(one / np.linalg.norm(one), abs=3e-3) for one in (first, second)]
+        assert found == [approx(one / np.linalg.norm(one), abs=3e-3) for one in (first, second)]
     elif "as printed" in preset.name:
-        assert found[0] == pytest.approx(second / np.linalg.norm(second), abs=1e-4)
+        assert found[0] == approx(second / np.linalg.norm(second), abs=1e-4)
     else:
         # Both on one circle to all digits that are printed, one of them corrected.
-        assert found == [pytest.approx(one, abs=0.0051) for one in (first, second + READ)]
+        assert found == [approx(one, abs=0.0051) for one in (first, second + READ)]
 
 
 def test_the_misprint_of_figure_3_d_is_one_digit():
-    xi = np.array([3.0, -2.0, 0.0]) / math.sqrt(13.0)
+    xi = np.array([3.0, -2.0, 0.0]) / sqrt(13.0)
     first, printed = map(np.array, STARTS["d"])
     read = printed + READ
     # Two digits are known to 0.005: the length to about as much, and so the height along ξ.
-    assert [np.linalg.norm(one) for one in (first, read)] == pytest.approx([1.0, 1.0], abs=5e-3)
-    assert first @ xi == pytest.approx(read @ xi, abs=7e-3)
-    assert np.linalg.norm(printed) == pytest.approx(1.04, abs=1e-3)
-    assert printed @ xi / np.linalg.norm(printed) == pytest.approx(-0.531, abs=1e-3)
-    assert first @ xi / np.linalg.norm(first) == pytest.approx(-0.465, abs=1e-3)
+    assert [np.linalg.norm(one) for one in (first, read)] == approx([1.0, 1.0], abs=5e-3)
+    assert first @ xi == approx(read @ xi, abs=7e-3)
+    assert np.linalg.norm(printed) == approx(1.04, abs=1e-3)
+    assert printed @ xi / np.linalg.norm(printed) == approx(-0.531, abs=1e-3)
+    assert first @ xi / np.linalg.norm(first) == approx(-0.465, abs=1e-3)
     # A quarter of a turn apart.
-    eta = np.array([2.0, 3.0, 0.0]) / math.sqrt(13.0)
-    assert [math.atan2(one[2], one @ eta) for one in (first, read)] == pytest.approx([math.pi, 0.5 * math.pi], abs=1e-3)
+    eta = np.array([2.0, 3.0, 0.0]) / sqrt(13.0)
+    assert [atan2(one[2], one @ eta) for one in (first, read)] == approx([pi, 0.5 * pi], abs=1e-3)
     # Effect of the misprint: the orbit leaves another circle, and joins another one.
     as_read, as_printed = (View(FREE, one.values) for one in FREE.presets if one.values.get("w1") == 3.0)
     went = [view.numbers("Gamma", "From Γ⁻ = # to Γ⁺ = # and # (dotted)") for view in (as_read, as_printed)]
@@ -292,29 +277,11 @@ def test_the_misprint_of_figure_3_d_is_one_digit():
     assert abs(went[0][2] - went[1][1]) > 0.05
 
 
-@pytest.mark.parametrize(
-    ("values", "words"),
-    [
-        ({"I13": 0.0, "I23": 0.0}, "I₁₃ = I₂₃ = 0.*Choose one of them other than 0"),
-        ({"w1": 0.0, "w2": 0.0}, "ω = 0: the body is at rest for ever.*Choose ω1 or ω2 other than 0"),
-        ({"w2": 0.0}, "on the line of equilibria.*Move ω off the line"),
-        ({"I13": 0.25, "I23": 0.5, "w1": 2.0, "w2": -1.0}, "on the line of equilibria"),
-        ({"k": -3.0}, "k = −3 would make I₁₁ = −1.25; a moment of inertia is positive. Choose a larger k"),
-        ({"I23": 1e-5}, r"γ turns too often.*\(about \de\+05 radians.*choose larger I13, I23"),
-        ({"I23": 1e-320}, r"γ turns too often.*\(more than 1e308 radians"),
-        ({"w1": 1e-200, "w2": 1e-205}, "so small an ω.*choose a larger one"),
-    ],
-)
-def test_what_is_no_motion_is_refused_in_the_words_of_the_controls(values, words):
-    with pytest.raises(ModelError, match=words):
-        View(FREE, values)
-
-
 def test_a_passage_beyond_the_time_span_is_announced_where_it_comes():
     view = View(FREE, {"w2": 1e-300})
     (note,) = view.report.notes
     # ω2 = √(I11/I22) ω1 = 3.12 at the top of the ellipse, after growing as e^t and then as 1/cosh: half of 2 · 3.12.
-    t = math.log(2.0 * math.sqrt(2.44) * 2.0) + 300.0 * math.log(10.0)
+    t = log(2.0 * sqrt(2.44) * 2.0) + 300.0 * log(10.0)
     assert float(re.search(r"t = ([\d.]+)", note)[1]) == shown(t)
 
 
@@ -334,17 +301,17 @@ def test_cos_chi_computed_and_in_closed_form_are_both_right(preset):
     computed = view.result.limit.cos_chi
     if view.values["I13"] == 0.0:
         exact = cos_chi_on_an_axis(view.values)
-        assert computed == pytest.approx(exact, abs=2e-12)
+        assert computed == approx(exact, abs=2e-12)
     else:
         # ξ itself goes to the circle χ: from 1e-6 of the unstable point, to 1e-6.
         exact = circle_joined(view.values, 0.0, 0.0, 1e-6)
-        assert computed == pytest.approx(exact, abs=5e-6)
-    assert view.derived("cos χ = #")[0] == pytest.approx(computed, rel=6e-6)
-    assert said == pytest.approx(exact, rel=6e-4)
+        assert computed == approx(exact, abs=5e-6)
+    assert view.derived("cos χ = #")[0] == approx(computed, rel=6e-6)
+    assert said == approx(exact, rel=6e-4)
     assert difference < 1e-13
     (chi,) = view.numbers("map", "turns ξ by χ = #.")
-    assert math.cos(chi) == pytest.approx(exact, abs=1e-3)
-    assert (view.data["chi-chosen"]["x"][0], view.data["chi-chosen"]["y"][0]) == pytest.approx(
+    assert cos(chi) == approx(exact, abs=1e-3)
+    assert (view.data["chi-chosen"]["x"][0], view.data["chi-chosen"]["y"][0]) == approx(
         (view.values["k"], exact), abs=5e-6
     )
 
@@ -356,40 +323,36 @@ def test_the_curve_leads_where_the_general_system_does_whatever_the_energy(prese
     (phis,), (curve,) = view.data["curve-theta"]["xs"], view.data["curve-theta"]["ys"]
     for i, h in ((40, 0.3), (170, 2.0), (301, 50.0)):
         exact = circle_joined(view.values, view.values["theta"], float(phis[i]), delta, h)
-        assert math.cos(curve[i]) == pytest.approx(exact, abs=2e-6)
+        assert cos(curve[i]) == approx(exact, abs=2e-6)
     # From the lowest to the highest: the image of the circle θ⁻ about an axis turned by χ.
     theta = view.values["theta"]
-    chi = math.acos(view.derived("cos χ = #")[0])
-    low, high = abs(chi - theta), min(chi + theta, 2.0 * math.pi - chi - theta)
-    assert (np.min(curve), np.max(curve)) == (pytest.approx(low, abs=5e-4), pytest.approx(high, abs=5e-4))
+    chi = acos(view.derived("cos χ = #")[0])
+    low, high = abs(chi - theta), min(chi + theta, 2.0 * pi - chi - theta)
+    assert (np.min(curve), np.max(curve)) == (approx(low, abs=5e-4), approx(high, abs=5e-4))
     if high - low > 1e-3:
-        assert view.numbers("curve", "θ⁺ from # to #") == [pytest.approx(low, abs=1e-3), pytest.approx(high, abs=1e-3)]
-    assert view.data["curve-levels"]["y0"] == pytest.approx([theta, math.pi - theta])
+        assert view.numbers("curve", "θ⁺ from # to #") == [approx(low, abs=1e-3), approx(high, abs=1e-3)]
+    assert view.data["curve-levels"]["y0"] == approx([theta, pi - theta])
 
 
 @every_scattering
 def test_the_orbit_on_the_sphere_is_that_of_the_ring(preset):
     view = View(SCATTERING, preset.values)
     theta, phi = view.values["theta"], view.values["phi"]
-    exact = math.acos(circle_joined(view.values, theta, phi, 10.0 ** -view.values["digits"]))
+    exact = acos(circle_joined(view.values, theta, phi, 10.0 ** -view.values["digits"]))
     assert view.numbers("sphere", "φ = #: from θ⁻ = # to θ⁺ = #.") == [
         shown(phi),
         shown(theta),
-        pytest.approx(exact, abs=1e-3),
+        approx(exact, abs=1e-3),
     ]
-    assert (view.data["curve-chosen"]["x"][0], view.data["curve-chosen"]["y"][0]) == pytest.approx(
-        (phi, exact), abs=1e-5
-    )
-    assert (view.data["map-here"]["x"][0], view.data["map-here"]["y"][0]) == pytest.approx((phi, theta))
+    assert (view.data["curve-chosen"]["x"][0], view.data["curve-chosen"]["y"][0]) == approx((phi, exact), abs=1e-5)
+    assert (view.data["map-here"]["x"][0], view.data["map-here"]["y"][0]) == approx((phi, theta))
     assert [look for *_, look in view.data["sphere"]["circles"]] == ["unstable", "stable"]
-    assert [circle[3] for circle in view.data["sphere"]["circles"]] == pytest.approx(
-        [math.cos(theta), math.cos(exact)], abs=1e-5
-    )
+    assert [circle[3] for circle in view.data["sphere"]["circles"]] == approx([cos(theta), cos(exact)], abs=1e-5)
     _, xi, _ = axes_of(view.values)
-    track = np.column_stack([view.data["data-orbit"][name] for name in ("g1", "g2", "g3")])
-    assert track[0] == pytest.approx(gamma_at(view.values, theta, phi), abs=1e-6)
+    track = view.columns("data-orbit", "g1", "g2", "g3")
+    assert track[0] == approx(gamma_at(view.values, theta, phi), abs=1e-6)
     # At its end within 1e-3 of the circle that it joins (γ has settled as far as it had been unsettled).
-    assert track[-1] @ xi == pytest.approx(math.cos(exact), abs=1e-3)
+    assert track[-1] @ xi == approx(cos(exact), abs=1e-3)
 
 
 @every_scattering
@@ -397,15 +360,13 @@ def test_the_map_holds_all_curves(preset):
     view = View(SCATTERING, preset.values)
     (grid,) = view.data["map-theta"]["image"]
     rows, columns = grid.shape
-    thetas = (np.arange(rows) + 0.5) * math.pi / rows
-    phis = -math.pi + (np.arange(columns) + 0.5) * 2.0 * math.pi / columns
-    assert [view.data["map-theta"][key][0] for key in ("x", "y", "dw", "dh")] == pytest.approx(
-        [-math.pi, 0.0, 2.0 * math.pi, math.pi]
-    )
+    thetas = (np.arange(rows) + 0.5) * pi / rows
+    phis = -pi + (np.arange(columns) + 0.5) * 2.0 * pi / columns
+    assert [view.data["map-theta"][key][0] for key in ("x", "y", "dw", "dh")] == approx([-pi, 0.0, 2.0 * pi, pi])
     # The mean of cos θ⁺ over a circle is cos χ cos θ⁻.
-    assert np.cos(grid).mean(axis=1) == pytest.approx(view.derived("cos χ = #")[0] * np.cos(thetas), abs=1e-5)
+    assert np.cos(grid).mean(axis=1) == approx(view.derived("cos χ = #")[0] * np.cos(thetas), abs=1e-5)
     exact = circle_joined(view.values, thetas[rows // 3], phis[columns // 5], 10.0 ** -view.values["digits"])
-    assert math.cos(grid[rows // 3, columns // 5]) == pytest.approx(exact, abs=2e-6)
+    assert cos(grid[rows // 3, columns // 5]) == approx(exact, abs=2e-6)
 
 
 @pytest.mark.parametrize("k", [1.0, 3.0])
@@ -416,7 +377,7 @@ def test_dragging_k_through_an_odd_number_turns_the_curve_flat(k):
         (curve,) = view.data["curve-theta"]["ys"]
         spreads.append(float(np.ptp(curve)))
         if step == 0.0:
-            assert curve == pytest.approx(np.full(curve.size, math.pi - 1.0), abs=1e-3)
+            assert curve == approx(np.full(curve.size, pi - 1.0), abs=1e-3)
     assert spreads[2] < 1e-3
     assert 0.05 < spreads[1] < spreads[0]
     assert 0.05 < spreads[3] < spreads[4]
@@ -427,22 +388,20 @@ def test_dragging_k_through_an_odd_number_turns_the_curve_flat(k):
 )
 def test_an_example_of_complete_reversal_is_flat(preset):
     view = View(SCATTERING, preset.values)
-    assert view.numbers("curve", "θ⁻ = #: θ⁺ = # for every φ") == [1.0, shown(math.pi - 1.0)]
+    assert view.numbers("curve", "θ⁻ = #: θ⁺ = # for every φ") == [1.0, shown(pi - 1.0)]
     (grid,) = view.data["map-theta"]["image"]
     # Flat as a map too: π − θ⁻ in every row.
-    assert np.ptp(grid, axis=1) == pytest.approx(np.zeros(len(grid)), abs=1e-5)
+    assert np.ptp(grid, axis=1) == approx(np.zeros(len(grid)), abs=1e-5)
 
 
-@pytest.mark.parametrize(
-    ("values", "ends_of_k"), [({}, (0, 7)), ({"k": -0.9, "I23": 0.5}, (-1, 7)), ({"k": 9.5}, (0, 10))]
-)
+@pytest.mark.parametrize("values, ends_of_k", [({}, (0, 7)), ({"k": -0.9, "I23": 0.5}, (-1, 7)), ({"k": 9.5}, (0, 10))])
 def test_the_graph_of_cos_chi_is_the_closed_form_wherever_k_is(values, ends_of_k):
     view = View(SCATTERING, values)
     (ks,), (heights,) = view.data["chi-closed"]["xs"], view.data["chi-closed"]["ys"]
     assert (ks[0], ks[-1]) == ends_of_k
     assert tuple(view.axes["chi"][:2]) == ends_of_k
     for k, height in list(zip(ks, heights, strict=True))[::9]:
-        assert height == pytest.approx(cos_chi_on_an_axis({**view.values, "k": float(k)}), abs=1e-6)
+        assert height == approx(cos_chi_on_an_axis({**view.values, "k": float(k)}), abs=1e-6)
     # All of it is in the picture.
     _, _, low, high = view.axes["chi"]
     assert low < np.min(heights) < np.max(heights) < high
@@ -451,11 +410,11 @@ def test_the_graph_of_cos_chi_is_the_closed_form_wherever_k_is(values, ends_of_k
 
 def test_figure_4_is_that_of_the_caption():
     values = {**SCATTERING.defaults(), **SCATTERING.presets[0].values}
-    assert tensor_of(values) == pytest.approx((3.56, 1.0, 0.0, 0.8))
-    assert values["theta"] == math.pi / 2
+    assert tensor_of(values) == approx((3.56, 1.0, 0.0, 0.8))
+    assert values["theta"] == pi / 2
     # ω1(0) = 2, ω2(0) = 1e-5.
     h = energy(values, (2.0, 1e-5))
-    assert start_at(values, 10.0 ** -values["digits"], h) == pytest.approx((2.0, 1e-5), rel=1e-6)
+    assert start_at(values, 10.0 ** -values["digits"], h) == approx((2.0, 1e-5), rel=1e-6)
 
 
 def test_next_to_a_slanting_line_the_start_is_as_close_as_a_double_can_tell():
@@ -465,32 +424,15 @@ def test_next_to_a_slanting_line_the_start_is_as_close_as_a_double_can_tell():
     assert "1e−12" in note
     result = SCATTERING.compute(values, SCATTERING.pictures, False)
     # The sphere agrees with the position of the ring to less than a pixel.
-    assert result.orbit.limits[1] == pytest.approx(
-        math.cos(float(result.map.theta_plus(values["theta"], values["phi"]))), abs=1e-3
-    )
+    assert result.orbit.limits[1] == approx(cos(float(result.map.theta_plus(values["theta"], values["phi"]))), abs=1e-3)
     # On an axis nothing is in the way.
     straight = View(SCATTERING, {"digits": 300.0})
-    assert straight.result.orbit.limits[1] == pytest.approx(
-        math.cos(float(straight.result.map.theta_plus(math.pi / 2, 0.5))), abs=1e-6
-    )
+    assert straight.result.orbit.limits[1] == approx(cos(float(straight.result.map.theta_plus(pi / 2, 0.5))), abs=1e-6)
 
 
 @pytest.mark.parametrize(
-    ("picture", "picked"),
+    "picture, picked",
     [("curve", {"phi": 0.25}), ("map", {"phi": 0.25, "theta": 1.5}), ("chi", {"k": 0.25}), ("sphere", {})],
 )
 def test_a_click_chooses_what_its_axes_say(picture, picked):
     assert View(SCATTERING, {}).stage.pick(picture, 0.25, 1.5) == picked
-
-
-@pytest.mark.parametrize(
-    ("values", "words"),
-    [
-        ({"I13": 0.0, "I23": 0.0}, "I₁₃ = I₂₃ = 0.*Choose one of them other than 0"),
-        ({"I23": 1e-5}, "γ turns too often.*choose larger I13, I23"),
-        ({"digits": 0.5, "k": -1.2, "I22": 0.5, "I23": 0.4}, "distance 0.316.*up to 0.28"),
-    ],
-)
-def test_what_is_no_scattering_is_refused_in_a_sentence(values, words):
-    with pytest.raises(ModelError, match=words):
-        View(SCATTERING, values)

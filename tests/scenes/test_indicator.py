@@ -1,26 +1,19 @@
 """MEGNO under the points of the four sections: its numbers, by other means, and in what order cells come."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
+from pytest import approx
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.scenes import scenes
 from hess_mechanics import lyapunov_exponent
 from hess_mechanics.dynamics.megno_map import row_of_cells
 from hess_mechanics.numerics.accuracy import PLANS, Computation
-from support.view import View
+from support.view import View, values_of
 
 SCENES = scenes()
 EXAMPLES = {"suslov": "Strange", "ball-section": "A sea", "quartic": "Mixed: in", "euler-poisson": "The barrier"}
-NAMES = tuple(EXAMPLES)
 FEW = {"accuracy": "draft", "indicator": "MEGNO"}
-
-
-def example(name, beginning):
-    """The values of the example of that name."""
-    return next(one for one in SCENES[name].presets if one.name.startswith(beginning)).values
 
 
 def shown(name, **values):
@@ -29,20 +22,20 @@ def shown(name, **values):
     return View(SCENES[name], {**values, **FEW, **more}, seen=("section",))
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", EXAMPLES)
 def test_cells_that_are_called_chaotic_have_that_exponent_and_the_regular_ones_none(name):
-    view = shown(name, **example(name, EXAMPLES[name]))
+    view = shown(name, **values_of(SCENES[name], EXAMPLES[name]))
     kinds, values = view.result.megno.kinds, view.result.megno._cells[0][:, 0]
     assert kinds.shape == (12, 18)
     image = np.asarray(view.data["section-megno"]["image"][0]).reshape(12, 18)
-    assert image == pytest.approx(kinds + 1.5)
+    assert image == approx(kinds + 1.5)
     regular, chaotic, t, shrinks = view.numbers(
         "section", "# % of the cells regular, # % chaotic. MEGNO after t = #; volume shrinks in about # %."
     )
     there = kinds[kinds >= 0.0]
-    assert chaotic == pytest.approx(100.0 * np.mean(there % 2.0 == 1.0), abs=0.51)
-    assert regular + chaotic == pytest.approx(100.0, abs=1.1)
-    assert shrinks == pytest.approx(100.0 * np.mean(there >= 2.0), abs=0.51)
+    assert chaotic == approx(100.0 * np.mean(there % 2.0 == 1.0), abs=0.51)
+    assert regular + chaotic == approx(100.0, abs=1.1)
+    assert shrinks == approx(100.0 * np.mean(there >= 2.0), abs=0.51)
     # Two orbits side by side, by another algorithm: Ȳ comes to λt/2 on chaotic motions.
     section, (low, high) = view.result.poincare, np.array(view.result.section.frame)
     order = [
@@ -61,7 +54,7 @@ def test_cells_that_are_called_chaotic_have_that_exponent_and_the_regular_ones_n
 
 def test_integrable_examples_are_regular_all_over():
     for name, beginning in (("quartic", "Integrable: "), ("ball-section", "Regular")):
-        kinds = shown(name, **example(name, beginning)).result.megno.kinds
+        kinds = shown(name, **values_of(SCENES[name], beginning)).result.megno.kinds
         assert set(np.unique(kinds)) <= {-1.0, 0.0}
 
 

@@ -1,14 +1,12 @@
 """The scene of orbit diagrams: the numbers of its examples by other means, what a click chooses, what captions say."""
 
-from __future__ import annotations
-
-import math
 import re
 from dataclasses import replace
+from math import hypot, sqrt, tau
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from pytest import approx
 
 from hess_explorer.scenes import scenes
 from hess_explorer.views.text import digits
@@ -19,6 +17,7 @@ from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.numerics.accuracy import PLANS, Computation
 from hess_mechanics.suslov.section import SuslovSection
 from support.diagrams import complete, crossings, distance_of_most, multipliers
+from support.mechanics import followed
 from support.suslov import divergence, field, permanent_rotations
 from support.view import View
 
@@ -40,12 +39,12 @@ def image(body, E, place, count=1):
 def exact_multipliers(body, E, places):
     """Return the multipliers of the orbit through these places by SciPy, the largest first; it must close."""
     for place, following in zip(places, np.roll(places, -1, axis=0), strict=True):
-        assert image(body, E, place)[0] == pytest.approx(following, abs=1e-8)
+        assert image(body, E, place)[0] == approx(following, abs=1e-8)
     return multipliers(lambda place: image(body, E, place)[0], places)
 
 
 @pytest.mark.parametrize(
-    ("scene", "preset"),
+    "scene, preset",
     [
         pytest.param(scene, preset, id=f"{scene.name}: {preset.name}")
         for scene in (SCENE, scenes()["ball-diagram"])
@@ -70,11 +69,11 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
     assert found.periods.tolist() == [1, 2, 4, 8]
     assert "4 period doublings located. The first of period 1 at I₂₃ = −0.04983" in captions["diagram"]
     # The numbers of the words beside the pictures.
-    assert found.values == pytest.approx([-0.0498281, 0.0873376, 0.1281912, 0.1376316], abs=6e-8)
-    assert found.ratios == pytest.approx([3.357, 4.328], abs=6e-4)
+    assert found.values == approx([-0.0498281, 0.0873376, 0.1281912, 0.1376316], abs=6e-8)
+    assert found.ratios == approx([3.357, 4.328], abs=6e-4)
     for value, places in zip(found.values[:2], found.places[:2], strict=True):
         exact = exact_multipliers(replace(state.body, I23=float(value)), state.poincare.E, places)
-        assert exact.real.min() == pytest.approx(-1.0, abs=1e-5)
+        assert exact.real.min() == approx(-1.0, abs=1e-5)
     # Before the first doubling a diagram shows one place, between the first two two of them.
     drawn = state.diagram.points("rising")
     for low, high, count in ((-0.12, -0.07, 1), (0.0, 0.06, 2), (0.1, 0.12, 4)):
@@ -83,7 +82,7 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
 
 
 @pytest.mark.parametrize(
-    ("name", "verdict", "dimension"),
+    "name, verdict, dimension",
     [
         ("Touching", "mixed", (2.251, 0.021)),
         ("Apart: a strange", "dissipative", (2.174, 0.015)),
@@ -107,12 +106,12 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dim
         lyapunov_exponent(state.body, start, 2000.0, PLANS[Computation.EXPONENT]["standard"].level).value
         for start in starts
     ]
-    scatter = math.hypot(np.std(values, ddof=1), np.std(twins, ddof=1)) / math.sqrt(len(starts))
+    scatter = hypot(np.std(values, ddof=1), np.std(twins, ddof=1)) / sqrt(len(starts))
     assert abs(np.mean(twins) - values.mean()) < 5.0 * scatter
     # λ1 + λ3 is the divergence: D = 2 + λ1/|λ3| = 3 + div/|λ3| of the means.
     D = 3.0 + known.motion.divergence / (values.mean() - known.motion.divergence)
     off = known.motion.divergence_error / (values.mean() - known.motion.divergence)
-    assert abs(D - dimension[0]) < 3.0 * math.hypot(off, dimension[1])
+    assert abs(D - dimension[0]) < 3.0 * hypot(off, dimension[1])
     assert D + 3.0 * off < 3.0
     # The mean divergence over the orbits by the trapezoidal rule, which knows no Taylor series.  Of many orbits, as the
     # scatter of six is too uncertain to judge by; without their beginnings, as a start on the section is no typical
@@ -125,8 +124,8 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dim
         np.mean([divergence(state.body, y) for y in solve(state.body, start, t, level("draft")).states[100:]])
         for start in many
     ]
-    assert abs(np.mean(rates) - known.motion.divergence) < 5.0 * math.hypot(
-        np.std(rates, ddof=1) / math.sqrt(len(rates)), known.motion.divergence_error
+    assert abs(np.mean(rates) - known.motion.divergence) < 5.0 * hypot(
+        np.std(rates, ddof=1) / sqrt(len(rates)), known.motion.divergence_error
     )
     assert known.motion.volume == -1
     shared = [one.shared for one in known.comparisons]
@@ -166,14 +165,14 @@ def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_do
     state = view.result
     (flip,) = (one for part in state.continuation.branches for one in part.bifurcations)
     (said, value) = view.derived("flip of period # at I₂₂ = # ± ")
-    assert (said, value) == (1.0, pytest.approx(flip.value, abs=1e-7))
+    assert (said, value) == (1.0, approx(flip.value, abs=1e-7))
     assert view.text["diagram"].split("\n")[1] == "Period 1, saddle with reflection here. 1 bifurcation on its branch."
     attracts, repels = (view.curve(f"diagram-branch-{sign}") for sign in ("attracts", "repels"))
-    assert attracts[0].min() == pytest.approx(2.1, abs=1e-6)
-    assert attracts[0].max() == pytest.approx(flip.value, abs=1e-6) == pytest.approx(repels[0].min(), abs=1e-6)
-    assert repels[0].max() == pytest.approx(2.4, abs=1e-6)
+    assert attracts[0].min() == approx(2.1, abs=1e-6)
+    assert attracts[0].max() == approx(flip.value, abs=1e-6) == approx(repels[0].min(), abs=1e-6)
+    assert repels[0].max() == approx(2.4, abs=1e-6)
     assert (view.data["diagram-bifurcations"]["x"][0], view.data["diagram-bifurcation-names"]["text"]) == (
-        pytest.approx(flip.value, abs=1e-6),
+        approx(flip.value, abs=1e-6),
         ["flip"],
     )
     # SciPy: the orbits close, and the multiplier passes −1 at the mark.
@@ -188,21 +187,21 @@ def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_do
         body = type(state.body)(1.0, value, 0.6, 0.6, -1.0, -0.5, 0.7)
         found = exact_multipliers(body, E, [place])
         assert (
-            found[0].real == pytest.approx(-1.0, abs=1e-5)
+            found[0].real == approx(-1.0, abs=1e-5)
             if value == flip.value
             else ((found[0].real > -1.0) == (value < flip.value))
         )
     # The diagram shows it as long as it attracts.
     drawn = state.diagram.points("rising")
     for x in np.unique(drawn[0][drawn[0] < 2.11]):
-        assert np.interp(x, *np.array(sorted((v, p[0]) for v, p in orbits)).T) == pytest.approx(
+        assert np.interp(x, *np.array(sorted((v, p[0]) for v, p in orbits)).T) == approx(
             drawn[1][drawn[0] == x][-1], abs=2e-3
         )
 
 
 def turns_between(angles):
     """Bounds of the rotation number of a map of a circle that keeps the order, of an orbit's angles, unwrapped."""
-    turned = np.subtract.outer(angles, angles).T / math.tau
+    turned = np.subtract.outer(angles, angles).T / tau
     later = np.triu_indices(len(angles), 1)
     whole, steps = np.floor(turned[later]), later[1] - later[0]
     # More than p turns in q steps imply a rotation number of at least p/q.
@@ -219,9 +218,9 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
 
     # At its birth SciPy's multipliers have modulus 1, and the orbit closes.
     (born,) = (one for part in state.continuation.branches for one in part.bifurcations)
-    assert (born.kind, born.value) == ("Neimark–Sacker", pytest.approx(-0.24899620, abs=5e-9))
+    assert (born.kind, born.value) == ("Neimark–Sacker", approx(-0.24899620, abs=5e-9))
     found = exact_multipliers(at(born.value).body, E, born.places)
-    assert np.abs(found) == pytest.approx(1.0, abs=1e-6)
+    assert np.abs(found) == approx(1.0, abs=1e-6)
     assert found[0].imag != 0.0
     for part in state.continuation.branches:
         for value, kind in zip(part.values, part.kinds, strict=True):
@@ -240,7 +239,7 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     exponents = lyapunov_spectrum(curve.section, curve.state_at(places[-1]), 4000.0)
     assert exponents.signs == ("0", "0", "0", "0", "-")
     turns, error = rotation_number(places, tuple(focus))
-    assert turns == pytest.approx(0.1066355, abs=6e-8)
+    assert turns == approx(0.1066355, abs=6e-8)
     assert error < 5e-8
     away = image(curve.section.body, E, places[-1], 80) - focus
     low, high = turns_between(np.unwrap(np.arctan2(away[:, 1], away[:, 0])))
@@ -252,18 +251,18 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     for end, fold in ((-0.258, -0.2574134), (-0.256, -0.2569055)):
         branch = continued(lambda v: ReturnMap(at(v), level("precise")), orbit, "I13", -0.257, end, 30)
         one = next(one for one in branch.bifurcations if one.kind == "fold")
-        assert one.value == pytest.approx(fold, abs=6e-8)
-        assert exact_multipliers(at(one.value).body, E, one.places)[0].real == pytest.approx(1.0, abs=1e-4)
+        assert one.value == approx(fold, abs=6e-8)
+        assert exact_multipliers(at(one.value).body, E, one.places)[0].real == approx(1.0, abs=1e-4)
     found = exact_multipliers(at(-0.257).body, E, orbit.places)
     assert found[0].imag != 0.0
-    assert np.abs(found) == pytest.approx(np.abs(orbit.multipliers), abs=1e-4)
+    assert np.abs(found) == approx(np.abs(orbit.multipliers), abs=1e-4)
     # The strange attractor: two orbits side by side part as fast.
     assert "Chaotic. Looks dissipative. div = −0." in captions["section"]
     last = SuslovSection(state.body, E, 3).state_at(*state.regime.sets.attractor[-1])
     exponents = lyapunov_spectrum(state.body, last, 20_000.0)
     twin = lyapunov_exponent(state.body, last, 8000.0, PLANS[Computation.EXPONENT]["standard"].level)
     value, error = exponents.values[0], exponents.errors[0]
-    assert value == pytest.approx(0.033, abs=0.003)
+    assert value == approx(0.033, abs=0.003)
     assert value > 8.0 * error
     assert abs(twin.value - value) < 0.01
     dimension, error = exponents.dimension
@@ -288,15 +287,8 @@ def way_back(body, E, like):
     sense, found = np.sign(V[0, k].real), []
     along, across = sense * V[:, k].real, sense * np.linalg.inv(V)[k].real
     for sign in (1.0, -1.0):
-        orbit = solve_ivp(
-            lambda t, y: field(body, y),
-            (0.0, -45.0),
-            root + sign * 1e-5 * along,
-            method="DOP853",
-            rtol=1e-11,
-            atol=1e-13,
-            t_eval=-np.arange(0.0, 45.0, 0.02),
-        ).y.T
+        start = root + sign * 1e-5 * along
+        orbit = followed(lambda _, y: field(body, y), start, -np.arange(0.0, 45.0, 0.02))
         away = np.linalg.norm(orbit - root, axis=1)
         gone = int(np.argmax(away > 0.3))
         back = gone + int(np.argmin(away[gone:]))
@@ -310,8 +302,8 @@ def test_a_motion_that_comes_to_a_saddle_focus_has_left_it_before():
     body, like = state.body, np.array([1.8373, 1.0187, -0.8746, -0.4849, 0.0])
     # On either side of the value in the words it misses the rotation on another side.
     (values, low), (_, high) = (way_back(body, moved(state, "h", 5.015931 + off).E, like) for off in (-1e-6, 1e-6))
-    assert sorted(values.real)[0] == pytest.approx(-0.723, abs=5e-4)
-    assert max(values, key=lambda one: one.imag) == pytest.approx(0.282 + 2.035j, abs=1e-3)
+    assert sorted(values.real)[0] == approx(-0.723, abs=5e-4)
+    assert max(values, key=lambda one: one.imag) == approx(0.282 + 2.035j, abs=1e-3)
     (one,) = (k for k in range(2) if low[k][0] < 0.05 and high[k][0] < 0.05)
     assert low[one][1] * high[one][1] == -1.0
     assert "Chaotic." in captions["section"]
@@ -326,19 +318,19 @@ def test_a_click_on_a_branch_shows_that_orbit_and_the_mouse_is_told_what_it_is_o
     view = View(SCENE, values, seen=SEEN)
     x, y = 2.2801, 0.868
     chosen = view.result.choose(x, y)
-    assert chosen["I22"] == pytest.approx(x, abs=2e-3)
+    assert chosen["I22"] == approx(x, abs=2e-3)
     body = type(view.result.body)(1.0, chosen["I22"], 0.6, 0.6, -1.0, -0.5, 0.7)
     place = np.array([float(part) for part in chosen["chosen"].split(",")])
     found = exact_multipliers(body, view.result.poincare.E, [place])
     hover = view.result.continuation.about(x, y)
     assert re.match(r"I₂₂ = 2\.2[78]\d*: period 1, saddle with reflection, μ = −[\d.]+, −[\d.]+$", hover)
-    assert float(hover.split("μ = −")[1].split(",")[0]) == pytest.approx(-found[0].real, rel=0.03)
+    assert float(hover.split("μ = −")[1].split(",")[0]) == approx(-found[0].real, rel=0.03)
     assert view.result.continuation.about(2.126, 0.69).startswith("flip of period 1 at I₂₂ = 2.1260498 ± ")
     assert view.result.continuation.about(2.3, -2.0) == ""
     # The state that it chooses shows the orbit itself, though nothing stays there.
     after = View(SCENE, {**values, **chosen}, seen=SEEN)
-    assert after.result.continuation.closed.orbit.places[0] == pytest.approx(place, abs=1e-7)
-    assert after.points("repels") == pytest.approx(place[None], abs=1e-5)
+    assert after.result.continuation.closed.orbit.places[0] == approx(place, abs=1e-7)
+    assert after.points("repels") == approx(place[None], abs=1e-5)
     # Away from the branch a click means the diagram.
     assert view.result.choose(2.2801, 2.5)["chosen"] != chosen["chosen"]
 
@@ -393,13 +385,13 @@ def test_volume_that_is_kept_is_said(scene):
 def test_a_click_chooses_a_state_that_is_there_and_a_box_looks_closer():
     state, _ = complete(SCENE, "Period doubling", ("diagram",))
     chosen = state.choose(0.0501, 0.9)
-    assert chosen["I23"] == pytest.approx(0.0501, abs=0.0016)
+    assert chosen["I23"] == approx(0.0501, abs=0.0016)
     there = SCENE.compute({**SCENE.defaults(), **chosen}, ("section",), True)
     # The motion there is on its attractor from the beginning, at the upper of its two places; of a drag, to 1e-3.
     orbit = there.regime.sets.attractor
     assert np.abs(orbit - there.diagram.place).max(axis=1).min() < 1e-4
     assert len(np.unique(np.round(orbit[-20:, 0], 3))) == 2
-    assert there.diagram.place[0] == pytest.approx(orbit[-20:, 0].max(), abs=1e-3)
+    assert there.diagram.place[0] == approx(orbit[-20:, 0].max(), abs=1e-3)
     view = next(one for one in SCENE.views if one.name == "diagram")
     box = view.on_box(state, (0.05, 0.6, 0.15, 1.1))
     assert box == {"window": "0.05,0.6;0.15,1.1"}
@@ -430,4 +422,4 @@ def test_the_way_back_begins_where_the_way_there_ended():
     assert (there[-1].values[-1], back[0].values[0]) == (2.4, 2.4)
     body, E = replace(state, I22=2.4).body, state.poincare.E
     last, first = there[-1].places[-1][-1], back[0].places[0][0]
-    assert image(body, E, last)[0] == pytest.approx(first, abs=1e-4)
+    assert image(body, E, last)[0] == approx(first, abs=1e-4)

@@ -1,13 +1,11 @@
 """Periodic orbits in the four scenes with a section: against SciPy and closed forms, drawings and captions."""
 
-from __future__ import annotations
-
-import math
 from functools import cache
+from math import acos, atan2, hypot, inf, log, pi, remainder
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from pytest import approx
 
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.periodic_search import NONE
@@ -19,8 +17,9 @@ from hess_mechanics.euler_poisson.andoyer import hess_curve
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from support.ball import rates
 from support.board import Browser
-from support.suslov import field
-from support.view import View
+from support.mechanics import scipy_crossings
+from support.suslov import field, start_on
+from support.view import View, values_of
 
 NAMES = ("suslov", "quartic", "ball-section", "euler-poisson")
 LIGHT = {
@@ -39,10 +38,6 @@ PICTURES = {
 }
 
 
-def preset(name, beginning):
-    return next(one.values for one in scenes()[name].presets if one.name.startswith(beginning))
-
-
 @cache
 def shown(name, periodic, *given, dragging=False):
     values = {**LIGHT[name], **dict(given), "periodic": periodic}
@@ -56,26 +51,15 @@ def drawn(view):
 
 def returned(body, E, place, count, sense=1.0):
     """Return (ψ, δ) of γ3 = 0 after this many returns, by SciPy, and the time."""
-    psi, delta = place
-    gamma, u = np.array([math.cos(psi), math.sin(psi), 0.0]), np.array([math.cos(psi + delta), math.sin(psi + delta)])
-    kinetic = E - np.dot((body.b1, body.b2, body.b3), gamma)
-    start = [*(u * math.sqrt(2.0 * kinetic / (body.I11 * u[0] ** 2 + body.I22 * u[1] ** 2))), *gamma]
-
-    def height(t, y):
-        return y[4]
-
-    height.direction = sense
-    found = solve_ivp(
-        lambda _, y: sense * field(body, y), (0.0, 60.0 * count), start, "DOP853", rtol=1e-12, atol=1e-13, events=height
-    )
-    later = np.flatnonzero(found.t_events[0] > 1e-6)[count - 1]
-    w1, w2, g1, g2, _ = found.y_events[0][later]
-    psi = math.atan2(g2, g1)
-    return np.array([psi, abs(math.remainder(math.atan2(w2, w1) - psi, 2.0 * math.pi))]), found.t_events[0][later]
+    start = start_on(body, E, *place)
+    times, states = scipy_crossings(lambda y: sense * field(body, y), start, lambda y: y[4], 60.0 * count, sense)
+    w1, w2, g1, g2, _ = states[count - 1]
+    psi = atan2(g2, g1)
+    return np.array([psi, abs(remainder(atan2(w2, w1) - psi, 2.0 * pi))]), times[count - 1]
 
 
 @pytest.mark.parametrize(
-    ("periodic", "start", "kind", "example"),
+    "periodic, start, kind, example",
     [
         ("period 1", "1,1", "saddle with reflection", "A chaotic"),
         ("period 2", "1,1", "saddle with reflection", "Strange"),
@@ -83,14 +67,14 @@ def returned(body, E, place, count, sense=1.0):
     ],
 )
 def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(periodic, start, kind, example):
-    given = {**preset("suslov", example), **LIGHT["suslov"], "colours": "forward only", "starts": start}
+    given = {**values_of(scenes()["suslov"], example), **LIGHT["suslov"], "colours": "forward only", "starts": start}
     view = shown("suslov", periodic, *given.items())
     state = view.result
     orbit, m = state.periodic_orbit.closed.orbit, state.periodic_orbit.closed.orbit.period
     assert orbit.kind == kind
     for i, place in enumerate(orbit.places):
         there, _ = returned(state.body, state.E, place, 1)
-        assert there == pytest.approx(orbit.places[(i + 1) % m], abs=1e-8)
+        assert there == approx(orbit.places[(i + 1) % m], abs=1e-8)
     h = 1e-5
     sides = [
         [returned(state.body, state.E, orbit.places[0] + sign * h * axis, m)[0] for sign in (1, -1)]
@@ -101,22 +85,22 @@ def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(p
     assert np.abs(orbit.multipliers - exact).max() < 1e-5 * max(1.0, abs(exact[0]))
     # The caption has period, kind, multipliers and what they may be off.
     if exact[0].imag:
-        assert view.numbers("section", f"\nPeriod #, {kind}. Multipliers μ = # ± #i, to") == pytest.approx(
+        assert view.numbers("section", f"\nPeriod #, {kind}. Multipliers μ = # ± #i, to") == approx(
             [m, exact[0].real, abs(exact[0].imag)], rel=1e-3
         )
     else:
-        assert view.numbers("section", f"\nPeriod #, {kind}. Multipliers μ = #, #, to") == pytest.approx(
+        assert view.numbers("section", f"\nPeriod #, {kind}. Multipliers μ = #, #, to") == approx(
             [m, *np.real(exact)], rel=1e-3
         )
     assert orbit.multiplier_error < 1e-6
     time = returned(state.body, state.E, orbit.places[0], m)[1]
-    assert view.derived("T = #, periodic") == pytest.approx([time], rel=1e-5)
+    assert view.derived("T = #, periodic") == approx([time], rel=1e-5)
     across, divergence = view.numbers(
         "exponent", "\nFrom the multipliers of the periodic orbit. ln|μ₁|/T = #, div = ln|μ₁μ₂|/T = #."
     )
-    assert across == pytest.approx(math.log(abs(exact[0])) / time, abs=1e-3)
-    assert divergence == pytest.approx(math.log(abs(np.linalg.det(M))) / time, abs=1e-3)
-    assert np.unique(view.curve("exponent-lambda")[1]) == pytest.approx([across], abs=1e-4)
+    assert across == approx(log(abs(exact[0])) / time, abs=1e-3)
+    assert divergence == approx(log(abs(np.linalg.det(M))) / time, abs=1e-3)
+    assert np.unique(view.curve("exponent-lambda")[1]) == approx([across], abs=1e-4)
     # Its points have the sign of its kind, and the linked pictures show it, once round.
     assert drawn(view) == (
         {"attracts"}
@@ -124,18 +108,18 @@ def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(p
         else {*SADDLE, *({"homoclinic"} if state.periodic_orbit.homoclinic else ())}
     )
     sign = "attracts" if kind.startswith("stable") else "repels"
-    assert view.points(sign) == pytest.approx(orbit.places)
+    assert view.points(sign) == approx(orbit.places)
     track = view.data["data-orbit"]
-    assert track["t"][-1] == pytest.approx(time, rel=1e-5)
+    assert track["t"][-1] == approx(time, rel=1e-5)
     for name in ("g1", "g2", "g3"):
-        assert track[name][-1] == pytest.approx(track[name][0], abs=2e-4)
-    assert view.points("chosen")[-1] == pytest.approx(orbit.places[0])
+        assert track[name][-1] == approx(track[name][0], abs=2e-4)
+    assert view.points("chosen")[-1] == approx(orbit.places[0])
     assert len(view.captions["section"]["verdict"]) <= 50
     assert len(view.captions["section"]["numbers"]) <= 60
 
 
 def test_points_of_the_manifolds_are_taken_along_them():
-    view = shown("suslov", "period 1", *{**preset("suslov", "A chaotic"), **LIGHT["suslov"]}.items())
+    view = shown("suslov", "period 1", *{**values_of(scenes()["suslov"], "A chaotic"), **LIGHT["suslov"]}.items())
     state = view.result
     manifolds = state.periodic_orbit.manifolds
     for curve in manifolds:
@@ -163,7 +147,7 @@ def test_a_manifold_ends_where_the_map_jumps_and_no_line_is_drawn_across():
     for curve in ends:
         # Further on by a hundredth of the return it is somewhere else.
         before, after = curve.at(curve.parameters[-1]), curve.at(curve.parameters[-1] + 0.01)
-        assert apart(curve.turns, before, curve.points[-1]) == pytest.approx([0.0, 0.0], abs=1e-6)
+        assert apart(curve.turns, before, curve.points[-1]) == approx([0.0, 0.0], abs=1e-6)
         assert np.hypot(*apart(curve.turns, after, before)) > 0.2
 
 
@@ -185,12 +169,12 @@ def test_homoclinic_points_come_from_the_saddle_and_go_to_it():
     found = state.periodic_orbit.homoclinic
     said, error = view.derived("# homoclinic points on what is drawn of them, to #; longer ones cross more often")
     assert said == len(found) == len(view.points("homoclinic")) > 20
-    assert error == pytest.approx(max(one.error for one in found), rel=0.5)
+    assert error == approx(max(one.error for one in found), rel=0.5)
     # As many as the curves have that are drawn, with those that are not certain.
     stable, unstable = (
         [one.points for one in state.periodic_orbit.manifolds if one.stable is kind] for kind in (True, False)
     )
-    shifts = 2.0 * math.pi * np.arange(-2, 3)
+    shifts = 2.0 * pi * np.arange(-2, 3)
     drawn_ = sum(
         meetings(one, other + np.array([shift, 0.0])) for one in unstable for other in stable for shift in shifts
     )
@@ -203,28 +187,19 @@ def test_homoclinic_points_come_from_the_saddle_and_go_to_it():
         assert np.abs(view.points("homoclinic") - one.place).max(axis=1).min() < 1e-6
         start = state.poincare.states_at(*one.place[:, None])[0][0]
         for sense in (1.0, -1.0):
-            run = solve_ivp(
-                lambda t, y, sense=sense: sense * np.array(rates(view.values)(t, y)),
-                (0.0, 100.0),
+            _, states = scipy_crossings(
+                lambda y, sense=sense: sense * np.array(rates(view.values)(0.0, y)),
                 start,
-                "DOP853",
+                lambda y: y[4],
+                100.0,
                 rtol=1e-9,
                 atol=1e-11,
-                events=height,
             )
             places = np.array(
-                [
-                    [math.atan2(y[3], y[2]), math.acos(y[:2] @ y[2:4] / math.hypot(*y[:2]))]
-                    for y in run.y_events[0]
-                    if y[2] * y[1] > y[3] * y[0]
-                ]
+                [[atan2(y[3], y[2]), acos(y[:2] @ y[2:4] / hypot(*y[:2]))] for y in states if y[2] * y[1] > y[3] * y[0]]
             )
-            away = np.hypot(*apart((2.0 * math.pi, math.inf), places, saddle).T)
+            away = np.hypot(*apart((2.0 * pi, inf), places, saddle).T)
             assert away.min() < 0.02
-
-
-def height(_, y):
-    return y[4]
 
 
 def _distance(curve, point):
@@ -242,7 +217,7 @@ def test_in_the_hess_case_the_saddle_has_the_multipliers_of_the_moebius_matrix_a
     exact = max(one.multiplier for one in circle_map(bridge.hess.a, h, f, level("reference")).fixed_points)
     assert np.abs(state.periodic_orbit.closed.orbit.multipliers - (exact, 1.0 / exact)).max() < 1e-9 * exact
     said = view.numbers("section", "\nPeriod #, saddle. Multipliers μ = #, #, to")
-    assert said == pytest.approx([1, exact, 1.0 / exact], rel=1e-3)
+    assert said == approx([1, exact, 1.0 / exact], rel=1e-3)
     # One of its manifolds is the Hess manifold itself.
     off = {
         stable: max(
@@ -253,33 +228,33 @@ def test_in_the_hess_case_the_saddle_has_the_multipliers_of_the_moebius_matrix_a
         for stable in (True, False)
     }
     assert min(off.values()) < 0.5 / max(state.section.pixels) < 0.1 < max(off.values())
-    assert view.numbers("exponent", "\nFrom the multipliers of the periodic orbit. ln|μ₁|/T = #.") == pytest.approx(
-        [math.log(exact) / state.periodic_orbit.closed.time], rel=1e-3
+    assert view.numbers("exponent", "\nFrom the multipliers of the periodic orbit. ln|μ₁|/T = #.") == approx(
+        [log(exact) / state.periodic_orbit.closed.time], rel=1e-3
     )
 
 
 def test_where_every_orbit_of_the_ball_closes_the_chosen_one_is_parabolic():
-    given = {**preset("ball-section", "Every orbit"), **LIGHT["ball-section"]}
+    given = {**values_of(scenes()["ball-section"], "Every orbit"), **LIGHT["ball-section"]}
     view = shown("ball-section", "period 1", *given.items())
     assert view.text["section"].split("\n")[1].startswith("Period 1, parabolic. Multipliers μ = 1, 1, to ")
     assert drawn(view) == {"neither"}
-    assert view.points("neither") == pytest.approx(np.array([[view.values["psi"], view.values["delta"]]]), abs=1e-6)
+    assert view.points("neither") == approx(np.array([[view.values["psi"], view.values["delta"]]]), abs=1e-6)
     # It is followed by itself.
     returns = view.data["returns-own"]
-    assert (np.asarray(returns["x"]), np.asarray(returns["y"])) == (pytest.approx([0.5]), pytest.approx([0.5]))
+    assert (np.asarray(returns["x"]), np.asarray(returns["y"])) == (approx([0.5]), approx([0.5]))
 
 
 def test_a_point_in_the_quartic_potential_goes_round():
     view = shown("quartic", "period 3")
     orbit = view.result.periodic_orbit.closed.orbit
     assert (orbit.period, orbit.kind, drawn(view)) == (3, "saddle", SADDLE | {"homoclinic"})
-    assert complex(orbit.multipliers.prod()).real == pytest.approx(1.0, abs=1e-8)
+    assert complex(orbit.multipliers.prod()).real == approx(1.0, abs=1e-8)
     track = view.data["data-orbit"]
     # q1 grows through 0 at its places, the first of which has the ring of the start.
-    assert (track["q1"][0], track["q2"][0]) == pytest.approx((0.0, orbit.places[0, 0]), abs=1e-5)
-    assert (track["q1"][-1], track["q2"][-1]) == pytest.approx((0.0, orbit.places[0, 0]), abs=1e-3)
+    assert (track["q1"][0], track["q2"][0]) == approx((0.0, orbit.places[0, 0]), abs=1e-5)
+    assert (track["q1"][-1], track["q2"][-1]) == approx((0.0, orbit.places[0, 0]), abs=1e-3)
     ring = view.data["domain-start"]
-    assert (ring["x"][0], ring["y"][0]) == pytest.approx((0.0, orbit.places[0, 0]), abs=1e-6)
+    assert (ring["x"][0], ring["y"][0]) == approx((0.0, orbit.places[0, 0]), abs=1e-6)
     assert len(view.result.periodic_orbit.manifolds) == 12
     assert [line for line in view.report.derived if line.startswith("symmetric under")] == [
         "symmetric under: ω1, ω2, t → −"
@@ -308,7 +283,7 @@ def test_where_none_is_found_the_chosen_orbit_is_shown_and_why():
     ]
     assert drawn(view) == set()
     assert len(view.points("own")) == 20
-    assert view.data["data-orbit"]["t"][-1] == pytest.approx(view.values["span"])
+    assert view.data["data-orbit"]["t"][-1] == approx(view.values["span"])
     assert view.text["exponent"].split("\n")[1].startswith("λ = ")
     found = shown("suslov", "period 1")
     assert "No orbit" not in found.text["section"]
@@ -359,19 +334,19 @@ def test_a_click_looks_for_one_there_and_undo_is_a_link():
 
 
 def test_a_curve_goes_round_an_angle():
-    turn = 2.0 * math.pi
+    turn = 2.0 * pi
     x = np.linspace(2.0, 2.0 + 1.5 * turn, 400)
     curve = np.column_stack([x, np.sin(x)])
-    axes = Axes((-math.pi, math.pi), (-1.0, 1.0))
+    axes = Axes((-pi, pi), (-1.0, 1.0))
     parts = within(curve, turn, axes)
     # From 2 on, once round, and a half turn to 2 + π.
     assert len(parts) == 3
     for part in parts:
-        assert part[:, 1] == pytest.approx(np.sin(part[:, 0]), abs=1e-12)
+        assert part[:, 1] == approx(np.sin(part[:, 0]), abs=1e-12)
         inner = part[1:-1, 0]
-        assert np.all((inner >= -math.pi) & (inner <= math.pi))
+        assert np.all((inner >= -pi) & (inner <= pi))
     assert sum(map(len, parts)) >= len(curve)
     # Lines in coordinates that are not angles are only clipped.
-    (part,) = within(curve, math.inf, axes)
-    assert part[-1, 0] > math.pi > part[-2, 0]
-    assert within(curve + np.array([100.0, 0.0]), math.inf, axes) == []
+    (part,) = within(curve, inf, axes)
+    assert part[-1, 0] > pi > part[-2, 0]
+    assert within(curve + np.array([100.0, 0.0]), inf, axes) == []

@@ -1,11 +1,10 @@
 """The body of the orbit on show: a rigid body's ellipsoid, wheels that obey the constraint, and how it lies."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
+from pytest import approx
 
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.solid_body import ellipsoid_of_inertia, free_I33, heavy_solid
@@ -53,25 +52,25 @@ def test_every_example_of_a_constrained_body_is_drawn_as_it_lies(name):
             assert preset.name.endswith("(not a rigid body)")
             continue
         g, e = (np.stack([body[f"{letter}{k}"] for k in (1, 2, 3)], axis=1) for letter in "ge")
-        assert np.linalg.norm(g, axis=1) == pytest.approx(1.0, abs=1e-6)
-        assert np.sum(g * e, axis=1) == pytest.approx(0.0, abs=1e-6)
+        assert np.linalg.norm(g, axis=1) == approx(1.0, abs=1e-6)
+        assert np.sum(g * e, axis=1) == approx(0.0, abs=1e-6)
         orbit = state.drawn.get("data-orbit", {})
         if "g1" in orbit:
             # So long a motion turns by 0.4 radians from one of its samples to the next.
             sagitta = 0.03 if preset.name.startswith("Started 1e-300") else 6e-3
             for k in (1, 2, 3):
-                assert np.interp(body["t"], orbit["t"], orbit[f"g{k}"]) == pytest.approx(body[f"g{k}"], abs=sagitta)
+                assert np.interp(body["t"], orbit["t"], orbit[f"g{k}"]) == approx(body[f"g{k}"], abs=sagitta)
         # A wheel rolls along e: a velocity ω × at with ω across e has no part along its axle at × e.
         at, axis = np.array(body["wheels"][:3]), np.array(body["wheels"][3:])
-        assert (at @ at, axis @ axis, at @ axis) == pytest.approx((1.0, 1.0, 0.0), abs=1e-12)
+        assert (at @ at, axis @ axis, at @ axis) == approx((1.0, 1.0, 0.0), abs=1e-12)
         for omega in np.random.default_rng(1).normal(size=(5, 3)):
             sideways = np.cross(omega, at) @ np.cross(at, axis)
-            assert sideways == pytest.approx(-(omega @ axis) * (at @ at), abs=1e-12)
-        assert axis == pytest.approx([0.0, 0.0, 1.0])
+            assert sideways == approx(-(omega @ axis) * (at @ at), abs=1e-12)
+        assert axis == approx([0.0, 0.0, 1.0])
 
 
 @pytest.mark.parametrize(
-    ("tensor", "is_body"),
+    "tensor, is_body",
     [((2.0, 1.0, 0.3, 0.2), True), ((1.0, 2.5, 0.6, 0.6), False), ((0.1, 10.0, 9.0, -10.0), False)],
 )
 def test_the_ellipsoid_is_that_of_a_rigid_body_where_there_is_one(tensor, is_body):
@@ -81,7 +80,7 @@ def test_the_ellipsoid_is_that_of_a_rigid_body_where_there_is_one(tensor, is_bod
     # The drawn surface is (ω, Iω) = const.
     for axis, half in zip(shape.axes, shape.semi_axes, strict=True):
         if half > 1.01 * min(shape.semi_axes):
-            assert half**2 * (axis @ whole @ axis) == pytest.approx(0.64 * shape.moments.min(), rel=1e-6)
+            assert half**2 * (axis @ whole @ axis) == approx(0.64 * shape.moments.min(), rel=1e-6)
     assert np.all(shape.moments > 0.0)
     moments = np.sort(shape.moments)
     assert (moments[2] <= moments[0] + moments[1]) == is_body
@@ -100,8 +99,8 @@ def test_a_heavy_body_shows_its_circular_section_and_says_whether_the_centre_of_
         normal = shape.section
         across = np.linalg.svd(normal[None])[2][1:]
         radii = [1.0 / math.sqrt(v @ np.diag(body.a) @ v) for v in (across[0], across[1], across.sum(axis=0) / 2**0.5)]
-        assert radii == pytest.approx([math.sqrt(1.5)] * 3, rel=1e-12)
+        assert radii == approx([math.sqrt(1.5)] * 3, rel=1e-12)
         assert ("not normal" in heavy.about_shape.numbers) == (away != 0.0)
         # μ < 0: the centre of mass is opposite to r.
-        assert np.asarray(heavy.mass and heavy.mass.along) == pytest.approx(-np.array(body.r))
-        assert heavy.omega[0] == pytest.approx(np.array(states[0, :3]) / moments)
+        assert np.asarray(heavy.mass and heavy.mass.along) == approx(-np.array(body.r))
+        assert heavy.omega[0] == approx(np.array(states[0, :3]) / moments)

@@ -1,14 +1,13 @@
 """The scene of the Suslov–Hess case: the density over the circle map."""
 
-from __future__ import annotations
-
-import math
 import re
 import sys
 from fractions import Fraction
+from math import copysign, hypot, pi
 
 import numpy as np
 import pytest
+from pytest import approx
 from scipy.integrate import quad
 
 from hess_explorer.compute.cache import CACHE
@@ -23,31 +22,31 @@ from hess_mechanics.suslov_hess.bifurcation import curve_point
 from support.view import View
 
 SCENE = scenes()["suslov-hess"]
-SIDE = 2.0 * math.pi
+SIDE = 2.0 * pi
 
 
-@pytest.mark.parametrize(("I23", "h", "f"), [(0.5, 0.5, 0.5), (0.3, -0.2, -0.7), (0.9, -0.5, 0.3)])
+@pytest.mark.parametrize("I23, h, f", [(0.5, 0.5, 0.5), (0.3, -0.2, -0.7), (0.9, -0.5, 0.3)])
 def test_the_curve_over_the_bottom_is_where_iterates_are(I23, h, f):
     view = View(SCENE, {"I22": 1.0, "I23": I23, "h": h, "f": f}, seen={"circle"})
     phi, height = view.curve("circle-density")
-    density = (height + math.pi) / (SIDE * EVENLY * SIDE)
-    assert np.sum(0.5 * (density[1:] + density[:-1]) * np.diff(phi)) == pytest.approx(1.0, abs=1e-3)
+    density = (height + pi) / (SIDE * EVENLY * SIDE)
+    assert np.sum(0.5 * (density[1:] + density[:-1]) * np.diff(phi)) == approx(1.0, abs=1e-3)
     orbit = circle_map(view.result.body.a, h, f, REFERENCE).iterate(0.3, 20_000)
-    shares, edges = np.histogram(orbit, 12, (-math.pi, math.pi))
-    fine = np.linspace(-math.pi, math.pi, 12 * 50 + 1)
+    shares, edges = np.histogram(orbit, 12, (-pi, pi))
+    fine = np.linspace(-pi, pi, 12 * 50 + 1)
     expected = [
         np.trapezoid(np.interp(part, phi, density), part)
         for part in (fine[i * 50 : (i + 1) * 50 + 1] for i in range(12))
     ]
-    assert edges[0] == pytest.approx(fine[0])
-    assert shares / orbit.size == pytest.approx(expected, abs=3e-3)
+    assert edges[0] == approx(fine[0])
+    assert shares / orbit.size == approx(expected, abs=3e-3)
     assert np.ptp(expected) > 0.01
     (zeta,) = view.derived("ζ of the invariant density = #")
     # Its kernel is largest on the ray to ζ, where it is (1 + |ζ|)/(1 − |ζ|) times the even density.
-    assert density.max() * SIDE == pytest.approx((1.0 + abs(zeta)) / (1.0 - abs(zeta)), rel=1e-3)
+    assert density.max() * SIDE == approx((1.0 + abs(zeta)) / (1.0 - abs(zeta)), rel=1e-3)
 
 
-@pytest.mark.parametrize(("I23", "h", "f"), [(0.5, 0.5, 0.5), (0.9, -0.5, 0.3)])
+@pytest.mark.parametrize("I23, h, f", [(0.5, 0.5, 0.5), (0.9, -0.5, 0.3)])
 def test_the_shade_of_the_torus_is_where_a_long_motion_is(I23, h, f):
     # A body of its own with this a, of which nothing is known yet.
     values = {"I22": 2.0, "I23": 2.0 * I23, "h": h, "f": f}
@@ -55,7 +54,7 @@ def test_the_shade_of_the_torus_is_where_a_long_motion_is(I23, h, f):
     (shade,) = view.data["torus-density"]["image"]
     least, most = view.numbers("torus", "The flow preserves this density. # to # times the uniform one")
     density = np.asarray(shade, float) * most
-    assert (density.min(), density.mean()) == pytest.approx((least, 1.0), rel=6e-3)
+    assert (density.min(), density.mean()) == approx((least, 1.0), rel=6e-3)
     # The orbit on show, at even times by the general kernel.
     turning = turning_points(h, f)
     times = np.linspace(0.0, 700.0 * turning.period, 40_000)
@@ -63,9 +62,9 @@ def test_the_shade_of_the_torus_is_where_a_long_motion_is(I23, h, f):
         systems()["hess"].at((I23, 1.0)), turning.state_at_lower_turn(view.values["phi0"]), times, level("precise")
     ).states
     sigma = np.remainder(times / turning.period + 0.5, 1.0) - 0.5
-    shares = np.histogram2d(np.arctan2(states[:, 0], states[:, 1]), SIDE * sigma, [8, 6], [(-math.pi, math.pi)] * 2)[0]
+    shares = np.histogram2d(np.arctan2(states[:, 0], states[:, 1]), SIDE * sigma, [8, 6], [(-pi, pi)] * 2)[0]
     expected = density.reshape(8, 15, 6, 20).sum(axis=(1, 3)) / density.size
-    assert shares / times.size == pytest.approx(expected, abs=3e-3 * expected.max() + 1e-3)
+    assert shares / times.size == approx(expected, abs=3e-3 * expected.max() + 1e-3)
     # And the columns that the moving point follows.
     orbit = view.data["data-orbit"]
     again = solve(
@@ -77,11 +76,11 @@ def test_the_shade_of_the_torus_is_where_a_long_motion_is(I23, h, f):
     away = np.exp(1j * orbit["phi"]) - np.exp(1j * np.arctan2(again[:, 0], again[:, 1]))
     assert np.max(np.abs(away)) < 1e-4
     turns = view.result.track.orbit.times / turning.period
-    assert np.exp(1j * orbit["sigma"]) == pytest.approx(np.exp(2j * math.pi * turns), abs=1e-5)
+    assert np.exp(1j * orbit["sigma"]) == approx(np.exp(2j * pi * turns), abs=1e-5)
 
 
 @pytest.mark.parametrize(
-    ("values", "words"),
+    "values, words",
     [
         ({"I23": 0.5, "h": 1.5, "f": 0.6}, "|trace| > 2: all motions but one tend to the stable limit cycle."),
         ({"I23": 0.5, "h": 0.5, "f": 1.01563456028796105}, "|trace| = 2: the two limit cycles merge."),
@@ -113,16 +112,16 @@ def test_the_moving_point_is_in_the_ring_of_the_diagram_when_n3_turns_and_beyond
     I22, I23 = 1.0, 0.5
     view = View(SCENE, {"I22": I22, "I23": I23, "h": 1.5, "f": f}, seen={"bifurcation", "omega"})
     orbit = {name: np.asarray(column, float) for name, column in view.data["data-orbit"].items()}
-    n3 = (I22 * orbit["g3"] - I23 * orbit["g2"]) / math.hypot(I22, I23)
+    n3 = (I22 * orbit["g3"] - I23 * orbit["g2"]) / hypot(I22, I23)
     # b = 1/√(I22² + I23²): the time in units b = 1.
-    times = orbit["t"] / math.hypot(I22, I23) ** 0.5
+    times = orbit["t"] / hypot(I22, I23) ** 0.5
     rate = np.gradient(n3, times)
     inner = slice(2, -2)
-    assert orbit["reach"][inner] == pytest.approx(math.copysign(1.0, f) * np.hypot(f, rate)[inner], rel=0.02)
+    assert orbit["reach"][inner] == approx(copysign(1.0, f) * np.hypot(f, rate)[inner], rel=0.02)
     assert np.all(np.abs(orbit["reach"]) >= abs(f) * (1.0 - 1e-6))
     turns = np.abs(rate) < 0.02
     assert turns.any()
-    assert orbit["reach"][turns] == pytest.approx(f, rel=2e-3)
+    assert orbit["reach"][turns] == approx(f, rel=2e-3)
     assert np.max(np.abs(orbit["reach"])) > 1.5 * abs(f)
 
 
@@ -135,7 +134,7 @@ def ends(text):
 
 
 @pytest.mark.parametrize(
-    ("I23", "h", "f"), [(0.5, 1.5, 0.6), (0.1, 1.5, 0.6), (0.5, 0.5, 1.01563456028796105), (0.3, 0.2, 0.0)]
+    "I23, h, f", [(0.5, 1.5, 0.6), (0.1, 1.5, 0.6), (0.5, 0.5, 1.01563456028796105), (0.3, 0.2, 0.0)]
 )
 def test_the_caption_of_the_circle_map_says_what_is_proved_when_it_is_found(I23, h, f):
     # A body of its own with this a, of which nothing is known yet.
@@ -225,7 +224,7 @@ def test_proved_cells_grow_and_their_outlines_lie_on_one_side_of_the_boundary(mo
         sum(0.5 * abs(np.sum(np.asarray(h)[:-1] * np.diff(f) - np.asarray(f)[:-1] * np.diff(h))) for h, f in outlines)
         / 2
     )
-    assert 100 * area / quad(f_max, -1 + 1e-9, 4)[0] == pytest.approx(said, abs=0.5)
+    assert 100 * area / quad(f_max, -1 + 1e-9, 4)[0] == approx(said, abs=0.5)
     # During a drag what is known stays, and nothing is begun; of another body nothing is known.
     held = View(SCENE, {**values, "h": 1.45}, seen={"bifurcation"}, dragging=True, whole=False)
     assert len(held.data["bifurcation-proved"]["xs"]) == len(outlines)

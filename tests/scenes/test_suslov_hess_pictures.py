@@ -1,27 +1,25 @@
 """The pictures of the Suslov–Hess scene: their data and captions against the general system and closed forms."""
 
-from __future__ import annotations
-
-import math
 import re
 from functools import cache
+from math import exp, hypot, pi, sqrt
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from pytest import approx
 
 from hess_explorer.scenes import scenes
 from hess_mechanics import circle_map, level, solve, systems, trace_on_curve, turning_points
 from support.mechanics import angle_between, lifted_return
 from support.suslov_hess import assert_orbit, body_of
 from support.thorough import sample
-from support.view import View
+from support.view import STATE, View
 
 SCENE = scenes()["suslov-hess"]
 DEFAULTS = SCENE.defaults()
 REFERENCE = level("reference")
 PRESETS = {preset.name: {**DEFAULTS, **preset.values} for preset in SCENE.presets}
-STATE = ("omega1", "omega2", "g1", "g2", "g3")
 a = DEFAULTS["I23"] / DEFAULTS["I22"]
 
 
@@ -29,10 +27,6 @@ a = DEFAULTS["I23"] / DEFAULTS["I22"]
 def first():
     """The scene in its first state, h = 1.5, f = 0.6."""
     return View(SCENE, DEFAULTS)
-
-
-def columns_of(data, *names):
-    return np.column_stack([data[name] for name in names]).astype(float)
 
 
 def numbers_in(text):
@@ -58,7 +52,7 @@ def test_an_example_is_the_one_of_the_equations_with_the_right_numbers(name):
     values = PRESETS[name]
     h, f = values["h"], values["f"]
     view = View(SCENE, values, noted=True)
-    orbit = columns_of(view.data["data-orbit"], *STATE)
+    orbit = view.columns("data-orbit", *STATE)
     # Its integrals in S1's own variables: E = I11 b h, F1 = 1, F2 = (Iω, γ) = I11 √b f.
     body = body_of(values)
     found = systems()["suslov"].integrals(orbit.T, body.suslov.parameters)
@@ -67,8 +61,8 @@ def test_an_example_is_the_one_of_the_equations_with_the_right_numbers(name):
     scale = max(1.0, float(np.max(orbit[:, :2] ** 2)) * body.I11)
     assert np.max(np.abs(found["E"] - body.I11 * body.b * h)) < 3e-6 * scale
     assert np.max(np.abs(found["F1"] - 1)) < 3e-6
-    assert np.max(np.abs(momentum - body.I11 * math.sqrt(body.b) * f)) < 3e-6 * scale
-    assert numbers_in(view.text["bifurcation"])[:2] == pytest.approx([h, f], rel=6e-4, abs=1e-12)
+    assert np.max(np.abs(momentum - body.I11 * sqrt(body.b) * f)) < 3e-6 * scale
+    assert numbers_in(view.text["bifurcation"])[:2] == approx([h, f], rel=6e-4, abs=1e-12)
     if name.startswith("Separatrix"):
         assert "no return" in view.text["circle"]
         return
@@ -77,15 +71,15 @@ def test_an_example_is_the_one_of_the_equations_with_the_right_numbers(name):
     roots = turning_points(h, f).roots
     # Two that are the same are said once.
     heights = numbers_in(view.text["sphere"].replace("n₃", ""))
-    assert (2 * heights)[-2:] == pytest.approx(roots[1:], rel=6e-4)
+    assert (2 * heights)[-2:] == approx(roots[1:], rel=6e-4)
     # |w| = |f|/(1 − n²)^½ at a turn: where h + n cancels this does not.
-    speeds = [abs(f) / math.sqrt(1 - n * n) if h + n < 0.1 else math.sqrt(2 * (h + n)) for n in roots[1:]]
+    speeds = [abs(f) / sqrt(1 - n * n) if h + n < 0.1 else sqrt(2 * (h + n)) for n in roots[1:]]
     ends = numbers_in(view.text["omega"].split("|w|")[1])
-    assert ends * (3 - len(ends)) == pytest.approx(speeds, rel=6e-4)
+    assert ends * (3 - len(ends)) == approx(speeds, rel=6e-4)
     # The map by brute force: its slope at two fixed points, or its mean turn per return.
     ratio = values["I23"] / values["I22"]
     exact = circle_map(ratio, h, f, REFERENCE)
-    assert caption_numbers(view, "ρ =")[0] == pytest.approx(exact.rotation_number, rel=6e-4, abs=1e-4)
+    assert caption_numbers(view, "ρ =")[0] == approx(exact.rotation_number, rel=6e-4, abs=1e-4)
     if exact.kind != "hyperbolic":
         ((low, high),) = proved(view, "no cycle")
         # Both in four digits or more, and the map in doubles.
@@ -93,14 +87,14 @@ def test_an_example_is_the_one_of_the_equations_with_the_right_numbers(name):
         assert high - low <= 2e-3 * high
         return
     trace = caption_numbers(view, "|trace| =")[0]
-    assert trace == pytest.approx(exact.trace, rel=6e-4)
-    assert view.result.map.trace == pytest.approx(exact.trace, rel=6e-5, abs=1e-4)
+    assert trace == approx(exact.trace, rel=6e-4)
+    assert view.result.map.trace == approx(exact.trace, rel=6e-5, abs=1e-4)
     for point, (low, high) in zip(exact.fixed_points, proved(view, "exactly two cycles"), strict=True):
         step = 1e-3 / max(1.0, high)
         before, after = lifted_return(ratio, h, f or 1e-9, [point.phi - step, point.phi + step])
-        assert low == pytest.approx((after - before) / (2 * step), rel=3e-3)
+        assert low == approx((after - before) / (2 * step), rel=3e-3)
         assert low < high <= (1.0 + 1e-3) * low
-        assert trace == pytest.approx(low**0.5 + low**-0.5, rel=6e-4)
+        assert trace == approx(low**0.5 + low**-0.5, rel=6e-4)
 
 
 def example(beginning):
@@ -110,7 +104,7 @@ def example(beginning):
 
 def test_examples_with_a_closed_form_or_at_a_limit_show_it():
     for beginning, words, expected in (
-        ("Pendulum", "exactly two cycles", [math.exp(-0.6 * math.pi), math.exp(0.6 * math.pi)]),
+        ("Pendulum", "exactly two cycles", [exp(-0.6 * pi), exp(0.6 * pi)]),
         ("On the bifurcation curve", "no cycle", [abs(trace_on_curve(a, 0.5))]),
     ):
         found = proved(example(beginning), words)
@@ -122,19 +116,19 @@ def test_examples_with_a_closed_form_or_at_a_limit_show_it():
 def test_the_derived_quantities_are_those_of_the_formulas():
     view = View(SCENE, {"I22": 1.25, "I23": -0.5, "b3": -2.0, "h": 0.75, "f": 0.3})
     rows = dict(row.rsplit(" = ", 1) for row in "\n".join(view.report.derived).splitlines() if " = " in row)
-    I11, b = (1.25**2 + 0.25) / 1.25, 2.0 / math.sqrt(1.25**2 + 0.25)
-    expected = {"a": -0.4, "b": b, "I₁₁": I11, "b₂": -0.8, "E": I11 * b * 0.75, "F₂": I11 * math.sqrt(b) * 0.3}
+    I11, b = (1.25**2 + 0.25) / 1.25, 2.0 / sqrt(1.25**2 + 0.25)
+    expected = {"a": -0.4, "b": b, "I₁₁": I11, "b₂": -0.8, "E": I11 * b * 0.75, "F₂": I11 * sqrt(b) * 0.3}
     for name, value in expected.items():
         row = next(text for key, text in rows.items() if key.split(" ")[0] == name)
-        assert numbers_in(row)[-1] == pytest.approx(value, rel=6e-6), name
+        assert numbers_in(row)[-1] == approx(value, rel=6e-6), name
 
 
 def test_both_cycles_are_closed_orbits_of_the_equations():
     body = body_of(DEFAULTS)
     times = np.linspace(0.0, turning_points(1.5, 0.6).period / body.frequency_unit, 4001)
     for name in ("stable", "unstable"):
-        cycle = columns_of(first().data[f"data-{name}"], *STATE)
-        assert cycle[0] == pytest.approx(cycle[-1], abs=3e-6)
+        cycle = first().columns(f"data-{name}", *STATE)
+        assert cycle[0] == approx(cycle[-1], abs=3e-6)
         assert np.ptp(cycle[:, 0]) > 0.1
         exact = solve(body.suslov, cycle[0], times, REFERENCE).states
         chords = np.diff(exact, axis=0)
@@ -154,7 +148,7 @@ def test_both_cycles_are_closed_orbits_of_the_equations():
 def test_the_fixed_points_are_fixed_and_told_apart():
     stable, unstable = (first().data[f"circle-{name}"]["phi"][0] for name in ("stable", "unstable"))
     # At the lower turn the phases of the two cycles are opposite.
-    assert stable == pytest.approx(-unstable, abs=1e-6)
+    assert stable == approx(-unstable, abs=1e-6)
     for phi in (stable, unstable):
         after = lifted_return(a, 1.5, 0.6, [phi - 1e-3, phi, phi + 1e-3])
         assert angle_between(after[1], phi) < 1e-5
@@ -164,17 +158,17 @@ def test_the_fixed_points_are_fixed_and_told_apart():
 def test_the_graph_and_the_cobweb_of_the_circle_map_are_those_of_the_flow():
     graph, cobweb = first().data["circle-map"], first().data["circle-cobweb"]
     phi, theta = (np.array(graph[axis][0], float) for axis in ("xs", "ys"))
-    assert phi[[0, -1]] == pytest.approx([-math.pi, math.pi], abs=1e-5)
+    assert phi[[0, -1]] == approx([-pi, pi], abs=1e-5)
     assert np.all(np.diff(phi) >= 0)
     # One turn of Θ for one turn of φ, without a jump.
-    assert theta[-1] - theta[0] == pytest.approx(2 * math.pi, abs=1e-5)
+    assert theta[-1] - theta[0] == approx(2 * pi, abs=1e-5)
     assert np.max(np.abs(np.diff(theta))) < 0.1
     picks = np.linspace(0, phi.size - 1, 12).astype(int)
     assert angle_between(theta[picks], lifted_return(a, 1.5, 0.6, phi[picks])) < 2e-5
     x, y = np.array(cobweb["phi"]), np.array(cobweb["theta"])
     assert np.all((np.diff(x) == 0) | (np.diff(y) == 0))
     iterates = y[::2]
-    assert iterates[0] == pytest.approx(0.5, abs=1e-6)
+    assert iterates[0] == approx(0.5, abs=1e-6)
     assert iterates.size >= 10
     assert angle_between(iterates[1:], lifted_return(a, 1.5, 0.6, iterates[:-1])) < 2e-5
 
@@ -183,16 +177,16 @@ def test_the_boundary_of_the_locked_zone_has_trace_two():
     data = View(SCENE, {"I22": 1.0, "I23": 0.5}, seen={"bifurcation"}, noted=True).data
     boundary, zone = data["bifurcation-boundary"], data["bifurcation-locked"]
     h, f = (np.array(boundary[axis][0], float) for axis in ("xs", "ys"))
-    assert np.array(boundary["xs"][1]) == pytest.approx(h)
-    assert np.array(boundary["ys"][1]) == pytest.approx(-f)
-    assert (h[-1], f[-1]) == pytest.approx((1.0, 0.0), abs=1e-6)
+    assert np.array(boundary["xs"][1]) == approx(h)
+    assert np.array(boundary["ys"][1]) == approx(-f)
+    assert (h[-1], f[-1]) == approx((1.0, 0.0), abs=1e-6)
     # It meets the curve at h* = (1 − 2a²)/(2a√(1 + a²)).
-    assert h[0] == pytest.approx(0.5 / math.sqrt(1.25), rel=1e-6)
+    assert h[0] == approx(0.5 / sqrt(1.25), rel=1e-6)
     for i in range(1, h.size - 1, 5):
-        assert circle_map(0.5, h[i], f[i], REFERENCE).trace == pytest.approx(2.0, abs=2e-4)
+        assert circle_map(0.5, h[i], f[i], REFERENCE).trace == approx(2.0, abs=2e-4)
         assert circle_map(0.5, h[i] + 0.05, f[i], REFERENCE).kind == "hyperbolic"
-    assert zone["xs"][0][0][0][: h.size] == pytest.approx(h, rel=1e-6)
-    assert zone["ys"][0][0][0][: h.size] == pytest.approx(f, rel=1e-6, abs=1e-7)
+    assert zone["xs"][0][0][0][: h.size] == approx(h, rel=1e-6)
+    assert zone["ys"][0][0][0][: h.size] == approx(f, rel=1e-6, abs=1e-7)
 
 
 def edge(h):
@@ -211,7 +205,7 @@ def test_the_edge_of_the_region_is_the_corrected_curve():
         h, f = (np.array(part, float) for part in line)
         inside = (f < first().axes["bifurcation"][3] - 1e-6) & (h > -1)
         assert inside.sum() > 100
-        assert f[inside] == pytest.approx(edge(h[inside]), abs=2e-5)
+        assert f[inside] == approx(edge(h[inside]), abs=2e-5)
     special = data["bifurcation-special"]
     assert sorted(zip(special["h"], special["f"], strict=True)) == [(-1.0, 0.0), (1.0, 0.0)]
 
@@ -225,7 +219,7 @@ def test_the_colours_are_rotation_numbers():
         h = data["x"] + (j + 0.5) * data["dw"] / columns
         f = data["y"] + (i + 0.5) * data["dh"] / rows
         assert h > -1 and abs(f) < edge(h)
-        assert grid[i, j] == pytest.approx(circle_map(a, h, f, REFERENCE).rotation_number, abs=1e-3)
+        assert grid[i, j] == approx(circle_map(a, h, f, REFERENCE).rotation_number, abs=1e-3)
     assert np.ptp(grid) > 0.5
 
 
@@ -235,6 +229,6 @@ def test_the_allowed_ring_is_where_the_energy_lets_the_body_be():
     # b = 1 here: w1 = ω1, w2 = ω2/√(1 + a²), |w|² = 2(h + n3).
     for part, ring, n in ((0, 1, n2), (1, 0, n1)):
         x, y = (np.asarray(region[axis][part][0][ring], float) for axis in ("xs", "ys"))
-        assert np.hypot(x, y / math.hypot(1, a)) == pytest.approx(np.full(x.size, math.sqrt(2 * (1.5 + n))), rel=1e-5)
-    speed = np.hypot(orbit["omega1"], orbit["omega2"] / math.hypot(1, a))
-    assert (speed.min(), speed.max()) == pytest.approx([math.sqrt(2 * (1.5 + n)) for n in (n1, n2)], rel=1e-3)
+        assert np.hypot(x, y / hypot(1, a)) == approx(np.full(x.size, sqrt(2 * (1.5 + n))), rel=1e-5)
+    speed = np.hypot(orbit["omega1"], orbit["omega2"] / hypot(1, a))
+    assert (speed.min(), speed.max()) == approx([sqrt(2 * (1.5 + n)) for n in (n1, n2)], rel=1e-3)

@@ -1,11 +1,12 @@
 """Accuracy levels in the scenes: computations, status line, "auto", and the cost of all levels."""
 
 import dataclasses
-import math
 import re
+from math import pi
 
 import numpy as np
 import pytest
+from pytest import approx
 
 from benchmarks.integrators.trade import Row, as_json, as_text, costliest, names
 from hess_explorer.compute.cache import CACHE
@@ -59,7 +60,7 @@ CHEAP = [
 ]
 
 
-@pytest.mark.parametrize(("name", "trial"), CHEAP, ids=[f"{name}-{trial.kind}" for name, trial in CHEAP])
+@pytest.mark.parametrize("name, trial", CHEAP, ids=[f"{name}-{trial.kind}" for name, trial in CHEAP])
 def test_a_finer_level_has_a_smaller_error(name, trial):
     state = bare(SCENES[name].of(SCENES[name].defaults()))
     truth = trial.run(state, dataclasses.replace(PLANS[trial.kind]["reference"], level=REFERENCE.tightened()))
@@ -95,8 +96,8 @@ def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_draw
     exact = state.poincare.points([state.start], 60, True, plan.level, threads=1)
     both = min(len(state.section.own), 60)
     away = state.section.own[:both] - state.poincare.places_of(exact.states[0])[:both]
-    away[:, 0] -= 2.0 * math.pi * np.round(away[:, 0] / (2.0 * math.pi))
-    pixels = np.linalg.norm(away * [300.0 / math.pi, 600.0 / math.pi], axis=1)
+    away[:, 0] -= 2.0 * pi * np.round(away[:, 0] / (2.0 * pi))
+    pixels = np.linalg.norm(away * [300.0 / pi, 600.0 / pi], axis=1)
     # The estimate of two runs: one crossing more or less.
     assert abs(int(np.flatnonzero(pixels > 0.5)[0]) - own) <= 1
     assert 3 < others < 60
@@ -119,8 +120,8 @@ def test_orbits_that_chaos_takes_away_are_left_aside():
     regular = np.column_stack([np.linspace(0.0, 1.0, 50), np.zeros(50)])
     late = regular + np.column_stack([np.zeros(50), 1e-3 * np.arange(50)])
     lost = regular + np.column_stack([np.zeros(50), 1e-9 * np.exp(0.5 * np.arange(50))])
-    assert section_error([late, regular], [regular, regular], (1.0, 1.0)) == pytest.approx(0.049)
-    assert section_error([lost, late], [regular, regular], (1.0, 1.0)) == pytest.approx(0.049)
+    assert section_error([late, regular], [regular, regular], (1.0, 1.0)) == approx(0.049)
+    assert section_error([lost, late], [regular, regular], (1.0, 1.0)) == approx(0.049)
     assert section_error([lost], [regular], (1.0, 1.0)) == 0.0
     # From the first crossings on another one.
     assert section_error([regular + 40.0], [regular], (1.0, 1.0)) == 0.0
@@ -197,8 +198,8 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     trial = next(one for one in state.trials if one.kind == Computation.MAP)
     samples = state.costs.samples[trial]
     errors, ms = state.costs.curve(trial)
-    assert errors == pytest.approx([max(2.0 * one.error, 1e-9) for one in samples])
-    assert ms == pytest.approx([one.ms for one in samples])
+    assert errors == approx([max(2.0 * one.error, 1e-9) for one in samples])
+    assert ms == approx([one.ms for one in samples])
     assert any(row.startswith("map: ") and row.endswith(" pixels") for row in report.derived)
     # A draft of the map has a quarter of the cells: it is right, but not all.
     assert samples[0].error < 0.5
@@ -223,10 +224,6 @@ def test_what_is_too_large_to_be_measured_or_compared_says_so_and_leaves_no_axes
     assert state.comparison.about().numbers.startswith(why)
     assert state.comparison.message() == "The cloud cannot be compared"
     assert (report.todo, axes) == ((), [-1.0, 1.0, -1.0, 1.0])
-
-
-def test_a_scene_that_computes_only_its_motion_has_no_such_picture():
-    assert "trade" not in scenes()["kharlamova-accuracy"].pictures
 
 
 # ---- what the next level changes ----------------------------------------------------------------------------------
@@ -259,7 +256,7 @@ def test_the_cells_that_change_are_those_of_the_finer_grid_with_another_colour()
     share = 100.0 * changed[~nothing].mean()
     assert 3.0 < share < 12.0
     assert float(re.search(r"([\d.]+) % of the cells change\.", state.comparison.about().verdict)[1]) == (
-        pytest.approx(share, rel=0.05)
+        approx(share, rel=0.05)
     )
     assert "difference" in scenes()["rotation-number-accuracy"].open_pictures
     # More digits do not change these cells.
@@ -279,8 +276,8 @@ def test_the_points_that_move_are_those_of_the_finer_run_that_lie_elsewhere():
         )
         for one, other in zip(coarse.states, fine.states, strict=True):
             off = section.poincare.places_of(one) - section.poincare.places_of(other)[: len(one)]
-            off[:, 0] -= 2.0 * math.pi * np.round(off[:, 0] / (2.0 * math.pi))
-            away.append(np.linalg.norm(off * [300.0 / math.pi, 600.0 / math.pi], axis=1))
+            off[:, 0] -= 2.0 * pi * np.round(off[:, 0] / (2.0 * pi))
+            away.append(np.linalg.norm(off * [300.0 / pi, 600.0 / pi], axis=1))
             longer += len(other) - len(one)
     changed = np.concatenate(away) > 0.5
     assert (len(shown.changed), len(shown.same), len(shown.added)) == (changed.sum(), (~changed).sum(), longer)
@@ -324,7 +321,9 @@ def test_what_is_compared_is_one_of_the_kinds_the_costliest_at_first():
     admitted, notes = scene.admit({**scene.defaults(), "difference": "<b>"})
     assert admitted == scene.defaults()
     assert len(notes) == 1
-    assert "difference" not in scenes()["kharlamova-accuracy"].defaults()
+    # A scene that computes only its motion has no such pictures.
+    motion = scenes()["kharlamova-accuracy"]
+    assert ("difference" in motion.defaults(), "trade" in motion.pictures) == (False, False)
 
 
 def test_what_was_compared_is_remembered_when_one_comes_back():
@@ -361,45 +360,16 @@ def test_the_error_of_a_cloud_is_measured_on_the_same_points():
 
 # ---- tables -----------------------------------------------------------------------------------------------------
 
-ROWS = [
-    Row(
-        "here",
-        "section",
-        "pixels",
-        tuple(
-            LevelCost(name, ms, error, name != "draft")
-            for name, ms, error in zip(LEVELS, times, (0.2, 0.02, 0.002, 0.0), strict=True)
-        ),
-        "standard",
-    )
-    for times in ((1.0, 2.0, 4.0, 8.0), (10.0, 20.0, 40.0, 60.0))
-]
 
-
-def test_the_table_has_a_line_for_each_kind_and_the_ratio():
-    lines = as_text(ROWS).splitlines()
-    assert len(lines) == 4
-    assert lines[2] == ("| here | section | 1 ms, 0.2 | 2 ms, 0.02 | 4 ms, 0.002 | 8 ms, 0 | 8 × | standard | pixels |")
-
-
-def test_the_data_have_an_entry_for_each_level():
-    data = as_json(ROWS)
-    assert len(data) == 8
-    assert data[4] == {
-        "scene": "here",
-        "kind": "section",
-        "level": "draft",
-        "ms": 10.0,
-        "error": 0.2,
-        "unit": "pixels",
-        "complete": False,
-        "enough": "standard",
-    }
-
-
-def test_the_costliest_come_first():
-    assert costliest(ROWS, 1) == [ROWS[1]]
-    assert costliest(ROWS, 5) == [ROWS[1], ROWS[0]]
+def test_a_row_is_a_line_of_the_table_and_an_entry_of_the_data_for_each_level_and_the_costliest_comes_first():
+    levels = zip(LEVELS, (10.0, 20.0, 40.0, 60.0), (0.2, 0.02, 0.002, 0.0), strict=True)
+    dear = Row("here", "section", "pixels", tuple(LevelCost(*one, one[0] != "draft") for one in levels), "standard")
+    cheap = dataclasses.replace(dear, samples=tuple(dataclasses.replace(one, ms=one.ms / 20) for one in dear.samples))
+    *_, line = as_text([cheap, dear]).splitlines()
+    assert line == "| here | section | 10 ms, 0.2 | 20 ms, 0.02 | 40 ms, 0.002 | 60 ms, 0 | 6 × | standard | pixels |"
+    entry = {"scene": "here", "kind": "section", "level": "draft", "ms": 10.0, "error": 0.2, "unit": "pixels"}
+    assert as_json([dear])[0] == {**entry, "complete": False, "enough": "standard"}
+    assert [costliest([cheap, dear], count) for count in (1, 5)] == [[dear], [dear, cheap]]
 
 
 def test_the_accuracy_auto_of_a_work_is_none_of_the_levels():

@@ -3,11 +3,10 @@
 from math import atan2, cos, hypot, pi, sin, sqrt
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from hess_explorer.scenes import scenes
 from hess_mechanics.chaplygin_ball.equations import SYSTEM
-from support.mechanics import scipy_crossings
+from support.mechanics import followed, scipy_crossings
 
 
 def occupied(points, across=32):
@@ -35,12 +34,8 @@ def rates(values):
     return field
 
 
-def integrate(values, state, times, **options):
-    run = solve_ivp(
-        rates(values), (0.0, times[-1]), state, t_eval=times, method="DOP853", rtol=1e-11, atol=1e-14, **options
-    )
-    assert run.success
-    return run.y.T
+def integrate(values, state, times):
+    return followed(rates(values), state, times, atol=1e-14)
 
 
 def energy_of(values, state):

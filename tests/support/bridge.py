@@ -4,10 +4,10 @@ from functools import cache
 from math import copysign, cos, sin, sqrt
 
 import numpy as np
-from scipy.integrate import solve_ivp
 from scipy.special import ellipk
 
 from hess_explorer.scenes import scenes
+from support.mechanics import followed
 
 HELD = "At most # up to t = # if r·M = 0 is imposed; # if not."
 LEAK, BRIDGE = scenes()["hess-leak"], scenes()["bridge"]
@@ -45,18 +45,21 @@ def reduced(a):
     return field
 
 
+def motion_of_torus(a, h, f, phi, times):
+    """States (n, 6) of the reduced motion and its exponent, from the lower turn at the phase φ."""
+    _, lowest = period_of(h, f)
+    rho = sqrt(2.0 * (h + lowest))
+    w = rho * np.array([sin(phi), cos(phi)])
+    return followed(reduced(a), [*w, *(f / rho**2 * w), lowest, 0.0], times)
+
+
 @cache
 def exact_growth(name):
     """Return the exponent that an example gains on its stable cycle from the 15th to the 16th period."""
     a, h, f, _ = torus(values_of(LEAK, name))
-    period, lowest = period_of(h, f)
-    rho, phi = sqrt(2.0 * (h + lowest)), 0.5
-    w = rho * np.array([sin(phi), cos(phi)])
-    start = [*w, *(f / rho**2 * w), lowest, 0.0]
-    y = solve_ivp(
-        reduced(a), (0.0, 16.0 * period), start, "DOP853", [15.0 * period, 16.0 * period], rtol=1e-11, atol=1e-12
-    ).y
-    return float(y[5, 1] - y[5, 0])
+    period, _ = period_of(h, f)
+    before, after = motion_of_torus(a, h, f, 0.5, [15.0 * period, 16.0 * period])[:, 5]
+    return float(after - before)
 
 
 def values_of(scene, name):

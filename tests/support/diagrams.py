@@ -1,10 +1,10 @@
 """Orbit diagrams without a browser, and their return map on γ3 = 0 by SciPy."""
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from hess_explorer.compute.cache import CACHE
 from support.captions import as_text
+from support.mechanics import scipy_crossings
 
 
 def complete(scene, beginning, seen, **changes):
@@ -23,15 +23,9 @@ def complete(scene, beginning, seen, **changes):
 
 def crossings(rates, start, count=1):
     """Return the first states (count, 5) after the start in which γ3 grows through 0, by SciPy."""
-
-    def height(_, y):
-        return y[4]
-
-    height.direction, height.terminal = 1.0, count + 1
-    found = solve_ivp(
-        rates, (0.0, 400.0), start, method="DOP853", rtol=1e-12, atol=1e-13, events=height, first_step=1e-3
-    )
-    return found.y_events[0][found.t_events[0] > 1e-6][:count]
+    return scipy_crossings(lambda y: rates(0.0, y), start, lambda y: y[4], 400.0, 1, count + 1, first_step=1e-3)[1][
+        :count
+    ]
 
 
 def multipliers(image, places, step=1e-4):

@@ -53,19 +53,24 @@ def scipy_states(system, state, parameters, times, rtol=1e-12, atol=1e-13):
     def rates(_, y):
         return system.field(y.tolist(), parameters)
 
-    return solve_ivp(rates, (0.0, times[-1]), state, "DOP853", times, rtol=rtol, atol=atol).y.T
+    return followed(rates, state, times, rtol, atol)
 
 
-def scipy_crossings(rates, state, height, end, direction=0, **options):
+def followed(rates, start, times, rtol=1e-11, atol=1e-13, **options):
+    """Return the states (n, d) of a motion at the times by SciPy's DOP853; rates(t, y)."""
+    return solve_ivp(rates, (0.0, times[-1]), start, "DOP853", times, rtol=rtol, atol=atol, **options).y.T
+
+
+def scipy_crossings(rates, state, height, end, direction=0, most=False, **options):
     """Return times and states where SciPy's DOP853 finds the height 0, in one direction (of the run) or both.
 
-    A crossing within 1e-6 of the start is the start itself.
+    most : ends the run after so many.  A crossing within 1e-6 of the start is the start itself.
     """
 
     def event(_, y):
         return height(y)
 
-    event.direction = direction
+    event.direction, event.terminal = direction, most
     options = {"rtol": 1e-12, "atol": 1e-13, **options}
     run = solve_ivp(lambda _, y: rates(y), (0.0, end), state, "DOP853", events=event, **options)
     times, states = run.t_events[0], run.y_events[0].reshape(-1, len(state))

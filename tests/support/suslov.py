@@ -5,6 +5,11 @@ from math import atan2, cos, pi, sin, sqrt
 import numpy as np
 from scipy.optimize import brentq
 
+from hess_mechanics import SuslovBody
+
+HESS_BODY = SuslovBody(0.96 + 0.28**2 / 0.96, 0.96, 0.0, 0.28, 0.0, 0.28 / 0.96, -1.0)
+"""Of the Hess case: I11 I22 = I22² + I23², b2 = I23/I22."""
+
 
 def field(body, y):
     """`Biz131`, with gravity."""
@@ -31,6 +36,13 @@ def energy(body, y):
     """`Biz11`."""
     w1, w2, *gamma = y
     return 0.5 * (body.I11 * w1**2 + body.I22 * w2**2) + np.dot((body.b1, body.b2, body.b3), gamma)
+
+
+def start_on(body, E, psi, delta):
+    """The state (ψ, δ) of γ3 = 0 with this energy."""
+    gamma, u = np.array([cos(psi), sin(psi), 0.0]), np.array([cos(psi + delta), sin(psi + delta)])
+    kinetic = E - np.dot((body.b1, body.b2, body.b3), gamma)
+    return np.array([*(u * sqrt(2.0 * kinetic / (body.I11 * u[0] ** 2 + body.I22 * u[1] ** 2))), *gamma])
 
 
 def permanent_rotations(body, E):

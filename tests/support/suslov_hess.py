@@ -1,7 +1,7 @@
 """The orbit of the Suslov–Hess scene, by the general system."""
 
 import numpy as np
-import pytest
+from pytest import approx
 
 from hess_explorer.protocol.parameters import Number
 from hess_explorer.scenes import scenes
@@ -32,14 +32,14 @@ def assert_orbit(explorer, values, within=2e-6):
     times = np.array(orbit["t"])
     last = min(values["span"], 100 * turning_points(values["h"], values["f"]).period / body_of(values).frequency_unit)
     assert times[0] == 0.0
-    assert times[-1] == pytest.approx(last, rel=1e-6)
+    assert times[-1] == approx(last, rel=1e-6)
     assert np.all(np.diff(times) > 0)
     picks = np.unique(np.linspace(0, times.size - 1, 7).astype(int))
     exact = exact_states(values, times[picks])
     found = np.column_stack([np.array(orbit[name])[picks] for name in ("omega1", "omega2", "g1", "g2", "g3")])
     allowed = within * np.maximum(1.0, np.abs(exact)) + rounding(values, times[picks], exact)
     assert np.max(np.abs(found - exact) - allowed) <= 0.0
-    assert explorer.here() == pytest.approx((values["h"], values["f"]), rel=1e-7)
+    assert explorer.here() == approx((values["h"], values["f"]), rel=1e-7)
 
 
 def assert_defaults(explorer, scene, **others):

@@ -1,11 +1,13 @@
 """View of a scene for given values, without a browser."""
 
 import re
+from functools import cache
 
 import numpy as np
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics.errors import WorkLimit
 from support.captions import texts_in
@@ -13,6 +15,8 @@ from support.wire import read
 
 NUMBER = r"(−?\d+(?:\.\d+)?(?:e−?\d+)?)"
 """A number as captions write it."""
+STATE = ("omega1", "omega2", "g1", "g2", "g3")
+"""The columns of an orbit of the Suslov problem."""
 
 
 def numbers_in(text, pattern):
@@ -79,6 +83,15 @@ class View:
         columns = self.data[source]
         return tuple(np.concatenate([np.asarray(part, float) for part in columns[key]] or [[]]) for key in ("xs", "ys"))
 
+    def columns(self, source, *names):
+        """Columns of a source side by side, (n, k)."""
+        return np.column_stack([self.data[source][name] for name in names]).astype(float)
+
+    def track(self, times):
+        """The drawn orbit (n, 5) at these times, straight between its samples."""
+        drawn = self.data["data-orbit"]
+        return np.column_stack([np.interp(times, drawn["t"], drawn[name]) for name in STATE])
+
     def points(self, layer):
         """The points of a layer of the section, (n, 2)."""
         columns = self.data.get(f"section-{layer}", {"x": [], "y": []})
@@ -95,3 +108,14 @@ class View:
                         assert np.all(np.isfinite(np.asarray(numbers, float))), name
         for text in [*self.text.values(), self.report.status, *self.report.derived]:
             assert not re.search(r"nan|inf\b|None", text), text
+
+
+def values_of(scene, beginning):
+    """The values of the first example whose name begins so."""
+    return next(one.values for one in scene.presets if one.name.startswith(beginning))
+
+
+@cache
+def example(name, beginning, **options):
+    """View of that example of the scene of this name."""
+    return View(scenes()[name], values_of(scenes()[name], beginning), **options)

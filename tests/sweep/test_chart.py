@@ -1,7 +1,5 @@
 """Charts of the page, without a browser: computed cells, their order, and validation of requests."""
 
-from __future__ import annotations
-
 import json
 import math
 import re
@@ -10,6 +8,7 @@ import time
 
 import numpy as np
 import pytest
+from pytest import approx
 
 from hess_explorer.__main__ import main
 from hess_explorer.compute.background import Background
@@ -95,7 +94,7 @@ class Page:
             head = self.send({"chart": {"more": known, "id": 7}})
 
 
-@pytest.mark.parametrize(("scene", "quantity"), CHARTED)
+@pytest.mark.parametrize("scene, quantity", CHARTED)
 def test_what_a_scene_offers_is_in_the_table_and_depends_on_its_sliders(scene, quantity):
     assert quantity in QUANTITIES
     found = scenes()[scene]
@@ -127,7 +126,7 @@ def test_what_the_quantity_needs_follows_from_each_state():
     for i, I23 in enumerate((0.2, 0.8)):
         for j, k in enumerate((0.5, 1.5, 2.5)):
             body = SuslovBody(1.2 + k * k * (0.1**2 + I23**2) / 1.2, 1.2, 0.1, I23)
-            assert values[i, j] == pytest.approx(cos_chi(body), rel=1e-12)
+            assert values[i, j] == approx(cos_chi(body), rel=1e-12)
     values, status = whole(
         Chart.read(wish("scene=kharlamova&p=0.7", "period", ("q1", -0.5, 2.0, 3), ("alpha", 0.1, 1.1, 2)))
     )
@@ -135,7 +134,7 @@ def test_what_the_quantity_needs_follows_from_each_state():
     for i, alpha in enumerate((0.1, 1.1)):
         for j, q1 in enumerate((-0.5, 0.75)):
             start = state_at(body, (q1, -0.2), (0.7 * math.cos(alpha), 0.7 * math.sin(alpha)))
-            assert values[i, j] == pytest.approx(arc(body, start).period, rel=1e-12)
+            assert values[i, j] == approx(arc(body, start).period, rel=1e-12)
     # Outside the ellipse, √1.5 wide, there is no start.
     assert (status[:, 2] == Outcome.INVALID_PARAMETER).all() and np.isnan(values[:, 2]).all()
 
@@ -155,7 +154,7 @@ def test_the_place_of_a_start_on_a_section_is_a_place_of_a_chart():
     expected = sweep("megno-suslov-section", over, level="draft", **body, k=3).megno_suslov_section.values.T
     # The link has ten digits of a place, of which chaotic motions make more.
     assert np.array_equal(np.isnan(values), np.isnan(expected)) and np.isnan(values).any()
-    assert values[~np.isnan(values)] == pytest.approx(expected[~np.isnan(values)], rel=0.05)
+    assert values[~np.isnan(values)] == approx(expected[~np.isnan(values)], rel=0.05)
     assert (status[np.isnan(values)] == Outcome.OUTSIDE_REGION).all()
     assert "no motion has this energy" in chart.why(
         *(side.places[i] for side, i in zip((chart.x, chart.y), np.argwhere(np.isnan(values))[0][::-1], strict=True))
@@ -249,7 +248,7 @@ def test_why_a_cell_has_no_number_is_said():
 
 
 @pytest.mark.parametrize(
-    ("given", "said"),
+    "given, said",
     [
         ({}, "needs the link of a state"),
         (wish(state="scene=nothing"), "needs the link of a state"),
@@ -271,7 +270,6 @@ def test_why_a_cell_has_no_number_is_said():
         (wish(x=("h", 0.0, 10**400, 9)), "must be two numbers"),
         (wish(x=("h", 1.0, 1.0, 9)), "two different numbers"),
         (wish(x=("f", 0.0, 1.0, 9)), "Both axes are f"),
-        (wish("scene=suslov", "megno-suslov", x=("starts:2", 0.0, 1.0, 9)), "A side is one of .*starts:0, starts:1"),
     ],
 )
 def test_nothing_that_comes_from_outside_is_believed(given, said):
@@ -286,7 +284,7 @@ def test_numbers_are_clamped_and_turned_round():
     chart = Chart.read(
         wish("scene=suslov-hess&I22=1e9&h=nonsense", x=("h", 1e9, -5.0, 10**9), y=("f", -1e300, 1e300, -4))
     )
-    assert chart.x.low == pytest.approx(-1.0, abs=1e-8) and (chart.x.high, chart.x.count) == (1e6, MOST_SIDE)
+    assert chart.x.low == approx(-1.0, abs=1e-8) and (chart.x.high, chart.x.count) == (1e6, MOST_SIDE)
     assert (chart.y.low, chart.y.high, chart.y.count) == (-1e4, 1e4, 2)
     assert chart.values["I22"] == 1000.0
     assert chart.level is level("standard")
@@ -411,7 +409,7 @@ def test_the_part_of_a_quantity_that_has_several_numbers(tmp_path):
         assert np.array_equal(whole(Chart.read(given))[0], alone.limit_cycles.values[:, :, i].T)
     # The file of the last one.
     head, values, status = Page().all_of(given)
-    assert head["error"] == pytest.approx(float(alone.error.max()), rel=1e-12)
+    assert head["error"] == approx(float(alone.error.max()), rel=1e-12)
     path = tmp_path / "chart.json"
     path.write_text(json.dumps(file_of(given, head, values, status)), encoding="utf-8")
     found = read(path)

@@ -1,12 +1,11 @@
 """Quantities equal hand-written loops bit for bit, and agree with other methods."""
 
-from __future__ import annotations
-
 import inspect
-import math
+from math import atan, cos, floor, hypot, log, pi, sin, sqrt
 
 import numpy as np
 import pytest
+from pytest import approx
 from scipy.optimize import brentq
 
 from hess_explorer.sweep import QUANTITIES, Outcome, sweep
@@ -48,7 +47,7 @@ def plane_period(w1, b1):
 
 def ball_returns(psi, delta, t=30.0):
     body = BallBody(*systems()["ball"].example[1])
-    states, _ = BallSection(body, 2.0 - math.hypot(body.b1, body.b2)).states_at([psi], [delta])
+    states, _ = BallSection(body, 2.0 - hypot(body.b1, body.b2)).states_at([psi], [delta])
     return float(section(body, states[0], EQUATOR, t, level("standard")).times.size)
 
 
@@ -61,14 +60,14 @@ def heavy_returns(l, x, t=20.0):
 def heavy_state(l, x):
     """By a search for the momentum G: M = G(s sin l, s cos l, x), γ as Andoyer and Deprit have it, H = 2, f = 0.5."""
     a, r, mu = (np.array(HEAVY.example[1][i:j]) for i, j in ((0, 3), (3, 6), (6, 7)))
-    s = math.sqrt(1.0 - x * x)
-    m = np.array([s * math.sin(l), s * math.cos(l), x])
-    u = np.array([-x * math.sin(l), -x * math.cos(l), s])
-    v = np.array([math.cos(l), -math.sin(l), 0.0])
+    s = sqrt(1.0 - x * x)
+    m = np.array([s * sin(l), s * cos(l), x])
+    u = np.array([-x * sin(l), -x * cos(l), s])
+    v = np.array([cos(l), -sin(l), 0.0])
     assert abs(m @ u) < 1e-12 and abs(m @ v) < 1e-12
 
     def state(G):
-        return np.array([*(G * m), *(0.5 / G * m + math.sqrt(1.0 - 0.25 / G**2) * v)])
+        return np.array([*(G * m), *(0.5 / G * m + sqrt(1.0 - 0.25 / G**2) * v)])
 
     def excess(G):
         y = state(G)
@@ -117,9 +116,9 @@ def test_limit_cycles_are_several_numbers_at_a_cell():
     theta = circle_map(0.5, 1.5, 0.6, level("precise"))
     stable, unstable, grown = found.limit_cycles.sel(h=1.5, f=0.6).values
     # Fixed points of the map, and the slope there by a difference.
-    assert theta.theta([stable, unstable]) == pytest.approx([stable, unstable], abs=1e-10)
+    assert theta.theta([stable, unstable]) == approx([stable, unstable], abs=1e-10)
     ends = theta.theta([stable - 1e-5, stable + 1e-5])
-    assert math.log((ends[1] - ends[0]) / 2e-5) == pytest.approx(grown, abs=1e-6)
+    assert log((ends[1] - ends[0]) / 2e-5) == approx(grown, abs=1e-6)
     assert found.error.values[0, 0] != found.error.values[0, 0]
     assert 0.0 < found.error.values[2, 0] < 1e-9
 
@@ -132,11 +131,11 @@ def test_trace_locking_and_birth_agree_with_the_rotation_number():
     turning = locked == 0.0
     assert turning.any()
     assert (locked == 1.0).any()
-    assert trace[turning] == pytest.approx(np.abs(2.0 * np.cos(np.pi * rho[turning])), abs=1e-9)
+    assert trace[turning] == approx(np.abs(2.0 * np.cos(np.pi * rho[turning])), abs=1e-9)
     assert np.all(trace[locked == 1.0] > 2.0)
     born = sweep("critical-a", {"h": [0.5, 1.5]}, f=0.3).critical_a.values
     for h, a in zip((0.5, 1.5), born, strict=True):
-        assert circle_map(a, h, 0.3, level("reference")).trace == pytest.approx(2.0, abs=1e-9)
+        assert circle_map(a, h, 0.3, level("reference")).trace == approx(2.0, abs=1e-9)
 
 
 def test_scattering_from_the_pole_is_the_angle_in_closed_form():
@@ -144,14 +143,14 @@ def test_scattering_from_the_pole_is_the_angle_in_closed_form():
     over = {"I11": (1.2, 4.0, 5)}
     chi = sweep("cos-chi", over, I13=0.0).cos_chi.values
     at_pole = sweep("theta-plus", over, I13=0.0, theta=0.0, phi=1.0).theta_plus.values
-    assert np.cos(at_pole) == pytest.approx(chi, abs=1e-9)
+    assert np.cos(at_pole) == approx(chi, abs=1e-9)
 
 
 def test_the_period_is_that_of_the_ball_without_a_ball():
     over = {"w1": (0.6, 1.8, 3), "b2": [-0.3, 0.2]}
     closed = sweep("period", over).period.values
     crossed = sweep("ball-period", over, D=0.0)
-    assert crossed.ball_period.values == pytest.approx(closed, rel=1e-9)
+    assert crossed.ball_period.values == approx(closed, rel=1e-9)
     assert np.all(np.abs(crossed.ball_period.values - closed) <= crossed.error.values + 1e-12)
 
 
@@ -174,7 +173,7 @@ def test_a_free_symmetric_motion_crosses_as_often_as_it_turns():
     # γ3 ~ 0.2 cos(w1 t) + sin(w1 t), through 0 from below once a turn.
     assert (
         found.crossings_suslov.values.tolist()
-        == [math.floor((20.0 * w + math.atan(0.2)) / (2 * math.pi)) for w in (0.5, 1.0, 2.0)]
+        == [floor((20.0 * w + atan(0.2)) / (2 * pi)) for w in (0.5, 1.0, 2.0)]
         == [1.0, 3.0, 6.0]
     )
 
@@ -188,7 +187,7 @@ def test_where_volume_is_kept_nothing_attracts():
         "b1": 0.3,
         "b2": -0.5,
         "b3": 1.0,
-        "h": round(1.842 + math.hypot(0.3, 0.5, 1.0), 6),
+        "h": round(1.842 + hypot(0.3, 0.5, 1.0), 6),
     }
     divergence = sweep("divergence-suslov-section", over, **body, t=100.0)
     assert divergence.divergence_suslov_section.values[0] == 0.0
@@ -204,19 +203,19 @@ def test_the_ball_without_a_ball_scatters_as_the_free_body_does():
     found = sweep("ball-theta-plus", over, level="standard", D=0.0, phi=0.4, distance=1e-6)
     by_rotation = [float(scattering(free, level("precise"), 1, 1e-6).theta_plus(theta, 0.4)) for theta in (0.6, 1.4)]
     # Their starts differ by a term of the order of the distance.
-    assert found.ball_theta_plus.values == pytest.approx(by_rotation, abs=5e-6)
+    assert found.ball_theta_plus.values == approx(by_rotation, abs=5e-6)
 
 
 def test_exponents_at_an_energy_are_those_of_the_state_there():
     found = sweep("lyapunov-suslov-section", {"h": [1e-6, 0.05, 2.5]}, level="draft", t=20.0, k=3)
     assert found.status.values.tolist() == [Outcome.INVALID_PARAMETER, Outcome.INVALID_PARAMETER, Outcome.OK]
-    E = 2.5 - math.hypot(0.3, 0.5, 1.0)
+    E = 2.5 - hypot(0.3, 0.5, 1.0)
     # By hand: γ = (cos ψ, sin ψ, 0), ω = |ω|(cos(ψ + δ), sin(ψ + δ)) with the energy E.
-    gamma, turn = (math.cos(1.0), math.sin(1.0), 0.0), (math.cos(2.0), math.sin(2.0))
-    speed = math.sqrt(2.0 * (E - 0.3 * gamma[0] + 0.5 * gamma[1]) / (2.0 * turn[0] ** 2 + turn[1] ** 2))
+    gamma, turn = (cos(1.0), sin(1.0), 0.0), (cos(2.0), sin(2.0))
+    speed = sqrt(2.0 * (E - 0.3 * gamma[0] + 0.5 * gamma[1]) / (2.0 * turn[0] ** 2 + turn[1] ** 2))
     state = (speed * turn[0], speed * turn[1], *gamma)
     by_hand = lyapunov_exponent(SUSLOV.at(SUSLOV.example[1]), state, 20.0, PLANS[Computation.EXPONENT]["draft"].level)
-    assert found.lyapunov_suslov_section.values[2] == pytest.approx(by_hand.value, abs=1e-4)
+    assert found.lyapunov_suslov_section.values[2] == approx(by_hand.value, abs=1e-4)
 
 
 def test_all_exponents_of_a_cell_stand_side_by_side():
@@ -225,7 +224,7 @@ def test_all_exponents_of_a_cell_stand_side_by_side():
     assert found.number.values.tolist() == ["1", "2", "3", "4", "5"]
     # Their sum is the divergence, which is 0 with I13 = I23 = 0 alone.
     together = found.spectrum_suslov.sum("number").values
-    assert together[0] == pytest.approx(0.0, abs=1e-6)
+    assert together[0] == approx(0.0, abs=1e-6)
     assert abs(together[1]) > 1e-4
 
 

@@ -1,7 +1,5 @@
 """Stores: resumed after every kind of end, read back, and refused if they belong to another sweep."""
 
-from __future__ import annotations
-
 import json
 import shutil
 
@@ -42,7 +40,7 @@ def interrupted_after(cells):
     return report
 
 
-@pytest.mark.parametrize(("name", "over"), [("rotation-number", TORI), ("limit-cycles", CYCLES)])
+@pytest.mark.parametrize("name, over", [("rotation-number", TORI), ("limit-cycles", CYCLES)])
 def test_a_second_run_goes_on_where_the_first_ended(tmp_path, computed, name, over):
     in_memory = sweep(name, over, a=0.5)
     pieces = len(computed)
@@ -118,7 +116,7 @@ def test_a_store_is_plain_zarr_that_says_what_it_is(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    "change, said",
     [
         ({"quantity": "trace"}, "has quantity 'rotation-number', not 'trace'"),
         ({"level": "draft"}, "has level 'precise', not 'draft'"),

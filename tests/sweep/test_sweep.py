@@ -1,7 +1,5 @@
 """`sweep`: pieces of any size, failing cells, progress, stopping, and a one-sentence message for every error."""
 
-from __future__ import annotations
-
 import signal
 import sys
 import threading
@@ -129,21 +127,6 @@ def test_what_is_done_is_returned_when_it_is_stopped(in_pieces):
     assert np.isnan(part.rotation_number.values[~done]).all()
 
 
-def test_ctrl_c_leaves_what_is_done(in_pieces):
-    in_pieces(20)
-
-    def interrupt(now):
-        if now.done:
-            raise KeyboardInterrupt
-
-    with pytest.raises(Interrupted) as stopped:
-        sweep("rotation-number", TORI, a=0.5, progress=interrupt)
-    done = int((stopped.value.dataset.status.values > 0).sum())
-    assert str(stopped.value) == f"stopped after {done} of 108 cells."
-    assert 0 < done < 108
-    assert isinstance(stopped.value, KeyboardInterrupt)
-
-
 def test_the_first_ctrl_c_lets_the_piece_end_and_the_handler_is_what_it_was(in_pieces):
     in_pieces(20)
     before = signal.getsignal(signal.SIGINT)
@@ -208,7 +191,7 @@ WRONG = [
 ]
 
 
-@pytest.mark.parametrize(("request_", "said"), WRONG, ids=[said[:30] for _, said in WRONG])
+@pytest.mark.parametrize("request_, said", WRONG, ids=[said[:30] for _, said in WRONG])
 def test_what_is_wrong_is_one_sentence(request_, said):
     name, over, fixed = request_
     with pytest.raises(InvalidParameter, match=said):
@@ -226,9 +209,7 @@ def test_work_is_capped_before_anything_is_made():
         sweep("limit-cycles", {"h": (0.0, 1.0, 10)}, a=0.5, f=0.1, most_cells=20)
 
 
-@pytest.mark.parametrize(
-    ("library", "workers"), [("xarray", None), ("zarr", None), ("distributed", "tcp://127.0.0.1:9")]
-)
+@pytest.mark.parametrize("library, workers", [("xarray", None), ("zarr", None), ("distributed", "tcp://127.0.0.1:9")])
 def test_a_library_that_is_missing_is_named_with_the_command_that_installs_it(monkeypatch, library, workers):
     monkeypatch.setitem(sys.modules, library, None)
     with pytest.raises(MissingLibrary, match=r"pip install 'hess-explorer\[sweep\]'"):

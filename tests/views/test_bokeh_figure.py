@@ -1,7 +1,5 @@
 """The figure as sent to the browser."""
 
-from __future__ import annotations
-
 import json
 import re
 

@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-import pytest
+from pytest import approx
 
 from hess_explorer.views.comparison import Cells, Curves, Frame, Marks, compared
 from hess_explorer.views.layers import Axes
@@ -24,15 +24,15 @@ def test_a_point_changes_where_it_moves_by_more_than_half_a_pixel():
     assert found.changed.tolist() == [[2.0, 1.0]]
     # Invisible points are not counted.
     assert found.added.tolist() == [[4.0, 2.0]]
-    assert found.largest == pytest.approx(0.6)
-    assert found.share == pytest.approx(1.0 / 3.0)
+    assert found.largest == approx(0.6)
+    assert found.share == approx(1.0 / 3.0)
 
 
 def test_what_the_finer_run_has_not_changes_and_an_angle_may_pass_its_cut():
     found = compared(marks([[0.001, 1.0], [2.0, 1.0]], periods=(6.0, math.inf)), marks([[5.999, 1.0]]))
     assert found.same.tolist() == [[0.001, 1.0]]
     assert found.changed.tolist() == [[2.0, 1.0]]
-    assert found.largest == pytest.approx(0.2)
+    assert found.largest == approx(0.2)
 
 
 def test_a_point_changes_where_it_moves_in_another_picture():
@@ -63,10 +63,10 @@ def test_curves_are_compared_wherever_their_points_lie():
     x = np.linspace(0.0, 6.0, 301)
     arch = np.column_stack([x, 1.0 + 0.01 * np.sin(math.pi * x / 6.0)])
     found = compared(Curves(FRAME, (ends,)), Curves(FRAME, (arch,)))
-    assert found.largest == pytest.approx(2.0, rel=1e-3)
+    assert found.largest == approx(2.0, rel=1e-3)
     # Half a pixel is passed where sin = ¼.
-    assert found.changed[:, 0].min() == pytest.approx(6.0 / math.pi * math.asin(0.25), abs=0.03)
-    assert len(found.added) == pytest.approx(len(found.changed), abs=2)
+    assert found.changed[:, 0].min() == approx(6.0 / math.pi * math.asin(0.25), abs=0.03)
+    assert len(found.added) == approx(len(found.changed), abs=2)
 
 
 def test_a_curve_that_only_one_has_is_there_and_not_elsewhere():
@@ -89,8 +89,8 @@ def test_cells_are_compared_as_the_finer_picture_has_them():
     )
     found = compared(Cells(FRAME, coarse, 0.5), Cells(FRAME, fine, 0.5))
     assert found.cells.tolist() == [[0, 0, 0, 0], [0, 0, 1, 0], [-1, 1, -1, -1], [-1] * 4]
-    assert found.share == pytest.approx(2.0 / 9.0)
-    assert found.largest == pytest.approx(0.6)
+    assert found.share == approx(2.0 / 9.0)
+    assert found.largest == approx(0.6)
     assert compared(Cells(FRAME, fine, 0.5), Cells(FRAME, fine, 0.5)).share == 0.0
     nothing = Cells(FRAME, np.full((2, 2), np.nan), 0.5)
     assert compared(nothing, nothing).share == 0.0

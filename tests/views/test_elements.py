@@ -1,7 +1,5 @@
 """Layers as HoloViews elements and as Matplotlib draws them: orientation, direction of rotation, holes."""
 
-from __future__ import annotations
-
 import math
 
 import holoviews as hv
@@ -48,7 +46,7 @@ def test_cells_lie_where_their_numbers_are():
 
 
 @pytest.mark.parametrize(
-    ("look", "drawn_as"), [({}, "nearest"), ({"smooth": True}, "bilinear"), ({"cyclic": True}, "nearest")]
+    "look, drawn_as", [({}, "nearest"), ({"smooth": True}, "bilinear"), ({"cyclic": True}, "nearest")]
 )
 def test_numbers_that_go_round_are_not_mixed(look, drawn_as):
     """The mean of −½ and ½ turns is not 0."""
@@ -66,7 +64,7 @@ def test_an_area_keeps_its_hole():
     assert points == {tuple(point) for point in (*outer.tolist(), *hole.tolist())}
 
 
-@pytest.mark.parametrize(("angle", "tip"), [(0.0, (0.0, 1.0)), (math.pi / 2.0, (-1.0, 0.0)), (-1.0, None)])
+@pytest.mark.parametrize("angle, tip", [(0.0, (0.0, 1.0)), (math.pi / 2.0, (-1.0, 0.0)), (-1.0, None)])
 def test_an_arrow_points_along_its_angle_counterclockwise_from_upwards(angle, tip):
     _, axis = drawn(
         layers.arrows("arrows", lambda _: (np.array([1.0]), np.array([1.0]), np.array([angle])), color="red")
@@ -80,7 +78,7 @@ def test_an_arrow_points_along_its_angle_counterclockwise_from_upwards(angle, ti
     assert direction == pytest.approx(tip or (-math.sin(angle), math.cos(angle)), abs=1e-9)
 
 
-@pytest.mark.parametrize(("count", "pixels"), [(10, False), (6000, True)])
+@pytest.mark.parametrize("count, pixels", [(10, False), (6000, True)])
 def test_very_many_markers_are_pixels_in_a_vector_file(count, pixels):
     x = np.linspace(0.0, 3.0, count)
     _, axis = drawn(layers.points("points", lambda _: (x, x / 2.0), color="red", size=4.0))

@@ -1,7 +1,7 @@
 """Layers and words that several scenes share."""
 
-import math
 import threading
+from math import pi, remainder
 from types import SimpleNamespace
 
 import numba
@@ -93,10 +93,10 @@ def inside(point, curve):
 
 @pytest.mark.parametrize("middle", [-3.0, 0.2, 3.0])
 def test_a_band_of_angles_is_grey_also_where_it_goes_round(middle):
-    axes = Axes((-math.pi, math.pi), (0.0, 1.0))
-    parts = [curve for (curve,) in section_plane.band(middle, 0.5, 2.0 * math.pi, axes)]
-    for angle in np.linspace(-math.pi, math.pi, 101):
-        expected = abs(math.remainder(angle - middle, 2.0 * math.pi)) < 0.5
+    axes = Axes((-pi, pi), (0.0, 1.0))
+    parts = [curve for (curve,) in section_plane.band(middle, 0.5, 2.0 * pi, axes)]
+    for angle in np.linspace(-pi, pi, 101):
+        expected = abs(remainder(angle - middle, 2.0 * pi)) < 0.5
         assert any(inside((angle, 0.5), part) for part in parts) == expected
 
 

@@ -1,7 +1,5 @@
 """Colours: visible on both themes, equal in the browser, and a periodic colour scale for turns."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path
@@ -12,23 +10,9 @@ import pytest
 from hess_explorer.page.description import describe
 from hess_explorer.scenes import scenes
 from hess_explorer.views import theme
+from support.accessible import contrast, luminance, rgb
 
 LOOKS = Path(__file__).resolve().parents[2] / "static/pictures/looks.js"
-
-
-def rgb(colour):
-    return np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)]) / 255
-
-
-def luminance(colour):
-    """Relative luminance, as WCAG defines it."""
-    parts = rgb(colour)
-    return float(np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4) @ (0.2126, 0.7152, 0.0722))
-
-
-def contrast(one, other):
-    low, high = sorted(map(luminance, (one, other)))
-    return (high + 0.05) / (low + 0.05)
 
 
 @pytest.mark.parametrize("page", [0, 1], ids=["light", "dark"])

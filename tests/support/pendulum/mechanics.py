@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from math import inf, pi, sqrt
 
 import numpy as np
 
@@ -48,7 +48,7 @@ class PendulumSection(PoincareSection):
     E: float
 
     names = ("θ", "u")
-    turns = (2.0 * math.pi, math.inf)
+    turns = (2.0 * pi, inf)
     system = SYSTEM
     surface = Plane((0.0, 0.0, 0.0, 0.0, 1.0, 0.0))
     slowness = 1.0
@@ -63,8 +63,8 @@ class PendulumSection(PoincareSection):
 
     @property
     def window(self) -> tuple[tuple[float, float], ...]:
-        fastest = math.sqrt(2.0 * max(0.0, self.E + self.g))
-        return (-math.pi, math.pi), (-fastest, fastest)
+        fastest = sqrt(2.0 * max(0.0, self.E + self.g))
+        return (-pi, pi), (-fastest, fastest)
 
     def moved(self, name: str, value: float) -> PendulumSection:
         return replace(self, **{name: value})
