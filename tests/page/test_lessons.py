@@ -148,6 +148,28 @@ def test_what_can_be_tried_is_done_for_one(explorer):
     assert page.locator(".tries .count").inner_text() == f"1 / {len(steps)}"
 
 
+def test_slider_and_box_follow_what_is_done_for_one(browser, server):
+    context = browser.new_context(viewport={"width": 1600, "height": 950}, reduced_motion="no-preference")
+    tab = Explorer(context.new_page(), server)
+    page = tab.page
+    number, step = next((i, one) for i, one in enumerate(tries()["free-suslov"].steps) if one.animation)
+    assert step.animation.name == "k"
+    tab.open("scene=free-suslov")
+    for _ in range(number):
+        page.locator(".param-try-next").click()
+    page.locator(".param-try").click()
+    # Not the value of the scene's own state.
+    start, before = step.animation.start, SCENES["free-suslov"].defaults()["k"]
+    page.wait_for_function(
+        "([low, high]) => { const k = new URLSearchParams(location.search).get('k'); return low < k && k < high }",
+        arg=[start + 0.1, before - 0.1],
+    )
+    assert min(tab.shown("k")) > start + 0.05
+    page.mouse.click(5, 5)
+    tab.assert_quiet()
+    context.close()
+
+
 def test_a_link_to_a_step_that_is_not_there_is_one_to_the_last_and_a_lesson_is_chosen_from_the_menu(explorer):
     page, lessons = explorer.page, shipped()
     explorer.goto("/?lesson=two-chaotic-layers-that-never-mix&step=99")
