@@ -276,7 +276,7 @@ def test_nonsense_in_a_link_is_clamped_key_by_key_with_a_note_each(explorer):
         assert explorer.shown(name)[0] == approx(expected[name], rel=1e-9), name
     notes = explorer.text("notes").splitlines()
     assert explorer.page.locator(".text.notes").is_visible()
-    symbols = ["I₂₂", "I₂₃", "b₃", "φ₀", "t ", "f is at"]
+    symbols = ["I₂₂", "I₂₃", "b₃", "φ₀", "t ", "f was set"]
     for symbol in [*symbols, "Accuracy", "speed", "azimuth", "elevation", "Theme", "Enlarged"]:
         assert any(symbol in note for note in notes), symbol
     assert not any("banana" in note or "blue" in note for note in notes)

@@ -704,7 +704,7 @@ def test_f_returns_to_what_was_wanted_when_h_allows_it_again():
     browser.ask(values={"f": 1.2})
     browser.ask(values={"h": -0.5})
     assert browser.session.values["f"] == approx(f_max(-0.5))
-    assert "f is at that edge" in browser.texts["notes"]
+    assert "f was set to this limit" in browser.texts["notes"]
     browser.ask(values={"h": 1.5})
     assert browser.session.values["f"] == 1.2
     assert browser.texts["notes"] == ""
@@ -785,7 +785,7 @@ def test_values_that_come_with_a_scene_count_in_it():
     assert browser.session.scene is ACCURACY
     assert browser.session.values["h"] == 0.25
     assert browser.session.values["f"] == approx(f_max(0.25))
-    assert "f is at that edge" in browser.texts["notes"]
+    assert "f was set to this limit" in browser.texts["notes"]
     assert "not a number" not in browser.texts["notes"]
 
 
