@@ -162,6 +162,7 @@ interface SceneDescription {
   essential: string[]
   handle: Handle | null
   moves: string
+  opening: string
   groups: string[]
   drawn: boolean
   charts: ChartDescription[]
@@ -352,6 +353,8 @@ interface Drawn extends Partial<Ghost> {
 /** The pictures of a scene, built. */
 interface Scene {
   name: string
+  /** Name of the picture that a phone shows first. */
+  opening: string
   grid: HTMLElement
   sources: Map<string, Source>
   cells: HTMLElement[]

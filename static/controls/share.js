@@ -6,7 +6,7 @@ import { listen, tell } from "../page/bus.js"
 import { linkTo } from "../page/embedding.js"
 import { qrCode } from "../page/qr.js"
 import { gallery } from "../pictures/gallery.js"
-import { isFolded, nameOf, titleOf } from "../pictures/picture.js"
+import { isFolded, labelOf, nameOf } from "../pictures/picture.js"
 import { dialogOf, section, snippet } from "./dialog.js"
 
 const SAID_FOR = 2000
@@ -85,8 +85,7 @@ export function shareDialog() {
       // The address bar may lag behind the screen.
       tell("address")
       link.value = linkTo()
-      pictures.put(gallery.shown.cells.map((cell, i) => [
-        nameOf(cell), scene.pictures[i].folded?.replace(/^Show (the )?/, "") ?? titleOf(cell), !isFolded(cell)]))
+      pictures.put(gallery.shown.cells.map((cell) => [nameOf(cell), labelOf(cell), !isFolded(cell)]))
       controls.put(scene.controls.map(({ name, label }) => [name, label, scene.essential.includes(name)]))
       write()
       code.replaceChildren()

@@ -12,6 +12,8 @@
  */
 
 const STEP = 2
+// Edge of a picture beside enlarged ones, as a share of the height.
+const SMALLEST = 0.1
 
 /**
  * Return the height of a caption in a column of this width, whose cells are no wider than their captions and pictures need.
@@ -139,7 +141,11 @@ function even(place) {
  */
 function enlarged(place, leading) {
   if (leading === place.count) return grid(place, leading)
-  return best(ledBy(place, leading, Math.min(place.share * place.height, 0.94 * largest(place, leading)), true))
+  const [most, high] = [largest(place, leading), place.height]
+  const large = best(ledBy(place, leading, Math.min(place.share * high, 0.94 * most), true))
+  if (large.smallest >= SMALLEST * high) return large
+  // Leave the others some room.
+  return ledBy(place, leading, 0.6 * most, true).find(({ smallest }) => smallest >= SMALLEST * high) ?? large
 }
 
 /**

@@ -27,8 +27,11 @@ export function createCell({ name, folded, hands }, corner, pointed) {
   }, element("h2.text.caption",
     element("span.title"), "\n", element("span.verdict"), " ", element("span.numbers")), corner, host, under)
   cell.classList.toggle("folded", folded !== null)
-  // The server draws a folded picture when it is unfolded.
-  if (folded !== null) cell.dataset.late = ""
+  if (folded !== null) {
+    // The server draws a folded picture when it is unfolded.
+    cell.dataset.late = ""
+    cell.dataset.label = folded.replace(/^Show (the )?/, "")
+  }
   return [cell, host]
 }
 
@@ -38,6 +41,8 @@ export const nameOf = (cell) => cell.dataset.name
 const textOf = (cell, part) => cell.querySelector(`.${part}`).textContent
 /** Return the title of a picture. @param {HTMLElement} cell */
 export const titleOf = (cell) => textOf(cell, "title")
+/** Return the name of a picture on buttons: its title, which a picture that starts folded does not have at first. @param {HTMLElement} cell */
+export const labelOf = (cell) => cell.dataset.label ?? titleOf(cell)
 /**
  * Return [title, verdict, numbers] of a picture.
  * @param {HTMLElement} cell

@@ -10,7 +10,7 @@ import { isTaken, onKeys } from "../page/keys.js"
 import { isPresenting, setType, zoom } from "../page/presenting.js"
 import { PHONE } from "../page/windows.js"
 import { arrange } from "./arrange.js"
-import { isFolded, nameOf } from "./picture.js"
+import { isFolded, labelOf, nameOf } from "./picture.js"
 import { sizePlot } from "./plot_looks.js"
 
 const MOST_LARGE = 3
@@ -26,7 +26,7 @@ const AIR = 0.3
 // Widths of the longest title, of the longest title with its verdict, of the longest line of numbers, and of the longest
 // caption in one piece.
 const TITLE = 22
-const HEAD = 34
+const HEAD = 36
 const NUMBERS = 36
 const LONGEST = 56
 // Widths of what stands beside a caption, the corner button, at a desk and in present mode.
@@ -39,6 +39,8 @@ const NARROW = 26
 const SMALLER = 0.88
 // A picture that is smaller than this in present mode, in units of the font size, is drawn in this size and scaled down.
 const LEGIBLE = 13
+// In present mode a word of a title needs this width, in units of the font size; a picture in a narrower cell has no room.
+const WORD = 9
 
 /** @param {number} width @param {number} type */
 const isNarrow = (width, type) => width / type < NARROW && !isPresenting() && !PHONE.matches
@@ -72,10 +74,12 @@ function captions(type) {
   }
   /** @param {number} count @param {number} size */
   const high = (count, size) => Math.ceil((count * LINE + AIR) * size)
-  return Object.assign((/** @type {number} */ width) => high(lines(width), own(width)), {
-    title: (/** @type {number} */ width) => high(isPresenting() ? Math.ceil(TITLE / Math.max(1, width / type - SIDE)) : 1, type),
-    wide: WIDEST * type,
-  })
+  /** @param {number} width */
+  const title = (width) => {
+    if (!isPresenting()) return high(1, type)
+    return width < WORD * type ? Infinity : high(Math.ceil(TITLE / (width / type - SIDE)), type)
+  }
+  return Object.assign((/** @type {number} */ width) => high(lines(width), own(width)), { title, wide: WIDEST * type })
 }
 
 /**
@@ -139,7 +143,8 @@ export function createStage(shelf, gallery) {
     const cells = scene.cells.filter((cell) => !isFolded(cell))
     const own = scene === gallery.shown ? large.map((name) => cells.findIndex((cell) => nameOf(cell) === name)) : []
     const chosen = own.filter((i) => i >= 0)
-    const seen = PHONE.matches ? [chosen[0] ?? 0] : cells.map((_, i) => i)
+    const opening = Math.max(0, cells.findIndex((cell) => nameOf(cell) === scene.opening))
+    const seen = PHONE.matches ? [chosen[0] ?? opening] : cells.map((_, i) => i)
     const caption = captions(type)
     const boxes = arrange({
       width, height, count: seen.length, gap: Math.round(0.6 * type), share: isPresenting() ? HALL : DESK, caption,
@@ -151,7 +156,7 @@ export function createStage(shelf, gallery) {
       label(cell, i, chosen.includes(i))
     })
     size(scene)
-    if (scene === gallery.shown && PHONE.matches) showChips(scene.cells, cells[seen[0]])
+    if (scene === gallery.shown && PHONE.matches) showChips(scene, cells[seen[0]])
   }
 
   /** @param {HTMLElement} cell @param {number} i @param {boolean} isLarge */
@@ -164,13 +169,22 @@ export function createStage(shelf, gallery) {
     corner.ariaPressed = String(isLarge)
   }
 
-  /** @param {HTMLElement[]} cells @param {HTMLElement} seen */
-  function showChips(cells, seen) {
+  /** @param {Scene} scene @param {HTMLElement} seen */
+  function showChips({ name, cells }, seen) {
     chips.hidden = cells.length < 2
-    chips.replaceChildren(...cells.map((cell, i) => button("chip", () => {
-      if (isFolded(cell)) tell("fold", nameOf(cell))
-      else enlarge([nameOf(cell)])
-    }, { ariaPressed: cell === seen, ariaLabel: `Picture ${i + 1}` }, i + 1)))
+    if (chips.dataset.scene !== name) {
+      chips.dataset.scene = name
+      chips.replaceChildren(...cells.map((cell) => button("chip", () => {
+        if (isFolded(cell)) tell("fold", nameOf(cell))
+        else enlarge([nameOf(cell)])
+      })))
+    }
+    const items = /** @type {HTMLElement[]} */ ([...chips.children])
+    items.forEach((chip, i) => {
+      chip.textContent = labelOf(cells[i])
+      chip.ariaPressed = String(cells[i] === seen)
+    })
+    items[cells.indexOf(seen)].scrollIntoView({ block: "nearest", inline: "nearest" })
   }
 
   /** @param {string[]} names */
@@ -211,6 +225,8 @@ export function createStage(shelf, gallery) {
     // Wait until the page has its new sizes.
     presenting: () => requestAnimationFrame(placeShown),
     client(own) { wanted = own.large ?? "" },
+    // Their titles are the names on the chips.
+    painted() { if (PHONE.matches) placeShown() },
     // The picture of a lesson step.
     look(name) {
       if (isFolded(gallery.cell(name))) tell("fold", name)

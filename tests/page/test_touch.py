@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from hess_explorer.headless.browser import wait_ready
@@ -122,3 +124,47 @@ def test_a_finger_draws_a_box_and_a_cancelled_one_is_forgotten(phone):
     wait_ready(phone.page)
     x0, x1, *_ = phone.axes("map")
     assert x1 - x0 == pytest.approx(0.4 * (axes[1] - axes[0]), rel=0.1)
+
+
+def test_a_phone_opens_on_the_picture_that_the_sentence_speaks_of(phone):
+    for name in ("suslov-hess", "scattering", "orbit-diagram"):
+        tab = phone()
+        tab.change(lambda name=name: tab.page.evaluate("scene => hess.tell('scene', scene)", name))
+        scene = scenes()[name]
+        (view,) = (view for view in scene.views if tab.picture(view.name).is_visible())
+        # The sentence asks for a click or a drag: the picture takes it.
+        assert re.search("Click|Drag|drag", scene.moves)
+        assert view.describe()["hands"]
+        # Each chip has the name of its picture, and the one on show is pressed.
+        chips = tab.page.locator(".chips .chip")
+        pressed = chips.and_(tab.page.locator("[aria-pressed=true]"))
+        assert pressed.text_content() == tab.picture(view.name).locator(".title").text_content()
+        names = chips.all_text_contents()
+        assert len(set(names)) == len(scene.views)
+        assert all(re.search("[a-z]", text) for text in names)
+
+
+# The lines of the lesson's text in sight, and whether its buttons are.
+LINES = """() => {
+  const all = (root) => [...root.querySelectorAll("*")].flatMap(
+    (item) => [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
+  const items = all(document)
+  const text = items.find((item) => item.matches(".lesson .text"))
+  const range = document.createRange()
+  range.selectNodeContents(text)
+  const steps = items.find((item) => item.matches(".lesson .steps")).getBoundingClientRect()
+  const lines = [...range.getClientRects()].filter(({ bottom }) => bottom <= steps.top)
+  return { lines: new Set(lines.map(({ bottom }) => Math.round(bottom / 10))).size, bottom: steps.bottom }
+}"""
+
+
+def test_a_lesson_on_a_phone_shows_six_lines_beside_its_picture(phone):
+    tab = phone()
+    page = tab.page
+    tab.change(lambda: page.evaluate("hess.tell('lesson', 'limit-cycles-and-locking')"))
+    tab.change(page.locator(".param-next-step").click)
+    seen = page.evaluate(LINES)
+    assert seen["lines"] >= 6
+    assert seen["bottom"] <= 844
+    assert tab.picture("sphere").bounding_box()["y"] >= 0
+    page.locator(".param-leave-lesson").click()

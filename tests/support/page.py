@@ -413,8 +413,9 @@ def first_on_phone(phone_tab):
         page = phone_tab.page
         if page.evaluate("document.documentElement.dataset.scene") != scene:
             phone_tab.change(lambda: page.evaluate("scene => hess.tell('scene', scene)", scene))
-        if page.get_by_role("button", name="Picture 1", exact=True).get_attribute("aria-pressed") != "true":
-            phone_tab.change(page.get_by_role("button", name="Picture 1", exact=True).click)
+        first = page.locator(".chips .chip").first
+        if first.get_attribute("aria-pressed") != "true":
+            phone_tab.change(first.click)
         page.evaluate(HOMEWARDS)
         phone_tab.change(lambda: page.evaluate("hess.tell('reset')"))
         return phone_tab

@@ -52,6 +52,7 @@ def _describe(name: str) -> str:
             "essential": list(scene.essential),
             "handle": _handle(scene),
             "moves": scene.moves,
+            "opening": scene.opening or scene.open_pictures[0],
             "groups": list(GROUPS),
             "drawn": not all(isinstance(spec, Number | Choice) for spec in scene.specs),
             "charts": [_chart(scene, charted) for charted in scene.charts],

@@ -354,6 +354,7 @@ SCENE = Scene(
     group="Ball",
     essential=("h", "I13", "D", "psi"),
     handle="psi",
+    opening="section",
     title="Ball with a field",
     summary="The ball in a field: a section at one energy shows curves, seas and, with I₁₃ or I₂₃, attractors.",
     tracks={"orbit": lambda s: orbit_columns(s.orbit.path)},

@@ -302,6 +302,7 @@ SCENE = Scene(
     charts=exponents(SYSTEM.name, lambda s: s.given),
     group="Heavy body",
     essential=("ratio", "h", "Q1", "Q2"),
+    opening="section",
     title="Principal axis, b₁ = b₂ = 0",
     summary="The body as a point in a quartic potential: integrable for I₁₁ = I₂₂, else curves and seas in a section.",
     tracks={

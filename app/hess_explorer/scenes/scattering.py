@@ -230,6 +230,7 @@ SCENE = Scene(
     group="Free body",
     essential=("k", "I23", "theta", "phi"),
     handle="phi",
+    opening="curve",
     title="Scattering",
     summary="No field: from the circle γ leaves and its phase to the circle it joins, exact for all phases at once.",
     tracks={"orbit": lambda s: velocity_columns(s.orbit.times, s.orbit.omega, s.orbit.gamma)},

@@ -315,6 +315,7 @@ SCENE = Scene(
     group="Heavy body",
     essential=("h", "f", "I23", "phi0"),
     handle="bifurcation/here",
+    opening="bifurcation",
     title="The Suslov–Hess case",
     summary="A heavy rigid body with ω₃ = 0 whose motions live on tori: rotation, locking, limit cycles.",
     tracks={

@@ -188,6 +188,7 @@ class Scene(Generic[S]):
     essential : the parameters whose controls are open; the others are folded into their groups.
     handle : the control that a new visitor should drag: an essential parameter (the first by default) or
         "picture/layer".
+    opening : the picture that a phone shows first, of which the sentence on the controls speaks (the first by default).
     """
 
     state: type[S]
@@ -205,6 +206,7 @@ class Scene(Generic[S]):
     group: str = ""
     essential: tuple[str, ...] = ()
     handle: str = ""
+    opening: str = ""
 
     @property
     def name(self) -> str:
