@@ -13,7 +13,7 @@
 
 const STEP = 2
 // Edge of a picture beside enlarged ones, as a share of the height.
-const SMALLEST = 0.1
+const SMALLEST = 0.09
 
 /**
  * Return the height of a caption in a column of this width, whose cells are no wider than their captions and pictures need.

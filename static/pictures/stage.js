@@ -25,8 +25,8 @@ const LINE = 1.29
 const AIR = 0.3
 // Widths of the longest title, of the longest title with its verdict, of the longest line of numbers, and of the longest
 // caption in one piece.
-const TITLE = 22
-const HEAD = 36
+const TITLE = 19.5
+const HEAD = 33
 const NUMBERS = 36
 const LONGEST = 56
 // Widths of what stands beside a caption, the corner button, at a desk and in present mode.
@@ -41,6 +41,8 @@ const SMALLER = 0.88
 const LEGIBLE = 13
 // In present mode a word of a title needs this width, in units of the font size; a picture in a narrower cell has no room.
 const WORD = 9
+// Room that a line break wastes at most, in units of the font size.
+const BREAK = 4
 
 /** @param {number} width @param {number} type */
 const isNarrow = (width, type) => width / type < NARROW && !isPresenting() && !PHONE.matches
@@ -49,13 +51,15 @@ const isNarrow = (width, type) => width / type < NARROW && !isPresenting() && !P
  * Return what a caption shows in present mode, where only a few words are read from afar, and in how many lines.
  * @param {number} width of the cell
  * @param {number} type
- * @returns {{shows: "all" | "head" | "title", lines: number}}
+ * @returns {{shows: "all" | "head" | "title", lines: number, title: number}} title: lines of a title alone
  */
 function inTheHall(width, type) {
+  const room = Math.max(1, width / type - SIDE)
   /** @param {number} length */
-  const lines = (length) => Math.ceil(length / Math.max(1, width / type - SIDE))
-  if (lines(LONGEST) === 1) return { shows: "all", lines: 1 }
-  return lines(HEAD) <= 2 ? { shows: "head", lines: lines(HEAD) } : { shows: "title", lines: lines(TITLE) }
+  const lines = (length) => (length <= room ? 1 : Math.ceil((length + BREAK) / room))
+  const title = lines(TITLE)
+  if (lines(LONGEST) === 1) return { shows: "all", lines: 1, title }
+  return lines(HEAD) <= 2 ? { shows: "head", lines: lines(HEAD), title } : { shows: "title", lines: title, title }
 }
 
 /** Return the heights of captions for a font size, see `Place` in "arrange.js". @param {number} type */
@@ -77,7 +81,7 @@ function captions(type) {
   /** @param {number} width */
   const title = (width) => {
     if (!isPresenting()) return high(1, type)
-    return width < WORD * type ? Infinity : high(Math.ceil(TITLE / (width / type - SIDE)), type)
+    return width < WORD * type ? Infinity : high(inTheHall(width, type).title, type)
   }
   return Object.assign((/** @type {number} */ width) => high(lines(width), own(width)), { title, wide: WIDEST * type })
 }

@@ -127,9 +127,9 @@ def test_a_finger_draws_a_box_and_a_cancelled_one_is_forgotten(phone):
 
 
 def test_a_phone_opens_on_the_picture_that_the_sentence_speaks_of(phone):
-    for name in ("suslov-hess", "scattering", "orbit-diagram"):
-        tab = phone()
-        tab.change(lambda name=name: tab.page.evaluate("scene => hess.tell('scene', scene)", name))
+    tab = phone("quartic")
+    for name in ("scattering", "suslov-hess", "orbit-diagram"):
+        tab.change(tab.page.evaluate, "scene => hess.tell('scene', scene)", name)
         scene = scenes()[name]
         (view,) = (view for view in scene.views if tab.picture(view.name).is_visible())
         # The sentence asks for a click or a drag: the picture takes it.
@@ -161,7 +161,8 @@ LINES = """() => {
 def test_a_lesson_on_a_phone_shows_six_lines_beside_its_picture(phone):
     tab = phone()
     page = tab.page
-    tab.change(lambda: page.evaluate("hess.tell('lesson', 'limit-cycles-and-locking')"))
+    page.locator(".lesson-menu > summary").click()
+    tab.change(page.locator(".param-lesson-limit-cycles-and-locking").click)
     tab.change(page.locator(".param-next-step").click)
     seen = page.evaluate(LINES)
     assert seen["lines"] >= 6
