@@ -12,7 +12,7 @@
 //   trail [x, y, z, look]: a point that leaves a trail;  hollow: whether the body is a glass ball around an inner ball;
 //   curves [[look, weight, xs, ys, zs]] in space, weight 0 for that of the look;  axis and label of the arrow below.
 
-import { drawArrow, drawBall, drawLine, drawWheel, WHEEL } from "./body_parts.js"
+import { drawArrow, drawBall, drawLine, drawMass, drawWheel, WHEEL } from "./body_parts.js"
 import { circlePath, LOOKS } from "./looks.js"
 import { between } from "./moment.js"
 import { covers, createSolid, leaves } from "./solid.js"
@@ -76,7 +76,7 @@ function drawTrail({ ctx, stroke, use }, path, look, near) {
  * @param {number[]} semi
  */
 function drawSection({ use, stroke }, normal, radius, axes, semi) {
-  use({ ...LOOKS.second, weight: 2.5 })
+  use({ weight: 2.5, dash: [6, 4] })
   const ring = circle(normal, 0, 192)
   /** @type {number[][]} */
   const sides = [[], [], []]
@@ -126,14 +126,14 @@ export function bodyIn(source, attitude) {
    * @param {boolean} near
    */
   function drawRod(sheet, to, look, label, near) {
-    const { ctx, text, at, view, isNear, write } = sheet
+    const { ctx, text, dark, at, view, isNear, write } = sheet
     const { semi = [] } = source.data
     const { seen } = held
     const out = seen.length ? leaves(seen, semi, view(to)) : { at: 0, near: isNear(to) }
     if (out.near !== near || out.at >= 1) return
     drawLine(sheet, scaled(to, Math.min(1, out.at * 0.99)), to, look)
     const isMass = look === LOOKS.mass
-    if (isMass) drawBall(ctx, ...at(to), look.colour, BALL, text)
+    if (isMass) drawMass(ctx, ...at(to), BALL, text, dark)
     const beyond = scaled(to, 1 + 0.12 / Math.hypot(...to))
     const [right, up] = view(beyond)
     // A half-hidden label cannot be read.

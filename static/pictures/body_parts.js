@@ -49,6 +49,33 @@ export function drawBall(ctx, x, y, colour, radius, ink, plain = 0.62) {
 }
 
 /**
+ * Draw a centre of mass: a disc in quarters, as in engineering drawings.
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {number} x
+ * @param {number} y
+ * @param {number} radius
+ * @param {string} ink
+ * @param {boolean} dark
+ */
+export function drawMass(ctx, x, y, radius, ink, dark) {
+  ctx.setLineDash([])
+  ctx.lineWidth = 1.5
+  ctx.strokeStyle = ink
+  circlePath(ctx, x, y, radius)
+  ctx.fillStyle = dark ? "#121212" : "#FFFFFF"
+  ctx.fill()
+  ctx.fillStyle = ink
+  for (const quarter of [0, 2]) {
+    ctx.beginPath()
+    ctx.moveTo(x, y)
+    ctx.arc(x, y, radius, (quarter - 1) * Math.PI / 2, quarter * Math.PI / 2)
+    ctx.fill()
+  }
+  circlePath(ctx, x, y, radius)
+  ctx.stroke()
+}
+
+/**
  * Draw a wheel.
  * @param {Sheet} sheet
  * @param {Vector} touching its contact point with the sphere

@@ -89,7 +89,7 @@ export const LOOKS = {
   muted: look("muted", 1),
   limit: { weight: 1, dash: [2, 3] },
   axis: { weight: 2.5 },
-  mass: { weight: 3, colour: POINT },
+  mass: { weight: 3 },
 }
 
 /**

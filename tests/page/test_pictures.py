@@ -49,9 +49,9 @@ def test_a_click_in_the_bifurcation_diagram_chooses_the_torus_under_it(explorer,
     values = {**DEFAULTS, "h": explorer.shown("h")[0], "f": explorer.shown("f")[0]}
     assert (values["h"], values["f"]) == approx(found, rel=1e-6)
     assert_orbit(explorer, values)
-    # At t = 0 n3 turns, so the moving point stands in the middle of the ring: under the pointer.
+    # At t = 0 n3 turns, so the bound of |f| stands in the middle of the ring: under the pointer.
     explorer.page.mouse.move(5, 5)
-    rows, columns = np.nonzero(like(picture(explorer, (x - 9, y - 9, 18, 18)), theme.POINT))
+    rows, columns = np.nonzero(like(picture(explorer, (x - 9, y - 9, 18, 18)), theme.MUTED))
     assert rows.size > 40
     assert (columns.mean() - 8.5, rows.mean() - 8.5) == approx((0, 0), abs=1.5)
 
@@ -219,7 +219,7 @@ def test_the_moving_point_is_at_the_state_of_its_time_in_every_plane(explorer, t
 PAINTED = {
     "omega": (theme.ORBIT, theme.STABLE, theme.UNSTABLE, theme.POINT, theme.FORBIDDEN),
     "sphere": (theme.ORBIT, theme.STABLE, theme.UNSTABLE, theme.POINT),
-    "bifurcation": (theme.LOCKED, theme.FORBIDDEN, theme.POINT, theme.INK, theme.TURN_MAP[0]),
+    "bifurcation": (theme.LOCKED, theme.FORBIDDEN, theme.MUTED, theme.INK, theme.TURN_MAP[0]),
     "circle": (theme.MAP, theme.STABLE, theme.UNSTABLE, theme.ORBIT, theme.POINT),
 }
 

@@ -104,6 +104,9 @@ def test_a_scene_explains_itself_and_each_of_its_parameters(scene):
     legend = ElementTree.fromstring(scene.legend.strip())
     assert (legend.tag, legend.get("aria-label")) == ("ul", "Legend")
     assert len(legend) > 2
+    # One thing per line.
+    labels = {sign.label for picture in scene.views for sign in picture.legend}
+    assert {"".join(item.itertext()) for item in legend} == labels
     assert all(item.tag == "li" and re.search(r"\w", "".join(item.itertext())) for item in legend)
     assert len(ElementTree.fromstring(f"<svg>{scene.thumbnail}</svg>")) > 2
 
@@ -978,7 +981,7 @@ def test_the_legend_has_only_what_is_drawn(scene):
     # A diagram is the same with its first orbits and with all, which take long.
     view = View(scene, {}, seen=scene.open_pictures, whole="diagram" not in scene.pictures)
     numbers = {int(one) for one in view.text["signs"].split(",")}
-    shown = {look for i, look in enumerate(scene.signs) if i in numbers}
+    shown = {(sign.label, sign.kind, sign.style) for i, sign in enumerate(scene.signs) if i in numbers}
     assert shown
     layers = [(picture, layer) for picture in scene.views for layer in getattr(picture, "layers", ())]
     drawn, absent = set(), set()
@@ -991,9 +994,9 @@ def test_the_legend_has_only_what_is_drawn(scene):
                 if cells is None
                 else bool(((cells >= sign.least) & (cells < sign.least + 1)).any())
             )
-            (drawn if there else absent).add((sign.kind, sign.style))
+            (drawn if there else absent).add((sign.label, sign.kind, sign.style))
     others = {
-        (sign.kind, sign.style)
+        (sign.label, sign.kind, sign.style)
         for picture in scene.views
         for sign in picture.legend
         if sign not in [one for _, layer in layers for one in layer.legend]

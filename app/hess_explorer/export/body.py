@@ -114,6 +114,16 @@ class BodyDrawing:
             x - 0.35 * radius, y + 0.38 * radius, 0.28 * radius, facecolor="white", edgecolor="none", alpha=0.85
         )
 
+    def _mass(self, x: float, y: float) -> None:
+        """Draw a centre of mass: a disc in quarters, as in engineering drawings."""
+        canvas = self.canvas
+        ink = canvas.colour(theme.INK)
+        canvas.disc(x, y, _BALL, facecolor=canvas.colour(theme.PAPER), linewidth=0.9, edgecolor=ink)
+        for start in (0.0, math.pi):
+            angles = np.linspace(start, start + 0.5 * math.pi, 13)
+            arc = _BALL * np.column_stack([np.cos(angles), np.sin(angles)])
+            canvas.area(np.array([x, y]) + np.vstack([[0.0, 0.0], arc]), facecolor=ink, linewidth=0)
+
     def _trail(self, near: bool) -> None:
         count, most = len(self.path), _TRAIL // _PIECES
         if not count:
@@ -136,7 +146,7 @@ class BodyDrawing:
         *normal, radius = self.own["section"]
         ring = circle(self.turn @ np.array(normal), 0.0)
         sides = (ring @ self.axes.T / self.semi**2) @ self.axes
-        self.canvas.stroke(radius * ring, (LOOKS["second"][0], "-", 1.5), True, sides=sides)
+        self.canvas.stroke(radius * ring, (theme.INK, (0, (4, 3)), 1.5), True, sides=sides)
 
     def _principal_axes(self, near: bool) -> None:
         if self.axes is None:
@@ -159,7 +169,7 @@ class BodyDrawing:
         canvas.line(0.99 * at * to, to, look)
         x, y, _ = canvas.at(to)
         if ball:
-            self._ball(x, y, _BALL, look[0])
+            self._mass(x, y)
         right, up, _ = canvas.at((1.0 + 0.12 / float(np.linalg.norm(to))) * to)
         if ball:
             # Beside the ball, even if the rod points to the viewer.

@@ -11,7 +11,7 @@ from hess_explorer.export.moment import density_at, state_at
 from hess_explorer.export.shown import Shown
 from hess_explorer.views.cloud import CloudPlane
 from hess_explorer.views.elements import Colour, on_paper, overlay
-from hess_explorer.views.layers import POINT, Columns, Layer
+from hess_explorer.views.layers import Columns, Layer
 from hess_explorer.views.plot import Plot
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ def _clouds(shown: Shown, t: float) -> Iterator[tuple[Layer[Any], Columns]]:
 def _points(shown: Shown, t: float) -> Iterator[tuple[Layer[Any], Columns]]:
     plot, state = shown.picture, state_at(shown.columns.get("data-orbit", {}), shown.scene.angles, t)
     assert isinstance(plot, Plot)
-    layers = {plot.source_of(layer): layer for layer in (*plot.layers, POINT)}
+    layers = {plot.source_of(layer): layer for layer in (*plot.layers, plot.point)}
     for source, columns in plot.followers.items() if state else ():
         layer = layers[source]
         yield layer, dict(zip(layer.columns, ([state[name]] for name in columns), strict=True))

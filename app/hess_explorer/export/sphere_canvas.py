@@ -33,7 +33,7 @@ LOOKS: dict[str, Look] = {
     "limit": (theme.INK, (0, (2, 3)), 0.7),
     "muted": (theme.MUTED, "-", 0.7),
     "axis": (theme.INK, "-", 1.5),
-    "mass": (theme.POINT, "-", 1.8),
+    "mass": (theme.INK, "-", 1.8),
 }
 """Line styles by the names that `Circle`, `Mark`, `Rod`, `Trail` and the tracks use."""
 _ANGLES = np.linspace(0.0, 2.0 * math.pi, 181)

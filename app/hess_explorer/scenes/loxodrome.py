@@ -17,7 +17,7 @@ from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views.body import BodyInSpace, Curve, Rod, Shape, Trail
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.layers import Columns, Sign, column, line
+from hess_explorer.views.layers import CENTRE_OF_MASS, Columns, Sign, column, line
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Mark
 from hess_explorer.views.text import digits, power, ranging, vector
@@ -220,7 +220,7 @@ SCENE = Scene(
             signs=(
                 Sign("loxodrome", "line", "border-top: 2px solid #808080"),
                 Sign("middle axis, its track", "line", "border-top: 2px solid #0072B2"),
-                Sign("centre of mass", "dot", "background: #F0E442; border: 1.5px solid black"),
+                CENTRE_OF_MASS,
             ),
         ),
         Plot(

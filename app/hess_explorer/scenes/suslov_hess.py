@@ -345,6 +345,7 @@ SCENE = Scene(
             axes=("h", "f"),
             caption=SuslovHess.about_diagram,
             dot=("h", "reach"),
+            point=diagram.REACH,
             x=lambda s: diagram.window(s.h).x,
             y=lambda s: diagram.window(s.h).y,
             on_click=lambda s, x, y: {"h": x, "f": y},

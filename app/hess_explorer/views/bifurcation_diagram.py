@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from hess_explorer.views.layers import (
     TURNS,
     Axes,
     CellGrid,
+    Layer,
     Layers,
     Positions,
     Regions,
@@ -29,7 +30,7 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 
-__all__ = ["about", "about_torus", "frame", "impossible", "layers", "window"]
+__all__ = ["REACH", "about", "about_torus", "frame", "impossible", "layers", "window"]
 
 S = TypeVar("S")
 
@@ -117,6 +118,18 @@ def layers(
         ),
         *target("here", here, columns=corners),
     )
+
+
+REACH: Layer[Any] = points(
+    "point",
+    marker="inverted_triangle",
+    color=theme.MUTED,
+    edge=theme.PAPER,
+    edge_width=1.5,
+    size=14.0,
+    label="largest |f| possible at the moving n₃",
+)
+"""The moving point of the diagram; (h, f) is the ring, which does not move in time."""
 
 
 def about(h: float, f: float, theta: CircleMap | None) -> Caption:

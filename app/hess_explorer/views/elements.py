@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import holoviews as hv
 import numpy as np
 
-from hess_explorer.views.layers import MESSAGE, POINT, Axes, Columns, Layer
+from hess_explorer.views.layers import MESSAGE, Axes, Columns, Layer
 
 if TYPE_CHECKING:
     from hess_explorer.views.plot import Plot
@@ -60,7 +60,7 @@ def overlay(
     title : the title above the plot; colour : maps the colours of the page.
     """
     # Cells lie below all other layers.
-    layers = sorted((*plot.layers, POINT, MESSAGE), key=lambda layer: layer.glyph != "image")
+    layers = sorted((*plot.layers, plot.point, MESSAGE), key=lambda layer: layer.glyph != "image")
     drawn = [
         _element(layer, columns[plot.source_of(layer)], colour)
         for layer in layers

@@ -16,6 +16,7 @@ from hess_explorer.views import theme
 from hess_mechanics.numerics.results import Array
 
 __all__ = [
+    "CENTRE_OF_MASS",
     "MESSAGE",
     "MOVING_POINT",
     "POINT",
@@ -93,6 +94,9 @@ class Sign:
 TURNS = Sign("ρ from −½ to ½, the same", "box rho", f"background: {theme.gradient(theme.TURN_MAP)}")
 """Legend entry of the scale of rotation numbers."""
 MOVING_POINT = Sign("moving point", "dot", f"background: {theme.POINT}; border: 1.5px solid")
+_QUARTERS = f"{theme.INK} 25%, {theme.PAPER} 0 50%, {theme.INK} 0 75%, {theme.PAPER} 0"
+CENTRE_OF_MASS = Sign("centre of mass", "dot", f"background: conic-gradient({_QUARTERS}); border: 1.5px solid")
+"""Legend entry of the centre of mass, in the quarters of engineering drawings."""
 
 
 @dataclass(frozen=True)
@@ -467,5 +471,7 @@ def text(name: str, data: Callable[[S], str]) -> Layer[S]:
     return Layer(name, "text", ("x", "y", "text"), style, within=there)
 
 
-POINT: Layer[Any] = points("point", color=theme.POINT, edge=theme.INK, edge_width=1.5, size=13.0)
+POINT: Layer[Any] = replace(
+    points("point", color=theme.POINT, edge=theme.INK, edge_width=1.5, size=13.0), legend=(MOVING_POINT,)
+)
 """The moving point of a plot."""

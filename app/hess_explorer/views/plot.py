@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
 from hess_explorer.views import bokeh_figure
-from hess_explorer.views.layers import MOVING_POINT, POINT, Axes, Columns, Layer, Layers, Range, Sign, Sources
+from hess_explorer.views.layers import POINT, Axes, Columns, Layer, Layers, Range, Sign, Sources
 from hess_explorer.views.picture import Picture
 
 __all__ = ["Plot"]
@@ -32,6 +32,7 @@ class Plot(Picture[S]):
     layers : the layers from the back to the front.  The moving point and a message come on top.
     message(state) : a sentence in the middle of an empty frame; "" for none.
     dot : columns of the track "orbit" that the moving point follows; dots : further layers that follow it.
+    point : the look of the moving point, and its entry in the legend.
     ticks : positions and labels on both axes, instead of the default; y_ticks : others on the vertical axis.
     log : the logarithmic axes, "x", "y" or "xy".
     first : the axes before the first state, if they depend on the state.
@@ -45,6 +46,7 @@ class Plot(Picture[S]):
     message: Callable[[S], str] | None = None
     dot: tuple[str, str] | None = None
     dots: Mapping[str, tuple[str, str]] | None = None
+    point: Layer[S] = POINT
     ticks: Ticks | None = None
     y_ticks: Ticks | None = None
     log: str = ""
@@ -91,7 +93,7 @@ class Plot(Picture[S]):
         return (
             *(sign for layer in self.layers for sign in layer.legend),
             *self.signs,
-            *((MOVING_POINT,) if self.dot is not None else ()),
+            *(self.point.legend if self.dot is not None else ()),
         )
 
     def there(self, drawn: Mapping[str, Columns]) -> tuple[Sign, ...]:
@@ -102,7 +104,7 @@ class Plot(Picture[S]):
             for sign in layer.legend
             if _has(drawn.get(self.source_of(layer), {}), layer, sign)
         )
-        return (*found, *self.signs, *((MOVING_POINT,) if self.dot is not None and drawn.get("data-orbit") else ()))
+        return (*found, *self.signs, *(self.point.legend if self.dot is not None and drawn.get("data-orbit") else ()))
 
     @property
     def first_axes(self) -> Axes:
@@ -139,7 +141,7 @@ class Plot(Picture[S]):
     def nothing(self, sentence: str, axes: Axes | None) -> Sources:
         """Return the columns of an empty plot with the reason as message."""
         assert axes is not None
-        empty: Sources = {self.source_of(layer): {} for layer in (*self.layers, POINT)}
+        empty: Sources = {self.source_of(layer): {} for layer in (*self.layers, self.point)}
         return {**empty, **self._words((" ", " "), sentence, axes)}
 
     def _words(self, names: tuple[str, str], sentence: str, axes: Axes) -> Sources:

@@ -249,27 +249,21 @@ class Scene(Generic[S]):
         return Path(self.module).with_name(name).read_text(encoding="utf-8")
 
     @cached_property
-    def signs(self) -> Mapping[tuple[str, str], Sequence[Sign]]:
-        """The entries of the legend: the signs of all pictures, grouped by kind and style."""
-        found: dict[tuple[str, str], list[Sign]] = {}
-        for sign in (sign for view in self.views for sign in view.legend):
-            alike = found.setdefault((sign.kind, sign.style), [])
-            if sign.label not in [one.label for one in alike]:
-                alike.append(sign)
-        return found
+    def signs(self) -> tuple[Sign, ...]:
+        """The entries of the legend: the signs of all pictures, each once and with one label."""
+        return tuple(dict.fromkeys(replace(sign, least=None) for view in self.views for sign in view.legend))
 
     def shown_signs(self, there: Collection[Sign]) -> str:
         """Return the indices of the legend entries with a visible sign, separated by commas."""
-        known = {(sign.kind, sign.style) for sign in there}
-        return ",".join(str(i) for i, look in enumerate(self.signs) if look in known)
+        known = {replace(sign, least=None) for sign in there}
+        return ",".join(str(i) for i, sign in enumerate(self.signs) if sign in known)
 
     @cached_property
     def legend(self) -> str:
         """The legend of all pictures as an HTML list, one entry per sign."""
         items = (
-            f'<li><span class="{kind}" style="{in_css(style)}"></span>'
-            f"{escape(', '.join(sign.label for sign in signs))}</li>"
-            for (kind, style), signs in self.signs.items()
+            f'<li><span class="{sign.kind}" style="{in_css(sign.style)}"></span>{escape(sign.label)}</li>'
+            for sign in self.signs
         )
         return f'<ul class="legend" aria-label="Legend">{"".join(items)}</ul>'
 

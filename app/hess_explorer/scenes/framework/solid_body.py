@@ -14,7 +14,7 @@ from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.body import BodyInSpace, Rod, Shape, Trail, Wheels
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.layers import Sign
+from hess_explorer.views.layers import CENTRE_OF_MASS, Sign
 from hess_explorer.views.poisson_sphere import Direction, centre_of_mass
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.system import Body
@@ -33,9 +33,8 @@ _LOST = 0.02
 _TOO_LONG = Caption("Not drawn: the motion is too long.", "Its samples are too far apart to follow the rotation.")
 _WHEEL = (math.sqrt(0.5), math.sqrt(0.5), 0.0)
 """Direction of a wheel's contact, normal to e; off the axes of ω1 and ω2, about which it would pivot, not roll."""
-_MASS = Sign("centre of mass", "dot", "background: #F0E442; border: 1.5px solid black")
 _TRAIL = Sign("trail of the centre of mass", "line", "border-top: 3px solid #0072B2")
-_SECTION = Sign("circular section of the gyration ellipsoid", "line", "border-top: 2.5px solid #BF6699")
+_SECTION = Sign("circular section of the gyration ellipsoid", "line", "border-top: 2.5px dashed #101010")
 
 
 @dataclass(frozen=True)
@@ -194,6 +193,6 @@ def solid_body(
         trail=trail,
         signs=(
             *((_TRAIL, _SECTION) if section else (replace(_TRAIL, label="trail of a wheel"),)),
-            *((_MASS,) if field else ()),
+            *((CENTRE_OF_MASS,) if field else ()),
         ),
     )
