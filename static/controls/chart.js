@@ -7,6 +7,7 @@ import { listen, tell } from "../page/bus.js"
 import { linkTo } from "../page/embedding.js"
 import { chartCanvas } from "../pictures/chart_canvas.js"
 import { gallery } from "../pictures/gallery.js"
+import { nameOf } from "../pictures/picture.js"
 import { around, isWithoutNumber, numberIn, placeOf, reading, stateOf } from "./chart_cells.js"
 import { fromFile, toFile } from "./chart_file.js"
 import { chartJob } from "./chart_job.js"
@@ -192,6 +193,20 @@ export function chartPanel(palettes) {
     turnTo(before.pop())
   }
 
+  // The panel stands on the side where it covers less of the pictures that show its quantity.
+  function stepAside() {
+    const shown = described()?.pictures ?? []
+    const charted = gallery.cellsInSight().filter((cell) => shown.includes(nameOf(cell)) || nameOf(cell) === gallery.pointed)
+    const { width, left } = panel.getBoundingClientRect()
+    const room = innerWidth
+    /** @param {number} from */
+    const covered = (from) => charted.map((cell) => cell.getBoundingClientRect())
+      .reduce((sum, one) => sum + Math.max(0, Math.min(from + width, one.right) - Math.max(from, one.left)), 0)
+    const isLeft = panel.classList.contains("aside")
+    const gap = isLeft ? left : room - left - width
+    panel.classList.toggle("aside", covered(gap) < covered(room - gap - width))
+  }
+
   // The form describes the chart on show, if the chart belongs to this scene.
   function fillForm() {
     if (chart.scene !== scene.name) return
@@ -324,6 +339,7 @@ export function chartPanel(palettes) {
         said.textContent = charts.length > 0 ? "" : "This scene has nothing to chart: choose another one."
       }
       panel.showPopover()
+      stepAside()
       ;(form.hidden ? load : start).focus()
     },
   }

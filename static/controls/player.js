@@ -38,7 +38,8 @@ export function render({ el }) {
       move(slider.valueAsNumber)
     },
   })
-  const output = element("output")
+  // No live region: the clock would talk all the time.
+  const output = element("output", { ariaLive: "off" })
   const speed = element("select.param-speed", {
     ariaLabel: "Speed", title: "Speed: units of t per second", onchange: () => tell("url", { speed: speed.value }),
   }, ...SPEEDS.map((value) => new Option(`${value}×`, String(value))))

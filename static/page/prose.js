@@ -26,6 +26,7 @@ export function render({ part, el }) {
   new ResizeObserver(() => {
     for (const wide of /** @type {NodeListOf<HTMLElement>} */ (item.querySelectorAll('math[display="block"], table'))) {
       wide.tabIndex = wide.scrollWidth > wide.clientWidth ? 0 : -1
+      wide.ariaLabel = wide.tabIndex < 0 ? null : wide.matches("table") ? "Table" : "Formula"
     }
   }).observe(item)
   listen({

@@ -7,6 +7,7 @@ import { render as renderBar } from "../controls/bar.js"
 import { render as renderControls } from "../controls/controls.js"
 import { render as renderPlayer } from "../controls/player.js"
 import { render as renderPictures } from "../pictures/gallery.js"
+import { announcer } from "./announce.js"
 import { listen, tell } from "./bus.js"
 import { startClient } from "./client.js"
 import { linkTo } from "./embedding.js"
@@ -116,16 +117,21 @@ export function render({ model, view, el }) {
     element("div.reading", mount("lessons", renderLessons, { index: model.lessons }), mount("prose", renderProse, { part: "words" })),
     element("div.signs", mount("prose", renderProse, { part: "legend" })))
   // Scrolling columns are reached with the keyboard.
-  for (const column of [controls, ...reader.children]) /** @type {HTMLElement} */ (column).tabIndex = 0
-  const stage = element("div.stage", mount("pictures", renderPictures), mount("player", renderPlayer))
+  const [reading, signs] = /** @type {Iterable<HTMLElement>} */ (reader.children)
+  for (const column of [controls, reading, signs]) column.tabIndex = 0
+  for (const [column, ariaLabel] of /** @type {[HTMLElement, string][]} */ ([[reading, "What you see"], [signs, "Legend"]])) {
+    Object.assign(column, { role: "region", ariaLabel })
+  }
+  const stage = element("div.stage", mount("pictures", renderPictures),
+    element("div.below", mount("player", renderPlayer), mount("progress", renderProgress)))
   const { scenes, files, palettes } = model
   el.classList.add("frame")
   el.append(
     element("header.bar", mount("bar", renderBar, { scenes, files, palettes }),
-      ...rejoin(model.client), element("div.news", text("busy"), mount("progress", renderProgress))),
+      ...rejoin(model.client), element("div.news", text("busy"))),
     tabsOf({ Controls: controls, Text: reader }), controls, stage, reader,
-    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener(), drawer(el), spot())
-  sayWhatMoves(stage, /** @type {HTMLElement} */ (reader.firstChild))
+    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener(), drawer(el), spot(), announcer())
+  sayWhatMoves(stage, reading)
   wear(el)
   listen({ reading: (on) => el.classList.toggle("in-lesson", on) })
   onKeys({ f: () => tell("fullscreen"), p: () => tell("present") })

@@ -20,6 +20,18 @@ export function toPixel(value, { start, end }, pixels, scale) {
 }
 
 /**
+ * Choose a place of a plot.
+ * @param {PlotModel} model
+ * @param {number} x
+ * @param {number} y
+ * @param {boolean} drag whether a drag goes on
+ */
+export function choose(model, x, y, drag) {
+  const { name, x_range: across, y_range: up, x_scale: xScale, y_scale: yScale, inner_width: width, inner_height: height } = model
+  tell("pick", { pick: [name, toPixel(x, across, width, xScale), toPixel(y, up, height, yScale)], drag })
+}
+
+/**
  * Connect the events of a plot.
  * @param {PlotModel} model
  * @param {string[]} picks Bokeh events that choose a point ("tap", "doubletap", "pan"), "box" for a drag that draws a box and
@@ -34,9 +46,7 @@ export function connectPicks(model, picks, box, isDragging) {
   /** @param {BokehEvent} event */
   const point = ({ x, y, event_name: event }) => {
     const drag = event === "pan"
-    if (drag && !isDragging()) return
-    const { x_range: across, y_range: up, x_scale: xScale, y_scale: yScale, inner_width: width, inner_height: height } = model
-    tell("pick", { pick: [name, toPixel(x, across, width, xScale), toPixel(y, up, height, yScale)], drag })
+    if (!drag || isDragging()) choose(model, x, y, drag)
   }
   for (const pick of picks) {
     if (pick === "hover") callbacks.mousemove = [({ x, y }) => tell("hover", [name, x, y])]

@@ -12,6 +12,14 @@ const HINTS = {
   click: "Click to choose values",
 }
 
+// What the keyboard does there, see "plot_keys.js".
+/** @type {Record<string, string>} */
+const KEYS = {
+  drag: "arrow keys move the ring",
+  box: "arrow keys move a cross, Enter chooses",
+  click: "arrow keys move a cross, Enter chooses",
+}
+
 /**
  * Return [cell, host]; the picture is drawn into the host.
  * @param {PictureDescription} picture
@@ -20,7 +28,7 @@ const HINTS = {
  * @returns {[HTMLElement, HTMLElement]}
  */
 export function createCell({ name, folded, hands }, corner, pointed) {
-  const host = element(`div.host.hands-${hands}`, { title: HINTS[hands] ?? "" })
+  const host = element(`div.host.hands-${hands}`, { title: HINTS[hands] ?? "", dataset: { hands } })
   const under = element("output.text.hover", { hidden: true })
   const cell = element(`section.picture.picture-${name}`, {
     dataset: { name }, onpointerenter: pointed, onmouseleave: () => { under.hidden = true },
@@ -65,6 +73,9 @@ const spans = (text) => unbroken(text).map((part, i) => i % 2 ? element("span.un
 export function fillCaption(cell, { [nameOf(cell)]: caption }) {
   if (caption === undefined) return
   for (const [part, text] of Object.entries(caption)) cell.querySelector(`.${part}`).replaceChildren(...spans(text))
+  /** @type {HTMLElement} */
+  const host = cell.querySelector(".host")
+  if (host.role !== null) host.ariaLabel = `${caption.title}: ${KEYS[host.dataset.hands]}`
 }
 
 /**
@@ -77,6 +88,6 @@ export function fillHover(cell, { [`hover-${nameOf(cell)}`]: hover }) {
     /** @type {HTMLElement} */
     const under = cell.querySelector(".hover")
     under.textContent = hover
-    under.hidden = hover === "" || !cell.matches(":hover")
+    under.hidden = hover === "" || !cell.matches(":is(:hover, :focus-within)")
   }
 }

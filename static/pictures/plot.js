@@ -9,6 +9,7 @@ import { frameCanvas } from "./canvas.js"
 import { cellsPainter } from "./cells.js"
 import { dotsPainter } from "./dots.js"
 import { connectPicks } from "./picks.js"
+import { connectKeys } from "./plot_keys.js"
 import { tickFormatter } from "./ticks.js"
 import { connectTouch } from "./touch.js"
 
@@ -111,5 +112,8 @@ export async function buildPlot(host, picture, source) {
   const { picks } = picture
   const touch = connectTouch(host, plot, { places: () => placesOf(plot, picture.handle, source), boxes: picks.includes("box") })
   connectPicks(model, picks, source(`${picture.name}-box`), touch.isDragging)
+  if (picture.hands !== "") {
+    connectKeys(host, plot, { picks, places: picture.handle === null ? null : () => placesOf(plot, picture.handle, source) })
+  }
   return plot
 }

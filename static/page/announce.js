@@ -1,0 +1,41 @@
+// @ts-check
+// Announces changed verdicts to screen readers: once, after the hand rests.
+
+import { gallery } from "../pictures/gallery.js"
+import { captionOf, nameOf } from "../pictures/picture.js"
+import { listen } from "./bus.js"
+import { element } from "./elements.js"
+
+// Milliseconds without a new state until the hand rests.
+const REST = 700
+
+/** Return the element, unseen, whose text screen readers announce. */
+export function announcer() {
+  const item = element("p.unseen.announced", { role: "status" })
+  // Picture → the verdict that was announced last, or found when the picture came into sight.
+  /** @type {Map<string, string>} */
+  const known = new Map()
+  /** @type {ReturnType<typeof setTimeout>} */
+  let resting = null
+
+  function say() {
+    const news = []
+    for (const cell of gallery.cellsInSight()) {
+      const [title, verdict, numbers] = captionOf(cell)
+      const before = known.get(nameOf(cell))
+      known.set(nameOf(cell), verdict)
+      if (before !== undefined && before !== verdict) news.push([`${title}:`, verdict, numbers].join(" "))
+    }
+    if (news.length > 0) item.textContent = news.join(" ")
+  }
+
+  listen({
+    // The captions of another scene are its own: no change.
+    enter() { known.clear() },
+    painted() {
+      clearTimeout(resting)
+      resting = setTimeout(say, REST)
+    },
+  })
+  return item
+}

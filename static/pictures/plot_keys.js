@@ -1,0 +1,75 @@
+// @ts-check
+// The keyboard in a plot: arrow keys move the handle by a pixel, with Shift by ten.  A plot without a handle has a cross, which
+// Enter chooses.
+
+import { listen, tell } from "../page/bus.js"
+import { element } from "../page/elements.js"
+import { arrowOf } from "../page/keys.js"
+import { choose } from "./picks.js"
+
+const FAR = 10
+
+/** @param {number} value @param {number} low @param {number} high */
+const within = (value, low, high) => Math.max(low, Math.min(high, value))
+
+/**
+ * Let the keyboard choose in a plot.
+ * @param {HTMLElement} host holds the plot
+ * @param {PlotView} plot
+ * @param {{picks: string[], places: (() => number[][]) | null}} what the events of the plot, see "picks.js", and the places of
+ *   its handle in pixels
+ */
+export function connectKeys(host, plot, { picks, places }) {
+  const { frame, model } = plot
+  const cross = element("span.cross", { ariaHidden: true, hidden: true })
+  host.append(cross)
+  Object.assign(host, { tabIndex: 0, role: "application" })
+  // Pixels of the plot; a handle has moved on when its last step is painted.
+  /** @type {number[] | null} */
+  let at = null
+  let isPointed = false
+  const valuesAt = () => [frame.x_scale.invert(at[0]), frame.y_scale.invert(at[1])]
+
+  function put() {
+    cross.hidden = at === null
+    if (at !== null) Object.assign(cross.style, { left: `${at[0]}px`, top: `${at[1]}px` })
+  }
+
+  function leave() {
+    at = null
+    put()
+  }
+
+  /** @param {number[]} arrow @param {number} step */
+  function move([across, up], step) {
+    const { x0, x1, y0, y1 } = frame.bbox
+    const from = at ?? places?.()[0] ?? [(x0 + x1) / 2, (y0 + y1) / 2]
+    at = [within(from[0] + step * across, x0, x1), within(from[1] - step * up, y0, y1)]
+    const [x, y] = valuesAt()
+    if (places !== null) return choose(model, x, y, false)
+    put()
+    if (picks.includes("hover")) tell("hover", [model.name, x, y])
+  }
+
+  host.addEventListener("keydown", (event) => {
+    if (isPointed || event.ctrlKey || event.metaKey || event.altKey) return
+    const arrow = arrowOf(event)
+    if (arrow !== undefined) move(arrow, event.shiftKey ? FAR : 1)
+    else if (event.key === "Enter" && at !== null && places === null) {
+      const [x, y] = valuesAt()
+      choose(model, x, y, false)
+    } else return
+    event.preventDefault()
+    event.stopPropagation()
+  })
+  host.addEventListener("blur", () => {
+    isPointed = false
+    leave()
+  })
+  // A click brings the focus too, but leaves the arrow keys to the player.
+  host.addEventListener("pointerdown", () => {
+    isPointed = true
+    leave()
+  })
+  listen({ painted() { if (places !== null) at = null } })
+}

@@ -1,0 +1,138 @@
+"""The page by keyboard and by screen reader: names, places chosen by arrow keys, and what is announced."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import expect
+
+from support.accessible import assert_accessible
+from support.page import ALL
+
+HOLD = """([name, low, high]) => {
+  const { frame } = hess.plots.find(({ model }) => model.name === name)
+  const { x0, x1, y0, y1 } = frame.bbox
+  const { start: left, end: right } = frame.x_scale.source_range
+  const { start: bottom, end: top } = frame.y_scale.source_range
+  return [(right - left) / (x1 - x0), (top - bottom) / (y1 - y0), (left + right) / 2, (bottom + top) / 2]
+}"""
+"""Width and height of a pixel, and the middle of the frame, in units of the axes."""
+
+STOPS = f"""() => {{
+  {ALL}
+  let item = document.activeElement
+  while (item?.shadowRoot?.activeElement) item = item.shadowRoot.activeElement
+  const labelled = item.labels?.[0]?.textContent
+  const own = /^(A|BUTTON|SUMMARY)$/.test(item.tagName) ? item.textContent : ""
+  const name = item.ariaLabel || labelled || item.title || own
+  return [`${{item.tagName}}.${{item.className}}`, name.trim()]
+}}"""
+"""The element in focus, and its name."""
+
+
+def box(locator):
+    found = locator.bounding_box()
+    return found["x"], found["y"], found["x"] + found["width"], found["y"] + found["height"]
+
+
+def overlap(one, other):
+    """Whether two boxes have a pixel in common."""
+    return min(one[2], other[2]) - max(one[0], other[0]) >= 1 and min(one[3], other[3]) - max(one[1], other[1]) >= 1
+
+
+def test_arrow_keys_move_the_ring_of_the_bifurcation_diagram_by_pixels(explorer):
+    page = explorer.page
+    host = page.get_by_role("application", name="Bifurcation diagram: arrow keys move the ring")
+    wide, high, *_ = page.evaluate(HOLD, ["bifurcation", 0, 0])
+    h, f = explorer.here()
+    t = explorer.time
+    host.focus()
+    explorer.change(page.keyboard.press, "ArrowRight")
+    assert explorer.here() == pytest.approx((h + wide, f), abs=0.51 * max(wide, high))
+    assert explorer.here()[0] > h
+    explorer.change(page.keyboard.press, "Shift+ArrowUp")
+    assert explorer.here()[1] == pytest.approx(f + 10 * high, abs=0.51 * high + 1e-9)
+    # The controls and the other pictures follow; the player keeps its time.
+    assert explorer.shown("f")[0] == pytest.approx(explorer.here()[1], rel=1e-6)
+    assert explorer.time == t
+    assert_accessible(page)
+
+
+def test_enter_chooses_the_place_of_the_cross_in_a_section(explorer):
+    explorer.fresh("suslov")
+    page = explorer.page
+    host = explorer.picture("section").get_by_role("application")
+    assert "arrow keys move a cross, Enter chooses" in host.get_attribute("aria-label")
+    wide, high, x, y = page.evaluate(HOLD, ["section", 0, 0])
+    host.focus()
+    for key in ("ArrowRight", "Shift+ArrowDown"):
+        page.keyboard.press(key)
+    expect(host.locator(".cross")).to_be_visible()
+    explorer.change(page.keyboard.press, "Enter")
+    start = explorer.wait_url()["starts"].split(";")[-1]
+    assert [*map(float, start.split(","))] == pytest.approx([x + wide, y - 10 * high], abs=0.6 * max(wide, high))
+
+
+def test_a_changed_verdict_is_announced_once_and_the_clock_never(explorer):
+    page = explorer.page
+    said = page.locator(".announced")
+    assert page.locator(".player output").get_attribute("aria-live") == "off"
+    explorer.give(h=1.5, f=0.6)
+    before = explorer.caption("circle")
+    page.evaluate(
+        f"() => {{ {ALL}; window.heard = []; const item = all(document).find((one) => one.matches('.announced'));"
+        " new MutationObserver(() => heard.push(item.textContent)).observe(item, {childList: true}) }"
+    )
+    # Many states, one after the other, until the cycles are gone.
+    for value in (0.2, 0.15, 0.1, 0.05, 0.0):
+        explorer.change(lambda value=value: explorer.slide(I23=value))
+    expect(said).to_contain_text("Circle map:")
+    assert explorer.caption("circle") != before
+    (heard,) = page.evaluate("heard")
+    assert explorer.picture("circle").locator(".verdict").text_content() in heard
+    # The same verdict with other numbers is not said again.
+    explorer.change(lambda: explorer.slide(phi0=1.0))
+    page.wait_for_timeout(1200)
+    assert len(page.evaluate("heard")) == 1
+
+
+def test_every_stop_of_the_tab_key_has_a_name(explorer):
+    page = explorer.page
+    page.locator(".param-scenes").focus()
+    stops = []
+    for _ in range(120):
+        stops.append(page.evaluate(STOPS))
+        page.keyboard.press("Tab")
+        if len(stops) > 5 and stops[-1] == stops[0]:
+            break
+    assert len(stops) > 30
+    assert [stop for stop, name in stops if not name and not stop.startswith("BODY")] == []
+
+
+@pytest.mark.parametrize("size", [(1600, 950), (1280, 720), (390, 844)])
+def test_stop_covers_neither_sentence_nor_caption_nor_tool(explorer, size):
+    page = explorer.page
+    explorer.resize(*size)
+    stop = page.locator(".computing")
+    page.evaluate("hess.tell('progress', [1, 3])")
+    page.wait_for_timeout(400)
+    page.evaluate("hess.tell('progress', [2, 3])")
+    expect(stop).to_be_visible()
+    place = box(stop)
+    assert place[0] >= 0 and place[2] <= size[0] and place[3] <= size[1]
+    for item in (
+        page.locator(".moves, .picture .caption, .host, .tools, .chips, .param-play, .param-t")
+        .filter(visible=True)
+        .all()
+    ):
+        assert not overlap(place, box(item)), item.evaluate("item => item.className")
+    page.evaluate("hess.tell('progress', null)")
+
+
+@pytest.mark.parametrize("picture", ["bifurcation", "circle"])
+def test_the_chart_panel_leaves_the_picture_that_it_charts(explorer, picture):
+    page = explorer.page
+    explorer.picture(picture).hover()
+    page.get_by_role("button", name="Chart").click()
+    panel = page.get_by_role("dialog", name="Chart")
+    assert not overlap(box(panel), box(explorer.picture(picture)))
+    page.keyboard.press("Escape")
