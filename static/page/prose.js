@@ -2,6 +2,7 @@
 // The legend or the words of the scene on show, as HTML from the project's own files.
 
 import { listen } from "./bus.js"
+import { depthMenu } from "./depth.js"
 import { element } from "./elements.js"
 
 /**
@@ -29,11 +30,16 @@ export function render({ part, el }) {
       wide.ariaLabel = wide.tabIndex < 0 ? null : wide.matches("table") ? "Table" : "Formula"
     }
   }).observe(item)
+  const depth = part === "words" ? depthMenu(item) : null
   listen({
-    enter(scene) { item.innerHTML = scene[part] },
+    enter(scene) {
+      item.innerHTML = scene[part]
+      depth?.follow()
+    },
     texts({ signs }) { if (signs !== undefined) showSigns(item, signs) },
     // A lesson takes the place of the words.
-    reading(on) { item.hidden = on && part === "words" },
+    reading(on) { if (depth !== null) item.hidden = depth.menu.hidden = on },
   })
+  if (depth !== null) el.append(depth.menu)
   el.append(item)
 }

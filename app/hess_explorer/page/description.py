@@ -16,6 +16,7 @@ from hess_explorer.lessons import tries
 from hess_explorer.lessons.lesson import Lesson, LessonStep
 from hess_explorer.lessons.markdown import to_html
 from hess_explorer.lessons.reading import without_tries
+from hess_explorer.page.glossary import explained
 from hess_explorer.protocol.parameters import Choice, Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.charted import Charted
@@ -105,6 +106,8 @@ def _html(scene: Scene[Any]) -> str:
 
     markdown = MarkdownIt().enable("table")
     markdown.add_render_rule("image", drawing)
+    explain = explained()
+    markdown.add_render_rule("text", lambda _, tokens, i, *rest: explain(tokens[i].content))
     html: str = markdown.render(with_formulas(scene.words if scene.origin else without_tries(scene.words)))
     return html
 

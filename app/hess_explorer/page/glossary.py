@@ -1,0 +1,52 @@
+"""Terms of the scenes' texts, explained at a tap or with Enter: "glossary.md"."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from functools import cache
+from html import escape
+from itertools import count
+from pathlib import Path
+
+__all__ = ["explained", "glossary"]
+
+_ENTRY = re.compile(r"^- \*\*(.+?)\*\*: (.+?)(?=\n- |\Z)", re.MULTILINE | re.DOTALL)
+
+
+@cache
+def glossary() -> Mapping[str, str]:
+    """Return the meaning of each term, in lower case."""
+    text = Path(__file__).with_name("glossary.md").read_text(encoding="utf-8").strip()
+    return {
+        name.lower(): " ".join(meaning.split()) for names, meaning in _ENTRY.findall(text) for name in names.split(", ")
+    }
+
+
+@cache
+def _terms() -> re.Pattern[str]:
+    # Longer terms first: "limit cycles" before "limit cycle".
+    longest = sorted(glossary(), key=len, reverse=True)
+    return re.compile(rf"\b(?:{'|'.join(map(re.escape, longest))})\b", re.IGNORECASE)
+
+
+def explained() -> Callable[[str], str]:
+    """Return a function from pieces of a text to HTML, which explains each term where it stands first.
+
+    A term is a button that opens its meaning. This needs no script, and works by mouse, keyboard and touch.
+    """
+    known: set[str] = set()
+    numbers = count()
+
+    def button(found: re.Match[str]) -> str:
+        meaning = glossary()[found[0].lower()]
+        if meaning in known:
+            return found[0]
+        known.add(meaning)
+        name = f"term-{next(numbers)}"
+        return (
+            f'<button type="button" class="term" popovertarget="{name}" title="{escape(meaning)}">{found[0]}</button>'
+            f'<span class="meaning" id="{name}" popover>{escape(meaning)}</span>'
+        )
+
+    return lambda text: _terms().sub(button, escape(text, quote=False))
