@@ -29,6 +29,13 @@ function clipOverlays(plot) {
   if (style.clipPath !== clip) style.clipPath = clip
 }
 
+// The host of a plot takes the keys, see "plot_keys.js": Bokeh's own layer for them has no name.
+/** @param {PlotView} plot */
+function leaveKeysToHost(plot) {
+  const layers = /** @type {Element} */ (plot.canvas_view.overlays.el.parentNode)
+  for (const layer of /** @type {NodeListOf<HTMLElement>} */ (layers.querySelectorAll("[tabindex]"))) layer.tabIndex = -1
+}
+
 // Bokeh sets a cursor over the frame; show that of the picture instead.
 /** @param {PlotView} plot */
 function inheritCursor(plot) {
@@ -99,6 +106,7 @@ export async function buildPlot(host, picture, source) {
   }
   addCanvases(plot, picture, source)
   inheritCursor(plot)
+  leaveKeysToHost(plot)
   plot.repainted.connect(() => clipOverlays(plot))
   picture.letters.forEach((/** @type {number | null} */ letters, /** @type {number} */ i) => {
     if (letters === null) return

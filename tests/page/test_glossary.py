@@ -31,7 +31,7 @@ def test_each_meaning_is_one_or_two_sentences():
 
 @pytest.mark.parametrize("name", scenes())
 def test_buttons_of_a_scene_have_meanings_of_their_own(name):
-    words = json.loads(describe(scenes()[name]))["words"]
+    words = json.loads(describe(name))["words"]
     targets = re.findall(r'popovertarget="([^"]+)"', words)
     assert sorted(targets) == sorted(re.findall(r'<span class="meaning" id="([^"]+)"', words))
     assert len(set(targets)) == len(targets)

@@ -76,7 +76,8 @@ def test_a_changed_verdict_is_announced_once_and_the_clock_never(explorer):
     page = explorer.page
     said = page.locator(".announced")
     assert page.locator(".player output").get_attribute("aria-live") == "off"
-    explorer.give(h=1.5, f=0.6)
+    # The first captions are known when the hand has rested.
+    page.wait_for_timeout(1200)
     before = explorer.caption("circle")
     page.evaluate(
         f"() => {{ {ALL}; window.heard = []; const item = all(document).find((one) => one.matches('.announced'));"
