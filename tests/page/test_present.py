@@ -135,7 +135,7 @@ HALL = """() => {
   }
 }"""
 SHARES = {(1920, 1080): 0.86, (1600, 950): 0.86, (1280, 720): 0.8}
-"""The share of the window that the chosen pictures take, of its height or of its width; a small one needs more for titles."""
+"""The share of the window's width or height that the chosen pictures take; in a small window titles need more."""
 
 
 @pytest.mark.parametrize("size", SHARES)
