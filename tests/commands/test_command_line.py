@@ -214,7 +214,7 @@ def test_out_writes_a_file_and_prints_nothing(answer, capsys, tmp_path):
     [
         (replaced(CIRCLE_MAP, "--h", "nan"), "--h: 'nan' is not a finite number"),
         (replaced(CIRCLE_MAP, "--phi", "0,x"), "--phi: 'x' is not a number"),
-        (replaced(CIRCLE_MAP, "--h", "-1"), "Choose h > −1"),
+        (replaced(CIRCLE_MAP, "--h", "-1"), "choose h > −1"),
         (replaced(CIRCLE_MAP, "--f", "9"), "choose |f| ≤ 1.81"),
         (typed("circle-map --h 1 --f 0 --a 0.5"), "separatrix"),
         (replaced(CIRCLE_MAP, "--accuracy", "best"), "draft, standard, precise, reference"),

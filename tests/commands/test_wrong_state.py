@@ -25,7 +25,7 @@ WRONG = {
     "accuracy=best": "'accuracy=best' cannot be used: Accuracy must be one of draft, standard, precise, reference,",
     "scene=scattering&h=1": "The scene scattering has no parameter 'h', only I22, I13, ",
     "t=-1": "'t=-1' cannot be used: t must lie between 0 and 1e+06",
-    "h=0.2&f=5": "At h = 0.2 only |f| ≤ ",
+    "h=0.2&f=5": "At h = 0.2 the largest possible |f| is ",
     "scene=suslov&starts=1": "'starts=1' cannot be used: The places of the chosen orbits must be points x,y;x,y",
 }
 COMMANDS = {

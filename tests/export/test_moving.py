@@ -99,8 +99,8 @@ def test_a_body_has_its_ellipsoid_its_section_its_wheels_and_its_trail():
     # The trail is newer where it is wider.
     widths = {round(line.get_linewidth(), 3) for line in frame.lines if line.get_color() == "#0072B2"}
     assert len(widths) > 5
-    # Discs of two wheels, of seven each, and the head of the arrow.
-    assert len(frame.patches) - len(ellipses) - 2 == 2 * 7 + 1
+    # The disc of the mass with two dark quarters, discs of two wheels, seven each, and the head of the arrow.
+    assert len(frame.patches) - len(ellipses) == 3 + 2 * 7 + 1
     assert len(draw(shown("scene=chaplygin-ball&accuracy=draft", "body")).axes[0].images) == 1
 
 

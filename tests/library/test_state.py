@@ -64,7 +64,7 @@ def test_a_notebook_shows_a_state_by_its_parameters_and_link():
         ({"h": None}, "None is not a number"),
         ({"h": math.nan}, "h (Energy h) must be a finite number."),
         ({"h": -2.0}, "h must lie between -1 and 1e+06."),
-        ({"f": 50.0}, "At h = 1.5 only |f| ≤ 1.812 is possible."),
+        ({"f": 50.0}, "At h = 1.5 the largest possible |f| is 1.812"),
         ({"accuracy": "best"}, "Accuracy must be one of draft, standard, precise, reference, auto."),
     ],
 )

@@ -134,7 +134,7 @@ def test_what_is_not_a_number_is_marked_and_changes_nothing(explorer):
 @pytest.mark.parametrize(
     "name, text, value, note",
     [
-        ("I23", "5000", 96.0, "within ±100"),
+        ("I23", "5000", 96.0, "can be at most 100"),
         ("f", "-99", None, "f was set to this limit"),
         ("span", "-1", 0.01, "t must lie between"),
     ],

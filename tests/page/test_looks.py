@@ -282,7 +282,8 @@ TARGETS = """items => items.filter((item) => item.checkVisibility()).map((item) 
 @pytest.mark.parametrize("size", ["phone", "sideways"])
 def test_on_a_phone_one_hand_suffices_for_all_that_can_be_touched(look_at, size):
     page = look_at(HESS, size)
-    for name, smallest in page.locator("button, select, input").evaluate_all(TARGETS):
+    # A term is a word of a sentence, as high as its line.
+    for name, smallest in page.locator("button:not(.term), select, input").evaluate_all(TARGETS):
         assert smallest >= 43.9, name
     assert_accessible(page)
     # The picture and the slider are there at once, and stay where they are while the text is scrolled.

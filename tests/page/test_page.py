@@ -76,11 +76,13 @@ def test_the_newest_of_fifty_changes_wins_and_none_arrives_later(explorer, pause
     at_the_end = explorer.page.evaluate(
         f"""async ([values, pause]) => {{
           const slide = {SLIDE}
+          let state
           for (const value of values) {{
             slide([["h", value]])
+            state = Number(document.documentElement.dataset.state)
             if (pause > 0) await new Promise((done) => setTimeout(done, pause))
           }}
-          return Number(document.documentElement.dataset.state)
+          return state
         }}""",
         [values.tolist(), pause_ms],
     )

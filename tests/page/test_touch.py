@@ -142,30 +142,3 @@ def test_a_phone_opens_on_the_picture_that_the_sentence_speaks_of(phone):
         names = chips.all_text_contents()
         assert len(set(names)) == len(scene.views)
         assert all(re.search("[a-z]", text) for text in names)
-
-
-# The lines of the lesson's text in sight, and whether its buttons are.
-LINES = """() => {
-  const all = (root) => [...root.querySelectorAll("*")].flatMap(
-    (item) => [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
-  const items = all(document)
-  const text = items.find((item) => item.matches(".lesson .text"))
-  const range = document.createRange()
-  range.selectNodeContents(text)
-  const steps = items.find((item) => item.matches(".lesson .steps")).getBoundingClientRect()
-  const lines = [...range.getClientRects()].filter(({ bottom }) => bottom <= steps.top)
-  return { lines: new Set(lines.map(({ bottom }) => Math.round(bottom / 10))).size, bottom: steps.bottom }
-}"""
-
-
-def test_a_lesson_on_a_phone_shows_six_lines_beside_its_picture(phone):
-    tab = phone()
-    page = tab.page
-    page.locator(".lesson-menu > summary").click()
-    tab.change(page.locator(".param-lesson-limit-cycles-and-locking").click)
-    tab.change(page.locator(".param-next-step").click)
-    seen = page.evaluate(LINES)
-    assert seen["lines"] >= 6
-    assert seen["bottom"] <= 844
-    assert tab.picture("sphere").bounding_box()["y"] >= 0
-    page.locator(".param-leave-lesson").click()

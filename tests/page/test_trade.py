@@ -10,7 +10,8 @@ def test_the_cost_of_all_is_measured_when_its_button_is_pressed(tab):
     explorer = brought(tab, scenes()["scattering-accuracy"])
     assert not explorer.data("trade-map").get("x")
     explorer.unfold("trade")
-    expect(explorer.picture("trade")).to_contain_text("Accurate enough for the eye: orbit draft, map standard.")
+    caption = "Cheapest levels without a visible error: orbit draft, map standard."
+    expect(explorer.picture("trade")).to_contain_text(caption)
     assert len(explorer.data("trade-map")["x"]) == 4
     assert len(explorer.data("trade-enough")["x"]) == 2
     explorer.unfold("difference")

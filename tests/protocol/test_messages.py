@@ -132,7 +132,7 @@ def test_a_request_about_a_chart_is_one_of_four(chart, expected):
 )
 def test_a_frame_holds_what_is_told_and_nothing_else(block, cells, has_state, chart):
     state = StateAnswer(2, 1, "h=1", {"texts": {"status": "é"}}, "suslov", (1, 3)) if has_state else None
-    answer = Answer('{"name": "suslov"}', "", state, block, chart, cells)
+    answer = Answer('{"name": "suslov"}', "", state, block, chart=chart, cells=cells)
     told, read_block, read_cells = read_frame(answer.encode())
     assert (read_block, read_cells) == (block, cells)
     assert told["scene"] == {"name": "suslov"}

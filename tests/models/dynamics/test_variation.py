@@ -96,7 +96,7 @@ def test_what_cannot_be_is_refused_in_a_sentence():
     with raises(WorkLimit, match="choose a shorter"):
         transition_matrix(*SUSLOV.example_motion, 1e9, PRECISE)
     # Beside the upper equilibrium neighbours part as e^t.
-    with raises(WorkLimit, match="part beyond the range of double precision: choose a shorter time span"):
+    with raises(WorkLimit, match="separate beyond the range of double precision: choose a shorter time span"):
         transition_matrix(SUSLOV.at((1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)), (0.0, 0.0, 0.0, 0.0, 1.0), 800.0, PRECISE)
     with raises(InvalidParameter, match="touches the surface"):
         onto_surface(np.eye(2), np.array([1.0, 0.0]), np.array([0.0, 1.0]))

@@ -342,7 +342,7 @@ def test_the_other_captions_give_the_numbers_of_the_chosen_level():
     errors.drifts["precise"]["F1"] = 1e-12 * (TIMES / 10.0) * (1.0 - TIMES / 10.0)
     _, captions, report = shown("precise", errors=errors)
     assert captions["growth"].splitlines()[1] == "precise: 3e−11 at the end; promised 1e−09 (dotted)."
-    assert captions["drift"].splitlines()[1] == "precise: at most (1) E 1e−06, (2) F1 2.5e−13, (3) F2 3e−08."
+    assert captions["drift"].splitlines()[1] == "precise: largest drift (1) E 1e−06, (2) F1 2.5e−13, (3) F2 3e−08."
     assert captions["precision"].splitlines()[1].startswith("precise: 4 ms, error 4e−10")
     assert report.status.startswith("precise chosen · draft 1 ms, error 0.0002 · standard 2 ms, error 3e−07 · ")
     assert re.search(r"· [\d.]+ ms, cached$", report.status)
@@ -368,7 +368,9 @@ def test_without_scipy_the_caption_compares_with_nobody_and_the_reason_is_a_note
     monkeypatch.setattr(precision.mechanics, "others_take_long", lambda *_: True)
     _, captions, report = shown(points=WORK[:4])
     assert captions["precision"] == "Cost against error\nstandard: 2 ms, error 3e−07."
-    assert [note.split(":")[0] for note in report.notes] == ["SciPy's methods are left out"]
+    assert [note.split(":")[0] for note in report.notes] == [
+        "SciPy's methods are left out, as they are slow over this time span"
+    ]
 
 
 def test_every_way_to_compute_is_a_point_of_its_line():

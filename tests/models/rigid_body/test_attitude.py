@@ -235,7 +235,7 @@ def test_an_oscillation_draws_a_segment_again_and_again():
 @mark.parametrize(
     ("make", "error", "words"),
     [
-        (lambda: pendulum(h=-1.0), OutsideRegion, "Choose h > −1"),
+        (lambda: pendulum(h=-1.0), OutsideRegion, "choose h > −1"),
         (lambda: pendulum(l=0.0), InvalidParameter, "Choose 0 < l < π"),
         (lambda: pendulum(mu=-1.0), InvalidParameter, "choose μ > 0"),
         (lambda: LoxodromicPendulum(HeavyBody.hess((1.0, 1.5, 2.0), 1.0, 0.1), 1.5, 0.4), InvalidParameter, "Hess"),
