@@ -255,8 +255,8 @@ def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_othe
     before = explorer.state
     explorer.change(lambda: explorer.slide(h=0.75))
     explorer.change(lambda: explorer.slide(phi0=1.0))
-    # The first of them once more, with what is proved of it.
-    assert explorer.state in (before + 2, before + 3)
+    # Each of them at most once more, with what is proved of it.
+    assert before + 2 <= explorer.state <= before + 4
     assert_drawn(explorer, HESS, {**DEFAULTS, "h": 0.75, "phi0": 1.0})
     explorer.page.evaluate("document.activeElement?.blur()")
     explorer.page.keyboard.press("ArrowRight")
