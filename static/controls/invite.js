@@ -11,9 +11,11 @@ export function inviteDialog() {
   const code = element("div.code", { role: "img", ariaLabel: "QR code of the address" })
   const address = element("p.room-address")
   const count = element("p.room-count", { role: "status" })
+  const unreachable = element("p.unreachable", { hidden: true }, "Phones cannot reach this address. Start the explorer with " +
+    "--address 0.0.0.0, and open the page by the name of this computer in its network.")
   const end = button("button.param-end-room", () => tell("end-room"), "End the lecture")
   const dialog = dialogOf("Invite", "menu-of-scenes.invite", [], element("div.invitation",
-    code, element("div", element("p", "Scan the code, or open"), address, count,
+    code, element("div", element("p", "Scan the code, or open"), address, unreachable, count,
       element("p.small", "Phones show your scene, state, picture and lesson step, and take guesses. Nobody's name is asked, and " +
         "nothing is kept when the lecture ends."), end)))
   let drawn = ""
@@ -23,6 +25,7 @@ export function inviteDialog() {
     if (link === drawn) return
     drawn = link
     const [, host, path] = /^https?:\/\/(.*)(\/r\/.*)$/.exec(link) ?? ["", "", ""]
+    unreachable.hidden = !/^(localhost|127\.|\[::1\])/.test(host)
     address.replaceChildren(host, element("wbr"), element("span", path))
     code.replaceChildren()
     if (link === "") return

@@ -60,6 +60,8 @@ def lecture(tab, browser):
     page.locator(".invite .code svg").wait_for()
     [address] = read(page.locator(".invite .code").screenshot())
     assert address.endswith(page.locator(".room-address").inner_text())
+    # The tests' server listens on this machine only.
+    assert "--address 0.0.0.0" in page.locator(".unreachable").inner_text()
     phone.page.goto(address)
     phone.page.wait_for_selector("html[data-ready=true]", state="attached")
     yield tab, phone, address.rpartition("/")[2]
