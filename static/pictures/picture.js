@@ -12,7 +12,7 @@ const HINTS = {
   click: "Click to choose values",
 }
 
-// What the keyboard does there, see "plot_keys.js".
+// Actions of the keyboard by kind of gesture, see "plot_keys.js".
 /** @type {Record<string, string>} */
 const KEYS = {
   drag: "arrow keys move the ring",

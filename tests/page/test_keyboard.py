@@ -35,7 +35,7 @@ def box(locator):
 
 
 def overlap(one, other):
-    """Whether two boxes have a pixel in common."""
+    """Return whether two boxes overlap."""
     return min(one[2], other[2]) - max(one[0], other[0]) >= 1 and min(one[3], other[3]) - max(one[1], other[1]) >= 1
 
 

@@ -220,7 +220,7 @@ LINES = """item => {
   const seen = all.filter(({ left, top, right, bottom }) => (
     item.getRootNode().elementFromPoint((left + right) / 2, top + 2)?.closest(".text") === item
     && item.getRootNode().elementFromPoint((left + right) / 2, bottom - 2)?.closest(".text") === item))
-  // What belongs to a formula may be higher or lower than its line.
+  // Parts of a formula may be higher or lower than its line.
   const count = (some) => some.map(({ bottom }) => bottom).sort((a, b) => a - b)
     .reduce(([lines, last], bottom) => bottom - last > 12 ? [lines + 1, bottom] : [lines, last], [0, -Infinity])[0]
   return [all, seen].map(count)

@@ -162,7 +162,7 @@ def test_who_has_not_the_key_cannot_lead_and_followers_cannot_steer(base):
             while True:
                 await follower.hear(0.1)
         assert "h=1.25" in follower.state["query"]
-        # Nor does a follower lead who asks for it later.
+        # A follower cannot become the lecturer later either.
         await follower.say({"lead": lecturer.key})
         assert await follower.end() == NO_MESSAGE
         for member in (late, lecturer):

@@ -99,7 +99,7 @@ def points_of(place):
 
 
 def first_cascade(_step):
-    """Where the period doubles, the period before each, and the ratios of the distances."""
+    """Return the parameters of the period doublings, the period before each, and the ratios of their distances."""
     found = cascade()
     return *found.values.tolist(), *map(float, found.periods), *found.ratios.tolist()
 

@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 from hess_mechanics import SuslovBody
 
 HESS_BODY = SuslovBody(0.96 + 0.28**2 / 0.96, 0.96, 0.0, 0.28, 0.0, 0.28 / 0.96, -1.0)
-"""Of the Hess case: I11 I22 = I22² + I23², b2 = I23/I22."""
+"""A body in the Hess case: I11 I22 = I22² + I23², b2 = I23/I22."""
 
 
 def field(body, y):

@@ -28,7 +28,7 @@ from hess_explorer.views.text import with_formulas
 from hess_explorer.views.theme import SHADES
 from hess_mechanics.parameters import GROUPS
 
-__all__ = ["describe", "describe_lesson"]
+__all__ = ["describe", "describe_lesson", "without_gestures"]
 
 
 _one_at_a_time = threading.Lock()
@@ -68,6 +68,23 @@ def _describe(name: str) -> str:
             "shades": SHADES,
         }
     )
+
+
+def without_gestures(picture: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the description of an open picture without the gestures that change the state.
+
+    Parameters
+    ----------
+    picture : mapping
+        An element of "pictures" in the description of a scene.
+
+    Returns
+    -------
+    dict
+        The changed description.
+    """
+    picks: dict[str, Any] = {"picks": [], "handle": None} if "picks" in picture else {}
+    return {**picture, "folded": None, "hands": "", **picks}
 
 
 def _handle(scene: Scene[Any]) -> dict[str, Any] | None:

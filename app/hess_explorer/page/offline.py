@@ -17,7 +17,7 @@ from hess_explorer.assets import STATIC
 from hess_explorer.export.shown import address, complete, picture_of
 from hess_explorer.page.component import styles
 from hess_explorer.page.controls import show_controls
-from hess_explorer.page.description import describe
+from hess_explorer.page.description import describe, without_gestures
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes.framework.stage import Stage
 
@@ -113,11 +113,7 @@ def as_html(query: str, pictures: Sequence[str] = (), home: str = HOME, *, lenie
     description = json.loads(describe(scene.name))
     # Remove the interactions that need a server.
     description["handle"] = None
-    description["pictures"] = [
-        {**one, "folded": None, "hands": "", **({"picks": [], "handle": None} if "picks" in one else {})}
-        for one in description["pictures"]
-        if one["name"] in chosen
-    ]
+    description["pictures"] = [without_gestures(one) for one in description["pictures"] if one["name"] in chosen]
     program = f"hess-explorer {version('hess-explorer')}"
     facts: dict[str, Any] = {
         "link": link,

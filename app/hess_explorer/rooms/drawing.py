@@ -12,7 +12,7 @@ from typing import Any
 
 from hess_explorer.compute.scheduler import RequestQueue
 from hess_explorer.lessons.lesson import Lesson, LessonStep
-from hess_explorer.page.description import describe, describe_lesson
+from hess_explorer.page.description import describe, describe_lesson, without_gestures
 from hess_explorer.page.opening import opening
 from hess_explorer.page.session import Session
 from hess_explorer.protocol.messages import Answer, Request
@@ -140,6 +140,4 @@ def _describe(name: str, picture: str) -> str:
     """Return the description of one picture of a scene, as JSON."""
     described = json.loads(describe(name))
     [kept] = [one for one in described["pictures"] if one["name"] == picture]
-    # Without the gestures that change the state.
-    kept |= {"folded": None, "hands": "", **({"picks": [], "handle": None} if "picks" in kept else {})}
-    return json.dumps({**described, **_LEFT_OUT, "name": f"{name}/{picture}", "pictures": [kept]})
+    return json.dumps({**described, **_LEFT_OUT, "name": f"{name}/{picture}", "pictures": [without_gestures(kept)]})

@@ -57,7 +57,7 @@ class Follow:
 
 @dataclass(frozen=True)
 class Show:
-    """What the lecturer shows.
+    """The state, lesson step and picture on the lecturer's page.
 
     Attributes
     ----------

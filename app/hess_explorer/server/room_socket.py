@@ -14,7 +14,7 @@ from hess_explorer.rooms.registry import Rooms
 from hess_explorer.rooms.room import Room
 from hess_explorer.server.limits import OPEN_SOCKETS, RateLimit
 from hess_explorer.server.relay import Relay
-from hess_explorer.server.websockets import PanelSocket
+from hess_explorer.server.websockets import is_allowed_origin
 
 __all__ = ["Outbox", "RoomSocket"]
 
@@ -72,10 +72,7 @@ class RoomSocket(WebSocketHandler):
     def check_origin(self, origin: str) -> bool:
         """Return True for the origins that Panel's websocket accepts."""
         # Another worker has checked a relayed request.
-        if self._relay is None:
-            return True
-        # The method uses only the application, which both handlers share.
-        return PanelSocket.check_origin(self, origin)  # type: ignore[arg-type]
+        return self._relay is None or is_allowed_origin(self, origin)
 
     async def get(self, code: str) -> None:
         """Accept the websocket, or relay it to the worker that has the room."""

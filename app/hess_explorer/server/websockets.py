@@ -21,7 +21,7 @@ from hess_explorer.page.opening import query_of
 from hess_explorer.server.capacity import Capacity
 from hess_explorer.server.limits import OPEN_SOCKETS, RateLimit
 
-__all__ = ["PanelSocket", "StateSocket"]
+__all__ = ["PanelSocket", "StateSocket", "is_allowed_origin"]
 
 FULL = "The explorer is full: try again in a minute."
 NO_JSON = "A message must be a text frame of JSON."
@@ -48,6 +48,12 @@ class PanelSocket(WSHandler):
             await super().on_message(fragment)
 
 
+def is_allowed_origin(socket: WebSocketHandler, origin: str) -> bool:
+    """Return True for the origins that Panel's websocket accepts."""
+    # The method uses only the application, which all handlers share.
+    return PanelSocket.check_origin(socket, origin)  # type: ignore[arg-type]
+
+
 class StateSocket(WebSocketHandler):
     """The websocket for states; a session starts and ends with it.
 
@@ -67,8 +73,7 @@ class StateSocket(WebSocketHandler):
 
     def check_origin(self, origin: str) -> bool:
         """Return True for the origins that Panel's websocket accepts."""
-        # The method uses only the application, which both handlers share.
-        return PanelSocket.check_origin(self, origin)  # type: ignore[arg-type]
+        return is_allowed_origin(self, origin)
 
     def open(self) -> None:
         """Start a session with the state of the query, unless the server is full."""
