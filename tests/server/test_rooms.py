@@ -11,7 +11,7 @@ from tornado.httpclient import HTTPClientError
 from hess_explorer.headless.screenshot import server_process
 from hess_explorer.lessons import shipped
 from hess_explorer.protocol.parameters import encode
-from hess_explorer.rooms import registry, room
+from hess_explorer.rooms import room
 from hess_explorer.scenes import scenes
 from hess_explorer.server.room_socket import Outbox
 from support.asynchronous import finished
@@ -305,31 +305,3 @@ def test_with_several_workers_all_members_of_a_room_meet(tmp_path):
 def test_a_websocket_of_another_origin_is_refused(base):
     with pytest.raises(HTTPClientError, match="403"):
         finished(Follower.follow(base, new_code(), origin="http://evil.example"))
-
-
-def test_rooms_and_followers_are_bounded(monkeypatch):
-    monkeypatch.setattr(registry, "MOST_ROOMS", 2)
-    monkeypatch.setattr(room, "MOST_FOLLOWERS", 2)
-
-    async def visit(base):
-        lecturers = [await Lecturer.open(base) for _ in range(2)]
-        third = await Lecturer.connect(base, new_code(), {"open": True})
-        whys = [await third.end()]
-        code = lecturers[0].code
-        inside = [await Follower.follow(base, code) for _ in range(2)]
-        await lecturers[0].until(lambda one: one.followers == 2)
-        whys.append(await (await Follower.follow(base, code)).end())
-        await inside[0].leave()
-        await lecturers[0].until(lambda one: one.followers == 1)
-        again = await Follower.follow(base, code)
-        await lecturers[0].until(lambda one: one.followers == 2)
-        for member in (again, inside[1], *lecturers):
-            await member.leave()
-        return whys
-
-    # It ends all other servers of the process, so this test is the last one.
-    with served() as base:
-        assert finished(visit(base)) == [
-            "1013: There are too many rooms at the moment: try again later.",
-            "1013: The room is full.",
-        ]
