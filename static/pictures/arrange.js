@@ -14,6 +14,8 @@
 const STEP = 2
 // Edge of a picture beside enlarged ones, as a share of the height.
 const SMALLEST = 0.09
+// Error of the width that the text may take.
+const COARSE = 12
 
 /**
  * Return the height of a caption in a column of this width, whose cells are no wider than their captions and pictures need.
@@ -146,6 +148,24 @@ function enlarged(place, leading) {
   if (large.smallest >= SMALLEST * high) return large
   // Leave the others some room.
   return ledBy(place, leading, 0.6 * most, true).find(({ smallest }) => smallest >= SMALLEST * high) ?? large
+}
+
+/**
+ * Return how much narrower, up to `most`, the viewport may be without any picture getting smaller.
+ * @param {Place} place
+ * @param {number} most
+ */
+export function spareWidth(place, most) {
+  if (place.count === 0) return 0
+  const full = even(place)
+  let [spare, beyond] = [0, Math.min(most, place.width)]
+  while (beyond - spare > COARSE) {
+    const middle = (spare + beyond) / 2
+    const { boxes, smallest } = even({ ...place, width: place.width - middle })
+    if (smallest >= full.smallest && area({ boxes, smallest }) >= area(full)) spare = middle
+    else beyond = middle
+  }
+  return Math.floor(spare)
 }
 
 /**

@@ -6,10 +6,11 @@
 
 import { button, element, icon, relabel } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
+import { isEmbedded } from "../page/embedding.js"
 import { isTaken, onKeys } from "../page/keys.js"
 import { isPresenting, setType, zoom } from "../page/presenting.js"
-import { PHONE } from "../page/windows.js"
-import { arrange } from "./arrange.js"
+import { NARROW, PHONE } from "../page/windows.js"
+import { arrange, spareWidth } from "./arrange.js"
 import { isFolded, labelOf, nameOf } from "./picture.js"
 import { sizePlot } from "./plot_looks.js"
 
@@ -35,7 +36,7 @@ const SIDE = 2.6
 const WIDEST = 34
 const MOST_LINES = 4
 // Below this cell width, in units of the font size, captions are smaller.
-const NARROW = 26
+const NARROW_CELL = 26
 const SMALLER = 0.88
 // A picture that is smaller than this in present mode, in units of the font size, is drawn in this size and scaled down.
 const LEGIBLE = 13
@@ -43,9 +44,11 @@ const LEGIBLE = 13
 const WORD = 9
 // Room that a line break wastes at most, in units of the font size.
 const BREAK = 4
+// The text beside the pictures takes at most this width from them, in units of the font size.
+const MOST_SPARE = 14
 
 /** @param {number} width @param {number} type */
-const isNarrow = (width, type) => width / type < NARROW && !isPresenting() && !PHONE.matches
+const isNarrow = (width, type) => width / type < NARROW_CELL && !isPresenting() && !PHONE.matches
 
 /**
  * Return what a caption shows in present mode, where only a few words are read from afar, and in how many lines.
@@ -95,6 +98,8 @@ export function createStage(shelf, gallery) {
   /** @type {string[]} */
   let large = []
   let wanted = ""
+  // Pixels that the text has taken.
+  let spare = 0
   const chips = element("div.chips", { role: "group", ariaLabel: "Picture" })
   shelf.after(chips)
 
@@ -139,20 +144,37 @@ export function createStage(shelf, gallery) {
     }
   }
 
+  /**
+   * Return the viewport.  At a desk the text beside it takes the width that no picture needs.
+   * @param {Scene} scene
+   * @param {number} count of pictures
+   * @param {number} type
+   */
+  function viewport(scene, count, type) {
+    const isBeside = !NARROW.matches && !isPresenting() && !isEmbedded()
+    const full = {
+      width: shelf.clientWidth + (isBeside ? spare : 0), height: shelf.clientHeight, count, gap: Math.round(0.6 * type),
+      share: isPresenting() ? HALL : DESK, caption: captions(type),
+    }
+    if (!isBeside) return full
+    const taken = spareWidth(full, MOST_SPARE * type)
+    if (scene === gallery.shown && spare !== taken) {
+      spare = taken
+      document.documentElement.style.setProperty("--spare", `${spare}px`)
+    }
+    return { ...full, width: full.width - taken }
+  }
+
   /** Place the pictures of a scene; a scene that is not on show is laid out as it would open. @param {Scene} scene */
   function place(scene) {
-    const { clientWidth: width, clientHeight: height } = shelf
-    if (width === 0) return
+    if (shelf.clientWidth === 0) return
     const type = typeNow()
     const cells = scene.cells.filter((cell) => !isFolded(cell))
     const own = scene === gallery.shown ? large.map((name) => cells.findIndex((cell) => nameOf(cell) === name)) : []
     const chosen = own.filter((i) => i >= 0)
     const opening = Math.max(0, cells.findIndex((cell) => nameOf(cell) === scene.opening))
     const seen = PHONE.matches ? [chosen[0] ?? opening] : cells.map((_, i) => i)
-    const caption = captions(type)
-    const boxes = arrange({
-      width, height, count: seen.length, gap: Math.round(0.6 * type), share: isPresenting() ? HALL : DESK, caption,
-    }, PHONE.matches ? [] : chosen)
+    const boxes = arrange(viewport(scene, seen.length, type), PHONE.matches ? [] : chosen)
     cells.forEach((cell, i) => {
       const at = seen.indexOf(i)
       cell.classList.toggle("off", at < 0)

@@ -1,14 +1,15 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import { arrange } from "../../static/pictures/arrange.js"
+import { arrange, spareWidth } from "../../static/pictures/arrange.js"
 
 const GAP = 8
 const CAPTION = 38
 const PLACES = [[964, 620], [936, 850], [2500, 2010], [1900, 500], [500, 1400], [700, 700]]
 
-const arranged = (width, height, count, large = []) => (
-  arrange({ width, height, count, gap: GAP, share: 0.82, caption: Object.assign(() => CAPTION, { title: () => 20, wide: 400 }) }, large))
+const placeOf = (width, height, count) => (
+  { width, height, count, gap: GAP, share: 0.82, caption: Object.assign(() => CAPTION, { title: () => 20, wide: 400 }) })
+const arranged = (width, height, count, large = []) => arrange(placeOf(width, height, count), large)
 
 function assertInsideAndApart(boxes, width, height) {
   const cells = boxes.map(({ x, y, width: wide, caption, edge }) => [x, y, x + wide, y + caption + edge])
@@ -59,6 +60,19 @@ test("the first of three pictures is larger where that costs the others nothing"
   assert.ok(first.edge > second.edge)
   assert.equal(second.edge, third.edge)
   assert.ok(second.edge >= largestEdge(936, 850, 3) - 1)
+})
+
+test("the text takes all width that no picture needs, and no more than allowed", () => {
+  for (const [width, height] of PLACES) for (const count of [0, 1, 2, 3, 4, 5]) {
+    const edges = (given) => arranged(given, height, count).map(({ edge }) => edge)
+    const spare = spareWidth(placeOf(width, height, count), 300)
+    assert.ok(spare >= 0 && spare <= 300)
+    assert.ok(Math.min(...edges(width - spare)) >= Math.min(...edges(width)))
+    if (count > 0 && spare < 288) assert.notDeepEqual(edges(width - spare - 14), edges(width))
+  }
+  // Two rows of two squares below captions are 930 high, hence 930 - 2 * 38 wide.
+  const spare = 1100 - (930 - 2 * CAPTION)
+  assert.ok(Math.abs(spareWidth(placeOf(1100, 930, 4), 300) - spare) <= 14)
 })
 
 test("no pictures, no boxes", () => assert.deepEqual(arranged(900, 600, 0), []))
