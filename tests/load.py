@@ -2,7 +2,7 @@
 
 Each session opens a scene, the scenes in turn, and changes one of its numbers every 2 s.  Then the same with one more
 that asks for the dearest scene at `reference` without a pause.  `--leave 2000`: what is left of sessions that are gone.
-`--followers 300`: a lecturer drags a slider for 20 s, alone and before a room of so many followers.
+`--followers 300`: a lecturer drags a slider for 20 s, in an empty room and in one of so many followers.
 On a quiet machine: `python tests/load.py 10 50 200 500 --workers 1 2 --leave 2000 --write`.
 """
 
@@ -36,6 +36,7 @@ from support.visitor import Visitor
 EVERY = 2.0
 LOG = Path(os.devnull)
 README = Path(__file__).resolve().parents[1] / "app" / "hess_explorer" / "server" / "README.md"
+TURNS = 4
 DEAREST = "scene=euler-poisson&accuracy=reference"
 
 
@@ -254,6 +255,9 @@ async def _follow(pipe, base, code, count):
     query, since = await asyncio.get_running_loop().run_in_executor(None, pipe.recv)
     pipe.send((await audience.all_at(query, since), audience.errors))
     await asyncio.get_running_loop().run_in_executor(None, pipe.recv)
+    # The connections end with this process, which is no error.
+    for reading in audience.reading:
+        reading.cancel()
 
 
 def _audience(pipe, base, code, count):
@@ -263,37 +267,54 @@ def _audience(pipe, base, code, count):
     asyncio.run(_follow(pipe, base, code, count))
 
 
+async def _prepared(pid, timeout=600.0):
+    """Wait until the server has prepared its scenes and rests: at first that takes more time than a lecture."""
+    ends, share = time.monotonic() + timeout, 1.0
+    while share > 0.02 and time.monotonic() < ends:
+        before, begun = worked(pid), time.monotonic()
+        await asyncio.sleep(5.0)
+        share = (worked(pid) - before) / (time.monotonic() - begun)
+
+
 async def lecture(base, pid, count, seconds):
-    """Yield a table: a lecturer who drags a slider alone, and before an audience."""
+    """Yield a table: a lecturer who drags a slider in an empty room and before an audience, in turn."""
     visitor = await Visitor.open(base, "scene=suslov-hess", timeout=120.0)
-    lecturer = await Lecturer.open(base)
+    empty, full = await Lecturer.open(base), await Lecturer.open(base)
     # As a browser does; otherwise pings have no answer.
-    counts = asyncio.create_task(lecturer.end(3600.0))
-    await drag(visitor, lecturer, 5.0)
-    yield "| followers | joined in | alone | with followers | p95, ratio | at the last state | memory each | errors |"
-    yield "|---|---|---|---|---|---|---|---|"
-    alone = _row((await drag(visitor, lecturer, seconds))[0])
-    await asyncio.sleep(2.0)
+    heard = [asyncio.create_task(lecturer.end(3600.0)) for lecturer in (empty, full)]
+    await drag(visitor, empty, 5.0)
+    await _prepared(pid)
+    yield "| followers | joined in | alone | with them | p95 ratio | cores | at the last state | memory each | errors |"
+    yield "|---|---|---|---|---|---|---|---|---|"
     before = memory(pid)
     pipe, theirs = multiprocessing.Pipe()
-    hall = multiprocessing.get_context("spawn").Process(target=_audience, args=(theirs, base, lecturer.code, count))
+    hall = multiprocessing.get_context("spawn").Process(target=_audience, args=(theirs, base, full.code, count))
     hall.start()
     wait = asyncio.get_running_loop().run_in_executor
     joined = await wait(None, pipe.recv)
-    answered, query = await drag(visitor, lecturer, seconds)
-    pipe.send((query, time.monotonic()))
+    # In turn, so that other work on the machine slows down both.
+    answered, cores = {empty: [], full: []}, {empty: 0.0, full: 0.0}
+    for lecturer in [empty, full] * TURNS:
+        cpu = worked(pid)
+        times, query = await drag(visitor, lecturer, seconds / TURNS)
+        since = time.monotonic()
+        answered[lecturer] += times
+        cores[lecturer] += (worked(pid) - cpu) / seconds
+    pipe.send((query, since))
     times, errors = await wait(None, pipe.recv)
-    held, late, together = memory(pid), _row(times), _row(answered)
+    held, late, alone, together = memory(pid), _row(times), _row(answered[empty]), _row(answered[full])
     pipe.send("end")
     hall.join()
     yield (
         f"| {len(times)} of {count} | {joined:.1f} s | {1e3 * alone[0]:.0f}, {1e3 * alone[1]:.0f} ms | "
         f"{1e3 * together[0]:.0f}, {1e3 * together[1]:.0f} ms | {together[1] / alone[1]:.2f} | "
+        f"{cores[empty]:.2f}, {cores[full]:.2f} | "
         f"{late[0]:.2f}, {late[1]:.2f} s | {(held - before) / count / 2**20:.2f} MB | {errors} |"
     )
     await visitor.leave()
-    await lecturer.say({"end": True})
-    await counts
+    for lecturer in (empty, full):
+        await lecturer.say({"end": True})
+    await asyncio.gather(*heard)
 
 
 async def _printed(rows, kept):
@@ -330,27 +351,26 @@ def main():
     # The visitors stand for two hundred browsers, which do not stop all at once to look for garbage.
     gc.disable()
     kept, before, ticks = [], os.getloadavg()[0], _processor()
-    for workers in options.workers if options.counts else ():
-        kept += [f"Served by {workers} process{'es' * (workers > 1)}:", ""]
+
+    def serve(title, rows, workers=1):
+        """Start a server, and print and keep the rows of a table; rows(base, pid) yields them."""
+        kept.extend([title, ""])
         with server_process(LOG, options=["--workers", str(workers)]) as (process, base):
             time.sleep(2.0)
             asyncio.run(_ready(base))
-            asyncio.run(_printed(measure(base, process.pid, options.counts, options.seconds), kept))
+            asyncio.run(_printed(rows(base, process.pid), kept))
         kept.append("")
-    for workers in options.workers if options.followers else ():
-        kept += [f"A lecture, served by {workers} process{'es' * (workers > 1)} (median, p95):", ""]
-        with server_process(LOG, options=["--workers", str(workers)]) as (process, base):
-            time.sleep(2.0)
-            asyncio.run(_ready(base))
-            asyncio.run(_printed(lecture(base, process.pid, options.followers, options.seconds), kept))
-        kept.append("")
+
+    for workers in options.workers:
+        served = f"served by {workers} process{'es' * (workers > 1)}"
+        if options.counts:
+            serve(f"A class, {served}:", lambda *server: measure(*server, options.counts, options.seconds), workers)
+        if options.followers:
+            lectured = f"A lecture, {served} (median, p95; cores of the server):"
+            serve(lectured, lambda *server: lecture(*server, options.followers, options.seconds), workers)
     if options.leave:
-        kept += [f"{options.leave} sessions opened and left, after each quarter has expired:", ""]
-        with server_process(LOG) as (process, base):
-            time.sleep(2.0)
-            asyncio.run(_ready(base))
-            asyncio.run(_printed(leave(base, process.pid, options.leave), kept))
-        kept.append("")
+        left = f"{options.leave} sessions opened and left, after each quarter has expired:"
+        serve(left, lambda *server: leave(*server, options.leave))
     kept.append(_machine(before, ticks))
     print(kept[-1])
     if options.write:
