@@ -419,6 +419,12 @@ interface SceneTile {
   group: string
 }
 
+/** A row of the gallery; file: name without theme and suffix. */
+interface ShowcaseRow {
+  idea: string
+  exhibits: { title: string, query: string, file: string }[]
+}
+
 interface Palettes { plain: string[], round: string[] }
 
 /** The model of the page's component, see "page/component.py". */
@@ -427,6 +433,7 @@ interface PageModel {
   lesson: string
   lessons: { name: string, title: string, minutes: number }[]
   scenes: SceneTile[]
+  showcase: ShowcaseRow[]
   palettes: Palettes
   files: ExportFiles
   sheets: Record<string, string>

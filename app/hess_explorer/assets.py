@@ -10,13 +10,13 @@ __all__ = ["MODULES", "STATIC", "modules_path"]
 _HERE = Path(__file__).resolve().parent
 STATIC = next(folder for folder in (_HERE / "static", _HERE.parents[1] / "static") if folder.is_dir())
 
-MODULES = r"(?:page|controls|pictures)/[a-z_]+\.js|page/handout\.css"
-"""Regular expression for the files in `STATIC` that are served: JavaScript modules and the style sheet for printing."""
+MODULES = r"(?:page|controls|pictures)/[a-z_]+\.js|page/handout\.css|thumbnails/[a-z-]+\.jpg"
+"""Regular expression for the files in `STATIC` that are served: modules, style sheet for printing, and the gallery."""
 
 
 def modules_path() -> str:
     """Return the URL folder of the modules, relative to the page; it contains a hash of their contents."""
     digest = hashlib.sha256()
-    for file in sorted([*STATIC.glob("*/*.js"), STATIC / "page/handout.css"]):
+    for file in sorted([*STATIC.glob("*/*.js"), *STATIC.glob("thumbnails/*.jpg"), STATIC / "page/handout.css"]):
         digest.update(file.relative_to(STATIC).as_posix().encode() + b"\0" + file.read_bytes() + b"\0")
     return f"modules-{digest.hexdigest()[:16]}"

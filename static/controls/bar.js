@@ -63,10 +63,10 @@ function tool({ name, label = name[0].toUpperCase() + name.slice(1), title, icon
 
 /**
  * Render the bar.
- * @param {Pick<PageModel, "scenes" | "files" | "palettes"> & {el: HTMLElement}} part
+ * @param {Pick<PageModel, "scenes" | "showcase" | "files" | "palettes"> & {el: HTMLElement}} part
  */
-export function render({ scenes, files, palettes, el }) {
-  const menu = sceneMenu(scenes)
+export function render({ scenes, showcase, files, palettes, el }) {
+  const menu = sceneMenu(scenes, showcase)
   const share = shareDialog()
   const invite = inviteDialog()
   const taking = exportDialog(files)

@@ -1,12 +1,14 @@
 // @ts-check
-// The menu of scenes: a dialog with their pictures in groups, and a search.  It tells "scene" for a choice and "near" for the
-// scene under the mouse or focus, so that its pictures are built in advance.
+// The menu of scenes: a dialog with a gallery, all scenes in groups, and a search.  It tells "scene" for a choice and "near" for
+// the scene under the mouse or focus, so that its pictures are built in advance.
 
 import { button, element } from "../page/elements.js"
 import { tell } from "../page/bus.js"
 import { dialogOf, section } from "./dialog.js"
+import { showcaseOf } from "./showcase.js"
 
 const REST = 60
+const TILE = ".scene, .exhibit"
 
 /** @param {SceneTile} scene @param {boolean} isHere @param {boolean} isFirst @param {(name: string) => void} choose */
 function tileOf({ name, title, summary, picture }, isHere, isFirst, choose) {
@@ -44,14 +46,16 @@ function neighbour(tiles, tile, key) {
 /**
  * Return the dialog and the functions that open it and set the scene on show.
  * @param {SceneTile[]} scenes
+ * @param {ShowcaseRow[]} showcase
  */
-export function sceneMenu(scenes) {
+export function sceneMenu(scenes, showcase) {
   const search = element("input.search", { type: "search", ariaLabel: "Search scenes", placeholder: "Search", oninput: filter })
-  const list = element("div.scenes")
+  const gallery = element("div.showcase")
+  const list = element("div.groups")
   const none = element("p.none", { hidden: true, role: "status" }, "No scene matches.")
-  const dialog = dialogOf("Scenes", "menu-of-scenes", [search], list, none)
+  const dialog = dialogOf("Scenes", "menu-of-scenes", [search], element("div.scenes", gallery, list), none)
 
-  const tiles = () => /** @type {HTMLElement[]} */ ([...list.querySelectorAll(".scene")]).filter((tile) => tile.checkVisibility())
+  const tiles = () => /** @type {HTMLElement[]} */ ([...dialog.querySelectorAll(TILE)]).filter((tile) => tile.checkVisibility())
   /** @param {string} name */
   const choose = (name) => {
     tell("scene", name)
@@ -60,19 +64,20 @@ export function sceneMenu(scenes) {
 
   function filter() {
     const words = search.value.toLowerCase().split(/\s+/).filter(Boolean)
-    for (const group of /** @type {Iterable<HTMLElement>} */ (list.children)) {
-      for (const tile of /** @type {NodeListOf<HTMLElement>} */ (group.querySelectorAll(".scene"))) {
+    for (const group of /** @type {NodeListOf<HTMLElement>} */ (dialog.querySelectorAll("section"))) {
+      const own = /** @type {HTMLElement[]} */ ([...group.querySelectorAll(TILE)])
+      for (const tile of own) {
         const text = `${group.ariaLabel} ${tile.textContent}`.toLowerCase()
         tile.hidden = !words.every((word) => text.includes(word))
       }
-      group.hidden = group.querySelector(".scene:not([hidden])") === null
+      group.hidden = own.every((tile) => tile.hidden)
     }
-    none.hidden = list.querySelector(".scene:not([hidden])") !== null
+    none.hidden = dialog.querySelector("section:not([hidden])") !== null
   }
 
   dialog.addEventListener("keydown", (event) => {
     /** @type {HTMLElement | null} */
-    const tile = /** @type {Element} */ (event.target).closest(".scene")
+    const tile = /** @type {Element} */ (event.target).closest(TILE)
     if (event.target === search) {
       if (!["Enter", "ArrowDown"].includes(event.key)) return
       const [first] = tiles()
@@ -89,6 +94,7 @@ export function sceneMenu(scenes) {
   return {
     dialog,
     open() {
+      gallery.replaceChildren(...showcaseOf(showcase, () => dialog.close()))
       search.value = ""
       filter()
       dialog.showModal()

@@ -124,10 +124,10 @@ export function render({ model, view, el }) {
   }
   const stage = element("div.stage", mount("pictures", renderPictures),
     element("div.below", mount("player", renderPlayer), mount("progress", renderProgress)))
-  const { scenes, files, palettes } = model
+  const { scenes, showcase, files, palettes } = model
   el.classList.add("frame")
   el.append(
-    element("header.bar", mount("bar", renderBar, { scenes, files, palettes }),
+    element("header.bar", mount("bar", renderBar, { scenes, showcase, files, palettes }),
       ...rejoin(model.client), element("div.news", text("busy"))),
     tabsOf({ Controls: controls, Text: reader }), controls, stage, reader,
     element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener(), drawer(el), spot(), announcer())

@@ -10,6 +10,8 @@ import pytest
 from pytest import approx
 
 from hess_explorer.headless.browser import wait_ready
+from hess_explorer.page.opening import opening
+from hess_explorer.page.showcase import EXHIBITS, IDEAS
 from hess_explorer.scenes import scenes
 from hess_mechanics.numerics.accuracy import LEVELS
 from support.page import (
@@ -70,7 +72,7 @@ def test_the_menu_offers_the_scenes_in_groups_and_says_where_to_begin_and_which_
     explorer.open_menu()
     menu = explorer.page.get_by_role("dialog", name="Scenes", exact=True)
     groups = list(dict.fromkeys(SCENES[name].group for name in OFFERED))
-    assert menu.locator("h3").all_text_contents() == groups
+    assert menu.locator("h3").all_text_contents() == [*IDEAS, *groups]
     for group in groups:
         tiles = menu.get_by_role("region", name=group, exact=True).get_by_role("button").all()
         names = [name for name in OFFERED if SCENES[name].group == group]
@@ -102,6 +104,31 @@ def test_the_pictures_of_the_menu_are_drawings_and_nothing_else(explorer):
     explorer.page.keyboard.press("Escape")
 
 
+@pytest.mark.parametrize("exhibit", EXHIBITS, ids=lambda exhibit: exhibit.file)
+def test_the_gallery_links_to_states_that_need_no_correction_and_have_its_picture(exhibit):
+    opened = opening(exhibit.query, lenient=False)
+    assert opened.notes == []
+    assert exhibit.picture in opened.scene.pictures
+
+
+def test_an_example_of_the_gallery_is_a_picture_of_both_themes_and_opens_its_state(explorer):
+    page = explorer.page
+    for is_dark, theme in ((True, "dark"), (False, "light")):
+        explorer.turn_theme(is_dark=is_dark)
+        explorer.open_menu()
+        pictures = page.locator(".exhibit img")
+        for picture, exhibit in zip(pictures.all(), EXHIBITS, strict=True):
+            assert picture.get_attribute("src").endswith(f"/{exhibit.file}-{theme}.jpg")
+            picture.scroll_into_view_if_needed()
+            page.wait_for_function("item => item.complete && item.naturalWidth === 240", arg=picture.element_handle())
+        page.keyboard.press("Escape")
+    explorer.open_menu()
+    explorer.change(page.get_by_role("button", name="Almost round").click)
+    assert explorer.scene == "loxodrome"
+    assert explorer.chosen("preset") == "Almost round: many turns"
+    assert not page.get_by_role("dialog", name="Scenes").count()
+
+
 FOCUSED = """() => {
   let item = document.activeElement
   while (item?.shadowRoot?.activeElement) item = item.shadowRoot.activeElement
@@ -123,7 +150,8 @@ def test_the_menu_obeys_the_keyboard_and_is_searched(explorer):
     for _ in range(4):
         keys.press("ArrowDown")
     assert SCENES[page.evaluate(FOCUSED)].group != SCENES[HESS].group
-    for _ in range(5):
+    # Past the two rows of the gallery.
+    for _ in range(7):
         keys.press("ArrowUp")
     assert page.evaluate(FOCUSED) == "search"
     # Typed text goes to the search box only.
@@ -137,7 +165,7 @@ def test_the_menu_obeys_the_keyboard_and_is_searched(explorer):
     button.press("Enter")
     for _ in range(3):
         keys.press("Shift+Tab")
-        assert page.evaluate(FOCUSED) in (*SCENES, "search", "button")
+        assert page.evaluate(FOCUSED) in (*SCENES, "exhibit", "search", "button")
     keys.press("Escape")
     assert page.evaluate(FOCUSED) == "tool param-scenes"
     assert not explorer.playing

@@ -33,6 +33,7 @@ class Explorer(JSComponent):
     lesson = param.String(default="", doc="The lesson that the link names, as JSON; see `description`.")
     lessons = param.List(default=[], doc="{name, title, minutes} of each lesson.")
     scenes = param.List(default=[], doc="{name, title, summary, picture, origin, group} of each scene.")
+    showcase = param.List(default=[], doc="{idea, exhibits: {title, query, file} each} of each row of the gallery.")
     palettes = param.Dict(default={}, doc="Colours of a chart, for numbers and for angles.")
     files = param.Dict(
         default={},

@@ -16,6 +16,7 @@ from panel.util import edit_readonly
 
 from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, FileRequest
 from hess_explorer.lessons.lesson import Lesson
+from hess_explorer.page import showcase
 from hess_explorer.page.component import Explorer, styles
 from hess_explorer.page.description import describe_lesson
 from hess_explorer.page.opening import opening, query_of
@@ -69,6 +70,7 @@ def _page(query: str, own: Sequence[Lesson]) -> pmui.Page:
         lesson=describe_lesson(reading) if reading else "",
         lessons=[{"name": one.name, "title": one.title, "minutes": one.minutes} for one in opened.lessons.values()],
         scenes=[_entry(one) for one in scenes().values()],
+        showcase=showcase.rows(),
         palettes=_PALETTES,
         files=_FILES,
         sheets=styles(),
