@@ -133,7 +133,7 @@ LIMITS = {
     "For $a$ = 0.3 that is 6.586": lambda s: (a_of(s), here(s).fixed_points[1].multiplier),
     "as long as $h>1$?": lambda s: (1.0,),
     "to and fro, at h = 0.3": of("h"),
-    "as $f\\to 0$, and the trace tends to 0.": lambda s: (0.0, here(s).trace),
+    "in the limit $f\\to 0$, where the trace tends to 0.": lambda s: (0.0, here(s).trace),
     "after two swings": lambda s: (2.0,),
     "only one step was seen, at 0": lambda s: (circle_map(0.5, 1.5, 0.6, PRECISE).rotation_number,),
     "Where the trace is less than 2, the": lambda s: (2.0,),
@@ -177,7 +177,7 @@ LAYERS = {
     "Here it is $r_1M_1+r_3M_3=0$": lambda s: (0.0,),
     "with $a_i=1/I_i$": lambda s: (1.0,),
     "turned away by 0.02": of("away"),
-    "surface $r_1M_1+r_3M_3=0$ is invariant no more": lambda s: (0.0,),
+    "surface $r_1M_1+r_3M_3=0$ is no longer invariant": lambda s: (0.0,),
     "beyond 2 there are two limit cycles. Here the number\n$|a|$ is 0.5 and the trace is 4.904": lambda s: (
         2.0,
         len(on_the_wall(s).fixed_points),
