@@ -66,7 +66,7 @@ ROWS = {
     "about 16 digits of": lambda s: (round(DIGITS),),
     # Two doubles for a number.
     "with 31 digits": lambda s: (math.floor(2.0 * 53.0 * math.log10(2.0)),),
-    "the four **levels": lambda s: (len(LEVELS),),
+    "the four\n**levels": lambda s: (len(LEVELS),),
     "up to $t$ = 60. We shall follow the motion up to $t$ = 240": lambda s: (
         s.at.values["span"],
         s.prediction.then.values["span"],
