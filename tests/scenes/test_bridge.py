@@ -62,7 +62,7 @@ def test_the_leak_grows_at_the_rate_in_the_caption_which_is_the_exact_one(name):
     # The line drawn has this slope, and lies on the curve where that is straight.
     t, lg = view.curve("leak-own")
     x, y = view.curve("leak-slope")
-    (period,) = view.derived("Period of n₃ = #")
+    period = view.result.period
     assert (y[-1] - y[0]) / (x[-1] - x[0]) == approx(expected / (period * log(10.0)), rel=1e-5)
     straight = (lg > -12.5) & (lg < -4.0) & (t < x[-1])
     assert straight.sum() > 96
@@ -74,8 +74,8 @@ def test_the_leak_grows_at_the_rate_in_the_caption_which_is_the_exact_one(name):
 def test_figure_gess1_has_the_numbers_of_the_paper():
     view = leak("Figure 11: h = 50, f = 5")
     assert view.numbers("leak", "ln |r·M|: # per period, measured over # periods; exact #.")[::2] == [3.091] * 2
-    assert view.derived("ln(multiplier) = ±#") == [3.09107]
-    assert view.derived("In units b = 1: h = #, f = #") == [5.01253, -2.0025]
+    assert view.derived("ln(multiplier) = ±#") == [3.0911]
+    assert view.derived("In units b = 1: h = #, f = #") == [5.013, -2.003]
     assert view.derived("a = b′/a₁′ = #") == [-0.5]
     assert view.derived("b = a₁′μ|r| = #") == [15.96]
 
@@ -190,12 +190,12 @@ def test_figure_gess1_in_both_systems_of_units():
     assert view.derived("−F₂ = F₁ = #") == [5.0]
     # I11 = I2, I22 = I11/(1 + a²), I23 = a I22, b3 = −b I22 √(1 + a²).
     assert view.derived("I₁₁ = #, I₂₂ = #, I₂₃ = #") == [0.625, 0.5, -0.25]
-    assert view.derived("b₃ = #") == [approx(-15.96 * 0.5 * sqrt(1.25), rel=1e-4)]
+    assert view.derived("b₃ = #") == [approx(-15.96 * 0.5 * sqrt(1.25), rel=6e-4)]
     (said,) = view.numbers("circle", "|trace| = #.")
     trace, growth = view.result.map.trace, 3.09107
     assert said == approx(trace, rel=6e-4)
     assert trace == approx(2.0 * cosh(growth / 2.0), abs=6e-5)
-    assert view.derived("Period of n₃ = #") == [approx(period_of(5.0125313, 2.0025047)[0] / sqrt(15.96), rel=1e-5)]
+    assert view.derived("Period of n₃ = #") == [approx(period_of(5.0125313, 2.0025047)[0] / sqrt(15.96), rel=6e-4)]
 
 
 def test_the_same_state_may_be_given_on_either_side():

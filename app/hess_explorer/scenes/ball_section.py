@@ -335,13 +335,13 @@ class BallSection(State):
 
     def derived(self) -> Iterator[str]:
         """Yield the energies and the start of the orbit."""
-        yield f"E = {digits(self.E, 6)}"
+        yield f"E = {digits(self.E)}"
         yield from super().derived()
-        yield f"lowest energy −|b| = {digits(lowest_energy(self.body), 6)}"
+        yield f"lowest energy −|b| = {digits(lowest_energy(self.body))}"
         yield f"ω(0) = {vector(self.start[:2])}"
         yield f"γ(0) = {vector(self.start[2:])}"
         if has_area_integral(self.body):
-            yield f"ω₁γ₁ + ω₂γ₂ = {digits(float(area_integral(np.array(self.start))), 6)}, an integral"
+            yield f"ω₁γ₁ + ω₂γ₂ = {digits(float(area_integral(np.array(self.start))))}, an integral"
 
 
 SCENE = Scene(

@@ -280,20 +280,20 @@ class BothSides(State):
         H, F1 = self.bridge.from_units_of_b(theta.h, theta.f)
         frequency = 2.0 * math.pi / self.period
         bodies = ("yes" if one.check.is_body else "no" for one in (hess, heavy))
-        yield f"Suslov: I₁₁ = {digits(hess.I11, 5)}, I₂₂ = {digits(hess.I22, 5)}, I₂₃ = {digits(hess.I23, 5)}"
-        yield f"b₂ = {digits(hess.b2, 5)}, b₃ = {digits(hess.b3, 5)}"
+        yield f"Suslov: I₁₁ = {digits(hess.I11)}, I₂₂ = {digits(hess.I22)}, I₂₃ = {digits(hess.I23)}"
+        yield f"b₂ = {digits(hess.b2)}, b₃ = {digits(hess.b3)}"
         yield (
-            f"Euler–Poisson: I = ({', '.join(digits(1.0 / a, 5) for a in heavy.a)}), "
-            f"μ|r| = {digits(math.copysign(heavy.strength, heavy.mu), 5)}"
+            f"Euler–Poisson: I = ({', '.join(digits(1.0 / a) for a in heavy.a)}), "
+            f"μ|r| = {digits(math.copysign(heavy.strength, heavy.mu))}"
         )
-        yield f"r/|r| = ({digits(heavy.r[0], 5)}, 0, {digits(heavy.r[2], 5)})"
-        yield f"a = I₂₃/I₂₂ = b′/a₁′ = {digits(hess.a, 6)}"
-        yield f"b = a₁′μ|r| = {digits(hess.b, 6)}"
-        yield f"E = H = {digits(H, 6)}"
-        yield f"−F₂ = F₁ = {digits(F1, 6)}"
-        yield f"In units b = 1: h = {digits(theta.h, 6)}, f = {digits(theta.f, 6)}"
-        yield f"Period of n₃ = {digits(self.period, 6)}, the same on both sides"
-        yield f"Frequencies {digits(frequency, 6)}, {digits(frequency * theta.rotation_number, 6)}"
+        yield f"r/|r| = ({digits(heavy.r[0])}, 0, {digits(heavy.r[2])})"
+        yield f"a = I₂₃/I₂₂ = b′/a₁′ = {digits(hess.a)}"
+        yield f"b = a₁′μ|r| = {digits(hess.b)}"
+        yield f"E = H = {digits(H)}"
+        yield f"−F₂ = F₁ = {digits(F1)}"
+        yield f"In units b = 1: h = {digits(theta.h)}, f = {digits(theta.f)}"
+        yield f"Period of n₃ = {digits(self.period)}, the same on both sides"
+        yield f"Frequencies {digits(frequency)}, {digits(frequency * theta.rotation_number)}"
         yield "Rigid bodies? Suslov: {}; Euler–Poisson: {}".format(*bodies)
 
     def status(self) -> Iterator[str]:

@@ -275,7 +275,7 @@ class DiagramState(State, ABC):
         """Return the energy, the chosen place, the bifurcations of the branch and the check of the body."""
         psi, delta = map(digits, self.diagram.place)
         return [
-            f"E = {digits(self.E, 6)}",
+            f"E = {digits(self.E)}",
             f"chosen: ψ = {psi}, δ = {delta}",
             *super().derived(),
             check_body(*self.body.parameters[:4]).sentence,

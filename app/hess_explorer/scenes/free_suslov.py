@@ -254,16 +254,16 @@ class FreeSuslov(State):
         """Yield I11 and k², the energy, the rate, the directions and F2."""
         points = self.points
         yield from free_body.about_I11(self.k, self.body)
-        yield f"E = {digits(self.h, 6)}"
-        yield f"ω₀ = {digits(points.rate, 6)}"
-        yield f"|ω±| = {digits(points.speed, 6)}"
+        yield f"E = {digits(self.h)}"
+        yield f"ω₀ = {digits(points.rate)}"
+        yield f"|ω±| = {digits(points.speed)}"
         yield f"ξ = {vector(points.xi)}"
         if self.F2 is None:
             yield "F₂: none known (I₁₃ = 0 and k odd, or the like)"
         else:
             integral, f = self.F2
-            yield f"F₂, degree {integral.k} in ω: f = {digits(f, 6)}"
-            yield f"F₂ at the fixed points: ±{digits(abs(integral.at_fixed_points(self.h)[0]), 6)}"
+            yield f"F₂, degree {integral.k} in ω: f = {digits(f)}"
+            yield f"F₂ at the fixed points: ±{digits(abs(integral.at_fixed_points(self.h)[0]))}"
 
     def status(self) -> Iterator[str]:
         """Yield the status of the orbit."""

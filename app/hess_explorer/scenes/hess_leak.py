@@ -204,17 +204,17 @@ class HessLeak(State):
     def derived(self) -> Iterator[str]:
         """Yield the reduced body and torus, the exact growth and the measured growth."""
         growth = mechanics.exact_growth(self.map)
-        yield f"a = b′/a₁′ = {digits(self.bridge.hess.a, 6)}"
-        yield f"b = a₁′μ|r| = {digits(self.bridge.hess.b, 6)}"
-        yield f"In units b = 1: h = {digits(self.map.h, 6)}, f = {digits(self.map.f, 6)}"
-        yield f"Period of n₃ = {digits(self.period, 6)}"
+        yield f"a = b′/a₁′ = {digits(self.bridge.hess.a)}"
+        yield f"b = a₁′μ|r| = {digits(self.bridge.hess.b)}"
+        yield f"In units b = 1: h = {digits(self.map.h)}, f = {digits(self.map.f)}"
+        yield f"Period of n₃ = {digits(self.period)}"
         yield f"|trace| = {digits(self.map.trace, 6)}: {self.map.kind}"
         if self.map.fixed_points:
-            yield f"ln(multiplier) = ±{digits(growth, 6)}"
-            yield f"Rate = {digits(growth / self.period, 6)} in a unit of time"
+            yield f"ln(multiplier) = ±{digits(growth, 5)}"
+            yield f"Rate = {digits(growth / self.period)} in a unit of time"
         if "leak" in self.seen and self.map.kind == "hyperbolic":
             yield from (
-                f"Measured, {leak.run.level}: {digits(leak.growth.per_period, 7)} a period"
+                f"Measured, {leak.run.level}: {digits(leak.growth.per_period, 5)} a period"
                 for leak in self.leaks.values()
                 if leak.growth is not None
             )

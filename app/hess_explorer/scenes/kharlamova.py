@@ -286,11 +286,11 @@ class Kharlamova(State):
 
     def derived(self) -> Iterator[str]:
         """Yield the energy, start, force, period and divergence."""
-        yield f"E = {digits(self.h, 6)}"
-        yield f"Start: γ₃ = {digits(self.start[4], 6)}"
+        yield f"E = {digits(self.h)}"
+        yield f"Start: γ₃ = {digits(self.start[4])}"
         yield f"Force = {vector((-self.b2 / self.body.axes[0], self.b1 / self.body.axes[1]))}"
         if self.arc.kind == "periodic":
-            yield f"T = {digits(self.arc.period, 8)}"
+            yield f"T = {digits(self.arc.period)}"
             yield f"Back after T: {power(self.missed)}"
         else:
             yield "T = ∞" if self.arc.kind == "asymptotic" else "A fixed point"

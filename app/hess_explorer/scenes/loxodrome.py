@@ -152,12 +152,12 @@ class Loxodrome(State):
     def derived(self) -> Iterator[str]:
         """Yield a, the angle of the loxodrome and the derived data of the body."""
         p, heavy = self.pendulum, self.pendulum.body
-        yield f"a = ±√((a₃−a₂)(a₂−a₁))/a₂ = {digits(p.a, 6)}"
-        yield f"θ = {digits(p.angle, 6)} = {digits(math.degrees(p.angle), 6)}°"
+        yield f"a = ±√((a₃−a₂)(a₂−a₁))/a₂ = {digits(p.a)}"
+        yield f"θ = {digits(p.angle)} = {digits(math.degrees(p.angle))}°"
         yield f"r = {vector(heavy.r)}"
-        yield f"H = h μ|r| = {digits(p.h * heavy.mu, 6)}"
-        yield f"Unit of time = {digits(1.0 / p.frequency_unit, 6)}"
-        yield f"l(0) = {digits(p.l, 6)}"
+        yield f"H = h μ|r| = {digits(p.h * heavy.mu)}"
+        yield f"Unit of time = {digits(1.0 / p.frequency_unit)}"
+        yield f"l(0) = {digits(p.l)}"
         yield f"A rigid body? {'yes' if heavy.check.is_body else 'no'}"
         yield f"ln of the departure per turn in the full equations, 2π|a| = {digits(2.0 * math.pi * abs(p.a))}"
 

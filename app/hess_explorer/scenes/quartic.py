@@ -282,10 +282,10 @@ class Quartic(State):
 
     def derived(self) -> Iterator[str]:
         """Yield the moment of inertia, the energy, the start and the error of H = ½."""
-        yield f"I₁₁ = {digits(self.body.I11, 6)}"
+        yield f"I₁₁ = {digits(self.body.I11)}"
         yield from super().derived()
-        yield f"h/|b₃| = {digits(self.h / abs(self.b3), 6)}"
-        yield f"Start: γ₃ = {digits(self.start[4], 6)}"
+        yield f"h/|b₃| = {digits(self.h / abs(self.b3))}"
+        yield f"Start: γ₃ = {digits(self.start[4])}"
         yield f"ω(0) = {vector(self.start[:2])}"
         if self.orbit.asked("path"):
             yield f"H = ½ to {power(model.level_error(self.body, self.orbit.path.states))}"

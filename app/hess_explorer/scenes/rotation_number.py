@@ -285,7 +285,7 @@ class RotationNumber(State):
         """Yield the circle map and the ladder of the other family."""
         if self.map is not None:
             yield circle.riccati_matrix(self.map)
-            yield f"|trace| = {digits(self.map.trace, 6)}, ρ = {digits(self.map.rotation_number, 8)}"
+            yield f"|trace| = {digits(self.map.trace, 6)}, ρ = {digits(self.map.rotation_number)}"
             if self.map.fixed_points:
                 yield "multipliers " + ", ".join(digits(point.multiplier) for point in self.map.fixed_points)
         perturbed = self.known("perturbed")

@@ -178,7 +178,7 @@ class Scattering(State):
         """Yield I11 and k², the rotation and the start."""
         yield from free_body.about_I11(self.k, self.body)
         yield f"cos χ = {in_digits(self.limit.cos_chi, 6)}"
-        yield f"φ* = {in_digits(self.map.phi_star, 6)}"
+        yield f"φ* = {in_digits(self.map.phi_star)}"
         yield f"δ = {in_digits(self.distance, 3)}"
         yield f"ξ = {vector(self.points.xi)}"
         yield "Time in units of 1/ω₀; θ⁺ does not depend on the energy"

@@ -204,7 +204,7 @@ class SingularMeasures(State):
         yield "Invariant density: 1/|I₁₃ω₁ + I₂₃ω₂|"
         yield f"ξ = {vector(self.strip.xi)}"
         yield f"mean of div v: {digits(course.divergence[0, 0], 3)} → {digits(course.divergence[0, -1], 3)}"
-        yield f"mean of ln s(t)/s(0): {digits(course.log_growth[0, -1], 5)}"
+        yield f"mean of ln s(t)/s(0): {digits(course.log_growth[0, -1])}"
         if self.start == "small patch":
             yield f"V(t)/V(0) = {digits(course.volume[-1], 4)}"
         if self.clouds.sides is not None:

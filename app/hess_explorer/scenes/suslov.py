@@ -346,7 +346,7 @@ class Suslov(State):
 
     def derived(self) -> Iterator[str]:
         """Yield the energy, the start of the orbit on show and the check of the body."""
-        yield f"E = {digits(self.E, 6)}"
+        yield f"E = {digits(self.E)}"
         yield f"chosen: {self.section.at(self.section.chosen)}"
         yield from super().derived()
         yield check_body(self.I11, self.I22, self.I13, self.I23).sentence

@@ -243,21 +243,21 @@ class SuslovHess(State):
     def derived(self) -> Iterator[str]:
         """Yield a, b, the derived data of the body, the integrals in its units and the period."""
         body = self.body
-        yield f"a = I₂₃/I₂₂ = {digits(body.a, 6)}"
-        yield f"b = {digits(body.b, 6)}"
-        yield f"I₁₁ = {digits(body.I11, 6)}"
-        yield f"b₂ = {digits(body.b2, 6)}"
-        yield f"E = I₁₁ b h = {digits(body.I11 * body.b * self.h, 6)}"
-        yield f"F₂ = I₁₁ √b f = {digits(body.I11 * body.frequency_unit * self.f, 6)}"
+        yield f"a = I₂₃/I₂₂ = {digits(body.a)}"
+        yield f"b = {digits(body.b)}"
+        yield f"I₁₁ = {digits(body.I11)}"
+        yield f"b₂ = {digits(body.b2)}"
+        yield f"E = I₁₁ b h = {digits(body.I11 * body.b * self.h)}"
+        yield f"F₂ = I₁₁ √b f = {digits(body.I11 * body.frequency_unit * self.f)}"
         yield f"A rigid body? {'yes' if body.check.is_body else 'no: |a| ≥ 1'}"
         if body.check.I33 is not None:
             yield f"I₃₃ from {digits(body.check.I33[0])} to {digits(body.check.I33[1])}"
         if self.map is not None:
-            yield f"Period of n₃ = {digits(self.map.period / body.frequency_unit, 6)}"
+            yield f"Period of n₃ = {digits(self.map.period / body.frequency_unit)}"
             if self.known("proof") and self.proof is not None:
                 yield self.proof.sentence
             if self.map.kind == "elliptic":
-                yield f"ζ of the invariant density = {digits(invariant_measure(self.map).zeta, 6)}"
+                yield f"ζ of the invariant density = {digits(invariant_measure(self.map).zeta)}"
 
     def status(self) -> Iterator[str]:
         """Yield the status of the orbit and of the circle map."""

@@ -49,5 +49,5 @@ def limits_of_k(I22: float, I13: float, I23: float) -> Mapping[str, Slider]:
 
 def about_I11(k: float, body: SuslovBody) -> Iterator[str]:
     """Yield I11 and k²."""
-    yield f"I₁₁ = {digits(body.I11, 6)}"
-    yield f"k² = {digits(k * abs(k), 6)}"
+    yield f"I₁₁ = {digits(body.I11)}"
+    yield f"k² = {digits(k * abs(k))}"

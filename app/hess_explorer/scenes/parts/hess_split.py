@@ -18,7 +18,7 @@ from hess_explorer.views.graph import about_0
 from hess_explorer.views.layers import Axes, curves, levels, points, ring
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.text import digits, power
+from hess_explorer.views.text import digits, power, with_error
 from hess_mechanics.errors import ModelError
 from hess_mechanics.euler_poisson.hess_split import HessTorus, Split, slope_of, split_at
 from hess_mechanics.numerics.accuracy import PRECISE
@@ -98,7 +98,7 @@ class HessSplit(Part[Host]):
     def derived(self) -> Iterator[str]:
         """Yield the slope of the split at ε = 0."""
         if self.asked("_splits") and self.slope is not None:
-            yield f"split/ε → {digits(self.slope[0], 7)} ± {power(self.slope[1])}"
+            yield f"split/ε → {with_error(*self.slope)}"
 
     def notes(self) -> Iterator[str]:
         """Yield the reasons why splits on the graph are missing."""

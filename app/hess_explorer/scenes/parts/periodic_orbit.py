@@ -253,7 +253,7 @@ class PeriodicOrbit(Part[_Host]):
         if self.closed is None:
             return
         orbit = self.closed.orbit
-        yield f"T = {digits(self.closed.time, 6)}, periodic; places to {power(orbit.error_estimate)}"
+        yield f"T = {digits(self.closed.time)}, periodic; places to {power(orbit.error_estimate)}"
         yield from (f"symmetric under: {name}" for name in orbit.symmetric)
         if self._saddle is not None and self._branches is None:
             yield self.work.awaited("Its manifolds are")

@@ -150,7 +150,7 @@ class Precision:
         yield f"Equations: {system.source} ({', '.join(system.labels)} in the LaTeX source)"
         named = ((system.parameters, motion.parameters, ""), (system.variables, motion.state, "(0)"))
         for names, values, when in named:
-            yield from (f"{name}{when} = {digits(value, 6)}" for name, value in zip(names, values, strict=True))
+            yield from (f"{name}{when} = {digits(value)}" for name, value in zip(names, values, strict=True))
 
     def status(self) -> Iterator[str]:
         """Yield the cost and error of every level, if they have been measured."""
