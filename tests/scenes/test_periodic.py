@@ -167,7 +167,9 @@ def test_homoclinic_points_come_from_the_saddle_and_go_to_it():
     view = shown("ball-section", "period 1")
     state = view.result
     found = state.periodic_orbit.homoclinic
-    said, error = view.derived("# homoclinic points on what is drawn of them, to #; longer ones cross more often")
+    said, error = view.derived(
+        "# homoclinic points on the drawn parts of the manifolds, to #; longer manifolds cross more often"
+    )
     assert said == len(found) == len(view.points("homoclinic")) > 20
     assert error == approx(max(one.error for one in found), rel=0.5)
     # As many as the curves have that are drawn, with those that are not certain.
@@ -315,7 +317,7 @@ def test_a_branch_that_ends_early_says_why():
     view = shown("ball-section", "period 1", ("reach", 30.0))
     assert view.report.notes[0] == "A branch of a manifold ends early. After 20000 returns of the map."
     assert "0 of 4 branches of its manifolds are 30 long" in view.report.derived
-    assert view.derived("at least # homoclinic points on what is drawn of them, to")[0] > 60
+    assert view.derived("at least # homoclinic points on the drawn parts of the manifolds, to")[0] > 60
     assert max(len(one.points) for one in view.result.periodic_orbit.manifolds) <= 2002
     assert not any("early" in note for note in shown("ball-section", "period 1").report.notes)
     assert drawn(shown("ball-section", "period 1", ("reach", 0.0))) == {"repels"}

@@ -353,10 +353,13 @@ SCENE = Scene(
                     lambda s: s.apart(s.difference.free),
                     color=theme.MAP,
                     dash="dotdash",
-                    label="difference, left to itself",
+                    label="difference, without correction",
                 ),
                 over_time(
-                    "held", lambda s: s.apart(s.difference.held), color=theme.ORBIT, label="difference, held on r·M = 0"
+                    "held",
+                    lambda s: s.apart(s.difference.held),
+                    color=theme.ORBIT,
+                    label="difference, with r·M = 0 imposed",
                 ),
             ),
         ),

@@ -207,14 +207,13 @@ class EulerPoisson(State):
         (_ALONG, _ABOUT),
         _ALONG,
         doc="Turns counted by the angle l, on a vertical line through the first chosen start; or about "
-        " the middle of the window, on a line from there to the right.",
+        "the middle of the window, on a line from there to the right.",
     )
     sheet: str = choice(
         "Sheet",
         (_LARGEST, _SECOND),
         _LARGEST,
-        doc="Of the momenta G with this energy at one point of the section, where there are two: on "
-        "which orbits start.",
+        doc="Where two momenta G have this energy at the same point of the section: the one with which orbits start.",
     )
     certain: str = proved_error_shown()
     accuracy: str = accuracy_level()

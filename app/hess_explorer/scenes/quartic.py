@@ -321,7 +321,7 @@ SCENE = Scene(
                 *plane_domain.ground(
                     lambda s: s.body.ellipse(), lambda s: s.body.holes(), lambda s: s.body.equipotentials(_HEIGHTS)
                 ),
-                *plane_domain.orbit(Quartic.first, label="where it starts"),
+                *plane_domain.orbit(Quartic.first, label="start"),
             ),
         ),
         Plot(

@@ -96,7 +96,7 @@ class RotationNumber(State):
         0.005,
         bounds=(0.0, 0.33),
         label="Away from Möbius, ε",
-        doc="The other family: Θ(φ + ε sin 3φ). It is no Möbius map, and its ρ makes a ladder.",
+        doc="The other family: Θ(φ + ε sin 3φ). It is not a Möbius map: its ρ locks at many rational numbers.",
     )
     accuracy: str = accuracy_level()
     # One window for each map.

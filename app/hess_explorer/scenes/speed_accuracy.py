@@ -126,7 +126,7 @@ class SpeedAccuracy(Scene[Study]):
             "What is compared",
             kinds,
             self._costliest,
-            "Of the scene, at the chosen level and at the next more exact one.",
+            "Picture of the scene to compare, at the chosen level and at the next more accurate one.",
         )
         return (*self.other.specs, choice) if len(kinds) > 1 else self.other.specs
 

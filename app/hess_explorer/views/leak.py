@@ -30,7 +30,7 @@ def distances(leaks: Callable[[S], Mapping[str, Leak]], distance: Callable[[Leak
             lambda s: curve(s, "reference"),
             color=theme.LEVELS["reference"],
             dash="dotdash",
-            label="the same at reference",
+            label="orbit at reference accuracy",
         ),
         over_time("own", lambda s: curve(s, "own"), color=theme.MAP, label="orbit that leaks, at the chosen accuracy"),
     )

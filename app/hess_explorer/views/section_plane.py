@@ -37,7 +37,7 @@ def layers(
     found.append(_points("own", own, theme.ORBIT, 14, ""))
     found.append(points("own-few", lambda s: _few(own(s)), color=theme.ORBIT, size=9))
     if start is not None:
-        found.append(ring("chosen", start, label="where it starts"))
+        found.append(ring("chosen", start, label="start"))
     return tuple(found)
 
 

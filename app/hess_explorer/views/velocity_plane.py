@@ -112,7 +112,7 @@ def orbit(label: str) -> Layer[S]:
 
 def band(data: Callable[[S], Regions]) -> Layer[S]:
     """Return the layer of polygons (n, 2) that enclose the true orbit where they are wider than a pixel."""
-    return region("band", data, color=theme.SHEET, label="the true orbit, as proved", moving=True)
+    return region("band", data, color=theme.SHEET, label="proved enclosure of the orbit", moving=True)
 
 
 def orbit_alone(

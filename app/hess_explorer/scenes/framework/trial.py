@@ -139,7 +139,7 @@ def needed(trial: Trial[S], state: S) -> str:
 
 
 def next_level(name: str) -> str | None:
-    """Return the next more exact level; None after the last one."""
+    """Return the next more accurate level; None after the last one."""
     names = [*LEVELS]
     return next(iter(names[names.index(name) + 1 :]), None)
 

@@ -1,4 +1,4 @@
-"""Comparison of two levels of accuracy: the changes that the next more exact level makes in a picture."""
+"""Comparison of two levels of accuracy: the changes that the next more accurate level makes in a picture."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _NO_AXIS = (-1.0, 1.0)
 
 @dataclass(frozen=True)
 class Comparison:
-    """The picture of one trial at the chosen level and the next more exact one, compared in the background.
+    """The picture of one trial at the chosen level and the next more accurate one, compared in the background.
 
     shown : the `bare` state.
     """
@@ -39,7 +39,7 @@ class Comparison:
 
     @property
     def finer(self) -> str | None:
-        """The next more exact level; None for the last one."""
+        """The next more accurate level; None for the last one."""
         return next_level(self.work.chosen)
 
     @cached_property
@@ -121,7 +121,7 @@ class Comparison:
 
     @staticmethod
     def picture(folded: bool) -> Plot[Comparison]:
-        """Return the picture of the changes that the next more exact level makes."""
+        """Return the picture of the changes that the next more accurate level makes."""
         clear = theme.MUTED + "00"
 
         def of(part: Callable[[Difference], Array]) -> Callable[[Comparison], Array | None]:
@@ -152,7 +152,7 @@ class Comparison:
                     high=1.5,
                     legend=(Sign("changes, point or cell", "box", f"background: {theme.CHANGED}"),),
                 ),
-                dots("same", of(lambda found: found.same), color=theme.MUTED, size=4, label="stays to ½ pixel"),
+                dots("same", of(lambda found: found.same), color=theme.MUTED, size=4, label="moves less than ½ pixel"),
                 *(added(name) for name in LEVELS if name != DRAFT.name),
                 dots("changed", of(lambda found: found.changed), color=theme.CHANGED, size=7),
                 text("names", Comparison.axis_names),

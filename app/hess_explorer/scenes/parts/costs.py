@@ -141,6 +141,6 @@ class Costs:
                 line("visible", lambda s: ((1.0, 1.0), _MS), color=theme.MUTED, dash="dotted", width=1.0),
                 *(kind(trial, *look) for trial, look in zip(trials, _LINES, strict=False)),
                 *map(at, LEVELS),
-                ring("enough", Costs.rings, size=20, label="more accuracy is not seen"),
+                ring("enough", Costs.rings, size=20, label="cheapest level without visible error"),
             ),
         )

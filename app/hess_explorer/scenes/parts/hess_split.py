@@ -145,13 +145,13 @@ def split_picture(of: Callable[[S], HessSplit]) -> Picture[S]:
         y=lambda s: about_0(values(s)[1], 1e-12) if s.splits() else None,
         layers=(
             levels("levels", lambda s: [0.0] if s.splits() else []),
-            curves("slope", within=slope, color=theme.MUTED, dash="dashed", label="in proportion to ε, as next to 0"),
+            curves("slope", within=slope, color=theme.MUTED, dash="dashed", label="linear, with the slope at ε = 0"),
             points(
                 "splits",
                 lambda s: values(s) if s.splits() else None,
                 color=theme.UNSTABLE,
                 size=10,
-                label="how far apart the separatrices are",
+                label="distance of the separatrices",
             ),
             ring("here", here, color=theme.INK),
         ),

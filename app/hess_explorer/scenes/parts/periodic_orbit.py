@@ -51,8 +51,8 @@ def which() -> Any:
         (NONE, *PERIODS),
         NONE,
         group="State",
-        doc="In place of the chosen orbit: the periodic one that Newton's method finds from there, with so "
-        "many points in the section, and the manifolds of a saddle.",
+        doc="Replaces the chosen orbit by the periodic one that Newton's method finds from there. The period is "
+        "its number of points in the section. A saddle shows its manifolds.",
     )
 
 
@@ -292,7 +292,7 @@ class PeriodicOrbit(Part[_Host]):
             )
         orbit = self._saddle
         if orbit is not None and orbit.period > _WHOLE:
-            yield f"Of its {orbit.period} places, one has its manifolds drawn: those of the others are their images."
+            yield f"The manifolds are drawn for one of its {orbit.period} points; those of the others are their images."
 
     def _about_crossings(self) -> str:
         """Return the number of homoclinic points and their error, in words."""
@@ -300,11 +300,11 @@ class PeriodicOrbit(Part[_Host]):
             return self.work.awaited("Where they cross is")
         found = self.homoclinic
         if not found:
-            return "No homoclinic point is seen on what is drawn of them"
+            return "No homoclinic point is seen on the drawn parts of the manifolds"
         least = "at least " if any(len(some) == MOST_CROSSINGS for some in self._met) else ""
         return (
-            f"{least}{len(found)} homoclinic point{'s' * (len(found) > 1)} on what is drawn of them, to "
-            f"{power(max(one.error for one in found))}; longer ones cross more often"
+            f"{least}{len(found)} homoclinic point{'s' * (len(found) > 1)} on the drawn parts of the manifolds, to "
+            f"{power(max(one.error for one in found))}; longer manifolds cross more often"
         )
 
 

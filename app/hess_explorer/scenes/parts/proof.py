@@ -37,8 +37,8 @@ def proved_error_shown() -> Any:
         "Proved error",
         (HIDDEN, SHOWN),
         HIDDEN,
-        doc="How far the orbit on show is off at most, as a theorem, in the status line. Where that is wider "
-        "than a pixel, a band and circles hold the true orbit at the moments of the samples.",
+        doc="Proved upper bound of the orbit's error, on the status line. Where it exceeds a pixel, a band and "
+        "circles enclose the true orbit at the times of the samples.",
     )
 
 
