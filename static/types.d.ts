@@ -444,6 +444,7 @@ interface PanelView { model: { document: any } }
 
 /** The events of "page/bus.js", by name, with their details. */
 interface PageEvents {
+  introduce: string[] | null
   // To the client
   change: Record<string, number | string>
   expression: Texts

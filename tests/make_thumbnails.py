@@ -1,4 +1,4 @@
-"""Make the pictures of the gallery in the menu of scenes: `python tests/make_thumbnails.py [NAME…]`, by headless Chromium.
+"""Make the pictures of the gallery in the menu of scenes: `python tests/make_thumbnails.py [NAME…]`.
 
 Each is the inside of a picture's axes, or a sphere, in the light and in the dark theme.
 """
@@ -38,22 +38,26 @@ def inside(page: Page, name: str) -> FloatRect:
 
 def main(names: list[str]) -> None:
     """Make the named pictures, or all."""
-    with launched() as browser, tempfile.TemporaryDirectory() as folder:
-        with server_process(Path(folder) / "server.log") as (_, base):
-            for theme in ("light", "dark"):
-                page = browser.new_page(viewport=VIEWPORT, color_scheme=theme, reduced_motion="reduce")
-                look_inside(page)
-                for exhibit in EXHIBITS:
-                    if names and exhibit.file not in names:
-                        continue
-                    parts = f"embed=1&pictures={exhibit.picture}&controls=none&theme={theme}"
-                    page.goto(f"{base}/?{exhibit.query}&{parts}")
-                    wait_ready(page)
-                    page.wait_for_timeout(8000)
-                    shot = page.screenshot(clip=inside(page, exhibit.picture))
-                    small = Image.open(io.BytesIO(shot)).convert("RGB").resize((EDGE, EDGE), Image.Resampling.LANCZOS)
-                    small.save(STATIC / "thumbnails" / f"{exhibit.file}-{theme}.jpg", quality=82, optimize=True)
-                page.close()
+    with (
+        launched() as browser,
+        tempfile.TemporaryDirectory() as folder,
+        server_process(Path(folder) / "server.log") as (_, base),
+    ):
+        for theme in ("light", "dark"):
+            page = browser.new_page(viewport=VIEWPORT, color_scheme=theme, reduced_motion="reduce")
+            look_inside(page)
+            for exhibit in EXHIBITS:
+                if names and exhibit.file not in names:
+                    continue
+                parts = f"embed=1&pictures={exhibit.picture}&controls=none&theme={theme}"
+                page.goto(f"{base}/?{exhibit.query}&{parts}")
+                wait_ready(page)
+                # Sections and maps have been refined by then.
+                page.wait_for_timeout(8000)
+                shot = page.screenshot(clip=inside(page, exhibit.picture))
+                small = Image.open(io.BytesIO(shot)).convert("RGB").resize((EDGE, EDGE), Image.Resampling.LANCZOS)
+                small.save(STATIC / "thumbnails" / f"{exhibit.file}-{theme}.jpg", quality=82, optimize=True)
+            page.close()
 
 
 if __name__ == "__main__":

@@ -20,8 +20,11 @@ export function opening({ begin, end, isOwn }) {
   let isResting = false
   let isWaiting = false
   let isReading = false
+  // In the introduction the motion goes on under the hand.
+  let isIntroducing = false
 
   listen({
+    introduce(names) { isIntroducing = names !== null },
     reading(on) { isReading = on },
     painted() {
       if (isWaiting && !isReading) begin()
@@ -30,6 +33,7 @@ export function opening({ begin, end, isOwn }) {
   })
   for (const name of TOUCHES) {
     document.addEventListener(name, (event) => {
+      if (isIntroducing) return
       isWaiting = false
       if (!isOwn(/** @type {KeyboardEvent} */ (event))) end()
     }, { capture: true, passive: true })

@@ -11,10 +11,13 @@ import { choice } from "./choice.js"
 import { number } from "./number.js"
 
 // Where the column of controls is beside the text, it is enough.
-const isNeeded = () => NARROW.matches || PHONE.matches || isPresenting() || isEmbedded()
+const isColumnAway = () => NARROW.matches || PHONE.matches || isPresenting() || isEmbedded()
 
-/** Return the group of controls, empty at first, and the function that fills it. */
-export function stepControls() {
+/**
+ * Return the group of controls, empty at first, and the function that fills it.
+ * @param {() => boolean} isNeeded whether the group has anything to show now
+ */
+export function stepControls(isNeeded = isColumnAway) {
   const group = element("div.step-controls", { role: "group", ariaLabel: "Controls of this step" })
   /** @type {string[]} */
   let names = []

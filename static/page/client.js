@@ -194,9 +194,16 @@ export function startClient(model, view) {
     page.onThemeChange(followTheme)
     // The preference of the system counts until the user chooses a theme.
     const preference = matchMedia("(prefers-color-scheme: dark)")
-    const followPreference = () => { if (own.theme === "") page.setDark(preference.matches) }
+    let isIntroducing = false
+    const followPreference = () => { if (own.theme === "") page.setDark(isIntroducing || preference.matches) }
     followPreference()
     preference.addEventListener("change", followPreference)
+    listen({
+      introduce(names) {
+        isIntroducing = names !== null
+        followPreference()
+      },
+    })
     tell("client", own)
     // The lesson of a link begins when the page is ready.
     if (model.lesson !== "") tell("lesson-read", { lesson: JSON.parse(model.lesson), step: Number(own.step) - 1 })

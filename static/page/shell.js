@@ -14,6 +14,7 @@ import { linkTo } from "./embedding.js"
 import { button, element } from "./elements.js"
 import { arrowOf, onKeys } from "./keys.js"
 import { render as renderLessons } from "./lessons.js"
+import { render as renderIntroduction } from "./introduction.js"
 import { createMount } from "./mount.js"
 import { drawer, spot, wear } from "./presenting.js"
 import { render as renderProgress } from "./progress.js"
@@ -130,10 +131,14 @@ export function render({ model, view, el }) {
     element("header.bar", mount("bar", renderBar, { scenes, showcase, files, palettes }),
       ...rejoin(model.client), element("div.news", text("busy"))),
     tabsOf({ Controls: controls, Text: reader }), controls, stage, reader,
-    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener(), drawer(el), spot(), announcer())
+    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener(), drawer(el), spot(), announcer(),
+    mount("introduction", renderIntroduction))
   sayWhatMoves(stage, reading)
   wear(el)
-  listen({ reading: (on) => el.classList.toggle("in-lesson", on) })
+  listen({
+    reading: (on) => el.classList.toggle("in-lesson", on),
+    introduce: (names) => el.classList.toggle("introducing", names !== null),
+  })
   onKeys({ f: () => tell("fullscreen"), p: () => tell("present") })
   startClient(model, view)
 }

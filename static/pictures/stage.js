@@ -98,6 +98,9 @@ export function createStage(shelf, gallery) {
   /** @type {string[]} */
   let large = []
   let wanted = ""
+  // The pictures that the introduction has reached; all without it.
+  /** @type {string[] | null} */
+  let introduced = null
   // Pixels that the text has taken.
   let spare = 0
   const chips = element("div.chips", { role: "group", ariaLabel: "Picture" })
@@ -151,7 +154,7 @@ export function createStage(shelf, gallery) {
    * @param {number} type
    */
   function viewport(scene, count, type) {
-    const isBeside = !NARROW.matches && !isPresenting() && !isEmbedded()
+    const isBeside = !NARROW.matches && !isPresenting() && !isEmbedded() && introduced === null
     const full = {
       width: shelf.clientWidth + (isBeside ? spare : 0), height: shelf.clientHeight, count, gap: Math.round(0.6 * type),
       share: isPresenting() ? HALL : DESK, caption: captions(type),
@@ -169,10 +172,12 @@ export function createStage(shelf, gallery) {
   function place(scene) {
     if (shelf.clientWidth === 0) return
     const type = typeNow()
-    const cells = scene.cells.filter((cell) => !isFolded(cell))
+    const cells = scene.cells.filter((cell) => !isFolded(cell) && (introduced?.includes(nameOf(cell)) ?? true))
+    for (const cell of scene.cells) if (!cells.includes(cell)) cell.classList.add("off")
     const own = scene === gallery.shown ? large.map((name) => cells.findIndex((cell) => nameOf(cell) === name)) : []
     const chosen = own.filter((i) => i >= 0)
-    const opening = Math.max(0, cells.findIndex((cell) => nameOf(cell) === scene.opening))
+    const first = introduced?.at(-1) ?? scene.opening
+    const opening = Math.max(0, cells.findIndex((cell) => nameOf(cell) === first))
     const seen = PHONE.matches ? [chosen[0] ?? opening] : cells.map((_, i) => i)
     const boxes = arrange(viewport(scene, seen.length, type), PHONE.matches ? [] : chosen)
     cells.forEach((cell, i) => {
@@ -197,7 +202,7 @@ export function createStage(shelf, gallery) {
 
   /** @param {Scene} scene @param {HTMLElement} seen */
   function showChips({ name, cells }, seen) {
-    chips.hidden = cells.length < 2
+    chips.hidden = cells.length < 2 || introduced !== null
     if (chips.dataset.scene !== name) {
       chips.dataset.scene = name
       chips.replaceChildren(...cells.map((cell) => button("chip", () => {
@@ -248,7 +253,11 @@ export function createStage(shelf, gallery) {
   onKeys({ escape: () => large.length > 0 && enlarge([]) }, window)
 
   listen({
-    // Wait until the page has its new sizes.
+    introduce(names) {
+      introduced = names
+      // Wait until the page has its new sizes.
+      requestAnimationFrame(placeShown)
+    },
     presenting: () => requestAnimationFrame(placeShown),
     client(own) { wanted = own.large ?? "" },
     // Their titles are the names on the chips.

@@ -1,0 +1,90 @@
+"""The introduction that a first visitor sees."""
+
+from __future__ import annotations
+
+from contextlib import closing
+
+import numpy as np
+import pytest
+
+from hess_explorer.headless.browser import wait_ready
+from hess_mechanics.suslov_hess.equations import HessBody
+from hess_mechanics.suslov_hess.torus import track
+from support.page import DEFAULTS, HESS, Explorer
+
+VISITOR = "Object.defineProperty(navigator, 'webdriver', { get: () => false })"
+"""The introduction is not for programs that drive a browser."""
+SIZES = {
+    "desk": {"viewport": {"width": 1600, "height": 950}},
+    "phone": {"viewport": {"width": 390, "height": 844}, "has_touch": True},
+}
+IN_SIGHT = ".gallery:not(.away) .picture:visible"
+
+
+def in_sight(page):
+    return page.locator(IN_SIGHT).evaluate_all("cells => cells.map((cell) => cell.dataset.name)")
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_first_visitor_sees_one_dark_picture_then_one_more_at_a_time_then_the_page_and_never_again(
+    browser, server, size
+):
+    with closing(browser.new_context(reduced_motion="reduce", **SIZES[size])) as context:
+        page = context.new_page()
+        page.add_init_script(VISITOR)
+        explorer = Explorer(page, server)
+        explorer.goto("/")
+        introduction = page.get_by_role("region", name="Introduction")
+        assert explorer.dark
+        assert in_sight(page) == ["body"]
+        assert page.locator(".param-scenes").is_hidden()
+        sentences = []
+        for number, picture in enumerate(("body", "sphere", "circle", "bifurcation"), start=1):
+            sentences.append(introduction.locator(".sentence").text_content())
+            page.locator(f"{IN_SIGHT}.picture-{picture}").wait_for()
+            # A phone shows the newest.
+            assert len(in_sight(page)) == (1 if size == "phone" else number)
+            boxes = [introduction.bounding_box(), *(one.bounding_box() for one in page.locator(IN_SIGHT).all())]
+            for box in boxes:
+                assert box["x"] >= 0
+                assert box["x"] + box["width"] <= page.viewport_size["width"] + 1
+                assert box["y"] + box["height"] <= page.viewport_size["height"] + 1
+            if number == 1:
+                explorer.change(lambda: introduction.locator(".param-phi0 input[type=range]").press("ArrowRight"))
+            if size == "desk" and number < 3:
+                page.mouse.wheel(0, 100)
+                page.wait_for_timeout(800)
+            else:
+                introduction.locator(".param-go-on").click()
+        assert len(set(sentences)) == 4
+        page.locator(".param-scenes").wait_for()
+        assert introduction.count() == 0
+        page.wait_for_function("document.documentElement.style.colorScheme === 'light'")
+        # The address has the state now; a bare one has the whole page from now on.
+        explorer.goto("/")
+        assert introduction.count() == 0
+        assert not explorer.errors
+
+
+def test_escape_skips_the_introduction_and_a_link_with_a_state_has_none(browser, server):
+    for address, is_introduced in ((f"/?scene={HESS}&h=1.2", False), ("/", True)):
+        with closing(browser.new_context(reduced_motion="reduce")) as context:
+            page = context.new_page()
+            page.add_init_script(VISITOR)
+            page.goto(server + address)
+            wait_ready(page)
+            assert page.get_by_role("region", name="Introduction").count() == is_introduced
+            page.keyboard.press("Escape")
+            page.locator(".param-scenes").wait_for()
+
+
+def test_the_motion_of_the_introduction_forgets_how_it_started():
+    body = HessBody(DEFAULTS["I22"], DEFAULTS["I23"], DEFAULTS["b3"])
+    h, f = DEFAULTS["h"], DEFAULTS["f"]
+    times = np.linspace(30.0, 40.0, 50)
+    seen = []
+    for phi0 in np.linspace(-3.0, 3.0, 7):
+        found = track(body, h, f, phi0, 40.0, "precise", 4.0)
+        seen.append([np.interp(times, found.times, component) for component in found.gamma.T])
+    # A picture of the sphere has 0.005 a pixel.
+    assert np.ptp(seen, axis=0).max() < 0.01
