@@ -1,4 +1,4 @@
-"""Sentences that were wrong: README.md names the test for each; the tests exist and the sentences are gone."""
+"""Corrected statements: README.md names a test for each; the tests exist and the wrong sentences are gone."""
 
 import re
 from functools import cache
@@ -12,7 +12,7 @@ README = (TESTS / "README.md").read_text(encoding="utf-8")
 ROWS = [
     [cell.strip() for cell in row.strip("|").split("|")]
     for row in re.findall(
-        r"^\|.*\|$", README.partition("## Sentences that were wrong")[2].partition("\n## ")[0], re.MULTILINE
+        r"^\|.*\|$", README.partition("## Corrected statements")[2].partition("\n## ")[0], re.MULTILINE
     )
 ][2:]
 
