@@ -1,4 +1,4 @@
-"""`hess-explorer lesson`: check a lesson that one writes, and begin one with an example."""
+"""`hess-explorer lesson`: check a lesson file, or create one from an example."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def _new(options: Options) -> None:
     from hess_explorer.lessons.example import EXAMPLE
 
     try:
-        # Fails if there is a file, also one that was made a moment ago.
+        # Fails if the file exists, even if it was created a moment ago.
         with options.file.open("x", encoding="utf-8") as file:
             file.write(EXAMPLE)
     except FileExistsError as error:

@@ -1,4 +1,4 @@
-"""The systems whose motions commands compute: options for body and start, and their meaning."""
+"""Systems of the commands for motions: their options for body and start, and the body that these define."""
 
 from __future__ import annotations
 

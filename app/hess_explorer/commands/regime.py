@@ -1,4 +1,4 @@
-"""`hess-explorer regime SYSTEM`: classify a motion, and tell dissipative from mixed dynamics."""
+"""`hess-explorer regime SYSTEM`: classify a motion, and distinguish dissipative from mixed dynamics."""
 
 from __future__ import annotations
 

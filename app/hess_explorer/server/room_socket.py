@@ -58,7 +58,7 @@ class RoomSocket(WebSocketHandler):
     Messages are those of `hess_explorer.rooms.messages`.  The first one decides what the websocket is.
     """
 
-    # A phone that sleeps without a word makes room, and reconnects when it wakes up.
+    # A phone that stops responding loses its place; it reconnects when it wakes up.
     ping_interval = 25.0
     ping_timeout = 20.0
 

@@ -1,7 +1,7 @@
 """A chart of the page: a quantity over two parameters of a scene, whose cells are states of that scene.
 
-What is asked for comes from a browser: names are looked up, numbers checked and clamped, and nothing else of it is
-computed with.  xarray and the other libraries of stores are not needed for it.
+Requests come from a browser: names are looked up, numbers are checked and clamped, and nothing else is used.  Charts do
+not need xarray or the other libraries of stores.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ Ends = tuple[float, float]
 class Side:
     """One side of a chart: a parameter of the scene, or a coordinate of its places.
 
-    It is at `count` even places from `low` to `high`, both among them.
+    It has `count` evenly spaced values from `low` to `high`, both included.
     """
 
     name: str
@@ -59,9 +59,9 @@ class Side:
 
 @dataclass(frozen=True)
 class Chart:
-    """A quantity over two parameters of a scene; all others are those of one state.
+    """A quantity over two parameters of a scene; the other parameters have the values of one state.
 
-    values : that state; part : which of several numbers of the quantity; x, y : the sides.
+    values : the parameters of that state; part : index of the number, if the quantity has several; x, y : the sides.
     """
 
     scene: Scene[Any]
@@ -89,7 +89,7 @@ class Chart:
             can = ", ".join(one.quantity for one in scene.charts) or "nothing"
             raise InvalidParameter(f"In the scene {scene.name} {can} can be charted: choose one of these.")
         part, parts = given.get("part"), named(charted.quantity).numbers
-        # A truth value counts as a number in Python, and picks no part of an array.
+        # bool is a subclass of int, but True is not an index.
         if not (type(part) is int and 0 <= part < parts):
             raise InvalidParameter(f"{charted.quantity} has {parts} numbers, counted from 0: choose one of these.")
         over = swept(scene.name, charted.quantity)
@@ -168,7 +168,7 @@ class Chart:
 
 
 def _put(scene: Scene[Any], values: Mapping[str, Value], sides: Mapping[str, float]) -> dict[str, Value]:
-    """Return the values with those of some sides; of several points only the last is kept, as in a link."""
+    """Return the values with those of some sides replaced; of several points only the last is kept, as in a link."""
     found, placed = dict(values), scene.placed
     for name, value in sides.items():
         if placed is None or name not in placed.names:

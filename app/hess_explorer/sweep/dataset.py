@@ -29,9 +29,9 @@ def described(
     parts: Sequence[str] = (),
     **facts: Any,
 ) -> xr.Dataset:
-    """Arrays of any kind over the axes, places and attributes of each; facts : what is said of all of it.
+    """Return a Dataset of arrays over the axes, given by their coordinates and attributes.
 
-    parts : the names of the numbers at a cell; none for a scalar.
+    parts : names of the numbers at a cell, none for a scalar; facts : attributes of the Dataset.
     """
     import xarray as xr
 

@@ -1,7 +1,7 @@
 """Quantities of motions: exponents, dimension, MEGNO, crossings, kinds.
 
-Of any system, by the parameters of the body and the state at the start; and by the place of the start on a section,
-at values of the integrals, in the coordinates that the section has.
+A motion of any system is given by the parameters of the body and the initial state.  A motion on a section is given by
+the values of the integrals and the coordinates of its first point.
 """
 
 from __future__ import annotations
@@ -43,11 +43,11 @@ Values = Mapping[str, float]
 
 @dataclass(frozen=True)
 class _Motions:
-    """Motions of a system by parameters of their own.
+    """Motions of a system, by their parameters.
 
-    name : that of the system, and by what; parameters : of the body and the start; start : the body and the state
-    that values of these mean.  Raises `ModelError`.
-    section : that on which all of them start, place : the names of its coordinates; none where they start anywhere.
+    name : suffix of the quantities' names; parameters : those of the body and the start; start : returns body and
+    initial state from their values, raises `ModelError`; section : returns the section on which all motions start;
+    place : names of its coordinates.  Without a section the motions start anywhere.
     """
 
     name: str
@@ -59,7 +59,7 @@ class _Motions:
     place: tuple[str, ...] = ()
 
 
-# ---- where motions start ----------------------------------------------------------------------------------------
+# ---- initial states ---------------------------------------------------------------------------------------------
 
 
 _OF_SYSTEMS: Mapping[str, Parameter] = {
@@ -87,14 +87,14 @@ _OF_SYSTEMS: Mapping[str, Parameter] = {
 
 
 def _anywhere(system: System) -> _Motions:
-    """By default that of its example."""
+    """Return motions that start at any state, by default at that of the system's example."""
     variables = {**_OF_SYSTEMS, **({one.name: one for one in known.REDUCED_OMEGA} if system.name == "hess" else {})}
     start = (usual(variables[name], value) for name, value in zip(system.arguments, system.example[0], strict=True))
     return _Motions(system.name, system.title, system, (*_body(system), *start), partial(_given, system))
 
 
 def _given(system: System, values: Values) -> tuple[Body, Start]:
-    """Return body and state; the vertical, which every state ends with, is normalised."""
+    """Return body and state; the vertical, the last three variables of every state, is normalised."""
     *first, g1, g2, g3 = (values[name] for name in system.arguments)
     gamma, _ = unit_vector((g1, g2, g3))
     return system.at([values[name] for name in system.parameters]), (*first, *gamma)
@@ -188,7 +188,7 @@ _OFFSET = Parameter(
     "The value of that variable on the plane.",
 )
 
-# ---- what is computed of them -----------------------------------------------------------------------------------
+# ---- quantities -------------------------------------------------------------------------------------------------
 
 
 def _lyapunov(of: _Motions, level: Level, t: float, **values: float) -> Cell:
@@ -362,7 +362,7 @@ def _regime(of: _Motions, level: Level, transient: float, kept: float, t: float,
 
 
 def _regimes(of: _Motions) -> Quantity:
-    """Return the kind of the motion from a place of a section."""
+    """Return the quantity that classifies the motion from a point of a section."""
     return Quantity(
         f"regime-{of.name}",
         "regime",

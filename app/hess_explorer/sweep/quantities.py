@@ -53,7 +53,7 @@ _DISTANCE = Parameter(
 
 def _of_tori(value: Callable[[TorusValues], np.ndarray], cells: CellArrays, level: Level) -> Found:
     found = values_at(cells["a"], cells["h"], cells["f"], level)
-    # Where no motion is possible within the region, it is on the separatrix.
+    # (h, f) = (1, 0) is the separatrix; all other impossible tori lie outside of the region.
     separatrix = np.hypot(cells["h"] - 1.0, cells["f"]) < 1e-6
     status = np.where(found.possible, Outcome.OK, np.where(separatrix, Outcome.SEPARATRIX, Outcome.OUTSIDE_REGION))
     return Found(np.where(found.possible, value(found), np.nan), np.full(status.size, np.nan), status.astype(np.uint8))

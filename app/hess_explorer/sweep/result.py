@@ -135,8 +135,8 @@ class Store:
         from zarr.codecs import Crc32cCodec, ZstdCodec
 
         empty = _empty(what, grid, level, lambda of, value: np.broadcast_to(value, of))
-        # Checksums tell a file that is not whole.  Doubles of a chart are as good as noise: packing them takes more
-        # than it saves; how cells ended is mostly one number.
+        # Checksums reveal incomplete files.  The doubles of a quantity look random, so compression would cost more
+        # than it saves; the status is mostly one number.
         packed = {"status": ZstdCodec(level=1, checksum=True)}
         begun = path.with_name(f"{path.name}.begun")
         try:
