@@ -221,7 +221,7 @@ interface ChartAsked {
 interface ChartAnswer {
   id: number | null
   running: boolean
-  said: string
+  reason: string
   cells: number
   first: number
   done: number
@@ -304,7 +304,7 @@ interface Chart {
   known: number
   share: number
   left: number | null
-  said: string
+  reason: string
   id?: number
 }
 

@@ -80,7 +80,7 @@ export function chartPanel(palettes) {
   const load = press("load", "Load", () => file.click(), "Load a chart from a file")
   const close = press("close", "Close", hide, "Close the panel; the chart continues")
   const bar = element("progress", { ariaLabel: "Computed", max: 1 })
-  const said = element("p.why", { role: "status" })
+  const message = element("p.why", { role: "status" })
   const about = element("output.reading", { ariaLive: "polite" })
   const heading = element("h2", "Chart")
   const form = element("div.form", element("div.side", quantity, part), x.frame, y.frame)
@@ -88,7 +88,7 @@ export function chartPanel(palettes) {
   const picture = element("div.drawn", { hidden: true }, map.canvas, about)
   const panel = element("div.chart", { popover: "manual", role: "dialog", ariaLabel: "Chart", onkeydown },
     element("div.head", heading, close), form,
-    element("div.row", start, stop, out, save, load, file, bar), said, picture)
+    element("div.row", start, stop, out, save, load, file, bar), message, picture)
 
   const job = chartJob((changed) => { if (changed === chart) follow() }, (sentence, place) => {
     const cell = map.cursor
@@ -169,11 +169,11 @@ export function chartPanel(palettes) {
   /** @param {ReturnType<typeof wanted>} next */
   function begin(next) {
     if (![next.x, next.y].every(({ low, high, count }) => Number.isFinite(low) && Number.isFinite(high) && Number.isInteger(count))) {
-      said.textContent = "Give numbers for from, to and cells."
+      message.textContent = "Give numbers for from, to and cells."
       return
     }
     /** @type {Chart} */
-    const begun = { ...next, level: "", error: null, version: "", values: null, status: null, known: 0, share: 0, left: null, said: "" }
+    const begun = { ...next, level: "", error: null, version: "", values: null, status: null, known: 0, share: 0, left: null, reason: "" }
     job.start(begun)
     turnTo(begun)
   }
@@ -256,8 +256,8 @@ export function chartPanel(palettes) {
     heading.textContent = `Chart: ${chart.symbol}`
     heading.title = chart.title
     const size = isThere ? `${chart.x.count} × ${chart.y.count}, ${chart.level} accuracy` : ""
-    const ended = chart.said || (isThere && chart.share < 1 ? "It was not computed to its end." : "")
-    said.textContent = isRunning ? `${Math.floor(100 * chart.share)} % of ${size}${lasting(chart.left)}.`
+    const ended = chart.reason || (isThere && chart.share < 1 ? "It was not computed to its end." : "")
+    message.textContent = isRunning ? `${Math.floor(100 * chart.share)} % of ${size}${lasting(chart.left)}.`
       : `${size}${isThere ? ". " : ""}${ended}`
     map.show(chart)
     mark()
@@ -275,7 +275,7 @@ export function chartPanel(palettes) {
     const { chart: found, why } = fromFile(await given.text())
     file.value = ""
     if (why !== undefined) {
-      said.textContent = why
+      message.textContent = why
       return
     }
     job.stop()
@@ -336,7 +336,7 @@ export function chartPanel(palettes) {
         offer(pointed)
       }
       if (chart === null) {
-        said.textContent = charts.length > 0 ? "" : "This scene has nothing to chart: choose another one."
+        message.textContent = charts.length > 0 ? "" : "This scene has nothing to chart: choose another one."
       }
       panel.showPopover()
       stepAside()

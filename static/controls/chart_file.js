@@ -69,7 +69,7 @@ export function fromFile(text) {
   const known = status.filter(Boolean).length
   return {
     chart: /** @type {Chart} */ ({
-      ...picked(CHART, chart), x: picked(SIDE, x), y: picked(SIDE, y), said: "", left: null, known, share: known / status.length,
+      ...picked(CHART, chart), x: picked(SIDE, x), y: picked(SIDE, y), reason: "", left: null, known, share: known / status.length,
       values: Float64Array.from(values, (/** @type {number | null} */ value) => value ?? NaN), status: Uint8Array.from(status),
     }),
   }

@@ -46,12 +46,12 @@ export function chartJob(changed, explained) {
     chart.known += cells
   }
 
-  /** @param {string} said */
-  function end(said) {
+  /** @param {string} reason */
+  function end(reason) {
     const ended = chart
     clearTimeout(timer)
     chart = null
-    ended.said = said
+    ended.reason = reason
     tell("charting", null)
     changed(ended)
   }
@@ -60,9 +60,9 @@ export function chartJob(changed, explained) {
     charted({ head, cells }) {
       if (head.why !== undefined) return explained(head.why, head.at)
       if (chart === null || head.id !== chart.id) return
-      if (head.of === undefined) return end(head.said)
+      if (head.of === undefined) return end(head.reason)
       take(head, cells)
-      if (!head.running && head.cells === 0) return end(head.said)
+      if (!head.running && head.cells === 0) return end(head.reason)
       tell("charting", chart.share)
       changed(chart)
       timer = setTimeout(() => ask({ more: chart.known, id: chart.id }), head.running ? PAUSE : 0)

@@ -42,14 +42,14 @@ export function exportDialog(files) {
   const book = button("button.param-notebook", () => make({ picture: picture.value, format: "ipynb" }), "Open as notebook")
   const save = button("button.param-save", () => make(wanted()), "Save file")
   const stop = button("button.param-cancel", () => running.abort(), { hidden: true }, "Stop")
-  const said = element("p.why", { role: "status" })
+  const message = element("p.why", { role: "status" })
   const figure = element("div.figure",
     element("label", "Width, mm ", width), element("label", black, " Black on white"))
   const one = element("label", "Picture ", picture)
   const film = element("div.figure", element("label", "Seconds for the whole motion ", seconds))
   const dialog = dialogOf("Export", "menu-of-scenes.share.export", [], element("div.parts",
     section("File", "A picture as a file", one, element("label", "Format ", format), figure, film,
-      element("span", save, stop), frames, said),
+      element("span", save, stop), frames, message),
     section("Command", "The same on the command line", command),
     section("Python", "The same numbers in Python", python, element("span", copy, book))))
   dialog.addEventListener("close", () => running?.abort())
@@ -94,9 +94,9 @@ export function exportDialog(files) {
     python.select()
     try {
       await navigator.clipboard.writeText(python.value)
-      said.textContent = "Python code copied."
+      message.textContent = "Python code copied."
     } catch {
-      said.textContent = "The browser does not allow copying: copy the selected lines."
+      message.textContent = "The browser does not allow copying: copy the selected lines."
     }
   }
 
@@ -115,7 +115,7 @@ export function exportDialog(files) {
   /** @param {number[]} frame */
   function count([done, of]) {
     Object.assign(frames, { hidden: false, max: of, value: done })
-    said.textContent = `Frame ${done} of ${of}.`
+    message.textContent = `Frame ${done} of ${of}.`
   }
 
   /** @param {boolean} is */
@@ -130,10 +130,10 @@ export function exportDialog(files) {
     const name = fileName(what)
     running = new AbortController()
     busy(true)
-    said.textContent = "Working…"
+    message.textContent = "Working…"
     const { file, why } = await fetched(what, running.signal)
     busy(false)
-    said.textContent = why ?? `${name}: ${Math.ceil(file.size / 1024)} kB.`
+    message.textContent = why ?? `${name}: ${Math.ceil(file.size / 1024)} kB.`
     if (why === undefined) saveFile(file, name)
   }
 
@@ -148,7 +148,7 @@ export function exportDialog(files) {
       const before = picture.value
       picture.replaceChildren(...optionsOf(open.map((cell) => [nameOf(cell), titleOf(cell)])))
       if (open.some((cell) => nameOf(cell) === before)) picture.value = before
-      said.textContent = ""
+      message.textContent = ""
       write()
       writePython()
       dialog.showModal()

@@ -390,7 +390,7 @@ class _Chart:
 
 
 def _checked_chart(head, cells, findings, given):
-    if head.get("said") == FAILED:
+    if head.get("reason") == FAILED:
         findings.found("could not be computed", given, FAILED)
     if _NO_NUMBER.search(f"{head.get('said', '')} {head.get('why', '')}") or "NaN" in json.dumps(head):
         findings.found("no number in a sentence", given, json.dumps(head)[:300])

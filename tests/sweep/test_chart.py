@@ -226,12 +226,12 @@ def test_a_chart_comes_to_the_browser_piece_by_piece_and_whole():
     head, values, status = page.all_of(given)
     expected, ends = whole(Chart.read(given))
     assert np.array_equal(values, expected.ravel(), equal_nan=True) and np.array_equal(status, ends.ravel())
-    assert (head["done"], head["of"], head["said"], head["level"]) == (1200, 1200, "", "standard")
+    assert (head["done"], head["of"], head["reason"], head["level"]) == (1200, 1200, "", "standard")
     assert head["x"] == ["h", -0.9, 2.0, 40]
     assert len(page.told) >= 3
     # Cells already sent to the browser are not kept.
     head = page.send({"chart": {"more": 0, "id": 7}})
-    assert head == {"id": 7, "said": "", "running": False, "cells": 0}
+    assert head == {"id": 7, "reason": "", "running": False, "cells": 0}
 
 
 def test_why_a_cell_has_no_number_is_said():
@@ -277,7 +277,7 @@ def test_nothing_that_comes_from_outside_is_believed(given, said):
         Chart.read(given)
     page = Page()
     head = page.send({"chart": {"start": given, "id": 1}})
-    assert re.search(said, head["said"]) and head["running"] is False and "of" not in head
+    assert re.search(said, head["reason"]) and head["running"] is False and "of" not in head
 
 
 def test_numbers_are_clamped_and_turned_round():
@@ -338,7 +338,7 @@ def test_stopped_it_stays_at_what_is_known_and_another_one_takes_its_place(slow)
     page.send({"chart": {"stop": True}})
     let.release(20)
     head = page.send({"chart": {"more": 0, "id": 1}})
-    assert (head["running"], head["said"]) == (False, "Stopped.") and 0 < head["cells"] < head["of"]
+    assert (head["running"], head["reason"]) == (False, "Stopped.") and 0 < head["cells"] < head["of"]
     # An answer to who asks for the one before would be taken for one about this.
     page.send({"chart": {"start": wish(), "id": 2}})
     assert page.send({"chart": {"more": 0, "id": 1}}) is None

@@ -88,7 +88,7 @@ class Charts:
                 cells=where.size,
                 first=min(max(known, 0), progress.cells),
                 running=running,
-                said=charting.reason,
+                reason=charting.reason,
                 done=progress.done,
                 of=progress.cells,
                 left=progress.left,

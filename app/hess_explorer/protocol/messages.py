@@ -237,7 +237,7 @@ class ChartCells:
     cells: int
     first: int
     running: bool
-    said: str
+    reason: str
     done: int
     of: int
     left: float | None
@@ -250,10 +250,10 @@ class ChartCells:
 
 @dataclass(frozen=True)
 class ChartEnded:
-    """The chart has ended; said : the reason."""
+    """The chart has ended."""
 
     id: int | None
-    said: str
+    reason: str
     running: bool = False
     cells: int = 0
 
