@@ -31,7 +31,7 @@ def lines_of(address: Address) -> list[str]:
     scene, name = address.scene, address.picture.name
     given = {spec.name: _value(spec, address.values[spec.name]) for spec in scene.specs}
     given |= {key: repr(value) for key, value in address.looks.items()}
-    words = [repr(scene.name).replace("'", '"'), *(f"{key}={said}" for key, said in given.items() if said)]
+    words = [repr(scene.name).replace("'", '"'), *(f"{key}={value}" for key, value in given.items() if value)]
     return ["state = hess.state(", *_filled(words), f'data = state.data("{name}")', f'state.plot("{name}")']
 
 

@@ -19,13 +19,13 @@ def notebook(address: Address) -> str:
     The format is simple enough to write without a library, see
     https://nbformat.readthedocs.io/en/latest/format_description.html.
     """
-    said = (
+    introduction = (
         f"# {address.scene.title}\n\n{address.scene.summary}\n\nThe state: `?{address.link}`\n\n"
         f"hess-explorer {version('hess-explorer')}: `pip install 'hess-explorer[notebook]'`."
     )
     made = lines_of(address)
     cells = [
-        ("markdown", said),
+        ("markdown", introduction),
         ("code", "import hess_explorer as hess"),
         ("code", "\n".join(made[:-1])),
         ("code", made[-1]),

@@ -39,8 +39,8 @@ def wait_alive(process: subprocess.Popen[bytes], port: int, log: Path) -> None:
     deadline = time.monotonic() + _START_SECONDS
     while not is_alive("127.0.0.1", port):
         if process.poll() is not None or time.monotonic() > deadline:
-            said = log.read_text(errors="replace").strip().splitlines()
-            raise ServerError(f"The server did not start ({said[-1] if said else 'its log is empty'}).")
+            lines = log.read_text(errors="replace").strip().splitlines()
+            raise ServerError(f"The server did not start ({lines[-1] if lines else 'its log is empty'}).")
         time.sleep(0.1)
 
 

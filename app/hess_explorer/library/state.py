@@ -296,8 +296,8 @@ class SceneState:
             for spec in self._address.scene.specs
             if spec.name in self.parameters
         )
-        said = f"<code>{escape(self.link)}</code><p>Pictures: {escape(', '.join(self.pictures))}.</p>"
-        return f"<b>{escape(self._address.scene.title)}</b><table>{rows}</table>{said}"
+        pictures_html = f"<code>{escape(self.link)}</code><p>Pictures: {escape(', '.join(self.pictures))}.</p>"
+        return f"<b>{escape(self._address.scene.title)}</b><table>{rows}</table>{pictures_html}"
 
     def __repr__(self) -> str:
         given = ", ".join(f"{name}={value!r}" for name, value in self.parameters.items())

@@ -38,7 +38,7 @@ _PAGE = """<!DOCTYPE html>
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta http-equiv="Content-Security-Policy" content="{policy}">
 <meta name="generator" content="{program}">
-<meta name="description" content="{said}">
+<meta name="description" content="{summary}">
 <title>{title} · Hess Explorer</title>
 <link rel="icon" href="data:,">
 <style>{style}</style>
@@ -132,7 +132,7 @@ def as_html(query: str, pictures: Sequence[str] = (), home: str = HOME, *, lenie
         program=escape(program),
         title=escape(scene.title),
         entry=_ENTRY,
-        said=escape(f"{program}, ?{link} | {parameters} | {'; '.join(facts['status'])}"),
+        summary=escape(f"{program}, ?{link} | {parameters} | {'; '.join(facts['status'])}"),
         link=escape(f"{home}?{link}"),
         style=(STATIC / "page/offline.css").read_text(encoding="utf-8"),
         modules=json.dumps({"imports": bundled(_ENTRY)}),

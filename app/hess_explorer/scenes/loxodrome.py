@@ -115,10 +115,10 @@ class Loxodrome(State):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_body(self) -> Caption:
-        said = "" if self.pendulum.body.check.is_body else "Not a rigid body, so no ellipsoid. "
+        check_note = "" if self.pendulum.body.check.is_body else "Not a rigid body, so no ellipsoid. "
         return Caption(
             "The centre of mass swings in a plane.",
-            f"{said}Largest distance from the vertical plane: {power(self.found.off_plane)}.",
+            f"{check_note}Largest distance from the vertical plane: {power(self.found.off_plane)}.",
         )
 
     def _about_space(self) -> Caption:

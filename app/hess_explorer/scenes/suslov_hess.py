@@ -168,7 +168,7 @@ class SuslovHess(State):
     @cached_property
     def density(self) -> tuple[Array | None, str]:
         """The invariant density on the torus relative to the uniform one, or None and the reason."""
-        reason = torus_density.why_none(self.map, self.turning)
+        reason = torus_density.reason_for_no_density(self.map, self.turning)
         if reason or self.map is None:
             return None, reason
         try:

@@ -76,7 +76,7 @@ class Film:
                 end = threading.Timer(LONGEST, process.kill)
                 end.start()
                 try:
-                    said = self._heard(process, tell)
+                    last_line = self._heard(process, tell)
                 finally:
                     in_time = end.is_alive()
                     end.cancel()
@@ -86,20 +86,20 @@ class Film:
             if not in_time:
                 raise WorkLimit(f"This film takes more than {LONGEST:g} s to make: reduce its length or its width.")
             if not path.exists():
-                raise InvalidParameter(said.removeprefix("hess-explorer: ") or "The film could not be made.")
+                raise InvalidParameter(last_line.removeprefix("hess-explorer: ") or "The film could not be made.")
             return path.read_bytes()
 
     def _heard(self, process: subprocess.Popen[str], tell: Callable[[str], None]) -> str:
         """Read the output of the process; return the last line that does not report progress."""
         assert process.stderr is not None
-        said = ""
+        last_line = ""
         for line in process.stderr:
             if self._stopped.is_set():
                 break
             if re.fullmatch(r"\d+/\d+\n", line):
                 tell(line.strip())
             else:
-                said = line.strip()
+                last_line = line.strip()
         else:
             process.wait()
-        return said
+        return last_line

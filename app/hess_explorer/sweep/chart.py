@@ -158,7 +158,7 @@ class Chart:
             )
             values[own] = found.values[:, self.part] if self.quantity.parts else found.values
             errors[own], status[own] = found.errors, found.status
-            why |= {own[i]: said for i, said in found.why.items()}
+            why |= {own[i]: why_not for i, why_not in found.why.items()}
         return Found(np.where(status < Outcome.OUTSIDE_REGION, values, np.nan), errors, status, why)
 
     def why(self, x: float, y: float) -> str:

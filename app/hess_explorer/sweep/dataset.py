@@ -36,7 +36,7 @@ def described(
     import xarray as xr
 
     dimensions = tuple(axes)
-    coordinates: dict[str, Any] = {name: (name, places, said) for name, (places, said) in axes.items()}
+    coordinates: dict[str, Any] = {name: (name, places, attrs) for name, (places, attrs) in axes.items()}
     if parts:
         coordinates[PART] = (PART, np.array(parts, object), {"long_name": what.doc})
     variables = {

@@ -232,9 +232,9 @@ def _evaluated(quantity: Quantity, cells: CellArrays, level: Level) -> Found:
         return quantity.compute(cells, level)
     except Exception as error:
         if count == 1:
-            outcome, said = refused(error, {name: column.item() for name, column in cells.items()})
+            outcome, explanation = refused(error, {name: column.item() for name, column in cells.items()})
             shape = (1, len(quantity.parts)) if quantity.parts else 1
-            return Found(np.full(shape, np.nan), np.full(1, np.nan), np.full(1, outcome, np.uint8), {0: said})
+            return Found(np.full(shape, np.nan), np.full(1, np.nan), np.full(1, outcome, np.uint8), {0: explanation})
     # At least one cell raised an error: find it by bisection.
     middle = count // 2
     first, second = (
@@ -245,5 +245,5 @@ def _evaluated(quantity: Quantity, cells: CellArrays, level: Level) -> Found:
         np.concatenate([first.values, second.values]),
         np.concatenate([first.errors, second.errors]),
         np.concatenate([first.status, second.status]),
-        {**first.why, **{middle + i: said for i, said in second.why.items()}},
+        {**first.why, **{middle + i: explanation for i, explanation in second.why.items()}},
     )

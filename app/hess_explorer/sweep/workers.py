@@ -110,8 +110,8 @@ class _Others:
 
 
 def _sentence(error: BaseException) -> str:
-    said = " ".join(str(error).split()).rstrip(".")
-    return f"{type(error).__name__}: {said[:300]}."
+    message = " ".join(str(error).split()).rstrip(".")
+    return f"{type(error).__name__}: {message[:300]}."
 
 
 def _gone() -> WorkersLost:

@@ -150,6 +150,6 @@ def about_torus(a: float, h: float, f: float) -> str:
     if h <= -1.0 or abs(f) > f_max(h):
         return f"h = {digits(h)}, f = {digits(f)}: impossible"
     theta = circle_map(a, h, f, DRAFT)
-    said = f"h = {digits(h)}, f = {digits(f)}: ρ = {digits(theta.rotation_number)}, |trace| = {digits(theta.trace)}"
+    values = f"h = {digits(h)}, f = {digits(f)}: ρ = {digits(theta.rotation_number)}, |trace| = {digits(theta.trace)}"
     multipliers = ", ".join(digits(point.multiplier) for point in theta.fixed_points)
-    return f"{said}, multipliers {multipliers}" if multipliers else f"{said}, no cycle"
+    return f"{values}, multipliers {multipliers}" if multipliers else f"{values}, no cycle"

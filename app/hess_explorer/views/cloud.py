@@ -73,13 +73,13 @@ def about_course(found: Clouds, of_patch: bool) -> Caption:
     """Return the change of small volumes, or with `of_patch` of the volume of the patch."""
     course = found.course
     if of_patch:
-        said = f"The patch keeps {digits(course.volume[-1], 3)} of its volume"
+        text = f"The patch keeps {digits(course.volume[-1], 3)} of its volume"
     else:
-        said = (
+        text = (
             f"Mean of div v {ranging(course.divergence[0, 0], course.divergence[0, -1], 3)}; "
             f"mean of ln s(t)/s(0) at the end {digits(course.log_growth[0, -1], 3)}"
         )
-    return Caption(numbers=f"{said}; the second cloud preserves volume." if found.other is not None else f"{said}.")
+    return Caption(numbers=f"{text}; the second cloud preserves volume." if found.other is not None else f"{text}.")
 
 
 def look(found: Clouds) -> Marks:

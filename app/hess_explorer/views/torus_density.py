@@ -18,7 +18,7 @@ from hess_mechanics.suslov_hess.bifurcation import TurningPoints
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.torus import Track
 
-__all__ = ["about", "phases", "picture", "why_none"]
+__all__ = ["about", "phases", "picture", "reason_for_no_density"]
 
 S = TypeVar("S")
 
@@ -33,7 +33,7 @@ def phases(track: Track, theta: CircleMap | None) -> Array:
     return np.asarray(2.0 * np.pi * (turns - np.floor(turns + 0.5)))
 
 
-def why_none(theta: CircleMap | None, turning: TurningPoints | None) -> str:
+def reason_for_no_density(theta: CircleMap | None, turning: TurningPoints | None) -> str:
     """Return the reason for a missing density, "" if it exists; both arguments are None on the separatrix."""
     if theta is None or turning is None:
         return "On the separatrix no motion returns."

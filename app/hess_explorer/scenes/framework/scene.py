@@ -139,7 +139,7 @@ class State:
 
     def means(self) -> Mapping[str, str]:
         """Return the meanings, as `Number.means`, of the numbers whose meaning depends on a choice."""
-        return {name: said for one in self.parts() for name, said in one.means().items()}
+        return {name: meaning for one in self.parts() for name, meaning in one.means().items()}
 
     def carried(self, before: Self) -> Mapping[str, float]:
         """Return the parameter changes that keep the motion continuous after a different choice in the state before.
@@ -357,7 +357,7 @@ class Scene(Generic[S]):
             if isinstance(spec, Number | Choice)
         }
         idle = self.idle(values)
-        return {name: said for name, said in {**labels, **self.of(values).means()}.items() if name not in idle}
+        return {name: meaning for name, meaning in {**labels, **self.of(values).means()}.items() if name not in idle}
 
     def taken_over(self, there: Values, before: Scene[Any], left: Values) -> dict[str, Value]:
         """Return the values `there` of this scene, updated with changed values of the same meaning in the scene before.

@@ -104,16 +104,18 @@ def constrained_solid(work: Work, body: Body, orbit: Orbit | FreeMotion) -> Soli
     omega, gamma = (
         (orbit.omega, orbit.gamma) if isinstance(orbit, FreeMotion) else (orbit.states[:, :2], orbit.states[:, 2:])
     )
-    shape, said = ellipsoid_of_inertia((I11, I22, I13, I23), work.get(check_body, I11, I22, I13, I23))
-    return Solid(orbit.times, omega, gamma, centre_of_mass((b1, b2, b3)), shape, said)
+    shape, about_shape = ellipsoid_of_inertia((I11, I22, I13, I23), work.get(check_body, I11, I22, I13, I23))
+    return Solid(orbit.times, omega, gamma, centre_of_mass((b1, b2, b3)), shape, about_shape)
 
 
 def hess_solid(body: HessBody, track: Track) -> Solid:
     """Return a body of the Suslov–Hess case with its gyration ellipsoid and its section normal to n3."""
     mass = centre_of_mass((0.0, body.b2, body.b3))
     if body.middle_I33 is None:
-        said = Caption("Not drawn: no such rigid body.", "|a| ≥ 1 violates the triangle inequalities for every I₃₃.")
-        return Solid(track.times, track.omega, track.gamma, mass, None, said, drawn=False)
+        about_shape = Caption(
+            "Not drawn: no such rigid body.", "|a| ≥ 1 violates the triangle inequalities for every I₃₃."
+        )
+        return Solid(track.times, track.omega, track.gamma, mass, None, about_shape, drawn=False)
     # In the axes n1, n2, n3.
     tensor = body.tensor(body.middle_I33)
     moments = ", ".join(map(digits, np.linalg.eigvalsh(tensor)))
@@ -132,14 +134,14 @@ def hess_solid(body: HessBody, track: Track) -> Solid:
 
 def heavy_solid(body: HeavyBody, times: Array, states: Array) -> Solid:
     """Return a heavy body without a constraint along states (n, 6) = (M, γ)."""
-    shape, said = None, Caption("Not a rigid body, so no ellipsoid.", "r: the centre of mass.")
+    shape, about_shape = None, Caption("Not a rigid body, so no ellipsoid.", "r: the centre of mass.")
     if body.check.is_body:
         I1, I2, I3 = (1.0 / a for a in body.a)
         shape = Shape(np.eye(3), np.array([I1, I2, I3]), np.array(HeavyBody.hess((I1, I2, I3), 1.0).r))
         normal = "normal" if body.is_hess else "not normal"
-        said = Caption("Gyration ellipsoid.", f"The centre of mass r is {normal} to its circular section.")
+        about_shape = Caption("Gyration ellipsoid.", f"The centre of mass r is {normal} to its circular section.")
     mass = Direction(math.copysign(1.0, body.mu) * np.array(body.r), "r")
-    return Solid(times, states[:, :3] * body.a, states[:, 3:], mass, shape, said)
+    return Solid(times, states[:, :3] * body.a, states[:, 3:], mass, shape, about_shape)
 
 
 S = TypeVar("S", bound=State)

@@ -124,10 +124,10 @@ class Work:
         """Return the end of the status line: the time spent, and "computed" or "cached"."""
         spent, compiling = self._spent()
         once = f"{compiling:.1f} s to compile, once · " if compiling > _NOTED else ""
-        said = f"{once}{1e3 * spent:.1f} ms, {'computed' if self._misses else 'cached'}"
+        duration = f"{once}{1e3 * spent:.1f} ms, {'computed' if self._misses else 'cached'}"
         if not self.auto:
-            return said
-        return f"{AUTO}: {self.chosen}{'' if self._settled else ' until it is measured'} · {said}"
+            return duration
+        return f"{AUTO}: {self.chosen}{'' if self._settled else ' until it is measured'} · {duration}"
 
 
 def orbit_status(orbit: Orbit | FreeMotion) -> list[str]:

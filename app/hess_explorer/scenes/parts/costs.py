@@ -93,15 +93,15 @@ class Costs:
         known = [found for found in self.found.values() if found is not None]
         if len(known) < len(self.found):
             return Caption("Being measured.", f"{len(known)} of {len(self.found)} so far.")
-        said = [
+        sentences = [
             f"{trial.kind} cannot be measured: {found.reason}"
             for trial, found in self.found.items()
             if isinstance(found, Refused)
         ]
         if self.enough:
             least = ", ".join(f"{trial.kind} {name}" for trial, name in self.enough.items())
-            said.insert(0, f"Cheapest levels without a visible error: {least}.")
-        sentence = " ".join(said)
+            sentences.insert(0, f"Cheapest levels without a visible error: {least}.")
+        sentence = " ".join(sentences)
         return Caption(numbers=sentence[:1].upper() + sentence[1:])
 
     def rows(self) -> Iterator[str]:

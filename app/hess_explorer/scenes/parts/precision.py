@@ -116,11 +116,11 @@ class Precision:
 
     def _about_cost(self) -> Caption:
         here = self._here
-        said = f"{self.work.chosen}: {digits(here.ms, 2)} ms, error {digits(here.error, 2)}"
+        numbers_text = f"{self.work.chosen}: {digits(here.ms, 2)} ms, error {digits(here.error, 2)}"
         other = mechanics.quickest_other(self.measured, 10.0 * here.error)
         if other is not None:
-            said += f"; {other.method}: {digits(other.ms / here.ms, 2)} × as long, {digits(other.error, 2)}"
-        return Caption(numbers=f"{said}.")
+            numbers_text += f"; {other.method}: {digits(other.ms / here.ms, 2)} × as long, {digits(other.error, 2)}"
+        return Caption(numbers=f"{numbers_text}.")
 
     def _about_growth(self) -> Caption:
         own, promise = float(self.growing.errors[self.work.chosen][-1]), level(self.work.chosen).promise
