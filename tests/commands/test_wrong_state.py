@@ -6,7 +6,7 @@ import pytest
 
 import hess_explorer as hess
 from hess_explorer.__main__ import main
-from hess_explorer.export.shown import address
+from hess_explorer.export.picture_data import address
 from hess_explorer.page.opening import opening
 from hess_explorer.protocol.parameters import CLIENT, PAGE_KEYS, Choice, Link, Names, Number, Places, encode, refusal
 from hess_explorer.scenes import scenes

@@ -13,7 +13,7 @@ from hess_explorer.__main__ import main
 from hess_explorer.export.code import code
 from hess_explorer.export.columns import columns_of
 from hess_explorer.export.notebook import notebook
-from hess_explorer.export.shown import address, shown
+from hess_explorer.export.picture_data import address, picture_data
 from hess_explorer.protocol.parameters import encode
 from hess_explorer.scenes import scenes
 from support.thorough import sample
@@ -45,7 +45,7 @@ def test_the_lines_leave_what_is_exported_of_every_picture_of_every_preset(name,
     monkeypatch.setattr(SceneState, "plot", lambda self, picture: drawn.append(picture))
     link = link_of(name, number)
     for view in scenes()[name].views:
-        expected = columns_of(shown(link, view.name))
+        expected = columns_of(picture_data(link, view.name))
         data = ran(code(address(link, view.name)))
         assert data.facts == expected.facts
         assert data.keys() == expected.keys()

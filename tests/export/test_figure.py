@@ -12,7 +12,7 @@ from pytest import approx
 from scipy.spatial.transform import Rotation
 
 from hess_explorer.export.figure import as_file, draw
-from hess_explorer.export.shown import shown
+from hess_explorer.export.picture_data import picture_data
 from hess_explorer.export.sphere_canvas import seen
 from hess_mechanics.errors import ModelError
 
@@ -33,7 +33,7 @@ SEVERAL = [
 
 @pytest.mark.parametrize("link, picture", SEVERAL)
 def test_text_stays_text_and_the_file_says_link_and_version(link, picture):
-    found = shown(f"{link}&{DRAFT}", picture)
+    found = picture_data(f"{link}&{DRAFT}", picture)
     svg = as_file(found, "svg")
     assert ET.fromstring(svg).tag.endswith("svg")
     text = svg.decode()
@@ -46,12 +46,12 @@ def test_text_stays_text_and_the_file_says_link_and_version(link, picture):
 
 
 def test_the_same_state_gives_the_same_file():
-    found = shown(DRAFT, "omega")
+    found = picture_data(DRAFT, "omega")
     assert as_file(found, "svg", 40.0) == as_file(found, "svg", 40.0)
 
 
 def test_the_size_is_that_asked_for_and_black_has_no_colours():
-    found = shown(DRAFT, "bifurcation")
+    found = picture_data(DRAFT, "bifurcation")
     for black in (False, True):
         picture = Image.open(io.BytesIO(as_file(found, "png", 50.0, black)))
         assert picture.size == approx((50 / 25.4 * 300, 50 / 25.4 * 300), abs=1)
@@ -65,7 +65,7 @@ def test_the_size_is_that_asked_for_and_black_has_no_colours():
 
 
 def test_the_lines_of_a_figure_are_the_curves_of_the_data():
-    found = shown(DRAFT, "omega")
+    found = picture_data(DRAFT, "omega")
     drawn = draw(found)
     orbit = found.columns["data-orbit"]
     lines = [line.get_xydata() for line in drawn.axes[0].lines]
@@ -85,7 +85,7 @@ def test_a_sphere_is_seen_from_where_the_link_says(azimuth, elevation):
 
 
 def test_what_cannot_be_made_is_refused_with_a_sentence(monkeypatch):
-    circle = shown(DRAFT, "circle")
+    circle = picture_data(DRAFT, "circle")
     for wrong in (0.0, 19.9, 401.0, nan):
         with pytest.raises(ModelError, match="20 to 400 mm wide"):
             as_file(circle, "svg", wrong)

@@ -15,7 +15,7 @@ from pytest import approx
 from hess_explorer.__main__ import main
 from hess_explorer.export.film import as_film, moves, pictures_at, times_of
 from hess_explorer.export.formats import holding
-from hess_explorer.export.shown import shown
+from hess_explorer.export.picture_data import picture_data
 from hess_mechanics.errors import ModelError
 from support.films import frames_of, tags_of
 from support.mechanics import followed
@@ -29,7 +29,7 @@ SIDE = 480
 
 @pytest.fixture(scope="module")
 def found():
-    return shown(LINK, "omega")
+    return picture_data(LINK, "omega")
 
 
 def box_of(picture):
@@ -96,7 +96,7 @@ def test_the_moving_point_is_where_the_orbit_is_at_that_time(found, kind, tmp_pa
 
 
 def test_what_moves_moves_and_what_stands_stands():
-    cloud = shown("scene=singular-measures&points=1000&accuracy=draft", "omega")
+    cloud = picture_data("scene=singular-measures&points=1000&accuracy=draft", "omega")
     times = times_of(cloud, 4.0)
     assert (times[0], times[-1], len(times)) == (0.0, cloud.columns["omega"]["times"][-1], 100)
     first, last = (np.array(one, int) for one in pictures_at(cloud, times[[0, -1]], 60.0))
@@ -109,7 +109,7 @@ def test_what_moves_moves_and_what_stands_stands():
     rows, columns = np.nonzero(changed)
     assert rows.max() < top
     assert columns.min() > SIDE / 2
-    body = shown(f"{LINK}&t=3", "body")
+    body = picture_data(f"{LINK}&t=3", "body")
     first, again = pictures_at(body, np.array([3.0, 3.0]), 60.0)
     assert np.array_equal(first, again)
 
@@ -125,7 +125,7 @@ def test_which_pictures_move():
         ("scene=scattering", "map"): False,
         ("scene=rotation-number", "line"): False,
     }
-    found = {(link, name): moves(shown(f"{link}&accuracy=draft", name)) for link, name in expected}
+    found = {(link, name): moves(picture_data(f"{link}&accuracy=draft", name)) for link, name in expected}
     assert found == expected
 
 
@@ -166,7 +166,7 @@ def test_what_cannot_be_filmed_is_refused_with_a_sentence(found, monkeypatch):
     with pytest.raises(ModelError, match="choose one of webm, mp4, gif"):
         as_film(found, "avi")
     with pytest.raises(ModelError, match="Nothing moves in “"):
-        as_film(shown("scene=scattering&accuracy=draft", "map"), "webm")
+        as_film(picture_data("scene=scattering&accuracy=draft", "map"), "webm")
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     with pytest.raises(ModelError, match=r"pip install 'hess-explorer\[export\]'"):
         as_film(found, "webm")

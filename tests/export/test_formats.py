@@ -14,7 +14,7 @@ from PIL import Image
 
 from hess_explorer.export.figure import STYLE, draw, saved
 from hess_explorer.export.formats import holding
-from hess_explorer.export.shown import address, shown
+from hess_explorer.export.picture_data import address, picture_data
 from hess_explorer.export.table import as_csv, as_json
 from hess_explorer.protocol.parameters import encode
 from hess_explorer.scenes import scenes
@@ -33,7 +33,7 @@ def test_every_picture_is_there_in_every_format(scene, picture):
     wanted = ELSEWHERE.get((scene, picture))
     example = next((one.values for one in scenes()[scene].presets if wanted and one.name.startswith(wanted)), {})
     values = {**scenes()[scene].defaults(), **example, "accuracy": "draft"}
-    found = shown(encode(scene, values), picture)
+    found = picture_data(encode(scene, values), picture)
     assert_numbers(found, values)
     # Over a film stands its title.
     assert set(map(ord, found.title)) <= GLYPHS

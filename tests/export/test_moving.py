@@ -12,7 +12,7 @@ from pytest import approx
 from hess_explorer.export import solid
 from hess_explorer.export.figure import as_file, draw
 from hess_explorer.export.moment import clouds_at, density_at
-from hess_explorer.export.shown import shown
+from hess_explorer.export.picture_data import picture_data
 from support.ball import TENSOR, rates
 from support.mechanics import followed
 from support.suslov import HESS_BODY, field
@@ -68,7 +68,7 @@ def test_the_shading_is_that_of_the_surface_that_is_seen_and_no_other():
 @pytest.mark.parametrize("t", [0.0, 3.7, 10.0])
 def test_the_centre_of_mass_is_where_the_motion_has_it(t):
     """Seen along the axis y of the picture: to the right r·e, e fixed in space, upwards −r·γ."""
-    found = shown(f"{BODY}&t={t}&az={-0.5 * pi}&el=0", "body")
+    found = picture_data(f"{BODY}&t={t}&az={-0.5 * pi}&el=0", "body")
     b = np.array([HESS_BODY.b1, HESS_BODY.b2, HESS_BODY.b3])
     r = -b / np.linalg.norm(b)
 
@@ -89,23 +89,23 @@ def test_the_centre_of_mass_is_where_the_motion_has_it(t):
 
 
 def test_a_body_has_its_ellipsoid_its_section_its_wheels_and_its_trail():
-    frame = draw(shown(f"{BODY}&t=6", "body")).axes[0]
+    frame = draw(picture_data(f"{BODY}&t=6", "body")).axes[0]
     ellipses = [patch for patch in frame.patches if isinstance(patch, Ellipse) and not isinstance(patch, Circle)]
     assert len(ellipses) == 1
     assert len(frame.images) == 1
     # At this time both rods are behind the body.
-    texts = {text.get_text() for text in draw(shown(BODY, "body")).axes[0].texts}
+    texts = {text.get_text() for text in draw(picture_data(BODY, "body")).axes[0].texts}
     assert {"e", "r", "γ, gravity"} <= texts
     # The trail is newer where it is wider.
     widths = {round(line.get_linewidth(), 3) for line in frame.lines if line.get_color() == "#0072B2"}
     assert len(widths) > 5
     # The disc of the mass with two dark quarters, discs of two wheels, seven each, and the head of the arrow.
     assert len(frame.patches) - len(ellipses) == 3 + 2 * 7 + 1
-    assert len(draw(shown("scene=chaplygin-ball&accuracy=draft", "body")).axes[0].images) == 1
+    assert len(draw(picture_data("scene=chaplygin-ball&accuracy=draft", "body")).axes[0].images) == 1
 
 
 def test_in_black_a_body_is_grey():
-    found = shown(f"{DRAFT}&t=2", "body")
+    found = picture_data(f"{DRAFT}&t=2", "body")
     red, green, blue = (
         np.asarray(Image.open(io.BytesIO(as_file(found, "png", 30.0, True))).convert("RGB"), int).reshape(-1, 3).T
     )
@@ -114,7 +114,7 @@ def test_in_black_a_body_is_grey():
 
 
 def test_clouds_between_two_frames_are_where_the_motion_takes_them():
-    found = shown("scene=singular-measures&points=1000&accuracy=precise", "omega")
+    found = picture_data("scene=singular-measures&points=1000&accuracy=precise", "omega")
     columns = found.columns["omega"]
     times = columns["times"]
     before, after = float(times[3]), float(times[4])
@@ -138,7 +138,7 @@ def test_clouds_between_two_frames_are_where_the_motion_takes_them():
 
 @pytest.mark.parametrize("picture", ["omega", "sphere"])
 def test_the_points_of_a_cloud_are_pixels_in_a_vector_file(picture):
-    found = shown(f"scene=singular-measures&points=10000&t=2&{DRAFT}", picture)
+    found = picture_data(f"scene=singular-measures&points=10000&t=2&{DRAFT}", picture)
     svg = as_file(found, "svg")
     assert b"<image" in svg
     assert len(svg) < 400_000

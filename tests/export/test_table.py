@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hess_explorer.export.columns import columns_of
-from hess_explorer.export.shown import shown
+from hess_explorer.export.picture_data import picture_data
 from hess_explorer.export.table import as_csv
 from hess_mechanics import circle_map, level
 from hess_mechanics.errors import ModelError
@@ -15,7 +15,7 @@ from support.view import STATE
 
 
 def test_the_graph_of_the_circle_map_is_that_of_the_mechanics_to_the_last_digits():
-    facts, table = read(as_csv(shown("h=1.2&f=0.3&accuracy=reference", "circle")))
+    facts, table = read(as_csv(picture_data("h=1.2&f=0.3&accuracy=reference", "circle")))
     assert (facts["scene"], facts["picture"], facts["parameters"]["h"]) == ("suslov-hess", "circle", 1.2)
     found = circle_map(a=0.28 / 0.96, h=1.2, f=0.3, level=level("reference"))
     graph = [row for row in table if row["layer"] == "map"]
@@ -27,7 +27,7 @@ def test_the_graph_of_the_circle_map_is_that_of_the_mechanics_to_the_last_digits
 
 
 def test_an_orbit_is_that_of_another_integrator_and_its_columns_have_names():
-    found = shown("I22=0.96&I23=0.28&b3=-1&h=1.5&f=0.6&phi0=0.5&span=10&accuracy=reference", "omega")
+    found = picture_data("I22=0.96&I23=0.28&b3=-1&h=1.5&f=0.6&phi0=0.5&span=10&accuracy=reference", "omega")
     orbit = columns_of(found).layer("orbit")
     y = np.column_stack([orbit[name] for name in STATE])
     exact = followed(lambda _, state: field(HESS_BODY, state), y[0], orbit["t"], rtol=1e-12)
@@ -37,7 +37,7 @@ def test_an_orbit_is_that_of_another_integrator_and_its_columns_have_names():
 
 def test_a_cloud_is_that_of_the_time_in_the_link():
     link = "scene=singular-measures&points=1000&accuracy=draft"
-    early, late = (columns_of(shown(f"{link}&t={t}", "omega")).layer("omega-cloud") for t in (0.0, 5.0))
+    early, late = (columns_of(picture_data(f"{link}&t={t}", "omega")).layer("omega-cloud") for t in (0.0, 5.0))
     assert len(early) == len(late) > 300
     assert (early["t"] == 0.0).all()
     assert (np.abs(late["t"] - 5.0) < 0.5).all()
@@ -46,8 +46,8 @@ def test_a_cloud_is_that_of_the_time_in_the_link():
 
 
 def test_what_a_link_has_wrong_is_put_right_and_noted():
-    found = shown("I22=-5&scene=nowhere", "circle", lenient=True)
+    found = picture_data("I22=-5&scene=nowhere", "circle", lenient=True)
     assert found.scene.name == "suslov-hess"
     assert [note.split()[0] for note in found.notes[:2]] == ["Scene", "I₂₂"]
     with pytest.raises(ModelError, match=r"has no picture 'x': choose one of body, omega, sphere"):
-        shown("", "x")
+        picture_data("", "x")

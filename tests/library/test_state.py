@@ -17,7 +17,7 @@ from pytest import approx
 
 import hess_explorer as hess
 from hess_explorer.export.figure import as_file
-from hess_explorer.export.shown import shown
+from hess_explorer.export.picture_data import picture_data
 from hess_mechanics import BallBody, HeavyBody, HessBody, SuslovBody, circle_map, level
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.euler_poisson import equations as euler_poisson
@@ -146,7 +146,7 @@ def test_a_plot_draws_the_numbers_of_the_data_on_the_axes_of_the_page(scene, pic
     wanted = [part[name] for name in columns]
     assert any(all(map(np.array_equal, map(np.sort, found), map(np.sort, wanted))) for found in drawn)
     figure = hv.render(plot, "bokeh")
-    axes = shown(state.link, picture).axes
+    axes = picture_data(state.link, picture).axes
     assert (figure.x_range.start, figure.x_range.end) == approx(axes.x)
     assert (figure.y_range.start, figure.y_range.end) == approx(axes.y)
     assert figure.title.text == data.facts["title"]
@@ -158,7 +158,7 @@ def test_a_plot_is_drawn_restyled_and_combined_in_either_backend():
         state = hess.state("suslov-hess", accuracy="draft")
         plot = state.plot("bifurcation")
         assert hv.Store.current_backend == "matplotlib"
-        axes = shown(state.link, "bifurcation").axes
+        axes = picture_data(state.link, "bifurcation").axes
         frame = hv.render(plot).axes[0]
         assert (frame.get_xlim(), frame.get_ylim()) == (axes.x, axes.y)
         locked, forbidden = (one for one in frame.collections if isinstance(one, PatchCollection))
@@ -177,7 +177,7 @@ def test_a_plot_is_drawn_restyled_and_combined_in_either_backend():
 def test_a_sphere_is_the_figure_for_paper_in_pixels():
     state = hess.state("suslov-hess", accuracy="draft", az=1.0, el=-0.4)
     pixels = state.plot("sphere").dimension_values(2, flat=False)
-    figure = np.asarray(Image.open(io.BytesIO(as_file(shown(state.link, "sphere"), "png", 71.0))).convert("RGB"))
+    figure = np.asarray(Image.open(io.BytesIO(as_file(picture_data(state.link, "sphere"), "png", 71.0))).convert("RGB"))
     assert np.array_equal(pixels[::-1], figure[..., 0] / np.float32(255.0))
     assert pixels.std() > 0.05
 

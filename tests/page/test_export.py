@@ -11,7 +11,7 @@ from playwright.sync_api import expect
 
 from hess_explorer.export.code import code
 from hess_explorer.export.notebook import notebook
-from hess_explorer.export.shown import address, shown
+from hess_explorer.export.picture_data import address, picture_data
 from hess_explorer.export.table import as_csv
 from hess_explorer.page.offline import as_html
 from hess_explorer.protocol.parameters import MAX_QUERY
@@ -42,7 +42,7 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer):
     with page.expect_download() as download:
         dialog.get_by_role("button", name="Save file").click()
     assert download.value.suggested_filename == "suslov-hess-circle.csv"
-    assert Path(download.value.path()).read_text(encoding="utf-8") == as_csv(shown(state, "circle"))
+    assert Path(download.value.path()).read_text(encoding="utf-8") == as_csv(picture_data(state, "circle"))
     assert "suslov-hess-circle.csv:" in dialog.locator(".why").text_content()
     dialog.locator(".param-format").select_option("svg")
     dialog.locator(".param-width").fill("60")
@@ -123,7 +123,7 @@ def test_a_film_is_made_with_progress_and_is_stopped(explorer):
     assert download.value.suggested_filename == "suslov-hess-sphere.webm"
     path = download.value.path()
     assert len(frames_of(path, 480)) == 25
-    assert shown(state, "sphere").link in tags_of(path)
+    assert picture_data(state, "sphere").link in tags_of(path)
     heard = page.evaluate("window.heard")
     assert heard[0] == "Working…"
     assert "Frame 25 of 25." in heard
@@ -154,7 +154,7 @@ def test_the_server_gives_files_and_sentences(server):
     with urlopen(f"{server}/export?{DRAFT}&picture=circle") as answer:
         assert answer.headers["Content-Type"].startswith("text/csv")
         assert answer.headers["Content-Disposition"] == 'attachment; filename="suslov-hess-circle.csv"'
-        assert answer.read().decode() == as_csv(shown(DRAFT, "circle"))
+        assert answer.read().decode() == as_csv(picture_data(DRAFT, "circle"))
     for kind, begins in (("json", b"{"), ("svg", b"<?xml"), ("png", b"\x89PNG"), ("pdf", b"%PDF")):
         with urlopen(f"{server}/export?{DRAFT}&picture=omega&format={kind}&width=40&black=1") as answer:
             assert answer.read().startswith(begins)

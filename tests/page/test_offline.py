@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
-from hess_explorer.export.shown import shown
+from hess_explorer.export.picture_data import picture_data
 from hess_explorer.page.offline import as_html, bundled
 from hess_mechanics.errors import ModelError
 from support.accessible import assert_accessible
@@ -60,7 +60,7 @@ def test_a_state_plays_and_turns_from_the_disk(browser, tmp_path):
             "Bifurcation diagram",
             "Circle map",
         ]
-        found = shown(DRAFT, "omega")
+        found = picture_data(DRAFT, "omega")
         orbit = found.columns["data-orbit"]
 
         def assert_point(t):
@@ -97,7 +97,7 @@ def test_a_state_plays_and_turns_from_the_disk(browser, tmp_path):
         assert sliders.count() == 7
         assert all(sliders.nth(i).is_disabled() for i in range(7))
         expect(page.locator("#controls")).to_contain_text("This file holds one state")
-        link = shown(f"{DRAFT}&t=2&az=0.3&el=0.2").link
+        link = picture_data(f"{DRAFT}&t=2&az=0.3&el=0.2").link
         assert page.locator("header a").get_attribute("href") == f"https://explorer.example/?{link}"
         facts = json.loads(page.locator("#facts").text_content())
         assert facts["parameters"] == dict(found.values)

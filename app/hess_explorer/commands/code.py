@@ -13,7 +13,7 @@ __all__ = ["COMMAND"]
 def _run(options: Options) -> None:
     with computing():
         from hess_explorer.export.notebook import PROGRAMS
-        from hess_explorer.export.shown import address
+        from hess_explorer.export.picture_data import address
 
         text = PROGRAMS[options.format](address(options.state, options.picture, lenient=options.lenient))
     show(text.encode(), options.out)

@@ -38,9 +38,9 @@ def _page(options: Options) -> bytes:
 
 def _picture(options: Options) -> bytes:
     from hess_explorer.export.file import content
-    from hess_explorer.export.shown import shown
+    from hess_explorer.export.picture_data import picture_data
 
-    found = shown(options.state, options.picture, lenient=options.lenient)
+    found = picture_data(options.state, options.picture, lenient=options.lenient)
     request = FileRequest(options.format, options.width, options.black, options.seconds)
     return content(found, request, _progress_printer(options.progress))
 

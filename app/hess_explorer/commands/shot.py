@@ -29,7 +29,7 @@ def _size(text: str) -> tuple[int, int]:
 def _require_right(query: str) -> None:
     """Raise `CommandError` for a query that the page would have to correct."""
     with computing():
-        from hess_explorer.export.shown import address
+        from hess_explorer.export.picture_data import address
         from hess_explorer.page.opening import opening
 
         address(query)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hess_explorer.export.moment import CloudFrame, clouds_at
-from hess_explorer.export.shown import Shown
+from hess_explorer.export.picture_data import PictureData
 from hess_explorer.export.sphere_canvas import LOOKS, SphereCanvas, seen
 from hess_explorer.views import theme
 from hess_explorer.views.cloud import CloudPlane
@@ -25,13 +25,13 @@ _SIDE = 0.9
 """Size of a point, in typographic points."""
 
 
-def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
+def draw_still(frame: Frame, data: PictureData, colour: Colour) -> None:
     """Draw the axes, the lines σ1 and σ2, the line of equilibria and the ends of its halves."""
-    picture, axes = shown.picture, shown.axes
+    picture, axes = data.picture, data.axes
     assert isinstance(picture, CloudPlane)
     assert axes is not None
     frame.set(xlim=axes.x, ylim=axes.y, box_aspect=1.0, xlabel="ω₁", ylabel="ω₂")
-    own = shown.columns.get(picture.name, {})
+    own = data.columns.get(picture.name, {})
     for look, x, y in own.get("curves", ()):
         ink, dash, weight = LOOKS[look]
         frame.plot(x, y, color=colour(ink), linestyle=dash, linewidth=weight)
@@ -49,9 +49,9 @@ def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
         )
 
 
-def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float) -> None:
+def draw_moving(frame: Frame, data: PictureData, colour: Colour, t: float) -> None:
     """Draw the clouds at time t above the equilibria, where a whole cloud may end."""
-    for cloud, ink in zip(clouds_at(shown.columns.get(shown.picture.name, {}), t), _COLOURS, strict=False):
+    for cloud, ink in zip(clouds_at(data.columns.get(data.picture.name, {}), t), _COLOURS, strict=False):
         _dots(frame, cloud.omega, colour(ink), 3.0)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hess_explorer.export.shown import Shown
+from hess_explorer.export.picture_data import PictureData
 from hess_explorer.export.table import Block, blocks, names_of
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.labelled import Labels, Result
@@ -105,10 +105,10 @@ class Table(Result):
         return f"<{len(self)} rows of {self.facts['title']!r}: {', '.join(self.columns)}>"
 
 
-def columns_of(shown: Shown) -> Table:
+def columns_of(data: PictureData) -> Table:
     """Return the data of a picture in double precision."""
-    found = blocks(shown)
-    return Table({name: frozen(_column(name, found)) for name in names_of(found)}, shown.facts)
+    found = blocks(data)
+    return Table({name: frozen(_column(name, found)) for name in names_of(found)}, data.facts)
 
 
 def _column(name: str, found: Sequence[Block]) -> NDArray[Any]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from hess_explorer.export import clouds, plots, spheres
 from hess_explorer.export.formats import WIDTHS, holding
-from hess_explorer.export.shown import Shown
+from hess_explorer.export.picture_data import PictureData
 from hess_explorer.export.solid import EVEN, ODD
 from hess_explorer.views import theme
 from hess_explorer.views.cloud import CloudPlane
@@ -35,12 +35,12 @@ STYLE: Mapping[str, Any] = {
 }
 
 
-def as_file(shown: Shown, kind: str, width: float = 85.0, black: bool = False) -> bytes:
+def as_file(data: PictureData, kind: str, width: float = 85.0, black: bool = False) -> bytes:
     """Return a square figure as a file, in which text stays text.
 
     Parameters
     ----------
-    shown : Shown
+    data : PictureData
         The picture and its data.
     kind : str
         "png" (300 dots per inch), "svg" or "pdf".
@@ -70,52 +70,52 @@ def as_file(shown: Shown, kind: str, width: float = 85.0, black: bool = False) -
             "Figures need Matplotlib: pip install 'hess-explorer[export]'. CSV and JSON work without it."
         ) from error
     with mpl.rc_context(dict(STYLE)):
-        return saved(draw(shown, width, black), shown, kind)
+        return saved(draw(data, width, black), data, kind)
 
 
-def saved(figure: Figure, shown: Shown, kind: str) -> bytes:
+def saved(figure: Figure, data: PictureData, kind: str) -> bytes:
     """Return a figure as a file whose metadata contain link, parameters and version."""
-    program, text = shown.facts["program"], shown.metadata_text
+    program, text = data.facts["program"], data.metadata_text
     metadata: dict[str, Any] = {
-        "png": {"Title": shown.title, "Description": text, "Comment": shown.caption, "Software": program},
-        "svg": {"Title": shown.title, "Description": f"{shown.caption} {text}", "Date": None},
-        "pdf": {"Title": shown.title, "Subject": text, "Keywords": shown.caption, "CreationDate": None},
+        "png": {"Title": data.title, "Description": text, "Comment": data.caption, "Software": program},
+        "svg": {"Title": data.title, "Description": f"{data.caption} {text}", "Date": None},
+        "pdf": {"Title": data.title, "Subject": text, "Keywords": data.caption, "CreationDate": None},
     }[kind]
     out = io.BytesIO()
     figure.savefig(out, format=kind, dpi=_DOTS_PER_INCH, metadata=metadata)
     return out.getvalue()
 
 
-def draw(shown: Shown, width: float = 85.0, black: bool = False) -> Figure:
+def draw(data: PictureData, width: float = 85.0, black: bool = False) -> Figure:
     """Return the figure, `width` millimetres wide, at the time and view of the link."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(width / 25.4, width / 25.4), layout="constrained")
     frame = figure.add_subplot()
     colour = in_black if black else as_it_is
-    draw_still(frame, shown, colour)
-    draw_moving(frame, shown, colour, shown.client["t"], point=False)
+    draw_still(frame, data, colour)
+    draw_moving(frame, data, colour, data.client["t"], point=False)
     return figure
 
 
-def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
+def draw_still(frame: Frame, data: PictureData, colour: Colour) -> None:
     """Draw the static parts, beneath the moving ones."""
-    if isinstance(shown.picture, Plot):
-        plots.draw_still(frame, shown, colour)
-    elif isinstance(shown.picture, CloudPlane):
-        clouds.draw_still(frame, shown, colour)
+    if isinstance(data.picture, Plot):
+        plots.draw_still(frame, data, colour)
+    elif isinstance(data.picture, CloudPlane):
+        clouds.draw_still(frame, data, colour)
     else:
-        spheres.draw_still(frame, shown, colour)
+        spheres.draw_still(frame, data, colour)
 
 
-def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float, point: bool) -> None:
+def draw_moving(frame: Frame, data: PictureData, colour: Colour, t: float, point: bool) -> None:
     """Draw bodies and clouds at time t; point : True to include the moving points of the orbit."""
-    if isinstance(shown.picture, Plot):
-        plots.draw_moving(frame, shown, colour, t, point)
-    elif isinstance(shown.picture, CloudPlane):
-        clouds.draw_moving(frame, shown, colour, t)
+    if isinstance(data.picture, Plot):
+        plots.draw_moving(frame, data, colour, t, point)
+    elif isinstance(data.picture, CloudPlane):
+        clouds.draw_moving(frame, data, colour, t)
     else:
-        spheres.draw_moving(frame, shown, colour, t, point)
+        spheres.draw_moving(frame, data, colour, t, point)
 
 
 def in_black(colour: str) -> str:

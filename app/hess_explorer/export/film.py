@@ -14,8 +14,8 @@ import numpy as np
 from hess_explorer.export.figure import STYLE, draw_moving, draw_still, in_black
 from hess_explorer.export.formats import FILM_WIDTHS, SECONDS
 from hess_explorer.export.moment import end
+from hess_explorer.export.picture_data import PictureData
 from hess_explorer.export.plots import densities
-from hess_explorer.export.shown import Shown
 from hess_explorer.views.body import BodyInSpace
 from hess_explorer.views.cloud import CloudPlane
 from hess_explorer.views.elements import as_it_is
@@ -45,24 +45,24 @@ _AXIS, _LETTER, _CLOCK = 13.0, 1.75, 11
 """Width of the axis labels and of a letter in millimetres; length of the clock in letters, including a space."""
 
 
-def moves(shown: Shown) -> bool:
+def moves(data: PictureData) -> bool:
     """Return True if the picture changes with time."""
-    picture = shown.picture
+    picture = data.picture
     follows = (
         bool(picture.followers)
-        or bool(densities(shown))
+        or bool(densities(data))
         or isinstance(picture, (BodyInSpace, CloudPlane))
         or (isinstance(picture, Sphere) and ("orbit" in picture.looks or bool(picture.clouds)))
     )
-    return follows and end(shown.columns) > 0.0
+    return follows and end(data.columns) > 0.0
 
 
-def times_of(shown: Shown, seconds: float) -> Array:
+def times_of(data: PictureData, seconds: float) -> Array:
     """Return the times of the frames (n,), which spread the whole motion over `seconds`, both ends included."""
-    return np.linspace(0.0, end(shown.columns), round(RATE * seconds))
+    return np.linspace(0.0, end(data.columns), round(RATE * seconds))
 
 
-def pictures_at(shown: Shown, times: Array, width: float = 85.0, black: bool = False) -> Iterator[Array]:
+def pictures_at(data: PictureData, times: Array, width: float = 85.0, black: bool = False) -> Iterator[Array]:
     """Yield the RGB image (n, n, 3) of each frame, n even.  Static parts are drawn only once."""
     import matplotlib as mpl
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -74,8 +74,8 @@ def pictures_at(shown: Shown, times: Array, width: float = 85.0, black: bool = F
         figure = Figure(figsize=(side, side), dpi=_PIXELS * _INCH, layout="constrained")
         canvas = FigureCanvasAgg(figure)
         frame = figure.add_subplot()
-        draw_still(frame, shown, colour)
-        frame.set_title(_title(shown.title, width), loc="left", y=1.0, fontsize="medium")
+        draw_still(frame, data, colour)
+        frame.set_title(_title(data.title, width), loc="left", y=1.0, fontsize="medium")
         clock = frame.set_title("t = 0", loc="right", y=1.0, fontsize="medium")
         canvas.draw()
         # Keep this layout; only the clock is redrawn in each frame.
@@ -86,7 +86,7 @@ def pictures_at(shown: Shown, times: Array, width: float = 85.0, black: bool = F
         before = set(frame.get_children())
         for t in times:
             canvas.restore_region(still)
-            draw_moving(frame, shown, colour, float(t), point=True)
+            draw_moving(frame, data, colour, float(t), point=True)
             clock.set_text(f"t = {t:.2f}")
             moving: list[Artist] = [one for one in frame.get_children() if one not in before]
             for one in [*sorted(moving, key=lambda artist: artist.get_zorder()), clock]:
@@ -108,7 +108,7 @@ def _title(title: str, width: float) -> str:
 
 
 def as_film(
-    shown: Shown,
+    data: PictureData,
     kind: str,
     width: float = 85.0,
     black: bool = False,
@@ -119,7 +119,7 @@ def as_film(
 
     Parameters
     ----------
-    shown : Shown
+    data : PictureData
         The picture and its data.
     kind : str
         "webm", "mp4" or "gif".
@@ -147,8 +147,8 @@ def as_film(
     for value, bounds, what in ((width, FILM_WIDTHS, "mm wide"), (seconds, SECONDS, "seconds long")):
         if not bounds.low <= value <= bounds.high:
             raise InvalidParameter(f"A film must be {bounds} {what}, not {value:g}.")
-    if not moves(shown):
-        raise InvalidParameter(f"Nothing moves in “{shown.title}” in this state: choose another picture, or a figure.")
+    if not moves(data):
+        raise InvalidParameter(f"Nothing moves in “{data.title}” in this state: choose another picture, or a figure.")
     try:
         import imageio_ffmpeg
         import matplotlib  # noqa: F401
@@ -159,8 +159,8 @@ def as_film(
         ) from error
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"film.{kind}"
-        times = times_of(shown, seconds)
-        tags = {"title": shown.title, "comment": shown.metadata_text, "description": shown.caption}
+        times = times_of(data, seconds)
+        tags = {"title": data.title, "comment": data.metadata_text, "description": data.caption}
         command = [
             imageio_ffmpeg.get_ffmpeg_exe(),
             *f"-loglevel error -f rawvideo -pix_fmt rgb24 -s {_side(width)}x{_side(width)} -r {RATE} -i -".split(),
@@ -172,7 +172,7 @@ def as_film(
             assert encoder.stdin is not None
             assert encoder.stderr is not None
             try:
-                for done, picture in enumerate(pictures_at(shown, times, width, black), 1):
+                for done, picture in enumerate(pictures_at(data, times, width, black), 1):
                     encoder.stdin.write(picture.tobytes())
                     report(done, len(times))
                 encoder.stdin.close()

@@ -8,7 +8,7 @@ from importlib.metadata import version
 from typing import Any
 
 from hess_explorer.export.code import code, lines_of
-from hess_explorer.export.shown import Address
+from hess_explorer.export.picture_data import Address
 
 __all__ = ["PROGRAMS", "notebook"]
 

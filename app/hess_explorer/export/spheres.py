@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.export.body import BodyDrawing
 from hess_explorer.export.clouds import on_sphere
 from hess_explorer.export.moment import clouds_at, state_at
-from hess_explorer.export.shown import Shown
+from hess_explorer.export.picture_data import PictureData
 from hess_explorer.export.sphere_canvas import LOOKS, SphereCanvas, circle, graticule
 from hess_explorer.views import theme
 from hess_explorer.views.body import BodyInSpace
@@ -28,51 +28,51 @@ __all__ = ["draw_moving", "draw_still"]
 _FAINT = 0.3
 
 
-def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
+def draw_still(frame: Frame, data: PictureData, colour: Colour) -> None:
     """Draw the static parts: the far half, and the near half if only a point moves."""
-    canvas = _canvas(frame, shown, colour)
+    canvas = _canvas(frame, data, colour)
     canvas.prepare()
-    _half(canvas, shown, False)
-    if not _has_guest(shown):
+    _half(canvas, data, False)
+    if not _has_guest(data):
         canvas.outline()
-        _half(canvas, shown, True)
+        _half(canvas, data, True)
 
 
-def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float, point: bool) -> None:
+def draw_moving(frame: Frame, data: PictureData, colour: Colour, t: float, point: bool) -> None:
     """Draw the body or the clouds at time t, and what lies above them; point : True to include the moving point."""
-    canvas = _canvas(frame, shown, colour)
+    canvas = _canvas(frame, data, colour)
     # Above all static parts.
     canvas.start(2.0)
-    picture, columns = shown.picture, shown.columns
+    picture, columns = data.picture, data.columns
     if isinstance(picture, BodyInSpace):
         body = BodyDrawing(canvas, columns.get(picture.name, {}), columns.get(picture.attitude or picture.name, {}), t)
         body.half(False)
         canvas.outline()
         body.middle()
-        _half(canvas, shown, True, body)
+        _half(canvas, data, True, body)
     elif isinstance(picture, Sphere) and picture.clouds:
         clouds = clouds_at(columns.get(picture.clouds, {}), t)
         on_sphere(canvas, clouds, False)
         canvas.outline()
-        _half(canvas, shown, True)
+        _half(canvas, data, True)
         on_sphere(canvas, clouds, True)
-    state = state_at(columns.get("data-orbit", {}), shown.scene.angles, t) if point else {}
+    state = state_at(columns.get("data-orbit", {}), data.scene.angles, t) if point else {}
     if isinstance(picture, Sphere) and "g1" in state:
         _point(canvas, [state[name] for name in ("g1", "g2", "g3")])
 
 
-def _canvas(frame: Frame, shown: Shown, colour: Colour) -> SphereCanvas:
-    return SphereCanvas(frame, (shown.client["az"], shown.client["el"]), colour)
+def _canvas(frame: Frame, data: PictureData, colour: Colour) -> SphereCanvas:
+    return SphereCanvas(frame, (data.client["az"], data.client["el"]), colour)
 
 
-def _has_guest(shown: Shown) -> bool:
-    picture = shown.picture
+def _has_guest(data: PictureData) -> bool:
+    picture = data.picture
     return isinstance(picture, BodyInSpace) or (isinstance(picture, Sphere) and bool(picture.clouds))
 
 
-def _half(canvas: SphereCanvas, shown: Shown, near: bool, body: BodyDrawing | None = None) -> None:
-    picture = shown.picture
-    own = shown.columns.get(picture.name, {})
+def _half(canvas: SphereCanvas, data: PictureData, near: bool, body: BodyDrawing | None = None) -> None:
+    picture = data.picture
+    own = data.columns.get(picture.name, {})
     in_space = picture if isinstance(picture, BodyInSpace) else None
     for line in [circle(np.array([0.0, 0.0, 1.0]), 0.0)] if in_space and in_space.bare else graticule():
         canvas.stroke(line, (theme.INK, "-", 0.4), near, 0.25 if near else 0.1)
@@ -85,7 +85,7 @@ def _half(canvas: SphereCanvas, shown: Shown, near: bool, body: BodyDrawing | No
     for a, b, c, height, look in own.get("circles", ()):
         canvas.stroke(circle(np.array([a, b, c]), height), LOOKS[look], near, faint)
     for track, look in (picture.looks if isinstance(picture, Sphere) else {}).items():
-        columns = shown.columns.get(f"data-{track}", {})
+        columns = data.columns.get(f"data-{track}", {})
         if len(columns.get("g1", ())) > 1:
             canvas.stroke(_gamma(columns), LOOKS[look], near, faint)
     if body is not None:

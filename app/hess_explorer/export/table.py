@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hess_explorer.export.shown import Shown
+from hess_explorer.export.picture_data import PictureData
 from hess_explorer.views.layers import Columns, Sources
 from hess_explorer.views.plot import Plot
 
@@ -25,7 +25,7 @@ Block = Mapping[str, NDArray[Any]]
 """Columns of equal length by name; the first is "layer"."""
 
 
-def blocks(shown: Shown) -> list[Block]:
+def blocks(data: PictureData) -> list[Block]:
     """Return the points of all layers in double precision.
 
     A block has the column "layer" and coordinates by name.  "part" is the index of a part of a curve or an area, and
@@ -34,7 +34,7 @@ def blocks(shown: Shown) -> list[Block]:
     """
     return [
         {"layer": np.full(len(next(iter(block.values()))), layer), **block}
-        for layer, columns in _layers(shown).items()
+        for layer, columns in _layers(data).items()
         for block in _blocks_of(columns)
     ]
 
@@ -45,12 +45,12 @@ def names_of(found: Sequence[Block]) -> list[str]:
     return list(dict.fromkeys(["layer", *(name for name in _FIRST if name in known), *known]))
 
 
-def as_csv(shown: Shown) -> str:
+def as_csv(data: PictureData) -> str:
     """Return the CSV text, with the metadata as # comments; a field is empty if the layer lacks the coordinate."""
-    found = blocks(shown)
+    found = blocks(data)
     names = names_of(found)
     out = io.StringIO()
-    for key, value in {**shown.facts, **_axes(shown), **_besides(shown)}.items():
+    for key, value in {**data.facts, **_axes(data), **_besides(data)}.items():
         out.write(f"# {key}: {json.dumps(value, ensure_ascii=False, allow_nan=False)}\n")
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(names)
@@ -60,24 +60,24 @@ def as_csv(shown: Shown) -> str:
     return out.getvalue()
 
 
-def as_json(shown: Shown) -> str:
+def as_json(data: PictureData) -> str:
     """Return the JSON text: metadata, axes, and the columns of each layer; null stands for a non-finite number."""
     layers = {
-        layer: {name: _plain(column) for name, column in columns.items()} for layer, columns in _layers(shown).items()
+        layer: {name: _plain(column) for name, column in columns.items()} for layer, columns in _layers(data).items()
     }
-    return json.dumps({**shown.facts, **_axes(shown), "layers": layers}, ensure_ascii=False, allow_nan=False) + "\n"
+    return json.dumps({**data.facts, **_axes(data), "layers": layers}, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def _layers(shown: Shown) -> Sources:
+def _layers(data: PictureData) -> Sources:
     """Return the columns by layer ("plot-layer" → "layer") or by track; clouds are at the time of the link."""
     found: Sources = {}
-    own = f"{shown.picture.name}-"
-    for source, columns in sorted(shown.columns.items()):
+    own = f"{data.picture.name}-"
+    for source, columns in sorted(data.columns.items()):
         layer = source.removeprefix(own).removeprefix("data-")
         if "frames0" in columns:
-            found |= {f"{layer}-{name}": cloud for name, cloud in _clouds(columns, shown.client["t"]).items()}
+            found |= {f"{layer}-{name}": cloud for name, cloud in _clouds(columns, data.client["t"]).items()}
         # Lists are columns only in plots; elsewhere they are vectors or names.
-        is_short = _is_list if isinstance(shown.picture, Plot) and source.startswith(own) else _never
+        is_short = _is_list if isinstance(data.picture, Plot) and source.startswith(own) else _never
         found[layer] = {
             name: np.array(column) if is_short(column) else column
             for name, column in columns.items()
@@ -113,11 +113,11 @@ def _clouds(columns: Columns, time: float) -> Sources:
     return found
 
 
-def _axes(shown: Shown) -> dict[str, Any]:
-    if shown.axes is None or not isinstance(shown.picture, Plot):
+def _axes(data: PictureData) -> dict[str, Any]:
+    if data.axes is None or not isinstance(data.picture, Plot):
         return {}
-    names = shown.picture.names(shown.state)
-    return {"axes": {"x": [names[0], *map(float, shown.axes.x)], "y": [names[1], *map(float, shown.axes.y)]}}
+    names = data.picture.names(data.state)
+    return {"axes": {"x": [names[0], *map(float, data.axes.x)], "y": [names[1], *map(float, data.axes.y)]}}
 
 
 def _blocks_of(columns: Columns) -> Iterator[dict[str, NDArray[Any]]]:
@@ -155,11 +155,11 @@ def _is_column(column: Any) -> bool:
     return isinstance(column, np.ndarray) and column.ndim == 1
 
 
-def _besides(shown: Shown) -> dict[str, Any]:
+def _besides(data: PictureData) -> dict[str, Any]:
     """Return the data that are not tabular: circles, marks, axes of a body."""
     return {
         f"{layer}.{name}": _plain(column)
-        for layer, columns in _layers(shown).items()
+        for layer, columns in _layers(data).items()
         for name, column in columns.items()
         if name not in ("xs", "ys", *_GRID) and not _is_column(column)
     }

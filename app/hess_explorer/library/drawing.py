@@ -11,7 +11,7 @@ import holoviews as hv
 import numpy as np
 
 from hess_explorer.export.figure import as_file
-from hess_explorer.export.shown import Shown
+from hess_explorer.export.picture_data import PictureData
 from hess_explorer.views import theme
 from hess_explorer.views.elements import SIDE, overlay
 from hess_explorer.views.plot import Plot
@@ -31,12 +31,12 @@ def _show_in_notebooks() -> None:
         hv.extension("bokeh", logo=False)
 
 
-def draw(shown: Shown) -> Any:
+def draw(data: PictureData) -> Any:
     """Return a picture in the colours of the page.
 
     Parameters
     ----------
-    shown : Shown
+    data : PictureData
         The picture and its data.
 
     Returns
@@ -50,25 +50,25 @@ def draw(shown: Shown) -> Any:
         If the image needs Matplotlib and it is not installed.
     """
     _show_in_notebooks()
-    plot = shown.picture
+    plot = data.picture
     if not isinstance(plot, Plot):
-        return _painted(shown)
-    assert shown.axes is not None
+        return _painted(data)
+    assert data.axes is not None
     if find_spec("matplotlib"):
         # Load the options of the Matplotlib backend without selecting it.
         hv.renderer("matplotlib")
-    return overlay(plot, shown.columns, shown.axes, plot.names(shown.state), shown.title)
+    return overlay(plot, data.columns, data.axes, plot.names(data.state), data.title)
 
 
-def _painted(shown: Shown) -> Any:
+def _painted(data: PictureData) -> Any:
     """Return a three-dimensional picture as an image, drawn like the figure for print."""
     # Matplotlib is optional: `as_file` raises an error that names the extra.
-    file = as_file(shown, "png", _MILLIMETRES)
+    file = as_file(data, "png", _MILLIMETRES)
     from matplotlib.image import imread
 
     pixels = imread(io.BytesIO(file))
     return hv.RGB(pixels, bounds=(-1.0, -1.0, 1.0, 1.0)).opts(
-        hv.opts.RGB(frame_width=SIDE, frame_height=SIDE, title=shown.title, xaxis=None, yaxis=None)
+        hv.opts.RGB(frame_width=SIDE, frame_height=SIDE, title=data.title, xaxis=None, yaxis=None)
     )
 
 

@@ -18,7 +18,7 @@ from hess_explorer.export.code import code
 from hess_explorer.export.columns import Table, columns_of
 from hess_explorer.export.file import content
 from hess_explorer.export.formats import FileRequest, holding
-from hess_explorer.export.shown import CLIENT_KEPT, Address, Shown, address, picture_of, show
+from hess_explorer.export.picture_data import CLIENT_KEPT, Address, PictureData, address, compute, picture_of
 from hess_explorer.protocol.parameters import Number, Places, Spec, Value, query_in, refusal, written
 from hess_explorer.scenes import scenes
 from hess_mechanics.errors import InvalidParameter
@@ -47,7 +47,7 @@ class SceneState:
     """
 
     _address: Address
-    _known: dict[str, Shown] = field(default_factory=dict, repr=False)
+    _known: dict[str, PictureData] = field(default_factory=dict, repr=False)
 
     @cached_property
     def _state(self) -> Any:
@@ -281,12 +281,12 @@ class SceneState:
     def _at(self, picture: str) -> Address:
         return replace(self._address, picture=picture_of(self._address.scene, picture))
 
-    def _shown(self, picture: str) -> Shown:
+    def _shown(self, picture: str) -> PictureData:
         found = self._at(picture)
         if found.picture.name not in self._known:
             # The kernels check their results for overflow themselves.
             with np.errstate(all="ignore"):
-                self._known[found.picture.name] = show(found)
+                self._known[found.picture.name] = compute(found)
         return self._known[found.picture.name]
 
     def _repr_html_(self) -> str:

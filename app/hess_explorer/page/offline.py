@@ -14,7 +14,7 @@ from typing import Any
 from bokeh.resources import Resources
 
 from hess_explorer.assets import STATIC
-from hess_explorer.export.shown import address, complete, picture_of
+from hess_explorer.export.picture_data import address, complete, picture_of
 from hess_explorer.page.component import styles
 from hess_explorer.page.controls import show_controls
 from hess_explorer.page.description import describe, without_gestures

@@ -16,7 +16,7 @@ from hess_explorer.compute.budget import Abandoned, limited
 from hess_explorer.export.file import content
 from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, FileRequest, holding
 from hess_explorer.export.notebook import PROGRAMS
-from hess_explorer.export.shown import address, show
+from hess_explorer.export.picture_data import address, compute
 from hess_explorer.page.offline import as_html
 from hess_explorer.protocol.parameters import MAX_QUERY, Choice, Number, decode
 from hess_explorer.scenes import scenes
@@ -108,7 +108,7 @@ class Export(RequestHandler):
         if request.kind in PROGRAMS:
             return name, PROGRAMS[request.kind](where).encode()
         with limited(self._left, _SECONDS), np.errstate(all="ignore"):
-            return name, content(show(where), request)
+            return name, content(compute(where), request)
 
     async def _answer_film(self, state: dict[str, str], picture: str, read: dict[str, Any]) -> None:
         """Send the film, after progress lines if they are requested.  Raises `ModelError`, `Abandoned`."""

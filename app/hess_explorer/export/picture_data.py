@@ -14,7 +14,7 @@ from hess_explorer.views.layers import Axes, Columns
 from hess_explorer.views.picture import Picture
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["CLIENT_KEPT", "Address", "Shown", "address", "complete", "picture_of", "show", "shown"]
+__all__ = ["CLIENT_KEPT", "Address", "PictureData", "address", "complete", "compute", "picture_data", "picture_of"]
 
 T = TypeVar("T")
 
@@ -55,7 +55,7 @@ class Address:
 
 
 @dataclass(frozen=True)
-class Shown:
+class PictureData:
     """A picture of a state, with its data.
 
     Attributes
@@ -106,7 +106,7 @@ class Shown:
         )
 
 
-def shown(query: str, picture: str = "", *, lenient: bool = False) -> Shown:
+def picture_data(query: str, picture: str = "", *, lenient: bool = False) -> PictureData:
     """Return a picture of the state that a query describes, with its data.
 
     Parameters
@@ -116,7 +116,7 @@ def shown(query: str, picture: str = "", *, lenient: bool = False) -> Shown:
 
     Returns
     -------
-    Shown
+    PictureData
         The picture and its data.
 
     Raises
@@ -126,7 +126,7 @@ def shown(query: str, picture: str = "", *, lenient: bool = False) -> Shown:
     ModelError
         If the state cannot be computed.
     """
-    return show(address(query, picture, lenient=lenient))
+    return compute(address(query, picture, lenient=lenient))
 
 
 def address(query: str, picture: str = "", *, lenient: bool = False) -> Address:
@@ -171,13 +171,13 @@ def picture_of(scene: Scene[Any], name: str) -> Picture[Any]:
     return next(view for view in scene.views if name in ("", view.name))
 
 
-def show(address: Address) -> Shown:
+def compute(address: Address) -> PictureData:
     """Compute a picture completely.  Raises `ModelError`."""
     scene, view = address.scene, address.picture
     state, (columns, axes, caption, status, notes) = complete(
         scene, address.values, [view.name], lambda state: _described(view, state)
     )
-    return Shown(
+    return PictureData(
         scene,
         view,
         address.values,
