@@ -204,6 +204,7 @@ export function startClient(model, view) {
         followPreference()
       },
     })
+    page.themed().then(() => { root.dataset.themed = "" })
     tell("client", own)
     // The lesson of a link begins when the page is ready.
     if (model.lesson !== "") tell("lesson-read", { lesson: JSON.parse(model.lesson), step: Number(own.step) - 1 })

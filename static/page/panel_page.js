@@ -1,6 +1,8 @@
 // @ts-check
 // Access to Panel's page: its theme, and whether it is ready.
 
+import { isDark } from "../pictures/looks.js"
+
 /**
  * Return the functions that read and change Panel's page.
  * @param {PanelView} view
@@ -16,6 +18,10 @@ export function createPage(view) {
     /** Wait until Panel has rendered everything. */
     async standing() {
       while (bokeh() == null || !bokeh().is_idle) await nextFrame()
+    },
+    /** Wait until the page has the colours of its theme, which Panel draws some frames after `setDark`. */
+    async themed() {
+      while (isDark(getComputedStyle(document.body).color) !== page().dark_theme) await nextFrame()
     },
     /** @param {() => void} hear */
     onThemeChange(hear) {

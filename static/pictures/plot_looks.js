@@ -6,6 +6,7 @@ import { isDark, setDark, shade } from "./looks.js"
 
 // Font size of ticks relative to that of axis labels.
 const TICKS = 0.86
+const COLOURS = ["line_color", "fill_color", "text_color", "background_fill_color"]
 const SIZES = ["line_width", "axis_line_width", "major_tick_line_width", "outline_line_width", "size", "text_font_size"]
 
 /**
@@ -52,7 +53,7 @@ export function sizePlot(plot, type, scale) {
 const colourOf = (glyph, name) => glyph[name]?.value ?? glyph[name]
 
 // The colours of a glyph before any change, as in "theme.py".
-const coloursOf = atFirst((glyph) => ["line_color", "fill_color"].map((name) => [name, colourOf(glyph, name)])
+const coloursOf = atFirst((glyph) => COLOURS.map((name) => [name, colourOf(glyph, name)])
   .filter(([, colour]) => typeof colour === "string" && colour.startsWith("#")))
 
 /** Give a glyph the colours of this page. @param {BokehModel} glyph */
@@ -78,9 +79,7 @@ export function colourPlot(plot, text, muted) {
         axis_line_color: muted, axis_line_alpha: 0.4, major_tick_line_color: muted, major_tick_line_alpha: 0.4,
         minor_tick_line_alpha: 0,
       })
-    } else if (part.text_color !== undefined && part.text_baseline !== undefined) {
-      part.setv({ text_color: text })
-    } else if (part.line_color !== undefined && part.type !== "Plot") {
+    } else if ((part.line_color ?? part.text_color) !== undefined && part.type !== "Plot") {
       shadeGlyph(part)
     }
   }

@@ -1,5 +1,6 @@
 """Layout, light and dark themes, and accessibility of the page."""
 
+import base64
 import io
 import re
 from itertools import combinations
@@ -394,6 +395,24 @@ def test_the_page_follows_the_theme_of_the_system_until_one_is_chosen(open_page)
     page.wait_for_function("location.search.includes('theme=light')")
     turns("light", False)
     turns("dark", False)
+
+
+def test_a_dark_page_is_dark_from_its_first_frame(open_page):
+    page = open_page(f"scene={STUDY}", color_scheme="dark")
+    session, frames = page.context.new_cdp_session(page), []
+
+    def keep(event):
+        frames.append(Image.open(io.BytesIO(base64.b64decode(event["data"]))).convert("L"))
+        session.send("Page.screencastFrameAck", {"sessionId": event["sessionId"]})
+
+    session.on("Page.screencastFrame", keep)
+    session.send("Page.startScreencast", {"format": "png"})
+    page.reload()
+    page.wait_for_function("document.documentElement.dataset.ready === 'true'")
+    session.send("Page.stopScreencast")
+    brightness = [ImageStat.Stat(frame).mean[0] for frame in frames]
+    assert len(brightness) > 2
+    assert max(brightness) < 80, brightness
 
 
 def test_the_button_turns_the_page_dark_and_the_link_says_so(explorer, look_at):

@@ -209,6 +209,6 @@ def _described(view: Picture[Any], state: Any) -> tuple[Any, ...]:
     caption = view.full_caption(state)
     axes = view.ranges(state) or view.first_axes
     columns = dict(state.drawn)
-    for source, more in view.framed(state, axes).items():
+    for source, more in view.framed(state, axes, columns).items():
         columns[source] = {**columns.get(source, {}), **more}
     return columns, axes, caption, tuple(state.status()), tuple(state.notes())

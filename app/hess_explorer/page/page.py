@@ -46,6 +46,15 @@ BARE: dict[str, Any] = {
 """Styles that hide Panel's app bar and toolbar."""
 
 
+# Until the client has set the theme ("client.js"), Panel paints light.
+_DARK = """
+html:not([data-themed]), html:not([data-themed]) body { background-color: #121212 !important }
+html:not([data-themed]) body > * > * { opacity: 0 }
+"""
+_FIRST_PAINT = {"dark": _DARK, "system": f"@media (prefers-color-scheme: dark) {{{_DARK}}}"}
+"""Styles of the first frames by theme, so that a dark page does not begin with a light flash."""
+
+
 def page(own: Sequence[Lesson] = ()) -> Any:
     """Return a new page for the current request; own : lessons in addition to those of the package."""
     try:
@@ -80,12 +89,13 @@ def _page(query: str, own: Sequence[Lesson]) -> pmui.Page:
         title="Hess Explorer",
         meta_name="Hess Explorer",
         meta_description=opened.scene.summary,
-        dark_theme=opened.dark,
+        dark_theme=opened.theme == "dark",
         theme_config={"typography": {"fontFamily": FONT}},
         main=[explorer],
         busy_indicator=None,
         sx=BARE,
     )
+    result.config.raw_css = [_FIRST_PAINT.get(opened.theme, "")]
     # Panel would send the busy flag with every event and traverse all models each time (100 ms); `data-ready` replaces
     # it.  The flag watches Panel's global state, which would keep every page alive.  Setting a value does not remove
     # that watcher, so first refer to a parameter that lives as long as the page.

@@ -289,6 +289,7 @@ SCENE = Scene(
                     lambda s: plane.ring_outside(s.strip.sigma2(_ANGLES), s.strip.sigma1(_ANGLES), s.half_width),
                     edge=theme.MUTED,
                     label="impossible",
+                    tag="impossible",
                     moving=True,
                 ),
                 names("names", ChaplyginBall.ellipse_names),
@@ -313,9 +314,14 @@ SCENE = Scene(
             message=lambda s: s.map_or_reason[1],
             layers=(
                 levels("levels", lambda s: [] if s.map is None else [s.theta, math.pi - s.theta]),
-                curves("free", lambda s: s.free(), color=theme.MAP, dash="dashed", label="θ⁺ for 𝒟 = 0"),
-                curves("ball", lambda s: [] if s.map is None else [s.map.curve], color=theme.ORBIT),
-                ring("chosen", lambda s: [] if s.map is None else [(s.phi, s.map.at(s.phi))], size=18.0),
+                curves("free", lambda s: s.free(), color=theme.MAP, dash="dashed", label="𝒟 = 0", tag="𝒟 = 0"),
+                curves("ball", lambda s: [] if s.map is None else [s.map.curve], color=theme.ORBIT, tag="θ⁺"),
+                ring(
+                    "chosen",
+                    lambda s: [] if s.map is None else [(s.phi, s.map.at(s.phi))],
+                    size=18.0,
+                    tag="chosen orbit",
+                ),
             ),
         ),
         Plot(
@@ -329,7 +335,7 @@ SCENE = Scene(
             dot=("t", "Gamma"),
             layers=(
                 levels("levels", lambda s: [math.cos(s.theta), s.Gamma[-1]]),
-                over_time("first", lambda s: (s.orbit.path.times, s.Gamma), color=theme.ORBIT),
+                over_time("first", lambda s: (s.orbit.path.times, s.Gamma), color=theme.ORBIT, tag="orbit"),
             ),
         ),
     ),

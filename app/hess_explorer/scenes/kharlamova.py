@@ -354,7 +354,12 @@ SCENE = Scene(
                 ),
                 curves("path", Kharlamova.path, color=theme.ORBIT, width=1.5, dash="dotted", alpha=0.7),
                 curves(
-                    "stable", lambda s: s.fixed_points(1.0), color=theme.STABLE, width=3, label="stable fixed points"
+                    "stable",
+                    lambda s: s.fixed_points(1.0),
+                    color=theme.STABLE,
+                    width=3,
+                    label="stable fixed points",
+                    tag="stable",
                 ),
                 curves(
                     "unstable",
@@ -363,6 +368,7 @@ SCENE = Scene(
                     width=3,
                     dash="dashed",
                     label="unstable fixed points",
+                    tag="unstable",
                 ),
                 *plane_domain.orbit(start=lambda s: (s.q1, s.q2)),
                 _MIRROR,
@@ -409,7 +415,7 @@ SCENE = Scene(
                     color=theme.MUTED,
                     dash="dashed",
                 ),
-                curves("own", lambda s: [s.arc.oval(s.arc.tau)], color=theme.ORBIT),
+                curves("own", lambda s: [s.arc.oval(s.arc.tau)], color=theme.ORBIT, tag="orbit"),
                 ring("chosen", lambda s: [(0.0, s.start[4])], size=18),
                 _MIRROR,
             ),

@@ -232,8 +232,8 @@ SCENE = Scene(
             y=(0.0, math.pi),
             dot=("t", "l"),
             layers=(
-                line("l", lambda s: (s.found.times, s.found.l), color=theme.MAP, label="l"),
-                line("theta", lambda s: s.found.measured, color=theme.ORBIT, label="θ"),
+                line("l", lambda s: (s.found.times, s.found.l), color=theme.MAP, label="l", tag="l"),
+                line("theta", lambda s: s.found.measured, color=theme.ORBIT, label="θ", tag="θ"),
                 line(
                     "promised",
                     lambda s: ((0.0, s.found.times[-1]), (s.pendulum.angle,) * 2),

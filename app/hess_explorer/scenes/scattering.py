@@ -241,9 +241,13 @@ SCENE = Scene(
             layers=(
                 levels("levels", lambda s: (s.theta, math.pi - s.theta)),
                 curves(
-                    "theta", lambda s: [np.column_stack([_PHASES, s.curve])], color=theme.ORBIT, label="θ⁺(φ); orbit"
+                    "theta",
+                    lambda s: [np.column_stack([_PHASES, s.curve])],
+                    color=theme.ORBIT,
+                    label="θ⁺(φ); orbit",
+                    tag="θ⁺(φ)",
                 ),
-                ring("chosen", lambda s: [(s.phi, s.theta_plus)], size=18.0, label="chosen"),
+                ring("chosen", lambda s: [(s.phi, s.theta_plus)], size=18.0, label="chosen orbit", tag="chosen orbit"),
             ),
         ),
         square.over_square(Scattering._about_map, Scattering.grid, lambda s: (s.phi, s.theta)),

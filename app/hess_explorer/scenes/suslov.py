@@ -411,8 +411,15 @@ SCENE = Scene(
             y=lambda s: settled_range([y for _, y in s.rates]) if s.rates else None,
             layers=(
                 levels("levels", lambda s: [0.0] if s.rates else []),
-                over_time("divergence", lambda s: s.rate(1), color=theme.MAP, dash="dashed", label="mean divergence"),
-                over_time("lambda", lambda s: s.rate(0), color=theme.ORBIT, label="exponent λ"),
+                over_time(
+                    "divergence",
+                    lambda s: s.rate(1),
+                    color=theme.MAP,
+                    dash="dashed",
+                    label="mean divergence",
+                    tag="divergence",
+                ),
+                over_time("lambda", lambda s: s.rate(0), color=theme.ORBIT, label="exponent λ", tag="λ"),
             ),
         ),
         along_the_orbit(lambda s: centre_of_mass((s.b1, s.b2, s.b3)), lambda s: s.proof.around),

@@ -41,9 +41,17 @@ def picture(
         y_ticks=_X_TICKS,
         dot=("l", "x"),
         layers=(
-            curves("hess", lambda s: _parts(relation(s)), color=theme.STABLE, label="Hess manifold, r·M = 0"),
+            curves(
+                "hess", lambda s: _parts(relation(s)), color=theme.STABLE, label="Hess manifold, r·M = 0", tag="r·M = 0"
+            ),
             curves("orbit", lambda s: _parts(orbit(s)), color=color),
-            ring("chosen", lambda s: [(float(orbit(s)[0, 0]), float(orbit(s)[0, 1]))], size=18, label="start"),
+            ring(
+                "chosen",
+                lambda s: [(float(orbit(s)[0, 0]), float(orbit(s)[0, 1]))],
+                size=18,
+                label="start",
+                tag="start",
+            ),
         ),
     )
 
@@ -60,7 +68,7 @@ def between(
     """
     return (
         dots("elsewhere", lambda s: elsewhere(s).T, color=theme.SHEET, size=12, label="on another sheet: another G"),
-        line("curve", curve, color=theme.STABLE, label="Hess manifold, r·M = 0"),
+        line("curve", curve, color=theme.STABLE, label="Hess manifold, r·M = 0", tag="r·M = 0"),
         dots("path", track="orbit", columns=("l", "x"), size=3, color=theme.MAP, alpha=0.4),
         line(
             "line",

@@ -93,7 +93,7 @@ def layers(
 
     return (
         image("rotation", rotation, palette=theme.TURN_MAP, low=-0.5, high=0.5, cyclic=True, legend=(TURNS,)),
-        region("locked", lambda s: _locked(boundary(s), axes(s)), color=theme.LOCKED, label="locked"),
+        region("locked", lambda s: _locked(boundary(s), axes(s)), color=theme.LOCKED, label="locked", tag="locked"),
         curves(
             "proved",
             lambda s: [one for outline in proved(s) for one in _mirrored(outline)],
@@ -104,7 +104,7 @@ def layers(
             label="proved cell",
         ),
         curves("boundary", lock, moving=False, color=theme.INK),
-        region("forbidden", lambda s: impossible(curve(s), axes(s)), label="impossible"),
+        region("forbidden", lambda s: impossible(curve(s), axes(s)), label="impossible", tag="impossible"),
         curves("curve", lambda s: _mirrored(curve(s)), moving=False, color=theme.INK),
         points(
             "special",

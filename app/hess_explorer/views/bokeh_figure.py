@@ -20,7 +20,7 @@ from bokeh.models.glyph import Glyph
 from bokeh.plotting import figure
 
 from hess_explorer.views import elements, theme
-from hess_explorer.views.layers import MESSAGE, Layer
+from hess_explorer.views.layers import Layer
 
 if TYPE_CHECKING:
     from hess_explorer.views.plot import Plot
@@ -87,7 +87,7 @@ def build(plot: Plot[Any]) -> figure:
         assert isinstance(ticker, ContinuousTicker)
         ticker.desired_num_ticks = plot.y_tick_count
     sources: dict[str, ColumnDataSource] = {}
-    for layer in (*plot.layers, plot.point, MESSAGE, *([_BOX] if plot.on_box is not None else [])):
+    for layer in (*plot.painted, *([_BOX] if plot.on_box is not None else [])):
         if layer.glyph in _GLYPHS:
             name, (glyph, positions) = plot.source_of(layer), _GLYPHS[layer.glyph]
             source = sources.setdefault(name, ColumnDataSource(name=name))

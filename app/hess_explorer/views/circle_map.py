@@ -104,8 +104,9 @@ def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array 
             color=theme.MUTED,
             dash="dotted",
             width=1.5,
+            tag="diagonal",
         ),
-        curves("density", mapped(map, _density), color=theme.STABLE, width=1.5, label="invariant density"),
+        curves("density", mapped(map, _density), color=theme.STABLE, width=1.5, label="density", tag="density"),
         line(
             "cobweb",
             mapped(iterates, lambda found: cobweb(found[: _COBWEB + 1])),
@@ -113,7 +114,7 @@ def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array 
             color=theme.ORBIT,
             width=1,
         ),
-        curves("map", mapped(map, _copies), color=theme.MAP, width=2.5, label="circle map Θ"),
+        curves("map", mapped(map, _copies), color=theme.MAP, width=2.5, label="Θ", tag="Θ"),
         points(
             "stable",
             mapped(map, lambda theta: _fixed(theta, True)),
@@ -121,6 +122,7 @@ def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array 
             size=12,
             edge_width=3,
             color=theme.STABLE,
+            tag="stable",
         ),
         points(
             "unstable",
@@ -130,6 +132,7 @@ def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array 
             edge_width=3,
             hollow=True,
             color=theme.UNSTABLE,
+            tag="unstable",
         ),
     )
 

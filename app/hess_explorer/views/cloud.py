@@ -166,7 +166,7 @@ class CloudPlane(Picture[S]):
             }
         }
 
-    def framed(self, state: S, axes: Axes | None) -> Sources:
+    def framed(self, state: S, axes: Axes | None, drawn: Sources) -> Sources:
         """Return σ1, σ2 and the line of equilibria, extended beyond the frame."""
         assert axes is not None
         strip, half = self.strip(state), axes.x[1]
@@ -217,12 +217,18 @@ def density_layers(density: Callable[[S], Density]) -> Layers[S]:
 
     now: Layer[S] = points("now", color=theme.POINT, edge=theme.INK, size=7, label="at the moving time")
     return (
-        line("limit", within=limit, color=theme.MUTED, width=3, dash="dotted", label="c/|s|"),
+        line("limit", within=limit, color=theme.MUTED, width=3, dash="dotted", label="c/|s|", tag="c/|s|"),
         line(
-            "first", within=of(lambda one: one.first), color=theme.MUTED, width=1, dash="dashed", label="at the start"
+            "first",
+            within=of(lambda one: one.first),
+            color=theme.MUTED,
+            width=1,
+            dash="dashed",
+            label="start",
+            tag="start",
         ),
-        line("last", within=of(lambda one: one.last), color=theme.MUTED, width=1, label="at the end; energy h"),
-        line("mean", within=of(lambda one: one.mean), color=theme.ORBIT, label="cloud; its mean"),
+        line("last", within=of(lambda one: one.last), color=theme.MUTED, width=1, label="end; energy h", tag="end"),
+        line("mean", within=of(lambda one: one.mean), color=theme.ORBIT, label="cloud; its mean", tag="mean"),
         now,
     )
 

@@ -71,6 +71,7 @@ def picture(found: Found[S], reason: Callable[[S], str], span: Callable[[S], flo
             mapped(found, lambda motion: thinned(motion.orbit.times, motion.tau)),
             color=theme.ORBIT,
             label="conformal time τ",
+            tag="τ",
         ),
     )
     return Plot(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import holoviews as hv
 import numpy as np
 
-from hess_explorer.views.layers import MESSAGE, Axes, Columns, Layer
+from hess_explorer.views.layers import Axes, Columns, Layer
 
 if TYPE_CHECKING:
     from hess_explorer.views.plot import Plot
@@ -34,7 +34,7 @@ _DOT = 0.6
 """Scale of dots in figures, smaller than on the page as no pixels need filling."""
 _MOST_VECTORS = 5000
 """Larger numbers of markers are rasterized in vector files, which would otherwise open slowly."""
-_MARKERS = {"circle": "o", "triangle": "^", "diamond": "D", "square": "s"}
+_MARKERS = {"circle": "o", "triangle": "^", "inverted_triangle": "v", "diamond": "D", "square": "s"}
 _DASHES: Mapping[str, Any] = {"solid": "-", "dashed": (0, (6, 3)), "dotted": (0, (2, 4)), "dotdash": (0, (2, 4, 6, 4))}
 
 
@@ -60,7 +60,7 @@ def overlay(
     title : the title above the plot; colour : maps the colours of the page.
     """
     # Cells lie below all other layers.
-    layers = sorted((*plot.layers, plot.point, MESSAGE), key=lambda layer: layer.glyph != "image")
+    layers = sorted(plot.painted, key=lambda layer: layer.glyph != "image")
     drawn = [
         _element(layer, columns[plot.source_of(layer)], colour)
         for layer in layers
@@ -201,7 +201,9 @@ def _interpolated(style: Style) -> Options:
 
 
 def _word(style: Style) -> Options:
-    return {name: value for name, value in style.items() if not name.endswith("offset")}
+    # HoloViews knows no background of words.
+    left_out = ("x_offset", "y_offset", "background_fill_color", "background_fill_alpha")
+    return {name: value for name, value in style.items() if name not in left_out}
 
 
 def _letters(style: Style) -> Options:
@@ -209,6 +211,7 @@ def _letters(style: Style) -> Options:
     return {
         "color": style["text_color"],
         "size": "medium",
+        "fontweight": "bold" if style.get("text_font_style") == "bold" else "normal",
         "horizontalalignment": style["text_align"],
         "verticalalignment": upright,
     }
@@ -245,15 +248,18 @@ def _pixels(style: Style) -> Hook:
 
 
 def _moved(style: Style) -> Hook:
-    """Return a hook that offsets labels from their anchors."""
+    """Return a hook that offsets words from their anchors, and puts them on paper."""
 
     def hook(plot: Any, element: hv.Labels) -> None:
+        from matplotlib.patheffects import withStroke
         from matplotlib.transforms import ScaledTranslation
 
         x, y = _TYPE * style.get("x_offset", 0.0), -_TYPE * style.get("y_offset", 0.0)
         by = ScaledTranslation(x / 72.0, y / 72.0, plot.handles["fig"].dpi_scale_trans)
         for text in plot.handles["artist"]:
             text.set_transform(text.get_transform() + by)
+            if "background_fill_color" in style:
+                text.set_path_effects([withStroke(linewidth=2.5, foreground=style["background_fill_color"])])
 
     return hook
 

@@ -34,10 +34,18 @@ _POINTS = 600
 
 
 def over_time(
-    name: str, data: Callable[[S], tuple[Array, Array] | None], *, color: str, dash: str = "solid", label: str = ""
+    name: str,
+    data: Callable[[S], tuple[Array, Array] | None],
+    *,
+    color: str,
+    dash: str = "solid",
+    label: str = "",
+    tag: str = "",
 ) -> Layer[S]:
     """Return the layer of a graph; data(state) = times and values (n,), or None if unknown."""
-    return curves(name, mapped(data, lambda found: [np.column_stack(found)]), color=color, dash=dash, label=label)
+    return curves(
+        name, mapped(data, lambda found: [np.column_stack(found)]), color=color, dash=dash, label=label, tag=tag
+    )
 
 
 def settled_range(curves: Sequence[Array]) -> Range:

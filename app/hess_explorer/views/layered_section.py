@@ -69,7 +69,7 @@ def _kinds(
 
 def basins(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Layer[S]:
     """Return the layer of basins, cells (m, n): 0, 1, … by group; −1 without motion."""
-    colors = (theme.POINT + "90", theme.STABLE + "70", theme.MAP + "70", theme.ORBIT + "60", theme.MUTED + "70")
+    colors = (theme.INTEGRALS[1] + "80", theme.STABLE + "70", theme.MAP + "70", theme.ORBIT + "60", theme.MUTED + "70")
     return _kinds("basins", cells, window, colors, tuple(f"basin of {name} group of motions" for name in _GROUPS))
 
 
@@ -105,6 +105,7 @@ def layers(
             high=1.0,
             kinds=True,
             legend=(Sign("impossible", "box", f"background: {theme.FORBIDDEN}", 1.0),),
+            tag="impossible",
         ),
         _points("first", first, window, 5, theme.ORBIT, labels[0]),
         _points("second", second, window, 5, theme.UNSTABLE, labels[1]),

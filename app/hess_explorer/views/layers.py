@@ -36,6 +36,7 @@ __all__ = [
     "curves",
     "dots",
     "image",
+    "label",
     "levels",
     "line",
     "mapped",
@@ -80,7 +81,7 @@ class CellGrid:
 
 @dataclass(frozen=True)
 class Sign:
-    """One legend entry: a word and a sign of a kind ("line", "dot", "dot small", "box") in a CSS style.
+    """One legend entry: a word and a sign of a kind ("line", "dot", "dot small", "dot diamond", "box") in a CSS style.
 
     least : for layers of cells, the sign stands for numbers in [least, least + 1).
     """
@@ -107,7 +108,7 @@ class Layer(Generic[S]):
     glyph : its name in Bokeh; columns : names of its position columns; style : properties of the glyph.
     data(state) : its columns, empty for nothing; within(state, axes) : the same if they depend on the axes.
     moving : whether it changes with every state; such layers lie above axes and background, which are not repainted.
-    legend : its entries in the legend of the scene.
+    legend : its entries in the legend of the scene; tag : the word that names it in the picture, see "tags.py".
     """
 
     name: str
@@ -119,6 +120,7 @@ class Layer(Generic[S]):
     track: str | None = None
     moving: bool = True
     legend: tuple[Sign, ...] = ()
+    tag: str = ""
 
 
 Layers = tuple[Layer[S], ...]
@@ -132,7 +134,7 @@ MESSAGE: Layer[Any] = Layer(
     "text",
     ("x", "y", "text"),
     {
-        "text_color": theme.MUTED,
+        "text_color": theme.INK,
         "text_font_style": "bold",
         "text_font_size": "15px",
         "text_align": "center",
@@ -215,13 +217,14 @@ def line(
     width: float = 2.0,
     dash: str = "solid",
     label: str = "",
+    tag: str = "",
     moving: bool = True,
     columns: tuple[str, str] = ("x", "y"),
     track: str | None = None,
     within: Within[S] = None,
 ) -> Layer[S]:
     """Return a layer with one curve: data(state) = (x, y) or None, or the columns of a track of the scene."""
-    layer: Layer[S] = Layer(name, "line", columns, track=track, moving=moving)
+    layer: Layer[S] = Layer(name, "line", columns, track=track, moving=moving, tag=tag)
     return _layer(
         _stroked(layer, color, width, dash, 1.0, label), lambda value: _positions(columns, value), data, within
     )
@@ -236,11 +239,12 @@ def curves(
     dash: str = "solid",
     alpha: float = 1.0,
     label: str = "",
+    tag: str = "",
     moving: bool = True,
     within: Within[S] = None,
 ) -> Layer[S]:
     """Return a layer of curves: data(state) = arrays (n, 2), or None."""
-    layer: Layer[S] = Layer(name, "multi_line", ("xs", "ys"), moving=moving)
+    layer: Layer[S] = Layer(name, "multi_line", ("xs", "ys"), moving=moving, tag=tag)
     return _layer(_stroked(layer, color, width, dash, alpha, label), _parts, data, within)
 
 
@@ -251,6 +255,7 @@ def region(
     color: str = theme.FORBIDDEN,
     edge: str | None = None,
     label: str = "",
+    tag: str = "",
     moving: bool = False,
     within: Within[S] = None,
 ) -> Layer[S]:
@@ -262,6 +267,7 @@ def region(
         {"fill_color": color, "line_color": edge},
         moving=moving,
         legend=_signed(label, "box", f"background: {color}"),
+        tag=tag,
     )
     return _layer(layer, _regions, data, within)
 
@@ -278,12 +284,14 @@ def points(
     edge_width: float = 1.0,
     alpha: float = 1.0,
     label: str = "",
+    tag: str = "",
     moving: bool = True,
     columns: tuple[str, ...] = ("x", "y"),
     within: Within[S] = None,
 ) -> Layer[S]:
     """Return a layer of markers: data(state) = (x, y), (x, y, angle) or None."""
     small = size < 10 and not hollow
+    shape = [marker] if marker in ("diamond", "inverted_triangle") else []
     look = (
         f"background: none; border: {min(3.0, max(2.0, edge_width)):g}px solid {color}"
         if hollow
@@ -304,7 +312,8 @@ def points(
             **({"angle": "angle"} if "angle" in columns else {}),
         },
         moving=moving,
-        legend=_signed(label, "dot small" if small else "dot", look),
+        legend=_signed(label, " ".join(["dot", *(["small"] if small else []), *shape]), look),
+        tag=tag,
     )
     return _layer(layer, lambda value: _positions(columns, value), data, within)
 
@@ -317,6 +326,7 @@ def dots(
     size: float,
     alpha: float = 1.0,
     label: str = "",
+    tag: str = "",
     columns: tuple[str, str] = ("x", "y"),
     track: str | None = None,
 ) -> Layer[S]:
@@ -328,6 +338,7 @@ def dots(
         {"size": size, "color": color, "alpha": alpha},
         track=track,
         legend=_signed(label, "dot small", f"background: {color}"),
+        tag=tag,
     )
     return _layer(layer, lambda value: _positions(columns, value), data)
 
@@ -355,11 +366,14 @@ def ring(
     size: float = 16.0,
     width: float = 3.0,
     label: str = "",
+    tag: str = "",
     columns: tuple[str, str] = ("x", "y"),
     within: Within[S] = None,
 ) -> Layer[S]:
     """Return a layer of rings about places [(x, y), …]."""
-    layer: Layer[S] = points(name, color=color, size=size, hollow=True, edge_width=width, label=label, columns=columns)
+    layer: Layer[S] = points(
+        name, color=color, size=size, hollow=True, edge_width=width, label=label, tag=tag, columns=columns
+    )
     return _layer(layer, lambda value: _rows(columns, value), data, within)
 
 
@@ -392,6 +406,7 @@ def image(
     cyclic: bool = False,
     kinds: bool = False,
     legend: tuple[Sign, ...] = (),
+    tag: str = "",
 ) -> Layer[S]:
     """Return a layer of numbers on a grid, below all other layers.
 
@@ -413,6 +428,7 @@ def image(
         },
         moving=False,
         legend=legend,
+        tag=tag,
     )
     return _layer(layer, _cells, data)
 
@@ -454,6 +470,20 @@ def names(
     return _layer(layer, lambda value: _rows(layer.columns, value), data, within)
 
 
+def label(layer: Layer[S]) -> Layer[S]:
+    """Return the layer of the word that names another layer: in its colour on paper, or as it is in a region."""
+    own = {"line": "line_color", "multi_line": "line_color", "scatter": "fill_color", "dots": "color"}.get(layer.glyph)
+    style = {
+        "text_color": layer.style[own] if own else theme.INK,
+        "text_font_size": "13px",
+        "text_font_style": "bold",
+        "text_align": "center",
+        "text_baseline": "middle",
+        **({"background_fill_color": theme.PAPER, "background_fill_alpha": 0.75} if own else {}),
+    }
+    return Layer(f"{layer.name}-label", "text", ("x", "y", "text"), style)
+
+
 def text(name: str, data: Callable[[S], str]) -> Layer[S]:
     """Return a layer with a word in the lower right corner of the frame."""
 
@@ -462,7 +492,7 @@ def text(name: str, data: Callable[[S], str]) -> Layer[S]:
         return {"x": [axes.x[1]], "y": [axes.y[0]], "text": [said]} if said else {}
 
     style = {
-        "text_color": theme.MUTED,
+        "text_color": theme.INK,
         "text_font_size": theme.FONT_SIZE,
         "text_align": "right",
         "x_offset": -6,

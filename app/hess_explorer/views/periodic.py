@@ -66,7 +66,14 @@ def layers(
         return seen(np.array(found), manifolds(state)[0].turns[0], axes).T if found else None
 
     return (
-        curves("stable-manifold", within=parts(True), color=theme.STABLE, width=3.0, label="stable manifold"),
+        curves(
+            "stable-manifold",
+            within=parts(True),
+            color=theme.STABLE,
+            width=3.0,
+            label="stable manifold",
+            tag="stable manifold",
+        ),
         curves(
             "unstable-manifold",
             within=parts(False),
@@ -74,8 +81,9 @@ def layers(
             width=3.0,
             dash="dashed",
             label="unstable manifold",
+            tag="unstable manifold",
         ),
-        points("homoclinic", within=crossed, size=7, color=theme.POINT, edge=theme.INK, label="homoclinic point"),
+        points("homoclinic", within=crossed, size=7, color=theme.LOCKED, edge=theme.INK, label="homoclinic point"),
         *places(orbit),
     )
 
@@ -99,6 +107,7 @@ def places(orbit: Callable[[S], PeriodicOrbit | None]) -> Layers[S]:
             edge=theme.INK,
             edge_width=1.5,
             label="periodic orbit that attracts",
+            tag="attracts",
         ),
         points(
             "neither",
@@ -109,6 +118,7 @@ def places(orbit: Callable[[S], PeriodicOrbit | None]) -> Layers[S]:
             edge=theme.INK,
             edge_width=1.5,
             label="elliptic or parabolic periodic orbit",
+            tag="elliptic",
         ),
         points(
             "repels",
@@ -118,6 +128,7 @@ def places(orbit: Callable[[S], PeriodicOrbit | None]) -> Layers[S]:
             hollow=True,
             edge_width=2.5,
             label="unstable periodic orbit",
+            tag="unstable",
         ),
     )
 

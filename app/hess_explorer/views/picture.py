@@ -101,8 +101,8 @@ class Picture(ABC, Generic[S]):
     def data(self, state: S) -> Sources:
         """Return the columns that are independent of the axes, by source."""
 
-    def framed(self, state: S, axes: Axes | None) -> Sources:
-        """Return the columns that depend on the axes, by source; they are merged with those of `data`."""
+    def framed(self, state: S, axes: Axes | None, drawn: Sources) -> Sources:
+        """Return the columns that depend on the axes, by source; they are merged with those `drawn` without axes."""
         return {}
 
     def nothing(self, sentence: str, axes: Axes | None) -> Sources:

@@ -70,7 +70,7 @@ def ground(
         return [[frame, outer], *([part] for part in forbidden(state))]
 
     return (
-        region("forbidden", within=grey, label="impossible"),
+        region("forbidden", within=grey, label="impossible", tag="impossible"),
         curves("levels", levels, color=theme.MUTED, width=1, label="equipotentials"),
     )
 
@@ -78,8 +78,8 @@ def ground(
 def orbit(start: Callable[[S], tuple[float, float]], label: str = "") -> Layers[S]:
     """Return the layers: the track of the orbit and a ring at its start."""
     return (
-        line("orbit", track="orbit", columns=("q1", "q2"), color=theme.ORBIT, label="orbit"),
-        ring("start", lambda s: [start(s)], label=label),
+        line("orbit", track="orbit", columns=("q1", "q2"), color=theme.ORBIT, label="orbit", tag="orbit"),
+        ring("start", lambda s: [start(s)], label=label, tag="start"),
     )
 
 

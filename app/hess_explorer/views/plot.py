@@ -11,8 +11,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
-from hess_explorer.views import bokeh_figure
-from hess_explorer.views.layers import POINT, Axes, Columns, Layer, Layers, Range, Sign, Sources
+from hess_explorer.views import bokeh_figure, tags
+from hess_explorer.views.layers import MESSAGE, POINT, Axes, Columns, Layer, Layers, Range, Sign, Sources, label
 from hess_explorer.views.picture import Picture
 
 __all__ = ["Plot"]
@@ -57,6 +57,11 @@ class Plot(Picture[S]):
     kind: ClassVar[str] = "plot"
 
     @property
+    def painted(self) -> Layers[S]:
+        """All layers from the back to the front: with the labels of those that carry one, the point and a message."""
+        return (*self.layers, *(label(layer) for layer in self.layers if layer.tag), self.point, MESSAGE)
+
+    @property
     def events(self) -> tuple[str, ...]:
         """Mouse events that the browser reports: Bokeh's events, "box" and "hover"."""
         return (
@@ -97,12 +102,16 @@ class Plot(Picture[S]):
         )
 
     def there(self, drawn: Mapping[str, Columns]) -> tuple[Sign, ...]:
-        """Return the legend entries that are visible, given the columns of all sources."""
+        """Return the legend entries of what is visible, given the columns of all sources.
+
+        The legend does not repeat a label that stands in the picture.
+        """
         found = (
             sign
             for layer in self.layers
             for sign in layer.legend
-            if _has(drawn.get(self.source_of(layer), {}), layer, sign)
+            if not (sign.label == layer.tag and drawn.get(f"{self.name}-{layer.name}-label"))
+            and _has(drawn.get(self.source_of(layer), {}), layer, sign)
         )
         return (*found, *self.signs, *(self.point.legend if self.dot is not None and drawn.get("data-orbit") else ()))
 
@@ -131,17 +140,21 @@ class Plot(Picture[S]):
         """Return the columns that are independent of the axes, by source."""
         return {self.source_of(layer): layer.data(state) for layer in self.layers if layer.data is not None}
 
-    def framed(self, state: S, axes: Axes | None) -> Sources:
+    def framed(self, state: S, axes: Axes | None, drawn: Sources) -> Sources:
         """Return the columns that depend on the axes, by source."""
         assert axes is not None
         found = {self.source_of(layer): layer.within(state, axes) for layer in self.layers if layer.within is not None}
         sentence = "" if self.message is None else self.message(state)
+        sources = [self.source_of(layer) for layer in self.layers]
+        columns = [{**drawn.get(source, {}), **found.get(source, {})} for source in sources]
+        labels = tags.placed(self.layers, columns, axes, self.log)
+        found.update({f"{self.name}-{name}-label": one for name, one in labels.items()})
         return {**found, **self._words(self.names(state), sentence, axes)}
 
     def nothing(self, sentence: str, axes: Axes | None) -> Sources:
         """Return the columns of an empty plot with the reason as message."""
         assert axes is not None
-        empty: Sources = {self.source_of(layer): {} for layer in (*self.layers, self.point)}
+        empty: Sources = {self.source_of(layer): {} for layer in self.painted}
         return {**empty, **self._words((" ", " "), sentence, axes)}
 
     def _words(self, names: tuple[str, str], sentence: str, axes: Axes) -> Sources:

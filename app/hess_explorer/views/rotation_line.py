@@ -65,7 +65,7 @@ def rho_layers(
 
     return (
         levels("levels", sought),
-        curves("other", other, color=theme.MAP, dash="dashed", label="ρ of Θ(φ + ε sin 3φ)"),
+        curves("other", other, color=theme.MAP, dash="dashed", label="ρ of Θ(φ + ε sin 3φ)", tag="Θ(φ + ε sin 3φ)"),
         curves(
             "rho", lambda s: _curve(line(s), values(s), values(s).rho, JUMP), color=theme.ORBIT, label="ρ, trace of Θ"
         ),

@@ -128,10 +128,10 @@ def layers(
             legend=(Sign("locked, two limit cycles", "box", f"background: {theme.LOCKED}"),),
         ),
         curves("boundary", boundary, moving=False, color=theme.INK, label="its boundary, |trace| = 2"),
-        region("forbidden", impossible, label="impossible"),
+        region("forbidden", impossible, label="impossible", tag="impossible"),
         curves("edge", edges, moving=False, color=theme.INK, width=1.5),
         curves("across-under", across, color=theme.PAPER, width=4, alpha=0.7),
-        curves("across", across, color=theme.INK, dash="dashed", label="the line"),
+        curves("across", across, color=theme.INK, dash="dashed", label="line of ρ", tag="line of ρ"),
         *target("here", here),
     )
 

@@ -128,7 +128,9 @@ def over_orders(
         on_click=lambda s, x, y: {"k": x},
         on_drag="chosen",
         layers=(
-            curves("closed", lambda s: [orders(s)], color=theme.MAP, dash="dashed", label="closed form"),
+            curves(
+                "closed", lambda s: [orders(s)], color=theme.MAP, dash="dashed", label="closed form", tag="closed form"
+            ),
             ring("chosen", lambda s: [here(s)], size=18.0),
         ),
     )

@@ -31,13 +31,13 @@ def layers(
     """
     found: list[Layer[S]] = []
     if forbidden is not None:
-        found.append(region("forbidden", within=forbidden, label="impossible"))
+        found.append(region("forbidden", within=forbidden, label="impossible", tag="impossible"))
     if others is not None:
         found.append(_points("others", others, theme.MUTED, 6, "other orbits"))
     found.append(_points("own", own, theme.ORBIT, 14, ""))
     found.append(points("own-few", lambda s: _few(own(s)), color=theme.ORBIT, size=9))
     if start is not None:
-        found.append(ring("chosen", start, label="start"))
+        found.append(ring("chosen", start, label="start", tag="start"))
     return tuple(found)
 
 

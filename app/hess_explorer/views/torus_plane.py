@@ -36,11 +36,20 @@ def layers(
             lambda s: ring_outside(*ring(s), half_width(s)),
             edge=theme.MUTED,
             label="impossible",
+            tag="impossible",
             moving=True,
         ),
         band(proved),
-        line("orbit", track="orbit", columns=_PLANE, color=theme.ORBIT, width=1.3, label="orbit"),
-        line("stable", track="stable", columns=_PLANE, color=theme.STABLE, width=3, label="stable cycle"),
+        line("orbit", track="orbit", columns=_PLANE, color=theme.ORBIT, width=1.3, label="orbit", tag="orbit"),
+        line(
+            "stable",
+            track="stable",
+            columns=_PLANE,
+            color=theme.STABLE,
+            width=3,
+            label="stable cycle",
+            tag="stable cycle",
+        ),
         line(
             "unstable",
             track="unstable",
@@ -49,6 +58,7 @@ def layers(
             width=3,
             dash="dashed",
             label="unstable cycle",
+            tag="unstable cycle",
         ),
     )
 

@@ -107,7 +107,9 @@ def picture(
 
 def orbit(label: str) -> Layer[S]:
     """Return the track of the orbit, bold."""
-    return line("orbit", track="orbit", columns=("omega1", "omega2"), color=theme.ORBIT, width=2.5, label=label)
+    return line(
+        "orbit", track="orbit", columns=("omega1", "omega2"), color=theme.ORBIT, width=2.5, label=label, tag="orbit"
+    )
 
 
 def band(data: Callable[[S], Regions]) -> Layer[S]:
@@ -178,9 +180,20 @@ def beside(inner: Array, outer: Array, half_width: float) -> Array:
 def halves(
     stable: Callable[[S, Axes], Array], unstable: Callable[[S, Axes], Array], labels: tuple[str, str]
 ) -> Layers[S]:
-    """Return the layers of the stable and the unstable half of the line of equilibria, segments (2, 2)."""
+    """Return the layers of the stable and the unstable half of the line of equilibria, segments (2, 2).
+
+    The label in the picture is the part of the legend's entry before the comma.
+    """
+    tags = [label.split(",")[0] for label in labels]
     return (
-        line("stable", within=lambda s, axes: stable(s, axes).T, color=theme.STABLE, width=3, label=labels[0]),
+        line(
+            "stable",
+            within=lambda s, axes: stable(s, axes).T,
+            color=theme.STABLE,
+            width=3,
+            label=labels[0],
+            tag=tags[0],
+        ),
         line(
             "unstable",
             within=lambda s, axes: unstable(s, axes).T,
@@ -188,6 +201,7 @@ def halves(
             width=3,
             dash="dashed",
             label=labels[1],
+            tag=tags[1],
         ),
     )
 

@@ -39,7 +39,7 @@ class Stage(Generic[S]):
         axes = {view.name: (None if hold_axes else view.ranges(state)) or self._axes[view.name] for view in views}
         drawn = dict(state.drawn)
         for view in views:
-            for source, columns in view.framed(state, axes[view.name]).items():
+            for source, columns in view.framed(state, axes[view.name], drawn).items():
                 drawn[source] = {**drawn.get(source, {}), **columns}
         derived, notes = [*state.derived()], [*state.notes()]
         status = re.sub(r"(?<=\d)e-(?=\d)", "e−", " · ".join([*state.status(), state.work.ended()]))

@@ -550,7 +550,9 @@ def branch_picture(of: Callable[[S], Branch]) -> Picture[S]:
         x=lambda s: s.ends,
         y=upwards,
         layers=(
-            curves("value", within=at_the_value, color=theme.INK, width=1.5, label="the state on show"),
+            curves(
+                "value", within=at_the_value, color=theme.INK, width=1.5, label="state on show", tag="state on show"
+            ),
             *view.layers(lambda s: s.continuation.branches, lambda s: s.side, lambda s: s.continuation.turn),
             points(
                 "shown",

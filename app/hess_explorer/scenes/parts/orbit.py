@@ -101,5 +101,7 @@ def orbit_picture(of: Callable[[S], Orbit], x: str, y: str, title: str = "The or
         x=room_for(x),
         y=room_for(y),
         dot=(x, y),
-        layers=(line("orbit", track="orbit", columns=(x, y), color=theme.ORBIT, width=2.5, label="orbit"),),
+        layers=(
+            line("orbit", track="orbit", columns=(x, y), color=theme.ORBIT, width=2.5, label="orbit", tag="orbit"),
+        ),
     ).of_part(of)

@@ -368,7 +368,14 @@ def diagram_picture(
             dots(
                 "rising", lambda s: of(s).points(_RISING), color=theme.ORBIT, size=3, label="forward, parameter rising"
             ),
-            curves("here", within=upright(lambda s: [of(s).at]), color=theme.INK, width=1.5, label="the state on show"),
+            curves(
+                "here",
+                within=upright(lambda s: [of(s).at]),
+                color=theme.INK,
+                width=1.5,
+                label="state on show",
+                tag="state on show",
+            ),
             *over,
         ),
     )

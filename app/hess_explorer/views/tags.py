@@ -1,0 +1,197 @@
+"""Labels in a planar picture: a free place beside each curve or point, or inside each region, that carries a tag.
+
+Places are found on a coarse grid of the frame, so they cost about a millisecond and need no text metrics.  All
+lengths are fractions of the frame, from its lower left corner.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from hess_explorer.views.layers import Axes, Columns, Layer
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["placed"]
+
+_CELLS = 48
+"""Cells of the grid along each side."""
+_LETTER, _LINE = 0.027, 0.068
+"""Width of a letter and height of a line in a small frame (270 pixels)."""
+_GAP = 0.012
+"""Distance between a label and what it names."""
+_SAMPLES = 800
+"""Points by which a curve or a cloud of dots covers the grid."""
+_ANCHORS = 90
+"""Points of a curve that are tried."""
+_FULL = 0.22
+"""A label would hide too much if what is drawn covers this part of it."""
+_PULL = 0.08
+"""Weight of the distance from the upper right corner: few labels jump while a slider moves."""
+_DOTS = 0.25
+"""Weight of a cell with dots: a label may stand in a section where few dots are."""
+_CLOSED = 2.0
+"""Mark of cells under a label, where no other label goes."""
+_AROUND = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)])
+_EDGE = 0.01
+
+
+def placed(layers: Sequence[Layer[Any]], columns: Sequence[Columns], axes: Axes, log: str) -> Mapping[str, Columns]:
+    """Return the columns of the label of each layer with a tag, by the layer's name; empty without a free place.
+
+    columns : those of each layer; log : the logarithmic axes.
+    """
+    drawn = [(layer, given) for layer, given in zip(layers, columns, strict=True) if _there(layer, given)]
+    frame = _Frame(axes, log)
+    taken = np.zeros((_CELLS, _CELLS))
+    for layer, given in drawn:
+        for curve in _curves(layer, given, frame):
+            _mark(taken, curve, _DOTS if layer.glyph == "dots" else 1.0)
+    found: dict[str, Columns] = {layer.name: {} for layer in layers if layer.tag}
+    for layer, given in drawn:
+        if not layer.tag:
+            continue
+        half = _half(layer.tag)
+        inside = _inside(layer, given, frame)
+        places = _around(_curves(layer, given, frame), half) if inside is None else _middles(inside, half)
+        places = places[np.all(abs(places - 0.5) + half + _EDGE <= 0.5, axis=1)]
+        if len(places) == 0:
+            continue
+        covered = _mean(taken, places, half)
+        best = int(np.argmin(covered + _PULL * np.linalg.norm(1.0 - places, axis=1)))
+        if covered[best] > _FULL:
+            continue
+        _mark(taken, _box(places[best], half), _CLOSED)
+        x, y = frame.back(places[best])
+        found[layer.name] = {"x": [x], "y": [y], "text": [layer.tag]}
+    return found
+
+
+class _Frame:
+    """Maps coordinates to fractions of the frame, and back."""
+
+    def __init__(self, axes: Axes, log: str) -> None:
+        self._log = [side in log for side in "xy"]
+        ends = np.array([axes.x, axes.y], float)
+        self._ends = np.array([np.log10(pair) if log else pair for pair, log in zip(ends, self._log, strict=True)])
+
+    def to(self, x: Any, y: Any) -> Array:
+        """Return at most `_SAMPLES` of the points (n, 2) in the frame, without those that have no logarithm."""
+        found = np.column_stack([np.asarray(side, float)[:: len(side) // _SAMPLES + 1] for side in (x, y)])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            for i, log in enumerate(self._log):
+                found[:, i] = np.log10(found[:, i]) if log else found[:, i]
+        found = found[np.isfinite(found).all(axis=1)]
+        return np.asarray((found - self._ends[:, 0]) / (self._ends[:, 1] - self._ends[:, 0]))
+
+    def back(self, place: Array) -> list[float]:
+        """Return the coordinates of a place (2,)."""
+        found = self._ends[:, 0] + place * (self._ends[:, 1] - self._ends[:, 0])
+        return [float(10.0**one if log else one) for one, log in zip(found, self._log, strict=True)]
+
+
+def _there(layer: Layer[Any], columns: Columns) -> bool:
+    return len(columns.get(layer.columns[0], ())) > 0
+
+
+def _curves(layer: Layer[Any], columns: Columns, frame: _Frame) -> list[Array]:
+    """Return what a layer covers as points (n, 2), close to one another on curves; none for regions and cells."""
+    given = [columns[name] for name in layer.columns]
+    if layer.glyph in ("image", "multi_polygons"):
+        return []
+    if layer.glyph == "multi_line":
+        return [_dense(frame.to(x, y), _SAMPLES // len(given[0])) for x, y in zip(*given, strict=True)]
+    if layer.glyph == "segment":
+        return [_dense(frame.to(ends[::2], ends[1::2]), 100) for ends in zip(*given, strict=True)]
+    points = frame.to(*given[:2])
+    if layer.glyph == "line":
+        return [_dense(points, _SAMPLES)]
+    if layer.glyph == "text":
+        words = zip(points, given[2], strict=False)
+        return [_box(place, _half(word)) for place, word in words if word]
+    return [points]
+
+
+def _dense(curve: Array, least: int) -> Array:
+    """Return points evenly along the index of a curve, at least 50."""
+    if len(curve) < 2:
+        return curve
+    at = np.linspace(0.0, len(curve) - 1.0, max(50, least))
+    return np.column_stack([np.interp(at, np.arange(len(curve)), side) for side in curve.T])
+
+
+def _half(word: str) -> Array:
+    """Return half the width and height of a word."""
+    return 0.5 * np.array([_LETTER * len(word), _LINE])
+
+
+def _box(place: Array, half: Array) -> Array:
+    """Return points (n, 2) that cover the cells of a box."""
+    steps = [place[i] + np.arange(-half[i], half[i], 0.5 / _CELLS) for i in range(2)]
+    return np.array(np.meshgrid(*steps)).reshape(2, -1).T
+
+
+def _mark(taken: Array, points: Array, how: float = 1.0) -> None:
+    """Mark the cells [row, column] of some points."""
+    cells = np.floor(points[np.all((points >= 0.0) & (points < 1.0), axis=1)] * _CELLS).astype(int)
+    taken[cells[:, 1], cells[:, 0]] = how
+
+
+def _mean(cells: Array, places: Array, half: Array) -> Array:
+    """Return the mean of the cells in a box about each place (n,)."""
+    total = np.pad(cells, ((1, 0), (1, 0))).cumsum(0).cumsum(1)
+    low, high = (np.clip(np.round((places + sign * half) * _CELLS).astype(int), 0, _CELLS) for sign in (-1, 1))
+    (x0, y0), (x1, y1) = low.T, high.T
+    area = np.maximum(1, (x1 - x0) * (y1 - y0))
+    return np.asarray((total[y1, x1] - total[y0, x1] - total[y1, x0] + total[y0, x0]) / area)
+
+
+def _around(curves: Sequence[Array], half: Array) -> Array:
+    """Return the middles of labels in eight directions from points of some curves (n, 2)."""
+    points = np.concatenate(curves)
+    points = points[np.all((points >= 0.0) & (points <= 1.0), axis=1)]
+    points = points[:: len(points) // _ANCHORS + 1]
+    return np.asarray((points[:, None] + _AROUND * (half + _GAP)).reshape(-1, 2))
+
+
+def _middles(inside: Array, half: Array) -> Array:
+    """Return the cells whose label lies inside a mask [row, column]."""
+    places = (np.argwhere(inside)[:, ::-1] + 0.5) / _CELLS
+    return places[_mean(inside.astype(float), places, half) > 0.999]
+
+
+def _inside(layer: Layer[Any], columns: Columns, frame: _Frame) -> Array | None:
+    """Return which cells [row, column] a region or the first kind of an image fills; None for other layers."""
+    if layer.glyph == "image":
+        (cells,), middles = columns["image"], (np.arange(_CELLS) + 0.5) / _CELLS
+        x, y = (columns[name][0] for name in ("x", "y"))
+        low = frame.to([x, x + columns["dw"][0]], [y, y + columns["dh"][0]])
+        at = [
+            np.floor((middles - low[0, i]) / (low[1, i] - low[0, i]) * cells.shape[1 - i]).astype(int) for i in range(2)
+        ]
+        there = [(one >= 0) & (one < cells.shape[1 - i]) for i, one in enumerate(at)]
+        kinds = cells[np.ix_(*(np.clip(at[i], 0, cells.shape[1 - i] - 1) for i in (1, 0)))]
+        least = layer.legend[0].least or 0.0
+        return np.asarray((kinds >= least) & (kinds < least + 1.0) & there[1][:, None] & there[0])
+    if layer.glyph != "multi_polygons":
+        return None
+    parts = zip(columns["xs"], columns["ys"], strict=True)
+    filled = [
+        np.logical_xor.reduce([_even_odd(frame.to(x, y)) for x, y in zip(*rings, strict=True)])
+        for rings in ((xs[0], ys[0]) for xs, ys in parts)
+    ]
+    return np.logical_or.reduce(filled)
+
+
+def _even_odd(ring: Array) -> Array:
+    """Return which cells [row, column] have their middle inside a closed curve (n, 2): the crossings left of it."""
+    (x0, y0), (x1, y1) = ring.T, np.roll(ring, -1, axis=0).T
+    heights = (np.arange(_CELLS)[:, None] + 0.5) / _CELLS
+    row, edge = np.nonzero((y0 <= heights) != (y1 <= heights))
+    x = x0[edge] + (heights[row, 0] - y0[edge]) / (y1[edge] - y0[edge]) * (x1[edge] - x0[edge])
+    column = np.clip(np.ceil(x * _CELLS - 0.5), 0, _CELLS).astype(int)
+    crossings = np.zeros((_CELLS, _CELLS + 1), int)
+    np.add.at(crossings, (row, column), 1)
+    return np.asarray(np.cumsum(crossings, axis=1)[:, :-1] % 2 == 1)
