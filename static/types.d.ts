@@ -359,6 +359,9 @@ interface Scene {
   sources: Map<string, Source>
   cells: HTMLElement[]
   plots: PlotView[]
+  /** Axes by picture: of the state, and of the other page if two states stand side by side. */
+  ranges: Record<string, [number, number, number, number]>
+  beside: Record<string, [number, number, number, number]>
   ghosts: Ghost[]
   shots: Map<string, Drawn["shoot"]>
   /** Whether a state was painted. */
@@ -506,8 +509,11 @@ interface PageEvents {
   // From a picture and to it: [picture, azimuth, elevation]
   turned: [string, number, number]
   turn: [string, number, number]
+  // From the painter: the axes of a scene by picture
+  axes: { name: string, ranges: Scene["ranges"] }
   // From the other page of two side by side
   follow: number
+  "axes-beside": PageEvents["axes"]
   // From a chart: the computed share of its cells
   charting: number | null
   // From a room: of the lecturer (code is null when it has ended), the guesses of the audience, the step that is followed

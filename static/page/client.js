@@ -13,7 +13,7 @@ import { createHandout } from "./handout.js"
 import { createHistory } from "./history.js"
 import { createRoom } from "./room.js"
 import { joinOther } from "./side_by_side.js"
-import { fill, paint } from "./painting.js"
+import { fill, paint, shareAxes } from "./painting.js"
 import { createPage } from "./panel_page.js"
 import { present } from "./presenting.js"
 import { createRequests } from "./requests.js"
@@ -74,6 +74,7 @@ export function startClient(model, view) {
   handleCommands({ address, page })
   createHandout(() => latest)
   joinOther()
+  shareAxes(() => scene)
   if (!isPart) createRoom({ query: () => state?.query ?? null })
 
   listen({

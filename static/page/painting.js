@@ -1,7 +1,7 @@
 // @ts-check
 // Fills the pictures of a scene with a state and paints them together.
 
-import { tell } from "./bus.js"
+import { listen, tell } from "./bus.js"
 import { unpack } from "./unpack.js"
 
 const MOST = 2000
@@ -20,19 +20,44 @@ function within(promise, most) {
 }
 
 /**
+ * Set the axes of plots: those of the state, widened to those of the other page if two states stand side by side.
+ * @param {Scene} scene
+ * @param {Iterable<string>} names
+ */
+function setAxes({ plots, ranges, beside }, names) {
+  for (const name of names) {
+    const plot = plots.find((one) => one.model.name === name)
+    if (plot === undefined || ranges[name] === undefined) continue
+    const [x0, x1, y0, y1] = ranges[name].map((end, i) => (i % 2 === 0 ? Math.min : Math.max)(end, beside[name]?.[i] ?? end))
+    const { x_range: x, y_range: y } = plot.model
+    x.setv({ start: x0, end: x1 })
+    y.setv({ start: y0, end: y1 })
+  }
+}
+
+/** Show the axes of the other page too. @param {() => Scene | null} shown returns the scene on show */
+export function shareAxes(shown) {
+  listen({
+    "axes-beside"({ name, ranges }) {
+      const scene = shown()
+      if (scene?.name !== name) return
+      Object.assign(scene.beside, ranges)
+      setAxes(scene, Object.keys(ranges))
+      tell("paint")
+    },
+  })
+}
+
+/**
  * Set the axes and data of a scene from a state.
  * @param {Scene} scene
  * @param {Tree} tree
  * @param {ArrayBuffer} block
  */
 export function fill(scene, { ranges, sources }, block) {
-  for (const [name, [x0, x1, y0, y1]] of Object.entries(ranges)) {
-    const plot = scene.plots.find((one) => one.model.name === name)
-    if (plot === undefined) continue
-    const { x_range: x, y_range: y } = plot.model
-    x.setv({ start: x0, end: x1 })
-    y.setv({ start: y0, end: y1 })
-  }
+  Object.assign(scene.ranges, ranges)
+  setAxes(scene, Object.keys(ranges))
+  tell("axes", { name: scene.name, ranges: scene.ranges })
   scene.painted = true
   for (const [name, columns] of unpack(sources, block)) scene.sources.get(name)?.put(columns)
 }

@@ -95,7 +95,7 @@ async function build(description) {
   setShades(description.shades)
   const grid = element("div.gallery")
   /** @type {Scene} */
-  const scene = { name: description.name, opening: description.opening, grid, sources: new Map(), cells: [], plots: [], ghosts: [], shots: new Map(), sizes: new Map(), painted: false }
+  const scene = { name: description.name, opening: description.opening, grid, sources: new Map(), cells: [], plots: [], ranges: {}, beside: {}, ghosts: [], shots: new Map(), sizes: new Map(), painted: false }
   const places = description.pictures.map((picture) => {
     const { name } = picture
     const [cell, host] = createCell(picture, stage.cornerFor(name), () => { gallery.pointed = name })

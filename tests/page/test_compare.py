@@ -63,6 +63,10 @@ PAINTED_TURN = """async (canvas) => {
   for (let i = 0; i < 4; i++) await new Promise(requestAnimationFrame)
   return canvas.dataset.turn
 }"""
+H_AXIS = """() => {
+  const { x_range: x } = hess.plots.find(({ model }) => model.name === "bifurcation").model
+  return [x.start, x.end]
+}"""
 READY = "() => document.documentElement.dataset.ready === 'true'"
 
 
@@ -77,6 +81,16 @@ def assert_side_by_side(explorer):
         assert float(half.locator(".param-h input[type=text]").input_value()) == h
         # All pictures at once.
         assert half.locator(".picture:visible").count() == 5
+    # Both show the axes of both, also while one of them changes.
+    before = one.evaluate(H_AXIS)
+    assert other.evaluate(H_AXIS) == before
+    other.locator(".param-h input[type=text]").fill("30")
+    other.locator(".param-h input[type=text]").press("Enter")
+    for half in (one, other):
+        half.wait_for_function(f"({H_AXIS})()[1] >= 30")
+        low, high = half.evaluate(H_AXIS)
+        assert low <= before[0] and high >= before[1]
+    assert one.evaluate(H_AXIS) == other.evaluate(H_AXIS)
     assert_accessible(page)
     for half, follower, t in ((one, other, "7.25"), (other, one, "3.5")):
         half.locator("input.param-t").evaluate(

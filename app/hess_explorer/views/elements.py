@@ -211,7 +211,7 @@ def _letters(style: Style) -> Options:
     return {
         "color": style["text_color"],
         "size": "medium",
-        "fontweight": "bold" if style.get("text_font_style") == "bold" else "normal",
+        "weight": "bold" if style.get("text_font_style") == "bold" else "normal",
         "horizontalalignment": style["text_align"],
         "verticalalignment": upright,
     }
@@ -251,7 +251,6 @@ def _moved(style: Style) -> Hook:
     """Return a hook that offsets words from their anchors, and puts them on paper."""
 
     def hook(plot: Any, element: hv.Labels) -> None:
-        from matplotlib.patheffects import withStroke
         from matplotlib.transforms import ScaledTranslation
 
         x, y = _TYPE * style.get("x_offset", 0.0), -_TYPE * style.get("y_offset", 0.0)
@@ -259,7 +258,8 @@ def _moved(style: Style) -> Hook:
         for text in plot.handles["artist"]:
             text.set_transform(text.get_transform() + by)
             if "background_fill_color" in style:
-                text.set_path_effects([withStroke(linewidth=2.5, foreground=style["background_fill_color"])])
+                paper = {"facecolor": style["background_fill_color"], "alpha": style["background_fill_alpha"]}
+                text.set_bbox({**paper, "linewidth": 0.0, "pad": 0.5})
 
     return hook
 
