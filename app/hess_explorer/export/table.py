@@ -74,6 +74,9 @@ def _layers(data: PictureData) -> Sources:
     own = f"{data.picture.name}-"
     for source, columns in sorted(data.columns.items()):
         layer = source.removeprefix(own).removeprefix("data-")
+        # Labels belong to the look of a picture, not to its numbers.
+        if layer.endswith("-label"):
+            continue
         if "frames0" in columns:
             found |= {f"{layer}-{name}": cloud for name, cloud in _clouds(columns, data.client["t"]).items()}
         # Lists are columns only in plots; elsewhere they are vectors or names.
