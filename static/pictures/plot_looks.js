@@ -6,6 +6,8 @@ import { isDark, setDark, shade } from "./looks.js"
 
 // Font size of ticks relative to that of axis labels.
 const TICKS = 0.86
+// Largest factor of labels in present mode.
+const LABELS = 1.25
 const COLOURS = ["line_color", "fill_color", "text_color", "background_fill_color"]
 const SIZES = ["line_width", "axis_line_width", "major_tick_line_width", "outline_line_width", "size", "text_font_size"]
 
@@ -40,7 +42,10 @@ const times = (factor, value) => (typeof value === "number" ? factor * value
  */
 export function sizePlot(plot, type, scale) {
   for (const part of plot.model.references()) {
-    part.setv(Object.fromEntries(sizesOf(part).map(([name, value]) => [name, times(scale * zoom(), value)])))
+    // Labels have places for small letters, see "tags.py".
+    const isLabel = (part.text_font_style?.value ?? part.text_font_style) === "bold"
+    const larger = isLabel ? Math.min(zoom(), LABELS) : zoom()
+    part.setv(Object.fromEntries(sizesOf(part).map(([name, value]) => [name, times(scale * larger, value)])))
     if (part.axis_label_text_font_size !== undefined) {
       part.setv({
         axis_label_text_font_size: `${scale * type}px`, major_label_text_font_size: `${Math.round(TICKS * scale * type)}px`,
