@@ -40,14 +40,20 @@ export function sayDragMe(find) {
   let end = () => {}
   /** @type {SceneDescription | null} */
   let entered = null
+  let isReading = false
   for (const name of CHANGES) listen({ [name]: () => end() })
   listen({
     enter(description) { entered = description },
+    // A lesson says itself what to do.
+    reading(on) {
+      isReading = on
+      if (on) end()
+    },
     painted() {
       if (entered === null) return
       const { name, handle } = entered
       entered = null
-      const found = handle === null || isEmbedded() || said.has(name) ? null : find(/** @type {Kind} */ (handle))
+      const found = handle === null || isEmbedded() || isReading || said.has(name) ? null : find(/** @type {Kind} */ (handle))
       if (found === null) return
       const { host, place, moved } = found
       const sign = element("span.drag-me", { ariaHidden: true }, "drag me")

@@ -25,7 +25,11 @@ const clock = (ms) => `${Math.floor(ms / 60000)}:${String(Math.floor(ms / SECOND
 
 /** Return the question of a step and its answer. @param {LessonStep} step @returns {HTMLElement[]} */
 const questionOf = ({ question, answer }) => (question === "" ? [] : [
-  html("div.question", question), element("details.answer", element("summary", "Answer"), html("div", answer)),
+  html("div.question", question), element("details.answer", {
+    // With its question, which is above the buttons of the step then.
+    /** @param {{currentTarget: HTMLDetailsElement}} event */
+    ontoggle({ currentTarget: { open, previousElementSibling: above } }) { if (open) above.scrollIntoView({ block: "start" }) },
+  }, element("summary", "Answer"), html("div", answer)),
 ])
 
 /**
@@ -50,6 +54,8 @@ export function render({ index, el }) {
   // These belong to the step on show and end with it.
   /** @type {ReturnType<typeof createGuess> | null} */
   let guess = null
+  /** @type {HTMLButtonElement | null} */
+  let revealing = null
   /** @type {ReturnType<typeof createAnimation> | null} */
   let animation = null
   /** @type {(() => void) | null} */
@@ -95,7 +101,8 @@ export function render({ index, el }) {
     const audience = element("output.audience", { hidden: true })
     if (prediction) {
       guess = createGuess(prediction, (text) => { said.textContent = text })
-      buttons.append(button("button.param-reveal", reveal, "Reveal"))
+      revealing = button("button.param-reveal", reveal, "Reveal")
+      buttons.append(revealing)
     }
     if (step.animation) {
       animation = createAnimation(step.animation)
@@ -143,11 +150,14 @@ export function render({ index, el }) {
 
   function reveal() {
     if (guess === null || guess.isRevealed) return false
-    const shown = guess
+    const [shown, pressed] = [guess, revealing]
     shown.wait()
+    Object.assign(pressed, { disabled: true, title: "Disabled: it is revealed" })
     go(lesson.name, at, true, () => {
       veil(lesson.steps[at].hide ?? null)
       shown.reveal()
+      // What is said about the guess, under the button, is above the buttons of the step then.
+      pressed.scrollIntoView({ block: "start" })
     })
     return true
   }

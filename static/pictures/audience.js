@@ -4,7 +4,7 @@
 import { element } from "../page/elements.js"
 import { fit } from "./canvas.js"
 import { gallery } from "./gallery.js"
-import { drawRing, GUESS, linesOf, nearest, shown, TRUTH } from "./guess.js"
+import { along, apart, drawRing, GUESS, linesOf, nearest, TRUTH } from "./guess.js"
 import { circlePath } from "./looks.js"
 import { median, medianCurve, middleOf } from "./median.js"
 
@@ -54,6 +54,7 @@ export function createAudience(prediction, cloud) {
 
   function sentence() {
     if (cloud.length === 0) return "Revealed. Nobody in the audience guessed."
+    const { x_scale: xScale, y_scale: yScale, below: [below], left: [left] } = plot.model
     const many = `${cloud.length} guess${cloud.length === 1 ? "" : "es"} from the audience`
     // How far each guess was off, on the average of its points.
     const off = cloud.map((guess) => guess.map((point) => [point, truthOf(point)]).reduce((sum, [point, truth]) => {
@@ -61,13 +62,12 @@ export function createAudience(prediction, cloud) {
       if (place === null) return sum
       const [x, y] = toData(place)
       const [px, py] = /** @type {number[]} */ (point)
-      return [distance, Math.abs(px - x), Math.abs(py - y)].map((one, i) => sum[i] + one / guess.length)
+      return [distance, apart(xScale, px, x), apart(yScale, py, y)].map((one, i) => sum[i] + one / guess.length)
     }, [0, 0, 0]))
     if (lines.every((line) => line.length === 0)) return `${many}; there is none here.`
     const [pixels, x, y] = [0, 1, 2].map((i) => median(off.map((one) => one[i])))
-    const [[below], [left]] = [plot.model.below, plot.model.left]
     return `${many}. Median distance: ${Math.round(pixels)} pixels, ` +
-      `${shown(x)} in ${below.axis_label}, ${shown(y)} in ${left.axis_label}.`
+      `${along(xScale, below, x)}, ${along(yScale, left, y)}.`
   }
 
   sheet.style.cssText = "position: absolute; inset: 0; width: 100%; height: 100%; pointer-events: none"

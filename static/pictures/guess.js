@@ -15,7 +15,12 @@ const STEP = 8
 const FOCUS = "inset 0 0 0 2px #0072B2"
 
 /** @param {number} value */
-export const shown = (value) => value.toPrecision(2).replace("-", "−")
+const shown = (value) => String(Number(value.toPrecision(2))).replace("-", "−")
+/** Return how far two values of an axis are apart, on a logarithmic one as the logarithm of their ratio. @type {(scale: {type: string}, a: number, b: number) => number} */
+export const apart = ({ type }, a, b) => Math.abs(type === "LogScale" ? Math.log(a / b) : a - b)
+/** Return such a distance in words. @type {(scale: {type: string}, axis: BokehModel, distance: number) => string} */
+export const along = ({ type }, { axis_label: name }, distance) => (
+  `${type === "LogScale" ? `a factor of ${shown(Math.exp(distance))}` : shown(distance)} in ${name}`)
 /** @param {number[]} values */
 const mean = (values) => values.reduce((sum, one) => sum + one, 0) / values.length
 /** @param {number} value @param {number} low @param {number} high */
@@ -101,10 +106,10 @@ export function createGuess(prediction, say, guessed = null) {
     if (found.some(({ place }) => place === null)) return say("Revealed: there is none here.")
     truth = found.map(({ place }) => toData(place))
     draw()
-    const off = [0, 1].map((i) => mean(clicks.map((click, j) => Math.abs(click[i] - truth[j][i]))))
-    const [[x], [y]] = [plot.model.below, plot.model.left]
+    const { x_scale: xScale, y_scale: yScale, below: [x], left: [y] } = plot.model
+    const [across, up] = [xScale, yScale].map((scale, i) => mean(clicks.map((click, j) => apart(scale, click[i], truth[j][i]))))
     say(`${isCurve ? "On average" : "You were"} ${Math.round(mean(found.map(({ distance }) => distance)))} pixels away: ` +
-      `${shown(off[0])} in ${x.axis_label}, ${shown(off[1])} in ${y.axis_label}.`)
+      `${along(xScale, x, across)}, ${along(yScale, y, up)}.`)
   }
 
   function draw() {

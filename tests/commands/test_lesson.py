@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import math
+import re
+
 import pytest
 
 from hess_explorer.__main__ import main
+from hess_explorer.lessons.collection import read_paths
+from hess_explorer.lessons.lesson import LessonError
 from hess_explorer.lessons.reading import KEYS, read_file
 
 
@@ -41,6 +46,30 @@ def test_all_mistakes_are_printed_by_file_and_line(tmp_path, capsys):
     assert len(numbers) == 4
     assert f"{good}: 3 steps, no mistakes" in out
     assert err == "hess-explorer: 4 mistakes found.\n"
+
+
+def test_states_that_the_scene_corrects_are_mistakes_and_sliders_without_controls_a_warning(tmp_path, capsys):
+    path = tmp_path / "first.md"
+    main(["lesson", "new", str(path)])
+    text = path.read_text(encoding="utf-8").replace('h=1.5&f=0.6"}', 'h=0.5&f=2"}').replace("from: 0.5", "from: -0.9")
+    path.write_text(text.replace("Call out when", "Raise $h$, and call out when").replace("animate:", "# animate:", 1))
+    capsys.readouterr()
+    heads = ("## Guess", "## The moment of birth")
+    lines = [number for number, line in enumerate(text.split("\n"), 1) if line in heads]
+    assert main(["lesson", "check", str(path)]) == 1
+    warning, guess = capsys.readouterr().out.splitlines()
+    assert warning.startswith(f"{path}:{lines[1]}: Warning: the text asks to change h")
+    # The largest |f| at an energy: the height n of a pendulum whose velocity is then along the parallel.
+    n = (0.5 - math.sqrt(0.5**2 + 3)) / 3
+    largest = math.sqrt(2 * (0.5 - n) * (1 - n * n))
+    found = re.fullmatch(rf"{path}:{lines[0]}: the state of predict is not possible: choose f = ([\d.]+). .*", guess)
+    assert float(found[1]) == pytest.approx(largest, rel=1e-4)
+    path.write_text(text)
+    capsys.readouterr()
+    assert main(["lesson", "check", str(path)]) == 1
+    assert f"{path}:{lines[1]}: an end of animate is not possible: choose f = 0.0" in capsys.readouterr().out
+    with pytest.raises(LessonError, match="not possible"):
+        read_paths([path])
 
 
 def test_what_is_not_there_has_a_mistake(tmp_path, capsys):

@@ -142,7 +142,7 @@ LIMITS = {
         here(s).fixed_points[0].multiplier,
     ),
     "means $|a|<1$": lambda s: (1.0,),
-    "real body, at $f=0$, is less than $e^{2\\pi}$, which is 535.49": lambda s: (
+    "real body, at $f=0$, is less than $e^{2\\pi}$, about 535": lambda s: (
         0.0,
         circle_map(1.0, 1.5, 1e-9, PRECISE).fixed_points[1].log_multiplier / math.pi,
         math.exp(2.0 * math.pi),
@@ -185,8 +185,8 @@ LAYERS = {
         on_the_wall(s).trace,
     ),
     "a factor of 22.0": lambda s: (on_the_wall(s).fixed_points[1].multiplier,),
-    "A double has about 16 digits": lambda s: (round(-math.log10(sys.float_info.epsilon)),),
-    "The logarithm of 10¹⁶ is 36.8, and the exponent is 3.0911": lambda s: (
+    "The computer keeps about 16 digits": lambda s: (round(-math.log10(sys.float_info.epsilon)),),
+    "The logarithm of 10¹⁶ is 36.8, and the exponent is 3.091": lambda s: (
         10.0,
         math.log(1e16),
         on_the_wall(s).fixed_points[1].log_multiplier,

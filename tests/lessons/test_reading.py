@@ -59,7 +59,7 @@ def test_a_lesson_is_read_as_it_is_written():
     named = "controls: [f, accuracy, f]\nhide: {picture: omega, layer: stable}"
     others = read(WHOLE.replace("look: circle", named), "mine")
     assert others.steps[0].controls == ("f", "accuracy")
-    assert others.steps[0].hide == HiddenLayer("omega", "stable", "data-stable")
+    assert others.steps[0].hide == HiddenLayer("omega", "data-stable")
     assert (second.controls, second.hide) == ((), None)
     # A step without a state is where the last one has come to.
     assert second.at == guess.then

@@ -17,6 +17,7 @@ def _check(options: Options) -> None:
     from hess_explorer.lessons.collection import files_in
     from hess_explorer.lessons.lesson import LessonError
     from hess_explorer.lessons.reading import examine
+    from hess_explorer.lessons.review import corrections, hints
 
     try:
         paths = files_in(options.files)
@@ -25,9 +26,13 @@ def _check(options: Options) -> None:
     count = 0
     for path in paths:
         lesson, problems = examine(path)
+        if lesson is not None:
+            problems += corrections(lesson)
+            for hint in hints(lesson):
+                print(f"{path}:{hint.line}: Warning: {hint.message}")
         for problem in sorted(problems, key=lambda one: one.line):
             print(f"{path}:{problem.line}: {problem.message}")
-        if lesson is not None:
+        if lesson is not None and not problems:
             print(f"{path}: {len(lesson.steps)} steps, no mistakes")
         count += len(problems)
     if count:

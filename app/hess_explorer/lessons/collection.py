@@ -8,6 +8,7 @@ from pathlib import Path
 from hess_explorer.lessons import shipped
 from hess_explorer.lessons.lesson import Lesson, LessonError
 from hess_explorer.lessons.reading import read_file
+from hess_explorer.lessons.review import corrections
 
 __all__ = ["MAX_LESSONS", "files_in", "read_paths"]
 
@@ -62,4 +63,7 @@ def _with_own_names(files: Iterable[Path]) -> Iterator[Lesson]:
                 f"its name in links, {lesson.name}, is that of {taken[lesson.name]}: rename the file.", 1, str(file)
             )
         taken[lesson.name] = str(file)
+        mistake = next(corrections(lesson), None)
+        if mistake is not None:
+            raise LessonError(mistake.message, mistake.line, file.name)
         yield lesson

@@ -48,7 +48,6 @@ class HiddenLayer:
     """A layer of a picture that a step does not show; source : data of the layer in the browser."""
 
     picture: str
-    layer: str
     source: str
 
 
@@ -58,13 +57,12 @@ class Prediction:
 
     Attributes
     ----------
-    picture : the picture; layer : its hidden layer, shown in the state `then`; source, columns : data of the layer in
-    the browser, positions (x, y) of points or curves; what : "point" for one click, compared with the nearest point,
-    "curve" for clicks along a curve.
+    picture : the picture; source, columns : data of its hidden layer in the browser, positions (x, y) of points or
+    curves; what : "point" for one click, compared with the nearest point, "curve" for clicks along a curve; then : the
+    state in which the layer is shown.
     """
 
     picture: str
-    layer: str
     source: str
     columns: tuple[str, str]
     what: Literal["point", "curve"]
@@ -76,7 +74,7 @@ class LessonStep:
     """One step of a lesson.
 
     text, answer : Markdown; the answer is hidden at first.  look : name of the picture to enlarge, "" for none.
-    controls : names of the parameters whose controls are beside the text.
+    controls : names of the parameters whose controls are beside the text.  line : line of its heading in the file.
     """
 
     title: str
@@ -89,6 +87,7 @@ class LessonStep:
     prediction: Prediction | None = None
     controls: tuple[str, ...] = ()
     hide: HiddenLayer | None = None
+    line: int = field(default=0, compare=False)
 
 
 # Compared by identity, because the values of states are mappings, which are not hashable.

@@ -17,6 +17,8 @@ from mdit_py_plugins.front_matter import front_matter_plugin
 
 __all__ = ["BadFormula", "formula", "parser", "strict_parser", "to_html"]
 
+# A formula in a line and the stops after it, between which a browser would break the line.
+_STOPS = re.compile(r'(<span class="math inline">.*?</span>)([.,;:!?)]+)', re.DOTALL)
 _ELEMENT = re.compile(r"\{http://www\.w3\.org/1998/Math/MathML\}m[a-z]+")
 
 
@@ -104,4 +106,4 @@ def to_html(text: str, images: Mapping[str, str] | None = None, inline: bool = F
     """
     env = {"images": images or {}}
     html: str = parser().renderInline(text, env) if inline else parser().render(text, env)
-    return html
+    return _STOPS.sub(r'<span class="unbroken">\1\2</span>', html)

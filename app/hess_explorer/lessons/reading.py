@@ -199,6 +199,7 @@ def _step(part: Part, tag: str, before: StateLink | None, images: Images, proble
         problems.attempt(None, prediction_of, fields.get("predict"), place, line_of("predict")),
         problems.attempt((), controls_of, fields.get("controls"), animation, scene, line_of("controls")),
         problems.attempt(None, hidden_of, fields.get("hide"), scene, line_of("hide")),
+        part.line - 1,
     )
 
 

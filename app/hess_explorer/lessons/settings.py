@@ -86,7 +86,7 @@ def hidden_of(found: object, scene: Scene[Any], line: int) -> HiddenLayer | None
     if found is None:
         return None
     plot, layer = _layer(only(found, line, "hide", ("picture", "layer")), "hide", scene, line)
-    return HiddenLayer(plot.name, layer.name, plot.source_of(layer))
+    return HiddenLayer(plot.name, plot.source_of(layer))
 
 
 def prediction_of(found: object, place: StateLink, line: int) -> Prediction | None:
@@ -100,7 +100,6 @@ def prediction_of(found: object, place: StateLink, line: int) -> Prediction | No
     plot, layer = _layer(given, "predict", scenes()[place.scene], line, (*_CURVES, *_POINTS))
     return Prediction(
         plot.name,
-        layer.name,
         plot.source_of(layer),
         (layer.columns[0], layer.columns[1]),
         "curve" if layer.glyph in _CURVES else "point",

@@ -321,6 +321,8 @@ class Suslov(State):
         if self.basins.basin is not None:
             return self.basins.about(self.basins.basin)
         first, second = self.section.first, self.section.second
+        if not self.orbits:
+            return Caption(numbers=f"{len(self.section.own)} points of chosen orbits.")
         backward = f", {len(second)} backward" if len(second) else ""
         # The later halves of the forward orbits show the attractors.
         later = joined(orbit[len(orbit) // 2 :] for orbit in self.section.kind(True))
