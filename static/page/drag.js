@@ -7,18 +7,22 @@
  * @param {HTMLElement} handle
  * @param {(event: PointerEvent) => Held | null} start returns the values that `move` and `end` get; null to ignore the press
  * @param {(held: Held, event: PointerEvent) => void} move
- * @param {(held: Held, event: PointerEvent | null) => void} [end] gets no event if the browser cancels the drag
+ * @param {(held: Held, event: PointerEvent | null) => void} [end] gets no event if the browser or a second finger cancels the drag
  */
 export function onDrag(handle, start, move, end = () => {}) {
   /** @type {Held | null} */
   let held = null
   /** @type {number | null} */
   let pointer = null
+  const cancel = () => {
+    end(held, null)
+    held = null
+  }
   /** @param {PointerEvent} event */
   const isHolding = ({ pointerId }) => held !== null && pointerId === pointer
   handle.addEventListener("pointerdown", (event) => {
-    // A second finger does nothing.
-    if (held !== null) return
+    // With a second finger the page is zoomed.
+    if (held !== null) return cancel()
     held = start(event)
     pointer = event.pointerId
     if (held !== null) handle.setPointerCapture(pointer)
@@ -27,7 +31,8 @@ export function onDrag(handle, start, move, end = () => {}) {
   /** @param {PointerEvent} event */
   const release = (event) => {
     if (!isHolding(event)) return
-    end(held, event.type === "pointercancel" ? null : event)
+    if (event.type === "pointercancel") return cancel()
+    end(held, event)
     held = null
   }
   handle.addEventListener("pointerup", release)

@@ -27,8 +27,8 @@ const clock = (ms) => `${Math.floor(ms / 60000)}:${String(Math.floor(ms / SECOND
 const questionOf = ({ question, answer }) => (question === "" ? [] : [
   html("div.question", question), element("details.answer", {
     // With its question, which is above the buttons of the step then.
-    /** @param {{currentTarget: HTMLDetailsElement}} event */
-    ontoggle({ currentTarget: { open, previousElementSibling: above } }) { if (open) above.scrollIntoView({ block: "start" }) },
+    /** @param {{currentTarget: HTMLDetailsElement}} event The step may have been left since. */
+    ontoggle({ currentTarget: { open, previousElementSibling: above } }) { if (open) above?.scrollIntoView({ block: "start" }) },
   }, element("summary", "Answer"), html("div", answer)),
 ])
 

@@ -78,7 +78,8 @@ export function recording() {
   /** @param {Recorded} step */
   function put(step) {
     steps.push(step)
-    count.textContent = `Recorded: ${steps.length} step${steps.length === 1 ? "" : "s"}`
+    const most = steps.length === MOST ? ", the most there can be: save or discard them" : ""
+    count.textContent = `Recorded: ${steps.length} step${steps.length === 1 ? "" : "s"}${most}`
   }
 
   /** A picture was enlarged or opened: it belongs to the last step, or a new one shows it. @param {string} name */

@@ -84,6 +84,8 @@ export function createGuess(prediction, say, guessed = null) {
   const isCurve = prediction.what === "curve"
   /** @type {PlotView | null} */
   let plot = null
+  /** @type {HTMLElement | null} */
+  let cell = null
   /** @type {HTMLCanvasElement | null} */
   let sheet = null
   // In data coordinates.
@@ -157,18 +159,20 @@ export function createGuess(prediction, say, guessed = null) {
     /** Ask for a guess; the state of the step is on show. */
     begin() {
       plot = gallery.plot(prediction.picture)
+      cell = gallery.cell(prediction.picture)
+      cell.classList.add("guessed")
       sheet = element("canvas.guess", {
         tabIndex: 0, role: "application", ariaLabel: "Your guess: click or use the arrow keys",
         title: isCurve ? "Click along the expected curve" : "Click where you expect it", onkeydown,
         onclick: (/** @type {MouseEvent} */ { offsetX, offsetY }) => { if (!this.isRevealed) add(offsetX, offsetY) },
       })
       // The style sheets of the page do not reach into the plot.
-      sheet.style.cssText = "position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; touch-action: none; outline: none"
+      sheet.style.cssText = "position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; touch-action: manipulation; outline: none"
       sheet.onfocus = () => { sheet.style.boxShadow = sheet.matches(":focus-visible") ? FOCUS : "" }
       sheet.onblur = () => { sheet.style.boxShadow = "" }
       plot.canvas_view.overlays.el.parentNode.append(sheet)
       // The picture itself ignores these clicks and drags.
-      for (const name of ["pointerdown", "pointermove", "pointerup", "wheel"]) {
+      for (const name of ["pointerdown", "pointermove", "pointerup", "wheel", "touchstart"]) {
         sheet.addEventListener(name, (event) => event.stopPropagation())
       }
       plot.repainted.connect(draw)
@@ -184,6 +188,7 @@ export function createGuess(prediction, say, guessed = null) {
       sheet.blur()
       sheet.tabIndex = -1
       sheet.style.pointerEvents = "none"
+      cell.classList.remove("guessed")
       isOver = true
       measure()
     },
@@ -192,6 +197,7 @@ export function createGuess(prediction, say, guessed = null) {
       if (plot === null) return
       plot.repainted.disconnect(draw)
       sheet.remove()
+      cell.classList.remove("guessed")
     },
   }
 }

@@ -2,8 +2,8 @@
 // Fingers on a plot.  One finger drags the handle when it begins near it; elsewhere it scrolls the page.  In a picture that takes
 // boxes it draws one.
 //
-// A browser that scrolls cancels the pointer.  Preventing the default of "touchstart" is the only way to stop it, as the style
-// `touch-action` cannot depend on the place.  Bokeh would take the events of a second finger for those of the first: they are
+// A browser that scrolls cancels the pointer.  Preventing the default of "touchstart" is the only way to stop it near a handle, as
+// the style `touch-action` cannot depend on the place.  Elsewhere two fingers zoom the page.  Bokeh would take the events of a second finger for those of the first: they are
 // withheld, and the drag ends where it is.
 
 // A finger covers about 40 pixels.
@@ -57,6 +57,7 @@ export function connectTouch(host, plot, { places, boxes }) {
   for (const name of /** @type {const} */ (["pointermove", "pointerup", "pointercancel"])) {
     host.addEventListener(name, onOther, { capture: true })
   }
-  host.addEventListener("touchstart", (event) => { if (dragging) event.preventDefault() }, { passive: false })
+  if (boxes) host.style.touchAction = "pinch-zoom"
+  else host.addEventListener("touchstart", (event) => { if (dragging) event.preventDefault() }, { passive: false })
   return { isDragging: () => dragging }
 }

@@ -17,11 +17,14 @@ from hess_explorer.lessons import shipped, tries
 from hess_explorer.lessons.reading import read
 from support.accessible import assert_accessible
 from support.board import SCENES
-from support.page import HESS, Explorer, values_of, wait_frames
-from support.pointer import at
-from support.thorough import sample
+from support.page import ALL, HESS, Explorer, flat, values_of, wait_frames
+from support.pointer import at, frame
 
 NAME = "scattering-by-a-nonholonomic-top"
+LOGARITHMIC = """name => {
+  const { model } = hess.plots.find(({ model }) => model.name === name)
+  return [model.x_scale, model.y_scale].map(({ type }) => type === "LogScale")
+}"""
 # Visibility of a source's layers in a picture.
 SEEN = """([picture, source]) => hess.plots.find(({ model }) => model.name === picture).model.renderers
   .filter((one) => one.data_source?.name === source).map((one) => one.visible)"""
@@ -31,44 +34,49 @@ def here(explorer):
     """(scene, its values, lesson, step) of the address."""
     query = {name: one for name, [one] in parse_qs(urlsplit(explorer.link()).query, keep_blank_values=True).items()}
     scene = SCENES[query["scene"]]
-    return scene.name, values_of(explorer, scene), query.get("lesson"), query.get("step"), query.get("large")
+    return scene.name, values_of(explorer, scene), query.get("lesson"), query.get("step")
 
 
-def guess(explorer, prediction):
-    """Click in the picture: the places clicked, in pixels."""
-    x0, x1, y0, y1 = explorer.axes(prediction.picture)
-    shares = [(0.2, 0.3), (0.5, 0.8), (0.8, 0.6)] if prediction.what == "curve" else [(0.3, 0.6)]
-    pixels = [at(explorer, prediction.picture, x0 + x * (x1 - x0), y0 + y * (y1 - y0))[0] for x, y in shares]
+def guess(explorer, prediction, press):
+    """Click or tap in the picture: the places, in pixels."""
+    left, top, right, bottom = frame(explorer, prediction.picture)
+    shares = [(0.2, 0.7), (0.35, 0.4), (0.8, 0.4)] if prediction.what == "curve" else [(0.3, 0.4)]
+    pixels = [(left + x * (right - left), top + y * (bottom - top)) for x, y in shares]
     for pixel in pixels:
-        explorer.page.mouse.click(*pixel)
+        press(*pixel)
     return np.array(pixels)
 
 
 def distance(explorer, prediction, pixels):
-    """Return the mean distance between the places and the drawn points."""
-    columns = explorer.data(prediction.source)
-    xs, ys = (columns[name] for name in prediction.columns)
-    if prediction.what == "point":
-        xs, ys = [xs], [ys]
+    """Return the mean distance between the places and the drawn points or lines."""
+    columns, (x0, x1, y0, y1) = explorer.data(prediction.source), explorer.axes(prediction.picture)
+    left, top, right, bottom = frame(explorer, prediction.picture)
+    x_log, y_log = explorer.page.evaluate(LOGARITHMIC, prediction.picture)
+
+    def along(values, low, high, is_log):
+        ends = np.array([*values, low, high], dtype=float)
+        *values, low, high = np.log(ends, where=ends > 0, out=np.full_like(ends, np.nan)) if is_log else ends
+        return (np.array(values) - low) / (high - low)
+
     drawn = []
-    for x, y in zip(xs, ys, strict=True):
-        places = np.array(
-            [at(explorer, prediction.picture, *place)[0] for place in zip(x[:1] + x[-1:], y[:1] + y[-1:], strict=True)]
-        )
-        # Linear between two places whose pixels are known, on each axis.
-        (left, right), (bottom, top) = zip(
-            *(at(explorer, prediction.picture, *corner)[0] for corner in ((0.0, 0.0), (1.0, 1.0))), strict=True
-        )
-        line = np.column_stack([left + np.array(x) * (right - left), bottom + np.array(y) * (top - bottom)])
-        np.testing.assert_allclose(line[[0, -1]], places, atol=1e-6)
-        share = np.linspace(0.0, 1.0, 50)[:, None, None]
-        drawn.append((line[:-1] * (1 - share) + line[1:] * share).reshape(-1, 2) if len(line) > 1 else line)
+    is_one = not isinstance(columns[prediction.columns[0]][0], list)
+    parts = ([columns[name]] if is_one else columns[name] for name in prediction.columns)
+    for xs, ys in zip(*parts, strict=True):
+        share = np.column_stack([along(xs, x0, x1, x_log), 1 - along(ys, y0, y1, y_log)])
+        line = (left, top) + share[np.isfinite(share).all(axis=1)] * (right - left, bottom - top)
+        if prediction.what == "curve":
+            between = np.linspace(0.0, 1.0, 50)[:, None, None]
+            line = (line[:-1] * (1 - between) + line[1:] * between).reshape(-1, 2)
+        drawn.append(line)
     return np.mean([np.hypot(*(np.concatenate(drawn) - pixel).T).min() for pixel in pixels])
 
 
-def assert_given_in_present_mode(explorer, step):
-    """The step stays beside the pictures, all of the way on in sight, and is as accessible."""
-    page = explorer.page
+def test_a_lesson_stays_beside_the_pictures_in_present_mode(explorer):
+    page, step = explorer.page, shipped()[NAME].steps[2]
+    explorer.goto(f"/?lesson={NAME}&step=3")
+    assert page.locator(".words").is_hidden()
+    assert re.fullmatch(r"\d:\d\d of 20 min", page.locator(".timer").inner_text())
+    assert_accessible(page)
     page.keyboard.press("p")
     page.wait_for_function("location.search.includes('present=1')")
     wait_frames(explorer)
@@ -95,45 +103,7 @@ def assert_given_in_present_mode(explorer, step):
     page.keyboard.press("m")
     page.keyboard.press("p")
     page.wait_for_function("!location.search.includes('present')")
-
-
-def test_a_lesson_is_given_by_page_down_from_start_to_end(explorer):
-    lesson, page = shipped()[NAME], explorer.page
-    explorer.goto(f"/?lesson={NAME}")
-    assert page.locator(".words").is_hidden()
-    for number, step in enumerate(lesson.steps, 1):
-        assert page.locator(".lesson .title").inner_text() == step.title
-        assert page.locator(".lesson .count").inner_text() == f"{number} / {len(lesson.steps)}"
-        assert re.fullmatch(r"\d:\d\d of 20 min", page.locator(".timer").inner_text())
-        assert here(explorer) == (step.at.scene, step.at.values, NAME, str(number), step.look or None)
-        if step.prediction:
-            wanted = [step.prediction.picture, step.prediction.source]
-            assert page.evaluate(SEEN, wanted) == [False]
-            pixels = guess(explorer, step.prediction)
-            # The picture has taken none of the clicks.
-            assert here(explorer)[1] == step.at.values
-            explorer.change(page.keyboard.press, "PageDown")
-            assert here(explorer)[1] == step.prediction.then.values
-            assert page.evaluate(SEEN, wanted) == [True]
-            [told] = re.findall(r"(\d+) pixels away", page.locator(".lesson .said").inner_text())
-            assert float(told) == pytest.approx(distance(explorer, step.prediction, pixels), abs=1.0)
-        if step.question:
-            answer = page.locator(".answer > div")
-            assert answer.is_hidden()
-            page.keyboard.press("PageDown")
-            assert answer.is_visible()
-        if number == 3:
-            assert_accessible(page)
-            assert_given_in_present_mode(explorer, step)
-        if number < len(lesson.steps):
-            explorer.change(page.keyboard.press, "PageDown")
-    # The end is the end; back is a step, and out of the lesson are the words.
-    page.keyboard.press("PageDown")
-    explorer.change(page.keyboard.press, "PageUp")
-    assert here(explorer)[3] == str(len(lesson.steps) - 1)
     page.locator(".param-leave-lesson").click()
-    assert page.locator(".words").is_visible()
-    assert here(explorer)[2:4] == (None, None)
 
 
 def test_what_can_be_tried_is_done_for_one(explorer):
@@ -176,6 +146,13 @@ def test_a_link_to_a_step_that_is_not_there_is_one_to_the_last_and_a_lesson_is_c
     last = lessons["two-chaotic-layers-that-never-mix"].steps[-1]
     assert page.locator(".lesson .title").inner_text() == last.title
     assert "step must lie between 1 and 9" in explorer.text("notes")
+    # The end is the end; back is a step, and out of the lesson are the words.
+    page.keyboard.press("PageDown")
+    explorer.change(page.keyboard.press, "PageUp")
+    assert here(explorer)[2:] == ("two-chaotic-layers-that-never-mix", "8")
+    page.locator(".param-leave-lesson").click()
+    assert page.locator(".words").is_visible()
+    assert here(explorer)[2:] == (None, None)
     explorer.goto("/?lesson=none")
     assert "Lesson must be one of" in explorer.text("notes")
     page.locator(".lesson-menu > summary").click()
@@ -218,8 +195,8 @@ LINES = """item => {
   range.selectNodeContents(item)
   const all = [...range.getClientRects()].filter(({ width }) => width > 1)
   const seen = all.filter(({ left, top, right, bottom }) => (
-    item.getRootNode().elementFromPoint((left + right) / 2, top + 2)?.closest(".text") === item
-    && item.getRootNode().elementFromPoint((left + right) / 2, bottom - 2)?.closest(".text") === item))
+    item.contains(item.getRootNode().elementFromPoint((left + right) / 2, top + 2))
+    && item.contains(item.getRootNode().elementFromPoint((left + right) / 2, bottom - 2))))
   // Parts of a formula may be higher or lower than its line.
   const count = (some) => some.map(({ bottom }) => bottom).sort((a, b) => a - b)
     .reduce(([lines, last], bottom) => bottom - last > 12 ? [lines + 1, bottom] : [lines, last], [0, -Infinity])[0]
@@ -413,8 +390,10 @@ def test_what_is_done_by_hand_is_recorded_and_replayed(tab, server):
         if here(tab)[:2] != (step.at.scene, step.at.values):
             tab.change(lambda query=query: page.evaluate("query => hess.tell('restore', query)", query))
         assert here(tab)[:2] == (step.at.scene, step.at.values)
-    # Discarding leaves nothing behind.
+    # Discarding leaves nothing behind, also when there is room for no more.
     page.locator(".param-record").click()
+    page.evaluate("for (let i = 0; i < 120; i++) hess.tell('url', { large: i % 2 ? 'curve' : 'map' })")
+    assert page.locator(".recording [role=status]").inner_text().startswith("Recorded: 100 steps, the most")
     page.locator(".param-drop-recording").click()
     assert page.locator(".param-record").is_visible()
     page.locator(".lesson-menu > summary").click()
@@ -422,42 +401,88 @@ def test_what_is_done_by_hand_is_recorded_and_replayed(tab, server):
 
 
 SIZES = {"desk": (1280, 720), "present": (1600, 950), "phone": (390, 844)}
-# In an order in which a sample has all sizes.
-GIVEN = [(name, list(SIZES)[(i + k) % 3]) for i, name in enumerate(shipped()) for k in range(3)]
+# Each size, with lessons that are computed fast.
+FAST = ((CYCLES, "desk"), (NAME, "phone"), (NAME, "present"))
+GIVEN = [
+    pytest.param(name, place, marks=() if (name, place) in FAST else pytest.mark.thorough)
+    for name in shipped()
+    for place in SIZES
+]
 MOST_LINES = 6
+# [title, count, lines of the text, boxes of what must be in sight, width of the picture], after some frames.
+SHOWN = f"""async picture => {{
+  {ALL}
+  for (let i = 0; i < 4; i++) await new Promise(requestAnimationFrame)
+  const found = all(document)
+  const [title, count, text, next] = [".lesson .title", ".lesson .count", ".lesson .text", ".param-next-step"]
+    .map((selector) => found.find((item) => item.matches(selector)))
+  const controls = found.filter((item) => item.matches(".step-controls > *"))
+  const host = found.filter((item) => item.matches(`.gallery:not(.away) .picture-${{picture}} .host`))
+  const boxes = [title, next, ...controls, ...host].map((item) => {{
+    const {{ left, top, right, bottom }} = item.getBoundingClientRect()
+    return [left, top, right, bottom]
+  }})
+  return [title.innerText, count.innerText, ({LINES})(text), controls.length, boxes, host[0]?.clientWidth ?? 0]
+}}"""
 
 
-def assert_in_sight(page, item, size):
-    box = item.bounding_box()
-    assert box is not None, item
-    assert 0 <= box["x"] < box["x"] + box["width"] <= size[0], box
-    assert 0 <= box["y"] < box["y"] + box["height"] <= size[1], box
+def assert_in_sight(item, most=MOST_LINES):
+    """Assert that the first lines of a text are in sight."""
+    lines, seen = item.evaluate(LINES)
+    assert seen >= min(most, lines), item
 
 
-@pytest.mark.parametrize(("name", "place"), sample(GIVEN, 3))
-def test_each_step_of_a_lesson_has_text_controls_and_picture_in_sight(browser, server, name, place):
-    size, lesson = SIZES[place], shipped()[name]
-    touch = {"has_touch": True, "is_mobile": True} if place == "phone" else {}
-    context = browser.new_context(viewport={"width": size[0], "height": size[1]}, reduced_motion="reduce", **touch)
+def assert_could_be_guessed(tab, prediction, axes):
+    """Assert that the picture had room for the truth before it was revealed."""
+    columns = [np.array(flat(tab.data(prediction.source)[name]), dtype=float) for name in prediction.columns]
+    (x0, x1, y0, y1), (xs, ys) = axes, columns
+    assert np.mean((x0 <= xs) & (xs <= x1) & (y0 <= ys) & (ys <= y1)) > 0.9
+
+
+@pytest.mark.parametrize(("name", "place"), GIVEN)
+def test_a_lesson_is_given_from_start_to_end(browser, server, name, place):
+    (width, height), lesson, is_phone = SIZES[place], shipped()[name], place == "phone"
+    context = browser.new_context(
+        viewport={"width": width, "height": height}, reduced_motion="reduce", has_touch=is_phone, is_mobile=is_phone
+    )
     tab = Explorer(context.new_page(), server)
     page = tab.page
+    press = page.touchscreen.tap if is_phone else page.mouse.click
     tab.goto(f"/?lesson={name}" + ("&present=1" if place == "present" else ""))
     for number, step in enumerate(lesson.steps, 1):
-        while page.locator(".lesson .count").inner_text() != f"{number} / {len(lesson.steps)}":
+        title, count, (lines, seen), controls, boxes, wide = page.evaluate(SHOWN, step.look)
+        assert (title, count) == (step.title, f"{number} / {len(lesson.steps)}")
+        assert here(tab) == (step.at.scene, step.at.values, name, str(number))
+        assert seen >= min(MOST_LINES, lines), title
+        assert controls == len(step.controls)
+        for left, top, right, bottom in boxes:
+            assert 0 <= left < right <= width, title
+            assert 0 <= top < bottom <= height, title
+        assert wide >= 240 or not step.look
+        if step.prediction:
+            wanted, axes = [step.prediction.picture, step.prediction.source], tab.axes(step.prediction.picture)
+            assert page.evaluate(SEEN, wanted) == [False]
+            numbers = tab.picture(step.prediction.picture).locator(".numbers")
+            assert numbers.is_hidden()
+            pixels = guess(tab, step.prediction, press)
+            # The picture has taken none of the clicks.
+            assert here(tab)[1] == step.at.values
+            tab.change(page.keyboard.press, "PageDown")
+            assert here(tab)[1] == step.prediction.then.values
+            assert page.evaluate(SEEN, wanted) == [True]
+            assert numbers.is_visible() or place == "present"
+            assert_could_be_guessed(tab, step.prediction, axes)
+            said = page.locator(".lesson .said")
+            said.get_by_text("pixels away").wait_for()
+            assert_in_sight(said)
+            [told] = re.findall(r"(\d+) pixels away", said.inner_text())
+            assert float(told) == pytest.approx(distance(tab, step.prediction, pixels), abs=1.0), title
+        if step.question:
+            answer = page.locator(".answer > div")
+            assert answer.is_hidden()
             page.keyboard.press("PageDown")
-        wait_ready(page)
-        wait_frames(tab, 4)
-        assert page.locator(".lesson .title").inner_text() == step.title
-        text = page.locator(".lesson .text")
-        lines, seen = text.evaluate(LINES)
-        assert seen >= min(MOST_LINES, lines), step.title
-        controls = page.locator(".step-controls > *").all()
-        assert len(controls) == len(step.controls)
-        for item in (page.locator(".lesson .title"), page.locator(".param-next-step"), *controls):
-            assert_in_sight(page, item, size)
-        if step.look:
-            picture = page.locator(f".gallery:not(.away) .picture-{step.look} .host")
-            assert_in_sight(page, picture, size)
-            assert picture.bounding_box()["width"] >= 240
+            assert_in_sight(answer, 3)
+        if number < len(lesson.steps):
+            tab.change(page.keyboard.press, "PageDown")
     tab.assert_quiet()
     context.close()

@@ -138,9 +138,9 @@ def test_the_sphere_turns_with_the_mouse_as_if_it_were_held(explorer):
     mouse.up()
     mouse.move(x - 80, y)
     turned = (HOME[0] - 60 / radius(explorer), HOME[1] - 25 / radius(explorer))
-    assert_turned(explorer, *turned)
+    assert_turned(explorer.sphere, *turned)
     explorer.sphere.press("Home")
-    assert_turned(explorer, *HOME)
+    assert_turned(explorer.sphere, *HOME)
     assert (explorer.state, len(explorer.sent)) == (state, sent)
 
 
@@ -157,7 +157,7 @@ def test_the_sphere_turns_with_the_arrow_keys_up_to_the_pole_and_home_again(expl
     ):
         for _ in range(times):
             explorer.sphere.press(key)
-        assert_turned(explorer, *turned)
+        assert_turned(explorer.sphere, *turned)
     assert explorer.time == 0.0
 
 
@@ -176,7 +176,7 @@ def test_the_point_on_the_sphere_is_the_vertical_seen_from_there(explorer, keys)
     for key in keys:
         explorer.sphere.press(key)
     turn = (HOME[0] - STEP * keys.count("ArrowRight"), HOME[1] + STEP * keys.count("ArrowUp"))
-    assert_turned(explorer, *turn)
+    assert_turned(explorer.sphere, *turn)
     box = explorer.sphere.bounding_box()
     seen = 0
     for t in (0.0, 1.7, 3.1, 6.6, 9.4):
@@ -243,7 +243,7 @@ def test_every_picture_is_painted_in_its_colours(explorer):
     for _ in range(36):
         explorer.sphere.press("ArrowLeft")
     explorer.set_time(3.1)
-    assert_turned(explorer, HOME[0] - pi, HOME[1])
+    assert_turned(explorer.sphere, HOME[0] - pi, HOME[1])
     for name in PICTURES:
         pixels = canvas_of(explorer, name)
         for colour in PAINTED[name]:

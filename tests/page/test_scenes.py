@@ -184,7 +184,7 @@ def test_a_scene_changes_in_place_and_back_with_all_that_was_chosen(explorer):
     explorer.page.locator(".param-speed").select_option("2")
     explorer.set_time(7.5)
     explorer.sphere.press("ArrowUp")
-    assert_turned(explorer, HOME[0], HOME[1] + STEP)
+    assert_turned(explorer.sphere, HOME[0], HOME[1] + STEP)
     values = {**DEFAULTS, **CHANGED, "accuracy": "precise"}
     assert_drawn(explorer, HESS, values)
     names = explorer.page.evaluate(SOURCES)
@@ -214,7 +214,7 @@ def test_a_scene_changes_in_place_and_back_with_all_that_was_chosen(explorer):
     assert [explorer.caption(name) for name in SCENES[HESS].pictures] == captions
     assert {name: explorer.shown(name)[0] for name in CHANGED} == CHANGED
     assert (explorer.accuracy, explorer.time) == ("precise", approx(7.5))
-    assert_turned(explorer, HOME[0], HOME[1] + STEP)
+    assert_turned(explorer.sphere, HOME[0], HOME[1] + STEP)
     assert explorer.page.locator(".param-speed").input_value() == "2"
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from urllib.parse import parse_qsl, urlsplit
 
 import pytest
 
@@ -10,6 +11,7 @@ from hess_explorer.headless.browser import wait_ready
 from hess_explorer.scenes import scenes
 from support.page import HESS, numbers_in
 from support.pointer import HOME, Finger, assert_turned, at, frame
+from support.thorough import sample
 
 
 def turn_to(phone, picture, scene=HESS):
@@ -29,15 +31,52 @@ def scrolled(phone):
     return phone.page.locator(".reader").evaluate("item => item.scrollTop")
 
 
-def test_the_sphere_turns_under_a_finger_and_the_page_stays(phone):
+@pytest.mark.parametrize("picture", ["sphere", "body"])
+def test_a_sphere_turns_under_a_finger_and_the_page_stays(phone, picture):
     phone = phone()
-    turn_to(phone, "sphere")
-    before = scrolled(phone)
-    x, y = middle(phone.sphere.bounding_box())
+    turn_to(phone, picture)
+    before, canvas = scrolled(phone), phone.picture(picture).locator("canvas:not(.ghost)")
+    x, y = middle(canvas.bounding_box())
     Finger(phone.page).draw((x, y), (x - 40, y + 30))
     assert scrolled(phone) == before
-    radius = 0.84 * phone.sphere.bounding_box()["width"] / 2
-    assert_turned(phone, HOME[0] + 40 / radius, HOME[1] + 30 / radius)
+    radius = 0.84 * canvas.bounding_box()["width"] / 2
+    assert_turned(canvas, HOME[0] + 40 / radius, HOME[1] + 30 / radius)
+
+
+def test_a_finger_moves_a_slider_and_its_name(phone):
+    phone = phone()
+    for item, start in ((phone.slider("h"), None), (phone.page.locator(".param-h .label"), 0.5)):
+        item.scroll_into_view_if_needed()
+        box, (before, _) = item.bounding_box(), phone.shown("h")
+        low, high = (float(phone.slider("h").get_attribute(end)) for end in ("min", "max"))
+        x = box["x"] + box["width"] * ((before - low) / (high - low) if start is None else start)
+        y = box["y"] + box["height"] / 2
+        phone.change(Finger(phone.page).draw, (x, y), (x + 40, y))
+        wait_ready(phone.page)
+        after, slider = phone.shown("h")
+        assert before < after == pytest.approx(slider)
+        assert float(phone.wait_url(h=after)["h"]) == after
+
+
+# One picture of each kind, with and without gestures of one finger.
+@pytest.mark.parametrize(
+    ("scene", "picture"),
+    [(HESS, "omega"), (HESS, "bifurcation"), (HESS, "sphere"), (HESS, "body"), ("rotation-number", "map")],
+)
+def test_two_fingers_zoom_and_choose_nothing(phone, scene, picture):
+    phone = phone(scene)
+    turn_to(phone, picture, scene)
+    x, y = middle(phone.picture(picture).locator(".host").bounding_box())
+    before, finger = phone.link(), Finger(phone.page)
+    finger.send("touchStart", (x - 20, y))
+    finger.send("touchStart", (x - 20, y), (x + 20, y))
+    for away in (40, 60, 80):
+        finger.send("touchMove", (x - away, y), (x + away, y))
+    finger.send("touchEnd")
+    scale = phone.page.evaluate("visualViewport.scale")
+    finger.session.send("Emulation.setPageScaleFactor", {"pageScaleFactor": 1})
+    assert scale > 1.2
+    assert phone.link() == before
 
 
 @pytest.mark.parametrize("last", ["touchEnd", "touchCancel"])
@@ -89,6 +128,33 @@ def test_a_finger_away_from_the_ring_or_on_the_text_chooses_nothing(phone):
     assert scrolled(phone) > 30
     assert phone.here() == before
     assert phone.picture("bifurcation").locator(".hover").is_hidden()
+
+
+TAPPED = [
+    (name, view.name)
+    for name, scene in scenes().items()
+    for view in scene.views
+    if scene.origin is None and "tap" in view.describe().get("picks", ())
+]
+
+
+@pytest.mark.parametrize(("scene", "picture"), sample(TAPPED, 4))
+def test_a_finger_taps_every_picture_that_takes_clicks(phone, scene, picture):
+    phone = phone(scene)
+    turn_to(phone, picture, scene)
+    left, top, right, bottom = frame(phone, picture)
+    # The place gives a new state, or a note on why there is none.
+    phone.change(phone.page.touchscreen.tap, 0.45 * left + 0.55 * right, 0.5 * (top + bottom))
+
+
+def test_a_finger_starts_an_orbit_in_a_section(phone):
+    phone = phone("suslov")
+    turn_to(phone, "section", "suslov")
+    place, unit = at(phone, "section", 0.7, 1.9)
+    phone.change(phone.page.touchscreen.tap, *place)
+    starts = dict(parse_qsl(urlsplit(phone.link()).query))["starts"]
+    x, y = map(float, starts.split(";")[-1].split(","))
+    assert (x, y) == (pytest.approx(0.7, abs=unit[0]), pytest.approx(1.9, abs=unit[1]))
 
 
 def test_a_finger_taps_the_circle_map(phone):

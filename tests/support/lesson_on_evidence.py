@@ -67,10 +67,7 @@ ROWS = {
     # Two doubles for a number.
     "with 31 digits": lambda s: (math.floor(2.0 * 53.0 * math.log10(2.0)),),
     "the four\n**levels": lambda s: (len(LEVELS),),
-    "up to $t$ = 60. We shall follow the motion up to $t$ = 240": lambda s: (
-        s.at.values["span"],
-        s.prediction.then.values["span"],
-    ),
+    "up to $t$ = 240, too": lambda s: tuple({s.at.values["span"], s.prediction.then.values["span"]}),
     "$\\ln 10/\\lambda$. For this body that is about 16 units. With its 16 digits the computer\n"
     "is lost long before $t$ = 300": bought_by_a_digit,
     "$\\omega_1$ = −2. The": lambda s: (s.at.values["w1"],),

@@ -522,7 +522,7 @@ def said(explorer, picture, pattern):
 
 def values_of(explorer, scene):
     """The state in the address bar."""
-    query = dict(parse_qsl(urlsplit(explorer.page.url).query))
+    query = dict(parse_qsl(urlsplit(explorer.page.url).query, keep_blank_values=True))
     return {spec.name: type(spec.default)(query[spec.name]) for spec in scene.specs}
 
 

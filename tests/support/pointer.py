@@ -30,17 +30,17 @@ HOME = (0.6, 0.35)
 STEP = math.pi / 36
 
 
-def assert_turned(explorer, azimuth, elevation):
-    """Assert that the sphere is painted in this view direction, now or a few frames later."""
+def assert_turned(canvas, azimuth, elevation):
+    """Assert that a sphere is painted in this view direction, now or a few frames later."""
     azimuth = math.remainder(azimuth, 2 * math.pi)
-    explorer.sphere.evaluate(
+    canvas.evaluate(
         """async (canvas, turn) => {
           const off = () => Math.max(...canvas.dataset.turn.split(" ").map((x, i) => Math.abs(Number(x) - turn[i])))
           for (let i = 0; i < 60 && off() > 2e-4; i++) await new Promise((done) => requestAnimationFrame(done))
         }""",
         [azimuth, elevation],
     )
-    assert explorer.turn == pytest.approx((azimuth, elevation), abs=2e-4)
+    assert tuple(map(float, canvas.get_attribute("data-turn").split())) == pytest.approx((azimuth, elevation), abs=2e-4)
 
 
 def click_on(explorer, picture, x, y):
