@@ -26,9 +26,9 @@ const clock = (ms) => `${Math.floor(ms / 60000)}:${String(Math.floor(ms / SECOND
 /** Return the question of a step and its answer. @param {LessonStep} step @returns {HTMLElement[]} */
 const questionOf = ({ question, answer }) => (question === "" ? [] : [
   html("div.question", question), element("details.answer", {
-    // With its question, which is above the buttons of the step then.
-    /** @param {{currentTarget: HTMLDetailsElement}} event The step may have been left since. */
-    ontoggle({ currentTarget: { open, previousElementSibling: above } }) { if (open) above?.scrollIntoView({ block: "start" }) },
+    // Above the buttons of the step, which would cover it.
+    /** @param {{currentTarget: HTMLDetailsElement}} event */
+    ontoggle({ currentTarget: item }) { if (item.open) item.scrollIntoView({ block: "start" }) },
   }, element("summary", "Answer"), html("div", answer)),
 ])
 

@@ -94,20 +94,24 @@ export function createGuess(prediction, say, guessed = null) {
   /** @type {number[][] | null} */
   let truth = null
   let isOver = false
+  /** The data of the truth when the guess was measured. @type {object | null} */
+  let measured = null
 
   /** @type {(place: number[]) => [number, number]} */
   const toPixels = ([x, y]) => [plot.frame.x_scale.compute(x), plot.frame.y_scale.compute(y)]
   /** @type {(place: number[]) => [number, number]} */
   const toData = ([x, y]) => [plot.frame.x_scale.invert(x), plot.frame.y_scale.invert(y)]
 
-  /** Say how near the guess was.  In some pictures the truth comes later than the state: then a repainting calls this again. */
+  /** Say how near the guess was.  In some pictures the truth comes in pieces, later than the state: a repainting calls this again. */
   function measure() {
+    const { data } = gallery.source(prediction.source)
+    if (data === measured) return
+    measured = data
     const lines = linesOf(prediction).map((line) => line.map(toPixels))
     const found = clicks.map((click) => nearest(lines, toPixels(click)))
     if (found.length === 0) return say("Revealed. There was no guess.")
     if (found.some(({ place }) => place === null)) return say("Revealed: there is none here.")
     truth = found.map(({ place }) => toData(place))
-    draw()
     const { x_scale: xScale, y_scale: yScale, below: [x], left: [y] } = plot.model
     const [across, up] = [xScale, yScale].map((scale, i) => mean(clicks.map((click, j) => apart(scale, click[i], truth[j][i]))))
     say(`${isCurve ? "On average" : "You were"} ${Math.round(mean(found.map(({ distance }) => distance)))} pixels away: ` +
@@ -115,7 +119,7 @@ export function createGuess(prediction, say, guessed = null) {
   }
 
   function draw() {
-    if (isOver && truth === null) measure()
+    if (isOver) measure()
     const ctx = fit(sheet, plot.bbox.width, plot.bbox.height)
     for (const [i, click] of clicks.map(toPixels).entries()) {
       if (truth !== null) {
@@ -190,7 +194,7 @@ export function createGuess(prediction, say, guessed = null) {
       sheet.style.pointerEvents = "none"
       cell.classList.remove("guessed")
       isOver = true
-      measure()
+      draw()
     },
     /** Remove the guess from the picture. */
     end() {

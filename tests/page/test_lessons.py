@@ -38,17 +38,16 @@ def here(explorer):
 
 
 def guess(explorer, prediction, press):
-    """Click or tap in the picture: the places, in pixels."""
+    """Click or tap in the picture: the places, as shares of its frame."""
     left, top, right, bottom = frame(explorer, prediction.picture)
     shares = [(0.2, 0.7), (0.35, 0.4), (0.8, 0.4)] if prediction.what == "curve" else [(0.3, 0.4)]
-    pixels = [(left + x * (right - left), top + y * (bottom - top)) for x, y in shares]
-    for pixel in pixels:
-        press(*pixel)
-    return np.array(pixels)
+    for x, y in shares:
+        press(left + x * (right - left), top + y * (bottom - top))
+    return shares
 
 
-def distance(explorer, prediction, pixels):
-    """Return the mean distance between the places and the drawn points or lines."""
+def distance(explorer, prediction, shares, axes):
+    """Return the mean distance between the places, on the axes that were, and the drawn points or lines."""
     columns, (x0, x1, y0, y1) = explorer.data(prediction.source), explorer.axes(prediction.picture)
     left, top, right, bottom = frame(explorer, prediction.picture)
     x_log, y_log = explorer.page.evaluate(LOGARITHMIC, prediction.picture)
@@ -58,6 +57,15 @@ def distance(explorer, prediction, pixels):
         *values, low, high = np.log(ends, where=ends > 0, out=np.full_like(ends, np.nan)) if is_log else ends
         return (np.array(values) - low) / (high - low)
 
+    # Logarithmic axes keep their range.
+    (a0, a1, b0, b1), (across, up) = axes, np.transpose(shares)
+    assert (a0, a1) == (x0, x1) or not x_log
+    assert (b0, b1) == (y0, y1) or not y_log
+    if not x_log:
+        across = (a0 + across * (a1 - a0) - x0) / (x1 - x0)
+    if not y_log:
+        up = (y1 - b1 + up * (b1 - b0)) / (y1 - y0)
+    pixels = (left, top) + np.column_stack([across, up]) * (right - left, bottom - top)
     drawn = []
     is_one = not isinstance(columns[prediction.columns[0]][0], list)
     parts = ([columns[name]] if is_one else columns[name] for name in prediction.columns)
@@ -464,7 +472,7 @@ def test_a_lesson_is_given_from_start_to_end(browser, server, name, place):
             assert page.evaluate(SEEN, wanted) == [False]
             numbers = tab.picture(step.prediction.picture).locator(".numbers")
             assert numbers.is_hidden()
-            pixels = guess(tab, step.prediction, press)
+            shares = guess(tab, step.prediction, press)
             # The picture has taken none of the clicks.
             assert here(tab)[1] == step.at.values
             tab.change(page.keyboard.press, "PageDown")
@@ -476,11 +484,12 @@ def test_a_lesson_is_given_from_start_to_end(browser, server, name, place):
             said.get_by_text("pixels away").wait_for()
             assert_in_sight(said)
             [told] = re.findall(r"(\d+) pixels away", said.inner_text())
-            assert float(told) == pytest.approx(distance(tab, step.prediction, pixels), abs=1.0), title
+            assert float(told) == pytest.approx(distance(tab, step.prediction, shares, axes), abs=1.0), title
         if step.question:
             answer = page.locator(".answer > div")
             assert answer.is_hidden()
             page.keyboard.press("PageDown")
+            wait_frames(tab, 2)
             assert_in_sight(answer, 3)
         if number < len(lesson.steps):
             tab.change(page.keyboard.press, "PageDown")

@@ -31,7 +31,7 @@ COLUMNS = """async ([path, picture]) => {
   const { gallery } = await import(path)
   const names = new Set(gallery.plot(picture).model.renderers.map((one) => one.data_source?.name).filter(Boolean))
   return Object.fromEntries([...names].filter((name) => gallery.source(name)).map((name) => (
-    [name, Object.values(gallery.source(name).data).map((column) => Array.from(column, (part) => part?.length ?? 1))])))
+    [name, Object.values(gallery.source(name).data).map((column) => Array.from(column, (part) => typeof part === "string" ? 1 : part?.length ?? 1))])))
 }"""
 
 
