@@ -28,10 +28,11 @@ OTHERS = [(0.2, 0.3), (0.7, 0.8)]
 
 # The columns of the sources that a picture draws, by the modules of the page itself.
 COLUMNS = """async ([path, picture]) => {
+  const lengthOf = (part) => typeof part === "string" ? 1 : part?.length ?? 1
   const { gallery } = await import(path)
   const names = new Set(gallery.plot(picture).model.renderers.map((one) => one.data_source?.name).filter(Boolean))
   return Object.fromEntries([...names].filter((name) => gallery.source(name)).map((name) => (
-    [name, Object.values(gallery.source(name).data).map((column) => Array.from(column, (part) => typeof part === "string" ? 1 : part?.length ?? 1))])))
+    [name, Object.values(gallery.source(name).data).map((column) => Array.from(column, lengthOf))])))
 }"""
 
 
