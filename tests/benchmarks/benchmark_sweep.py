@@ -178,12 +178,12 @@ def rates(address):
     # Sent to the workers as they are: no module of theirs has them.
     def nothing(piece):
         shape = tuple(part.size for part in piece.axes.values())
-        return work.Done(np.zeros(shape), (), np.ones(shape, np.uint8))
+        return work.ChunkResult(np.zeros(shape), (), np.ones(shape, np.uint8))
 
     def noise(piece):
         shape = tuple(part.size for part in piece.axes.values())
         random = np.random.default_rng(0)
-        return work.Done(random.random(shape), (), np.ones(shape, np.uint8))
+        return work.ChunkResult(random.random(shape), (), np.ones(shape, np.uint8))
 
     what = QUANTITIES["rotation-number"]
 

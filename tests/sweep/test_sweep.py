@@ -11,7 +11,7 @@ import pytest
 from hess_explorer.sweep import QUANTITIES, Interrupted, MissingLibrary, Outcome, Quantity, explain, sweep
 from hess_explorer.sweep import run as running
 from hess_explorer.sweep.grid import SweepGrid
-from hess_explorer.sweep.quantity import Found
+from hess_explorer.sweep.quantity import CellResults
 from hess_explorer.sweep.work import cost_of_a_cell
 from hess_mechanics import level
 from hess_mechanics.errors import InvalidParameter, ModelError, NoField, WorkLimit
@@ -81,7 +81,7 @@ def test_one_bad_cell_does_not_spoil_the_others(monkeypatch, caplog):
         if np.any((x == 4.0) & (y == 1.0)):
             raise RuntimeError("a mistake in a program")
         with np.errstate(divide="ignore"):
-            return Found(1.0 / y + x, np.full(x.size, np.nan), np.ones(x.size, np.uint8))
+            return CellResults(1.0 / y + x, np.full(x.size, np.nan), np.ones(x.size, np.uint8))
 
     monkeypatch.setitem(QUANTITIES, "own", own(compute))
     found = sweep("own", {"x": (0.0, 5.0, 6), "y": [0.0, 1.0]})

@@ -20,7 +20,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.charted import Charted
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.sweep.quantities import quantity as named
-from hess_explorer.sweep.quantity import Found, Outcome, Outcomes, Quantity, evaluate, refused
+from hess_explorer.sweep.quantity import CellResults, Outcome, Outcomes, Quantity, evaluate, refused
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import DRAFT, Level, level
 from hess_mechanics.numerics.results import Array
@@ -131,12 +131,12 @@ class Chart:
             step //= 2
         return np.concatenate(parts)
 
-    def compute(self, indices: Indices) -> Found:
+    def compute(self, indices: Indices) -> CellResults:
         """Return the quantity at these cells, one number for each."""
         rows, columns = np.divmod(indices, self.x.count)
         return self.at(self.x.places[columns], self.y.places[rows])
 
-    def at(self, xs: Array, ys: Array) -> Found:
+    def at(self, xs: Array, ys: Array) -> CellResults:
         """Return the quantity at points (n,), with a message for each point without a value."""
         values, errors = np.full(xs.size, np.nan), np.full(xs.size, np.nan)
         status: Outcomes = np.zeros(xs.size, np.uint8)
@@ -159,7 +159,7 @@ class Chart:
             values[own] = found.values[:, self.part] if self.quantity.parts else found.values
             errors[own], status[own] = found.errors, found.status
             why |= {own[i]: why_not for i, why_not in found.why.items()}
-        return Found(np.where(status < Outcome.OUTSIDE_REGION, values, np.nan), errors, status, why)
+        return CellResults(np.where(status < Outcome.OUTSIDE_REGION, values, np.nan), errors, status, why)
 
     def why(self, x: float, y: float) -> str:
         """Return a sentence on the status of the cell at (x, y); outside the chart, of the nearest cell."""
@@ -216,7 +216,7 @@ def sides_of_places(scene: Scene[Any]) -> list[dict[str, Any]]:
     ]
 
 
-def at_first(scene: Scene[Any]) -> Iterator[Found]:
+def at_first(scene: Scene[Any]) -> Iterator[CellResults]:
     """Compute one cell of every chart of a scene, over a short time, to compile or load the kernels.
 
     Raises `ModelError`.

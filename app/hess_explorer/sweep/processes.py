@@ -18,7 +18,7 @@ from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 
 from hess_explorer.sweep.errors import WorkersLost
-from hess_explorer.sweep.work import Chunk, Done, compute
+from hess_explorer.sweep.work import Chunk, ChunkResult, compute
 
 __all__ = ["processes", "serve"]
 
@@ -38,7 +38,7 @@ def serve() -> None:
             piece = pickle.load(asked)
         except EOFError:
             return
-        found: Done | Exception
+        found: ChunkResult | Exception
         try:
             found = compute(piece)
         except WorkersLost as error:
@@ -77,7 +77,7 @@ class _Process:
             start_new_session=True,
         )
 
-    def compute(self, piece: Chunk) -> Done:
+    def compute(self, piece: Chunk) -> ChunkResult:
         """Compute a piece.  Raises `WorkersLost` if several processes die on it."""
         for _ in range(_DEATHS):
             child = self._child
@@ -91,7 +91,7 @@ class _Process:
                 continue
             if isinstance(found, Exception):
                 raise found
-            assert isinstance(found, Done)
+            assert isinstance(found, ChunkResult)
             return found
         raise RuntimeError(f"{_DEATHS} worker processes crashed on it")
 
@@ -120,14 +120,14 @@ def _kill(child: subprocess.Popen[bytes]) -> None:
 
 
 @contextmanager
-def processes(count: int) -> Iterator[Callable[[Chunk], Future[Done]]]:
+def processes(count: int) -> Iterator[Callable[[Chunk], Future[ChunkResult]]]:
     """Yield a function that submits a piece to one of `count` processes, which are killed at the end of the block."""
     idle: queue.SimpleQueue[_Process] = queue.SimpleQueue()
     own = [_Process() for _ in range(count)]
     for one in own:
         idle.put(one)
 
-    def computed(piece: Chunk) -> Done:
+    def computed(piece: Chunk) -> ChunkResult:
         one = idle.get()
         try:
             return one.compute(piece)

@@ -13,7 +13,7 @@ import numpy as np
 
 from hess_explorer.sweep.errors import NoValue
 from hess_explorer.sweep.motions import MOTIONS, SUSLOV_ENERGY, suslov_section
-from hess_explorer.sweep.quantity import Cell, CellArrays, Found, Outcome, Quantity, one_by_one, usual, whole
+from hess_explorer.sweep.quantity import Cell, CellArrays, CellResults, Outcome, Quantity, one_by_one, usual, whole
 from hess_mechanics import parameters as known
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import period
@@ -51,12 +51,14 @@ _DISTANCE = Parameter(
 # ---- Suslov–Hess: tori (a, h, f) --------------------------------------------------------------------------------
 
 
-def _of_tori(value: Callable[[TorusValues], np.ndarray], cells: CellArrays, level: Level) -> Found:
+def _of_tori(value: Callable[[TorusValues], np.ndarray], cells: CellArrays, level: Level) -> CellResults:
     found = values_at(cells["a"], cells["h"], cells["f"], level)
     # (h, f) = (1, 0) is the separatrix; all other impossible tori lie outside of the region.
     separatrix = np.hypot(cells["h"] - 1.0, cells["f"]) < 1e-6
     status = np.where(found.possible, Outcome.OK, np.where(separatrix, Outcome.SEPARATRIX, Outcome.OUTSIDE_REGION))
-    return Found(np.where(found.possible, value(found), np.nan), np.full(status.size, np.nan), status.astype(np.uint8))
+    return CellResults(
+        np.where(found.possible, value(found), np.nan), np.full(status.size, np.nan), status.astype(np.uint8)
+    )
 
 
 def _limit_cycles(level: Level, a: float, h: float, f: float) -> Cell:

@@ -28,7 +28,7 @@ from hess_mechanics.parameters import Parameter
 __all__ = [
     "Cell",
     "CellArrays",
-    "Found",
+    "CellResults",
     "Outcome",
     "Outcomes",
     "Quantity",
@@ -120,7 +120,7 @@ class Cell:
 
 
 @dataclass(frozen=True)
-class Found:
+class CellResults:
     """The results at cells: values (n,) or (n, m), errors (n,), status (n,), and messages of failed cells."""
 
     values: Array
@@ -129,7 +129,7 @@ class Found:
     why: Mapping[int, str] = field(default_factory=dict)
 
 
-Compute = Callable[[CellArrays, Level], Found]
+Compute = Callable[[CellArrays, Level], CellResults]
 
 
 @dataclass(frozen=True)
@@ -197,7 +197,7 @@ def refused(error: Exception, cell: Mapping[str, float]) -> tuple[Outcome, str]:
 def one_by_one(function: Callable[..., Cell], parts: int = 0) -> Compute:
     """Return a `Quantity.compute` from a function of one cell, called with the level and the parameters by name."""
 
-    def compute(cells: CellArrays, level: Level) -> Found:
+    def compute(cells: CellArrays, level: Level) -> CellResults:
         names = tuple(cells)
         rows = zip(*(cells[name].tolist() for name in names), strict=True)
         count = next(iter(cells.values())).size
@@ -210,12 +210,12 @@ def one_by_one(function: Callable[..., Cell], parts: int = 0) -> Compute:
             # An error in one cell must not stop the sweep.
             except Exception as error:
                 status[i], why[i] = refused(error, dict(zip(names, row, strict=True)))
-        return Found(values, errors, status, why)
+        return CellResults(values, errors, status, why)
 
     return compute
 
 
-def evaluate(quantity: Quantity, cells: CellArrays, level: Level) -> Found:
+def evaluate(quantity: Quantity, cells: CellArrays, level: Level) -> CellResults:
     """Return the quantity at cells; each cell without a finite value has a status and a message."""
     # `hess_mechanics` checks its results for overflow itself.
     with np.errstate(all="ignore"):
@@ -223,10 +223,10 @@ def evaluate(quantity: Quantity, cells: CellArrays, level: Level) -> Found:
     finite = np.isfinite(found.values)
     bad = ~(finite.all(axis=1) if finite.ndim > 1 else finite) & (found.status < Outcome.OUTSIDE_REGION)
     status = np.where(bad, Outcome.BEYOND_RANGE, found.status).astype(np.uint8)
-    return Found(found.values, found.errors, status, found.why)
+    return CellResults(found.values, found.errors, status, found.why)
 
 
-def _evaluated(quantity: Quantity, cells: CellArrays, level: Level) -> Found:
+def _evaluated(quantity: Quantity, cells: CellArrays, level: Level) -> CellResults:
     count = next(iter(cells.values())).size
     try:
         return quantity.compute(cells, level)
@@ -234,14 +234,16 @@ def _evaluated(quantity: Quantity, cells: CellArrays, level: Level) -> Found:
         if count == 1:
             outcome, explanation = refused(error, {name: column.item() for name, column in cells.items()})
             shape = (1, len(quantity.parts)) if quantity.parts else 1
-            return Found(np.full(shape, np.nan), np.full(1, np.nan), np.full(1, outcome, np.uint8), {0: explanation})
+            return CellResults(
+                np.full(shape, np.nan), np.full(1, np.nan), np.full(1, outcome, np.uint8), {0: explanation}
+            )
     # At least one cell raised an error: find it by bisection.
     middle = count // 2
     first, second = (
         _evaluated(quantity, {name: column[own] for name, column in cells.items()}, level)
         for own in (slice(None, middle), slice(middle, None))
     )
-    return Found(
+    return CellResults(
         np.concatenate([first.values, second.values]),
         np.concatenate([first.errors, second.errors]),
         np.concatenate([first.status, second.status]),

@@ -22,13 +22,13 @@ from hess_explorer.sweep.errors import OtherSweep, StoreError
 from hess_explorer.sweep.grid import MAX_NUMBERS, Box, SweepGrid
 from hess_explorer.sweep.quantities import QUANTITIES
 from hess_explorer.sweep.quantity import Outcome, Quantity
-from hess_explorer.sweep.work import Done, version
+from hess_explorer.sweep.work import ChunkResult, version
 from hess_mechanics.errors import MissingLibrary
 
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Kept", "Memory", "Store", "opened", "read", "require_libraries"]
+__all__ = ["Memory", "Storage", "Store", "opened", "read", "require_libraries"]
 
 _PROGRAM = "hess-explorer sweep"
 
@@ -39,10 +39,10 @@ def require_libraries() -> None:
         raise MissingLibrary("Sweeps need xarray and Zarr: pip install 'hess-explorer[sweep]'.")
 
 
-class Kept(Protocol):
+class Storage(Protocol):
     """Storage of finished boxes."""
 
-    def write(self, box: Box, done: Done) -> None:
+    def write(self, box: Box, done: ChunkResult) -> None:
         """Save a box.  Raises `StoreError`."""
 
     def dataset(self) -> xr.Dataset:
@@ -62,7 +62,7 @@ def _names(what: Quantity) -> tuple[str, ...]:
     return what.variable, *(("error",) if what.error else ()), "status"
 
 
-def _write(arrays: Mapping[str, Any], box: Box, done: Done) -> None:
+def _write(arrays: Mapping[str, Any], box: Box, done: ChunkResult) -> None:
     for array, part in zip(arrays.values(), (done.values, *done.errors, done.status), strict=True):
         array[_slices(box)] = part
 
@@ -105,7 +105,7 @@ class Memory:
         self._dataset = _empty(what, grid, level, np.full)
         self._arrays = {name: self._dataset[name].values for name in _names(what)}
 
-    def write(self, box: Box, done: Done) -> None:
+    def write(self, box: Box, done: ChunkResult) -> None:
         """Save a box."""
         _write(self._arrays, box, done)
 
@@ -199,7 +199,7 @@ class Store:
         known = (status >= Outcome.OK) & (status < Outcome.OUTSIDE_REGION)
         return bool(status.all() and np.isfinite(values[known]).all())
 
-    def write(self, box: Box, done: Done) -> None:
+    def write(self, box: Box, done: ChunkResult) -> None:
         """Save a box, with the status last."""
         try:
             _write(self._arrays, box, done)

@@ -19,7 +19,7 @@ from hess_explorer.sweep.grid import MAX_NUMBERS, Axis, Box, SweepGrid, expanded
 from hess_explorer.sweep.progress import Report, reporting
 from hess_explorer.sweep.quantities import quantity as named
 from hess_explorer.sweep.quantity import Outcome, Quantity, evaluate
-from hess_explorer.sweep.result import Kept, Memory, Store, opened, require_libraries
+from hess_explorer.sweep.result import Memory, Storage, Store, opened, require_libraries
 from hess_explorer.sweep.work import Chunk, cost_of_a_cell, version
 from hess_explorer.sweep.workers import WorkerCount, crew
 from hess_mechanics.errors import InvalidParameter
@@ -125,7 +125,7 @@ def sweep(
     grid = SweepGrid.of(what, over, fixed, most_cells)
     path = None if store is None else Path(store)
     begun = None if path is None else opened(path, what, grid, level)
-    kept: Kept | None = begun
+    kept: Storage | None = begun
     todo: Iterable[Box] = ()
     missing = grid.cells
     if begun is not None:

@@ -17,7 +17,7 @@ from hess_explorer.sweep.quantity import Outcomes, Quantity, evaluate
 from hess_mechanics.numerics.accuracy import Level, level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Chunk", "Done", "compute", "cost_of_a_cell", "version"]
+__all__ = ["Chunk", "ChunkResult", "compute", "cost_of_a_cell", "version"]
 
 
 @cache
@@ -41,7 +41,7 @@ class Chunk:
 
 
 @dataclass(frozen=True)
-class Done:
+class ChunkResult:
     """The results of a box in its shape; values have one more axis for several numbers per cell.
 
     errors : one array, empty without an error estimate.
@@ -52,7 +52,7 @@ class Done:
     status: Outcomes
 
 
-def compute(piece: Chunk) -> Done:
+def compute(piece: Chunk) -> ChunkResult:
     """Compute a box.  Raises `WorkersLost` if this process has another version than the caller."""
     if piece.version != version():
         raise WorkersLost(
@@ -62,7 +62,7 @@ def compute(piece: Chunk) -> Done:
     what = quantity(piece.quantity)
     found = evaluate(what, expanded(piece.axes, piece.fixed), level(piece.level))
     shape = tuple(part.size for part in piece.axes.values())
-    return Done(
+    return ChunkResult(
         found.values.reshape(*shape, *found.values.shape[1:]),
         (found.errors.reshape(shape),) if what.error else (),
         found.status.reshape(shape),

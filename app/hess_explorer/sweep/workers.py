@@ -17,13 +17,13 @@ from typing import TYPE_CHECKING, Protocol
 from hess_explorer.sweep.errors import WorkersLost
 from hess_explorer.sweep.grid import Box
 from hess_explorer.sweep.processes import processes
-from hess_explorer.sweep.work import Chunk, Done, compute
+from hess_explorer.sweep.work import Chunk, ChunkResult, compute
 from hess_mechanics.errors import InvalidParameter, MissingLibrary
 
 if TYPE_CHECKING:
     from distributed import Client
 
-__all__ = ["Crew", "WorkerCount", "crew"]
+__all__ = ["WorkerCount", "Workers", "crew"]
 
 WorkerCount = str | int | None
 """None for this thread, "all" for a process per core, a number of processes, or the address of a Dask scheduler."""
@@ -40,39 +40,39 @@ _AHEAD = 3
 """Queued pieces per worker, so that no worker is idle."""
 
 
-class Crew(Protocol):
+class Workers(Protocol):
     """A group of workers."""
 
     @property
     def size(self) -> int:
         """The number of workers."""
 
-    def run(self, pieces: Chunks, stopped: Callable[[], bool]) -> Iterator[tuple[Box, Done]]:
+    def run(self, pieces: Chunks, stopped: Callable[[], bool]) -> Iterator[tuple[Box, ChunkResult]]:
         """Yield the results of the pieces in any order, until `stopped`.  Raises `WorkersLost`."""
 
 
-class _Here:
+class _ThisThread:
     """This thread as the only worker."""
 
     size = 1
 
-    def run(self, pieces: Chunks, stopped: Callable[[], bool]) -> Iterator[tuple[Box, Done]]:
+    def run(self, pieces: Chunks, stopped: Callable[[], bool]) -> Iterator[tuple[Box, ChunkResult]]:
         for box, piece in pieces:
             if stopped():
                 return
             yield box, compute(piece)
 
 
-class _Others:
+class _ExternalWorkers:
     """Workers outside of this process; submit : queues a piece; count : returns the number of workers."""
 
-    def __init__(self, submit: Callable[[Chunk], Future[Done]], count: Callable[[], int]) -> None:
+    def __init__(self, submit: Callable[[Chunk], Future[ChunkResult]], count: Callable[[], int]) -> None:
         self._submit, self._count = submit, count
         self.size = max(1, count())
 
-    def run(self, pieces: Chunks, stopped: Callable[[], bool]) -> Iterator[tuple[Box, Done]]:
-        waiting: dict[Future[Done], Box] = {}
-        finished: queue.SimpleQueue[Future[Done]] = queue.SimpleQueue()
+    def run(self, pieces: Chunks, stopped: Callable[[], bool]) -> Iterator[tuple[Box, ChunkResult]]:
+        waiting: dict[Future[ChunkResult], Box] = {}
+        finished: queue.SimpleQueue[Future[ChunkResult]] = queue.SimpleQueue()
         left = iter(pieces)
         counted = time.monotonic()
         lost: list[BaseException] = []
@@ -119,11 +119,11 @@ def _gone() -> WorkersLost:
 
 
 @contextmanager
-def crew(workers: WorkerCount, stopped: Callable[[], bool]) -> Iterator[Crew]:
+def crew(workers: WorkerCount, stopped: Callable[[], bool]) -> Iterator[Workers]:
     """Yield the workers, after waiting for them until `stopped`.  Raises `InvalidParameter`, `WorkersLost`."""
     wanted = _cores() if workers == "all" else workers
     if wanted is None or wanted == 1:
-        yield _Here()
+        yield _ThisThread()
         return
     with ExitStack() as stack:
         if isinstance(wanted, int) and not isinstance(wanted, bool):
@@ -133,12 +133,12 @@ def crew(workers: WorkerCount, stopped: Callable[[], bool]) -> Iterator[Crew]:
                     "the address of a Dask cluster."
                 )
             count = wanted
-            yield _Others(stack.enter_context(processes(count)), lambda: count)
+            yield _ExternalWorkers(stack.enter_context(processes(count)), lambda: count)
             return
         client = _connected(stack, str(wanted), stopped)
         executor = client.get_executor(pure=False)
         stack.callback(executor.shutdown, wait=False)
-        yield _Others(lambda piece: executor.submit(compute, piece), lambda: _threads(client))
+        yield _ExternalWorkers(lambda piece: executor.submit(compute, piece), lambda: _threads(client))
 
 
 def _threads(client: Client) -> int:
