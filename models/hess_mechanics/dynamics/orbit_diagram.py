@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.continuation import Bifurcation, continued
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, Map, PeriodicOrbit, apart, find_periodic, place_units, shoot
-from hess_mechanics.dynamics.point_sets import how_far_apart
+from hess_mechanics.dynamics.point_sets import set_distance
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.patience import go_on
@@ -285,7 +285,7 @@ def hysteresis(turns: Sequence[float], there: Diagram, back: Diagram) -> tuple[t
     for value, one, other in zip(there.values, there.places, reversed(back.places), strict=True):
         if min(len(one), len(other)) < COMPARED:
             continue
-        found = how_far_apart(turns, one, other)
+        found = set_distance(turns, one, other)
         differ.append((float(value), found.distance > 3.0 * (found.grain + found.error) + 1e-3))
     runs = [(is_other, [value for value, _ in run]) for is_other, run in groupby(sorted(differ), itemgetter(1))]
     return tuple((run[0], run[-1]) for is_other, run in runs if is_other)

@@ -16,7 +16,7 @@ from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Apart", "distance", "how_far_apart", "nearest"]
+__all__ = ["SetDistance", "distance", "nearest", "set_distance"]
 
 _QUANTILE = 0.95
 _RESOLVED = 1e-6
@@ -49,7 +49,7 @@ def distance(turns: Sequence[float], a: Array, b: Array) -> float:
 
 
 @dataclass(frozen=True)
-class Apart:
+class SetDistance:
     """Distance between two sets of points.
 
     Attributes
@@ -80,7 +80,7 @@ class Apart:
         return self.settled and self.shared < 0.005 and self.distance > self.grain + self.error
 
 
-def how_far_apart(turns: Sequence[float], a: Array, b: Array) -> Apart:
+def set_distance(turns: Sequence[float], a: Array, b: Array) -> SetDistance:
     """Return the distance between two sets of points (n, d) and (m, d), each in the order of an orbit.
 
     Raises `InvalidParameter` if a set has fewer than 8 points.
@@ -103,4 +103,4 @@ def how_far_apart(turns: Sequence[float], a: Array, b: Array) -> Apart:
         close = max(_RESOLVED, float(np.quantile(nearest(turns, first, second), _QUANTILE)))
         own = np.concatenate([first, second])
         shared.append(float(np.mean(nearest(turns, own, other) <= close)))
-    return Apart(whole, max(abs(one - whole) for one in parts), max(grains), min(shared), settled)
+    return SetDistance(whole, max(abs(one - whole) for one in parts), max(grains), min(shared), settled)

@@ -25,7 +25,7 @@ from hess_mechanics.dynamics.birkhoff import agreeing_digits
 from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR, Megno, longest_span, megno
 from hess_mechanics.dynamics.orbit_diagram import period_of
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, place_units
-from hess_mechanics.dynamics.point_sets import Apart, how_far_apart
+from hess_mechanics.dynamics.point_sets import SetDistance, set_distance
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.dynamics.spectrum import ensemble_mean, lyapunov_spectrum, volume_sign
 from hess_mechanics.dynamics.zero_one import LEAST, zero_one_test
@@ -412,17 +412,17 @@ class Dynamics(Result):
         Kind of the motion forward in time, with the mean divergence.
     attractor, repeller : ndarray, shape (n, d) and (m, d)
         Crossings of the first orbit, in order of time.
-    comparisons : tuple of Apart
+    comparisons : tuple of SetDistance
         Distance between the two sets, for each orbit of the ensemble.
     """
 
     motion: Regime
     attractor: Array
     repeller: Array
-    comparisons: tuple[Apart, ...]
+    comparisons: tuple[SetDistance, ...]
 
     @property
-    def settled(self) -> tuple[Apart, ...]:
+    def settled(self) -> tuple[SetDistance, ...]:
         """Comparisons of the orbits that have settled; all comparisons if there is no such orbit."""
         return tuple(one for one in self.comparisons if one.settled) or self.comparisons
 
@@ -553,4 +553,4 @@ def compared(map_: ReturnMap, motion: Regime, start: Sequence[float] | Array, tr
                 )
             pair.append(frozen(orbit[transient:].copy()))
         pairs.append((pair[0], pair[1]))
-    return Dynamics(motion, *pairs[0], tuple(how_far_apart(map_.turns, a, b) for a, b in pairs))
+    return Dynamics(motion, *pairs[0], tuple(set_distance(map_.turns, a, b) for a, b in pairs))

@@ -5,7 +5,7 @@ from math import inf, log, pi
 import numpy as np
 from pytest import approx, mark, raises
 
-from hess_mechanics.dynamics.point_sets import distance, how_far_apart, nearest
+from hess_mechanics.dynamics.point_sets import distance, nearest, set_distance
 from hess_mechanics.errors import InvalidParameter
 from support.diagrams import distances
 
@@ -26,7 +26,7 @@ def test_the_nearest_is_the_nearest_of_all_also_across_half_a_turn():
 
 @mark.parametrize(("r", "R"), [(1.0, 1.5), (2.0, 1.9)])
 def test_circles_are_as_far_apart_as_their_radii(r, R):
-    found = how_far_apart(PLANE, circle(r), circle(R))
+    found = set_distance(PLANE, circle(r), circle(R))
     assert abs(found.distance - abs(R - r)) <= found.error + 1e-4
     assert abs(found.distance - abs(R - r)) < 1e-3
     assert found.apart
@@ -35,7 +35,7 @@ def test_circles_are_as_far_apart_as_their_radii(r, R):
 
 
 def test_one_set_twice_is_no_distance_apart_but_its_grain():
-    found = how_far_apart(PLANE, circle(1.0), circle(1.0))
+    found = set_distance(PLANE, circle(1.0), circle(1.0))
     assert found.settled
     assert found.distance <= found.grain + found.error
     assert found.shared > 0.8
@@ -47,7 +47,7 @@ def test_one_set_twice_is_no_distance_apart_but_its_grain():
 def test_sets_that_overlap_are_neither_equal_nor_apart_and_share_what_they_share():
     a = np.column_stack([RNG.uniform(0.0, 1.0, 4000), np.zeros(4000)])
     b = np.column_stack([RNG.uniform(0.7, 1.7, 4000), np.zeros(4000)])
-    found = how_far_apart(PLANE, a, b)
+    found = set_distance(PLANE, a, b)
     assert found.distance > found.grain + found.error
     assert not found.apart
     assert found.shared == approx(0.3, abs=0.03)
@@ -57,15 +57,15 @@ def test_sets_that_overlap_are_neither_equal_nor_apart_and_share_what_they_share
 
 def test_places_of_periodic_orbits_have_no_grain_but_what_is_resolved():
     a, b = np.tile([[0.0, 0.0], [1.0, 0.0]], (8, 1)), np.tile([[0.0, 2.0], [1.0, 2.0]], (8, 1))
-    found = how_far_apart(PLANE, a, b)
+    found = set_distance(PLANE, a, b)
     assert (found.distance, found.error, found.grain, found.apart) == (2.0, 0.0, 1e-6, True)
     assert distance(PLANE, a, a) == 0.0
     assert found.settled
     # An orbit that leaves one place for another has not settled.
     left = np.repeat([[0.0, 0.0], [1.0, 0.0]], 8, axis=0)
-    assert not how_far_apart(PLANE, left, left).settled
+    assert not set_distance(PLANE, left, left).settled
     with raises(InvalidParameter, match="at least 8 points"):
-        how_far_apart(PLANE, a[:7], b)
+        set_distance(PLANE, a[:7], b)
 
 
 def test_where_one_set_is_a_part_of_the_other_the_distance_is_that_of_what_is_left():
