@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from hess_explorer.compute.cache import CACHE, Task
 from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.part import Sectioned
-from hess_explorer.scenes.framework.periodic_search import Closed, Missed, Place, sought
+from hess_explorer.scenes.framework.periodic_search import Closed, NotFound, Place, sought
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE
 
@@ -61,7 +61,7 @@ class Begin:
         """The computation that searches for the orbit at the start.  Raises `ModelError`."""
         return Task(sought, (self.map, self.place, self.period, False))
 
-    def orbit(self) -> Closed | Missed:
+    def orbit(self) -> Closed | NotFound:
         """Return the orbit at the start, or the reason why there is none.  Raises `ModelError`."""
-        found: Closed | Missed = CACHE.get(self.search.function, *self.search.arguments)[0]
+        found: Closed | NotFound = CACHE.get(self.search.function, *self.search.arguments)[0]
         return found

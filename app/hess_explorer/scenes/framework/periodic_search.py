@@ -21,7 +21,7 @@ __all__ = [
     "PERIODS",
     "BranchChoice",
     "Closed",
-    "Missed",
+    "NotFound",
     "Place",
     "Search",
     "branch_of",
@@ -61,7 +61,7 @@ class Closed:
 
 
 @dataclass(frozen=True)
-class Missed:
+class NotFound:
     """The reason why no result was found."""
 
     reason: str
@@ -72,7 +72,7 @@ def none_closed() -> Closed | None:
     return None
 
 
-def sought(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> Closed | Missed:
+def sought(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> Closed | NotFound:
     """Search for a periodic orbit; return it, or the reason why none was found."""
     try:
         orbit = find_periodic(map_, aim, period, _MOST, near)
@@ -85,10 +85,10 @@ def sought(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> Close
     except ModelError as error:
         # A cancelled request or one over its budget must not cache a result.
         go_on()
-        return Missed(str(error))
+        return NotFound(str(error))
 
 
-def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float) -> Manifold | Missed:
+def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float) -> Manifold | NotFound:
     """Return one branch of a manifold, as far as it is right to half a pixel."""
     found, _ = CACHE.get(sought, *search)
     place, stable, side = branch
@@ -108,10 +108,10 @@ def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float)
             )
         except ModelError as error:
             go_on()
-            return Missed(str(error))
+            return NotFound(str(error))
         if curve.error_estimate < 0.5 * pixel:
             return curve if part == _PARTS[0] else replace(curve, ended=_UNKNOWN)
-    return Missed(_UNKNOWN)
+    return NotFound(_UNKNOWN)
 
 
 def crossings_between(
@@ -119,6 +119,6 @@ def crossings_between(
 ) -> tuple[Intersection, ...]:
     """Return the crossings of two branches, as far as they are drawn."""
     one, other = (CACHE.get(branch_of, search, branch, length, pixel)[0] for branch in (unstable, stable))
-    if isinstance(one, Missed) or isinstance(other, Missed):
+    if isinstance(one, NotFound) or isinstance(other, NotFound):
         return ()
     return tuple(crossings_of(one, other, MOST_CROSSINGS))

@@ -15,7 +15,7 @@ from hess_explorer.protocol.parameters import Number, Values
 from hess_explorer.scenes.framework.families import Begin, Family
 from hess_explorer.scenes.framework.parameters import Slider, choice, number, specs_of
 from hess_explorer.scenes.framework.part import Host, Part, Sectioned
-from hess_explorer.scenes.framework.periodic_search import PERIODS, Closed, Missed, Place
+from hess_explorer.scenes.framework.periodic_search import PERIODS, Closed, NotFound, Place
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import branch as view
@@ -152,11 +152,11 @@ class Continuation(Part[_Host]):
         return self.host.begin
 
     @cached_property
-    def _found(self) -> Closed | Missed | None:
+    def _found(self) -> Closed | NotFound | None:
         """The orbit that is continued, or why there is none; None until known."""
         if self.host.begin is None:
             return None
-        found: Closed | Missed | None = self.work.ask(self.host.begin.search)
+        found: Closed | NotFound | None = self.work.ask(self.host.begin.search)
         return found
 
     @property
@@ -177,8 +177,8 @@ class Continuation(Part[_Host]):
             if begin.value == begin.ends[upwards]:
                 continue
             for k in range(_PARTS):
-                one: mechanics.Branch | Missed | None = self.work.ask(Task(_part, (begin, upwards, k)))
-                if one is None or isinstance(one, Missed):
+                one: mechanics.Branch | NotFound | None = self.work.ask(Task(_part, (begin, upwards, k)))
+                if one is None or isinstance(one, NotFound):
                     failed += [] if one is None else [one.reason]
                     whole = whole and one is not None
                     break
@@ -306,7 +306,7 @@ class Continuation(Part[_Host]):
         """Yield the reasons why there is no branch, or why it ends within the range."""
         if not self.asked("_known"):
             return
-        if isinstance(self._found, Missed):
+        if isinstance(self._found, NotFound):
             yield self._found.reason
         if self.closed is None:
             return
@@ -572,10 +572,10 @@ def _symmetries(map_: Map, places: Array) -> tuple[str, ...]:
     return tuple(map_.symmetries_of(places))
 
 
-def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | Missed:
+def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | NotFound:
     """Return piece k of the branch, towards larger values of the parameter (`upwards`) or smaller ones."""
     found = begin.orbit()
-    if isinstance(found, Missed):
+    if isinstance(found, NotFound):
         return found
     family, end, edge = begin.family, begin.ends[upwards], begin.ends[not upwards]
     points = max(6, _TOGETHER // found.orbit.period)
@@ -588,4 +588,4 @@ def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | Missed:
         return gone_on(family.map_at, before, end, edge, points, _symmetries, _STEP)
     except ModelError as error:
         go_on()
-        return Missed(str(error))
+        return NotFound(str(error))

@@ -10,7 +10,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.scenes.framework.part import Host, Part
-from hess_explorer.scenes.framework.periodic_search import Missed
+from hess_explorer.scenes.framework.periodic_search import NotFound
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
@@ -50,13 +50,13 @@ class HessSplit(Part[Host]):
         return abs(self.away) or _WIDE
 
     @cached_property
-    def _splits(self) -> list[Split | Missed] | None:
+    def _splits(self) -> list[Split | NotFound] | None:
         """The splits at the values of ε of the graph and of the slope; None until all are known."""
         asked = dict.fromkeys([*(self.reach * _QUARTERS).tolist(), *_CLOSE])
         ask = self.work.known if self.work.dragging else self.work.later
         # Without separatrices at ε = 0 nothing can split.
         first = ask(_split, self.torus, 0.0)
-        if first is None or isinstance(first, Missed):
+        if first is None or isinstance(first, NotFound):
             return None if first is None else [first]
         found = [ask(_split, self.torus, value) for value in asked]
         known = [one for one in found if one is not None]
@@ -92,7 +92,7 @@ class HessSplit(Part[Host]):
 
     def message(self) -> str:
         """Return the reason why the graph is empty; an empty string if it is not."""
-        reasons = [one.reason for one in self._splits or () if isinstance(one, Missed)]
+        reasons = [one.reason for one in self._splits or () if isinstance(one, NotFound)]
         return reasons[0] if reasons and not self.splits() else ""
 
     def derived(self) -> Iterator[str]:
@@ -103,16 +103,16 @@ class HessSplit(Part[Host]):
     def notes(self) -> Iterator[str]:
         """Yield the reasons why splits on the graph are missing."""
         if self.asked("_splits") and self.splits():
-            reasons = {one.reason for one in self._splits or () if isinstance(one, Missed)}
+            reasons = {one.reason for one in self._splits or () if isinstance(one, NotFound)}
             yield from (f"Some splits are not known. {reason}" for reason in sorted(reasons))
 
 
-def _split(torus: HessTorus, away: float) -> Split | Missed:
+def _split(torus: HessTorus, away: float) -> Split | NotFound:
     try:
         return split_at(torus, away, PRECISE)
     except ModelError as error:
         go_on()
-        return Missed(str(error))
+        return NotFound(str(error))
 
 
 S = TypeVar("S", bound=State)

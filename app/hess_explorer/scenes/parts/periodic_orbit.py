@@ -21,7 +21,7 @@ from hess_explorer.scenes.framework.periodic_search import (
     PERIODS,
     BranchChoice,
     Closed,
-    Missed,
+    NotFound,
     Place,
     Search,
     branch_of,
@@ -123,7 +123,7 @@ class PeriodicOrbit(Part[_Host]):
         return ReturnMap(self.host.poincare, level), self.aim, PERIODS[self.period], held
 
     @cached_property
-    def _result(self) -> Closed | Missed | None:
+    def _result(self) -> Closed | NotFound | None:
         return None if self._search is None else self.work.soon(sought, *self._search)
 
     @property
@@ -165,7 +165,7 @@ class PeriodicOrbit(Part[_Host]):
         )
 
     @cached_property
-    def _branches(self) -> tuple[Manifold | Missed, ...] | None:
+    def _branches(self) -> tuple[Manifold | NotFound, ...] | None:
         """The branches of a saddle's manifolds, empty for any other orbit; None until all are known."""
         if self._drawn is None:
             return ()
@@ -275,7 +275,7 @@ class PeriodicOrbit(Part[_Host]):
 
     def notes(self) -> Iterator[str]:
         """Yield the reasons why there is no periodic orbit, or why its manifolds end."""
-        if isinstance(self._result, Missed):
+        if isinstance(self._result, NotFound):
             yield self._result.reason
         reasons = {_ended(one) for one in self._branches or ()} - {AT_ITS_LENGTH}
         yield from (f"A branch of a manifold ends early. {reason}" for reason in sorted(reasons))
@@ -308,7 +308,7 @@ class PeriodicOrbit(Part[_Host]):
         )
 
 
-def _ended(branch: Manifold | Missed) -> str:
+def _ended(branch: Manifold | NotFound) -> str:
     return branch.ended if isinstance(branch, Manifold) else branch.reason
 
 
