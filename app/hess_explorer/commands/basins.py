@@ -13,7 +13,7 @@ from hess_mechanics.parameters import E
 from . import CommandError
 from .command import OUTPUT, Command, Options, number, option, vector, whole
 from .motions import SUSLOV, check_of, suslov_of
-from .output import Answer, table, whether_body
+from .output import Answer, body_facts, table
 
 __all__ = ["COMMAND"]
 
@@ -51,7 +51,7 @@ def _computed(options: Options) -> Answer:
             "divergence": [one.mean for one in on_each],
             "divergence error": [one.error for one in on_each],
             "attractors": found.attractors,
-            **whether_body(check_of(body)),
+            **body_facts(check_of(body)),
         },
         _notes(body.I13 == 0.0 == body.I23, found.attractors),
     )

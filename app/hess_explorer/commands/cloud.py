@@ -13,7 +13,7 @@ from . import CommandError
 from .arguments import number as any_number
 from .command import OUTPUT, Command, Options, number, option, whole
 from .motions import FREE_TENSOR, INNER_BALL, check_of
-from .output import Answer, quality, table, whether_body
+from .output import Answer, body_facts, quality, table
 
 __all__ = ["COMMAND"]
 
@@ -31,7 +31,7 @@ def _computed(options: Options) -> Answer:
             "count": options.count,
             "final_time": float(found.cloud.times[-1]),
             **quality(found.cloud),
-            **whether_body(check_of(body)),
+            **body_facts(check_of(body)),
         },
     )
 

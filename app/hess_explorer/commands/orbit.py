@@ -9,7 +9,7 @@ from hess_mechanics.parameters import TIME
 
 from .command import OUTPUT, Command, Options, samples
 from .motions import MOTIONS, start_of
-from .output import Answer, quality, table, whether_body
+from .output import Answer, body_facts, quality, table
 
 __all__ = ["COMMAND", "TIMES"]
 
@@ -22,7 +22,7 @@ def _computed(name: str, options: Options) -> Answer:
     result = solve(body, start, options.t, level(options.accuracy))
     return Answer(
         {"t": result.times.tolist(), "y": result.states.tolist()},
-        {"variables": list(body.system.variables), **quality(result), **whether_body(check)},
+        {"variables": list(body.system.variables), **quality(result), **body_facts(check)},
         notes,
         ("t", *body.system.variables),
     )

@@ -28,13 +28,13 @@ __all__ = [
     "LONG",
     "PATIENCE",
     "Answer",
+    "body_facts",
     "columns",
     "computing",
     "quality",
     "show",
     "table",
     "text",
-    "whether_body",
     "write",
     "write_file",
 ]
@@ -154,7 +154,7 @@ def columns(result: Result) -> dict[str, list[Any]]:
     return {name: values.tolist() for name, (_, values) in {**known.coords, **known.variables}.items()}
 
 
-def whether_body(check: BodyCheck) -> dict[str, Any]:
+def body_facts(check: BodyCheck) -> dict[str, Any]:
     """Return the facts of a check that a rigid body can have these moments of inertia."""
     return {"is_body": check.is_body, "body": check.sentence}
 

@@ -9,7 +9,7 @@ from hess_mechanics.suslov.scattering import cos_chi
 from .arguments import number as any_number
 from .command import OUTPUT, Command, Options, number, option, samples
 from .motions import FREE_TENSOR, check_of
-from .output import Answer, quality, table, whether_body
+from .output import Answer, body_facts, quality, table
 
 __all__ = ["COMMAND"]
 
@@ -28,7 +28,7 @@ def _computed(options: Options) -> Answer:
             "arc": result.arc,
             "distance": result.distance,
             **quality(result),
-            **whether_body(check_of(body)),
+            **body_facts(check_of(body)),
         },
     )
 

@@ -15,7 +15,7 @@ from hess_mechanics.parameters import F_HEAVY, H_HEAVY, TIME, L, X
 from .arguments import number as any_number
 from .command import OUTPUT, Command, Options, number, option, vector, whole
 from .motions import HEAVY, MOTIONS, check_of, heavy_of, start_of
-from .output import Answer, quality, table, whether_body
+from .output import Answer, body_facts, quality, table
 
 __all__ = ["COMMAND"]
 
@@ -58,7 +58,7 @@ def _of_plane(name: str, options: Options) -> Answer:
 
 
 def _facts(result: SectionCrossings, start: tuple[float, ...], body: BodyCheck) -> Mapping[str, Any]:
-    return {"start": list(start), **quality(result), **whether_body(body)}
+    return {"start": list(start), **quality(result), **body_facts(body)}
 
 
 def _fewer(result: SectionCrossings, asked: int, end: float) -> list[str]:
