@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import subprocess
 import sys
@@ -15,6 +16,8 @@ import pytest
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import server_process
 
+# A density takes seconds for a million crossings; only its own tests need more than these.
+os.environ["HESS_EXPLORER_POINTS"] = "2e4"
 # Asserts in helpers explain themselves as those of tests do.
 pytest.register_assert_rewrite("support", "oracle")
 

@@ -1,7 +1,7 @@
 // @ts-check
 // Paints a grid of numbers as coloured cells, or interpolated in each pixel.
 
-/** @typedef {{palette: string[], low: number, high: number, smooth?: boolean, cyclic?: boolean, kinds?: boolean}} Colouring */
+/** @typedef {{palette: string[], low: number, high: number, smooth?: boolean, cyclic?: boolean, kinds?: boolean, fine?: boolean}} Colouring */
 /** @typedef {Colouring & {source: string}} CellLayer a layer of cells, and its source */
 /** @typedef {(a: number, b: number, c: number, d: number, right: number, up: number) => number} Mix */
 
@@ -130,7 +130,6 @@ export function cellsPainter(layers, source) {
   }
 
   return (ctx, xScale, yScale) => {
-    ctx.imageSmoothingEnabled = false
     const { a: ratio } = ctx.getTransform()
     for (const layer of layers) {
       const { image: [cells] = [], x: [x] = [], y: [y] = [], dw: [wide] = [], dh: [high] = [] } = source(layer.source).data
@@ -138,6 +137,9 @@ export function cellsPainter(layers, source) {
       const [left, right] = [xScale.compute(x), xScale.compute(x + wide)]
       const [bottom, top] = [yScale.compute(y), yScale.compute(y + high)]
       const sheet = sheetFor(layer, cells, Math.round(ratio * (right - left)), Math.round(ratio * (bottom - top)))
+      // Cells about as large as pixels are averaged, so that no curve is lost between two pixels.
+      ctx.imageSmoothingEnabled = layer.fine === true
+      ctx.imageSmoothingQuality = "high"
       ctx.drawImage(sheet, left, top, right - left, bottom - top)
     }
   }

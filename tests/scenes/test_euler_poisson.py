@@ -389,7 +389,7 @@ def test_the_rotation_picture_says_of_all_the_line_what_its_orbits_are():
     "seen, expected",
     [
         (set(), set()),
-        ({"section"}, {"_batch"}),
+        ({"section"}, {"_batch", "_stage"}),
         ({"rotation"}, {"_batch"}),
         ({"exponent"}, {"lyapunov_exponent"}),
         ({"sphere"}, set()),

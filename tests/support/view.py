@@ -32,12 +32,18 @@ class View:
     `values` are the admitted values, and `notes` the changes to them; `begun` and `first` are result and report of the
     first view, `result` and `report` those of the final one; `data` by source, `axes` and `text` by picture.
     Notes and refused work are errors unless expected: then `notes` and `refused` hold the messages.
+    Sections show points; with `density` they show the density if the values do.
     """
 
-    def __init__(self, scene, values, dragging=False, seen=None, noted=False, refusing=False, whole=True):
+    def __init__(
+        self, scene, values, dragging=False, seen=None, noted=False, refusing=False, whole=True, density=False
+    ):
         self.wire = Wire()
         self.stage = Stage(scene, self.wire)
-        self.values, self.notes = scene.admit({**scene.defaults(), **values})
+        values = {**scene.defaults(), **values}
+        if values.get("indicator") == "density" and not density:
+            values["indicator"] = "nothing"
+        self.values, self.notes = scene.admit(values)
         assert noted or self.notes == []
         seen = scene.pictures if seen is None else seen
         self.refused, self._left_out = [], []

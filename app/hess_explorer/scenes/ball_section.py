@@ -25,7 +25,8 @@ from hess_explorer.scenes.parts.branch import (
     end_of_branch,
     parameter_of_branch,
 )
-from hess_explorer.scenes.parts.indicator import MEGNO, Indicator, colouring, indicator_layer, indicator_trial
+from hess_explorer.scenes.parts.density import Density, density_layers
+from hess_explorer.scenes.parts.indicator import DENSITY, MEGNO, Indicator, colouring, indicator_layer, indicator_trial
 from hess_explorer.scenes.parts.orbit import Orbit
 from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, length_of_manifolds, plain, which
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
@@ -243,6 +244,11 @@ class BallSection(State):
         return Section(self, lambda: self.given, self._crossing, closed=lambda: self.closed, later=self.drop != "all")
 
     @part
+    def density(self) -> Density:
+        """The density of the section."""
+        return Density(self.section, self.indicator == DENSITY, self.drop != "all")
+
+    @part
     def megno(self) -> Indicator:
         """The MEGNO of the section's cells."""
         return Indicator(self.section, self.indicator == MEGNO)
@@ -322,7 +328,8 @@ class BallSection(State):
             return Caption("Left out: too many steps.")
         volume = "The flow preserves volume." if self.I13 == self.I23 == 0.0 else "The flow does not preserve volume."
         visited = occupied_cells(self.section.own, _CELLS)
-        return Caption(volume, f"Chosen orbit: {len(self.section.own)} points in {visited} of {_CELLS**2} cells.")
+        counted = self.density.said or f"{len(self.section.own)} points of the "
+        return Caption(volume, f"{counted}chosen orbit in {visited} of {_CELLS**2} cells.")
 
     def _about_returns(self) -> Caption:
         if self.section.own is None:
@@ -373,9 +380,10 @@ SCENE = Scene(
             on_click=BallSection.start_at,
             layers=(
                 indicator_layer(lambda s: s.megno),
+                *density_layers(lambda s: s.density),
                 *section_plane.layers(
                     lambda s: s.section.points,
-                    others=lambda s: s.section.others,
+                    others=lambda s: None if s.density.tones else s.section.others,
                     forbidden=BallSection.forbidden,
                     start=lambda s: [] if s.section.points is None else [(s.psi, s.delta)],
                 ),

@@ -37,6 +37,7 @@ from hess_explorer.scenes.parts.branch import (
     end_of_branch,
     parameter_of_branch,
 )
+from hess_explorer.scenes.parts.density import Density
 from hess_explorer.scenes.parts.exponent import Exponent, exponent_picture, exponent_trial
 from hess_explorer.scenes.parts.filled_section import (
     FilledSection,
@@ -46,7 +47,7 @@ from hess_explorer.scenes.parts.filled_section import (
     points_of_each,
 )
 from hess_explorer.scenes.parts.hess_split import HessSplit, split_picture
-from hess_explorer.scenes.parts.indicator import MEGNO, Indicator, colouring, indicator_layer, indicator_trial
+from hess_explorer.scenes.parts.indicator import DENSITY, MEGNO, Indicator, colouring, indicator_layer, indicator_trial
 from hess_explorer.scenes.parts.orbit import Orbit
 from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, length_of_manifolds, plain, which
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
@@ -274,6 +275,16 @@ class EulerPoisson(State):
         return FilledSection(self, "no motion with this h and f crosses the section", _BOUNDS, (16, 40))
 
     @part
+    def density(self) -> Density:
+        """The density of the section, of each layer by itself."""
+        return Density(
+            self.section,
+            self.indicator == DENSITY,
+            ways=(True, True),
+            kind_of=lambda states: (relation(self.body, states) <= 0.0).astype(int),
+        )
+
+    @part
     def megno(self) -> Indicator:
         """The cells of the section by MEGNO."""
         return Indicator(self.section, self.indicator == MEGNO, lambda: self.section.batches)
@@ -358,7 +369,7 @@ class EulerPoisson(State):
         apart = f" {other} on another sheet." if other else ""
         return Caption(
             "The two layers never mix." if self.away == 0.0 else "",
-            f"r·M keeps its sign along {sum(kept)} of {len(kept)} orbits.{apart}",
+            f"{self.density.said}r·M keeps its sign along {sum(kept)} of {len(kept)} orbits.{apart}",
         )
 
     def derived(self) -> Iterator[str]:

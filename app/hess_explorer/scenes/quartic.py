@@ -31,7 +31,8 @@ from hess_explorer.scenes.parts.branch import (
     end_of_branch,
     parameter_of_branch,
 )
-from hess_explorer.scenes.parts.indicator import MEGNO, Indicator, colouring, indicator_layer, indicator_trial
+from hess_explorer.scenes.parts.density import Density, density_layers
+from hess_explorer.scenes.parts.indicator import DENSITY, MEGNO, Indicator, colouring, indicator_layer, indicator_trial
 from hess_explorer.scenes.parts.orbit import Orbit
 from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, length_of_manifolds, plain, which
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
@@ -188,6 +189,11 @@ class Quartic(State):
         return Section(self, lambda: self.given, self._crossing, self.section_axes, lambda: self.closed)
 
     @part
+    def density(self) -> Density:
+        """The density of the section."""
+        return Density(self.section, self.indicator == DENSITY)
+
+    @part
     def megno(self) -> Indicator:
         """The MEGNO of the section's cells."""
         return Indicator(self.section, self.indicator == MEGNO)
@@ -275,7 +281,8 @@ class Quartic(State):
         if self.section.own is None:
             return Caption(numbers=self.section.reason)
         visited = model.visited(self.body, self.section.own, _CELLS)
-        return Caption(numbers=f"Chosen orbit: {len(self.section.own)} points in {visited} of {_CELLS * _CELLS} cells.")
+        counted = self.density.said or f"{len(self.section.own)} points of the "
+        return Caption(numbers=f"{counted}chosen orbit in {visited} of {_CELLS * _CELLS} cells.")
 
     def _about_sphere(self) -> Caption:
         return Caption("The motion of the body.", f"γ = (p₁, p₂, γ₃), γ₃ {staying(self.orbit.path.states[:, 4])}.")
@@ -335,8 +342,11 @@ SCENE = Scene(
             message=lambda s: s.section.reason,
             layers=(
                 indicator_layer(lambda s: s.megno),
+                *density_layers(lambda s: s.density),
                 *section_plane.layers(
-                    lambda s: s.section.points, others=lambda s: s.section.others, forbidden=Quartic.impossible
+                    lambda s: s.section.points,
+                    others=lambda s: None if s.density.tones else s.section.others,
+                    forbidden=Quartic.impossible,
                 ),
                 *layers(lambda s: s.periodic_orbit),
             ),

@@ -26,6 +26,7 @@ from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.parts.basins import Basins, basins_trial
+from hess_explorer.scenes.parts.density import Density
 from hess_explorer.scenes.parts.exponent import Exponent, exponent_trial
 from hess_explorer.scenes.parts.filled_section import (
     FilledSection,
@@ -34,7 +35,7 @@ from hess_explorer.scenes.parts.filled_section import (
     orbits_spread,
     points_of_each,
 )
-from hess_explorer.scenes.parts.indicator import MEGNO, Indicator, colouring, indicator_layer, indicator_trial
+from hess_explorer.scenes.parts.indicator import DENSITY, MEGNO, Indicator, colouring, indicator_layer, indicator_trial
 from hess_explorer.scenes.parts.orbit import Orbit
 from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, length_of_manifolds, plain, which
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
@@ -105,6 +106,8 @@ PRESETS = (
                 colours=_BOTH,
                 count=100.0,
                 drop="all",
+                # All points but a few lie at the two fixed points.
+                indicator="nothing",
             ),
             Preset(
                 "On a principal axis, I₁₃ = I₂₃ = 0: volume is preserved",
@@ -215,8 +218,23 @@ class Suslov(State):
     @part
     def section(self) -> FilledSection:
         """The orbits of the section."""
-        ways = (True, False) if self.colours == _BOTH else (True,)
-        return FilledSection(self, "no motion has this energy", _BOUNDS, (12, 40), ways, self.drop != "all")
+        return FilledSection(self, "no motion has this energy", _BOUNDS, (12, 40), self._ways, self.drop != "all")
+
+    @property
+    def _ways(self) -> tuple[bool, ...]:
+        """The directions of time of the section, True is forward."""
+        return (True, False) if self.colours == _BOTH else (True,)
+
+    @part
+    def density(self) -> Density:
+        """The density of the section, with every other orbit in each direction of time."""
+        return Density(
+            self.section,
+            self.indicator == DENSITY and not self.basins.wanted,
+            self.drop != "all",
+            self._ways,
+            lambda states: np.arange(len(states)) % len(self._ways),
+        )
 
     @part
     def megno(self) -> Indicator:
@@ -326,9 +344,9 @@ class Suslov(State):
         backward = f", {len(second)} backward" if len(second) else ""
         # The later halves of the forward orbits show the attractors.
         later = joined(orbit[len(orbit) // 2 :] for orbit in self.section.kind(True))
+        counted = self.density.said or f"{len(first)} points forward{backward}; "
         return Caption(
-            numbers=f"{len(first)} points forward{backward}; late forward points occupy "
-            f"{occupied_cells(later, _CELLS)} of {_CELLS**2} cells."
+            numbers=f"{counted}late forward points occupy {occupied_cells(later, _CELLS)} of {_CELLS**2} cells."
         )
 
     def _about_rates(self) -> Caption:

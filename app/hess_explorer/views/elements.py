@@ -99,7 +99,7 @@ def on_paper(layer: Layer[Any], colour: Colour) -> Options:
 def _exchanged(style: Style, colour: Colour) -> Options:
     """Return the style with mapped colours, except colours that encode numbers."""
     found = {name: colour(value) if name.endswith("color") else value for name, value in style.items()}
-    return {**found, "palette": [*map(colour, style["palette"])]} if style.get("kinds") else found
+    return {**found, "palette": [*map(colour, style["palette"])]} if style.get("kinds") or style.get("fine") else found
 
 
 def _element(layer: Layer[Any], columns: Columns, colour: Colour) -> hv.Element:
@@ -197,7 +197,8 @@ def _scale(style: Style) -> Options:
 def _interpolated(style: Style) -> Options:
     # Cyclic numbers must not be interpolated: −½ and ½ would give 0.
     even = style["smooth"] and not style["cyclic"]
-    return {**_scale(style), "interpolation": "bilinear" if even else "nearest"}
+    kept = "antialiased" if style["fine"] else "nearest"
+    return {**_scale(style), "interpolation": "bilinear" if even else kept}
 
 
 def _word(style: Style) -> Options:

@@ -405,13 +405,14 @@ def image(
     smooth: bool = False,
     cyclic: bool = False,
     kinds: bool = False,
+    fine: bool = False,
     legend: tuple[Sign, ...] = (),
     tag: str = "",
 ) -> Layer[S]:
     """Return a layer of numbers on a grid, below all other layers.
 
     smooth : interpolate between the centres of cells, for continuous functions; cyclic : the same with `low` and `high`
-    identified; kinds : numbers are labels, with smooth borders between them.
+    identified; kinds : numbers are labels, with smooth borders between them; fine : cells are about as large as pixels.
     """
     colors = getattr(palettes, palette) if isinstance(palette, str) else palette
     layer: Layer[S] = Layer(
@@ -425,6 +426,7 @@ def image(
             "smooth": smooth or cyclic,
             "cyclic": cyclic,
             "kinds": kinds,
+            "fine": fine,
         },
         moving=False,
         legend=legend,

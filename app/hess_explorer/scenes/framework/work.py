@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, ParamSpec, TypeVar, cast
 
@@ -85,6 +85,21 @@ class Work:
     def known(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T | None:
         """Return the result if it is cached, else None."""
         return cast("T | None", CACHE.peek(function, *arguments))
+
+    def newest(self, chains: Sequence[Sequence[Task]]) -> list[Any]:
+        """Return the last cached result of each chain of tasks, or None, and add the tasks after it to `todo`.
+
+        Each task of a chain continues the one before.  The earlier ones need not be cached any more.
+        """
+        found, waiting = [], []
+        for chain in chains:
+            known = ((i, CACHE.peek(task.function, *task.arguments)) for i, task in reversed([*enumerate(chain)]))
+            last, value = next(((i, value) for i, value in known if value is not None), (-1, None))
+            found.append(value)
+            waiting += [(i, task) for i, task in enumerate(chain) if i > last]
+        self.pieces += sum(map(len, chains))
+        self.todo += [task for _, task in sorted(waiting, key=lambda one: one[0])]
+        return found
 
     def soon(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T | None:
         """Return the result as `get` while a slider is held, when it is small; else as `later`."""

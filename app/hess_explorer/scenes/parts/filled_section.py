@@ -20,7 +20,7 @@ from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial, section_error
 from hess_explorer.scenes.framework.windows import Window, boxed, frame_of, inside, tidy_window, window_of
 from hess_explorer.scenes.framework.work import drift_status, kept_status
-from hess_explorer.views import layered_section
+from hess_explorer.views import density, layered_section, theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.comparison import Marks
 from hess_explorer.views.layers import Axes, Layer
@@ -94,6 +94,12 @@ class _Periodic(Protocol):
         """True while a requested periodic orbit is not known yet."""
 
 
+class _Density(Protocol):
+    @property
+    def tones(self) -> Sequence[Array]:
+        """The tone (n, m) of each pixel for each kind of orbits; empty if the density is not shown."""
+
+
 class _Host(Host, Protocol):
     @property
     def poincare(self) -> _Filled:
@@ -122,6 +128,10 @@ class _Host(Host, Protocol):
     @property
     def periodic_orbit(self) -> _Periodic:
         """The periodic orbit shown in place of the last chosen one."""
+
+    @property
+    def density(self) -> _Density:
+        """The density shown in place of the points of the orbits that fill the window."""
 
     def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
         """Return the computation of an `OrbitBatch`: so many crossings of the orbits from these states."""
@@ -284,6 +294,11 @@ class FilledSection(Part[_Host]):
         """Points (n, 2) of the orbits of the second kind."""
         return joined(map(self.shown, self.kind(False)))
 
+    def points(self, first: bool) -> Array:
+        """Return the points (n, 2) drawn of one kind of orbits: none where their density is shown."""
+        found = self.first if first else self.second
+        return found[:0] if self.host.density.tones else found
+
     @cached_property
     def elsewhere(self) -> Array:
         """Points (n, 2) of all orbits, chosen ones too, that are drawn separately."""
@@ -348,6 +363,7 @@ class FilledSection(Part[_Host]):
         if (
             self.work.dragging
             or self.work.todo
+            or self.host.density.tones
             or any(
                 np.any((x >= x0) & (x <= x1) & (y >= y0) & (y <= y1))
                 for x, y in (points.T for points in (self.first, self.second, self.own))
@@ -445,9 +461,12 @@ def filled_picture(
         on_box=lambda s, corners: of(s).look_closer(corners),
         layers=(
             *under,
+            *density.layers(
+                lambda s: of(s).host.density.tones, lambda s: of(s).frame, labels, (theme.ORBIT, theme.UNSTABLE)
+            ),
             *layered_section.layers(
-                lambda s: of(s).first,
-                lambda s: of(s).second,
+                lambda s: of(s).points(True),
+                lambda s: of(s).points(False),
                 lambda s: of(s).own,
                 chosen=lambda s: of(s).rings(),
                 impossible=lambda s: of(s).impossible,

@@ -25,9 +25,9 @@ from hess_mechanics.dynamics.megno_map import row_of_cells, time_of
 from hess_mechanics.numerics.accuracy import Computation, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["MEGNO", "Indicator", "colouring", "indicator_layer", "indicator_trial"]
+__all__ = ["DENSITY", "MEGNO", "Indicator", "colouring", "indicator_layer", "indicator_trial"]
 
-NOTHING, MEGNO = "nothing", "MEGNO"
+DENSITY, MEGNO = "density", "MEGNO"
 _TURNS = 300.0
 """Time of the indicator, in units of 1/ν: some fifty returns."""
 
@@ -36,10 +36,10 @@ def colouring() -> Any:
     """Declare the colouring under the points of a section."""
     return choice(
         "Under the points",
-        (NOTHING, MEGNO),
-        NOTHING,
-        doc="MEGNO shows after a short time whether the motion from each cell is regular or chaotic, and "
-        "whether volume about it shrinks.",
+        (DENSITY, MEGNO, "nothing"),
+        DENSITY,
+        doc="Density: a million crossings in place of the points. MEGNO shows after a short time whether the motion "
+        "from each cell is regular or chaotic, and whether volume about it shrinks.",
     )
 
 

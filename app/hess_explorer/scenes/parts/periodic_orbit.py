@@ -29,6 +29,7 @@ from hess_explorer.scenes.framework.periodic_search import (
     sought,
 )
 from hess_explorer.scenes.framework.scene import Preset, State
+from hess_explorer.scenes.parts.indicator import DENSITY
 from hess_explorer.views import periodic as view
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Layer
@@ -71,8 +72,8 @@ def length_of_manifolds() -> Any:
 
 
 def plain(preset: Preset) -> Preset:
-    """Return the preset without a periodic orbit, whatever the state before."""
-    values: dict[str, Value] = {"periodic": NONE, **preset.values}
+    """Return the preset with the density and without a periodic orbit, whatever the state before."""
+    values: dict[str, Value] = {"periodic": NONE, "indicator": DENSITY, **preset.values}
     return Preset(preset.name, **values)
 
 

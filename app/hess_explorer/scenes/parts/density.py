@@ -1,0 +1,153 @@
+"""A section shaded by the density of a million crossings, which grow while one looks."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol, TypeVar
+
+import numpy as np
+
+from hess_explorer.compute.cache import CACHE, Task
+from hess_explorer.scenes.framework.part import Part, Sectioned, Start
+from hess_explorer.scenes.framework.scene import State
+from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.scenes.framework.work import drift_status
+from hess_explorer.views import density as view
+from hess_explorer.views import theme
+from hess_explorer.views.layers import Layers
+from hess_mechanics.dynamics.cells import evenly
+from hess_mechanics.dynamics.return_map import PoincareSection
+from hess_mechanics.dynamics.section_density import Visits, visits
+from hess_mechanics.numerics.accuracy import Computation, plan
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["Density", "density_layers"]
+
+_PIXELS = (512, 512)
+_ORBITS, _TRIED = 128, 1024
+"""Orbits, and places tried to find their starts.  More orbits would cover the gaps between the curves of islands."""
+_FIRST = 32
+"""Crossings of each orbit in the first stage; each further stage has twice as many."""
+_STAGES = {"draft": 6, "standard": 8, "precise": 9, "reference": 10}
+"""Stages by accuracy level: 1,044,480 crossings at `standard`."""
+_MOST = float(os.environ.get("HESS_EXPLORER_POINTS", "1e7"))
+"""Largest number of crossings, smaller on a server with many visitors."""
+_LEVEL = plan(Computation.SECTION, "draft").level
+"""Level of the orbits: in a million crossings its drift stays below a pixel, and finer ones show the same density."""
+
+
+def _one_kind(states: Array) -> Array:
+    return np.zeros(len(states), int)
+
+
+class _Host(Sectioned, Protocol):
+    @property
+    def frame(self) -> Window:
+        """The visible window."""
+
+
+@dataclass(frozen=True, eq=False)
+class Density(Part[_Host]):
+    """Crossings of orbits spread over the window, counted in its pixels.
+
+    The orbits are followed in stages, each of which doubles their lengths.
+
+    wanted : show it; later : count only the last stage, which has the later half of the crossings.
+    ways : directions of time of each kind of orbits, True is forward; kind_of(states) : the kinds (k,) of orbits.
+    """
+
+    wanted: bool
+    later: bool = False
+    ways: tuple[bool, ...] = (True,)
+    kind_of: Callable[[Array], Array] = _one_kind
+
+    @cached_property
+    def _kinds(self) -> list[tuple[int, tuple[Start, ...]]]:
+        """Kind and starts of each group of orbits; there are at least two groups, for two cores."""
+        starts = self.work.get(_starts, self.host.poincare, self.host.frame)
+        kinds = self.kind_of(np.array(starts)) if starts else np.zeros(0)
+        there = np.unique(kinds).tolist()
+        parts = 2 if len(there) == 1 else 1
+        return [
+            (int(kind), tuple(starts[j] for j in np.flatnonzero(kinds == kind)[i::parts]))
+            for kind in there
+            for i in range(parts)
+        ]
+
+    @cached_property
+    def _found(self) -> list[Visits | None]:
+        """The newest known visits of each group of orbits; none while a slider is held."""
+        if not self.wanted or self.work.dragging:
+            return []
+        where = self.host.poincare, self.host.frame
+        return self.work.newest(
+            [
+                [Task(_stage, (*where, starts, self.ways[kind], self.later, number)) for number in range(self._stages)]
+                for kind, starts in self._kinds
+            ]
+        )
+
+    @property
+    def _stages(self) -> int:
+        return max(1, min(_STAGES[self.work.chosen], int(np.log2(_MOST / (_ORBITS * _FIRST) + 1.0))))
+
+    @property
+    def points(self) -> int:
+        """The number of known crossings in the window."""
+        return sum(one.points for one in self._found if one is not None)
+
+    @cached_property
+    def counts(self) -> tuple[Array, ...]:
+        """Crossings (n, m) in each pixel by the orbits of each kind; empty until some are known."""
+        counts = np.zeros((len(self.ways), *_PIXELS[::-1]), np.uint32)
+        for (kind, _), one in zip(self._kinds, self._found, strict=False):
+            if one is not None:
+                counts[kind] += one.counts
+        return tuple(counts) if self.points else ()
+
+    @cached_property
+    def tones(self) -> Sequence[Array]:
+        """The tones of the picture, see `views.density.tones`; empty until some crossings are known."""
+        return view.tones(self.counts) if self.counts else ()
+
+    @property
+    def said(self) -> str:
+        """The number of crossings in words; an empty string until some are known."""
+        return f"{self.points:,} points; " if self.points else ""
+
+    def status(self) -> Iterator[str]:
+        """Yield the size and drift of the density."""
+        if self.asked("_found") and self.points:
+            yield f"density {self.points} crossings"
+            yield from drift_status(one.drift for one in self._found if one is not None)
+
+
+S = TypeVar("S", bound=State)
+
+
+def density_layers(of: Callable[[S], Density]) -> Layers[S]:
+    """Return the layers of the density of a section with one kind of orbits."""
+    return view.layers(
+        lambda s: of(s).tones, lambda s: of(s).host.frame, ("few to many crossings of other orbits",), (theme.INK,)
+    )
+
+
+def _starts(section: PoincareSection, window: Window) -> tuple[Start, ...]:
+    """Return starts spread evenly over the places of the window that motions cross."""
+    low, high = np.array(window)
+    states, there = section.states_at(*(low + evenly(_TRIED).T * (high - low)).T)
+    return tuple(map(tuple, states[there][:_ORBITS].tolist()))
+
+
+def _stage(
+    section: PoincareSection, window: Window, starts: tuple[Start, ...], forward: bool, later: bool, number: int
+) -> Visits:
+    """Return the visits of some orbits up to a stage, or with `later` in this stage alone."""
+    if number == 0:
+        return visits(section, window, _PIXELS, starts, _FIRST, forward, _LEVEL)
+    before: Visits = CACHE.get(_stage, section, window, starts, forward, later, number - 1)[0]
+    found = visits(section, window, _PIXELS, before.ends, _FIRST << number, forward, _LEVEL)
+    return found if later else found.after(before)

@@ -1,0 +1,64 @@
+"""The density of crossings in a section: a tone in each pixel, of a colour for each of one or two kinds of orbits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views.layers import CellGrid, Layers, Sign, image
+from hess_mechanics.dynamics.cells import Window
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["layers", "tones"]
+
+S = TypeVar("S")
+_TONES = 256
+_FAINTEST = 0.3
+"""Tone of a pixel with a single crossing."""
+_BRIGHT = 0.995
+"""Share of the visited pixels below the full tone: a few pixels of fixed points would leave all others dark."""
+
+
+def tones(counts: Sequence[Array]) -> list[Array]:
+    """Return the opacity (n, m) of each kind of orbits, 0 to 255, in the order in which they are drawn.
+
+    counts : crossings (n, m) of each kind in each pixel.  The tone grows with the logarithm of all crossings there.  A
+    kind covers the ones before it in proportion to its share of them, so that the colours mix by these shares.
+    """
+    total = np.sum(counts, axis=0)
+    full = max(2.0, float(np.quantile(total[total > 0], _BRIGHT)))
+    tone = _FAINTEST + (1.0 - _FAINTEST) * np.minimum(np.log(np.maximum(total, 1)) / np.log(full), 1.0)
+    so_far = np.cumsum(counts, axis=0)
+    return [np.rint((_TONES - 1) * tone * one / np.maximum(upto, 1)) for one, upto in zip(counts, so_far, strict=True)]
+
+
+def layers(
+    tones: Callable[[S], Sequence[Array]],
+    window: Callable[[S], Window],
+    labels: tuple[str, ...],
+    colors: tuple[str, ...],
+) -> Layers[S]:
+    """Return a layer of pixels for each kind of orbits, empty without `tones`."""
+
+    def of(i: int) -> Callable[[S], CellGrid | None]:
+        def grid(state: S) -> CellGrid | None:
+            found = tones(state)
+            (x0, y0), (x1, y1) = window(state)
+            return CellGrid(found[i], (x0, x1), (y0, y1)) if i < len(found) else None
+
+        return grid
+
+    return tuple(
+        image(
+            f"density-{i}",
+            of(i),
+            palette=tuple(f"{color}{tone:02x}" for tone in range(_TONES)),
+            low=0.0,
+            high=float(_TONES),
+            fine=True,
+            legend=(Sign(label, "box", f"background: linear-gradient(90deg, {color}26, {color})"),),
+        )
+        for i, (label, color) in enumerate(zip(labels, colors, strict=True))
+    )
