@@ -24,7 +24,7 @@ from support.board import SCENES, Browser, modules_of_scenes
 EP = SCENES["euler-poisson"]
 EP = replace(EP, views=tuple(replace(view, folded="") if view.name == "exponent" else view for view in EP.views))
 STARTS = next(spec for spec in EP.specs if spec.name == "starts")
-SMALL = {**EP.defaults(), "orbits": 12.0, "count": 20.0, "long": 5.0, "span": 1.0}
+SMALL = {**EP.defaults(), "orbits": 12.0, "count": 20.0, "long": 5.0, "span": 1.0, "indicator": "nothing"}
 """1 piece for the start, 3 for the orbits, 12 for the line, 1 for the exponent; 4 that are computed twice."""
 PIECES = 21
 

@@ -15,7 +15,7 @@ from support.page import ENTER, brought, one_tab
 from support.pointer import at
 from support.serving import UNWARMED
 
-SMALL = {"orbits": 8.0, "count": 40.0, "long": 20.0, "span": 5.0}
+SMALL = {"orbits": 8.0, "count": 40.0, "long": 20.0, "span": 5.0, "indicator": "nothing"}
 
 
 def values_of(explorer):

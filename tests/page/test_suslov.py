@@ -1,6 +1,7 @@
 """The scenes "Suslov problem with gravity" and "rotation number" in a browser: cells and axes that are chosen."""
 
 import io
+import re
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from hess_explorer.scenes import scenes
 from hess_mechanics.dynamics.cells import centres
 from support.page import brought, said
 from support.painted import assert_painted
-from support.pointer import frame
+from support.pointer import at, frame
 
 SUSLOV, ROTATION = scenes()["suslov"], scenes()["rotation-number"]
 KINDS = (((86, 180, 233), 0x50 / 255), ((213, 94, 0), 0x60 / 255))
@@ -43,7 +44,8 @@ def colours_of_cells(explorer, picture, shape):
 def test_cells_of_megno_are_seen_in_their_colours_under_the_points(suslov):
     suslov.change(
         lambda: suslov.page.evaluate(
-            "detail => hess.tell('change', detail)", {"I13": 0.0, "I23": 0.0, "h": 4.0, "accuracy": "draft"}
+            "detail => hess.tell('change', detail)",
+            {"I13": 0.0, "I23": 0.0, "h": 4.0, "accuracy": "draft", "indicator": "nothing"},
         )
     )
     before = colours_of_cells(suslov, "section", (12, 18))
@@ -58,6 +60,33 @@ def test_cells_of_megno_are_seen_in_their_colours_under_the_points(suslov):
         mixed = (1.0 - share) * before[kinds == kind] + share * np.array(colour)
         # All but the cells over whose middles a point stands.
         assert np.mean(np.abs(after[kinds == kind] - mixed).max(axis=1) < 4.0) > 0.8
+    assert_painted(suslov, SUSLOV)
+
+
+def crossings(explorer):
+    return int(re.search(r"([\d,]+) points;", explorer.caption("section"))[1].replace(",", ""))
+
+
+def test_a_density_fills_a_window_in_both_themes_and_a_click_starts_an_orbit_over_it(suslov):
+    whole = np.array(suslov.data("section-density-0")["image"][0])
+    # Two stages of 128 orbits.
+    assert crossings(suslov) == 12_288
+    assert "x" not in suslov.data("section-first") or not len(suslov.data("section-first")["x"])
+    shades = []
+    for is_dark in (True, False):
+        suslov.turn_theme(is_dark=is_dark)
+        shades.append(colours_of_cells(suslov, "section", (40, 40)))
+        # The sea lies in the middle of the section: neither paper nor the grey of impossible places.
+        assert np.ptp(shades[-1][5:35, 22:32], axis=(0, 1)).max() > 60.0
+    assert shades[0].mean() < shades[1].mean() - 60.0
+    suslov.change(lambda: suslov.page.evaluate("hess.tell('change', { window: '0,1;1.5,2.5' })"))
+    closer = np.array(suslov.data("section-density-0")["image"][0])
+    assert 0 < crossings(suslov) < 12_288
+    assert closer.shape == whole.shape and not np.array_equal(closer, whole)
+    (x, y), _ = at(suslov, "section", 0.7, 1.7)
+    suslov.change(lambda: suslov.page.mouse.click(x, y))
+    assert len(suslov.data("section-own")["x"]) == 2 * FEW["count"]
+    assert np.array_equal(np.array(suslov.data("section-density-0")["image"][0]), closer)
     assert_painted(suslov, SUSLOV)
 
 
