@@ -15,7 +15,8 @@ from support.page import ENTER, brought, one_tab
 from support.pointer import at
 from support.serving import UNWARMED
 
-SMALL = {"orbits": 8.0, "count": 40.0, "long": 20.0, "span": 5.0, "indicator": "nothing"}
+NUMBERS = {"orbits": 8.0, "count": 40.0, "long": 20.0, "span": 5.0}
+SMALL = {**NUMBERS, "indicator": "nothing"}
 
 
 def values_of(explorer):
@@ -171,7 +172,7 @@ def test_what_is_typed_while_points_arrive_stays_in_its_box(long_section, gate):
     box.press("End")
     box.type(".5")
     gate.unlink()
-    page.change(lambda: page.page.evaluate(ENTER, [*SMALL.items()]))
+    page.change(lambda: page.page.evaluate(ENTER, [*NUMBERS.items()]))
     assert box.input_value() == "43.5"
     page.change(box.press, "Enter")
     assert values_of(page)["h"] == 43.5
