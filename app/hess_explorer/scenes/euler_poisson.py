@@ -281,7 +281,7 @@ class EulerPoisson(State):
             self.section,
             self.indicator == DENSITY,
             ways=(True, True),
-            kind_of=lambda states: (relation(self.body, states) <= 0.0).astype(int),
+            kind_of=lambda states: (relation(self.body, states) <= 0.0).astype(float),
         )
 
     @part

@@ -233,7 +233,7 @@ class Suslov(State):
             self.indicator == DENSITY and not self.basins.wanted,
             self.drop != "all",
             self._ways,
-            lambda states: np.arange(len(states)) % len(self._ways),
+            lambda states: np.arange(float(len(states))) % len(self._ways),
         )
 
     @part

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.return_map import PoincareSection
@@ -29,7 +30,7 @@ class Visits:
     points : number of counted crossings, which are those within the window; drift : the largest drift of each integral.
     """
 
-    counts: Array
+    counts: NDArray[np.uint32]
     ends: Array
     points: int
     drift: Mapping[str, float]
@@ -59,7 +60,7 @@ def visits(
     # Counting in NumPy takes a hundredth of the time of the orbits: no kernel or library would be noticed.
     low, high = np.array(window)
     counts = np.zeros(cells[0] * cells[1], np.uint32)
-    ends, points, drift = [], 0, dict[str, float]()
+    ends, points, drift = list[Array](), 0, dict[str, float]()
     starts = np.asarray(starts, float)
     for first in range(0, len(starts), _TOGETHER):
         some = starts[first : first + _TOGETHER]
@@ -74,4 +75,6 @@ def visits(
             points += len(within)
             ends.extend(states[-1:])
         drift |= {name: max(value, drift.get(name, 0.0)) for name, value in found.drift.items()}
-    return Visits(frozen(counts.reshape(cells[::-1])), frozen(np.reshape(ends, (-1, starts.shape[1]))), points, drift)
+    return Visits(
+        frozen(counts.reshape(cells[::-1])), frozen(np.array(ends).reshape(-1, starts.shape[1])), points, drift
+    )

@@ -40,7 +40,7 @@ _LEVEL = plan(Computation.SECTION, "draft").level
 
 
 def _one_kind(states: Array) -> Array:
-    return np.zeros(len(states), int)
+    return np.zeros(len(states))
 
 
 class _Host(Sectioned, Protocol):
