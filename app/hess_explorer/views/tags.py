@@ -182,7 +182,7 @@ def _inside(layer: Layer[Any], columns: Columns, frame: _Frame) -> Array | None:
         np.logical_xor.reduce([_even_odd(frame.to(x, y)) for x, y in zip(*rings, strict=True)])
         for rings in ((xs[0], ys[0]) for xs, ys in parts)
     ]
-    return np.logical_or.reduce(filled)
+    return np.asarray(np.logical_or.reduce(filled))
 
 
 def _even_odd(ring: Array) -> Array:
