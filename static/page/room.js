@@ -69,8 +69,7 @@ export function createRoom({ query }) {
     }
     if (cloud !== undefined && prediction() !== undefined) {
       endAudience()
-      audience = createAudience(prediction(), cloud)
-      tell("audience", audience.said)
+      audience = createAudience(prediction(), cloud, (text) => tell("audience", text))
     }
   }
 

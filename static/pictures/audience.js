@@ -15,8 +15,9 @@ const FAINT = "80"
  * Draw the guesses over their picture, whose revealed state is on show.
  * @param {Prediction} prediction
  * @param {number[][][]} cloud the points of each guess, in the coordinates of the picture
+ * @param {(text: string) => void} say
  */
-export function createAudience(prediction, cloud) {
+export function createAudience(prediction, cloud, say) {
   const plot = gallery.plot(prediction.picture)
   const isCurve = prediction.what === "curve"
   /** @type {(place: number[]) => [number, number]} */
@@ -25,12 +26,16 @@ export function createAudience(prediction, cloud) {
   const toData = ([x, y]) => [plot.frame.x_scale.invert(x), plot.frame.y_scale.invert(y)]
   const points = cloud.flat()
   const middle = points.length === 0 ? [] : isCurve ? medianCurve(points) : [middleOf(points)]
-  const lines = linesOf(prediction).map((line) => line.map(toPixels))
+  // The truth in pixels; it may come in pieces, later than the state, and a repainting moves it.
+  /** @type {[number, number][][]} */
+  let lines = []
   /** @param {number[]} point */
   const truthOf = (point) => nearest(lines, toPixels(point))
   const sheet = element("canvas.audience", { ariaHidden: true })
 
   function draw() {
+    lines = linesOf(prediction).map((line) => line.map(toPixels))
+    say(sentence())
     const ctx = fit(sheet, plot.bbox.width, plot.bbox.height)
     ctx.fillStyle = GUESS + FAINT
     for (const point of points) {
@@ -75,7 +80,6 @@ export function createAudience(prediction, cloud) {
   plot.repainted.connect(draw)
   draw()
   return {
-    said: sentence(),
     /** Remove the guesses from the picture. */
     end() {
       plot.repainted.disconnect(draw)
