@@ -39,6 +39,9 @@ from hess_explorer.server.shutdown import Workers, end_on_signals, leave
 from hess_explorer.server.warm import warm
 from hess_explorer.server.websockets import StateSocket
 
+# The workers are forked and share it; a page describes its pictures with it.
+from hess_explorer.views import bokeh_figure  # noqa: F401
+
 __all__ = ["options", "serve"]
 
 BODY_LIMIT = 64 * 1024

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
-from hess_explorer.views import bokeh_figure, tags
+from hess_explorer.views import tags
 from hess_explorer.views.layers import MESSAGE, POINT, Axes, Columns, Layer, Layers, Range, Sign, Sources, label
 from hess_explorer.views.picture import Picture
 
@@ -84,6 +84,9 @@ class Plot(Picture[S]):
 
     def describe(self) -> dict[str, Any]:
         """Return the description of the plot, sent to the browser before the first data."""
+        # Imports Bokeh and Panel, which take longer than all else and serve pages only.
+        from hess_explorer.views import bokeh_figure
+
         return {**super().describe(), **bokeh_figure.describe(self)}
 
     @property
