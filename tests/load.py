@@ -302,6 +302,7 @@ async def lecture(base, pid, count, seconds):
         cores[lecturer] += (worked(pid) - cpu) / seconds
     pipe.send((query, since))
     times, errors = await wait(None, pipe.recv)
+    errors += sum(one.done() for one in heard)
     held, late, alone, together = memory(pid), _row(times), _row(answered[empty]), _row(answered[full])
     pipe.send("end")
     hall.join()
@@ -312,9 +313,8 @@ async def lecture(base, pid, count, seconds):
         f"{late[0]:.2f}, {late[1]:.2f} s | {(held - before) / count / 2**20:.2f} MB | {errors} |"
     )
     await visitor.leave()
-    for lecturer in (empty, full):
-        await lecturer.say({"end": True})
-    await asyncio.gather(*heard)
+    for one in heard:
+        one.cancel()
 
 
 async def _printed(rows, kept):

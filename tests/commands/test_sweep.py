@@ -59,7 +59,7 @@ def test_quantities_and_their_parameters_are_listed(capsys):
     assert "theta = 1: The angle between ξ and γ on the circle that the motion leaves. (0 … 3.14159)" in listed
 
 
-T = "3000"
+T = "1000"
 LAMBDA = [
     "sweep",
     "lyapunov-suslov",

@@ -19,6 +19,7 @@ from support.accessible import assert_accessible
 from support.board import SCENES
 from support.page import ALL, HESS, Explorer, flat, values_of, wait_frames
 from support.pointer import at, frame
+from support.serving import UNWARMED
 
 NAME = "scattering-by-a-nonholonomic-top"
 LOGARITHMIC = """name => {
@@ -343,7 +344,8 @@ def test_images_tables_and_links_of_own_lessons(browser, tmp_path):
     for name in ("a", "b"):
         (tmp_path / f"{name}.md").write_text(OWN.format(f"Lesson {name}"), encoding="utf-8")
     log, context = tmp_path / "server.log", browser.new_context(reduced_motion="reduce")
-    with server_process(log, options=["--lesson", *(str(tmp_path / name) for name in ("b.md", "a.md"))]) as (_, base):
+    options = ["--lesson", *(str(tmp_path / name) for name in ("b.md", "a.md"))]
+    with server_process(log, UNWARMED, options) as (_, base):
         tab = Explorer(context.new_page(), base)
         page = tab.page
         tab.goto("/")
