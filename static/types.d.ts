@@ -90,7 +90,7 @@ type ControlDescription = { name: string, label: string, help: string, group: st
 /** A picture of a scene; the fields beyond these depend on its kind. */
 interface PictureDescription {
   name: string
-  kind: "plot" | "sphere" | "cloud"
+  kind: "plot" | "sphere" | "torus" | "cloud"
   hands: string
   folded: string | null
   [option: string]: any

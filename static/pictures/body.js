@@ -12,14 +12,12 @@
 //   trail [x, y, z, look]: a point that leaves a trail;  hollow: whether the body is a glass ball around an inner ball;
 //   curves [[look, weight, xs, ys, zs]] in space, weight 0 for that of the look;  axis and label of the arrow below.
 
-import { drawArrow, drawBall, drawLine, drawMass, drawWheel, WHEEL } from "./body_parts.js"
+import { drawArrow, drawBall, drawLine, drawMass, drawTrail, drawWheel, TRAIL, WHEEL } from "./body_parts.js"
 import { circlePath, LOOKS } from "./looks.js"
 import { between } from "./moment.js"
 import { covers, createSolid, leaves } from "./solid.js"
 import { circle, cross, dot, plus, scaled, unit } from "./vectors.js"
 
-const TRAIL = 160
-const PIECES = 16
 const CAVITY = 0.62
 const INNER = 0.26
 const BALL = 9
@@ -43,28 +41,6 @@ function placing(columns, i, s) {
   const e = unit(plus(raw, g, -dot(g, raw)))
   const f = cross(g, e)
   return (v) => [dot(v, e), -dot(v, f), -dot(v, g)]
-}
-
-/**
- * Draw a trail that fades and thins with age.
- * @param {Sheet} sheet
- * @param {number[][]} path
- * @param {Look} look
- * @param {boolean} near
- */
-function drawTrail({ ctx, stroke, use }, path, look, near) {
-  use(look)
-  const n = path[0].length
-  const most = TRAIL / PIECES
-  for (let k = 0; k < PIECES; k++) {
-    // The newest piece ends at the point.
-    const [from, to] = [Math.max(0, n - 1 - (k + 1) * most), n - 1 - k * most]
-    if (to < 1) break
-    const share = 1 - k / PIECES
-    ctx.lineWidth = 1.2 + 2.3 * share
-    ctx.globalAlpha = (near ? 1 : 0.4) * share
-    stroke(path.map((column) => column.slice(from, to + 1)), near)
-  }
 }
 
 /**

@@ -1,12 +1,14 @@
 // @ts-check
-// Parts of a body outside its surface: rods, the ball of its mass, wheels, and the arrow below.
+// Parts of pictures in space: rods, the ball of a mass, wheels, the arrow below, trails, and the moving point.
 
-import { circlePath, LOOKS } from "./looks.js"
+import { circlePath, LOOKS, POINT } from "./looks.js"
 import { circle, cross, plus, scaled, unit } from "./vectors.js"
 
 // Radius of a wheel and half its thickness.
 export const WHEEL = 0.15
 const THICK = 0.024
+// Number of steps of a trail.
+export const TRAIL = 160
 
 /**
  * Draw a straight line with round ends.
@@ -133,4 +135,46 @@ export function drawArrow(sheet, along, label) {
     ctx.fill()
   }
   write(label, x + 14 + ctx.measureText(label).width / 2, y)
+}
+
+const TRAIL_PIECES = 16
+
+/**
+ * Draw a trail that fades and thins with age.
+ * @param {Sheet} sheet
+ * @param {Columns} path its last point is the newest
+ * @param {Look} look
+ * @param {boolean} near
+ */
+export function drawTrail({ ctx, stroke, use }, path, look, near) {
+  use(look)
+  const n = path[0].length
+  const most = TRAIL / TRAIL_PIECES
+  for (let k = 0; k < TRAIL_PIECES; k++) {
+    // The newest piece ends at the point.
+    const [from, to] = [Math.max(0, n - 1 - (k + 1) * most), n - 1 - k * most]
+    if (to < 1) break
+    const share = 1 - k / TRAIL_PIECES
+    ctx.lineWidth = 1.2 + 2.3 * share
+    ctx.globalAlpha = (near ? 1 : 0.4) * share
+    stroke(path.map((column) => Array.prototype.slice.call(column, from, to + 1)), near)
+  }
+}
+
+/**
+ * Draw the moving point; a dashed ring says that it is behind something.
+ * @param {Sheet} sheet
+ * @param {Vector} point
+ * @param {boolean} near
+ */
+export function drawPoint({ ctx, at, use }, point, near) {
+  use({ weight: 1.5 })
+  ctx.fillStyle = POINT
+  circlePath(ctx, ...at(point), 6.5)
+  ctx.fill()
+  ctx.stroke()
+  if (near) return
+  use({ weight: 1.5, dash: [3.5, 3.4] })
+  circlePath(ctx, ...at(point), 11)
+  ctx.stroke()
 }

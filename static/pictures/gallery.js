@@ -14,6 +14,7 @@ import { shootPlot } from "./shots.js"
 import { Source } from "./sources.js"
 import { sphere } from "./sphere.js"
 import { createStage } from "./stage.js"
+import { torus } from "./torus.js"
 
 // Milliseconds until a theme has changed its last colour.
 const LATE = 2000
@@ -21,7 +22,7 @@ const LATE = 2000
 /** @type {Record<PictureDescription["kind"], (host: HTMLElement, picture: PictureDescription, source: FindSource,
  *   isShown: () => boolean) => Drawn | Promise<Drawn>>} */
 const KINDS = {
-  sphere, cloud: cloudPlane,
+  sphere, torus, cloud: cloudPlane,
   async plot(host, picture, source) {
     const plot = await buildPlot(host, picture, source)
     return { plot, shoot: (side) => shootPlot(plot, side), ...planeGhost(plot) }

@@ -11,8 +11,8 @@ import { dot, unit } from "./vectors.js"
 const MOST = 128
 const COARSE = 2
 // The light comes over the left shoulder of the viewer and turns with the view.
-const LIGHT = [-0.42, 0.62, 0.66]
-const HALFWAY = [-0.23, 0.34, 0.91]
+export const LIGHT = unit([-0.42, 0.62, 0.66])
+export const HALFWAY = unit([-0.23, 0.34, 0.91])
 // The two tones of the octants, and their brightness without direct light.
 const TONES = {
   light: { even: [203, 214, 226], odd: [158, 175, 194], ambient: 0.5 },
@@ -20,8 +20,8 @@ const TONES = {
 }
 const GLASS = 0.22
 
-const [LIGHT_X, LIGHT_Y, LIGHT_Z] = unit(LIGHT)
-const [HALF_X, HALF_Y, HALF_Z] = unit(HALFWAY)
+const [LIGHT_X, LIGHT_Y, LIGHT_Z] = LIGHT
+const [HALF_X, HALF_Y, HALF_Z] = HALFWAY
 
 /**
  * Return the outline of an ellipsoid: the half axes of the ellipse, the angle of the longer one from the right, and half the

@@ -7,20 +7,17 @@
 // ("body.js"); `title` describes it, and `bare` keeps only the equator of the graticule.
 // On the far side the moving point has a dashed ring.
 
-import { listen, tell } from "../page/bus.js"
-import { onDrag } from "../page/drag.js"
-import { arrowOf } from "../page/keys.js"
+import { listen } from "../page/bus.js"
 import { bodyIn } from "./body.js"
+import { drawPoint } from "./body_parts.js"
 import { squareCanvas } from "./canvas.js"
 import { sphereClouds } from "./cloud_on_sphere.js"
 import { FAINT } from "./ghost.js"
-import { circlePath, drawMark, LOOKS, POINT } from "./looks.js"
-import { createSheet, RADIUS } from "./projection.js"
+import { circlePath, drawMark, LOOKS } from "./looks.js"
+import { createSheet } from "./projection.js"
+import { turnable } from "./turnable.js"
 import { circle, graticule, scaled } from "./vectors.js"
 
-const STEP = Math.PI / 36
-/** @type {[number, number]} */
-const HOME = [0.6, 0.35]
 /** @type {[Vector, string][]} */
 const AXES = [[[1, 0, 0], "γ₁"], [[0, 1, 0], "γ₂"], [[0, 0, 1], "γ₃"]]
 
@@ -29,19 +26,6 @@ function drawAxis({ isNear, at, line, write }, axis, label, near) {
   if (isNear(axis) !== near) return
   line(axis, scaled(axis, 1.12))
   write(label, ...at(scaled(axis, 1.2)))
-}
-
-/** @param {Sheet} sheet @param {Vector} point */
-function drawPoint({ ctx, isNear, at, use }, point) {
-  use({ weight: 1.5 })
-  ctx.fillStyle = POINT
-  circlePath(ctx, ...at(point), 6.5)
-  ctx.fill()
-  ctx.stroke()
-  if (isNear(point)) return
-  use({ weight: 1.5, dash: [3.5, 3.4] })
-  circlePath(ctx, ...at(point), 11)
-  ctx.stroke()
 }
 
 /**
@@ -54,24 +38,10 @@ function drawPoint({ ctx, isNear, at, use }, point) {
  */
 export function sphere(el, options, source, isShown) {
   const inSpace = options.attitude !== undefined
-  const { canvas, request, shoot } = squareCanvas(el, inSpace ? "solid" : "sphere", {
-    tabIndex: 0, role: "application", ariaRoleDescription: "rotatable sphere",
-    ariaLabel: `${options.title ?? "Poisson sphere"}: arrow keys turn it, Home turns it back`,
-    title: "Drag to turn; Home turns it back",
-    /** @param {KeyboardEvent} event */
-    onkeydown(event) {
-      const arrow = arrowOf(event)
-      if (event.key === "Home") rotate(...HOME)
-      else if (arrow !== undefined) rotate(turn[0] - STEP * arrow[0], turn[1] + STEP * arrow[1])
-      else return
-      event.preventDefault()
-      event.stopPropagation()
-    },
+  const { request, shoot, turn, onTurn } = turnable(el, inSpace ? "solid" : "sphere", {
+    name: options.name, title: options.title ?? "Poisson sphere", what: "sphere", isShown,
   }, paint)
   const lines = options.bare ? [circle([0, 0, 1], 0)] : graticule()
-  let turn = HOME
-  const askForTurn = () => tell("ask-client", (keys) => { turn = [Number(keys.az), Number(keys.el)] })
-  askForTurn()
   /** @type {Vector | null} */
   let point = null
 
@@ -121,9 +91,9 @@ export function sphere(el, options, source, isShown) {
     }
   }
 
-  /** @type {PaintSquare} */
-  function paint(ctx, look) {
-    const on = createSheet(ctx, look, turn)
+  /** @param {CanvasRenderingContext2D} ctx @param {SquareLook} look @param {[number, number]} view */
+  function paint(ctx, look, view) {
+    const on = createSheet(ctx, look, view)
     guest?.begin?.(on)
     drawHalf(on, false)
     ctx.globalAlpha = 0.5
@@ -133,8 +103,7 @@ export function sphere(el, options, source, isShown) {
     guest?.middle?.(on)
     drawHalf(on, true)
     ctx.globalAlpha = 1
-    if (point !== null) drawPoint(on, point)
-    canvas.dataset.turn = turn.map((x) => x.toFixed(4)).join(" ")
+    if (point !== null) drawPoint(on, point, on.isNear(point))
   }
 
   // The tracks of an earlier state.
@@ -145,7 +114,7 @@ export function sphere(el, options, source, isShown) {
   /** @type {PaintSquare} */
   function paintGhost(ctx, look) {
     if (kept === null) return
-    const on = createSheet(ctx, look, turn)
+    const on = createSheet(ctx, look, turn())
     for (const [name, track] of kept) {
       on.use(LOOKS[name])
       for (const near of [false, true]) {
@@ -155,28 +124,8 @@ export function sphere(el, options, source, isShown) {
     }
   }
 
-  /** @param {number} azimuth @param {number} elevation */
-  function rotate(azimuth, elevation) {
-    const limit = Math.PI / 2
-    const wrapped = Math.atan2(Math.sin(azimuth), Math.cos(azimuth))
-    turn = [wrapped, Math.max(-limit, Math.min(limit, elevation))]
-    tell("url", { az: turn[0].toFixed(4), el: turn[1].toFixed(4) })
-    tell("turned", [options.name, ...turn])
-    request()
-    faint?.request()
-  }
-
-  onDrag(canvas, ({ clientX, clientY }) => [clientX, clientY, ...turn], ([x, y, azimuth, elevation], { clientX, clientY }) => {
-    const perPixel = 2 / (canvas.clientWidth * RADIUS)
-    rotate(azimuth - (clientX - x) * perPixel, elevation + (clientY - y) * perPixel)
-  })
-
-  // The sphere of another scene may have been rotated since.
+  onTurn(() => faint?.request())
   listen({
-    enter() { if (isShown()) askForTurn() },
-    turn([name, ...turned]) {
-      if (isShown() && name === options.name && turned.every(Number.isFinite)) rotate(...turned)
-    },
     time({ t, state }) {
       if (!isShown()) return
       point = inSpace || state?.g1 === undefined ? null : [state.g1, state.g2, state.g3]

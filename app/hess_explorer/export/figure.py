@@ -6,7 +6,7 @@ import io
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from hess_explorer.export import clouds, plots, spheres
+from hess_explorer.export import clouds, plots, spheres, torus
 from hess_explorer.export.formats import WIDTHS, holding
 from hess_explorer.export.picture_data import PictureData
 from hess_explorer.export.solid import EVEN, ODD
@@ -14,6 +14,7 @@ from hess_explorer.views import theme
 from hess_explorer.views.cloud import CloudPlane
 from hess_explorer.views.elements import Colour, as_it_is
 from hess_explorer.views.plot import Plot
+from hess_explorer.views.torus_in_space import TorusInSpace
 from hess_mechanics.errors import InvalidParameter
 
 if TYPE_CHECKING:
@@ -104,6 +105,8 @@ def draw_still(frame: Frame, data: PictureData, colour: Colour) -> None:
         plots.draw_still(frame, data, colour)
     elif isinstance(data.picture, CloudPlane):
         clouds.draw_still(frame, data, colour)
+    elif isinstance(data.picture, TorusInSpace):
+        torus.draw_still(frame, data, colour)
     else:
         spheres.draw_still(frame, data, colour)
 
@@ -114,6 +117,8 @@ def draw_moving(frame: Frame, data: PictureData, colour: Colour, t: float, point
         plots.draw_moving(frame, data, colour, t, point)
     elif isinstance(data.picture, CloudPlane):
         clouds.draw_moving(frame, data, colour, t)
+    elif isinstance(data.picture, TorusInSpace):
+        torus.draw_moving(frame, data, colour, t, point)
     else:
         spheres.draw_moving(frame, data, colour, t, point)
 

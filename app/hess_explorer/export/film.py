@@ -20,6 +20,7 @@ from hess_explorer.views.body import BodyInSpace
 from hess_explorer.views.cloud import CloudPlane
 from hess_explorer.views.elements import as_it_is
 from hess_explorer.views.poisson_sphere import Sphere
+from hess_explorer.views.torus_in_space import TorusInSpace
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 
@@ -51,7 +52,7 @@ def moves(data: PictureData) -> bool:
     follows = (
         bool(picture.followers)
         or bool(densities(data))
-        or isinstance(picture, (BodyInSpace, CloudPlane))
+        or isinstance(picture, (BodyInSpace, CloudPlane, TorusInSpace))
         or (isinstance(picture, Sphere) and ("orbit" in picture.looks or bool(picture.clouds)))
     )
     return follows and end(data.columns) > 0.0

@@ -14,7 +14,7 @@ from hess_explorer.views import theme
 from hess_explorer.views.elements import Colour
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["EVEN", "ODD", "covers", "leaves", "outline", "paint", "shaded"]
+__all__ = ["EVEN", "ODD", "covers", "leaves", "lit", "outline", "paint", "shaded"]
 
 EVEN, ODD = "#CBD6E2", "#9EAFC2"
 """Colours of the octants."""
@@ -68,18 +68,23 @@ def shaded(
     place = start + z[..., None] * along
     normal = (place / semi) @ axes
     normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
-    lit, shine = np.maximum(0.0, normal @ _LIGHT), np.maximum(0.0, normal @ _HALFWAY)
-    for _ in range(4):
-        shine *= shine
+    bright, shine = lit(normal)
     sharp = side / (3.0 * width)
     p, q, r = np.moveaxis(np.clip(place * (semi * sharp), -1.0, 1.0), -1, 0)
     share = 0.5 + 0.5 * p * q * r
     even, odd = (np.array([int(tone[i : i + 2], 16) / 255.0 for i in (1, 3, 5)]) for tone in tones)
-    bright = _AMBIENT + (1.08 - _AMBIENT) * lit
     colours = bright[..., None] * (odd + share[..., None] * (even - odd)) + (70.0 / 255.0) * shine[..., None]
     rim = 1.0 - np.maximum(0.0, normal[..., 2])
     alpha = np.minimum(1.0, _GLASS + 0.12 * share + 0.5 * rim**2 + 0.6 * shine) if glass else np.ones_like(rim)
     return np.clip(np.concatenate([colours, alpha[..., None]], axis=-1), 0.0, 1.0), float(width), float(height)
+
+
+def lit(normals: Array) -> tuple[Array, Array]:
+    """Return the brightness and the highlight (...) of unit normals (..., 3)."""
+    return (
+        _AMBIENT + (1.08 - _AMBIENT) * np.maximum(0.0, normals @ _LIGHT),
+        np.maximum(0.0, normals @ _HALFWAY) ** 16,
+    )
 
 
 def paint(canvas: SphereCanvas, axes: Array, semi: Array, glass: bool, side: int) -> None:

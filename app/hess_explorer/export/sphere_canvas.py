@@ -166,6 +166,16 @@ class SphereCanvas:
         """Draw a disc in the plane of the picture; size : diameter in typographic points."""
         self.frame.plot([x], [y], marker="o", markersize=size, linestyle="none", zorder=self.above(), **style)
 
+    def moving_point(self, at: Point, near: bool) -> None:
+        """Draw the moving point; a dashed ring marks one that is hidden."""
+        x, y, _ = self.at(at)
+        ink = self.colour(theme.INK)
+        self.dot(x, y, 6.5, markerfacecolor=theme.POINT, markeredgecolor=ink, markeredgewidth=0.9)
+        if not near:
+            radius = 6.6 * self.point
+            ring = {"color": ink, "linewidth": 0.9, "linestyle": (0, (2.2, 2.1)), "zorder": self.above()}
+            self.frame.plot(x + radius * np.cos(_ANGLES), y + radius * np.sin(_ANGLES), **ring)
+
     def write(self, label: str, x: float, y: float, alpha: float = 1.0) -> None:
         """Draw a label in the plane of the picture, completely visible and clear of other labels."""
         if not label:

@@ -58,7 +58,8 @@ def draw_moving(frame: Frame, data: PictureData, colour: Colour, t: float, point
         on_sphere(canvas, clouds, True)
     state = state_at(columns.get("data-orbit", {}), data.scene.angles, t) if point else {}
     if isinstance(picture, Sphere) and "g1" in state:
-        _point(canvas, [state[name] for name in ("g1", "g2", "g3")])
+        place = [state[name] for name in ("g1", "g2", "g3")]
+        canvas.moving_point(place, canvas.is_near(place))
 
 
 def _canvas(frame: Frame, data: PictureData, colour: Colour) -> SphereCanvas:
@@ -121,21 +122,3 @@ def _mark(canvas: SphereCanvas, at: tuple[float, float, float], look: str, label
         alpha=alpha,
     )
     canvas.write(label, 1.15 * x, 1.15 * y)
-
-
-def _point(canvas: SphereCanvas, at: list[float]) -> None:
-    """Draw a point; a dashed ring marks a point on the far half."""
-    x, y, depth = canvas.at(at)
-    ink = canvas.colour(theme.INK)
-    canvas.dot(x, y, 6.5, markerfacecolor=theme.POINT, markeredgecolor=ink, markeredgewidth=0.9)
-    if depth < 0.0:
-        radius = 6.6 * canvas.point
-        angles = np.linspace(0.0, 2.0 * np.pi, 49)
-        canvas.frame.plot(
-            x + radius * np.cos(angles),
-            y + radius * np.sin(angles),
-            color=ink,
-            linewidth=0.9,
-            linestyle=(0, (2.2, 2.1)),
-            zorder=canvas.above(),
-        )

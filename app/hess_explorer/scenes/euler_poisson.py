@@ -13,6 +13,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value, Values, written
 from hess_explorer.scenes.framework.charted import Placed, exponents
+from hess_explorer.scenes.framework.hess_case import HeavyHess
 from hess_explorer.scenes.framework.inertia import limits_of_moments
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch
 from hess_explorer.scenes.framework.parameters import (
@@ -47,6 +48,7 @@ from hess_explorer.scenes.parts.filled_section import (
     points_of_each,
 )
 from hess_explorer.scenes.parts.hess_split import HessSplit, split_picture
+from hess_explorer.scenes.parts.hess_surface import INVARIANT, HeavyTorus, HessSurface, shaded_by, surface_picture
 from hess_explorer.scenes.parts.indicator import DENSITY, MEGNO, Indicator, colouring, indicator_layer, indicator_trial
 from hess_explorer.scenes.parts.orbit import Orbit
 from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, length_of_manifolds, plain, which
@@ -217,6 +219,7 @@ class EulerPoisson(State):
         doc="Where two momenta G have this energy at the same point of the section: the one with which orbits start.",
     )
     certain: str = proved_error_shown()
+    shade: str = shaded_by()
     accuracy: str = accuracy_level()
     starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "0,0.2")
     window: str = places("The window of the section", 2, *_BOUNDS)
@@ -313,6 +316,23 @@ class EulerPoisson(State):
     def exponent(self) -> Exponent:
         """The largest Lyapunov exponent of the orbit."""
         return Exponent(self)
+
+    @part
+    def surface(self) -> HessSurface:
+        """The torus of the Hess manifold in space, and the orbit beside it."""
+        torus = HeavyTorus(self, HeavyHess(self.moments, self.m, self.h, self.f))
+
+        def orbit() -> tuple[Array, Array]:
+            bridge, path = torus.heavy.bridge, self.orbit.path
+            return bridge.hess.in_units_of_b(bridge.to_reduced(path.states)), path.times
+
+        def says() -> str:
+            if self.away != 0.0:
+                return "It belongs to ε = 0, and is not invariant now."
+            off = float(np.max(np.abs(relation(self.body, self.orbit.path.states))))
+            return f"The orbit has |r·M| up to {digits(off, 3)}; on the torus r·M = 0."
+
+        return HessSurface(torus, self.shade == INVARIANT, orbit, says)
 
     @part
     def rotation(self) -> RotationAcross:
@@ -441,6 +461,7 @@ SCENE = Scene(
             lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r"), lambda s: s.proof.around
         ),
         exponent_picture(lambda s: s.exponent, folded="Show the Lyapunov exponent"),
+        surface_picture(lambda s: s.surface, folded="Show the torus in space"),
         split_picture(lambda s: s.split),
         branch_picture(lambda s: s.branch),
     ),

@@ -20,6 +20,7 @@ from hess_explorer.scenes.framework.solid_body import Solid, hess_solid, solid_b
 from hess_explorer.scenes.framework.torus_trials import boundary
 from hess_explorer.scenes.framework.trial import COLOUR, COLOUR_UNIT, Trial, colour_error, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
+from hess_explorer.scenes.parts.hess_surface import INVARIANT, HessSurface, shaded_by, surface_picture
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.views import bifurcation_diagram as diagram
 from hess_explorer.views import circle_map as circle
@@ -88,6 +89,7 @@ class SuslovHess(State):
         "cycles, or that none has: their number grows while you look.",
     )
     certain: str = proved_error_shown()
+    shade: str = shaded_by()
     accuracy: str = accuracy_level()
 
     def admitted(self, notes: list[str]) -> SuslovHess:
@@ -175,6 +177,11 @@ class SuslovHess(State):
             return self.work.get(density_on_torus, self.map, self.level), ""
         except InvalidParameter as error:
             return None, str(error)
+
+    @cached_property
+    def surface(self) -> HessSurface:
+        """The torus in space."""
+        return HessSurface(self, self.shade == INVARIANT, lambda: (self.track.orbit.states, self.track.times))
 
     @cached_property
     def solid(self) -> Solid:
@@ -367,6 +374,7 @@ SCENE = Scene(
             dot=("phi_start", "phi"),
             on_click=lambda s, x, y: {"phi0": x},
         ),
+        surface_picture(lambda s: s.surface),
         torus_density.picture(lambda s: s.density),
     ),
 )

@@ -45,6 +45,7 @@ __all__ = [
     "on_torus",
     "poisson_kernel",
     "seen_from",
+    "wide_enough",
 ]
 
 
@@ -203,13 +204,22 @@ def density_on_torus(theta: CircleMap, level: Accuracy, cells: tuple[int, int] =
     Rows have equal φ and columns equal σ = 2πs/T, both from −π to π; σ = 0 at the return.  The mean is 1.
     Raises `InvalidParameter` if there is no density (limit cycles), at f = 0 and if it is too narrow; `WorkLimit`.
     """
-    measure = invariant_measure(theta)
     m, n = 2 * max(1, cells[0] // 2), cells[1]
+    found = wide_enough(theta, (np.arange(m) + 0.5) / m * theta.period, level)
+    phi = (2.0 * np.arange(n) + 1.0 - n) * math.pi / n
+    relative = 2.0 * math.pi * theta.period * found.density(phi)
+    return frozen(np.roll(relative, m // 2, axis=0).T.copy())
+
+
+def wide_enough(theta: CircleMap, times: Array, level: Accuracy) -> TorusMeasure:
+    """Return the invariant measure of a torus at times s ≥ 0 (m,), if its density can be drawn.
+
+    Raises `InvalidParameter` if there is no density (limit cycles), at f = 0 and if it is too narrow; `WorkLimit`.
+    """
+    measure = invariant_measure(theta)
     if measure.gap >= _NARROWEST:
-        found = on_torus(measure, (np.arange(m) + 0.5) / m * measure.period, level)
+        found = on_torus(measure, times, level)
         width = float(np.min(1.0 - np.abs(found.zeta)))
         if width >= max(_NARROWEST, 10.0 * found.error_estimate):
-            phi = (2.0 * np.arange(n) + 1.0 - n) * math.pi / n
-            relative = 2.0 * math.pi * measure.period * found.density(phi)
-            return frozen(np.roll(relative, m // 2, axis=0).T.copy())
+            return found
     raise InvalidParameter("The density lies almost on one line: choose a smaller |a| or another torus.")

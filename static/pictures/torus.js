@@ -1,0 +1,152 @@
+// @ts-check
+// The torus as a surface in space, with the orbit and the limit cycles on it.  Drag, arrow keys and touch turn it.
+//
+// Its own source, with the name of the picture, holds the columns radius and height of the closed cross-section, from the lowest
+// n₃; where there is a density, also re and im of the points ζ at which its Poisson kernel is.  The option `curves` names the
+// sources of curves (columns x, y, z, and t for the orbit) and their looks.
+
+import { listen } from "../page/bus.js"
+import { drawPoint, drawTrail, TRAIL } from "./body_parts.js"
+import { LOOKS } from "./looks.js"
+import { between } from "./moment.js"
+import { createSheet } from "./projection.js"
+import { createRevolved, outline } from "./revolved.js"
+import { turnable } from "./turnable.js"
+import { circle, scaled } from "./vectors.js"
+
+// The orbit is thin, as it may fill the surface; its trail is not.
+const THIN = 1.3
+const HIDDEN = 0.55
+// How far behind the surface curves may seem to lie, in radii of the unit sphere.  At its outline it is steep.
+const [ON_IT, AT_EDGE] = [0.05, 0.25]
+
+/**
+ * Return the density on the surface, from 0 to 1, or null without one.
+ *
+ * With z = e^{iφ} it is the Poisson kernel (1 − |ζ|²)/|z − ζ|², and w = |w|(sin φ, cos φ).
+ * @param {Data} columns
+ * @returns {((i: number, angle: number) => number) | null}
+ */
+function densityOf({ re, im }) {
+  if (!(re?.length > 0)) return null
+  const length = Array.from(re, (/** @type {number} */ x, i) => Math.hypot(x, im[i]))
+  // The kernel is largest where z is nearest to ζ: (1 + |ζ|)/(1 − |ζ|).
+  const most = Math.max(...length.map((one) => (1 + one) / (1 - one)))
+  return (i, angle) => {
+    const square = (Math.sin(angle) - re[i]) ** 2 + (Math.cos(angle) - im[i]) ** 2
+    return (1 - length[i] * length[i]) / square / most
+  }
+}
+
+/**
+ * Draw a torus in an element.
+ * @param {HTMLElement} el
+ * @param {PictureDescription} options
+ * @param {FindSource} source
+ * @param {() => boolean} isShown whether the scene is on show
+ * @returns {Drawn}
+ */
+export function torus(el, options, source, isShown) {
+  const own = source(options.name)
+  const surface = createRevolved()
+  let t = 0
+  const { request, shoot } = turnable(el, "torus", {
+    name: options.name, title: "The torus in space", what: "torus", isShown,
+  }, paint)
+
+  /** Return [look, columns, times] of each curve. @returns {[string, Columns, ArrayLike<number> | undefined][]} */
+  const curves = () => Object.entries(options.curves).map(([name, look]) => {
+    const { x, y, z, t: times } = source(name).data
+    return /** @type {[string, Columns, ArrayLike<number> | undefined]} */ ([look, [x, y, z], times])
+  }).filter(([, [x]]) => x?.length > 1)
+
+  /** @param {CanvasRenderingContext2D} ctx @param {SquareLook} look @param {[number, number]} turn */
+  function paint(ctx, look, turn) {
+    const { radius, height } = own.data
+    if (!(radius?.length > 2)) return
+    const sheet = createSheet(ctx, look, turn)
+    const image = surface.shade(sheet, radius, height, turn, densityOf(own.data))
+    const on = {
+      ...sheet,
+      /** @type {Sheet["stroke"]} */
+      stroke(curve, near) { strokeAll(sheet, [curve], near, ON_IT) },
+    }
+    const edge = outline(radius, height, ...turn)
+    const ring = circle([0, 0, 1], 0).map((column, k) => (k < 2 ? scaled(column, radius[0]) : column))
+    drawLines(on, edge, ring, false)
+    ctx.globalAlpha = 1
+    ctx.drawImage(image, 0, 0, sheet.edge, sheet.edge)
+    drawLines(on, edge, ring, true)
+    ctx.globalAlpha = 1
+    const place = pointNow()
+    if (place !== null) drawPoint(sheet, place, surface.shows(...sheet.at(place), sheet.depth(...place), ON_IT))
+  }
+
+  /**
+   * Stroke the visible or the hidden parts of curves.
+   * @param {Sheet} sheet
+   * @param {Columns[]} list
+   * @param {boolean} near
+   * @param {number} slack
+   */
+  function strokeAll({ ctx, px, py, depth }, list, near, slack) {
+    ctx.beginPath()
+    for (const [X, Y, Z] of list) {
+      let drawing = false
+      for (let i = 1; i < X.length; i++) {
+        const x = 0.5 * (X[i - 1] + X[i])
+        const y = 0.5 * (Y[i - 1] + Y[i])
+        const z = 0.5 * (Z[i - 1] + Z[i])
+        const drawn = surface.shows(px(x, y), py(x, y, z), depth(x, y, z), slack) === near
+        if (drawn) {
+          if (!drawing) ctx.moveTo(px(X[i - 1], Y[i - 1]), py(X[i - 1], Y[i - 1], Z[i - 1]))
+          ctx.lineTo(px(X[i], Y[i]), py(X[i], Y[i], Z[i]))
+        }
+        drawing = drawn
+      }
+    }
+    ctx.stroke()
+  }
+
+  /** @param {Sheet} on @param {Columns[]} edge @param {number[][]} ring @param {boolean} near */
+  function drawLines(on, edge, ring, near) {
+    const { ctx, stroke, use } = on
+    use({ weight: 1.5 })
+    ctx.globalAlpha = near ? 0.6 : 0.2
+    strokeAll(on, edge, near, AT_EDGE)
+    use({ weight: 1.5, dash: [2, 3] })
+    ctx.globalAlpha = near ? 0.9 : HIDDEN
+    stroke(ring, near)
+    for (const [look, curve, times] of curves()) {
+      use(times === undefined ? LOOKS[look] : { ...LOOKS[look], weight: THIN })
+      ctx.globalAlpha = near ? 1 : HIDDEN
+      stroke(curve, near)
+      if (times !== undefined) drawTrail(on, until(curve, times), LOOKS[look], near)
+    }
+  }
+
+  /** Return the end of a curve before the time t. @param {Columns} curve @param {ArrayLike<number>} times @returns {number[][]} */
+  function until(curve, times) {
+    const [i, s] = between(times, t)
+    return curve.map((column) => {
+      const path = Array.prototype.slice.call(column, Math.max(0, i - TRAIL), i + 1)
+      return [...path, column[i] + s * (column[i + 1] - column[i])]
+    })
+  }
+
+  /** Return the place of the moving point, null without an orbit. @returns {Vector | null} */
+  function pointNow() {
+    const [, curve, times] = curves().find(([,, one]) => one !== undefined) ?? []
+    return curve === undefined ? null : until(curve, times).map((column) => column[column.length - 1])
+  }
+
+  listen({
+    time({ t: now }) {
+      if (!isShown()) return
+      t = now
+      request()
+    },
+  })
+  for (const name of [options.name, ...Object.keys(options.curves)]) source(name).watch(request)
+  return { shoot }
+}

@@ -1,0 +1,74 @@
+// @ts-check
+// A square picture in space that drag, arrow keys and touch turn.  All of them begin with the view in the address.
+
+import { listen, tell } from "../page/bus.js"
+import { onDrag } from "../page/drag.js"
+import { arrowOf } from "../page/keys.js"
+import { squareCanvas } from "./canvas.js"
+import { RADIUS } from "./projection.js"
+
+const STEP = Math.PI / 36
+/** @type {[number, number]} */
+const HOME = [0.6, 0.35]
+
+/**
+ * Add a turnable canvas to an element, see `squareCanvas`.
+ * @param {HTMLElement} el
+ * @param {string} className
+ * @param {{name: string, title: string, what: string, isShown: () => boolean}} picture its name and title, what turns ("sphere"),
+ *   and whether its scene is on show
+ * @param {(ctx: CanvasRenderingContext2D, look: SquareLook, turn: [number, number]) => void} paint gets azimuth and elevation
+ *   of the eye
+ */
+export function turnable(el, className, { name, title, what, isShown }, paint) {
+  let turn = HOME
+  /** @type {Set<() => void>} */
+  const watchers = new Set()
+  const own = squareCanvas(el, className, {
+    tabIndex: 0, role: "application", ariaRoleDescription: `rotatable ${what}`,
+    ariaLabel: `${title}: arrow keys turn it, Home turns it back`,
+    title: "Drag to turn; Home turns it back",
+    /** @param {KeyboardEvent} event */
+    onkeydown(event) {
+      const arrow = arrowOf(event)
+      if (event.key === "Home") rotate(...HOME)
+      else if (arrow !== undefined) rotate(turn[0] - STEP * arrow[0], turn[1] + STEP * arrow[1])
+      else return
+      event.preventDefault()
+      event.stopPropagation()
+    },
+  }, (ctx, look) => {
+    paint(ctx, look, turn)
+    own.canvas.dataset.turn = turn.map((x) => x.toFixed(4)).join(" ")
+  })
+
+  const askForTurn = () => tell("ask-client", (keys) => { turn = [Number(keys.az), Number(keys.el)] })
+  askForTurn()
+
+  /** @param {number} azimuth @param {number} elevation */
+  function rotate(azimuth, elevation) {
+    const limit = Math.PI / 2
+    const wrapped = Math.atan2(Math.sin(azimuth), Math.cos(azimuth))
+    turn = [wrapped, Math.max(-limit, Math.min(limit, elevation))]
+    tell("url", { az: turn[0].toFixed(4), el: turn[1].toFixed(4) })
+    tell("turned", [name, ...turn])
+    own.request()
+    for (const watcher of watchers) watcher()
+  }
+
+  onDrag(own.canvas, ({ clientX, clientY }) => [clientX, clientY, ...turn], ([x, y, azimuth, elevation], { clientX, clientY }) => {
+    const perPixel = 2 / (own.canvas.clientWidth * RADIUS)
+    rotate(azimuth - (clientX - x) * perPixel, elevation + (clientY - y) * perPixel)
+  })
+
+  listen({
+    // The picture of another scene may have been rotated since.
+    enter() { if (isShown()) askForTurn() },
+    turn([turned, ...angles]) { if (isShown() && turned === name && angles.every(Number.isFinite)) rotate(...angles) },
+  })
+  return Object.assign(own, {
+    turn: () => turn,
+    /** @param {() => void} watcher is called when the picture turns */
+    onTurn(watcher) { watchers.add(watcher) },
+  })
+}
