@@ -74,8 +74,8 @@ export function outline(radius, height, azimuth, elevation) {
     const psi = 2 * Math.PI * j / AROUND
     const found = turns(psi)
     for (const place of found) {
-      const nearest = before.find((one) => apart(one, place) < n / 4)
-      if (nearest === undefined) continue
+      const [nearest] = before.toSorted((one, other) => apart(one, place) - apart(other, place))
+      if (!(apart(nearest, place) < n / 8)) continue
       const ends = [at(nearest, last), at(place, psi)]
       segments.push([0, 1, 2].map((k) => ends.map((end) => end[k])))
     }

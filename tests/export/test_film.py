@@ -120,6 +120,7 @@ def test_which_pictures_move():
         ("", "circle"): True,
         ("", "bifurcation"): True,
         ("", "sphere"): True,
+        ("", "surface"): True,
         ("scene=singular-measures&points=1000", "density"): True,
         ("scene=singular-measures&points=1000", "sphere"): True,
         ("scene=scattering", "map"): False,

@@ -9,10 +9,12 @@ from matplotlib.patches import Circle, Ellipse
 from PIL import Image
 from pytest import approx
 
-from hess_explorer.export import solid
+from hess_explorer.export import revolved, solid
 from hess_explorer.export.figure import as_file, draw
 from hess_explorer.export.moment import clouds_at, density_at
 from hess_explorer.export.picture_data import picture_data
+from hess_explorer.export.sphere_canvas import seen
+from hess_explorer.export.torus import sides
 from support.ball import TENSOR, rates
 from support.mechanics import followed
 from support.suslov import HESS_BODY, field
@@ -144,3 +146,64 @@ def test_the_points_of_a_cloud_are_pixels_in_a_vector_file(picture):
     assert len(svg) < 400_000
     lines = [line for line in draw(found).axes[0].lines if line.get_rasterized()]
     assert sum(len(line.get_xdata()) for line in lines) == len(found.columns["omega"]["signs0"])
+
+
+# --- The torus in space ---------------------------------------------------------------------------------------
+
+ANGLES = np.linspace(0.0, 2.0 * pi, 65)
+RING = {"radius": 0.6 - 0.3 * np.cos(ANGLES), "height": 0.3 * np.sin(ANGLES)}
+"""A torus with round cross-sections, from its inner equator."""
+VIEWS = [(0.6, 0.35), (-2.0, -1.2), (3.0, 0.0)]
+
+
+def on_ring(count=200_000):
+    """Points of its surface, (count, 3), and the outward normals there."""
+    phi, theta = np.random.default_rng(7).uniform(0.0, 2.0 * pi, (2, count))
+    normals = np.column_stack([-np.cos(theta) * np.cos(phi), -np.cos(theta) * np.sin(phi), np.sin(theta)])
+    axis = 0.6 * np.column_stack([np.cos(phi), np.sin(phi), np.zeros(count)])
+    return axis + 0.3 * normals, normals
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_the_torus_is_painted_where_its_points_are_with_the_inside_behind_the_outside(view):
+    side, (points, _) = 64, on_ring()
+    tones = (np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]))
+    image = revolved.shaded(RING, view, tones, side)
+    columns, rows = (((seen(points, *view)[:, i] + 1.0) * side / 2.0).astype(int) for i in (0, 1))
+    covered = np.zeros((side, side), bool)
+    covered[rows, columns] = True
+    painted = image[..., 3] > 0.0
+    # A pixel is painted by its centre: only some at the edge are not.
+    assert not np.any(painted & ~covered)
+    assert painted.sum() > 0.85 * covered.sum()
+    red, green, _ = image[painted][:, :3].T
+    assert min(red.min(), green.min()) > 0.08
+    dense = revolved.shaded({**RING, "re": np.full(65, 0.5), "im": np.zeros(65)}, view, tones, side)
+    assert dense[..., 2].max() > image[..., 2].max() + 0.2
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_a_point_of_the_torus_is_hidden_if_the_surface_is_before_it(view):
+    points, normals = on_ring(2000)
+    depth = seen(points, *view)
+    found = seen(sides(RING, points, view), *view)[:, 2] > 0.0
+    facing = seen(normals, *view)[:, 2]
+    # What faces away is behind its own tube.
+    assert not np.any(found & (facing < -0.2))
+    # What faces the viewer is hidden only by the other side of the ring.
+    hidden = ~found & (facing > 0.2)
+    assert np.all(depth[hidden, 2] < 0.3)
+    if abs(view[1]) > 1.0:
+        assert not np.any(hidden)
+    else:
+        assert np.any(hidden)
+
+
+def test_the_figure_of_a_torus_has_its_curves_and_in_black_no_colours():
+    found = picture_data("h=1.5&f=0.6&accuracy=draft", "surface")
+    drawn = draw(found)
+    assert {"surface", "surface-orbit", "surface-stable", "surface-unstable"} <= set(found.columns)
+    assert len(drawn.axes[0].images) == 1
+    picture = np.asarray(Image.open(io.BytesIO(as_file(found, "png", 60.0, black=True))).convert("RGB"), int)
+    assert np.ptp(picture, axis=-1).max() <= 2
+    assert np.mean(picture < 250) > 0.1

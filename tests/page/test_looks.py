@@ -66,7 +66,7 @@ def planar(scene):
 
 
 # Whichever of these a picture is, without its caption.
-INSIDE = ":is(canvas.sphere, canvas.solid, .bk-Figure)"
+INSIDE = ":is(canvas.sphere, canvas.solid, canvas.torus, .bk-Figure)"
 
 
 def drawing(page, name):
@@ -153,7 +153,8 @@ def assert_in_sight(places, width, height, count, share=0.5):
 
 # Elements that must not overlap: in the main part and beside it.
 PARTS = (
-    "h1, .param-reset, .param-share, h2.caption, .bk-Figure, canvas.sphere, canvas.solid, .player[role=group], .reader",
+    "h1, .param-reset, .param-share, h2.caption, .bk-Figure, canvas:is(.sphere, .solid, .torus), .player[role=group], "
+    ".reader",
     ".param-scenes, .menu, .number, .text.help, .text.derived",
 )
 # Visible ones only.
@@ -591,7 +592,8 @@ def test_on_a_sphere_no_label_touches_the_next(look_at, scene):
     page = look_at(scene, "laptop")
     touching = """const all = (root) => [...root.querySelectorAll("*")].flatMap((item) =>
       [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
-    for (const canvas of all(document).filter((item) => item.matches(".gallery:not(.away) :is(.sphere, .solid)")))
+    const turning = ".gallery:not(.away) :is(.sphere, .solid, .torus)"
+    for (const canvas of all(document).filter((item) => item.matches(turning)))
       canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "Home", bubbles: true, composed: true }))"""
     canvases = page.evaluate(WRITTEN, touching)
     labels = [one for canvas in canvases for one in canvas]

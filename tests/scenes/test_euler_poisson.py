@@ -423,13 +423,23 @@ def test_what_an_example_of_the_second_series_says_of_the_hess_motion_is_so(pres
     a2, b = 2.0 / 3.0, (2.0 / 3.0) * sqrt(0.5)
     h, f = a2 * preset.values["h"] / b, a2 * preset.values["f"] / sqrt(b)
     a = sqrt((1.0 - a2) * (a2 - 0.5)) / a2
+    view = View(EP, preset.values, seen={"surface"})
     if abs(f) > f_max(h):
-        expected = "no Hess motion yet"
+        expected, torus = "no Hess motion yet", "No torus."
     else:
-        expected = {"elliptic": "the Hess motion is stable", "hyperbolic": "it is unstable, two layers part"}[
-            circle_map(a, h, f, level("precise")).kind
-        ]
+        expected, torus = {
+            "elliptic": ("the Hess motion is stable", "No limit cycle"),
+            "hyperbolic": ("it is unstable, two layers part", "Two limit cycles"),
+        }[circle_map(a, h, f, level("precise")).kind]
+        # The torus in space is that of these h and f.
+        square, rise = (2.0 * (h + 1.0) * np.asarray(one) for one in view.columns("surface", "radius", "height").T)
+        square = square**2 / (2.0 * (h + 1.0))
+        assert rise**2 + f**2 == approx(square * (1.0 - (0.5 * square - h) ** 2), abs=1e-4)
+        states = view.result.orbit.path.states
+        off = np.max(np.abs(states[:, [0, 2]] @ np.array(view.result.body.r)[[0, 2]]))
+        assert view.numbers("surface", "|r·M| up to #;")[0] == approx(off, rel=6e-3)
     assert preset.name.endswith(expected)
+    assert view.text["surface"].split("\n")[1].startswith(torus)
 
 
 @pytest.mark.parametrize("away", [0.0, 0.02])

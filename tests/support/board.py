@@ -102,13 +102,14 @@ def empty_sources(name):
     assert len(set(own)) == len(own)
     pictures = description(name)["pictures"]
     canvases = {picture["name"]: {} for picture in pictures if picture["kind"] != "plot"}
+    curves = {source: {} for picture in pictures for source in picture.get("curves", ())}
     cells = {one["source"]: {} for picture in pictures for one in picture.get("cells", ())}
     axes = {f"{picture['name']}-axes": {"text": []} for picture in pictures if picture.get("renamed")}
     dots = {one["source"]: {one["x"]: [], one["y"]: []} for picture in pictures for one in picture.get("dots", ())}
     empty = dict(found)
     assert not any(column for columns in empty.values() for column in columns.values())
     assert not set(empty) & set(canvases)
-    return {**{track: {} for track in tracks_of(name)}, **cells, **axes, **dots, **empty, **canvases}
+    return {**{track: {} for track in tracks_of(name)}, **curves, **cells, **axes, **dots, **empty, **canvases}
 
 
 def tracks_of(name):

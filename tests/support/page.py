@@ -344,7 +344,8 @@ ALL = """const all = (root) => [...root.querySelectorAll("*")].flatMap((item) =>
 # Home, pressed on what is turned: a picture turns only while it is seen.
 HOMEWARDS = f"""() => {{
   {ALL}
-  for (const item of all(document).filter((one) => one.matches(".gallery:not(.away) :is(canvas.sphere, canvas.solid)")))
+  const turning = ".gallery:not(.away) canvas:is(.sphere, .solid, .torus)"
+  for (const item of all(document).filter((one) => one.matches(turning)))
     if (item.checkVisibility())
       item.dispatchEvent(new KeyboardEvent("keydown", {{ key: "Home", bubbles: true, composed: true }}))
 }}"""

@@ -1,7 +1,7 @@
 """Shade a translucent surface of revolution in orthographic projection, by exact ray intersections.
 
-`revolved.js` paints the same.  Vectors are in view coordinates: right, up, towards the viewer.  ψ is the angle about the
-axis, from the side of the viewer.
+`revolved.js` paints the same.  Vectors are in view coordinates: right, up, towards the viewer.  ψ is the angle about
+the axis, from the side of the viewer.
 """
 
 from __future__ import annotations

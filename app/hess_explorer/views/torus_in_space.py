@@ -15,7 +15,7 @@ from hess_mechanics.suslov_hess.bifurcation import TurningPoints
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.embedding import CrossSection
 
-__all__ = ["POINTS", "Curve", "TorusInSpace", "about"]
+__all__ = ["FORMULA", "POINTS", "Curve", "TorusInSpace", "about"]
 
 S = TypeVar("S")
 
@@ -23,7 +23,7 @@ POINTS = 65
 """Points of the cross-section: even when it is large, its sides are about ten pixels long."""
 _LOOKS = ("orbit", "stable", "unstable")
 _SECTION = Sign("section of the circle map: n₃ is lowest", "line", f"border-top: 2px dotted {theme.INK}")
-_FORMULA = "(w₁, w₂, ṅ₃/ρ₀)/ρ₀, ρ₀ the largest |w| of this h."
+FORMULA = "(w₁, w₂, ṅ₃/ρ₀)/ρ₀, ρ₀ the largest |w| of this h."
 
 
 @dataclass(frozen=True)
@@ -91,8 +91,8 @@ def _columns(curve: Curve | None) -> Columns:
 
 
 def about(theta: CircleMap | None, turning: TurningPoints | None, *more: str) -> Caption:
-    """Return what the surface is, its formula, and more sentences; both None on the separatrix."""
-    return Caption(_kind(theta, turning), " ".join(filter(None, (_FORMULA, *more))))
+    """Return what the surface is, and more sentences; both None on the separatrix."""
+    return Caption(_kind(theta, turning), " ".join(filter(None, more)))
 
 
 def _kind(theta: CircleMap | None, turning: TurningPoints | None) -> str:
@@ -101,7 +101,7 @@ def _kind(theta: CircleMap | None, turning: TurningPoints | None) -> str:
     if turning.roots[2] - turning.roots[1] < 1e-6:
         return "Bifurcation curve: the torus is a circle."
     if turning.f == 0.0 and turning.h < 1.0:
-        return "At f = 0 the centre stands for a circle of states."
+        return "At f = 0 the centre is a circle of states."
     if theta.kind == "hyperbolic":
         return "Two limit cycles on the torus."
     return "The limit cycles have merged." if theta.kind == "parabolic" else "No limit cycle on the torus."

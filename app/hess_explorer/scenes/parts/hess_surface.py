@@ -14,7 +14,7 @@ from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.views import torus_density
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.picture import Picture
-from hess_explorer.views.torus_in_space import POINTS, Curve, TorusInSpace, about
+from hess_explorer.views.torus_in_space import FORMULA, POINTS, Curve, TorusInSpace, about
 from hess_mechanics.errors import InvalidParameter, ModelError, Separatrix
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, Complex
@@ -34,8 +34,7 @@ def shaded_by() -> Any:
         "Torus in space",
         (PLAIN, INVARIANT),
         PLAIN,
-        doc="The invariant density makes the torus greener where a long motion spends more time. It exists where "
-        "there is no limit cycle.",
+        doc="The torus is greener where its invariant density is larger. There is one where no limit cycle exists.",
     )
 
 
@@ -107,12 +106,12 @@ class HessSurface(Part[OnTorus]):
     """The torus as a surface, and the curves on it.
 
     shaded : whether by its invariant density; orbit() : the orbit on show as reduced states (n, 5) in units b = 1, and
-    its times (n,); says() : what the caption says of the orbit.
+    its times (n,); says() : the second part of the caption.
     """
 
     shaded: bool
     orbit: Callable[[], tuple[Array, Array]]
-    says: Callable[[], str] = lambda: ""
+    says: Callable[[], str] = lambda: FORMULA
 
     @cached_property
     def section(self) -> CrossSection | None:
@@ -150,7 +149,7 @@ class HessSurface(Part[OnTorus]):
         """Return the caption: what the surface is, its formula, and why it has no density."""
         if self.section is None:
             return Caption("No torus.", "The Hess manifold has no motion with these h and f.")
-        return about(self.host.map, self.host.turning, self.density[1], self.says())
+        return about(self.host.map, self.host.turning, self.says(), self.density[1])
 
 
 S = TypeVar("S")

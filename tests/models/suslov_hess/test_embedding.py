@@ -1,0 +1,97 @@
+"""The torus in three dimensions: its points are states with h and f, its limits are those of the torus."""
+
+from math import inf, pi, sqrt
+
+import numpy as np
+from pytest import approx, mark, raises
+
+from hess_mechanics import HessBody, circle_map, curve_point, f_max, level, solve, systems, turning_points
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.suslov_hess.embedding import cross_section, density_along, embedded
+from hess_mechanics.suslov_hess.invariant_measure import invariant_measure
+from hess_mechanics.suslov_hess.torus import cycles
+
+HESS = systems()["hess"]
+PRECISE = level("precise")
+TORI = [(1.5, 0.6), (0.2, 0.5), (0.3, -1e-3), (1.0, 1e-4), (1.5, 0.0), (-0.9, 0.05), (40.0, 3.0)]
+every_torus = mark.parametrize(("h", "f"), TORI)
+
+
+def states_at(points, h, f):
+    """The states (n, 5) of points of the torus (h, f), from what its coordinates mean."""
+    square = 2.0 * (h + 1.0)
+    w1, w2, rise = points[:, 0] * sqrt(square), points[:, 1] * sqrt(square), points[:, 2] * square
+    speed = w1**2 + w2**2
+    return np.column_stack(
+        [w1, w2, (f * w1 + rise * w2) / speed, (f * w2 - rise * w1) / speed, 0.5 * speed - h],
+    )
+
+
+@every_torus
+def test_every_point_is_one_state_of_the_torus(h, f):
+    found = cross_section(h, turning_points(h, f), 33)
+    for phi in np.linspace(-pi, pi, 7):
+        points = np.column_stack([found.radius * np.sin(phi), found.radius * np.cos(phi), found.height])
+        states = states_at(points, h, f)
+        integrals = HESS.integrals(states.T, (0.0, 1.0))
+        assert integrals["E"] == approx(np.full(33, h), abs=1e-10 * max(1.0, h))
+        assert integrals["F1"] == approx(np.ones(33), abs=1e-10 * max(1.0, h))
+        assert integrals["F2"] == approx(np.full(33, f), abs=1e-10)
+        assert embedded(states, h) == approx(points, abs=1e-12)
+    assert np.all(np.hypot(found.radius, found.height) <= 1.0 + 1e-12)
+
+
+@every_torus
+@mark.parametrize(("a", "phi"), [(0.0, 0.3), (0.4, -2.0)])
+def test_every_motion_passes_the_cross_section_at_its_times(h, f, a, phi):
+    turning = turning_points(h, f)
+    found = cross_section(h, turning, 33)
+    assert found.times[-1] == approx(turning.period, rel=1e-12)
+    orbit = solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(phi), found.times, PRECISE)
+    x, y, z = embedded(orbit.states, h).T
+    assert np.column_stack([np.hypot(x, y), z]) == approx(np.column_stack([found.radius, found.height]), abs=1e-6)
+
+
+def test_the_limit_cycles_are_closed_curves_on_the_torus():
+    body, h, f = HessBody(0.96, 0.28, -1.0), 1.5, 0.6
+    stable = circle_map(body.a, h, f, PRECISE).fixed_points[0]
+    for cycle in cycles(body, h, f, stable, PRECISE, 4.0):
+        points = embedded(cycle.orbit.states, h)
+        assert points[0] == approx(points[-1], abs=1e-7)
+        # All of the state comes back: the curve lies on this torus.
+        assert states_at(points, h, f) == approx(cycle.orbit.states, abs=1e-7)
+
+
+@mark.parametrize("n", [0.9, 0.5, 0.2])
+def test_on_the_bifurcation_curve_the_torus_is_born_as_a_circle(n):
+    h, _ = curve_point(n)
+    widths = []
+    for share in (1e-2, 1e-4, 1e-6, 0.0):
+        found = cross_section(h, turning_points(h, f_max(h) * (1.0 - share)), 33)
+        widths.append(max(np.ptp(found.radius), np.ptp(found.height)))
+    assert found.radius == approx(np.full(33, sqrt((h + n) / (h + 1.0))), abs=1e-6)
+    assert widths[0] / widths[1] == approx(10.0, rel=0.1)
+    assert widths[1] / widths[2] == approx(10.0, rel=0.01)
+    assert widths[3] < 1e-6
+
+
+def test_at_f_0_and_on_the_separatrix_the_surface_reaches_the_centre_and_changes_continuously():
+    for h in (-0.5, 0.5, 1.0):
+        turning = None if h == 1.0 else turning_points(h, 0.0)
+        found = cross_section(h, turning, 33)
+        assert (found.radius[0], found.height[0]) == (0.0, 0.0)
+        for near in (turning_points(h, 1e-7), turning_points(h + 1e-7, -1e-7)):
+            beside = cross_section(near.h, near, 33)
+            assert beside.radius == approx(found.radius, abs=2e-3)
+            assert beside.height == approx(found.height, abs=2e-3)
+    assert found.times.tolist() == [0.0] + 32 * [inf]
+    with raises(InvalidParameter, match="three points"):
+        cross_section(0.5, None, 2)
+
+
+def test_the_density_along_the_cross_section_returns_to_that_of_the_circle_map():
+    theta = circle_map(0.5, 0.5, 0.5, PRECISE)
+    zeta = density_along(theta, 33, PRECISE)
+    assert zeta[[0, -1]] == approx(np.full(2, invariant_measure(theta).zeta), abs=1e-7)
+    assert np.max(np.abs(zeta)) < 1.0
+    assert np.max(np.abs(zeta - zeta[0])) > 0.1
