@@ -278,7 +278,7 @@ def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_othe
     assert explorer.scene == HESS
     assert_drawn(explorer, HESS, DEFAULTS)
     assert listeners(explorer) == at_rest
-    assert explorer.page.locator(".picture:visible").count() == 5
+    assert explorer.page.locator(".picture:visible").count() == 6
     # One change is one state, and one key is pressed for one player.
     before = explorer.state
     explorer.change(lambda: explorer.slide(h=0.75))
