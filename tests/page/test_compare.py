@@ -80,7 +80,7 @@ def assert_side_by_side(explorer):
         half.wait_for_function(READY, timeout=120_000)
         assert float(half.locator(".param-h input[type=text]").input_value()) == h
         # All pictures at once.
-        assert half.locator(".picture:visible").count() == 5
+        assert half.locator(".picture:visible").count() == 6
     # Both show the axes of both, also while one of them changes.
     before = one.evaluate(H_AXIS)
     assert other.evaluate(H_AXIS) == before

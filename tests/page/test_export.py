@@ -31,7 +31,7 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer):
     explorer.change(lambda: explorer.slide(f=0.3))
     page.get_by_role("button", name="Export").click()
     dialog = page.get_by_role("dialog", name="Export")
-    assert dialog.locator(".param-picture option").count() == 5
+    assert dialog.locator(".param-picture option").count() == 6
     assert dialog.locator(".param-format option").evaluate_all("all => all.map((one) => one.value).join()") == (
         "csv,json,png,svg,pdf,webm,mp4,gif,html"
     )
@@ -70,7 +70,12 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer):
     origin = page.url.partition("?")[0]
     saved = Path(download.value.path()).read_bytes()
     # But for the time that it took, in milliseconds, the same as without a server.
-    assert abs(len(saved) - len(as_html(state, ["body", "omega", "sphere", "bifurcation", "circle"], origin)[1])) < 200
+    assert (
+        abs(
+            len(saved) - len(as_html(state, ["body", "omega", "sphere", "bifurcation", "circle", "surface"], origin)[1])
+        )
+        < 200
+    )
     assert f'<a href="{origin}?'.encode() in saved
     dialog.locator(".param-format").select_option("csv")
     # The dialog reports formats that cannot be made, and nothing is saved.

@@ -51,7 +51,7 @@ def test_a_state_plays_and_turns_from_the_disk(browser, tmp_path):
     path = tmp_path / "suslov-hess.html"
     path.write_bytes(data)
     with opened(browser, path) as page:
-        assert page.locator("#pictures .picture").count() == 5
+        assert page.locator("#pictures .picture").count() == 6
         captions = page.locator("#pictures .title").all_text_contents()
         assert captions == [
             "The body in space",
@@ -59,6 +59,7 @@ def test_a_state_plays_and_turns_from_the_disk(browser, tmp_path):
             "Poisson sphere",
             "Bifurcation diagram",
             "Circle map",
+            "The torus in space",
         ]
         found = picture_data(DRAFT, "omega")
         orbit = found.columns["data-orbit"]

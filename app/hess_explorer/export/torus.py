@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hess_explorer.export.moment import state_at
-from hess_explorer.export.revolved import shaded
 from hess_explorer.export.picture_data import PictureData
+from hess_explorer.export.revolved import shaded
 from hess_explorer.export.solid import EVEN, ODD
 from hess_explorer.export.sphere_canvas import LOOKS, Look, SphereCanvas
 from hess_explorer.views import theme
