@@ -128,7 +128,7 @@ class HessSurface(Part[OnTorus]):
             return None, ""
         map_ = self.host.map
         # The verdict says why.
-        if map_ is None or torus_density.why_none(map_, self.host.turning):
+        if map_ is None or torus_density.reason_for_no_density(map_, self.host.turning):
             return None, "No density."
         try:
             return self.work.get(density_along, map_, POINTS, self.host.level), ""
