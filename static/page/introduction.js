@@ -18,8 +18,8 @@ const STEPS = [
     hint: "Drag φ₀, the start: at first it matters, soon it does not.",
   },
   {
-    picture: "sphere", controls: ["phi0"], sentence: "Seen from the body, the vertical ends on one closed curve.",
-    hint: "Every start but one gathers on the green curve. The orange one is where none stays.",
+    picture: "surface", controls: ["phi0"], sentence: "Its motion lies on a torus, and gathers on one curve.",
+    hint: "Every start but one goes to the green cycle. Only a motion on the orange one stays there.",
   },
   {
     picture: "circle", controls: ["I23"], sentence: "One turn is a map of a circle.",

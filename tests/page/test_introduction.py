@@ -39,7 +39,7 @@ def test_a_first_visitor_sees_one_dark_picture_then_one_more_at_a_time_then_the_
         assert in_sight(page) == ["body"]
         assert page.locator(".param-scenes").is_hidden()
         sentences = []
-        for number, picture in enumerate(("body", "sphere", "circle", "bifurcation"), start=1):
+        for number, picture in enumerate(("body", "surface", "circle", "bifurcation"), start=1):
             sentences.append(introduction.locator(".sentence").text_content())
             page.locator(f"{IN_SIGHT}.picture-{picture}").wait_for()
             # A phone shows the newest.

@@ -55,7 +55,7 @@ IDEAS = {
         Exhibit("ball-section", "A wider one", "section", "On a rolling ball"),
     ),
     "One torus, one number": (
-        Exhibit("suslov-hess", "Two limit cycles", "sphere", "Two limit cycles"),
+        Exhibit("suslov-hess", "Two limit cycles", "surface", "Two limit cycles"),
         Exhibit("suslov-hess", "No cycle", "omega", "Every orbit winds"),
         Exhibit("suslov-hess", "Strong contraction", "bifurcation", "Locked or winding"),
         Exhibit("rotation-number", "One plateau", "map", "Rotation number"),
