@@ -27,7 +27,7 @@ DRAWN = [
     ("suslov-hess", "bifurcation", "here", ("h", "f")),
     ("free-suslov", "omega", "arrows", ("x", "y")),
     ("scattering", "map", "theta", ("value",)),
-    ("suslov", "section", "first", ("x", "y")),
+    ("suslov", "section", "chosen", ("x", "y")),
 ]
 
 
@@ -56,8 +56,8 @@ def test_a_notebook_shows_a_state_by_its_parameters_and_link():
     [
         (
             {"height": 1.0},
-            "has no parameter 'height': choose one of I22, I23, b3, h, f, phi0, span, cells, certain, accuracy, t, az, "
-            "el.",
+            "has no parameter 'height': choose one of I22, I23, b3, h, f, phi0, span, cells, certain, shade, accuracy, "
+            "t, az, el.",
         ),
         ({"h": "high"}, "'high' is not a number: h (Energy h) must be a number between -1 and 1e+06."),
         ({"h": True}, "True is not a number"),
