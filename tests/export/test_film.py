@@ -11,6 +11,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from pytest import approx
+from scipy import ndimage
 
 from hess_explorer.__main__ import main
 from hess_explorer.export.film import as_film, moves, pictures_at, times_of
@@ -42,9 +43,11 @@ def box_of(picture):
 def point_in(picture):
     """The middle of the yellow point, (x, y) in pixels from the left and from above."""
     red, green, blue = picture.astype(int).transpose(2, 0, 1)
-    rows, columns = np.nonzero((red > 190) & (green > 180) & (blue < 140))
-    assert columns.size > 20
-    # A median: at the edges of orange lines single pixels are yellow too.
+    # The largest spot: at the edges of orange lines and letters single pixels are yellow too.
+    spots, _ = ndimage.label((red > 190) & (green > 180) & (blue < 140))
+    sizes = np.bincount(spots.ravel())[1:]
+    assert sizes.max() > 20
+    rows, columns = np.nonzero(spots == 1 + np.argmax(sizes))
     return np.median(columns), np.median(rows)
 
 

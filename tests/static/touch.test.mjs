@@ -13,18 +13,20 @@ test("a finger is near a handle that it covers", () => {
   assert.ok(!isNear([10, 10], []))
 })
 
-test("the first pointer drags; a second one does nothing, and a cancelled drag ends without an event", () => {
+test("the first pointer drags; a second one and a cancelled pointer end the drag without an event", () => {
   const handle = Object.assign(new Element(), { setPointerCapture() {} })
   const said = []
   onDrag(handle, ({ pointerId }) => [pointerId], ([id], { x }) => said.push([id, x]), ([id], event) => said.push([id, event]))
   const send = (type, pointerId, x) => handle.dispatchEvent(Object.assign(new Event(type), { pointerId, x }))
   send("pointerdown", 1)
-  send("pointerdown", 2)
   send("pointermove", 1, 5)
   send("pointermove", 2, 9)
-  send("pointerup", 2)
+  send("pointerdown", 2)
   send("pointermove", 1, 6)
-  send("pointercancel", 1)
-  send("pointermove", 1, 7)
-  assert.deepEqual(said, [[1, 5], [1, 6], [1, null]])
+  send("pointerup", 2)
+  send("pointerdown", 3)
+  send("pointermove", 3, 7)
+  send("pointercancel", 3)
+  send("pointermove", 3, 8)
+  assert.deepEqual(said, [[1, 5], [1, null], [3, 7], [3, null]])
 })
