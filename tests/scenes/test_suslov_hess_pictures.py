@@ -150,7 +150,8 @@ def test_the_derived_quantities_are_those_of_the_formulas():
     expected = {"a": -0.4, "b": b, "I₁₁": I11, "b₂": -0.8, "E": I11 * b * 0.75, "F₂": I11 * sqrt(b) * 0.3}
     for name, value in expected.items():
         row = next(text for key, text in rows.items() if key.split(" ")[0] == name)
-        assert numbers_in(row)[-1] == approx(value, rel=6e-6), name
+        # Four digits are shown.
+        assert numbers_in(row)[-1] == approx(value, rel=5e-4), name
 
 
 def test_both_cycles_are_closed_orbits_of_the_equations():
