@@ -117,7 +117,7 @@ def needed(seen):
     return (
         {MAP}
         | ({TRACK} if seen else set())
-        | ({CYCLES} if seen & {"omega", "sphere"} else set())
+        | ({CYCLES} if seen & {"omega", "sphere", "surface"} else set())
         | (ZONES if "bifurcation" in seen else set())
     )
 

@@ -58,7 +58,7 @@ def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(exp
           while (item?.shadowRoot?.activeElement) item = item.shadowRoot.activeElement
           return item === document.body || item.closest("dialog") !== null
         }""")
-    for name in ("sphere", "body", "bifurcation"):
+    for name in ("sphere", "body", "bifurcation", "surface"):
         page.locator(f".embed-pictures input[value={name}]").uncheck()
     for name in ("omega", "circle"):
         page.locator(f".embed-pictures input[value={name}]").check()

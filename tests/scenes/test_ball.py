@@ -289,7 +289,7 @@ def test_the_chosen_orbit_and_its_points_are_those_of_the_energy_in_the_caption(
 def test_the_numbers_in_the_caption_of_the_section_are_those_of_its_points(name):
     view = field(name)
     own = view.points("own")
-    points, found, all_cells = view.numbers("section", "# points of the chosen orbit in # of # cells")
+    points, found, all_cells = view.numbers("section", "# points of the orbit in # of # cells")
     expected = view.values["count"] / (1 if view.values["drop"] == "all" else 2)
     assert (points, all_cells) == (len(own), 1024)
     assert points == expected

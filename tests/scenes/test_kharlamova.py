@@ -189,7 +189,7 @@ def test_an_example_of_the_quartic_potential_is_what_its_name_says(preset):
     else:
         assert view.numbers("momentum", "between # and #.") == approx([G.min(), G.max()], rel=1e-3, abs=1e-3)
     if view.values["periodic"] == NONE:
-        points, visited = view.numbers("section", "# points of the chosen orbit in # of 1024 cells.")
+        points, visited = view.numbers("section", "# points of the orbit in # of 1024 cells.")
         assert points == len(view.data["section-own"]["x"])
         assert (visited > 0.6 * points) is ("sea" in preset.name)
     else:

@@ -329,7 +329,7 @@ class BallSection(State):
         volume = "The flow preserves volume." if self.I13 == self.I23 == 0.0 else "The flow does not preserve volume."
         visited = occupied_cells(self.section.own, _CELLS)
         counted = self.density.said or f"{len(self.section.own)} points of the "
-        return Caption(volume, f"{counted}chosen orbit in {visited} of {_CELLS**2} cells.")
+        return Caption(volume, f"{counted}orbit in {visited} of {_CELLS**2} cells.")
 
     def _about_returns(self) -> Caption:
         if self.section.own is None:

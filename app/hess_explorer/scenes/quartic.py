@@ -282,7 +282,7 @@ class Quartic(State):
             return Caption(numbers=self.section.reason)
         visited = model.visited(self.body, self.section.own, _CELLS)
         counted = self.density.said or f"{len(self.section.own)} points of the "
-        return Caption(numbers=f"{counted}chosen orbit in {visited} of {_CELLS * _CELLS} cells.")
+        return Caption(numbers=f"{counted}orbit in {visited} of {_CELLS * _CELLS} cells.")
 
     def _about_sphere(self) -> Caption:
         return Caption("The motion of the body.", f"γ = (p₁, p₂, γ₃), γ₃ {staying(self.orbit.path.states[:, 4])}.")

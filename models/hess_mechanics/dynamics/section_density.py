@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section import section_points
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["Visits", "visits"]
@@ -50,7 +50,7 @@ def visits(
     starts: Sequence[Sequence[float]] | Array,
     crossings: int,
     forward: bool,
-    level: Level,
+    level: Accuracy,
 ) -> Visits:
     """Return the visits of the first `crossings` crossings of each orbit from `starts` (k, d), on one core.
 

@@ -39,7 +39,7 @@ ArbBall = Any
 ExactNumber = str | float | Fraction
 """A number that proofs take as exact, see `exact`."""
 
-_MOST_DIGITS, _MOST_EXPONENT = 100, 200
+_MOST_DIGITS, _MOST_EXPONENT = 100, 400
 _MOST_BITS = 1 << 14
 _LOCK = threading.RLock()
 

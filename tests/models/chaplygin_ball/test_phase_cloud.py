@@ -243,7 +243,7 @@ def test_the_entropy_gains_the_mean_of_the_logarithm(direction):
     assert rates[2:-2] == approx(found.divergence.mean(axis=0)[2:-2], rel=0.1, abs=0.02)
     # The cloud gathers either way, as the scene says.
     assert entropy[-1] < entropy[0] - 1.0
-    assert "It is what the entropy" in SCENE.words
+    assert "the gain of the entropy" in SCENE.words
     assert "the entropy falls." in SCENE.words
 
 

@@ -19,7 +19,7 @@ from hess_mechanics import (
     systems,
 )
 from hess_mechanics.dynamics import return_map as return_map_module
-from hess_mechanics.dynamics.point_sets import Apart
+from hess_mechanics.dynamics.point_sets import SetDistance
 from hess_mechanics.dynamics.regime import Dynamics, MotionKind, dynamics_of, regime
 from hess_mechanics.errors import InvalidParameter, NoReturn
 from support.mechanics import apart, scipy_crossings
@@ -104,8 +104,8 @@ def test_orbits_on_their_way_tell_nothing_and_the_others_must_agree(settled, apa
         divergence_error=0.01,
         volume_kept=False,
     )
-    kinds = [Apart(3.0, 0.01, 0.01, 0.0, True)] * apart + [Apart(0.5, 0.01, 0.01, 0.1, True)] * touching
-    kinds += [Apart(1.0, 0.2, 0.9, 0.0, False)] * (8 - settled)
+    kinds = [SetDistance(3.0, 0.01, 0.01, 0.0, True)] * apart + [SetDistance(0.5, 0.01, 0.01, 0.1, True)] * touching
+    kinds += [SetDistance(1.0, 0.2, 0.9, 0.0, False)] * (8 - settled)
     found = Dynamics(motion, np.zeros((1, 2)), np.zeros((1, 2)), tuple(kinds))
     assert found.verdict == verdict
     assert found.distance == approx(

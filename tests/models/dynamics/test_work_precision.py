@@ -443,11 +443,12 @@ def test_the_derived_quantities_say_the_system_and_where_it_starts(values):
     body = HessBody(values["I22"], values["I23"], values["b3"])
     orbit = track(body, values["h"], values["f"], values["phi0"], values["span"], REFERENCE, 4.0).orbit
     said = dict(re.match(r"([\w()]+) = (\S+)$", row).groups() for row in report.derived if " = " in row)
+    # Four digits are shown.
     numbers = {name: float(text.replace("−", "-")) for name, text in said.items()}
-    assert numbers["a"] == approx(values["I23"] / values["I22"], rel=1e-5)
+    assert numbers["a"] == approx(values["I23"] / values["I22"], rel=5e-4)
     assert numbers["b"] == 1.0
     for name, value in zip(("w1", "w2", "n1", "n2", "n3"), orbit.states[0], strict=True):
-        assert numbers[f"{name}(0)"] == approx(value, rel=1e-5)
+        assert numbers[f"{name}(0)"] == approx(value, rel=5e-4)
 
 
 # --- Clicks ------------------------------------------------------------------------------------------------------
