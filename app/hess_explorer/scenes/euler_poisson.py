@@ -385,11 +385,9 @@ class EulerPoisson(State):
         if special is not None:
             return special
         kept = [one for batch in self.section.batches for one in batch.kept]
-        other = len(inside([(float(l), float(x)) for l, x in self.section.elsewhere], self.section.frame))
-        apart = f" {other} on another sheet." if other else ""
         return Caption(
             "The two layers never mix." if self.away == 0.0 else "",
-            f"{self.density.said}r·M keeps its sign along {sum(kept)} of {len(kept)} orbits.{apart}",
+            f"{self.density.said}r·M keeps its sign along {sum(kept)} of {len(kept)} orbits.",
         )
 
     def derived(self) -> Iterator[str]:
