@@ -7,6 +7,7 @@ the axis, from the side of the viewer.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -31,7 +32,7 @@ def shaded(section: Columns, view: tuple[float, float], tones: tuple[Array, Arra
     x, y = (one.ravel() for one in np.meshgrid(centres, centres))
     radius, height, normals = section["radius"], section["height"], _normals(section)
     image = np.zeros((side * side, 4))
-    hits: list[tuple[Array, ...]] = []
+    hits: list[tuple[Any, ...]] = []
     for i in range(len(radius) - 1):
         dr, dz = radius[i + 1] - radius[i], height[i + 1] - height[i]
         # Along the cone's side, at the share s, the line of sight is this far before the axis.

@@ -173,7 +173,12 @@ class SphereCanvas:
         self.dot(x, y, 6.5, markerfacecolor=theme.POINT, markeredgecolor=ink, markeredgewidth=0.9)
         if not near:
             radius = 6.6 * self.point
-            ring = {"color": ink, "linewidth": 0.9, "linestyle": (0, (2.2, 2.1)), "zorder": self.above()}
+            ring: dict[str, Any] = {
+                "color": ink,
+                "linewidth": 0.9,
+                "linestyle": (0, (2.2, 2.1)),
+                "zorder": self.above(),
+            }
             self.frame.plot(x + radius * np.cos(_ANGLES), y + radius * np.sin(_ANGLES), **ring)
 
     def write(self, label: str, x: float, y: float, alpha: float = 1.0) -> None:

@@ -43,10 +43,10 @@ def draw_still(frame: Frame, data: PictureData, colour: Colour) -> None:
     angle = np.linspace(0.0, 2.0 * math.pi, 181)
     ring = float(own["radius"][0]) * np.column_stack([np.cos(angle), np.sin(angle), np.zeros(181)])
     curves = [(_RING, ring)]
-    for look in ("orbit", "stable", "unstable"):
-        columns = data.columns.get(f"{data.picture.name}-{look}", {})
+    for name in ("orbit", "stable", "unstable"):
+        columns = data.columns.get(f"{data.picture.name}-{name}", {})
         if len(columns.get("x", ())) > 1:
-            curves.append((LOOKS[look], np.column_stack([columns[name] for name in "xyz"])))
+            curves.append((LOOKS[name], np.column_stack([columns[one] for one in "xyz"])))
     for near in (False, True):
         for look, path in curves:
             canvas.stroke(path, look, near, 1.0 if near else _FAINT, sides(own, path, canvas.view))
@@ -90,11 +90,11 @@ def _paint(canvas: SphereCanvas, section: Columns) -> None:
     """Paint the surface; in vector files it is pixels."""
     from matplotlib.image import AxesImage
 
-    tones = tuple(_rgb(canvas.colour(one)) for one in (EVEN, ODD, theme.STABLE))
+    outside, inside, densest = (_rgb(canvas.colour(one)) for one in (EVEN, ODD, theme.STABLE))
     image = AxesImage(
         canvas.frame, extent=(-1.0, 1.0, -1.0, 1.0), origin="lower", interpolation="bilinear", zorder=canvas.above()
     )
-    image.set_data(shaded(section, canvas.view, tones, _SIDE))
+    image.set_data(shaded(section, canvas.view, (outside, inside, densest), _SIDE))
     canvas.frame.add_image(image)
 
 

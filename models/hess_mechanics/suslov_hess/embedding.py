@@ -80,7 +80,7 @@ def _times(n0: float, n1: float, n2: float, theta: Array) -> Array:
         return np.where(theta > 0.0, math.inf, 0.0)
     m = (n2 - n1) / (n2 - n0)
     found = math.sqrt(2.0 / (n2 - n0)) * (ellipk(m) - ellipkinc(0.5 * (math.pi - theta), m))
-    return np.maximum(0.0, found)
+    return np.asarray(np.maximum(0.0, found))
 
 
 def density_along(theta: CircleMap, count: int, level: Accuracy) -> Complex:
