@@ -12,6 +12,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value, Values, written
+from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.charted import Placed, exponents
 from hess_explorer.scenes.framework.hess_case import HeavyHess
 from hess_explorer.scenes.framework.inertia import limits_of_moments
@@ -49,7 +50,7 @@ from hess_explorer.scenes.parts.filled_section import (
 )
 from hess_explorer.scenes.parts.hess_split import HessSplit, split_picture
 from hess_explorer.scenes.parts.hess_surface import INVARIANT, HeavyTorus, HessSurface, shaded_by, surface_picture
-from hess_explorer.scenes.parts.indicator import DENSITY, MEGNO, Indicator, colouring, indicator_layer, indicator_trial
+from hess_explorer.scenes.parts.indicator import MEGNO, Indicator, colouring, indicator_layer, indicator_trial
 from hess_explorer.scenes.parts.orbit import Orbit
 from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, length_of_manifolds, plain, which
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown

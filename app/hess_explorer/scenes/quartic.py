@@ -11,6 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
+from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.charted import exponents
 from hess_explorer.scenes.framework.parameters import (
     Slider,
@@ -32,7 +33,7 @@ from hess_explorer.scenes.parts.branch import (
     parameter_of_branch,
 )
 from hess_explorer.scenes.parts.density import Density, density_layers
-from hess_explorer.scenes.parts.indicator import DENSITY, MEGNO, Indicator, colouring, indicator_layer, indicator_trial
+from hess_explorer.scenes.parts.indicator import MEGNO, Indicator, colouring, indicator_layer, indicator_trial
 from hess_explorer.scenes.parts.orbit import Orbit
 from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, length_of_manifolds, plain, which
 from hess_explorer.scenes.parts.proof import Proof, proved_error_shown

@@ -12,12 +12,15 @@ from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.comparison import Cells
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["CELLS", "COARSE", "Arguments", "changed", "found_by_rows", "look"]
+__all__ = ["CELLS", "COARSE", "DENSITY", "Arguments", "changed", "found_by_rows", "look"]
 
 CELLS = (36, 24)
 """Cells across and up a section at the level `standard`."""
 COARSE = 3
 """Fine cells along each side of a coarse one: odd, so that the middle of the coarse cell is that of a fine one."""
+
+DENSITY = "density"
+"""The choice of what lies under the points of a section that counts crossings."""
 
 Arguments = tuple[Any, ...]
 

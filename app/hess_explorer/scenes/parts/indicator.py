@@ -9,7 +9,7 @@ from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
-from hess_explorer.scenes.framework.cells import CELLS, COARSE, Arguments, changed, found_by_rows, look
+from hess_explorer.scenes.framework.cells import CELLS, COARSE, DENSITY, Arguments, changed, found_by_rows, look
 from hess_explorer.scenes.framework.parameters import choice
 from hess_explorer.scenes.framework.part import Part, Sectioned
 from hess_explorer.scenes.framework.scene import State
@@ -25,9 +25,9 @@ from hess_mechanics.dynamics.megno_map import row_of_cells, time_of
 from hess_mechanics.numerics.accuracy import Computation, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["DENSITY", "MEGNO", "Indicator", "colouring", "indicator_layer", "indicator_trial"]
+__all__ = ["MEGNO", "Indicator", "colouring", "indicator_layer", "indicator_trial"]
 
-DENSITY, MEGNO = "density", "MEGNO"
+MEGNO = "MEGNO"
 _TURNS = 300.0
 """Time of the indicator, in units of 1/ν: some fifty returns."""
 

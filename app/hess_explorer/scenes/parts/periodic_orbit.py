@@ -10,6 +10,7 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from hess_explorer.protocol.parameters import Value
+from hess_explorer.scenes.framework.cells import DENSITY
 from hess_explorer.scenes.framework.parameters import choice, number
 from hess_explorer.scenes.framework.part import Part, Sectioned
 from hess_explorer.scenes.framework.periodic_search import (
@@ -29,7 +30,6 @@ from hess_explorer.scenes.framework.periodic_search import (
     sought,
 )
 from hess_explorer.scenes.framework.scene import Preset, State
-from hess_explorer.scenes.parts.indicator import DENSITY
 from hess_explorer.views import periodic as view
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Layer
