@@ -156,7 +156,7 @@ export function render({ index, el }) {
     go(lesson.name, at, true, () => {
       veil(lesson.steps[at].hide ?? null)
       shown.reveal()
-      // What is said about the guess, under the button, is above the buttons of the step then.
+      // The verdict on the guess stands under the button: scroll it above the buttons of the step.
       pressed.scrollIntoView({ block: "start" })
     })
     return true

@@ -3,8 +3,8 @@
 // boxes it draws one.
 //
 // A browser that scrolls cancels the pointer.  Preventing the default of "touchstart" is the only way to stop it near a handle, as
-// the style `touch-action` cannot depend on the place.  Elsewhere two fingers zoom the page.  Bokeh would take the events of a second finger for those of the first: they are
-// withheld, and the drag ends where it is.
+// the style `touch-action` cannot depend on the place.  Elsewhere two fingers zoom the page.  Bokeh would take the events of a
+// second finger for those of the first: they are withheld, and the drag ends where it is.
 
 // A finger covers about 40 pixels.
 const REACH = 30

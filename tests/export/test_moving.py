@@ -188,9 +188,9 @@ def test_a_point_of_the_torus_is_hidden_if_the_surface_is_before_it(view):
     depth = seen(points, *view)
     found = seen(sides(RING, points, view), *view)[:, 2] > 0.0
     facing = seen(normals, *view)[:, 2]
-    # What faces away is behind its own tube.
+    # Points that face away are behind their own tube.
     assert not np.any(found & (facing < -0.2))
-    # What faces the viewer is hidden only by the other side of the ring.
+    # Points that face the viewer are hidden only by the other side of the ring.
     hidden = ~found & (facing > 0.2)
     assert np.all(depth[hidden, 2] < 0.3)
     if abs(view[1]) > 1.0:
