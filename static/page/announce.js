@@ -30,8 +30,11 @@ export function announcer() {
   }
 
   listen({
-    // The captions of another scene are its own: no change.
-    enter() { known.clear() },
+    // The captions of another scene are its own: no change, and the old announcement no longer holds.
+    enter() {
+      known.clear()
+      item.textContent = ""
+    },
     painted() {
       clearTimeout(resting)
       resting = setTimeout(say, REST)
