@@ -5,8 +5,6 @@ whose Python is that of the Debian release.  Run is one replica as compose.yaml 
 it may write, its health, the page's answer, its memory, and how it ends.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import os
@@ -24,11 +22,19 @@ import yaml
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parent)]
 
-from clean_root import PATH, REACHED, debian
 from support.serving import free_port
 
 PROJECT = Path(__file__).resolve().parents[1]
 NAME, BASE = "localhost/hess-explorer:try", "localhost/debian-python:try"
+PACKAGES = "python3,python3-venv,ca-certificates"
+PATH = "/opt/python/bin:/usr/local/bin:/usr/bin:/bin:/usr/sbin"
+# Network access of this machine: pip's settings, certificates, host names.
+REACHED = (
+    "/etc/pip.conf",
+    "/etc/resolv.conf",
+    "/etc/hosts",
+    *{value for name, value in os.environ.items() if name in ("PIP_CERT", "SSL_CERT_FILE")},
+)
 
 
 class Engine:
@@ -59,6 +65,18 @@ class Engine:
                 stdout=subprocess.DEVNULL,
                 check=True,
             )
+
+
+def debian(root: Path, suite: str, mirror: str = "") -> None:
+    """A system of this release below `root`, with a Python below /opt that has no packages of Debian's."""
+    begun = time.monotonic()
+    subprocess.run(
+        ["debootstrap", "--variant=minbase", f"--include={PACKAGES}", suite, str(root), *filter(None, [mirror])],
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
+    subprocess.run(["chroot", str(root), "python3", "-m", "venv", "/opt/python"], check=True)
+    print(f"debootstrap {suite}: {time.monotonic() - begun:.0f} s", flush=True)
 
 
 def wanted(port: int) -> list[str]:
