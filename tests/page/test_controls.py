@@ -4,7 +4,6 @@ import re
 from math import copysign, dist, pi, sqrt
 from urllib.parse import parse_qsl, urlsplit
 
-import numpy as np
 import pytest
 from pytest import approx
 
@@ -13,7 +12,7 @@ from hess_mechanics import f_max
 from hess_mechanics.numerics.accuracy import LEVELS
 from support.page import DEFAULTS, FIND, MOMENT, POINTS, SLIDERS, wait_frames, wait_time
 from support.painted import yellow
-from support.suslov_hess import assert_orbit, exact_states, rounding
+from support.suslov_hess import assert_orbit, exact_states
 
 # Final positions of the sliders from the default state; f at the last hundredth inside the region.
 ENDS = {
@@ -151,24 +150,13 @@ def test_what_is_out_of_range_is_clamped_with_a_note_each_time(explorer, name, t
         assert explorer.page.locator(".text.notes").is_visible()
 
 
-def test_the_range_of_f_follows_h(explorer):
-    for h in (-0.9, 0.25, 3.5):
-        explorer.change(lambda h=h: explorer.slide(h=h))
-        slider = explorer.slider("f")
-        low, high, step = (float(slider.get_attribute(name)) for name in ("data-low", "data-high", "step"))
-        n = (sqrt(h * h + 3) - h) / 3
-        edge = sqrt(2 * (h + n) * (1 - n * n))
-        value = explorer.shown("f")[0]
-        assert low == approx(-edge, abs=1.01 * step)
-        assert high == approx(edge, abs=1.01 * step)
-        # No position is impossible; f = 0.6 itself is not at h = −0.9 and stands at the edge then.
-        assert max(-low, high) <= max(edge * (1 + 1e-15), value)
-        assert value == approx(min(0.6, edge), rel=1e-12)
-
-
-def test_the_f_slider_finds_zero_and_writes_round_numbers_at_any_h(explorer):
+def test_the_f_slider_reaches_its_edge_finds_zero_and_writes_round_numbers_at_any_h(explorer):
     for h in (0.75, 1.01, 2.5, 3.99):
         explorer.change(lambda h=h: explorer.slide(h=h))
+        low, high, step = (
+            float(explorer.slider("f").get_attribute(name)) for name in ("data-low", "data-high", "step")
+        )
+        assert (-low, high) == approx((f_max(h), f_max(h)), abs=1.01 * step)
         explorer.change(lambda: explorer.slide(f=0.37))
         assert explorer.box("f").input_value() == "0.37"
         explorer.change(lambda: explorer.slide(f=0.0))
@@ -260,11 +248,6 @@ def test_the_accuracy_menu_changes_level_error_and_link_and_nothing_else(explore
         if name != "reference":
             assert max(errors) <= LEVELS[name].promise
         assert explorer.accuracy == name
-        orbit = explorer.data("data-orbit")
-        exact = exact_states(DEFAULTS, orbit["t"])
-        # Sent in single precision.
-        allowed = LEVELS[name].promise + 4e-7 + rounding(DEFAULTS, orbit["t"], exact)[:, 0]
-        assert np.max(np.abs(np.array(orbit["omega1"]) - exact[:, 0]) - allowed) <= 0.0
         explorer.wait_url(accuracy=name)
     for name in SLIDERS:
         assert explorer.shown(name)[0] == DEFAULTS[name]

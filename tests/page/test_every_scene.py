@@ -1,11 +1,9 @@
 """Scenes in a browser: examples, refusals, and moving points."""
 
 import pytest
-from pytest import approx
 
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.periodic_search import NONE
-from support.ball import BALL, integrate, xi_of
 from support.page import brought, chosen, flat
 from support.painted import SOURCES, assert_drawn, assert_painted
 from support.thorough import sample
@@ -70,14 +68,3 @@ def test_a_refusal_is_said_in_every_picture_and_nothing_stale_stays(tab, name, t
         if source.split("-")[0] not in scene.folded:
             assert flat(explorer.data(source)) == flat(before[source]), source
     explorer.assert_quiet()
-
-
-def test_points_of_the_ball_move_along_its_orbit(tab):
-    explorer, values = brought(tab, BALL), BALL.defaults()
-    explorer.set_time(2.0)
-    # The exact start, of which the browser has single precision.
-    start = BALL.compute(values, ("sphere",), False).orbit.path.states[0]
-    (exact,) = integrate(values, start, [2.0])
-    omega, Gamma = (explorer.data(f"{picture}-point") for picture in ("omega", "Gamma"))
-    assert (omega["x"][0], omega["y"][0]) == approx(tuple(exact[:2]), abs=explorer.axes("omega")[1] / 200)
-    assert (Gamma["x"][0], Gamma["y"][0]) == approx((2.0, exact[2:4] @ xi_of(values)), abs=6e-3)

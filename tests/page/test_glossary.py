@@ -1,7 +1,5 @@
 """Terms of the texts are explained where they stand first; the depth of a text is chosen once."""
 
-from __future__ import annotations
-
 import json
 import re
 

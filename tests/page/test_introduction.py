@@ -1,7 +1,5 @@
 """The introduction that a first visitor sees."""
 
-from __future__ import annotations
-
 from contextlib import closing
 
 import numpy as np

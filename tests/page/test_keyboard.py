@@ -1,7 +1,5 @@
 """The page by keyboard and by screen reader: names, places chosen by arrow keys, and what is announced."""
 
-from __future__ import annotations
-
 from urllib.parse import parse_qsl, urlsplit
 
 import pytest

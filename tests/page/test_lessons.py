@@ -1,7 +1,5 @@
 """A lesson in class: step by step, by the keys of a presenter, with guesses and the responses to them."""
 
-from __future__ import annotations
-
 import itertools
 import re
 from pathlib import Path
@@ -11,7 +9,6 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import server_process
 from hess_explorer.lessons import shipped, tries
 from hess_explorer.lessons.reading import read
@@ -125,28 +122,6 @@ def test_what_can_be_tried_is_done_for_one(explorer):
         assert here(explorer)[1] == step.at.values
         page.locator(".param-try-next").click()
     assert page.locator(".tries .count").inner_text() == f"1 / {len(steps)}"
-
-
-def test_slider_and_box_follow_what_is_done_for_one(browser, server):
-    context = browser.new_context(viewport={"width": 1600, "height": 950}, reduced_motion="no-preference")
-    tab = Explorer(context.new_page(), server)
-    page = tab.page
-    number, step = next((i, one) for i, one in enumerate(tries()["free-suslov"].steps) if one.animation)
-    assert step.animation.name == "k"
-    tab.open("scene=free-suslov")
-    for _ in range(number):
-        page.locator(".param-try-next").click()
-    page.locator(".param-try").click()
-    # Not the value of the scene's own state.
-    start, before = step.animation.start, SCENES["free-suslov"].defaults()["k"]
-    page.wait_for_function(
-        "([low, high]) => { const k = new URLSearchParams(location.search).get('k'); return low < k && k < high }",
-        arg=[start + 0.1, before - 0.1],
-    )
-    assert min(tab.shown("k")) > start + 0.05
-    page.mouse.click(5, 5)
-    tab.assert_quiet()
-    context.close()
 
 
 def test_a_link_to_a_step_that_is_not_there_is_one_to_the_last_and_a_lesson_is_chosen_from_the_menu(explorer):
@@ -280,20 +255,6 @@ def test_text_and_slider_of_a_step_are_in_sight_together_and_there_is_one_value(
     assert [control.locator(".exact").input_value(), beside.input_value()] == 2 * [column.input_value()]
     page.locator(".param-leave-lesson").dispatch_event("click")
     tab.assert_quiet()
-
-
-def test_a_phone_shows_six_lines_of_text_below_the_picture_and_the_slider(open_page):
-    page = open_page(f"lesson={CYCLES}&step=2", size=(390, 844), has_touch=True, is_mobile=True)
-    for number in (2, 8):
-        while page.locator(".lesson .count").inner_text() != f"{number} / 15":
-            page.keyboard.press("PageDown")
-        wait_ready(page)
-        assert page.locator(".lesson .text").evaluate(LINES)[1] >= 6
-    sliders = page.locator(".step-controls .hand")
-    assert sliders.count() == 2
-    for item in (*sliders.all(), page.locator(".param-next-step")):
-        box = item.bounding_box()
-        assert 0 <= box["y"] < box["y"] + box["height"] <= 844
 
 
 @pytest.mark.parametrize(("size", "is_beside"), [((1000, 600), True), ((960, 480), True), ((600, 800), False)])

@@ -13,7 +13,6 @@ from pytest import approx
 from hess_explorer.scenes import scenes
 from support.accessible import assert_accessible, contrast
 from support.page import HESS, SLIDERS, STUDY, Explorer, wait_frames
-from support.painted import assert_captions_fit
 from support.thorough import sample
 
 SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844), "sideways": (844, 390)}
@@ -266,15 +265,6 @@ def test_a_phone_and_a_small_window_have_all_of_it_too(look_at, artefacts, scene
     assert_looks(look_at(scene, size, theme), scene, size, theme, artefacts)
 
 
-def test_every_caption_of_the_accuracy_scene_fits_into_its_place(look_at):
-    tab = Explorer(look_at(STUDY), "")
-    for preset in sample(scenes()[STUDY].presets, 3):
-        if tab.chosen("preset") != preset.name:
-            tab.change(tab.choose, "preset", preset.name)
-        assert_captions_fit(tab, scenes()[STUDY])
-    tab.change(tell, tab.page, "reset")
-
-
 TARGETS = """items => items.filter((item) => item.checkVisibility()).map((item) => {
   const { width, height } = item.getBoundingClientRect()
   return [item.className || item.tagName, Math.min(width, height)]
@@ -414,23 +404,6 @@ def test_a_dark_page_is_dark_from_its_first_frame(open_page):
     brightness = [ImageStat.Stat(frame).mean[0] for frame in frames]
     assert len(brightness) > 2
     assert max(brightness) < 80, brightness
-
-
-def test_the_button_turns_the_page_dark_and_the_link_says_so(explorer, look_at):
-    page = explorer.page
-    button = page.get_by_role("button", name="theme")
-    button.click()
-    page.wait_for_function("location.search.includes('theme=dark')")
-    assert brightness(seen(page)) < 60
-    # The colours of the plots come from Panel, with the theme, a moment later.
-    page.wait_for_function(
-        """colour => hess.plots.find(({ model }) => model.name === "omega")
-      .model.below[0].major_label_text_color === colour""",
-        arg=axis_colour(look_at(HESS, theme="dark")),
-    )
-    button.click()
-    page.wait_for_function("!location.search.includes('theme=dark')")
-    assert brightness(seen(page)) > 200
 
 
 @pytest.mark.parametrize("theme", sample(["light", "dark"], 1))

@@ -55,14 +55,6 @@ def test_the_body_moves_with_time_in_both_pictures(loxodrome):
     assert canvas(loxodrome, "body").screenshot() != before
 
 
-def test_keys_turn_the_body_and_the_link_keeps_it(loxodrome):
-    canvas(loxodrome, "body").press("ArrowUp")
-    wait_frames(loxodrome)
-    assert canvas(loxodrome, "body").get_attribute("data-turn") == f"0.6000 {0.35 + math.pi / 36:.4f}"
-    loxodrome.wait_url(el=f"{0.35 + math.pi / 36:.4f}")
-    canvas(loxodrome, "body").press("Home")
-
-
 # --- The body on the Suslov–Hess page -----------------------------------------------------------------
 
 

@@ -1,7 +1,5 @@
 """Present mode for a lecture hall."""
 
-from __future__ import annotations
-
 import pytest
 
 from hess_explorer.scenes import scenes

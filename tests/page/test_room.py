@@ -1,7 +1,5 @@
 """A lecture: the audience follows on phones, guesses, plays on its own, and comes back."""
 
-from __future__ import annotations
-
 import re
 from urllib.parse import parse_qs, urlsplit
 

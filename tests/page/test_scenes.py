@@ -1,9 +1,7 @@
 """Changes of scene, visible pictures, drawing during a drag, and the player between two samples."""
 
 import json
-import re
 from urllib.parse import parse_qs, urlsplit
-from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -13,7 +11,6 @@ from hess_explorer.headless.browser import wait_ready
 from hess_explorer.page.opening import opening
 from hess_explorer.page.showcase import EXHIBITS, IDEAS
 from hess_explorer.scenes import scenes
-from hess_mechanics.numerics.accuracy import LEVELS
 from support.page import (
     DEFAULTS,
     FIRST,
@@ -85,23 +82,6 @@ def test_the_menu_offers_the_scenes_in_groups_and_says_where_to_begin_and_which_
             assert tile.get_attribute("aria-pressed") == str(name == HESS).lower()
     explorer.page.keyboard.press("Escape")
     assert menu.count() == 0
-
-
-def test_the_pictures_of_the_menu_are_drawings_and_nothing_else(explorer):
-    explorer.open_menu()
-    drawings = explorer.page.locator(".scene svg")
-    assert drawings.count() == len(OFFERED)
-    for drawing in drawings.all():
-        box = drawing.bounding_box()
-        assert min(box["width"], box["height"]) >= 40
-        assert drawing.get_attribute("aria-hidden") == "true"
-        root = ElementTree.fromstring(drawing.evaluate("item => item.outerHTML"))
-        shapes = [item.tag.split("}")[-1] for item in root.iter()][1:]
-        assert len(shapes) >= 3
-        assert set(shapes) <= {"path", "ellipse", "circle", "rect", "line", "g"}
-        attributes = {name for item in root.iter() for name in item.attrib}
-        assert not [name for name in attributes if name.startswith("on") or "href" in name or name == "style"]
-    explorer.page.keyboard.press("Escape")
 
 
 @pytest.mark.parametrize("exhibit", EXHIBITS, ids=lambda exhibit: exhibit.file)
@@ -417,21 +397,6 @@ def test_values_that_change_on_the_way_to_another_scene_arrive_there(explorer):
 
 
 # --- Speed and accuracy ------------------------------------------------------------------------------
-
-
-def test_the_caption_and_the_status_say_what_is_drawn(study):
-    for name in ("draft", "reference", "standard"):
-        if study.accuracy != name:
-            study.change(study.choose, "accuracy", name)
-        drawn_errors = study.data(f"growth-{name}")["y"]
-        last = float(re.search(r"([\d.]+(?:e−\d+)?) at the end", study.caption("growth"))[1].replace("−", "-"))
-        assert last == approx(drawn_errors[-1], rel=0.06)
-        assert study.text("status").startswith(f"{name} chosen")
-        assert study.data("growth-limit")["y"][0] == approx(LEVELS[name].promise, rel=1e-6)
-        ring = study.data("precision-chosen")
-        marks = study.data("precision-Taylor")
-        place = list(LEVELS).index(name)
-        assert (ring["x"][0], ring["y"][0]) == approx((marks["x"][place], marks["y"][place]), rel=1e-6)
 
 
 def test_the_points_move_along_the_curves_of_the_chosen_level(study):

@@ -88,17 +88,3 @@ def test_a_density_fills_a_window_in_both_themes_and_a_click_starts_an_orbit_ove
     assert len(suslov.data("section-own")["x"]) == 2 * FEW["count"]
     assert np.array_equal(np.array(suslov.data("section-density-0")["image"][0]), closer)
     assert_painted(suslov, SUSLOV)
-
-
-def test_every_plane_and_line_is_painted(rotation):
-    for plane, line in (("h, a", "h"), ("f, a", "a"), ("f, a", "f")):
-        if rotation.chosen("over") != plane:
-            rotation.change(rotation.choose, "over", plane)
-        if rotation.chosen("line") != line:
-            rotation.change(rotation.choose, "line", line)
-        labels = rotation.page.evaluate("""() => {
-          const { below, left } = hess.plots.find(({ model }) => model.name === "map").model
-          return `${below[0].axis_label}, ${left[0].axis_label}`
-        }""")
-        assert labels == plane
-    assert_painted(rotation, ROTATION)

@@ -1,7 +1,5 @@
 """Gestures of fingers on a phone: drags, boxes, strokes, taps and scrolling."""
 
-from __future__ import annotations
-
 import re
 from urllib.parse import parse_qsl, urlsplit
 
@@ -155,25 +153,6 @@ def test_a_finger_starts_an_orbit_in_a_section(phone):
     starts = dict(parse_qsl(urlsplit(phone.link()).query))["starts"]
     x, y = map(float, starts.split(";")[-1].split(","))
     assert (x, y) == (pytest.approx(0.7, abs=unit[0]), pytest.approx(1.9, abs=unit[1]))
-
-
-def test_a_finger_taps_the_circle_map(phone):
-    phone = phone()
-    turn_to(phone, "circle")
-    place, (wide, _) = at(phone, "circle", 1.25, 0.5)
-    phone.change(phone.page.touchscreen.tap, *place)
-    assert float(phone.link().split("phi0=")[1].split("&")[0]) == pytest.approx(1.25, abs=wide)
-
-
-def test_a_finger_drags_the_chosen_phase_of_a_scattering_curve(phone):
-    phone = phone("scattering")
-    turn_to(phone, "curve", "scattering")
-    ring = phone.data("curve-chosen")
-    start, _ = at(phone, "curve", ring["x"][0], ring["y"][0])
-    end, (wide, _) = at(phone, "curve", 1.0, 1.5)
-    phone.change(Finger(phone.page).draw, start, end)
-    wait_ready(phone.page)
-    assert phone.data("curve-chosen")["x"][0] == pytest.approx(1.0, abs=wide)
 
 
 def test_a_finger_draws_a_box_and_a_cancelled_one_is_forgotten(phone):
