@@ -1,7 +1,5 @@
 """`hess-explorer lesson`: the mistakes of a file, and an example to begin with."""
 
-from __future__ import annotations
-
 import math
 import re
 

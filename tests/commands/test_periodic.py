@@ -1,16 +1,12 @@
 """The command `periodic`: periodic orbits, branches and manifolds against exact ones, and refused inputs."""
 
-from math import pi, sin, sqrt
-
 import numpy as np
 import pytest
 from pytest import approx
-from scipy.integrate import quad
 
 from hess_mechanics import HeavyBody, circle_map, critical_a, level
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from support.command_line import replaced, typed
-from support.mechanics import followed
 
 REFERENCE = level("reference")
 CYCLE = typed("periodic hess --a 0.7 --h 0.5 --f 0.6 --at 1 --period 1")
@@ -43,33 +39,6 @@ def test_a_branch_goes_through_the_fold_where_the_lock_ends(answer, as_table):
     assert header == ["a", "φ", "real1", "imag1", "kind", "error"]
     assert [float(row[0]) for row in rows] == found["a"]
     assert facts["bifurcations"] == found["bifurcations"]
-
-
-def test_the_motion_along_the_short_axis_is_known_by_quadrature(answer):
-    # q2 = 0: a point goes to and fro along q1, and q2 next to it obeys an equation of Hill's.
-    found = answer(*QUARTIC)
-    assert np.abs([found["q"], found["p"]]).max() < 1e-10
-
-    def height(q):
-        return 0.8 - 0.5 * q * q
-
-    end = sqrt(2.0 * 1.8)
-    # q = end sin u: 1 − γ3² = (1 − γ3)(1 + γ3), of which the second is ½(end² − q²).
-    time = 4.0 * quad(lambda u: sqrt(2.0 / (1.0 - height(end * sin(u)))), 0.0, pi / 2.0, epsabs=1e-13)[0]
-
-    def hill(_, y):
-        q, v, a, da, b, db = y
-        return [v, height(q) * q, da, 0.5 * height(q) * a, db, 0.5 * height(q) * b]
-
-    speed = sqrt(1.0 - 0.8**2)
-    (end,) = followed(hill, [0.0, speed, 1.0, 0.0, 0.0, 1.0], [time], rtol=1e-12)
-    assert end[:2] == approx([0.0, speed], abs=1e-9)
-    trace = end[2] + end[5]
-    values = np.array([complex(*one) for one in found["multipliers"]])
-    assert complex(values.sum()).real == approx(trace, rel=1e-9)
-    assert complex(values.prod()).real == approx(1.0, abs=1e-9)
-    assert found["kind"] == ("elliptic" if abs(trace) < 2.0 else "saddle" if trace > 2.0 else "saddle with reflection")
-    assert len(found["symmetric"]) > 0
 
 
 def test_the_separatrices_of_a_saddle_have_the_length_that_is_given(answer, as_table):
