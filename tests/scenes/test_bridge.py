@@ -198,16 +198,6 @@ def test_figure_gess1_in_both_systems_of_units():
     assert view.derived("Period of n₃ = #") == [approx(period_of(5.0125313, 2.0025047)[0] / sqrt(15.96), rel=6e-4)]
 
 
-def test_the_same_state_may_be_given_on_either_side():
-    heavy = bridge("Figure 11, given in Euler–Poisson")
-    body = {"I22": 0.5, "I23": -0.25, "b3": -15.96 * 0.5 * sqrt(1.25)}
-    suslov = View(BRIDGE, {"given": "Suslov–Hess", **body, "h": 50.0 / 9.975, "f": -5.0 * sqrt(1.6 / 9.975)})
-    for picture in ("omega", "circle", "andoyer"):
-        assert suslov.text[picture] == heavy.text[picture]
-    curves = [view.track(np.linspace(0.0, 20.0, 50)) for view in (heavy, suslov)]
-    assert np.all(np.abs(curves[0] - curves[1]) <= 2e-3 * np.ptp(curves[0], axis=0))
-
-
 @pytest.mark.parametrize(
     "values", [*(preset.values for preset in BRIDGE.presets), {"m": -5.0, "h": 3.0, "f": 0.5}], ids=str
 )

@@ -11,10 +11,8 @@ import pytest
 from pytest import approx
 from scipy.integrate import quad
 
-from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes.framework.periodic_search import NONE
-from hess_explorer.scenes.parts import filled_section
 from hess_mechanics import circle_map, f_max, level, solve
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
@@ -164,24 +162,6 @@ def test_at_the_meandering_torus_the_rotation_number_turns_round_at_an_eighth():
     assert np.ptp(islands[::8], axis=0).max() < 0.35 * np.ptp(islands, axis=0).max()
 
 
-def test_below_the_separatrix_points_of_the_hess_curve_are_fixed_or_change_places_in_pairs():
-    view = EulerPoisson({**values_of(EP, "On the Hess curve"), "orbits": 0.0}, seen={"section"})
-    assert view.values["f"] == 0.0
-    assert view.h < view.body.strength
-    starts = np.array(places(view.values["starts"]))
-    points = view.points("own").reshape(len(starts), -1, 2)
-    fixed = []
-    for start, orbit in zip(starts, points, strict=True):
-        turned, raised = np.angle(np.exp(1j * (orbit[:, 0] - start[0]))), orbit[:, 1] - start[1]
-        returns = [np.hypot(turned[k::2], raised[k::2]) for k in (0, 1)]
-        # The second crossing is the start again, and the first one too, or else a place far away; both on the curve.
-        assert np.max(returns[1]) < 1e-3
-        assert np.max(returns[0]) < 1e-3 or np.min(returns[0]) > 0.5
-        fixed.append(bool(np.max(returns[0]) < 1e-3))
-        assert np.max(np.abs(relation(view, orbit))) < 1e-3
-    assert 2 <= sum(fixed) < len(fixed)
-
-
 def free_rotation_number(l, x):
     """Turns of l in one of g of the free motion through (l, L/G): ġ = G(a1 sin²l + a2 cos²l), l̇ = L(a3 − the same)."""
     a1, a2, a3 = 1.0 / 1.0, 1.0 / 0.625, 1.0 / 0.375
@@ -220,23 +200,6 @@ def test_at_high_energy_rotation_numbers_are_those_of_the_free_body():
     x = hess_curve(GESS1, l)
     M2 = np.array([(1.0 - x * x) * np.sin(l) ** 2, (1.0 - x * x) * np.cos(l) ** 2, x * x])
     assert np.array(GESS1.a) @ M2 == approx(1.0 / 0.625, abs=1e-6)
-
-
-def test_grey_is_where_no_motion_is_possible():
-    view = EulerPoisson({**EP.presets[4].values, "orbits": 0.0})
-    cells = np.asarray(view.data["section-impossible"]["image"][0])
-    rows, columns = cells.shape
-    assert 0.05 < np.mean(cells) < 0.95
-    x0, y0, width, height = (float(view.data["section-impossible"][key][0]) for key in ("x", "y", "dw", "dh"))
-    assert (x0, y0, width, height) == approx((-pi, -1.0, 2.0 * pi, 2.0), abs=1e-6)
-    top = sqrt(2.0 * (view.h + view.body.strength) / min(view.body.a))
-    wrong = 0
-    for j, i in np.random.default_rng(6).integers(0, (rows, columns), (300, 2)):
-        l, x = x0 + (i + 0.5) * width / columns, y0 + (j + 0.5) * height / rows
-        least = np.min(dense(view.body, view.f, float(l), float(x), top)[1])
-        if abs(least - view.h) > 0.01 * view.body.strength:
-            wrong += bool(cells[j, i]) is (least <= view.h)
-    assert wrong == 0
 
 
 def test_the_green_curve_is_the_hess_manifold():
@@ -319,15 +282,6 @@ def test_a_new_start_is_drawn_and_its_neighbours_stay():
     assert len(two.points("own")) == 2 * len(one.points("own"))
     ring = two.data["section-chosen"]
     assert np.column_stack([ring["x"], ring["y"]]) == approx(np.array([[0.0, 0.2], [0.5, -0.3]]))
-
-
-def test_a_window_is_filled_with_orbits_of_its_own():
-    view = EulerPoisson({"orbits": 20.0, "window": "0.5,0.1;1.5,0.6"})
-    assert view.axes["section"] == approx([0.5, 1.5, 0.1, 0.6])
-    seeds = filled_section._seeds, view.result.poincare, view.result.section.frame, 20
-    starts = coordinates(np.array(CACHE.get(*seeds)[0]))
-    assert len(starts) == 20
-    assert np.all((starts > (0.5, 0.1)) & (starts < (1.5, 0.6)))
 
 
 def test_a_drag_shows_the_section_at_once_with_fewer_orbits():

@@ -1,7 +1,5 @@
 """Parts of a scene: shared parameters, required members, a scene that studies another one."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, fields
 from functools import cached_property

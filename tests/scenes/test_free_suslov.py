@@ -369,20 +369,6 @@ def test_the_map_holds_all_curves(preset):
     assert cos(grid[rows // 3, columns // 5]) == approx(exact, abs=2e-6)
 
 
-@pytest.mark.parametrize("k", [1.0, 3.0])
-def test_dragging_k_through_an_odd_number_turns_the_curve_flat(k):
-    spreads = []
-    for step in (-0.4, -0.1, 0.0, 0.1, 0.4):
-        view = View(SCATTERING, {"k": k + step, "theta": 1.0}, dragging=True)
-        (curve,) = view.data["curve-theta"]["ys"]
-        spreads.append(float(np.ptp(curve)))
-        if step == 0.0:
-            assert curve == approx(np.full(curve.size, pi - 1.0), abs=1e-3)
-    assert spreads[2] < 1e-3
-    assert 0.05 < spreads[1] < spreads[0]
-    assert 0.05 < spreads[3] < spreads[4]
-
-
 @pytest.mark.parametrize(
     "preset", [preset for preset in EXAMPLES if "reversal" in preset.name], ids=lambda preset: preset.name
 )

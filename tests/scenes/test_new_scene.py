@@ -53,12 +53,6 @@ def test_the_orbit_is_that_of_scipy():
     assert "Taylor steps" in view.report.status
 
 
-def test_a_click_in_the_section_starts_the_orbit_there():
-    moved = View(SCENE, View(SCENE, {}).stage.pick("section", -1.2, 0.1))
-    momentum = angular_momentum(*moved.points("own")[0], 1.0, 0.5)
-    assert momentum == approx(angular_momentum(-1.2, 0.1, 1.0, 0.5), abs=1e-5)
-
-
 def test_an_energy_without_motions_is_said_and_not_drawn():
     with pytest.raises(OutsideRegion, match="larger energy"):
         View(SCENE, {"E": -2.0})

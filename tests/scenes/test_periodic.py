@@ -16,7 +16,6 @@ from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.euler_poisson.andoyer import hess_curve
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from support.ball import rates
-from support.board import Browser
 from support.mechanics import scipy_crossings
 from support.suslov import field, start_on
 from support.view import View, values_of
@@ -118,24 +117,6 @@ def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(p
     assert len(view.captions["section"]["numbers"]) <= 60
 
 
-def test_points_of_the_manifolds_are_taken_along_them():
-    view = shown("suslov", "period 1", *{**values_of(scenes()["suslov"], "A chaotic"), **LIGHT["suslov"]}.items())
-    state = view.result
-    manifolds = state.periodic_orbit.manifolds
-    for curve in manifolds:
-        sense = -1.0 if curve.stable else 1.0
-        others = [one.points for one in manifolds if one.stable is curve.stable and one.side != curve.side]
-        # A saddle with reflection maps one branch to the other.
-        # An image is five times as far.
-        some = curve.points[(curve.lengths > 0.01) & (curve.lengths < 0.2)]
-        assert len(some) > 3
-        for point in some[:: len(some) // 3]:
-            there, _ = returned(state.body, state.E, point, 1, sense)
-            assert min(_distance(one, there) for one in others) < 0.5 / max(state.section.pixels), (curve.stable, point)
-    columns = view.data["section-unstable-manifold"]
-    assert sum(map(len, columns["xs"])) >= sum(len(one.points) for one in manifolds if not one.stable)
-
-
 def test_a_manifold_ends_where_the_map_jumps_and_no_line_is_drawn_across():
     view = shown("suslov", "any period")
     ends = [one for one in view.result.periodic_orbit.manifolds if "the map jumps" in one.ended]
@@ -202,13 +183,6 @@ def test_homoclinic_points_come_from_the_saddle_and_go_to_it():
             )
             away = np.hypot(*apart((2.0 * pi, inf), places, saddle).T)
             assert away.min() < 0.02
-
-
-def _distance(curve, point):
-    a, b = curve[:-1], curve[1:]
-    along = b - a
-    share = np.clip(np.sum((point - a) * along, axis=1) / np.maximum(np.sum(along**2, axis=1), 1e-300), 0.0, 1.0)
-    return float(np.linalg.norm(a + share[:, None] * along - point, axis=1).min())
 
 
 def test_in_the_hess_case_the_saddle_has_the_multipliers_of_the_moebius_matrix_and_lies_on_the_hess_manifold():
@@ -321,18 +295,6 @@ def test_a_branch_that_ends_early_says_why():
     assert max(len(one.points) for one in view.result.periodic_orbit.manifolds) <= 2002
     assert not any("early" in note for note in shown("ball-section", "period 1").report.notes)
     assert drawn(shown("ball-section", "period 1", ("reach", 0.0))) == {"repels"}
-
-
-def test_a_click_looks_for_one_there_and_undo_is_a_link():
-    browser = Browser(scenes()["ball-section"])
-    browser.ask(1, values={**LIGHT["ball-section"], "periodic": "period 2"})
-    browser.ask(2, picked=["section", -0.25, 1.5])
-    assert (browser.session.values["psi"], browser.session.values["delta"]) == (-0.25, 1.5)
-    browser.session.background.follow(())
-    values = dict(browser.session.values)
-    view = View(scenes()["ball-section"], values, seen=["section"])
-    assert view.text["section"].split("\n")[1].startswith("Period 2, elliptic. Multipliers μ = ")
-    assert drawn(view) == {"neither"}
 
 
 def test_a_curve_goes_round_an_angle():

@@ -1,7 +1,5 @@
 """Proved enclosure of the shown orbit: stated beside the estimate, drawn where it is wider than a pixel."""
 
-from __future__ import annotations
-
 import math
 import sys
 from dataclasses import dataclass, replace

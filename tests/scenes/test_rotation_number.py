@@ -146,17 +146,6 @@ def test_the_map_of_an_example_shows_the_number_where_it_belongs(name):
         assert np.asarray(xs[0]) == approx([torus[across]] * 2, rel=1e-6)
 
 
-def test_the_boundary_in_the_map_divides_the_zones():
-    view = example(NAMES[0])
-    columns = view.data["map-boundary"]
-    curves = [np.column_stack(both) for both in zip(columns["xs"], columns["ys"], strict=True)]
-    assert len(curves) == 2
-    assert np.array_equal(curves[0] * [1, -1], curves[1])
-    for h, f in curves[0][5:-5:9].astype(float).tolist():
-        kinds = [circle_map(0.5, h + step, f, REFERENCE).kind for step in (-0.01, 0.01)]
-        assert kinds == ["elliptic", "hyperbolic"]
-
-
 def test_the_map_is_coarse_first_and_stays_coarse_under_a_drag():
     values = {"a": 0.512}
     view = View(SCENE, values, dragging=True)
@@ -195,13 +184,6 @@ def test_every_plane_and_line_shows_finite_numbers(plane, line, f):
     # For f < 0 the rational number that is looked for is positive.
     sign = "" if f < 0 and line != "f" else "−"
     assert f"ρ = {sign}1/4 at {line} = " in view.text["line"]
-
-
-def test_f_outside_the_region_is_put_on_its_edge_and_said():
-    view = View(SCENE, {"h": 0.2, "f": -2.9}, noted=True)
-    assert view.values["f"] == -f_max(0.2)
-    assert "f was set to this limit" in view.notes[0]
-    view.assert_finite()
 
 
 def test_a_window_beyond_what_is_allowed_is_refused_in_a_link_and_cut_in_a_box():

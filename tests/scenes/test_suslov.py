@@ -124,12 +124,6 @@ def test_exponent_and_divergence_of_an_example_are_as_its_name_and_words_say(nam
         assert x[-1] == approx(end)
 
 
-def test_the_exponent_of_a_regular_orbit_goes_on_falling():
-    short = example(REGULAR).numbers("exponent", "λ = #")[0]
-    longer = View(SCENE, {**example(REGULAR).values, "long": 5000.0}, seen=("exponent",))
-    assert longer.numbers("exponent", "λ = #")[0] < 0.5 * short
-
-
 def test_the_sea_fills_the_section_and_attractors_do_not():
     sea, strange, rests = (
         example(name).numbers("section", "late forward points occupy # of #")[0] for name in (SEA, STRANGE, REVERSAL)

@@ -204,22 +204,6 @@ def test_the_graph_and_the_cobweb_of_the_circle_map_are_those_of_the_flow():
     assert angle_between(iterates[1:], lifted_return(a, 1.5, 0.6, iterates[:-1])) < 2e-5
 
 
-def test_the_boundary_of_the_locked_zone_has_trace_two():
-    data = View(SCENE, {"I22": 1.0, "I23": 0.5}, seen={"bifurcation"}, noted=True).data
-    boundary, zone = data["bifurcation-boundary"], data["bifurcation-locked"]
-    h, f = (np.array(boundary[axis][0], float) for axis in ("xs", "ys"))
-    assert np.array(boundary["xs"][1]) == approx(h)
-    assert np.array(boundary["ys"][1]) == approx(-f)
-    assert (h[-1], f[-1]) == approx((1.0, 0.0), abs=1e-6)
-    # It meets the curve at h* = (1 − 2a²)/(2a√(1 + a²)).
-    assert h[0] == approx(0.5 / sqrt(1.25), rel=1e-6)
-    for i in range(1, h.size - 1, 5):
-        assert circle_map(0.5, h[i], f[i], REFERENCE).trace == approx(2.0, abs=2e-4)
-        assert circle_map(0.5, h[i] + 0.05, f[i], REFERENCE).kind == "hyperbolic"
-    assert zone["xs"][0][0][0][: h.size] == approx(h, rel=1e-6)
-    assert zone["ys"][0][0][0][: h.size] == approx(f, rel=1e-6, abs=1e-7)
-
-
 def edge(h):
     """The largest |f| at h, by the corrected curve."""
     n = (np.sqrt(h * h + 3) - h) / 3

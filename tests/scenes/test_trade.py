@@ -265,30 +265,6 @@ def test_the_cells_that_change_are_those_of_the_finer_grid_with_another_colour()
     assert not state.comparison.found.cells.max()
 
 
-def test_the_points_that_move_are_those_of_the_finer_run_that_lie_elsewhere():
-    state, report = difference("suslov", "section", "draft", **SMALL)
-    section, shown = SUSLOV.of({**SUSLOV.defaults(), **SMALL}), state.comparison.found
-    starts, away, longer = [section.start, *section.poincare.spread(section.section.frame, 12)], [], 0
-    for forward, some in ((True, starts), (False, starts[1:])):
-        coarse, fine = (
-            section.poincare.points(some, count, forward, PLANS[Computation.SECTION][name].level, threads=1)
-            for name, count in (("draft", 30), ("standard", 120))
-        )
-        for one, other in zip(coarse.states, fine.states, strict=True):
-            off = section.poincare.places_of(one) - section.poincare.places_of(other)[: len(one)]
-            off[:, 0] -= 2.0 * pi * np.round(off[:, 0] / (2.0 * pi))
-            away.append(np.linalg.norm(off * [300.0 / pi, 600.0 / pi], axis=1))
-            longer += len(other) - len(one)
-    changed = np.concatenate(away) > 0.5
-    assert (len(shown.changed), len(shown.same), len(shown.added)) == (changed.sum(), (~changed).sum(), longer)
-    first = [int(np.argmax(one > 0.5)) + 1 for one in away if one.max() > 30.0]
-    assert len(first) > 15
-    said = f"Chaos changes {len(shown.lost)} of {len(away)} orbits. From crossing {min(first)} on;"
-    assert state.comparison.about().words.startswith(said)
-    assert len(shown.lost) >= len(first)
-    assert any(row.startswith("Lost to chaos between draft and standard") for row in report.derived)
-
-
 def test_of_a_regular_motion_nothing_moves():
     state, _ = difference("quartic", "section", "standard", ratio=1.0, h=0.6)
     assert len(state.comparison.found.changed) == len(state.comparison.found.lost) == 0
