@@ -1,7 +1,5 @@
 """Several lessons of one's own: files, folders, and names that clash."""
 
-from __future__ import annotations
-
 import pytest
 
 from hess_explorer.lessons import shipped

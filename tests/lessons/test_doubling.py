@@ -1,10 +1,7 @@
 """Statements of the lesson on period doubling, computed by other means."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from hess_explorer.lessons import shipped
 from hess_explorer.protocol.parameters import places
@@ -13,7 +10,7 @@ from hess_mechanics import lyapunov_spectrum
 from hess_mechanics.suslov.section import SuslovSection
 from support.diagrams import crossings
 from support.lesson_on_doubling import NAME, cascade, end, heavy_body, points_of, sets_at
-from support.suslov import divergence, field
+from support.suslov import field
 from support.view import View
 
 STEPS = {step.title: step for step in shipped()[NAME].steps}
@@ -74,16 +71,6 @@ def test_the_first_exponent_of_a_periodic_attractor_tends_to_0_and_that_of_the_s
             assert min(values) > 0.02
         else:
             assert max(map(abs, values)) < 0.004
-
-
-def test_a_motion_run_backwards_with_all_velocities_reversed_is_a_motion_and_repels_as_the_other_attracts():
-    body, _ = heavy_body(STEPS["The film backwards"].at.values)
-    start = np.array(scenes()["orbit-diagram"].of(STEPS["The film backwards"].at.values).start)
-    run = solve_ivp(lambda _, y: field(body, y), (0.0, 5.0), start, "DOP853", [5.0], rtol=1e-12, atol=1e-13)
-    turned = run.y[:, 0] * [-1, -1, 1, 1, 1]
-    back = solve_ivp(lambda _, y: field(body, y), (0.0, 5.0), turned, "DOP853", [5.0], rtol=1e-12, atol=1e-13)
-    np.testing.assert_allclose(back.y[:, 0] * [-1, -1, 1, 1, 1], start, atol=1e-8)
-    assert divergence(body, turned) == pytest.approx(-divergence(body, run.y[:, 0]))
 
 
 def test_attractor_and_repeller_are_apart_in_the_first_body_and_some_points_meet_in_the_other():

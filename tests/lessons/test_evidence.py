@@ -1,7 +1,5 @@
 """Statements of the lesson "How do we know?", computed by other means or up to twice the time."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp

@@ -1,7 +1,5 @@
 """Every number in a shipped lesson is computed again: a number in the text without a row here fails."""
 
-from __future__ import annotations
-
 import math
 import re
 import sys

@@ -1,7 +1,5 @@
 """Parsing of lessons, and the messages for mistakes."""
 
-from __future__ import annotations
-
 import base64
 import json
 import re

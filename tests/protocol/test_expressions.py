@@ -1,7 +1,5 @@
 """Expressions in the box of a number: their values, and refused ones."""
 
-from __future__ import annotations
-
 import time
 
 import mpmath

@@ -1,7 +1,5 @@
 """Messages: any JSON is parsed into valid types and bounds; a frame holds the complete response."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 

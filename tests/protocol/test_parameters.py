@@ -1,7 +1,5 @@
 """The link: each key is validated by itself; and the states that a scene admits."""
 
-from __future__ import annotations
-
 import math
 from urllib.parse import parse_qsl, quote, urlencode
 
@@ -30,7 +28,7 @@ SCENES = scenes()
 SCENE = SCENES["suslov-hess"]
 SPECS = (*SCENE.specs, *CLIENT, THEME)
 NUMBERS = [spec for spec in SPECS if isinstance(spec, Number)]
-every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+
 every_key = pytest.mark.parametrize("spec", SPECS, ids=[spec.name for spec in SPECS])
 every_number = pytest.mark.parametrize("spec", NUMBERS, ids=[spec.name for spec in NUMBERS])
 
@@ -308,14 +306,6 @@ def test_every_position_of_the_f_slider_is_possible(h, share):
     # Round numbers, so that what the slider writes into the box is one too, and f = 0 is among it.
     assert high == float(f"{high:.4g}")
     assert step == float(f"{step:.1g}")
-
-
-@every_scene
-def test_every_slider_spans_values_that_may_be_typed_and_holds_the_default(scene):
-    for spec in scene.specs:
-        if isinstance(spec, Number):
-            assert spec.bounds[0] <= spec.softbounds[0] <= spec.default < spec.softbounds[1] <= spec.bounds[1]
-            assert 0 < spec.step < spec.softbounds[1] - spec.softbounds[0]
 
 
 @pytest.mark.parametrize(

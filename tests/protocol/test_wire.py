@@ -1,7 +1,5 @@
 """The wire: packed data can be read back exactly, and nothing is sent twice."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

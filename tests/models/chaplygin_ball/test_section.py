@@ -15,9 +15,7 @@ from hess_mechanics.chaplygin_ball.section import (
     coordinates,
     fastest,
     forbidden_band,
-    outside_band,
     seeds,
-    spread_section,
     state_at,
 )
 from hess_mechanics.dynamics.ensemble import ensemble
@@ -256,30 +254,6 @@ def test_on_an_attractor_neighbours_part_and_volume_shrinks(name):
     assert np.mean(largest) > 0.01
     assert np.mean(largest) > 5.0 * np.std(largest) / sqrt(32)
     assert np.mean(shrinking) < -5.0 * np.std(shrinking) / sqrt(32)
-
-
-@mark.parametrize("h", [-0.9, -0.2, 0.7])
-def test_a_direction_in_the_forbidden_band_moves_to_its_nearer_edge_and_others_stay(h):
-    b = (0.3, -1.0)
-    band = forbidden_band(BallBody(1.0, 2.0, 0.1, 0.2, 1.0, *b, 0.4), h)
-    for psi in np.linspace(-pi, pi, 181):
-        moved = outside_band(band, psi)
-        assert -pi <= moved <= pi
-        directions = np.linspace(-pi, pi, 20001)
-        possible = directions[b[0] * np.cos(directions) + b[1] * np.sin(directions) < h]
-        apart = np.abs(np.remainder(possible - psi + pi, 2.0 * pi) - pi).min()
-        assert b[0] * cos(moved) + b[1] * sin(moved) < h
-        # No further than the next possible direction and the room that is left at the edge.
-        assert abs(remainder(moved - psi, 2.0 * pi)) <= apart + 3e-3
-        assert moved == psi or apart < 1.1e-3 or b[0] * cos(psi) + b[1] * sin(psi) >= h
-
-
-def test_many_orbits_spread_over_the_section_are_those_of_its_seeds():
-    spread = spread_section(GENERAL, 1.0, 7, 5, "draft", 15_000)
-    alone = ball_section(GENERAL, 1.0, seeds(GENERAL, 1.0, 7), 5, "draft", 15_000)
-    assert len(spread.states) == 7
-    for found, expected in zip(spread.states, alone.states, strict=True):
-        assert found == approx(expected, abs=1e-12)
 
 
 def test_the_fastest_moment_of_an_orbit_is_that_of_another_integrator():

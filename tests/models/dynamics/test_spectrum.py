@@ -1,7 +1,5 @@
 """All exponents and MEGNO: known spectra, the divergence of a hundred bodies, exponents that are 0 or paired."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import replace

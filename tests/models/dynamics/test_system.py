@@ -16,7 +16,7 @@ from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from hess_mechanics.dynamics.system import in_units_of_time
 from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit, WrongScaling
 from hess_mechanics.numerics.taylor_kernels import columns_of, compensated, workspace
-from support.mechanics import ROOT, SYSTEMS, assert_same_without_jit, every_level, every_system, scipy_states
+from support.mechanics import ROOT, SYSTEMS, assert_same_without_jit, every_system, scipy_states
 from support.refusals import refused
 from support.thorough import examples
 
@@ -237,17 +237,6 @@ def test_the_frequency_bounds_every_angular_velocity_of_the_motion(system):
     fastest = np.max(np.linalg.norm(orbit.states[:, : system.angular_velocities], axis=1))
     # A bound, and one that is not idle: within a factor of ten here.
     assert fastest <= system.frequency(state, parameters) <= 10 * fastest
-
-
-@every_level
-@every_system
-def test_integrals_drift_less_than_the_level_promises(system, name):
-    orbit = solve(*system.example_motion, np.linspace(0.0, 40.0, 401), name)
-    along = system.integrals(orbit.states.T, system.example[1])
-    for key, initial in system.integrals(*system.example).items():
-        drift = np.max(np.abs(along[key] - initial)) / max(1.0, abs(initial))
-        assert drift <= level(name).promise
-        assert orbit.drift[key] == approx(drift, abs=1e-15)
 
 
 def test_a_compensated_sum_keeps_what_a_plain_one_loses():

@@ -105,27 +105,6 @@ def test_errors_are_those_against_another_method(values):
 
 
 @every_preset
-def test_at_the_start_nothing_is_wrong_and_finer_levels_are_less_so(values):
-    motion = HESS.of(values).motion()
-    found = growth(*asked(motion), motion.weights, SAMPLES)
-    assert found.times == approx(np.linspace(0.0, motion.span, SAMPLES))
-    assert list(found.errors) == list(found.pixels) == list(found.drifts) == list(LEVELS)
-    for name in LEVELS:
-        # Scaled to units in which it is O(1), and back, a state is rounded.
-        assert found.errors[name][0] <= 1.2e-16
-        assert found.pixels[name][0] <= 1.2e-16 * PIXELS
-        # Arrays are squared in another way than numbers: the last place may differ.
-        assert max(drift[0] for drift in found.drifts[name].values()) < 1e-15
-    for one in (found.errors, found.pixels):
-        draft, standard, precise, reference = (errors.max() for errors in one.values())
-        # At the separatrix roundings are magnified until no level can keep its promise: each goes on to the next ones.
-        if not is_separatrix(values):
-            assert draft > 100.0 * standard > 1000.0 * precise > 0.0
-            assert reference <= precise
-        assert draft > standard > 0.0
-
-
-@every_preset
 @mark.parametrize("name", LEVELS)
 def test_the_drifts_are_those_that_the_orbit_itself_reports(values, name):
     motion = HESS.of(values).motion()
@@ -409,20 +388,6 @@ def test_each_chart_shows_its_curves_over_the_time_of_the_page():
         ("pixels", errors.pixels["draft"]),
     ):
         assert orbit[chart][1:] == approx(values[1:])
-
-
-def test_under_a_drag_the_axis_of_time_stays_and_after_it_follows():
-    board, _, _ = shown(errors=made_up(0.5))
-    longer = study(motion=dataclasses.replace(MOTION, unit=7.0), errors=made_up(0.5))
-
-    def axes():
-        return [board.ranges[name][:2] for name in ("growth", "drift", "pixels")]
-
-    assert axes() == [[0.0, 20.0]] * 3
-    board.show(longer, True)
-    assert axes() == [[0.0, 20.0]] * 3
-    board.show(longer, False)
-    assert axes() == [[0.0, 70.0]] * 3
 
 
 def test_a_span_that_would_take_seconds_is_cut_with_a_note():

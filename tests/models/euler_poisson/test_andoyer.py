@@ -14,7 +14,7 @@ from hess_mechanics import section, solve, systems
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.euler_poisson.andoyer import SHEETS, AndoyerPlane, AndoyerSection, coordinates, hess_curve, relation
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
-from hess_mechanics.numerics.accuracy import PRECISE, STANDARD, Level
+from hess_mechanics.numerics.accuracy import PRECISE, STANDARD
 from support.andoyer import GESS1, RIS, angles, crossings_by_scipy, dense, energies_at, energy
 from support.mechanics import apart
 from support.refusals import refused
@@ -283,22 +283,6 @@ def test_crossings_are_those_that_scipy_finds_from_the_angle(body, h, f):
             assert np.max(np.abs(np.cos(angles(result.states)[1])) * tilt) < 1e-9
         found += len(times)
     assert found >= 3
-
-
-# 10⁻²⁴ instead of 10⁻⁸ for one step of order 16: a tenth of its length.
-SHORT_STEPS = Level("short steps", 1e-6, 1e-24, 16)
-
-
-@mark.parametrize(("body", "h", "f", "count"), [(GESS1, 50.0, 5.0, 12), (RIS, 0.3, 0.0, 40), (RIS, 1.0, 1.0, 12)])
-def test_no_crossing_is_lost_or_doubled_against_steps_a_tenth_as_long(body, h, f, count):
-    section_ = AndoyerSection(body, h, f)
-    starts = section_.spread(WHOLE, 50)
-    coarse, fine = (section_.points(starts, count, grade) for grade in (STANDARD, SHORT_STEPS))
-    assert fine.cost.steps > 8 * coarse.cost.steps
-    for one, other in zip(coarse.states, fine.states, strict=True):
-        assert one.shape == other.shape
-        # Chaos multiplies errors of 10⁻⁸; a crossing more or less would be an error of 1.
-        assert np.max(np.abs(one - other)) < 1e-2 * np.max(np.abs(other))
 
 
 def test_no_orbit_of_gess1_changes_the_sign_of_r_M_in_10000_crossings():

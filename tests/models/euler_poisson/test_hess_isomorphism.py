@@ -169,14 +169,6 @@ def test_integrals_in_units_of_b_are_those_of_the_state_in_units_of_b(body):
     assert bridge.from_units_of_b(*units) == approx(heavy, rel=1e-12)
 
 
-def test_the_numbers_of_figure_gess1():
-    # a1'μ|r| = 1.6 · 9.975, h = 50/9.975, f = 5 √(1.6/9.975), by hand.
-    assert (GESS1.hess.a, GESS1.hess.b) == approx((-0.5, 15.96), rel=1e-14)
-    h, f = GESS1.in_units_of_b(50.0, 5.0)
-    assert (h, f) == (approx(5.01253, abs=5e-6), approx(-2.00250, abs=5e-6))
-    assert str(GESS1.in_units_of_b(50.0, 0.0)[1]) == "0.0"
-
-
 @every_suslov
 def test_a_heavy_body_made_from_a_suslov_body_is_in_the_hess_case_and_rigid_where_one_is(hess):
     for share in (0.05, 0.5, 1.0):

@@ -114,31 +114,6 @@ def test_a_constant_of_the_motion_is_taken_for_the_whole_step():
     assert constant(2.5) == 2.5
 
 
-def test_sums_of_variables_are_multiplied_out_and_products_occur_once():
-    def field(y, p):
-        s = p[0] * y[0] - y[1]
-        return s * y[1] + y[1] * y[0], -s * y[0], 3 * y[1] * y[0] / p[0]
-
-    recursion = trace(field, 3, 1)
-    assert recursion.is_quadratic
-    assert sorted(recursion.pairs) == [(0, 0), (0, 1), (1, 1)]
-
-
-def test_what_no_rate_needs_is_not_computed():
-    def field(y, p):
-        _ = y[0] / (y[1] * y[1] + 1)
-        return y[1], -y[0]
-
-    assert trace(field, 2, 0).pairs == ()
-    assert trace(field, 2, 0).is_quadratic
-
-
-def test_a_quotient_takes_one_auxiliary_series_and_one_for_its_divisor():
-    recursion = trace(lambda y, p: (y[1] / (1 + y[0] ** 2), y[1] / (1 + y[0] ** 2) - y[0]), 2, 0)
-    assert recursion.stages == (1, 1)
-    assert sorted(recursion.pairs) == [(0, 0), (2, 3)]
-
-
 def roessler(y, p):
     """With a constant term, as no field of the paper has."""
     a, b, c = p

@@ -16,7 +16,6 @@ from hess_mechanics.suslov.quartic import (
     level_error,
     quartic_section,
     seeds,
-    spread_section,
     start_on_section,
     state_at,
     state_on_section,
@@ -197,14 +196,6 @@ def test_the_start_of_a_place_of_the_section_leads_back_to_it(body):
         x, y = body.on_section(np.array([seed]))[0]
         q1, q2, direction = start_on_section(body, x, y)
         assert state_at(body, (q1, q2), direction) == approx(seed, abs=1e-9)
-
-
-def test_the_section_of_many_orbits_is_that_of_its_seeds():
-    body = BODIES[0]
-    spread = spread_section(body, 5, 4, STANDARD, 40_000)
-    alone = quartic_section(body, seeds(body, 5), 4, STANDARD, 40_000)
-    for found, expected in zip(spread.states, alone.states, strict=True):
-        assert found == approx(expected, abs=1e-12)
 
 
 @every_body

@@ -129,25 +129,6 @@ def test_seeds_fill_what_is_possible_evenly():
 # ---- points ------------------------------------------------------------------------------------------------------
 
 
-@mark.parametrize("k", [1, 2, 3])
-@mark.parametrize("forward", [True, False])
-def test_points_are_on_the_plane_and_keep_the_integrals(k, forward):
-    body, E = SEA[0], 0.4
-    starts = SuslovSection(body, E, k).spread(WHOLE, 6)
-    found = SuslovSection(body, 0.0, k).points(starts, 40, forward, PRECISE)
-    # An orbit that crosses seldom is not followed to the end.
-    counts = [len(states) for states in found.states]
-    assert min(counts) >= 5
-    assert max(counts) == 40
-    states = np.concatenate(found.states)
-    assert np.max(np.abs(states[:, k + 1])) < 1e-9
-    assert np.max(np.abs([energy(body, y) - E for y in states])) < 1e-9
-    assert np.max(np.abs(np.sum(states[:, 2:] ** 2, axis=1) - 1.0)) < 1e-9
-    assert min(field(body, y)[k + 1] for y in states) > 0.0
-    assert set(found.drift) == {"E", "F1"}
-    assert max(found.drift.values()) < 1e-9
-
-
 @mark.parametrize(("k", "forward", "count"), [(1, True, 3), (2, False, 8), (3, True, 8), (3, False, 8)])
 def test_the_first_points_are_those_of_scipy(k, forward, count):
     body = SEA[0]
