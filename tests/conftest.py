@@ -1,7 +1,5 @@
 """The explorer as users see it: a served page in a real browser."""
 
-from __future__ import annotations
-
 import os
 import re
 import subprocess

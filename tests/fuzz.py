@@ -4,8 +4,6 @@ Counted are what is raised, warned of or logged, answers that take more than 5 s
 in a sentence, and “could not be computed”.  The same seed sends the same.
 """
 
-from __future__ import annotations
-
 import argparse
 import math
 import random

@@ -6,8 +6,6 @@ that asks for the dearest scene at `reference` without a pause.  `--leave 2000`:
 On a quiet machine: `python tests/load.py 10 50 200 500 --workers 1 2 --leave 2000 --write`.
 """
 
-from __future__ import annotations
-
 import argparse
 import asyncio
 import gc

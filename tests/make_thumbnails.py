@@ -3,8 +3,6 @@
 Each is the inside of a picture's axes, or a sphere, in the light and in the dark theme.
 """
 
-from __future__ import annotations
-
 import io
 import sys
 import tempfile

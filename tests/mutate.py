@@ -6,8 +6,6 @@ faults whose names contain one of them; `--write` keeps the table in "README.md"
 that nobody noticed or that could not be seeded.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 import re

@@ -4,8 +4,6 @@ Needs `caddy` (Debian: apt-get install caddy).  A visitor opens the page by http
 and opens its own link again at the other one.
 """
 
-from __future__ import annotations
-
 import asyncio
 import json
 import os

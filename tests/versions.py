@@ -5,8 +5,6 @@ uv makes a virtual environment and installs this folder; a server is started the
 and changed, one command and one export carried out.
 """
 
-from __future__ import annotations
-
 import argparse
 import asyncio
 import json

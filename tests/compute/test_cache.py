@@ -1,7 +1,5 @@
 """The cache of results: one computation per key, bounded in bytes, errors are not kept."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor

@@ -1,7 +1,5 @@
 """Search order for the browser; a missing browser is always reported."""
 
-from __future__ import annotations
-
 import builtins
 import subprocess
 

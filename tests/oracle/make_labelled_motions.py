@@ -14,8 +14,6 @@ K : the 0–1 test of the crossings (Gottwald and Melbourne 2009), close to 1 on
 Where they disagree, the script stops with an error.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import time

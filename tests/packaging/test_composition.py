@@ -1,7 +1,5 @@
 """Composition over inheritance: the number of the project's own base classes of a class."""
 
-from __future__ import annotations
-
 import importlib
 import inspect
 import pkgutil

@@ -1,7 +1,5 @@
 """The examples in docstrings run and give the stated results; every function exported by a package has one."""
 
-from __future__ import annotations
-
 import doctest
 import inspect
 

@@ -1,7 +1,5 @@
 """The table of app/README.md with the parts of the paper: it is complete, and the page has everything it names."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

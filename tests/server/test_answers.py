@@ -1,7 +1,5 @@
 """Responses of a session, without a server: descriptions, links, changes of scene."""
 
-from __future__ import annotations
-
 import pytest
 
 from hess_explorer.page.session import Session

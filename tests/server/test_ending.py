@@ -1,7 +1,5 @@
 """Shutdown of a server: it notifies its pages, and its processes exit."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """A server in a faulty environment starts and serves, or exits with a one-sentence remedy."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """Full garbage collections, which stop all threads, run when the server is idle, or when they are overdue."""
 
-from __future__ import annotations
-
 import gc
 import threading
 import time

@@ -1,7 +1,5 @@
 """All request handlers are replaced, or the server does not start."""
 
-from __future__ import annotations
-
 import pytest
 from panel.io.server import DocHandler, WSHandler
 

@@ -1,7 +1,5 @@
 """Rate limits of one visitor, and the message when they are exceeded."""
 
-from __future__ import annotations
-
 import asyncio
 
 import pytest

@@ -3,8 +3,6 @@
 In a module of its own, because the end of a server ends all others of the process.
 """
 
-from __future__ import annotations
-
 from hess_explorer.rooms import registry, room
 from support.asynchronous import finished
 from support.room import Follower, Lecturer, new_code

@@ -1,7 +1,5 @@
 """Rooms: followers see what the lecturer shows, guess, sleep and return, and cannot steer."""
 
-from __future__ import annotations
-
 import asyncio
 import time
 

@@ -1,7 +1,5 @@
 """Log messages of the server."""
 
-from __future__ import annotations
-
 import logging
 
 import pytest

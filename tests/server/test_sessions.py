@@ -1,7 +1,5 @@
 """A closed session leaves nothing behind."""
 
-from __future__ import annotations
-
 import asyncio
 import gc
 import time

@@ -1,7 +1,5 @@
 """Access control: origins that may connect to the server, and sites that may embed the page."""
 
-from __future__ import annotations
-
 import json
 import re
 

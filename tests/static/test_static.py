@@ -1,7 +1,5 @@
 """Unit tests of the page's JavaScript modules that need no browser, with Node's test runner."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Bar codes in screenshots."""
 
-from __future__ import annotations
-
 import io
 
 import zxingcpp

@@ -1,7 +1,5 @@
 """The numbers in the lesson "What a nonholonomic constraint does", computed."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The numbers in the lesson "Period doubling to a strange attractor, and its mirror repeller", computed."""
 
-from __future__ import annotations
-
 import math
 from functools import cache
 

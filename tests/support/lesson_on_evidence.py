@@ -1,7 +1,5 @@
 """The numbers in the lesson "How do we know?", computed."""
 
-from __future__ import annotations
-
 import math
 import sys
 from functools import cache

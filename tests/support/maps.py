@@ -1,7 +1,5 @@
 """Maps with known periodic orbits, bifurcations and manifolds: `Formula` makes a map from formulas."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Clients of a room without a browser: a lecturer, and followers."""
 
-from __future__ import annotations
-
 import asyncio
 import json
 import random

@@ -1,7 +1,5 @@
 """Errors and times: run every setting once, find the cheapest one for each target error, and time these in turn."""
 
-from __future__ import annotations
-
 import gc
 import statistics
 import time

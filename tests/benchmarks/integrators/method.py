@@ -1,7 +1,5 @@
 """A method in the benchmark: one way to integrate the test problems, at settings from coarse to fine."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import metadata

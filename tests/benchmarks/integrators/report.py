@@ -1,7 +1,5 @@
 """The results as text (Markdown) and as JSON."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Measure the speed-up of two threads over one."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Cost and error of every level, for every kind of computation of every scene, and for each kind in all of them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from hess_explorer.protocol.parameters import Choice

@@ -1,7 +1,5 @@
 """The works of the benchmark: their initial data, and the error of a result against the stored reference."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cache

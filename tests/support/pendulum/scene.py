@@ -1,7 +1,5 @@
 """The spherical pendulum: a section at one energy, and the orbit from a place of it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 
