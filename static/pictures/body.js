@@ -1,6 +1,6 @@
 // @ts-check
-// A rigid body in space: a solid ellipsoid in its principal axes, rods from its fixed point, the wheels of its constraint,
-// the trail of a point, and curves fixed in space.  It is a guest of "sphere.js", which rotates the picture.  Parts behind the
+// A rigid body in space: a solid ellipsoid in its principal axes with weights on them, rods from its fixed point, the wheels
+// of its constraint, the trail of a point, its shadow on the ground, and curves fixed in space.  It is a guest of "sphere.js", which rotates the picture.  Parts behind the
 // body are painted before it and parts in front after it; a rod begins where it leaves the surface.
 //
 // In space e points along x and γ downwards, as gravity does for the potential −μ(r, γ).  The source of the option `attitude`
@@ -8,11 +8,15 @@
 // body coordinates except for the curves,
 //   axes [[x, y, z]] × 3, semi [3], names [3]: principal axes, half lengths of the ellipsoid, labels;
 //   section [x, y, z, radius]: a circular section, by its normal;  rods [[x, y, z, look, label]];
-//   wheels [x, y, z, ex, ey, ez]: contact point of a wheel with the sphere, and rolling direction e; the other is opposite;
+//   weights [[x, y, z, radius]];
+//   wheels [x, y, z, ex, ey, ez, look]: contact point of a wheel with the sphere, rolling direction e, and the look of its
+//   trace; the other wheel is opposite;  arc: the way of the contact point towards e, a column beside the attitude;
 //   trail [x, y, z, look]: a point that leaves a trail;  hollow: whether the body is a glass ball around an inner ball;
 //   curves [[look, weight, xs, ys, zs]] in space, weight 0 for that of the look;  axis and label of the arrow below.
 
-import { drawArrow, drawBall, drawLine, drawMass, drawTrail, drawWheel, TRAIL, WHEEL } from "./body_parts.js"
+import {
+  drawArrow, drawBall, drawLine, drawMass, drawShadow, drawTrail, drawWheel, TRAIL, turnsOf, WHEEL,
+} from "./body_parts.js"
 import { circlePath, LOOKS } from "./looks.js"
 import { between } from "./moment.js"
 import { covers, createSolid, leaves } from "./solid.js"
@@ -21,6 +25,8 @@ import { circle, cross, dot, plus, scaled, unit } from "./vectors.js"
 const CAVITY = 0.62
 const INNER = 0.26
 const BALL = 9
+// Weights on a light page and on a dark one.
+const STEEL = ["#7C8794", "#8E99A6"]
 
 /**
  * Return the map of directions from the body to space at the share s between the samples i and i + 1; γ and e are made
@@ -79,18 +85,24 @@ export function bodyIn(source, attitude) {
     if (!(times?.length > 1)) return null
     const [i, s] = between(times, t)
     const place = placing(columns, i, s)
-    const { axes = /** @type {Vector[]} */ ([]), semi = [], trail = [] } = source.data
-    /** @type {number[][]} */
-    const path = [[], [], []]
-    if (trail.length) {
-      const tip = trail.slice(0, 3)
-      /** @param {Vector} placed */
-      const add = (placed) => placed.forEach((x, k) => path[k].push(x))
-      for (let j = Math.max(0, i - TRAIL); j <= i; j++) add(placing(columns, j, 0)(tip))
-      add(place(tip))
+    const { axes = /** @type {Vector[]} */ ([]), semi = [], trail = [], wheels = [], arc = [] } = source.data
+    const first = Math.max(0, i - TRAIL)
+    const places = [...Array(i + 1 - first).keys()].map((j) => placing(columns, first + j, 0))
+    places.push(place)
+    /** Return the latest path of a point of the body. @param {Vector} tip */
+    const pathOf = (tip) => {
+      const points = places.map((there) => there(tip))
+      return [0, 1, 2].map((k) => points.map((point) => point[k]))
     }
+    /** @type {Vector[]} */
     const placed = axes.map(place)
-    return { place, placed, seen: semi.length === 3 ? placed.map(view) : [], path }
+    const way = arc.length ? arc[i] + s * (arc[i + 1] - arc[i]) : 0
+    return {
+      place, placed, seen: semi.length === 3 ? placed.map(view) : [],
+      path: trail.length ? pathOf(trail.slice(0, 3)) : null, way,
+      trace: wheels.length ? pathOf(wheels.slice(0, 3)) : null,
+      ways: wheels.length ? [...arc.slice(first, i + 1), way] : [],
+    }
   }
 
   /**
@@ -119,6 +131,15 @@ export function bodyIn(source, attitude) {
     write(label, x + aside, y - aside)
   }
 
+  /** Draw a weight on its rod. @param {Sheet} sheet @param {Vector} to @param {number} radius @param {boolean} near */
+  function drawWeight(sheet, to, radius, near) {
+    const { ctx, at, view, dark, scale } = sheet
+    const { semi, hollow } = source.data
+    if (leaves(held.seen, semi, view(to)).near !== near) return
+    if (!hollow) drawRod(sheet, to, { weight: 2 }, "", near)
+    drawBall(ctx, ...at(to), STEEL[Number(dark)], radius * scale, dark ? "#C5CCD5" : "#39424D")
+  }
+
   /** @type {ReturnType<typeof now> | null} */
   let held = null
   return {
@@ -129,7 +150,10 @@ export function bodyIn(source, attitude) {
     /** @param {Sheet} sheet @param {boolean} near */
     paint(sheet, near) {
       const { ctx, stroke, use, isNear } = sheet
-      const { semi = [], names = [], section = [], rods = [], wheels = [], trail = [], curves = [], axis, label = "" } = source.data
+      const {
+        semi = [], names = [], section = [], weights = [], rods = [], wheels = [], trail = [], curves = [], axis, label = "",
+      } = source.data
+      if (!near && held?.seen.length) drawShadow(sheet, held.placed, semi)
       const alpha = ctx.globalAlpha
       ctx.globalAlpha = near ? 1 : 0.45
       for (const [look, weight, ...curve] of curves) {
@@ -137,9 +161,9 @@ export function bodyIn(source, attitude) {
         stroke(curve, near)
       }
       if (held === null) return
-      /** @type {{place: (v: Vector) => Vector, placed: Vector[], path: number[][]}} */
-      const { place, placed, path } = held
-      if (trail.length) drawTrail(sheet, path, LOOKS[trail[3]], near)
+      const { place, placed, path, trace, ways, way } = held
+      if (path) drawTrail(sheet, path, LOOKS[trail[3]], near)
+      if (trace) drawTrail(sheet, trace, LOOKS[wheels[6]], near, turnsOf(ways))
       ctx.globalAlpha = 1
       if (section.length === 4 && semi.length === 3 && near) drawSection(sheet, place(section), section[3], placed, semi)
       if (semi.length === 3) placed.forEach((direction, k) => {
@@ -148,12 +172,13 @@ export function bodyIn(source, attitude) {
           drawRod(sheet, scaled(direction, sign * (semi[k] + 0.1)), { weight: 2 }, sign > 0 ? names[k] : "", near)
         }
       })
-      if (wheels.length === 6) {
-        const along = place(wheels.slice(3))
+      for (const [x, y, z, radius] of weights) drawWeight(sheet, place([x, y, z]), radius, near)
+      if (wheels.length) {
+        const along = place(wheels.slice(3, 6))
         for (const sign of [1, -1]) {
           const touching = scaled(place(wheels), sign)
           drawRod(sheet, scaled(touching, 1 - WHEEL), { weight: 3 }, "", near)
-          if (isNear(touching) === near) drawWheel(sheet, touching, along)
+          if (isNear(touching) === near) drawWheel(sheet, touching, along, sign * way, LOOKS[wheels[6]])
         }
       }
       for (const [x, y, z, look, name] of rods) drawRod(sheet, place([x, y, z]), LOOKS[look], name, near)

@@ -1,12 +1,14 @@
 // @ts-check
-// Parts of pictures in space: rods, the ball of a mass, wheels, the arrow below, trails, and the moving point.
+// Parts of pictures in space: rods, balls, the centre of mass, wheels, the shadow, the arrow below, trails, the moving point.
 
 import { circlePath, LOOKS, POINT } from "./looks.js"
+import { outline } from "./solid.js"
 import { circle, cross, plus, scaled, unit } from "./vectors.js"
 
 // Radius of a wheel and half its thickness.
 export const WHEEL = 0.15
 const THICK = 0.024
+const SPOKES = 5
 // Number of steps of a trail.
 export const TRAIL = 160
 
@@ -78,12 +80,60 @@ export function drawMass(ctx, x, y, radius, ink, dark) {
 }
 
 /**
- * Draw a wheel.
+ * Draw the soft shadow of an ellipsoid on the ground below the sphere, in light from above.
+ * @param {Sheet} sheet
+ * @param {Vector[]} axes in space
+ * @param {number[]} semi
+ */
+export function drawShadow({ ctx, dark, px, py, at }, axes, semi) {
+  const [x, y] = at([0, 0, -1])
+  const [a, b] = [px(1, 0) - x, py(1, 0, -1) - y]
+  const [c, d] = [px(0, 1) - x, py(0, 1, -1) - y]
+  // The ground is not seen from below, and is a line from the side.
+  if (a * d - b * c > -1) return
+  const { halves: [long, short], angle } = outline(axes, semi)
+  ctx.save()
+  ctx.transform(a, b, c, d, x, y)
+  /** Fill a disc that fades outwards. @param {string} colour "red, green, blue" @param {number} alpha @param {number} size */
+  const fade = (colour, alpha, size) => {
+    const spot = ctx.createRadialGradient(0, 0, 0, 0, 0, size)
+    for (const [share, part] of [[0, 1], [0.55, 0.85], [0.8, 0.35], [1, 0]]) {
+      spot.addColorStop(share, `rgba(${colour}, ${alpha * part})`)
+    }
+    circlePath(ctx, 0, 0, size)
+    ctx.fillStyle = spot
+    ctx.fill()
+  }
+  // On a dark page the ground has to be lit for a shadow to show.
+  if (dark) fade("200, 215, 235", 0.28, 1.4)
+  ctx.rotate(angle)
+  ctx.scale(long, short)
+  fade(dark ? "0, 0, 0" : "30, 36, 48", dark ? 0.8 : 0.42, 1.1)
+  ctx.restore()
+}
+
+/**
+ * Return the samples, with fractions, at which the marked spoke of a wheel touches the sphere.
+ * @param {number[]} ways the way of the contact point at each sample
+ */
+export function turnsOf(ways) {
+  const turn = 2 * Math.PI * WHEEL
+  return ways.slice(1).flatMap((way, i) => {
+    const [from, to] = [ways[i] / turn, way / turn]
+    const whole = Math.floor(Math.max(from, to))
+    return whole >= Math.min(from, to) && from !== to ? [i + (whole - from) / (to - from)] : []
+  })
+}
+
+/**
+ * Draw a wheel that rolls on the sphere without slipping; its coloured spoke touches after each turn.
  * @param {Sheet} sheet
  * @param {Vector} touching its contact point with the sphere
  * @param {Vector} along its rolling direction
+ * @param {number} way how far the contact point has moved along
+ * @param {Look} look of the coloured spoke and the contact point
  */
-export function drawWheel({ ctx, text, dark, depth, at, use }, touching, along) {
+export function drawWheel({ ctx, text, dark, depth, at, use }, touching, along, way, look) {
   const axle = unit(cross(touching, along))
   const middle = scaled(touching, 1 - WHEEL)
   const side = depth(...axle) >= 0 ? THICK : -THICK
@@ -110,9 +160,24 @@ export function drawWheel({ ctx, text, dark, depth, at, use }, touching, along) 
   // The tread is the union of its discs, in one path.
   fill(text, [-1, -0.6, -0.2, 0.2, 0.6], WHEEL)
   ctx.stroke()
-  fill(dark ? "#C8C8C8" : "#EEE", [1], WHEEL)
+  fill(dark ? "#3A3F47" : "#EEE", [1], WHEEL)
   ctx.stroke()
-  fill(text, [1], 0.25 * WHEEL)
+  const hub = plus(middle, axle, side)
+  const out = unit(touching)
+  for (let k = SPOKES - 1; k >= 0; k--) {
+    // In the body the wheel turns against the way of its contact, by way / radius.
+    const angle = 2 * Math.PI * k / SPOKES - way / WHEEL
+    const spoke = plus(scaled(out, Math.cos(angle)), along, Math.sin(angle))
+    use({ colour: k === 0 ? look.colour : null, weight: k === 0 ? 4 : 2 })
+    ctx.beginPath()
+    ctx.moveTo(...at(hub))
+    ctx.lineTo(...at(plus(hub, spoke, 0.92 * WHEEL)))
+    ctx.stroke()
+  }
+  fill(text, [1], 0.2 * WHEEL)
+  circlePath(ctx, ...at(touching), 4)
+  ctx.fillStyle = look.colour
+  ctx.fill()
 }
 
 /**
@@ -145,8 +210,9 @@ const TRAIL_PIECES = 16
  * @param {Columns} path its last point is the newest
  * @param {Look} look
  * @param {boolean} near
+ * @param {number[]} dots samples, with fractions, that get a dot
  */
-export function drawTrail({ ctx, stroke, use }, path, look, near) {
+export function drawTrail({ ctx, stroke, use, at, isNear }, path, look, near, dots = []) {
   use(look)
   const n = path[0].length
   const most = TRAIL / TRAIL_PIECES
@@ -158,6 +224,15 @@ export function drawTrail({ ctx, stroke, use }, path, look, near) {
     ctx.lineWidth = 1.2 + 2.3 * share
     ctx.globalAlpha = (near ? 1 : 0.4) * share
     stroke(path.map((column) => Array.prototype.slice.call(column, from, to + 1)), near)
+  }
+  ctx.fillStyle = ctx.strokeStyle
+  for (const dot of dots) {
+    const i = Math.min(n - 2, Math.floor(dot))
+    const point = path.map((column) => column[i] + (dot - i) * (column[i + 1] - column[i]))
+    if (isNear(point) !== near) continue
+    ctx.globalAlpha = (near ? 1 : 0.4) * Math.max(0, 1 - (n - 1 - dot) / TRAIL)
+    circlePath(ctx, ...at(point), 4)
+    ctx.fill()
   }
 }
 

@@ -2,7 +2,8 @@
 
 import base64
 import io
-from math import cos, hypot, sin, sqrt
+from itertools import pairwise
+from math import asin, cos, hypot, pi, sin, sqrt
 
 import numpy as np
 import pytest
@@ -84,8 +85,10 @@ def test_the_body_ends_where_the_ellipse_of_its_outline_is(quartic, dark):
     size = np.sqrt(Q[0, 0] * x * x + 2.0 * Q[0, 1] * x * y + Q[1, 1] * y * y)
     pixel = 1.0 / (RADIUS * half) / np.sqrt(np.linalg.eigvalsh(Q)[0] ** -1.0)
     assert np.all(painted[size < 1.0 - 3.0 * pixel, 3] == 255)
-    # Beside it are but lines: the sphere, its equator, rods, the trail.
-    assert np.mean(painted[(size > 1.0 + 3.0 * pixel) & (np.hypot(x, y) < 0.97), 3] == 0) > 0.75
+    # Beside it are but lines: the sphere, its equator, rods, the trail.  Its shadow is on the ground below the sphere.
+    beside = (size > 1.0 + 3.0 * pixel) & (np.hypot(x, y) < 0.97)
+    assert np.mean(painted[beside & (y > -0.5), 3] == 0) > 0.75
+    assert np.mean(painted[(np.hypot(3.0 * x, y + 0.94) < 0.2), 3] > 20) > 0.9
     # It is lit from above on the left.
     inside = size < 0.9
     brightness = painted[..., :3].mean(axis=-1)
@@ -153,3 +156,32 @@ def test_the_point_behind_the_sphere_is_as_strong_as_before_it_and_has_a_ring_th
     assert len(behind[False]) > 1
     assert min(behind[True]) > 0.25
     assert max(behind[False]) < 0.15
+
+
+def test_a_wheel_rolls_without_slipping(quartic):
+    """Its marked spoke has turned by the length of its contact's path over its radius, backwards in the body."""
+    body = quartic.data("body")
+    at, e = np.array(body["wheels"][:3]), np.array(body["wheels"][3:6])
+    rotations = [placed(body, i) for i in range(len(body["t"]))]
+    way, checked = 0.0, 0
+    for i, (before, now) in enumerate(pairwise(rotations), 1):
+        step = now @ at - before @ at
+        way += 2.0 * asin(0.5 * hypot(*step)) * np.sign(step @ (now @ e))
+        turn = tuple(map(float, canvas(quartic).get_attribute("data-turn").split()))
+        contact, along, axle = (view_of(turn) @ now @ v for v in (at, e, np.cross(at, e)))
+        # Only where the wheel is in front, and seen from the side.
+        if i % 3 or contact[2] < 0.2 or abs(axle[2]) < 0.5:
+            continue
+        quartic.set_time(body["t"][i])
+        wait_frames(quartic)
+        painted = pixels(quartic)
+        half = painted.shape[0] / 2
+        hub = 0.85 * contact + 0.024 * np.sign(axle[2]) * axle
+        blue = []
+        for angle in np.arange(12) * pi / 6.0 - way / 0.15:
+            x, y, _ = hub + 0.6 * 0.15 * (cos(angle) * contact + sin(angle) * along)
+            red, _, blueness, _ = painted[round(half - RADIUS * half * y - 0.5), round(half + RADIUS * half * x - 0.5)]
+            blue.append(blueness - red > 90)
+        assert blue == [True] + [False] * 11, i
+        checked += 1
+    assert checked > 5

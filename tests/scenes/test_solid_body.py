@@ -61,12 +61,23 @@ def test_every_example_of_a_constrained_body_is_drawn_as_it_lies(name):
             for k in (1, 2, 3):
                 assert np.interp(body["t"], orbit["t"], orbit[f"g{k}"]) == approx(body[f"g{k}"], abs=sagitta)
         # A wheel rolls along e: a velocity ω × at with ω across e has no part along its axle at × e.
-        at, axis = np.array(body["wheels"][:3]), np.array(body["wheels"][3:])
+        at, axis = np.array(body["wheels"][:3]), np.array(body["wheels"][3:6])
         assert (at @ at, axis @ axis, at @ axis) == approx((1.0, 1.0, 0.0), abs=1e-12)
         for omega in np.random.default_rng(1).normal(size=(5, 3)):
             sideways = np.cross(omega, at) @ np.cross(at, axis)
             assert sideways == approx(-(omega @ axis) * (at @ at), abs=1e-12)
         assert axis == approx([0.0, 0.0, 1.0])
+        # The arc is the path of the contact point in space, between samples a little longer than its chord.
+        contact = np.stack([g @ at, e @ at, np.cross(g, e) @ at], axis=1)
+        chords = 2.0 * np.arcsin(0.5 * np.linalg.norm(np.diff(contact, axis=0), axis=1))
+        assert np.abs(np.diff(body["arc"])) == approx(chords, rel=0.06, abs=2e-3)
+        # The weights are the body: their moments have its principal axes, and their centre of mass is along r.
+        *place, radius = np.array(body["weights"] or np.empty((0, 4))).T
+        assert len(radius) in (0, 6)
+        first = np.array(place) @ radius**3
+        if len(radius) and np.any(np.abs(first) > 1e-9):
+            r = next(rod[:3] for rod in body["rods"] if rod[3] == "mass")
+            assert first / np.linalg.norm(first) == approx(np.array(r) / np.linalg.norm(r), abs=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -18,6 +19,8 @@ __all__ = ["BodyDrawing", "placing"]
 _TRAIL, _PIECES = 160, 16
 _WHEEL, _THICK = 0.15, 0.024
 _CAVITY, _INNER = 0.62, 0.26
+_SPOKES = 5
+_STEEL, _STEEL_EDGE = "#7C8794", "#39424D"
 _BALL = 0.055
 """Radius of the ball at the end of a rod with a mass."""
 _SHADES = 224
@@ -54,34 +57,47 @@ class BodyDrawing:
     def __init__(self, canvas: SphereCanvas, own: Columns, attitude: Columns, t: float) -> None:
         self.canvas, self.own = canvas, own
         self.turn: Array | None = None
-        self.path = np.empty((0, 3))
+        self.path, self.trace = np.empty((0, 3)), np.empty((0, 3))
+        self.ways = np.zeros(1)
         semi = own.get("semi", ())
         if len(attitude.get("t", ())) > 1:
             self.turn = placing(attitude, t)
             if own.get("trail"):
-                self.path = self._path(attitude, t)
+                self.path = self._path(attitude, t, own["trail"][:3])
+            if own.get("wheels"):
+                self.trace = self._path(attitude, t, own["wheels"][:3])
+                i, s = between(attitude["t"], t)
+                arc = np.asarray(own["arc"])
+                self.ways = np.append(arc[max(0, i - _TRAIL) : i + 1], arc[i] + s * (arc[i + 1] - arc[i]))
         self.semi = np.array(semi, float)
         # The principal axes in space and in the view.
         self.axes = np.array(own["axes"]) @ self.turn.T if self.turn is not None and len(semi) == 3 else None
         self.seen = None if self.axes is None else seen(self.axes, *canvas.view)
 
-    def _path(self, attitude: Columns, t: float) -> Array:
-        tip, (i, _) = np.array(self.own["trail"][:3], float), between(attitude["t"], t)
+    def _path(self, attitude: Columns, t: float, of: Sequence[float]) -> Array:
+        tip, (i, _) = np.array(of, float), between(attitude["t"], t)
         samples = np.column_stack([attitude[name][max(0, i - _TRAIL) : i + 1] for name in _COLUMNS])
         assert self.turn is not None
         return np.vstack([_turned(samples) @ tip, self.turn @ tip])
 
     def half(self, near: bool) -> None:
         """Draw the far or near half of everything except the body itself."""
+        if not near and self.axes is not None:
+            self._shadow(self.axes)
         for look, weight, *curve in self.own.get("curves", ()):
             ink, dash, usual = LOOKS[look]
             self.canvas.stroke(np.array(curve).T, (ink, dash, 0.6 * weight or usual), near, 1.0 if near else 0.45)
         if self.turn is None:
             return
-        self._trail(near)
+        if len(self.path):
+            self._trail(self.path, self.own["trail"][3], near)
+        if len(self.trace):
+            self._trail(self.trace, self.own["wheels"][6], near)
+            self._turns(near)
         if near and self.seen is not None and len(self.own.get("section", ())) == 4:
             self._section()
         self._principal_axes(near)
+        self._weights(near)
         self._wheels(near)
         for x, y, z, look, label in self.own.get("rods", ()):
             self._rod(self.turn @ np.array([x, y, z]), LOOKS[look], label, near, ball=look == "mass")
@@ -102,13 +118,13 @@ class BodyDrawing:
         canvas = self.canvas
         canvas.disc(0.0, 0.0, _CAVITY, facecolor="none", edgecolor=canvas.colour(theme.INK), linewidth=0.7, alpha=0.5)
         x, y, _ = canvas.at((0.0, 0.0, _INNER - _CAVITY))
-        self._ball(x, y, _INNER, "#9AA0AA")
+        self._ball(x, y, _INNER, "#9AA0AA", theme.INK)
         x, y, _ = canvas.at((0.0, 0.0, -_CAVITY))
         canvas.dot(x, y, 3.0, color=canvas.colour(theme.INK))
 
-    def _ball(self, x: float, y: float, radius: float, colour: str) -> None:
+    def _ball(self, x: float, y: float, radius: float, colour: str, edge: str) -> None:
         canvas = self.canvas
-        canvas.disc(x, y, radius, facecolor=canvas.colour(colour), linewidth=0.9, edgecolor=canvas.colour(theme.INK))
+        canvas.disc(x, y, radius, facecolor=canvas.colour(colour), linewidth=0.9, edgecolor=canvas.colour(edge))
         # The light comes from the upper left.
         canvas.disc(
             x - 0.35 * radius, y + 0.38 * radius, 0.28 * radius, facecolor="white", edgecolor="none", alpha=0.85
@@ -124,11 +140,9 @@ class BodyDrawing:
             arc = _BALL * np.column_stack([np.cos(angles), np.sin(angles)])
             canvas.area(np.array([x, y]) + np.vstack([[0.0, 0.0], arc]), facecolor=ink, linewidth=0)
 
-    def _trail(self, near: bool) -> None:
-        count, most = len(self.path), _TRAIL // _PIECES
-        if not count:
-            return
-        ink, dash, _ = LOOKS[self.own["trail"][3]]
+    def _trail(self, path: Array, look: str, near: bool) -> None:
+        count, most = len(path), _TRAIL // _PIECES
+        ink, dash, _ = LOOKS[look]
         for k in range(_PIECES):
             # The newest piece ends at the moving point.
             first, last = max(0, count - 1 - (k + 1) * most), count - 1 - k * most
@@ -136,8 +150,34 @@ class BodyDrawing:
                 break
             share = 1.0 - k / _PIECES
             self.canvas.stroke(
-                self.path[first : last + 1], (ink, dash, 0.7 + 1.4 * share), near, (1.0 if near else 0.4) * share
+                path[first : last + 1], (ink, dash, 0.7 + 1.4 * share), near, (1.0 if near else 0.4) * share
             )
+
+    def _turns(self, near: bool) -> None:
+        """Draw a dot on the trace of the wheel where its marked spoke touched the sphere."""
+        turns = self.ways / (2.0 * math.pi * _WHEEL)
+        ink = self.canvas.colour(LOOKS[self.own["wheels"][6]][0])
+        for i in np.flatnonzero(np.diff(np.floor(turns))):
+            whole = math.floor(max(turns[i], turns[i + 1]))
+            share = (whole - turns[i]) / (turns[i + 1] - turns[i])
+            place = self.trace[i] + share * (self.trace[i + 1] - self.trace[i])
+            if self.canvas.is_near(place) == near:
+                age = max(0.0, 1.0 - (len(turns) - 1 - i - share) / _TRAIL)
+                self.canvas.dot(*self.canvas.at(place)[:2], 4.0, color=ink, alpha=(1.0 if near else 0.4) * age)
+
+    def _shadow(self, axes: Array) -> None:
+        """Draw the shadow on the ground below the sphere, in light from above: ellipses that become smaller."""
+        canvas = self.canvas
+        if canvas.view[1] <= 0.0:
+            return
+        ring = circle(np.array([0.0, 0.0, 1.0]), 0.0)[:, :2]
+        a, b, angle = solid.outline(axes, self.semi)
+        c, s = math.cos(angle), math.sin(angle)
+        below = (ring * [1.1 * a, 1.1 * b]) @ np.array([[c, s], [-s, c]])
+        for size in np.linspace(1.0, 0.4, 13):
+            ground = np.column_stack([size * below, np.full(len(below), -1.0)])
+            corners = seen(ground, *canvas.view)[:, :2]
+            canvas.area(corners, facecolor=canvas.colour(theme.INK), alpha=0.022, linewidth=0)
 
     def _section(self) -> None:
         """Draw the visible part of the circular section."""
@@ -180,17 +220,33 @@ class BodyDrawing:
         if near or self.seen is None or not solid.covers(self.seen, self.semi, right, up, 0.05):
             canvas.write(label, right, up)
 
+    def _weights(self, near: bool) -> None:
+        """Draw the weights on their rods."""
+        canvas = self.canvas
+        assert self.turn is not None
+        for *at, radius in self.own.get("weights", ()):
+            to = self.turn @ np.array(at)
+            assert self.seen is not None
+            if solid.leaves(self.seen, self.semi, seen(to[None, :], *canvas.view)[0])[1] != near:
+                continue
+            if not self.own["hollow"]:
+                self._rod(to, (theme.INK, "-", 1.2), "", near)
+            x, y, _ = canvas.at(to)
+            self._ball(x, y, radius, _STEEL, _STEEL_EDGE)
+
     def _wheels(self, near: bool) -> None:
-        if len(self.own.get("wheels", ())) != 6:
+        if not self.own.get("wheels"):
             return
         assert self.turn is not None
-        at, e = np.array(self.own["wheels"]).reshape(2, 3) @ self.turn.T
-        for touching in (at, -at):
+        at, e = np.array(self.own["wheels"][:6]).reshape(2, 3) @ self.turn.T
+        for sign in (1.0, -1.0):
+            touching = sign * at
             self._rod((1.0 - _WHEEL) * touching, (theme.INK, "-", 1.8), "", near)
             if self.canvas.is_near(touching) == near:
-                self._wheel(touching, e)
+                self._wheel(touching, e, sign * self.ways[-1])
 
-    def _wheel(self, touching: Array, e: Array) -> None:
+    def _wheel(self, touching: Array, e: Array, way: float) -> None:
+        """Draw a wheel whose contact point has moved by `way` towards e."""
         canvas = self.canvas
         axle = np.cross(touching, e)
         axle /= np.linalg.norm(axle)
@@ -209,8 +265,15 @@ class BodyDrawing:
         # A stack of discs makes the tread.
         for along in (-side, -0.6 * side, -0.2 * side, 0.2 * side, 0.6 * side):
             disc(along, _WHEEL, ink)
-        disc(side, _WHEEL, "#EEEEEE")
-        disc(side, 0.25 * _WHEEL, ink)
+        disc(side, _WHEEL, canvas.colour(theme.PAPER))
+        hub, marked = middle + side * axle, canvas.colour(LOOKS[self.own["wheels"][6]][0])
+        for k in reversed(range(_SPOKES)):
+            angle = 2.0 * math.pi * k / _SPOKES - way / _WHEEL
+            spoke = math.cos(angle) * touching + math.sin(angle) * e
+            look = (LOOKS[self.own["wheels"][6]][0], "-", 2.4) if k == 0 else (theme.INK, "-", 1.2)
+            canvas.line(hub, hub + 0.92 * _WHEEL * spoke, look)
+        disc(side, 0.2 * _WHEEL, ink)
+        canvas.dot(*canvas.at(touching)[:2], 4.0, color=marked)
 
     def _arrow(self, along: Array, label: str) -> None:
         """Draw an arrow outwards from the sphere, with the label next to its head."""

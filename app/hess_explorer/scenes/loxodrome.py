@@ -199,6 +199,7 @@ SCENE = Scene(
             rods=Loxodrome.rods,
             curves=lambda s: [Curve(s.found.centre, "stable", 2.0)],
             trail=lambda s: Trail((0.0, 1.0, 0.0), "orbit"),
+            mass=lambda s: np.array(s.pendulum.body.r),
             signs=(
                 Sign("gyration ellipsoid", "line", "border-top: 2px solid #808080"),
                 Sign("circular section", "line", "border-top: 2px solid #BF6699"),

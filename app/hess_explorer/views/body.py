@@ -14,7 +14,8 @@ from hess_explorer.views.layers import Sign, Sources, column
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.poisson_sphere import Circle, Direction, Mark, drawn
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.rigid_body.attitude import Attitude, Lying
+from hess_mechanics.rigid_body.attitude import Attitude, Lying, travelled
+from hess_mechanics.rigid_body.inertia import paired_weights
 
 __all__ = ["BodyInSpace", "Curve", "Rod", "Shape", "Trail", "Wheels", "seen_in_space"]
 
@@ -26,6 +27,10 @@ LARGEST = 0.8
 _COLUMNS = ("g1", "g2", "g3", "e1", "e2", "e3")
 
 
+_WEIGHT = 0.07
+"""Largest radius of a weight; its centre is that far above the surface."""
+_WALL = 0.71
+"""Radius of the middle of a hollow ball's wall."""
 _THINNEST = 0.12
 """Smallest semi-axis, relative to the longest: a thinner body would be invisible from the side."""
 
@@ -58,6 +63,19 @@ class Shape:
         lengths = np.sqrt(self.moments) if self.section is not None else 1.0 / np.sqrt(self.moments)
         return LARGEST * np.maximum(lengths / np.max(lengths), _THINNEST)
 
+    def weights(self, centre: Array | None, hollow: bool) -> Array:
+        """Return six weights with these moments and their centre of mass along `centre`, (n, 4) as x, y, z, radius.
+
+        Their volumes are proportional to their masses.  Empty if there are none; hollow : they lie in a ball's wall.
+        """
+        arms = np.full(3, _WALL) if hollow else self.semi_axes + _WEIGHT
+        masses = paired_weights(self.moments, arms, None if centre is None else self.axes @ centre)
+        if masses is None:
+            return np.empty((0, 4))
+        radii = _WEIGHT * np.cbrt(masses / np.max(masses))
+        at = arms[:, None] * self.axes
+        return np.column_stack([np.vstack([at, -at]), radii.T.ravel()])
+
 
 @dataclass(frozen=True)
 class Wheels:
@@ -66,11 +84,12 @@ class Wheels:
     The axles are parallel; `at` and −`at` touch the shell; the wheels lie in the plane of `at` and `e`.  The velocity
     ω × at has no component along the axle at × e if and only if (ω, e) = 0.
 
-    at : unit vector of the body orthogonal to e; e : unit vector of the constraint.
+    at : unit vector of the body orthogonal to e; e : unit vector of the constraint; look : of the trace, as in `Rod`.
     """
 
     at: Sequence[float] | Array
     e: Sequence[float] | Array
+    look: str = "orbit"
 
 
 @dataclass(frozen=True)
@@ -107,11 +126,15 @@ def seen_in_space(points: Array) -> Array:
     return np.stack([points[..., 1], -points[..., 2], -points[..., 0]], axis=-1)
 
 
-_WHEELS = Sign(
-    "wheels of the constraint: (ω, e) = 0, e in their plane",
-    "dot",
-    f"background: {theme.FORBIDDEN}; border: 2.5px solid",
+_WHEELS = (
+    Sign(
+        "wheels of the constraint: (ω, e) = 0, e in their plane",
+        "dot",
+        f"background: {theme.FORBIDDEN}; border: 2.5px solid",
+    ),
+    Sign("trace of a wheel; a dot for each of its turns", "line", "border-top: 3px dotted"),
 )
+_WEIGHTS = Sign("weights with the body's moments of inertia", "dot", "background: #7C8794")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -120,7 +143,8 @@ class BodyInSpace(Picture[S]):
 
     shape(state) : the ellipsoid of the body, or None.
     motion(state) : its attitude and the times (n,) in the player's units, or None.
-    wheels(state), trail(state) : the wheels of its constraint, the trail of one of its points.
+    wheels(state), trail(state) : the wheels of its constraint, the trail of one of its points or None.
+    mass(state) : direction of the centre of mass of its weights, or None.
     hollow : draw a glass ball rolling on an inner ball instead of the ellipsoid; heavy(state) : whether γ is gravity.
     attitude : the picture whose attitude it follows, if it has none of its own.
     rods : fixed to the body; curves : in space; circles, marks : fixed in the space of the picture.
@@ -130,7 +154,8 @@ class BodyInSpace(Picture[S]):
     shape: Callable[[S], Shape | None] = lambda state: None
     motion: Callable[[S], tuple[Attitude | Lying, Array] | None] | None = None
     wheels: Callable[[S], Wheels] | None = None
-    trail: Callable[[S], Trail] | None = None
+    trail: Callable[[S], Trail | None] = lambda state: None
+    mass: Callable[[S], Array | None] = lambda state: None
     hollow: bool = False
     heavy: Callable[[S], bool] = lambda state: True
     attitude: str = ""
@@ -155,7 +180,7 @@ class BodyInSpace(Picture[S]):
     @property
     def legend(self) -> tuple[Sign, ...]:
         """Entries that the picture adds to the legend of its scene."""
-        return (*self.signs, *((_WHEELS,) if self.wheels else ()))
+        return (*self.signs, *(_WHEELS if self.wheels else ()), *((_WEIGHTS,) if self.motion else ()))
 
     def describe(self) -> dict[str, Any]:
         """Return the description of the picture for the browser."""
@@ -187,13 +212,15 @@ class BodyInSpace(Picture[S]):
                 "semi": semi,
                 "names": list(shape.names),
                 "hollow": self.hollow,
+                "weights": shape.weights(self.mass(state), self.hollow).tolist(),
                 "section": [] if shape.section is None else [*map(float, shape.section), radius],
             }
-        if self.wheels is not None:
+        if self.wheels is not None and motion is not None:
             wheels = self.wheels(state)
-            columns["wheels"] = [*map(float, wheels.at), *map(float, wheels.e)]
-        if self.trail is not None:
-            trail = self.trail(state)
+            columns["wheels"] = [*map(float, wheels.at), *map(float, wheels.e), wheels.look]
+            columns["arc"] = column(travelled(attitude.axes, wheels.at, wheels.e))
+        trail = self.trail(state)
+        if trail is not None:
             columns["trail"] = [*map(float, trail.along), trail.look]
         label = "γ, gravity" if self.heavy(state) else "γ"
         return {

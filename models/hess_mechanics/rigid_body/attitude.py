@@ -18,7 +18,7 @@ from hess_mechanics.dynamics.system import Body, System
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 
-__all__ = ["Attitude", "Lying", "across", "attitude", "attitude_along", "with_attitude"]
+__all__ = ["Attitude", "Lying", "across", "attitude", "attitude_along", "travelled", "with_attitude"]
 
 
 def with_attitude(system: System) -> System:
@@ -143,6 +143,22 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Lying:
     g, e = _turned(g[:, i], v, length), _turned(e[:, i], v, length)
     axes = np.stack([g.T, e.T, _cross(g, e).T], axis=1)
     return Lying(frozen(times[i] + share * step[i]), frozen(axes), defect)
+
+
+def travelled(axes: Array, at: Sequence[float] | Array, e: Sequence[float] | Array) -> Array:
+    """Return the arc (n,) that the contact point of a wheel has travelled on the unit sphere, positive towards e.
+
+    The contact `at` has the velocity ω × at, and its component along e is (ω, at × e).
+
+    axes : (n, 3, 3), as in `Attitude`; between two samples ω is constant.
+    """
+    steps = axes[:-1].transpose(0, 2, 1) @ axes[1:]
+    # The antisymmetric part is sin θ times the axis of the rotation.
+    sine = 0.5 * np.stack([steps[:, i, j] - steps[:, j, i] for i, j in ((2, 1), (0, 2), (1, 0))], axis=1)
+    length = np.linalg.norm(sine, axis=1)
+    angle = np.arctan2(length, 0.5 * (np.trace(steps, axis1=1, axis2=2) - 1.0))
+    arcs = angle / np.maximum(length, 1e-300) * (sine @ np.cross(at, e))
+    return frozen(np.concatenate([[0.0], np.cumsum(arcs)]))
 
 
 def _cross(u: Array, v: Array) -> Array:

@@ -10,13 +10,17 @@ import math
 from dataclasses import dataclass
 from numbers import Real
 
+import numpy as np
+
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
+from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = [
     "MAX_RATIO",
     "BodyCheck",
     "body_check",
     "check_body",
+    "paired_weights",
     "require_comparable",
     "require_finite",
     "require_positive_definite",
@@ -147,3 +151,22 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
     lower = abs(d) if g(low) >= 0 else brentq(g, low, top, **_SEARCH)
     upper = brentq(g, top, s, **_SEARCH) if g(s) < 0 else s
     return body_check((2 * lower * scale, 2 * upper * scale))
+
+
+def paired_weights(moments: Array, arms: Array, centre: Array | None = None) -> Array | None:
+    """Return the masses (3, 2) of point weights at ±arms on the principal axes that have the given moments of inertia.
+
+    The weights of a pair differ so that their centre of mass lies in the direction `centre`, which leaves the moments
+    as they are.  None if there are no such weights, because the moments are not those of a rigid body.
+
+    moments, arms : (3,); centre : (3,), in the principal axes, or None for the fixed point.
+    """
+    second = 0.5 * np.sum(moments) - moments
+    if np.min(second) < -1e-9 * np.max(moments):
+        return None
+    mean = np.maximum(second, 0.0) / (2.0 * arms**2)
+    unequal = np.zeros(3) if centre is None else np.asarray(centre) / arms
+    # The lighter weight of a pair keeps at least half of the mean.
+    used = np.abs(unequal) > 1e-9 * np.max(np.abs(unequal))
+    share = 0.5 * float(np.min(mean[used] / np.abs(unequal[used]), initial=math.inf)) if used.any() else 0.0
+    return frozen(np.stack([mean + share * unequal, mean - share * unequal], axis=1))

@@ -9,6 +9,7 @@ from pytest import approx, mark, raises
 
 from hess_mechanics import HessBody, check_body
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
+from hess_mechanics.rigid_body.inertia import paired_weights
 from support.mechanics import inertia_of
 
 moments = st.floats(0.05, 20.0)
@@ -123,3 +124,18 @@ def test_the_sentence_names_the_interval():
 def test_impossible_values_are_refused_by_their_name(name, bad, error, words):
     with raises(error, match=f"{name}.*{words}"):
         check_body(**{"I11": 1.0, "I22": 1.0, "I13": 0.0, "I23": 0.0, name: bad})
+
+
+@mark.parametrize("moments", [(1.0, 1.5, 2.0), (2.0, 1.0, 1.0), (1.0, 1.0, 1.0)])
+def test_the_weights_have_the_moments_of_the_body_and_their_centre_of_mass_where_it_shall_be(moments):
+    arms, centre = np.array([0.5, 0.7, 0.9]), np.array([0.0, 0.6, -0.8])
+    masses = paired_weights(np.array(moments), arms, centre)
+    at = np.stack([np.diag(arms), -np.diag(arms)], axis=1)
+    tensor = sum(
+        m * (x @ x * np.eye(3) - np.outer(x, x)) for m, x in zip(masses.ravel(), at.reshape(6, 3), strict=True)
+    )
+    assert tensor == approx(np.diag(moments), abs=1e-14)
+    first = np.einsum("ij,ijk->k", masses, at)
+    assert first / np.linalg.norm(first) == approx(centre, abs=1e-14)
+    assert np.all(masses >= 0.0)
+    assert paired_weights(np.array([1.0, 1.0, 2.1]), arms) is None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -164,7 +164,7 @@ def solid_body(
     """Return the picture of a body.
 
     ball : it rolls on another ball; field : there may be a field; wheels : they impose (ω, e) = 0.
-    section : draw its circular section, and the trail of the centre of mass instead of a wheel's.
+    section : draw its circular section, and the trail of the centre of mass.
     """
 
     def rods(state: S) -> list[Rod]:
@@ -172,9 +172,13 @@ def solid_body(
         axis = [Rod((0.0, 0.0, 1.0), "axis", "e")] if wheels else []
         return axis if mass is None else [*axis, Rod(mass.along, "mass", "r")]
 
-    def trail(state: S) -> Trail:
-        mass = of(state).mass if section else None
-        return Trail(_WHEEL if mass is None else mass.along, "orbit")
+    def mass(state: S) -> Array | None:
+        found = of(state).mass
+        return None if found is None else np.asarray(found.along)
+
+    def trail(state: S) -> Trail | None:
+        along = mass(state) if section else None
+        return None if along is None else Trail(along, "orbit")
 
     def caption(state: S) -> Caption:
         if ball and of(state).in_space():
@@ -187,14 +191,16 @@ def solid_body(
         bare=True,
         hollow=ball,
         caption=caption,
-        shape=(lambda s: Shape(np.eye(3), np.ones(3), None, ("", "", ""))) if ball else (lambda s: of(s).shape),
+        shape=lambda s: of(s).shape,
         motion=lambda s: of(s).in_space(s.dragging),
         rods=rods,
         heavy=lambda s: of(s).mass is not None,
-        wheels=(lambda s: Wheels(_WHEEL, (0.0, 0.0, 1.0))) if wheels else None,
+        # Blue belongs to the orbit: to the centre of mass where its trail is drawn.
+        wheels=(lambda s: Wheels(_WHEEL, (0.0, 0.0, 1.0), "muted" if section else "orbit")) if wheels else None,
         trail=trail,
+        mass=mass,
         signs=(
-            *((_TRAIL, _SECTION) if section else (replace(_TRAIL, label="trail of a wheel"),)),
+            *((_TRAIL, _SECTION) if section else ()),
             *((CENTRE_OF_MASS,) if field else ()),
         ),
     )
