@@ -134,15 +134,6 @@ def test_of_two_columns_for_one_source_the_last_count():
     assert len(block) == 12
 
 
-@given(st.dictionaries(st.text(max_size=8), st.text(max_size=40)))
-def test_texts_arrive_as_they_are(texts):
-    wire = Wire()
-    for key, text in texts.items():
-        wire.say(key, "something older")
-        wire.say(key, text)
-    assert unpack(wire)[1] == texts
-
-
 def test_the_last_caption_of_a_picture_arrives_in_its_three_parts():
     wire, caption = Wire(), {"title": "Circle map", "verdict": "No cycle.", "numbers": "ρ = 0.3."}
     wire.caption("circle", {"title": "Circle map", "verdict": "", "numbers": ""})
@@ -155,15 +146,6 @@ def test_the_numbers_of_controls_keep_double_precision(value, limits):
     wire = Wire()
     wire.show_number("h", value, limits)
     assert unpack(wire)[2] == {"h": [value, *limits]}
-
-
-@given(st.dictionaries(st.text(max_size=8), st.text(max_size=40)))
-def test_the_options_of_menus_arrive_as_they_are(options):
-    wire = Wire()
-    for name, option in options.items():
-        wire.show_choice(name, "something older")
-        wire.show_choice(name, option)
-    assert unpack(wire)[2] == options
 
 
 @given(st.tuples(*[st.floats(-1e300, 1e300)] * 4))

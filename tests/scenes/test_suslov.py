@@ -1,6 +1,6 @@
 """The scene "Suslov problem with gravity": captions of the examples agree with the results.
 
-Orbits are computed again by SciPy; exponents, divergences and basins are in `models/suslov/test_section.py`.
+Orbits are computed again by SciPy; divergences and basins are in `models/suslov/test_section.py`.
 """
 
 from math import atan2, cos, hypot, pi, sin

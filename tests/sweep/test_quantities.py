@@ -138,6 +138,14 @@ def test_trace_locking_and_birth_agree_with_the_rotation_number():
         assert circle_map(a, h, 0.3, level("reference")).trace == approx(2.0, abs=1e-9)
 
 
+def test_scattering_from_the_pole_is_the_angle_in_closed_form():
+    # From θ⁻ = 0 the motion comes to Γ⁺ = cos χ with every phase: one is an integration, the other a formula.
+    over = {"I11": (1.2, 4.0, 5)}
+    chi = sweep("cos-chi", over, I13=0.0).cos_chi.values
+    at_pole = sweep("theta-plus", over, I13=0.0, theta=0.0, phi=1.0).theta_plus.values
+    assert np.cos(at_pole) == approx(chi, abs=1e-9)
+
+
 def test_the_period_is_that_of_the_ball_without_a_ball():
     over = {"w1": (0.6, 1.8, 3), "b2": [-0.3, 0.2]}
     closed = sweep("period", over).period.values

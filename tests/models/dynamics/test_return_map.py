@@ -15,19 +15,14 @@ from hess_mechanics import (
     circle_map,
     continued_orbit,
     level,
-    manifold,
     periodic_orbit,
     return_map,
 )
-from hess_mechanics.dynamics.manifolds import split
 from hess_mechanics.dynamics.periodic import find_periodic, shoot
 from hess_mechanics.errors import InvalidParameter, NotConverged, OutsideRegion
-from hess_mechanics.euler_poisson.andoyer import hess_curve
-from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.numerics.patience import limited_by
 from hess_mechanics.suslov.quartic import state_on_section
 from hess_mechanics.suslov.section import SuslovSection
-from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary_f
 from support.mechanics import differences
 
 REFERENCE = level("reference")
@@ -86,67 +81,6 @@ def test_the_limit_cycles_are_those_of_the_moebius_matrix(a, h, f):
         assert abs(value - point.multiplier) < 1e-9 * max(1.0, point.multiplier)
         assert abs(value - point.multiplier) <= found[kind].multiplier_error + 1e-12 * point.multiplier
         assert found[kind].error_estimate < 1e-9
-
-
-@mark.parametrize(("h", "f"), [(1.5, 0.6), (0.8, 0.5)])
-def test_on_the_real_flow_of_euler_poisson_they_are_saddles_with_the_same_multipliers(h, f):
-    # On the Hess manifold a cycle attracts as another one repels; the flow keeps an area, so across it is the inverse.
-    bridge = Bridge.of_heavy(HEAVY)
-    cycle = circle_map(bridge.hess.a, h, f, REFERENCE).fixed_points[1]
-    H, F1 = bridge.from_units_of_b(h, f)
-    P = return_map(HEAVY, h=H, f=F1)
-    found = [periodic_orbit(P, (l, float(hess_curve(HEAVY, np.array([l]))[0])), 1) for l in (-0.2, -2.5)]
-    assert np.abs(found[0].places - found[1].places).max() > 0.1
-    for orbit in found:
-        assert orbit.kind == "saddle"
-        assert abs(orbit.places[0, 1] - hess_curve(HEAVY, orbit.places[:1, 0])[0]) < 1e-10
-        assert orbit.multipliers.real / np.array([cycle.multiplier, 1.0 / cycle.multiplier]) == approx(
-            [1.0, 1.0], abs=1e-9
-        )
-
-
-@mark.parametrize(("parameter", "a", "end"), [("a", 0.7, 0.3), ("f", 0.5, 1.5)])
-def test_cycles_are_born_in_a_fold_on_the_boundary_of_the_locks(parameter, a, end):
-    h, f = 0.5, 0.6 if parameter == "a" else lock_boundary_f(a, 0.5, REFERENCE) - 0.1
-    if circle_map(a, h, f, REFERENCE).kind != "hyperbolic":
-        f = lock_boundary_f(a, h, REFERENCE) + 0.1
-        end = 0.2
-    exact = critical_a(h, f, REFERENCE) if parameter == "a" else lock_boundary_f(a, h, REFERENCE)
-    P = return_map(tori(a), h=h, f=f)
-    start = circle_map(a, h, f, REFERENCE).fixed_points[0].phi
-    orbit = next(
-        one
-        for one in (periodic_orbit(P, (start + turn,), 1) for turn in np.linspace(0.0, 6.0, 7))
-        if one.kind == "stable node"
-    )
-    branch = continued_orbit(P, orbit, parameter, end)
-    (fold,) = branch.bifurcations
-    assert fold.kind == "fold"
-    assert abs(fold.value - exact) < 1e-9
-    assert abs(fold.value - exact) <= fold.error + 2e-12
-    assert (branch.kinds[0], branch.kinds[-1]) == ("stable node", "unstable node")
-    # Beyond the fold it comes back, with the inverse multiplier.
-    assert branch.values[-1] == approx(branch.values[0], abs=1e-12)
-    assert float((branch.multipliers[0, 0] * branch.multipliers[-1, 0]).real) == approx(1.0, abs=1e-9)
-
-
-def test_the_separatrices_of_the_hess_manifold_split_in_proportion_to_what_is_off_the_condition():
-    h, f = Bridge.of_heavy(HEAVY).from_units_of_b(1.5, 0.6)
-    gaps = []
-    for epsilon in (0.0, 2e-4, 4e-4):
-        body = HeavyBody.hess((1.0, 1.6, 4.0), 1.0, away=epsilon)
-        P = return_map(body, h=h, f=f)
-        # One of the two saddles repels along the Hess manifold, the other attracts along it.
-        repels, attracts = (periodic_orbit(P, place, 1) for place in ((-0.122, 0.1206), (-2.836, 0.2879)))
-        unstable = manifold(P, repels, 1.9, side=-1, sagitta=3e-3, longest=0.3)
-        stable = manifold(P, attracts, 1.9, side=1, stable=True, sagitta=3e-3, longest=0.3)
-        if not epsilon:
-            for curve in (unstable, stable):
-                assert np.abs(curve.points[:, 1] - hess_curve(body, curve.points[:, 0])).max() < 1e-8
-        gaps.append(split(unstable, stable, 0, -1.5))
-    assert abs(gaps[0][0]) <= gaps[0][1] < 1e-8
-    assert abs(gaps[1][0]) > 100.0 * gaps[1][1]
-    assert gaps[2][0] / gaps[1][0] == approx(2.0, abs=1e-2)
 
 
 @mark.parametrize(

@@ -108,19 +108,6 @@ def test_every_field_can_follow_another_direction(system, parameters, omega):
         assert c[1, n : n + 3] == approx(np.cross(y[n:], omega(y)), abs=1e-13)
 
 
-@mark.parametrize(("system", "parameters", "omega"), FIELDS.values(), ids=FIELDS)
-def test_what_does_not_turn_e_is_not_computed_for_it(system, parameters, omega):
-    own, more, n = system.recursion, with_attitude(system).recursion, len(system.variables)
-    e = range(n, n + 3)
-    before = {tuple(factor + 3 * (factor >= n) for factor in pair) for pair in own.pairs}
-    added = [pair for pair in more.pairs if set(pair) & set(e)]
-    assert len(set(more.pairs)) == len(more.pairs)
-    assert {pair for pair in more.pairs if pair not in added} == before
-    # e × ω has four terms for ω in a plane of the body, six otherwise.
-    assert len(added) == (6 if system is euler_poisson.SYSTEM else 4 + (system is hess.SYSTEM))
-    assert more.stages == own.stages
-
-
 MANY = """
 import json, sys
 from hess_mechanics import ensemble, level

@@ -1,7 +1,7 @@
 """The circle map of the torus: against brute force, closed forms and its symmetries."""
 
 import cmath
-from math import atan2, copysign, cos, cosh, exp, hypot, inf, isfinite, isnan, nan, pi, remainder, sin, sqrt
+from math import atan2, copysign, cos, cosh, exp, hypot, inf, isfinite, nan, pi, remainder, sin, sqrt
 
 import numpy as np
 from hypothesis import assume, given
@@ -23,7 +23,6 @@ from hess_mechanics import (
     turning_points,
 )
 from hess_mechanics.errors import InvalidParameter, Separatrix, WorkLimit
-from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.suslov_hess.mode_locking import lock_boundary_end, rotation_number_window
 from support.mechanics import angle_between, lifted_return
 from support.refusals import refused
@@ -258,23 +257,6 @@ def test_for_positive_f_the_rotation_number_is_between_minus_one_half_and_zero(t
         assert abs(cos(pi * found.rotation_number)) == approx(found.trace / 2, abs=1e-9)
     if found.kind == "hyperbolic":
         assert found.rotation_number == 0.0
-
-
-@mark.parametrize("a", [0.0, 0.5, -1.2])
-@mark.parametrize("name", LEVELS)
-def test_the_grid_of_rotation_numbers_is_the_circle_maps_point_by_point(a, name):
-    h, f = np.array([-0.95, -0.3, 0.4, 1.0, 1.7]), np.array([-1.4, -0.3, 0.05, 0.3, 0.9, 1.4])
-    grid = rotation_number_grid(a, h, f, name)
-    assert grid.shape == (f.size, h.size)
-    with raises(ValueError, match="read-only"):
-        grid[0, 0] = 0.0
-    for j, fj in enumerate(f):
-        for i, hi in enumerate(h):
-            if abs(fj) > f_max(hi):
-                assert isnan(grid[j, i])
-                continue
-            expected = circle_map(a, hi, fj, "reference").rotation_number
-            assert grid[j, i] == approx(expected, abs=max(1e-9, 10 * level(name).promise))
 
 
 def test_a_window_is_filled_with_the_values_at_the_edge_of_the_region():
