@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -96,7 +96,7 @@ class BallBody:
     @property
     def parameters(self) -> tuple[float, ...]:
         """The parameters p = (I11, I22, I13, I23, 𝒟, b1, b2, b3)."""
-        return astuple(self)
+        return self.I11, self.I22, self.I13, self.I23, self.D, self.b1, self.b2, self.b3
 
 
 def _require_not_negative(D: float) -> None:

@@ -15,7 +15,7 @@ from typing import ClassVar
 import numpy as np
 
 from hess_mechanics.chaplygin_ball.energy_surface import omega_of_energy
-from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody, kinetic_energy
 from hess_mechanics.chaplygin_ball.integrable_cases import has_area_integral, is_reversible
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.orbit import solve
@@ -182,10 +182,13 @@ class BallSection(PoincareSection):
 
     def states_at(self, psi: Array, delta: Array) -> tuple[Array, Mask]:
         """Return the states (n, 5) at (ψ, δ) (n,), and the mask (n,) of the places with motion."""
-        states, there = np.full((len(psi), 5), np.nan), np.zeros(len(psi), bool)
-        for i, place in enumerate(zip(psi, delta, strict=True)):
-            with suppress(ModelError):
-                states[i], there[i] = state_at(self.body, self.h, *map(float, place)), True
+        psi, delta = np.array(psi, float, ndmin=1), np.array(delta, float, ndmin=1)
+        gamma = np.stack([np.cos(psi), np.sin(psi), np.zeros(psi.size)])
+        u = np.stack([np.cos(psi + delta), np.sin(psi + delta)])
+        room = self.h - np.array(self.parameters[5:]) @ gamma
+        there = (delta > 0.0) & (delta < math.pi) & np.isfinite(psi) & (room >= 0.0)
+        speed = np.sqrt(np.where(there, room, np.nan) / kinetic_energy((*u, *gamma), self.parameters))
+        states = np.vstack([speed * u, gamma]).T
         return states, there
 
     def places_of(self, states: Array) -> Array:

@@ -305,10 +305,11 @@ def continued(
     symmetries: Symmetric | None = None,
     edge: float | None = None,
     longest: float = _LONGEST,
+    until: str = "",
 ) -> Branch:
     """Return the branch of an orbit of the map at λ = `start`, towards λ = `end`.
 
-    It ends where it leaves the range, after `points` points, or where the map ends.
+    It ends where it leaves the range, after `points` points, where the map ends, or at a bifurcation of kind `until`.
 
     Parameters
     ----------
@@ -328,6 +329,8 @@ def continued(
         Other end of the range, beyond `start`.  By default `start`.
     longest : float, optional
         Longest step along the branch, in units of the coordinates and of the width of the range.
+    until : str, optional
+        Kind of the bifurcation beyond which the branch is not needed.
 
     Returns
     -------
@@ -357,7 +360,7 @@ def continued(
             f"The branch cannot start at {parameter} = {start:g}: the orbit is at a bifurcation, or belongs to a "
             "family at this parameter. Start at a slightly different value."
         ) from error
-    return _followed(track, point, point.tangent(along), points, min(_FIRST, longest), longest)
+    return _followed(track, point, point.tangent(along), points, min(_FIRST, longest), longest, until)
 
 
 def gone_on(
@@ -382,8 +385,10 @@ def gone_on(
     return _followed(track, point, point.tangent(along), points, step, longest)
 
 
-def _followed(track: _Track, point: _Point, t: Array, points: int, step: float, longest: float) -> Branch:
-    """Return the branch from a point along t, with a first and a longest step."""
+def _followed(
+    track: _Track, point: _Point, t: Array, points: int, step: float, longest: float, until: str = ""
+) -> Branch:
+    """Return the branch from a point along t, with a first and a longest step; it ends after a bifurcation `until`."""
     found = [point]
     errors = [track.error(point, t)]
     bifurcations: list[Bifurcation] = []
@@ -414,6 +419,8 @@ def _followed(track: _Track, point: _Point, t: Array, points: int, step: float, 
         step = min(longest, step * (1.6 if following.iterations <= 4 else 1.0 if following.iterations <= 6 else 0.6))
         if _to_edge(following.z[-1], t[-1], low, high) <= 1e-12:
             ended = f"At {track.parameter} = {track.split(following.z)[1]:.9g}, the end of the range."
+        if any(one.kind == until for one in bifurcations):
+            ended = f"Beyond the {until}."
     places, values = zip(*(track.split(one.z) for one in found), strict=True)
     multipliers = np.array([multipliers_of(one.shot.derivatives)[0] for one in found])
     kinds = tuple(kind_of(one, max(1e-9, 10.0 * error)) for one, error in zip(multipliers, errors, strict=True))
@@ -452,9 +459,15 @@ def _told_apart(found: Sequence[Bifurcation]) -> list[Bifurcation]:
 def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, after: int) -> Bifurcation:
     """Return the bifurcation at a change of sign: regula falsi (Illinois) in the distance along the tangent."""
 
+    known = {0.0: last.z}
+
     def at(s: float) -> tuple[_Point, float]:
+        near, *other = sorted(known, key=lambda one: abs(one - s))[:2]
+        # Newton's method starts on the chord through the two nearest known points.
+        along = (known[other[0]] - known[near]) / (other[0] - near) if other else t
         # A point with a different tangent belongs to a branch that crosses here.
-        point, turned = track.beside(last.z + s * t, t, t)
+        point, turned = track.beside(known[near] + (s - near) * along, t, t)
+        known[s] = point.z
         return point, _signs(point, turned)[kind]
 
     low, high = 0.0, ahead

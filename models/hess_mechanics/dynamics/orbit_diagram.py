@@ -388,7 +388,7 @@ def cascade(
     while len(found) < doublings:
         go_on()
         try:
-            branch = continued(family, orbit, parameter, at, far, _POINTS)
+            branch = continued(family, orbit, parameter, at, far, _POINTS, until="flip")
         except NotConverged as error:
             if not found:
                 raise

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -80,7 +80,7 @@ class SuslovBody:
     @property
     def parameters(self) -> tuple[float, ...]:
         """The parameters p = (I11, I22, I13, I23, b1, b2, b3)."""
-        return astuple(self)
+        return self.I11, self.I22, self.I13, self.I23, self.b1, self.b2, self.b3
 
 
 def unit_vector(gamma: Sequence[float]) -> tuple[tuple[float, float, float], str | None]:

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -69,7 +69,7 @@ class PotentialBody:
     @property
     def parameters(self) -> tuple[float, ...]:
         """The parameters p = (I11, I22, c1, c2, λ, μ)."""
-        return astuple(self)
+        return self.I11, self.I22, self.c1, self.c2, self.cubic, self.quartic
 
     @property
     def separates(self) -> bool:
