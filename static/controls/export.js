@@ -34,6 +34,8 @@ export function exportDialog(files) {
     element(`input.param-${name}`, { type: "number", min, max, step, value }))
   const width = number("width", 5, files.width)
   const seconds = number("seconds", 1, files.seconds)
+  const loop = element("select.param-loop", ...optionsOf([["", "the whole motion, once"],
+    ["light", "a loop of 1080 pixels, light"], ["dark", "a loop of 1080 pixels, dark"]]))
   const frames = element("progress", { ariaLabel: "Frames of the film", hidden: true })
   const black = element("input.param-black", { type: "checkbox" })
   const command = snippet("Command", 4)
@@ -46,7 +48,7 @@ export function exportDialog(files) {
   const figure = element("div.figure",
     element("label", "Width, mm ", width), element("label", black, " Black on white"))
   const one = element("label", "Picture ", picture)
-  const film = element("div.figure", element("label", "Seconds for the whole motion ", seconds))
+  const film = element("div.figure", element("label", "Film ", loop), element("label", "Seconds ", seconds))
   const dialog = dialogOf("Export", "menu-of-scenes.share.export", [], element("div.parts",
     section("File", "A picture as a file", one, element("label", "Format ", format), figure, film,
       element("span", save, stop), frames, message),
@@ -61,11 +63,13 @@ export function exportDialog(files) {
 
   /** Return the parameters besides the state; only figures and films have a width and a look. @returns {Wanted} */
   function wanted() {
-    const drawn = isDrawn(format.value)
+    const isLoop = isFilm(format.value) && loop.value !== ""
+    // A loop has its own width and colours.
+    const drawn = isDrawn(format.value) && !isLoop
     return {
       picture: isAll() ? gallery.openCells().map(nameOf).join(",") : picture.value, format: format.value,
       ...(drawn && { width: width.value }), ...(drawn && black.checked && { black: "1" }),
-      ...(isFilm(format.value) && { seconds: seconds.value }),
+      ...(isFilm(format.value) && { seconds: seconds.value }), ...(isLoop && { loop: loop.value }),
     }
   }
 
@@ -73,7 +77,7 @@ export function exportDialog(files) {
   const state = () => new URL(linkTo()).search.slice(1)
 
   function write() {
-    figure.hidden = !isDrawn(format.value)
+    figure.hidden = !isDrawn(format.value) || (isFilm(format.value) && loop.value !== "")
     one.hidden = isAll()
     film.hidden = !isFilm(format.value)
     const what = wanted()

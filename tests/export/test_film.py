@@ -15,7 +15,8 @@ from scipy import ndimage
 
 from hess_explorer.__main__ import main
 from hess_explorer.export.film import as_film, moves, pictures_at, times_of
-from hess_explorer.export.formats import holding
+from hess_explorer.export.formats import Loop, holding
+from hess_explorer.export.loop import footer, loop_times, period
 from hess_explorer.export.picture_data import picture_data
 from hess_mechanics.errors import ModelError
 from support.films import frames_of, tags_of
@@ -115,6 +116,38 @@ def test_what_moves_moves_and_what_stands_stands():
     body = picture_data(f"{LINK}&t=3", "body")
     first, again = pictures_at(body, np.array([3.0, 3.0]), 60.0)
     assert np.array_equal(first, again)
+
+
+@pytest.mark.parametrize(
+    "link, picture, lasts",
+    [
+        # Motion on a closed curve; a limit cycle that is only approached; a body, which leaves a trail.
+        ("scene=kharlamova", "domain", True),
+        (LINK, "omega", False),
+        (LINK, "body", False),
+    ],
+)
+def test_the_end_of_a_loop_meets_its_beginning(link, picture, lasts, tmp_path):
+    shown = picture_data(link, picture)
+    path = tmp_path / "loop.mp4"
+    path.write_bytes(as_film(shown, "mp4", seconds=1.0, loop=Loop(dark=True, home="https://example.org/")))
+    frames = frames_of(path, 1080).astype(int)
+    assert len(frames) == 25
+    assert frames[0][:5, :5].mean() < 40
+    # The last frame is as near to the first as the second is, and the middle is another picture.
+    step, back, away = (np.abs(frames[i] - frames[0]).mean() for i in (1, -1, 12))
+    assert back < 2.0 * step + 0.05
+    assert away > 0.1
+    assert (period(shown) is not None) == lasts
+    times = loop_times(shown, 100)
+    if lasts:
+        state = shown.columns["data-orbit"]
+        for name in ("q1", "q2", "g1", "g2"):
+            assert np.interp(period(shown), state["t"], state[name]) == approx(state[name][0], abs=0.01)
+    else:
+        assert times == approx(times[::-1][[-1, *range(99)]])
+        assert times.max() == approx(shown.columns["data-orbit"]["t"][-1])
+    assert footer(shown, "https://example.org/").count("\n") <= 3
 
 
 def test_which_pictures_move():

@@ -133,7 +133,12 @@ def test_a_film_is_made_with_progress_and_is_stopped(explorer):
     assert heard[0] == "Working…"
     assert "Frame 25 of 25." in heard
     assert heard[-1].startswith("suslov-hess-sphere.webm:")
+    # A loop has its own width.
+    dialog.locator(".param-loop").select_option("dark")
     dialog.locator(".param-seconds").fill("30")
+    assert dialog.locator(".param-width").is_hidden()
+    loop = typed("--format webm --seconds 30 --loop dark --out suslov-hess-sphere.webm")
+    assert command_of(dialog)[-len(loop) :] == loop
     dialog.get_by_role("button", name="Save file").click()
     wait_for(filming)
     dialog.get_by_role("button", name="Stop").click()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 
-from hess_explorer.export.formats import FILM_WIDTHS, SECONDS, WIDTHS, FileRequest, holding
+from hess_explorer.export.formats import FILM_WIDTHS, SECONDS, WIDTHS, FileRequest, Loop, holding
 
 from . import CommandError
 from .command import Command, Options, flag, option, picture
@@ -41,7 +41,10 @@ def _picture(options: Options) -> bytes:
     from hess_explorer.export.picture_data import picture_data
 
     found = picture_data(options.state, options.picture, lenient=options.lenient)
-    request = FileRequest(options.format, options.width, options.black, options.seconds)
+    # A full link begins with the address of the page.
+    home = options.state.partition("?")[0] if "://" in options.state else ""
+    loop = Loop(options.loop == "dark", home) if options.loop else None
+    request = FileRequest(options.format, options.width, options.black, options.seconds, loop)
     return content(found, request, _progress_printer(options.progress))
 
 
@@ -82,6 +85,13 @@ COMMAND = Command(
             type=float,
             default=FileRequest.seconds,
             metavar="S",
+        ),
+        option(
+            "--loop",
+            "a film that repeats itself, 1080 pixels wide with a caption and the link: one period of a periodic "
+            "motion, otherwise there and back",
+            choices=("light", "dark"),
+            default=None,
         ),
         flag("--black", "draw in black on white instead of the colours of the page"),
         flag("--progress", "print the progress of a film to stderr, one line per frame"),

@@ -177,7 +177,7 @@ class BodyDrawing:
         for size in np.linspace(1.0, 0.4, 13):
             ground = np.column_stack([size * below, np.full(len(below), -1.0)])
             corners = seen(ground, *canvas.view)[:, :2]
-            canvas.area(corners, facecolor=canvas.colour(theme.INK), alpha=0.022, linewidth=0)
+            canvas.area(corners, facecolor="black", alpha=0.022, linewidth=0)
 
     def _section(self) -> None:
         """Draw the visible part of the circular section."""

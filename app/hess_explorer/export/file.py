@@ -19,7 +19,7 @@ def content(
     """Return the contents of the file; report : progress callback of `as_film`.  Raises `InvalidParameter`."""
     holds = FORMATS[request.kind].holds
     if holds == "film":
-        return as_film(found, request.kind, request.width, request.black, request.seconds, report)
+        return as_film(found, request.kind, request.width, request.black, request.seconds, report, request.loop)
     if holds == "figure":
         return as_file(found, request.kind, request.width, request.black)
     return (as_csv if request.kind == "csv" else as_json)(found).encode()

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hess_explorer.export.figure import STYLE, draw_moving, draw_still, in_black
-from hess_explorer.export.formats import FILM_WIDTHS, SECONDS
+from hess_explorer.export.formats import FILM_WIDTHS, SECONDS, Loop
+from hess_explorer.export.loop import WIDTH, footer, in_dark, loop_times, on_dark
 from hess_explorer.export.moment import end
 from hess_explorer.export.picture_data import PictureData
 from hess_explorer.export.plots import densities
@@ -63,21 +64,29 @@ def times_of(data: PictureData, seconds: float) -> Array:
     return np.linspace(0.0, end(data.columns), round(RATE * seconds))
 
 
-def pictures_at(data: PictureData, times: Array, width: float = 85.0, black: bool = False) -> Iterator[Array]:
-    """Yield the RGB image (n, n, 3) of each frame, n even.  Static parts are drawn only once."""
+def pictures_at(
+    data: PictureData, times: Array, width: float = 85.0, black: bool = False, loop: Loop | None = None
+) -> Iterator[Array]:
+    """Yield the RGB image (n, n, 3) of each frame, n even.  Static parts are drawn only once.
+
+    loop : adds the lines below a loop, in the colours of its page.
+    """
     import matplotlib as mpl
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     side = _side(width) / (_PIXELS * _INCH)
-    colour = in_black if black else as_it_is
-    with mpl.rc_context(dict(STYLE)):
+    dark = loop is not None and loop.dark
+    colour = in_dark if dark else in_black if black else as_it_is
+    with mpl.rc_context({**STYLE, **(on_dark() if dark else {})}):
         figure = Figure(figsize=(side, side), dpi=_PIXELS * _INCH, layout="constrained")
         canvas = FigureCanvasAgg(figure)
         frame = figure.add_subplot()
         draw_still(frame, data, colour)
         frame.set_title(_title(data.title, width), loc="left", y=1.0, fontsize="medium")
         clock = frame.set_title("t = 0", loc="right", y=1.0, fontsize="medium")
+        if loop is not None:
+            figure.supxlabel(footer(data, loop.home), x=0.02, ha="left", fontsize=6.5, parse_math=False)
         canvas.draw()
         # Keep this layout; only the clock is redrawn in each frame.
         clock.set_text("")
@@ -115,6 +124,7 @@ def as_film(
     black: bool = False,
     seconds: float = 10.0,
     report: Callable[[int, int], None] = lambda done, of: None,
+    loop: Loop | None = None,
 ) -> bytes:
     """Return a square film of the whole motion, whose tags contain link, parameters and version.
 
@@ -132,6 +142,9 @@ def as_film(
         Duration in seconds.
     report : callable
         Called after each frame with the number of frames done and their total.
+    loop : Loop or None
+        Play one period of a periodic motion, and another motion there and back, so that the end meets the beginning.
+        A loop is 1080 pixels wide, whatever the width.
 
     Returns
     -------
@@ -143,6 +156,7 @@ def as_film(
     InvalidParameter
         If format, width or duration are not supported, nothing moves, or a library is not installed.
     """
+    width = width if loop is None else WIDTH
     if kind not in _CODECS:
         raise InvalidParameter(f"{kind!r} is not a film format: choose one of {', '.join(_CODECS)}.")
     for value, bounds, what in ((width, FILM_WIDTHS, "mm wide"), (seconds, SECONDS, "seconds long")):
@@ -160,7 +174,7 @@ def as_film(
         ) from error
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"film.{kind}"
-        times = times_of(data, seconds)
+        times = times_of(data, seconds) if loop is None else loop_times(data, round(RATE * seconds))
         tags = {"title": data.title, "comment": data.metadata_text, "description": data.caption}
         command = [
             imageio_ffmpeg.get_ffmpeg_exe(),
@@ -173,7 +187,7 @@ def as_film(
             assert encoder.stdin is not None
             assert encoder.stderr is not None
             try:
-                for done, picture in enumerate(pictures_at(data, times, width, black), 1):
+                for done, picture in enumerate(pictures_at(data, times, width, black, loop), 1):
                     encoder.stdin.write(picture.tobytes())
                     report(done, len(times))
                 encoder.stdin.close()

@@ -15,6 +15,7 @@ __all__ = [
     "Bounds",
     "FileRequest",
     "Format",
+    "Loop",
     "holding",
 ]
 
@@ -58,14 +59,22 @@ SECONDS, SERVED_SECONDS = Bounds(1.0, 60.0), Bounds(1.0, 30.0)
 """Duration in seconds of a film, and of a film that a server makes."""
 
 
+class Loop(NamedTuple):
+    """A film that repeats itself, 1080 pixels wide, light or dark; home : address of the page, for the link."""
+
+    dark: bool = False
+    home: str = ""
+
+
 @dataclass(frozen=True)
 class FileRequest:
-    """Requested file: suffix; width in mm and black on white, for figures and films; duration in s, for films."""
+    """Requested file: suffix; width in mm and black on white, for figures and films; duration in s, loop, for films."""
 
     kind: str = "csv"
     width: float = 85.0
     black: bool = False
     seconds: float = 10.0
+    loop: Loop | None = None
 
 
 def holding(*what: str) -> tuple[str, ...]:

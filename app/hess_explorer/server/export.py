@@ -31,6 +31,7 @@ _SPECS = (
     Choice("black", "Black", ("0", "1"), "0"),
     Number("width", "width", "Width", FileRequest.width, WIDTHS, 5.0, WIDTHS),
     Number("seconds", "seconds", "Seconds", FileRequest.seconds, SERVED_SECONDS, 1.0, SERVED_SECONDS),
+    Choice("loop", "Loop", ("", "light", "dark"), ""),
     Choice("progress", "Progress", ("0", "1"), "0"),
 )
 
@@ -44,7 +45,7 @@ _SECONDS = 10.0
 
 
 class Export(RequestHandler):
-    """GET /export?<state>&picture=NAME&format=…&width=MM&black=1&seconds=S: the file, or an error message.
+    """GET /export?<state>&picture=NAME&format=…&width=MM&black=1&seconds=S&loop=dark: the file, or an error message.
 
     The formats py and ipynb are Python code that computes the picture, as a script and as a notebook.  For HTML,
     `picture` may be a list with commas.  With progress=1 a film is preceded by lines that report its progress:
@@ -97,12 +98,16 @@ class Export(RequestHandler):
             Export.filming -= is_film
             Export.waiting -= not is_film
 
+    @property
+    def _home(self) -> str:
+        """The address of the page."""
+        return self.request.full_url().partition("?")[0].removesuffix("export")
+
     def _file(self, state: dict[str, str], picture: str, request: FileRequest) -> tuple[str, bytes]:
         """Return name and contents of the file.  Raises `ModelError`, `Abandoned`."""
         if request.kind == "html":
-            home = self.request.full_url().partition("?")[0].removesuffix("export")
             with limited(self._left, _SECONDS), np.errstate(all="ignore"):
-                return as_html(urlencode(state), picture.split(",") if picture else (), home, lenient=True)
+                return as_html(urlencode(state), picture.split(",") if picture else (), self._home, lenient=True)
         where = address(urlencode(state), picture, lenient=True)
         name = f"{where.scene.name}-{where.picture.name}"
         if request.kind in PROGRAMS:
@@ -114,7 +119,7 @@ class Export(RequestHandler):
         """Send the film, after progress lines if they are requested.  Raises `ModelError`, `Abandoned`."""
         loop, kind, lines = asyncio.get_running_loop(), str(read["format"]), read["progress"] == "1"
         words = [
-            f"--state={urlencode(state)}",
+            f"--state={self._home}?{urlencode(state)}",
             "--lenient",
             f"--picture={picture}",
             "--format",
@@ -124,6 +129,7 @@ class Export(RequestHandler):
             "--seconds",
             f"{read['seconds']:g}",
             *(["--black"] if read["black"] == "1" else []),
+            *(["--loop", str(read["loop"])] if read["loop"] else []),
         ]
 
         def say(line: str) -> None:
