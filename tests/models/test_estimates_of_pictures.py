@@ -15,7 +15,7 @@ from pytest import approx, fixture, mark
 from hess_mechanics import circle_map, f_max
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import carried, shell
-from hess_mechanics.dynamics.basin_boundary import unsure
+from hess_mechanics.dynamics.basin_boundary import resolved, unsure
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.shadowing import away_from, errors_in_pixels, right_crossings, typical
@@ -212,6 +212,10 @@ def test_the_boundary_tells_how_many_cells_a_finer_run_changes(name):
 def test_one_basin_alone_has_no_boundary():
     assert unsure(np.zeros((24, 36))) == 0.0
     assert unsure(np.array([[0.0, 1.0]])) == 0.125
+    # Undivided cells count as one.
+    coarse, fine = basins_of_discs(np.random.default_rng(2), (36, 24))
+    assert np.array_equal(resolved(np.kron(coarse, np.ones((4, 4)))), coarse)
+    assert resolved(fine) is fine
 
 
 # ---- rotation numbers -------------------------------------------------------------------------------------------

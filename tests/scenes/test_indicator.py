@@ -82,4 +82,4 @@ def test_basins_are_shown_in_place_of_it():
     view = shown("suslov", colours="basins", long=300.0)
     assert view.result.megno.kinds is None
     assert "MEGNO" not in view.text["section"]
-    assert view.result.basins.basin is not None
+    assert view.result.basins.attractors is not None

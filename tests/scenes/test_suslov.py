@@ -16,7 +16,6 @@ from hess_explorer.scenes import scenes
 from hess_explorer.views.section_plane import joined
 from hess_mechanics import SuslovBody, solve
 from hess_mechanics.numerics.accuracy import REFERENCE
-from hess_mechanics.suslov.section import SuslovSection
 from support.free_suslov import shown
 from support.mechanics import followed
 from support.suslov import energy, field, permanent_rotations, start_on
@@ -158,45 +157,64 @@ def test_what_attracts_and_repels_in_the_reversal_are_permanent_rotations():
 def test_the_shares_in_the_caption_are_those_of_the_basins():
     view = example(TWO)
     share, rest = view.numbers("section", "Two attractors. Basins: # % and # % of the cells.")
-    cells = view.result.basins.basin
-    assert cells.shape == (24, 36)
-    assert set(np.unique(cells)) == {0.0, 1.0}
-    assert share == approx(100.0 * np.mean(cells == 1.0), abs=0.51)
+    found = view.result.basins.found
+    assert found.number.shape == (512, 512)
+    assert share == approx(100.0 * np.mean(found.number == 0), abs=0.51)
     assert share + rest == approx(100.0, abs=1.1)
-    image = view.data["section-basins"]
-    assert np.asarray(image["image"][0]).reshape(24, 36) == approx(cells + 1.5)
+    # A unit for each basin, in it the stronger the sooner.
+    image = np.asarray(view.data["section-basins"]["image"][0]).reshape(512, 512)
+    assert np.array_equal(np.floor(image), found.number + 1)
+    shade, inside = image % 1.0, (found.number == 1) & (found.crossings < 30)
+    assert np.corrcoef(shade[inside], np.log1p(found.crossings[inside]))[0, 1] < -0.98
+    # Cells and orbits computed again, on both sides of a boundary one pixel wide.
+    row, column = np.argwhere(found.number[:, 1:] != found.number[:, :-1])[1000]
+    section = view.result.poincare
+    for i in (column - 1, column + 2):
+        start = section.state_at(-pi + (i + 0.5) * 2.0 * pi / 512, (row + 0.5) * pi / 512)
+        (orbit,) = section.points([start], 240, True, REFERENCE, threads=1).states
+        assert (orbit[-60:, 0].mean() > 0.0) == (found.number[row, i] == 0)
 
 
-def test_basins_come_coarse_at_first_and_then_row_by_row_finer():
-    def picture():
-        view = View(SCENE, values, seen=("section",), whole=False)
-        return view, np.asarray(view.data.get("section-basins", {}).get("image", [np.empty(0)])[0]).reshape(-1, 18)
-
+def test_basins_come_coarse_at_first_and_their_boundary_finer_to_the_pixel():
     values = {**example(TWO).values, **FEW, "accuracy": "draft", "window": "-3.1,0.1;3.1,3.1"}
-    seen = []
-    for _ in range(4 + 12):
-        view, cells = picture()
-        seen.append(cells)
-        task = next(task for task in view.report.todo if task.function is SuslovSection.ends)
+    seen, pieces = {}, 0
+    while True:
+        view = View(SCENE, values, seen=("section",), whole=False)
+        task = next((task for task in view.report.todo if task.function.__name__ == "_piece"), None)
+        if view.result.basins.found is not None:
+            seen[view.result.basins.stage] = view.result.basins.found.number
+        assert ("So far" in view.text["section"]) == (task is not None and len(seen) > 0)
+        if task is None:
+            break
+        assert "basins 256" not in view.report.status
         CACHE.get(task.function, *task.arguments)
-        if len(cells):
-            assert "Basins: first coarse cells." in view.text["section"]
-            assert "basins 18" not in view.report.status
-    view, final = picture()
-    assert not any(task.function is SuslovSection.ends for task in view.report.todo)
-    assert final.shape == (12, 18)
-    # No cells before the coarse ones are known; each of those equals the middle one of its nine.
-    assert [len(cells) for cells in seen] == 4 * [0] + 12 * [12]
-    coarse = seen[4]
-    assert np.array_equal(coarse, np.kron(final[1::3, 1::3], np.ones((3, 3))))
-    assert 0.02 < np.mean(coarse != final) < 0.4
-    # A row is finer at a time, every third one first.
-    now = coarse
-    for row, cells in zip([*range(0, 12, 3), *range(1, 12, 3), *range(2, 12, 3)], [*seen[5:], final], strict=True):
-        assert np.array_equal(cells[row], final[row])
-        rest = np.arange(12) != row
-        assert np.array_equal(cells[rest], now[rest])
-        now = cells
+        pieces += 1
+    assert pieces == 12
+    assert [len(cells) for cells in seen.values()] == [8, 16, 32, 64, 128, 256]
+    for coarse, fine in zip(seen.values(), [*seen.values()][1:], strict=False):
+        assert np.mean(np.kron(coarse, np.ones((2, 2))) != fine) < 4.0 / len(coarse)
+
+
+def test_a_saddle_bounds_the_basins_and_its_manifold_runs_between_their_cells():
+    view = example(TWO)
+    (saddle,) = view.result.basins.saddles
+    assert (saddle.kind, saddle.period) == ("saddle", 1)
+    # The text: an attractor of period 7, with the larger basin, and a fixed point.
+    for state, period in zip(view.result.basins.attractors.sets.states, (7, 1), strict=True):
+        (orbit,) = view.result.poincare.points([state], 7, True, REFERENCE, threads=1).states
+        away = np.abs(orbit - state).max(axis=1)
+        assert np.argmax(away < 1e-4) + 1 == period
+    assert view.points("repels") == approx(saddle.places)
+    assert view.values["reach"] == 5.0
+    numbers = view.result.basins.found.number
+    for branch in view.result.basins.manifolds:
+        psi, delta = branch.points.T
+        column = np.floor((psi + pi) / (2.0 * pi) * 512).astype(int) % 512
+        row = np.clip(np.floor(delta / pi * 512).astype(int), 2, 509)
+        around = [numbers[(row + i), (column + j) % 512] for i in (-2, 0, 2) for j in (-2, 0, 2)]
+        # At its end a tongue of the basin is narrower than a pixel.
+        assert np.mean(np.ptp(around, axis=0) == 1) > 0.95
+    assert sum(branch.length for branch in view.result.basins.manifolds) > 9.0
 
 
 def test_where_volume_is_kept_no_attractor_is_claimed():
@@ -204,23 +222,23 @@ def test_where_volume_is_kept_no_attractor_is_claimed():
     assert view.text["section"].endswith("No attractor is seen. mean div = 0 ± 0.")
 
 
-def test_a_sea_that_is_its_own_mirror_image_is_no_attractor_also_where_part_of_the_window_is_impossible():
+def test_a_sea_that_is_its_own_mirror_image_is_no_attractor():
     view = View(SCENE, {**FEW, "colours": "basins", "long": 1000.0})
-    cells = view.result.basins.basin
-    assert 0.1 < np.mean(cells == -1.0) < 0.9
-    assert set(np.unique(cells)) == {-1.0, 0.0}
+    assert view.result.basins.found is None
+    assert "section-basins" not in view.data or not view.data["section-basins"]
     mean, error = view.numbers("section", "No attractor is seen. mean div = # ± #.")
     assert abs(mean) < 3.0 * error < 0.02
-    # Grey cells are those that the energy forbids.
-    psi = -pi + (np.arange(36) + 0.5) * 2.0 * pi / 36
-    forbidden = view.values["b1"] * np.cos(psi) + view.values["b2"] * np.sin(psi) >= view.result.E
-    assert np.array_equal(np.all(cells == -1.0, axis=0), forbidden)
 
 
 def test_one_strange_attractor_is_one():
-    view = View(SCENE, {**example(STRANGE).values, **FEW, "colours": "basins", "long": 1000.0})
+    view = View(SCENE, {**example(STRANGE).values, **FEW, "colours": "basins", "long": 1000.0, "accuracy": "draft"})
     mean, error = view.numbers("section", "One attractor for all orbits. mean div = # ± #.")
     assert mean < -3.0 * error
+    # Grey cells are those that the energy forbids.
+    psi = -pi + (np.arange(256) + 0.5) * 2.0 * pi / 256
+    forbidden = view.values["b1"] * np.cos(psi) + view.values["b2"] * np.sin(psi) >= view.result.E
+    assert np.mean(np.all(view.result.basins.found.number == -1, axis=0) != forbidden) == 0.0
+    assert 0.1 < np.mean(forbidden) < 0.9
 
 
 # ---- planes, choices, controls -----------------------------------------------------------------------------------
@@ -235,7 +253,7 @@ def test_every_plane_and_choice_is_shown(plane, colours):
     assert plane in view.text["section"]
     assert len(view.points("first")) > 10
     assert (len(view.points("second")) > 10) == (colours == "forward and backward in time")
-    assert (view.result.basins.basin is not None) == (colours == "basins")
+    assert (view.result.basins.attractors is not None) == (colours == "basins")
     psi, delta = view.points("chosen")[0]
     assert (psi, delta) == approx((-0.3, 1.0), abs=1e-6)
     # The chosen orbit starts in the plane.

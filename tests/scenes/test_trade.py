@@ -129,11 +129,11 @@ def test_orbits_that_chaos_takes_away_are_left_aside():
 
 def test_the_status_line_says_how_much_of_the_basins_hangs_on_their_cells():
     preset = next(one for one in SUSLOV.presets if one.values.get("colours") == "basins")
-    values = {**SUSLOV.example(preset), **SMALL, "accuracy": "draft"}
+    values = {**SUSLOV.example(preset), **SMALL, "long": 1000.0, "accuracy": "draft"}
     state, report = completed(SUSLOV, values, ("section",))
-    said = re.search(r"basins 18 × 12, twice as many cells would change ([\d.]+) % of it", report.status)
+    said = re.search(r"basins 256 × 256, twice as many cells would change ([\d.]+) % of it", report.status)
     finer, _ = completed(SUSLOV, {**values, "accuracy": "standard"}, ("section",))
-    changed = 100.0 * np.mean(np.kron(state.basins.basin, np.ones((2, 2))) != finer.basins.basin)
+    changed = 100.0 * np.mean(np.kron(state.basins.found.number, np.ones((2, 2))) != finer.basins.found.number)
     assert changed / 3.0 < float(said[1]) < 3.0 * changed
 
 

@@ -304,9 +304,9 @@ def charts(state: type[S], quantity: str, **more: float) -> tuple[Charted[S]]:
 def pictures(state: type[S], ball: bool = False) -> tuple[Picture[S], ...]:
     """Return the pictures: diagram with branch, body, section, reversal and, folded, Poisson sphere."""
 
-    def closed(s: S) -> PeriodicOrbit | None:
+    def closed(s: S) -> list[PeriodicOrbit]:
         found = s.continuation.closed
-        return None if found is None else found.orbit
+        return [] if found is None else [found.orbit]
 
     return (
         diagram_picture(

@@ -141,7 +141,7 @@ class Suslov(State):
         "Show",
         (_BOTH, "forward only", "basins"),
         _BOTH,
-        doc="Basins: the group of motions, or the attractor, to which each point of the section leads.",
+        doc="Basins: the attractor to which each point of the section leads, and how soon.",
     )
     drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows the attractor.")
     periodic: str = which()
@@ -245,7 +245,7 @@ class Suslov(State):
     @part
     def periodic_orbit(self) -> PeriodicOrbit:
         """The periodic orbit in place of the last chosen one."""
-        return PeriodicOrbit(self.section, self.periodic, self.reach, self.span)
+        return PeriodicOrbit(self.section, self.periodic, self.reach, self.span, self.basins.wanted)
 
     @part
     def orbit(self) -> Orbit:
@@ -264,7 +264,7 @@ class Suslov(State):
 
     @part
     def basins(self) -> Basins:
-        """The basin of each cell of the section."""
+        """The basins of the section, and what bounds them."""
         return Basins(self, self.section, self.colours == "basins")
 
     def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
@@ -329,16 +329,12 @@ class Suslov(State):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _section_title(self) -> str:
-        return (
-            f"Section {self.plane} (upward crossings)" if self.basins.basin is None else f"Section {self.plane}: basins"
-        )
+        return f"Section {self.plane}{' (upward crossings)' if self.basins.found is None else ': basins'}"
 
     def _about_section(self) -> Caption:
-        special = self.periodic_orbit.caption or self.megno.caption
+        special = self.periodic_orbit.caption or self.megno.caption or self.basins.caption
         if special is not None:
             return special
-        if self.basins.basin is not None:
-            return self.basins.about(self.basins.basin)
         first, second = self.section.first, self.section.second
         if not self.orbits:
             return Caption(numbers=f"{len(self.section.own)} points of chosen orbits.")
@@ -416,10 +412,10 @@ SCENE = Scene(
             caption=Suslov._about_section,
             labels=("forward in time", "backward"),
             under=(
-                layered_section.basins(lambda s: s.basins.basin, lambda s: s.section.frame),
+                layered_section.basins(lambda s: s.basins.found, lambda s: s.section.frame),
                 indicator_layer(lambda s: s.megno),
             ),
-            over=layers(lambda s: s.periodic_orbit),
+            over=layers(lambda s: s.periodic_orbit, lambda s: s.basins),
         ),
         solid_body(),
         Plot(

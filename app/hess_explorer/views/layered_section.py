@@ -9,6 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import CellGrid, Layer, Layers, Positions, Sign, dots, image, mapped, ring
+from hess_mechanics.dynamics.attraction import LOST, Arrivals
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.numerics.results import Array
 
@@ -19,7 +20,13 @@ S = TypeVar("S")
 _MANY = 50_000
 _ACROSS = 384
 """Cells across a window: about one per pixel on most screens."""
-_GROUPS = ("one", "a second", "a third", "a fourth", "any other")
+_SHADES = 40
+"""Shades of a basin, by the time of arrival."""
+_BASINS = (
+    "largest basin, from late to soon",
+    *(f"{which} basin, from late to soon" for which in ("second", "third", "fourth", "any other")),
+    "no attractor reached",
+)
 _CLEAR = theme.FORBIDDEN + "00"
 
 
@@ -67,10 +74,39 @@ def _kinds(
     )
 
 
-def basins(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Layer[S]:
-    """Return the layer of basins, cells (m, n): 0, 1, … by group; −1 without motion."""
-    colors = (theme.INTEGRALS[1] + "80", theme.STABLE + "70", theme.MAP + "70", theme.ORBIT + "60", theme.MUTED + "70")
-    return _kinds("basins", cells, window, colors, tuple(f"basin of {name} group of motions" for name in _GROUPS))
+def basins(found: Callable[[S], Arrivals | None], window: Callable[[S], Window]) -> Layer[S]:
+    """Return the layer of basins: a colour for each attractor, the stronger the sooner an orbit arrives."""
+    faint, full = 0.35, 0.95
+    shades = [f"{round(255 * (faint + (full - faint) * (i + 0.5) / _SHADES)):02x}" for i in range(_SHADES)]
+    colors = (*theme.BASINS, theme.MUTED)
+    last = len(theme.BASINS) - 1
+
+    def values(arrivals: Arrivals) -> Array:
+        number, crossings = arrivals.number, arrivals.crossings
+        # Many arrive soon, few late: the logarithm gives each a shade of its own.
+        late = np.log1p(crossings)
+        there = late[number >= 0]
+        first, longest = np.quantile(there, (0.002, 0.998)) if there.size else (0.0, 1.0)
+        shade = 1.0 - np.clip((late - first) / max(longest - first, 1e-9), 0.0, 1.0)
+        kind = np.where(number >= 0, np.minimum(number, last) + 1.0, np.where(number == LOST, last + 2.0, 0.0))
+        return kind + (np.floor(shade * (_SHADES - 1)) + 0.5) / _SHADES
+
+    return image(
+        "basins",
+        _grid(mapped(found, values), window),
+        palette=(
+            *[_CLEAR] * _SHADES,
+            *(color + shade for color in theme.BASINS for shade in shades),
+            *[theme.MUTED + "60"] * _SHADES,
+        ),
+        low=0.0,
+        high=len(colors) + 1.0,
+        fine=True,
+        legend=tuple(
+            Sign(label, "box", f"background: linear-gradient(90deg, {color}{shades[0]}, {color}{shades[-1]})", i + 1.0)
+            for i, (label, color) in enumerate(zip(_BASINS, colors, strict=True))
+        ),
+    )
 
 
 def indicator(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Layer[S]:

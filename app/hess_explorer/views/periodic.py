@@ -50,11 +50,11 @@ def seen(places: Array, turn: float, axes: Axes) -> Array:
 
 
 def layers(
-    orbit: Callable[[S], PeriodicOrbit | None],
+    orbits: Callable[[S], Sequence[PeriodicOrbit]],
     manifolds: Callable[[S], Sequence[Manifold]],
     homoclinic: Callable[[S], Sequence[Intersection]],
 ) -> Layers[S]:
-    """Return the layers: manifolds of a saddle, their intersections and, on top, the points of the orbit."""
+    """Return the layers: manifolds of saddles, their intersections and, on top, the points of the orbits."""
 
     def parts(stable: bool) -> Callable[[S, Axes], list[Array]]:
         return lambda s, axes: [
@@ -84,17 +84,17 @@ def layers(
             tag="unstable manifold",
         ),
         points("homoclinic", within=crossed, size=7, color=theme.LOCKED, edge=theme.INK, label="homoclinic point"),
-        *places(orbit),
+        *places(orbits),
     )
 
 
-def places(orbit: Callable[[S], PeriodicOrbit | None]) -> Layers[S]:
-    """Return the points of an orbit, styled by stability."""
+def places(orbits: Callable[[S], Sequence[PeriodicOrbit]]) -> Layers[S]:
+    """Return the points of orbits, styled by stability."""
 
     def of_sign(sign: str) -> Callable[[S], Array | None]:
         def of(state: S) -> Array | None:
-            found = orbit(state)
-            return None if found is None or sign_of(found.kind) != sign else found.places.T
+            found = [one.places for one in orbits(state) if sign_of(one.kind) == sign]
+            return np.concatenate(found).T if found else None
 
         return of
 

@@ -33,6 +33,8 @@ TURN_MAP = TURN
 LEVELS = {"draft": "#E69F00", "standard": "#8A63B8", "precise": "#9A6B2F", "reference": "#3C9DAF"}
 INTEGRALS = ("#CC6677", "#999933", "#6B7FD7", "#808080")
 CHANGED = "#E0245E"
+BASINS = ("#4FB0E5", "#E69F00", "#8517FA", "#D9D264", "#CB3B0D")
+"""Basins of attractors, on a light page and on a dark one; also the colour-blind tell them apart."""
 DASHES = {"draft": "dotted", "standard": "solid", "precise": "dashed", "reference": "dotdash"}
 FONT_SIZE = "14px"
 

@@ -13,15 +13,19 @@ from itertools import pairwise
 
 import numpy as np
 
+from hess_mechanics.dynamics.attraction import RecurrentSets, recurrent_sets
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.spectrum import volume_sign
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.section import SuslovSection, mean_divergence
 
 __all__ = [
+    "Attractors",
     "Contraction",
+    "SectionOrbits",
+    "attractors",
     "contraction",
     "contraction_at",
     "count_attractors",
@@ -38,6 +42,8 @@ _GAP = 0.1
 _FEWEST = 0.02
 """Smallest group, as a share of all orbits; smaller ones join the nearest group."""
 _BATCHES = 12
+_MOST_STEPS = 1_000_000
+"""Limit of the steps of an orbit."""
 
 
 @dataclass(frozen=True)
@@ -133,3 +139,70 @@ def count_attractors(
         contraction_at(section, window, cells, *cell, span).attracts
         for cell in middle_cells(ends, groups_of_cells(ends))
     )
+
+
+@dataclass(frozen=True)
+class SectionOrbits:
+    """The orbits of a section forward in time, at a level, as `attraction.Orbits`."""
+
+    section: SuslovSection
+    level: Accuracy
+
+    @property
+    def turns(self) -> tuple[float, ...]:
+        """Period of each coordinate, ∞ if it is not an angle."""
+        return self.section.turns
+
+    @property
+    def window(self) -> tuple[tuple[float, float], ...]:
+        """Range of each coordinate."""
+        return self.section.window
+
+    def states_at(self, x: Array, y: Array) -> tuple[Array, Mask]:
+        """Return the states (n, 5) at (ψ, δ) (n,), and the mask (n,) of the places with motion."""
+        return self.section.states_at(x, y)
+
+    def places_of(self, states: Array) -> Array:
+        """Return (ψ, δ) (n, 2) of states (n, 5)."""
+        return self.section.places_of(states)
+
+    def follow(self, starts: Array, crossings: int) -> list[Array]:
+        """Return the next crossings (n, 5) of each orbit from `starts` (k, 5).  Raises `WorkLimit`."""
+        if not len(starts):
+            return []
+        return self.section.points(
+            starts.tolist(), crossings, True, self.level, threads=1, most_steps=_MOST_STEPS
+        ).states
+
+
+@dataclass(frozen=True)
+class Attractors:
+    """The attractors of a section, and the contraction about each recurrent set, of attractors and others."""
+
+    sets: RecurrentSets
+    contractions: tuple[Contraction, ...]
+
+    @property
+    def count(self) -> int:
+        """Number of attractors."""
+        return len(self.sets.states)
+
+    @property
+    def alone(self) -> bool:
+        """True if every recurrent set attracts."""
+        return all(one.attracts for one in self.contractions)
+
+    @property
+    def largest(self) -> Contraction | None:
+        """The largest mean divergence about a recurrent set; None without one."""
+        return max(self.contractions, key=lambda one: one.mean, default=None)
+
+
+def attractors(section: SuslovSection, span: float, level: Accuracy) -> Attractors:
+    """Return the attractors of a section; `span` is the time over which a divergence is averaged.
+
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    found = recurrent_sets(SectionOrbits(section, level))
+    on_each = tuple(contraction(section.body, state, span) for state in found.states)
+    return Attractors(found.kept([one.attracts for one in on_each]), on_each)

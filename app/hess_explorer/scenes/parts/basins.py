@@ -1,4 +1,4 @@
-"""Basins on a section of the Suslov problem: the motions that the orbits from its cells tend to."""
+"""Basins on a section of the Suslov problem: the attractor and the time of arrival of each pixel, and its bounds."""
 
 from __future__ import annotations
 
@@ -9,24 +9,43 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
-from hess_explorer.scenes.framework.cells import CELLS, COARSE, Arguments, changed, found_by_rows, look
+from hess_explorer.compute.cache import CACHE, Task
+from hess_explorer.scenes.framework.cells import changed, look
 from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.periodic_search import Closed, Search, branch_of, sought
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.text import digits
-from hess_mechanics.dynamics.basin_boundary import unsure
-from hess_mechanics.numerics.accuracy import Computation, Plan
-from hess_mechanics.numerics.results import Array
-from hess_mechanics.suslov.basins import Contraction, contraction_at, groups_of_cells, middle_cells
+from hess_mechanics.dynamics.attraction import CROSSINGS, LOST, NOWHERE, Arrivals, arrivals
+from hess_mechanics.dynamics.basin_boundary import arrivals_of_cells, divided, joined, resolved, unsure
+from hess_mechanics.dynamics.cells import centres
+from hess_mechanics.dynamics.edge import saddle_between
+from hess_mechanics.dynamics.manifolds import Manifold
+from hess_mechanics.dynamics.periodic import PeriodicOrbit
+from hess_mechanics.dynamics.return_map import ReturnMap
+from hess_mechanics.errors import NotConverged
+from hess_mechanics.numerics.accuracy import PRECISE, Accuracy, Computation, Plan
+from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.results import Array, Mask
+from hess_mechanics.suslov.basins import Attractors, SectionOrbits, attractors
 from hess_mechanics.suslov.section import SuslovSection
 
 __all__ = ["Basins", "basins_trial"]
 
-_CROSSINGS = 240
-_MOST_STEPS = 100_000
-_NUMBERS = {2: "Two", 3: "Three", 4: "Four"}
+_PIXELS = (512, 512)
+_STAGES = 6
+"""Each stage has twice as many cells across and up as the one before; those of the last are the pixels."""
+_EVERYWHERE = 4
+"""In stages with fewer cells, all are divided, for the times of arrival; later only those on a boundary."""
+_PARTS = 2
+"""Tasks of each stage, for two cores."""
+_MOST = 20_000
+"""Most orbits of a later stage: a boundary in so many cells is no curve, and its cells are left as they are."""
+_TRIED = 8
+"""Places of the boundary from which saddles are sought."""
+_NUMBERS = {2: "Two", 3: "Three", 4: "Four", 5: "Five"}
 
 
 class _Window(Protocol):
@@ -35,8 +54,12 @@ class _Window(Protocol):
         """The visible window."""
 
     @property
+    def pixels(self) -> tuple[float, ...]:
+        """Pixels per unit of each coordinate."""
+
+    @property
     def batches(self) -> object:
-        """The orbits of the section, computed before the finer cells."""
+        """The orbits of the section, computed after the first basins."""
 
 
 class _Host(Host, Protocol):
@@ -48,10 +71,52 @@ class _Host(Host, Protocol):
     def long(self) -> float:
         """The averaging time of the divergence."""
 
+    @property
+    def reach(self) -> float:
+        """The length of each branch of a manifold."""
+
+
+@dataclass(frozen=True)
+class _Sought:
+    """Basins on a window of a section, with (m, n) pixels; the divergence is averaged over the time `long`."""
+
+    section: SuslovSection
+    window: Window
+    pixels: tuple[int, int]
+    long: float
+    level: Accuracy
+
+    @property
+    def orbits(self) -> SectionOrbits:
+        """The orbits from the cells."""
+        return SectionOrbits(self.section, self.level)
+
+    def divided(self, stage: int, before: Arrivals | None) -> Mask:
+        """Return the mask (n, m) of the cells of a stage to compute."""
+        m, n = (side >> (_STAGES - 1 - stage) for side in self.pixels)
+        return divided(before, (m, n), stage < _EVERYWHERE, _MOST)
+
+    def arrivals(self, there: Attractors, mask: Mask, i: int) -> Arrivals:
+        """Return the arrivals from one part of the cells of a mask (n, m)."""
+        return arrivals_of_cells(self.orbits, there.sets, self.window, mask, slice(i, None, _PARTS))
+
+    def attractors(self) -> Attractors:
+        """Return the attractors of the whole section, whatever the window."""
+        found: Attractors = CACHE.get(attractors, self.section, self.long, self.level)[0]
+        return found
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """A part of the new cells of a stage."""
+
+    stage: int
+    found: Arrivals
+
 
 @dataclass(frozen=True, eq=False)
 class Basins(Part[_Host]):
-    """The cells of a section of the Suslov problem, grouped by the motions that their orbits tend to.
+    """The basins of a section of the Suslov problem, the boundaries refined to the pixel, and the saddles there.
 
     wanted : show them.
     """
@@ -59,86 +124,170 @@ class Basins(Part[_Host]):
     section: _Window
     wanted: bool
 
-    @cached_property
-    def _found(self) -> tuple[Array, int] | None:
-        """`SuslovSection.ends` of all cells (n, m), ∞ without motion, and the number of rows that are still coarse.
+    def sought(self, plan: Plan) -> _Sought:
+        """Return the basins to compute at a level."""
+        long = self.work.plan(Computation.EXPONENT).share * self.host.long
+        return _Sought(self.host.poincare, self.section.frame, plan.grid(_PIXELS), long, plan.level)
 
-        None until all coarse cells are known; each is the middle one of `COARSE`² cells.
-        """
-        if not self.wanted or self.work.dragging:
-            return None
-        plan = self.work.plan(Computation.BASINS)
-        return found_by_rows(
-            self.work, SuslovSection.ends, self.rows(plan, COARSE), self.rows(plan), lambda: self.section.batches
-        )
+    @cached_property
+    def _what(self) -> _Sought | None:
+        """The basins to compute; None if none are shown, and while a slider is held."""
+        return self.sought(self.work.plan(Computation.BASINS)) if self.wanted and not self.work.dragging else None
+
+    @cached_property
+    def stage(self) -> int:
+        """The newest known stage; −1 before the first one."""
+        if self._what is None:
+            return -1
+        chains = [[Task(_piece, (self._what, stage, i)) for stage in range(_STAGES)] for i in range(_PARTS)]
+        pieces: list[_Piece | None] = self.work.newest(chains)
+        return min(-1 if one is None else one.stage for one in pieces)
 
     @property
-    def ends(self) -> Array | None:
-        """`SuslovSection.ends` of all cells (n, m), ∞ without motion; None until all are known."""
-        return None if self._found is None or self._found[1] else self._found[0]
+    def known(self) -> bool:
+        """Whether every cell is known."""
+        return self.stage == _STAGES - 1
 
     @cached_property
-    def basin(self) -> Array | None:
-        """The group 0, 1, … of each cell (n, m), −1 without motion; coarse until the finer cells are known."""
-        return None if self._found is None else groups_of_cells(self._found[0])
-
-    @cached_property
-    def contractions(self) -> list[Contraction] | None:
-        """The contraction of one motion of each group; None until all are known."""
-        ends = self.ends
-        if self.basin is None or ends is None:
+    def found(self) -> Arrivals | None:
+        """Where the orbits of the cells (n, m) arrive and when; coarse until all stages are known."""
+        if self._what is None or self.stage < 0 or not self._what.attractors().count:
             return None
-        grid = self.work.plan(Computation.BASINS).grid(CELLS)
-        long = self.work.plan(Computation.EXPONENT).share * self.host.long
-        found = [
-            self.work.later(contraction_at, self.host.poincare, self.section.frame, grid, row, column, long)
-            for row, column in middle_cells(ends, self.basin)
-        ]
-        known = [one for one in found if one is not None]
-        return known if len(known) == len(found) else None
+        return self.work.get(_cells, self._what, self.stage)
 
-    def about(self, cells: Array) -> Caption:
-        """Return the caption of the basins."""
-        found = self.contractions
-        if found is None:
-            return Caption(
-                self.work.awaited(), "Basins: first coarse cells." if self.ends is None else "Basins: all cells."
-            )
-        if not found:
-            return Caption("Nothing moves in this window.")
-        largest = max(found, key=lambda one: one.mean)
+    @cached_property
+    def attractors(self) -> Attractors | None:
+        """The attractors of the section; None until known."""
+        return None if self._what is None or self.stage < 0 else self._what.attractors()
+
+    # ---- what bounds them ---------------------------------------------------------------------------------------
+
+    @cached_property
+    def _searches(self) -> tuple[Search, ...]:
+        """The searches that find the saddles on the boundaries; empty until these are known."""
+        if self._what is None or not self.known:
+            return ()
+        return self.work.later(_saddles, self._what) or ()
+
+    @cached_property
+    def saddles(self) -> list[PeriodicOrbit]:
+        """The saddles on the boundaries."""
+        found = [self.work.later(sought, *search) for search in self._searches]
+        return [one.orbit for one in found if isinstance(one, Closed)]
+
+    @cached_property
+    def manifolds(self) -> list[Manifold]:
+        """The known branches of the stable manifolds of the saddles."""
+        if not self.host.reach:
+            return []
+        pixel = 1.0 / max(self.section.pixels)
+        found = [
+            self.work.later(branch_of, search, (place, True, side), self.host.reach, pixel)
+            for search in self._searches
+            for place in range(search[2] or 1)
+            for side in (1, -1)
+        ]
+        return [one for one in found if isinstance(one, Manifold)]
+
+    # ---- words --------------------------------------------------------------------------------------------------
+
+    @property
+    def caption(self) -> Caption | None:
+        """The caption of a section with basins; None without them."""
+        if self._what is None:
+            return None
+        if self.attractors is None:
+            return Caption(self.work.awaited(), "Basins: attractors of 256 orbits first.")
+        largest, count = self.attractors.largest, self.attractors.count
+        if largest is None:
+            return Caption("No motion returns to the section.")
         div = f"mean div = {digits(largest.mean, 2)} ± {digits(largest.error, 1)}"
-        shares = [100.0 * float(np.mean(cells[cells >= 0] == group)) for group in range(len(found))]
-        drawn = [share for share, one in zip(shares, found, strict=True) if one.attracts]
-        if not drawn:
+        if not count or self.found is None:
             return Caption("No attractor is seen.", f"{div}.")
-        if len(drawn) < len(found):
-            return Caption(
-                "Attractors and motion without one.",
-                f"Basins: {digits(sum(drawn), 2)} % of the cells; elsewhere {div}.",
-            )
-        if len(drawn) == 1:
-            return Caption("One attractor for all orbits.", f"{div}.")
-        *parts, last = (f"{digits(share, 2)} %" for share in reversed(drawn))
+        numbers = self.found.number
+        there = numbers[numbers != NOWHERE]
+        if not there.size:
+            return Caption("Nothing moves in this window.")
+        m, n = numbers.shape[::-1]
+        said = "" if self.known else f" So far {m} × {n} cells."
+        lost = 100.0 * float(np.mean(there == LOST))
+        late = f" {digits(lost, 2)} % arrive nowhere in {CROSSINGS} crossings." if lost else ""
+        if count == 1:
+            words = "One attractor for all orbits." if not lost else "One attractor."
+            return Caption(words, f"{div}.{late}{said}" if self.attractors.alone else f"{late}{said}".strip())
+        *parts, last = (f"{digits(100.0 * float(np.mean(there == one)), 2)} %" for one in range(count))
         return Caption(
-            f"{_NUMBERS.get(len(drawn), len(drawn))} attractors.",
-            f"Basins: {', '.join(parts)} and {last} of the cells.",
+            f"{_NUMBERS.get(count, count)} attractors.",
+            f"Basins: {', '.join(parts)} and {last} of the cells.{late}{said}",
         )
 
     def status(self) -> Iterator[str]:
-        """Yield how much the basins depend on the size of the cells, once all are known."""
-        if self.asked("basin") and self.basin is not None and self.ends is not None:
-            n, m = self.basin.shape
-            yield f"basins {m} × {n}, twice as many cells would change {digits(100.0 * unsure(self.basin), 2)} % of it"
+        """Yield how much the basins depend on the size of the cells, once all are known, and the manifolds' error."""
+        if self.asked("found") and self.found is not None and self.known:
+            cells = resolved(self.found.number)
+            n, m = cells.shape
+            change = digits(100.0 * unsure(cells), 2)
+            yield f"basins {m} × {n}, twice as many cells would change {change} % of it"
+        if self.asked("manifolds") and self.manifolds:
+            yield (
+                f"stable manifolds {sum(len(one.points) for one in self.manifolds)} points, error across ≤ "
+                f"{max(one.error_estimate for one in self.manifolds):.1e}"
+            )
 
-    def rows(self, plan: Plan, coarse: int = 1) -> list[Arguments]:
-        """Return the arguments of `SuslovSection.ends` for each row of cells as wide as `coarse` of the finest."""
-        m, n = plan.grid(CELLS)
-        cells = m // coarse, n // coarse
-        return [
-            (self.host.poincare, self.section.frame, cells, row, _CROSSINGS, _MOST_STEPS, plan.level)
-            for row in range(cells[1])
-        ]
+
+def _piece(what: _Sought, stage: int, i: int) -> _Piece:
+    """Return the arrivals from one part of the new cells of a stage."""
+    mask = what.divided(stage, _before(what, stage))
+    return _Piece(stage, what.arrivals(what.attractors(), mask, i))
+
+
+def _before(what: _Sought, stage: int) -> Arrivals | None:
+    found: Arrivals | None = None if stage == 0 else CACHE.get(_cells, what, stage - 1)[0]
+    return found
+
+
+def _cells(what: _Sought, stage: int) -> Arrivals:
+    """Return the arrivals from all cells (n, m) of a stage."""
+    before = _before(what, stage)
+    pieces = [(slice(i, None, _PARTS), CACHE.get(_piece, what, stage, i)[0].found) for i in range(_PARTS)]
+    return joined(before, what.divided(stage, before), pieces)
+
+
+def _at_once(what: _Sought) -> Arrivals:
+    """Return the arrivals from the pixels (n, m), all computed now."""
+    there, cells = attractors(what.section, what.long, what.level), None
+    for stage in range(_STAGES):
+        mask = what.divided(stage, cells)
+        cells = joined(cells, mask, [(slice(i, None, _PARTS), what.arrivals(there, mask, i)) for i in range(_PARTS)])
+    assert cells is not None
+    return cells
+
+
+def _saddles(what: _Sought) -> tuple[Search, ...]:
+    """Return searches, each of which finds a saddle on a boundary: none is found twice."""
+    number = CACHE.get(_cells, what, _STAGES - 1)[0].number
+    left, right = number[:, :-1], number[:, 1:]
+    pairs = np.argwhere((left != right) & (left >= 0) & (right >= 0))
+    (x0, y0), (x1, y1) = what.window
+    m, n = what.pixels
+    x, y = centres(x0, x1, m), centres(y0, y1, n)
+    map_, sets = ReturnMap(what.section, PRECISE), what.attractors().sets
+
+    def arrives(place: Array) -> int:
+        return int(arrivals(what.orbits, sets, place[:1], place[1:]).number[0])
+
+    found: dict[tuple[float, ...], Search] = {}
+    for row, column in pairs[np.linspace(0, len(pairs) - 1, min(_TRIED, len(pairs))).astype(int)].tolist():
+        go_on()
+        try:
+            left_end, right_end = (np.array([x[i], y[row]]) for i in (column, column + 1))
+            orbit = saddle_between(map_, left_end, right_end, arrives)
+        except NotConverged:
+            continue
+        places = [tuple(map(float, place)) for place in orbit.places]
+        first = min(places)
+        found.setdefault(tuple(np.round(first, 6).tolist()), (map_, first, orbit.period, True))
+    return tuple(found.values())
 
 
 S = TypeVar("S", bound=State)
@@ -149,7 +298,7 @@ def basins_trial(of: Callable[[S], Basins]) -> Trial[S]:
     return Trial[Basins](
         Computation.BASINS,
         ("section",),
-        lambda s, plan: groups_of_cells(np.stack([SuslovSection.ends(*row) for row in s.rows(plan)])),
+        lambda s, plan: _at_once(s.sought(plan)).number.astype(float),
         lambda s, cells, truth: changed(cells, truth),
         lambda s, cells: look(s.section.frame, s.host.poincare.names, cells),
         unit="% of the cells that change",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol, TypeVar
@@ -32,7 +32,7 @@ from hess_explorer.scenes.framework.periodic_search import (
 from hess_explorer.scenes.framework.scene import Preset, State
 from hess_explorer.views import periodic as view
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.layers import Layer
+from hess_explorer.views.layers import Layers
 from hess_explorer.views.text import conjugates, digits, power
 from hess_mechanics.dynamics import periodic as mechanics
 from hess_mechanics.dynamics.manifolds import Intersection, Manifold
@@ -96,12 +96,13 @@ class PeriodicOrbit(Part[_Host]):
     """A periodic orbit shown in place of the chosen orbit of a section.
 
     period : one of `PERIODS`, or `NONE`; reach : the length of the manifolds of a saddle; span : the time span of the
-    chosen orbit.
+    chosen orbit; bounds : whether other manifolds of this length are shown.
     """
 
     period: str
     reach: float
     span: float
+    bounds: bool = False
 
     @property
     def closing(self) -> bool:
@@ -223,8 +224,8 @@ class PeriodicOrbit(Part[_Host]):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def idle(self) -> Mapping[str, float]:
-        """Return the length of the manifolds if no periodic orbit is requested."""
-        return {} if self.closing else {"reach": self.reach}
+        """Return the length of the manifolds if none are requested."""
+        return {} if self.closing or self.bounds else {"reach": self.reach}
 
     @property
     def caption(self) -> Caption | None:
@@ -316,11 +317,26 @@ def _ended(branch: Manifold | NotFound) -> str:
 S = TypeVar("S", bound=State)
 
 
-def layers(of: Callable[[S], PeriodicOrbit]) -> tuple[Layer[S], ...]:
-    """Return the layers of the periodic orbit in a section."""
+class _Bounds(Protocol):
+    @property
+    def saddles(self) -> Sequence[mechanics.PeriodicOrbit]:
+        """The saddles on the boundaries of basins."""
 
-    def orbit(s: S) -> mechanics.PeriodicOrbit | None:
-        closed = of(s).closed
-        return None if closed is None else closed.orbit
+    @property
+    def manifolds(self) -> Sequence[Manifold]:
+        """The stable manifolds of these saddles."""
 
-    return view.layers(orbit, lambda s: of(s).manifolds, lambda s: of(s).homoclinic)
+
+def layers(of: Callable[[S], PeriodicOrbit], bounds: Callable[[S], _Bounds | None] = lambda s: None) -> Layers[S]:
+    """Return the layers of the periodic orbit in a section, and of what bounds the basins there."""
+
+    def orbits(s: S) -> list[mechanics.PeriodicOrbit]:
+        closed, bounding = of(s).closed, bounds(s)
+        own = [] if closed is None else [closed.orbit]
+        return own if bounding is None else [*own, *bounding.saddles]
+
+    def manifolds(s: S) -> list[Manifold]:
+        bounding = bounds(s)
+        return [*of(s).manifolds, *([] if bounding is None else bounding.manifolds)]
+
+    return view.layers(orbits, manifolds, lambda s: of(s).homoclinic)

@@ -1,0 +1,176 @@
+"""Recurrent sets of a plane map, and the orbits that arrive there.
+
+Orbits from all over the plane are followed for a long time, on a grid of cells.  Two orbits that visit the same cell
+late, or neighbouring cells, approach the same set (Datseris and Wagemakers 2022).  Some orbits of each set are followed
+much longer: slow orbits that looked apart have met by then, and the set fills its cells.  An orbit has arrived when
+several of its crossings in a row lie in the cells of one set, or beside them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from hess_mechanics.dynamics.cells import centres
+from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.results import Array, Mask, frozen
+
+__all__ = ["CROSSINGS", "LOST", "NOWHERE", "Arrivals", "Orbits", "RecurrentSets", "arrivals", "recurrent_sets"]
+
+CROSSINGS = 240
+"""Crossings after which an orbit that has not arrived is lost."""
+NOWHERE, LOST = -1, -2
+"""In place of the number of a set: no motion; not arrived."""
+_STARTS = 16
+"""Orbits along each side of the plane."""
+_CELLS = (512, 256)
+"""Cells across and up the plane: two sets closer than two cells count as one."""
+_FEWEST, _MOST = 2, 12
+"""Orbits of the smallest set that is recognised, and the number of sets that are followed longer."""
+_TRANSIENT, _LONG = 2000, 4000
+"""Crossings of these orbits that are left out, and that fill the cells of the sets."""
+_ROW = 8
+"""Crossings in a row after which an orbit has arrived."""
+_PIECES = (20, 40, 80, 100)
+"""Crossings followed before the orbits that have arrived are left out; their sum is `CROSSINGS`."""
+
+
+class Orbits(Protocol):
+    """A plane map whose orbits are followed together."""
+
+    @property
+    def turns(self) -> tuple[float, ...]:
+        """Period of each coordinate, ∞ if it is not an angle."""
+
+    @property
+    def window(self) -> tuple[tuple[float, float], ...]:
+        """Range of each coordinate."""
+
+    def states_at(self, x: Array, y: Array) -> tuple[Array, Mask]:
+        """Return the states (n, d) at coordinates (n,), and a mask (n,) of the places with motion."""
+
+    def places_of(self, states: Array) -> Array:
+        """Return the coordinates (n, 2) of states (n, d)."""
+
+    def follow(self, starts: Array, crossings: int) -> Sequence[Array]:
+        """Return the next crossings (n, d) of each orbit from `starts` (k, d); fewer where an orbit stops crossing."""
+
+
+@dataclass(frozen=True)
+class RecurrentSets:
+    """Sets that orbits approach, in the order of the number of orbits.
+
+    table : number of the set of each cell (n, m) of the plane, also of those beside it; `LOST` elsewhere.
+    states : a state (d,) of each set.
+    """
+
+    table: NDArray[np.int16]
+    states: tuple[tuple[float, ...], ...]
+
+    def kept(self, which: Sequence[bool]) -> RecurrentSets:
+        """Return some of the sets, renumbered."""
+        numbers = np.append(np.where(which, np.cumsum(which) - 1, LOST), LOST).astype(np.int16)
+        kept = tuple(state for state, wanted in zip(self.states, which, strict=True) if wanted)
+        return RecurrentSets(frozen(numbers[np.where(self.table < 0, -1, self.table)]), kept)
+
+    def of(self, orbits: Orbits, states: Array) -> NDArray[np.int16]:
+        """Return the number of the set at each state (n, d), or `LOST`."""
+        return np.asarray(self.table[_cells(orbits, states)])
+
+
+@dataclass(frozen=True)
+class Arrivals:
+    """The set where the orbits from some places arrive, and the crossings that they need.
+
+    number : number of the set, `LOST` or `NOWHERE`; crossings : the first crossing in the set, of the same shape.
+    """
+
+    number: NDArray[np.int16]
+    crossings: NDArray[np.int16]
+
+
+def _cells(orbits: Orbits, states: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return row and column of the cells of states (n, d)."""
+    low, high = np.array(orbits.window).T
+    at = np.floor((orbits.places_of(states) - low) / (high - low) * _CELLS).astype(int)
+    column, row = (np.clip(one, 0, count - 1) for one, count in zip(at.T, _CELLS, strict=True))
+    return row, column
+
+
+def _joined(cells: Sequence[tuple[NDArray[np.int64], NDArray[np.int64]]]) -> NDArray[np.int64]:
+    """Return the number of the set of each orbit, from the cells that it visits; they touch within a set."""
+    visited = np.zeros(_CELLS[::-1], bool)
+    for one in cells:
+        visited[one] = True
+    patches, count = ndimage.label(visited, np.ones((3, 3)))
+    # Orbits and patches of cells are the nodes of a graph, joined by a visit.
+    orbit = np.repeat(np.arange(len(cells)), [len(row) for row, _ in cells])
+    patch = np.concatenate([patches[one] for one in cells]) + len(cells) - 1
+    nodes = len(cells) + count
+    graph = coo_array((np.ones(orbit.size), (orbit, patch)), shape=(nodes, nodes))
+    return np.asarray(connected_components(graph, directed=False)[1][: len(cells)], np.int64)
+
+
+def recurrent_sets(orbits: Orbits) -> RecurrentSets:
+    """Return the sets that at least two of 256 orbits approach, at most 12.  Raises as `orbits.follow`."""
+    (x0, x1), (y0, y1) = orbits.window
+    x, y = (one.ravel() for one in np.meshgrid(centres(x0, x1, _STARTS), centres(y0, y1, _STARTS)))
+    states, there = orbits.states_at(x, y)
+    found = [orbit for orbit in orbits.follow(states[there], CROSSINGS) if len(orbit) == CROSSINGS]
+    table = np.full(_CELLS[::-1], LOST, np.int16)
+    if not found:
+        return RecurrentSets(frozen(table), ())
+    of_each = _joined([_cells(orbits, orbit[-CROSSINGS // 4 :]) for orbit in found])
+    sizes = np.bincount(of_each)
+    largest = [one for one in np.argsort(-sizes, kind="stable")[:_MOST] if sizes[one] >= _FEWEST]
+    ends = [found[int(np.argmax(of_each == one))][-1] for one in largest]
+    long = [one[_TRANSIENT:] for one in orbits.follow(np.array(ends), _TRANSIENT + _LONG) if len(one) > _TRANSIENT]
+    if not long:
+        return RecurrentSets(frozen(table), ())
+    cells = [_cells(orbits, one) for one in long]
+    # In the order of their first orbits, the largest set first.
+    _, firsts, numbers = np.unique(_joined(cells), return_index=True, return_inverse=True)
+    order = np.argsort(np.argsort(firsts))
+    for one, number in zip(cells, order[numbers], strict=True):
+        table[one] = number
+    around = ndimage.maximum_filter(
+        table, 3, mode=["wrap" if np.isfinite(turn) else "nearest" for turn in orbits.turns[::-1]]
+    )
+    states_on = tuple(tuple(map(float, long[i][-1])) for i in sorted(firsts))
+    return RecurrentSets(frozen(np.where(table == LOST, around, table)), states_on)
+
+
+def arrivals(orbits: Orbits, sets: RecurrentSets, x: Array, y: Array) -> Arrivals:
+    """Return where the orbits from coordinates (n,) arrive within `CROSSINGS` crossings.  Raises as `orbits.follow`."""
+    states, there = orbits.states_at(x, y)
+    number = np.where(there, LOST, NOWHERE).astype(np.int16)
+    crossings = np.full(number.shape, CROSSINGS, np.int16)
+    left = np.flatnonzero(there)
+    states, before, done = states[left], np.full((left.size, 0), LOST, np.int16), 0
+    for piece in _PIECES if sets.states else ():
+        if not left.size:
+            break
+        go_on()
+        found = orbits.follow(states, piece)
+        whole = np.array([len(orbit) == piece for orbit in found])
+        left, before = left[whole], before[whole]
+        if not left.size:
+            break
+        together = np.concatenate([orbit for orbit, kept in zip(found, whole, strict=True) if kept])
+        seen = np.hstack([before, sets.of(orbits, together).reshape(-1, piece)])
+        rows = np.lib.stride_tricks.sliding_window_view(seen, _ROW, axis=1)
+        arrived = (rows[..., 0] >= 0) & np.all(rows == rows[..., :1], axis=2)
+        has, first = arrived.any(axis=1), np.argmax(arrived, axis=1)
+        number[left[has]] = seen[has, first[has]]
+        crossings[left[has]] = done - before.shape[1] + first[has]
+        done += piece
+        states = together.reshape(-1, piece, together.shape[1])[~has, -1]
+        left, before = left[~has], seen[~has, -_ROW + 1 :]
+    return Arrivals(frozen(number), frozen(crossings))

@@ -1,0 +1,60 @@
+"""Saddles on the boundary of two basins, whose stable manifolds bound them.
+
+Between two places in different basins the segment is halved until its ends part only after many crossings.  Meanwhile
+their orbits follow the boundary and approach a set that attracts within it: on a smooth boundary a saddle.  Newton's
+method starts from there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from hess_mechanics.dynamics.periodic import Map, PeriodicOrbit, apart, find_periodic
+from hess_mechanics.errors import ModelError, NotConverged
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["saddle_between"]
+
+_HALVINGS = 40
+_CROSSINGS = 30
+"""Crossings of an orbit on the boundary from which Newton's method may start."""
+_MOST = 12
+"""Largest period of the saddle."""
+
+
+def saddle_between(map_: Map, one: Array, other: Array, number_of: Callable[[Array], int]) -> PeriodicOrbit:
+    """Return a saddle on the boundary between two places (2,) in different basins.
+
+    number_of : returns the basin of a place.  Raises `NotConverged` if there is no saddle, or if the boundary is not
+    smooth.
+    """
+    a, b = np.asarray(one, float), one + apart(map_.turns, other, one)
+    own = number_of(a)
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (a + b)
+        a, b = (middle, b) if number_of(middle) == own else (a, middle)
+    orbits = [_followed(map_, end) for end in (a, b)]
+    both = min(map(len, orbits))
+    away = np.abs(apart(map_.turns, orbits[0][:both], orbits[1][:both])).max(axis=1)
+    # The later the closer to the saddle, as long as both ends run together.
+    last = int(np.argmax(away > 1e-3)) if np.any(away > 1e-3) else both
+    for first in range(max(0, last - _MOST - 1), -1, -_MOST):
+        try:
+            found = find_periodic(map_, orbits[0][first], None, _MOST)
+        except ModelError:
+            continue
+        if found.kind.startswith("saddle"):
+            return found
+    raise NotConverged(f"No saddle up to period {_MOST} is found on the boundary here.")
+
+
+def _followed(map_: Map, place: Array) -> Array:
+    orbit = [place]
+    try:
+        for _ in range(_CROSSINGS):
+            orbit.append(map_.image(orbit[-1]))
+    except ModelError:
+        pass
+    return np.array(orbit)
