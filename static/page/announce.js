@@ -1,5 +1,5 @@
 // @ts-check
-// Announces changed verdicts to screen readers: once, after the hand rests.
+// Announces changed verdicts to screen readers: once, after the hand rests and all parts of the state are there.
 
 import { gallery } from "../pictures/gallery.js"
 import { captionOf, nameOf } from "../pictures/picture.js"
@@ -35,9 +35,10 @@ export function announcer() {
       known.clear()
       item.textContent = ""
     },
-    painted() {
+    progress(progress) {
       clearTimeout(resting)
-      resting = setTimeout(say, REST)
+      // More parts of this state will come.
+      if (progress === null) resting = setTimeout(say, REST)
     },
   })
   return item

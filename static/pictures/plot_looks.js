@@ -6,8 +6,8 @@ import { isDark, setDark, shade } from "./looks.js"
 
 // Font size of ticks relative to that of axis labels.
 const TICKS = 0.86
-// Largest factor of labels in present mode.
-const LABELS = 1.25
+// Edge in pixels of a picture whose labels have the room that "tags.py" gives them.
+const LABELLED = 340
 const COLOURS = ["line_color", "fill_color", "text_color", "background_fill_color"]
 const SIZES = ["line_width", "axis_line_width", "major_tick_line_width", "outline_line_width", "size", "text_font_size"]
 
@@ -39,13 +39,14 @@ const times = (factor, value) => (typeof value === "number" ? factor * value
  * @param {PlotView} plot
  * @param {number} type font size in pixels
  * @param {number} scale of a thumbnail, 1 for other pictures
+ * @param {number} edge of the picture in pixels
  */
-export function sizePlot(plot, type, scale) {
+export function sizePlot(plot, type, scale, edge) {
+  const larger = scale * zoom()
   for (const part of plot.model.references()) {
-    // Labels have places for small letters, see "tags.py".
     const isLabel = (part.text_font_style?.value ?? part.text_font_style) === "bold"
-    const larger = isLabel ? Math.min(zoom(), LABELS) : zoom()
-    part.setv(Object.fromEntries(sizesOf(part).map(([name, value]) => [name, times(scale * larger, value)])))
+    const factor = isLabel ? Math.min(larger, Math.max(scale, edge / LABELLED)) : larger
+    part.setv(Object.fromEntries(sizesOf(part).map(([name, value]) => [name, times(factor, value)])))
     if (part.axis_label_text_font_size !== undefined) {
       part.setv({
         axis_label_text_font_size: `${scale * type}px`, major_label_text_font_size: `${Math.round(TICKS * scale * type)}px`,

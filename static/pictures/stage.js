@@ -30,9 +30,10 @@ const TITLE = 19.5
 const HEAD = 33
 const NUMBERS = 36
 const LONGEST = 56
-// Widths of what stands beside a caption, the corner button, at a desk and in present mode.
+// Widths of what stands beside a caption, the corner button, at a desk and in present mode, and of the margins elsewhere.
 const SIDES = 4.4
 const SIDE = 2.6
+const MARGINS = 0.6
 const WIDEST = 34
 const MOST_LINES = 4
 // Below this cell width, in units of the font size, captions are smaller.
@@ -40,8 +41,12 @@ const NARROW_CELL = 26
 const SMALLER = 0.88
 // A picture that is smaller than this in present mode, in units of the font size, is drawn in this size and scaled down.
 const LEGIBLE = 13
-// In present mode a word of a title needs this width, in units of the font size; a picture in a narrower cell has no room.
-const WORD = 9
+// Largest and smallest font size of titles beside enlarged pictures in present mode, relative to that of captions: the
+// longest word fills the cell ("pictures.css" has the same sizes).
+const ASIDE = 0.7
+const LEAST = 0.47
+// Width of the longest word, in units of its font size; a picture in a narrower cell has no room.
+const WORD = 7
 // Room that a line break wastes at most, in units of the font size.
 const BREAK = 4
 // The text beside the pictures takes at most this width from them, in units of the font size.
@@ -54,15 +59,14 @@ const isNarrow = (width, type) => width / type < NARROW_CELL && !isPresenting() 
  * Return what a caption shows in present mode, where only a few words are read from afar, and in how many lines.
  * @param {number} width of the cell
  * @param {number} type
- * @returns {{shows: "all" | "head" | "title", lines: number, title: number}} title: lines of a title alone
+ * @returns {{shows: "all" | "head" | "title", lines: number}}
  */
 function inTheHall(width, type) {
   const room = Math.max(1, width / type - SIDE)
   /** @param {number} length */
   const lines = (length) => (length <= room ? 1 : Math.ceil((length + BREAK) / room))
-  const title = lines(TITLE)
-  if (lines(LONGEST) === 1) return { shows: "all", lines: 1, title }
-  return lines(HEAD) <= 2 ? { shows: "head", lines: lines(HEAD), title } : { shows: "title", lines: title, title }
+  if (lines(LONGEST) === 1) return { shows: "all", lines: 1 }
+  return lines(HEAD) <= 2 ? { shows: "head", lines: lines(HEAD) } : { shows: "title", lines: lines(TITLE) }
 }
 
 /** Return the heights of captions for a font size, see `Place` in "arrange.js". @param {number} type */
@@ -84,7 +88,8 @@ function captions(type) {
   /** @param {number} width */
   const title = (width) => {
     if (!isPresenting()) return high(1, type)
-    return width < WORD * type ? Infinity : high(inTheHall(width, type).title, type)
+    const size = Math.min(ASIDE * type, width / WORD)
+    return size < LEAST * type ? Infinity : high(Math.ceil((TITLE + BREAK) / (width / size - MARGINS)), size)
   }
   return Object.assign((/** @type {number} */ width) => high(lines(width), own(width)), { title, wide: WIDEST * type })
 }
@@ -114,6 +119,7 @@ export function createStage(shelf, gallery) {
     const shows = isPresenting() ? inTheHall(width, type).shows : "all"
     const scale = isPresenting() && small ? Math.min(1, edge / (LEGIBLE * type)) : 1
     cell.classList.toggle("small", small || shows === "title")
+    cell.classList.toggle("aside", small)
     cell.classList.toggle("brief", shows === "head")
     cell.classList.toggle("thumbnail", scale < 1)
     cell.classList.toggle("narrow", isNarrow(width, type))
@@ -140,10 +146,11 @@ export function createStage(shelf, gallery) {
       const cell = scene.cells.find((one) => nameOf(one) === plot.model.name)
       // A folded picture has no place yet.
       const scale = Number(cell.style.getPropertyValue("--scale")) || 1
-      const sizes = `${type} ${zoom()} ${scale}`
+      const edge = Number.parseFloat(cell.style.getPropertyValue("--edge")) || 0
+      const sizes = `${type} ${zoom()} ${scale} ${edge}`
       if (scene.sizes.get(plot) === sizes) continue
       scene.sizes.set(plot, sizes)
-      sizePlot(plot, type, scale)
+      sizePlot(plot, type, scale, edge)
     }
   }
 

@@ -132,14 +132,7 @@ HALL = """() => {
       .map((item) => item.textContent),
   }
 }"""
-SHARES = {(1920, 1080): (0.86, 0.84), (1600, 950): (0.86, 0.8), (1280, 720): (0.8, 0.73)}
-"""The share of the window's width or height that the chosen pictures take of up to five, and of six.
-
-The titles of four thumbnails need more room than those of three, most of all in a small window.
-"""
-
-
-@pytest.mark.parametrize("size", SHARES)
+@pytest.mark.parametrize("size", [(1920, 1080), (1600, 950), (1280, 720)])
 def test_pictures_fill_the_hall(tab, size):
     page, (width, height) = tab.page, size
     for scene in sample([name for name, one in scenes().items() if one.origin in (None, HESS)], 3):
@@ -171,10 +164,7 @@ def test_pictures_fill_the_hall(tab, size):
             else:
                 edge, caption = min((edge, caption) for _, edge, caption, *_ in pictures[:count])
                 assert min(edge for _, edge, *_ in pictures) >= 0.08 * height
-                assert max(count * edge / width, (edge + caption) / height) >= SHARES[size][len(desk) > 5], (
-                    scene,
-                    count,
-                )
+                assert max(count * edge / width, (edge + caption) / height) >= 0.9, (scene, count)
         page.keyboard.press("Escape")
         page.keyboard.press("Escape")
         wait_frames(tab, 4)
