@@ -2,30 +2,11 @@
 // How much of a scene's text is shown: the idea, what a student needs, or all that the paper has.  Kept in the browser.
 
 import { element } from "./elements.js"
+import { keep, kept } from "./kept.js"
 
-const KEY = "hess-explorer-depth"
 /** @type {[value: string, text: string][]} */
 const DEPTHS = [["idea", "Idea"], ["student", "What you see"], ["paper", "With equations"]]
 const ALL = "paper"
-
-function kept() {
-  try {
-    const found = localStorage.getItem(KEY)
-    return DEPTHS.some(([value]) => value === found) ? found : ALL
-  } catch {
-    // This browser stores nothing.
-    return ALL
-  }
-}
-
-/** @param {string} value */
-function keep(value) {
-  try {
-    localStorage.setItem(KEY, value)
-  } catch {
-    // Not stored.
-  }
-}
 
 /**
  * Return the menu of depths, and the function that hides what is deeper in a new text.
@@ -35,11 +16,11 @@ export function depthMenu(text) {
   const select = element("select", {
     ariaLabel: "Depth of the text", title: "How much of the text is shown, in every scene",
     onchange: () => {
-      keep(select.value)
+      keep("depth", select.value)
       follow()
     },
   }, ...DEPTHS.map(([value, words]) => new Option(words, value)))
-  select.value = kept()
+  select.value = DEPTHS.find(([value]) => value === kept("depth"))?.[0] ?? ALL
 
   function follow() {
     const parts = /** @type {HTMLElement[]} */ ([...text.children])

@@ -4,27 +4,18 @@
 import { listen } from "./bus.js"
 import { isEmbedded } from "./embedding.js"
 import { element } from "./elements.js"
+import { keep, kept } from "./kept.js"
 
-const KEY = "hess-explorer-handles"
 /** @type {(keyof PageEvents)[]} */
 const CHANGES = ["change", "expression", "preset", "reset", "clear", "pick", "restore", "step", "enter"]
 
-// Scenes whose sign was shown.  Without local storage each tab shows it once.
-const said = new Set()
-try {
-  for (const name of localStorage.getItem(KEY)?.split(",") ?? []) said.add(name)
-} catch (error) {
-  console.info("This browser stores nothing for the page.", /** @type {Error} */ (error).message)
-}
+// Scenes whose sign was shown.
+const said = new Set(kept("handles")?.split(","))
 
 /** @param {string} name */
 function remember(name) {
   said.add(name)
-  try {
-    localStorage.setItem(KEY, [...said].join(","))
-  } catch {
-    // Not stored.
-  }
+  keep("handles", [...said].join(","))
 }
 
 /**

@@ -5,9 +5,9 @@
 import { stepControls } from "../controls/step_controls.js"
 import { listen, tell } from "./bus.js"
 import { button, element } from "./elements.js"
+import { isStoring, keep, kept } from "./kept.js"
 import { onKeys } from "./keys.js"
 
-const KEY = "hess-explorer-introduced"
 // One turn of a wheel brings one picture.
 const PAUSE = 700
 
@@ -33,12 +33,8 @@ const STEPS = [
 
 /** Return whether the page is opened for the first time, by its bare address.  Programs that drive a browser get the whole page. */
 function isFirstVisit() {
-  if (location.search !== "" || navigator.webdriver) return false
-  try {
-    return localStorage.getItem(KEY) === null
-  } catch {
-    return false
-  }
+  // Without local storage every visit would be the first.
+  return location.search === "" && !navigator.webdriver && isStoring && kept("introduced") === null
 }
 
 /** Render the introduction. @param {{el: HTMLElement}} part */
@@ -86,7 +82,7 @@ export function render({ el }) {
   listen({
     enter() {
       if (at >= 0) return
-      localStorage.setItem(KEY, "1")
+      keep("introduced", "1")
       el.append(box)
       next()
     },

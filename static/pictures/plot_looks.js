@@ -6,8 +6,11 @@ import { isDark, setDark, shade } from "./looks.js"
 
 // Font size of ticks relative to that of axis labels.
 const TICKS = 0.86
-// Edge in pixels of a picture whose labels have the room that "tags.py" gives them.
+// Edge in pixels of a picture whose labels have the room that "tags.py" gives them, and of one without labels.
 const LABELLED = 340
+const UNLABELLED = 200
+// Smallest factor of labels.
+const LEAST = 0.8
 const COLOURS = ["line_color", "fill_color", "text_color", "background_fill_color"]
 const SIZES = ["line_width", "axis_line_width", "major_tick_line_width", "outline_line_width", "size", "text_font_size"]
 
@@ -43,9 +46,10 @@ const times = (factor, value) => (typeof value === "number" ? factor * value
  */
 export function sizePlot(plot, type, scale, edge) {
   const larger = scale * zoom()
+  const labelled = edge < UNLABELLED ? 0 : Math.min(larger, Math.max(LEAST, edge / LABELLED))
   for (const part of plot.model.references()) {
     const isLabel = (part.text_font_style?.value ?? part.text_font_style) === "bold"
-    const factor = isLabel ? Math.min(larger, Math.max(scale, edge / LABELLED)) : larger
+    const factor = isLabel ? labelled : larger
     part.setv(Object.fromEntries(sizesOf(part).map(([name, value]) => [name, times(factor, value)])))
     if (part.axis_label_text_font_size !== undefined) {
       part.setv({

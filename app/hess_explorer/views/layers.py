@@ -135,7 +135,6 @@ MESSAGE: Layer[Any] = Layer(
     ("x", "y", "text"),
     {
         "text_color": theme.INK,
-        "text_font_style": "bold",
         "text_font_size": "15px",
         "text_align": "center",
         "text_baseline": "middle",
