@@ -8,7 +8,7 @@ import { isDark, setDark, shade } from "./looks.js"
 const TICKS = 0.86
 // Edge in pixels of a picture whose labels have the room that "tags.py" gives them, and of one without labels.
 const LABELLED = 340
-const UNLABELLED = 200
+const UNLABELLED = 240
 // Smallest factor of labels.
 const LEAST = 0.8
 const COLOURS = ["line_color", "fill_color", "text_color", "background_fill_color"]
