@@ -7,9 +7,10 @@
 import { element } from "../page/elements.js"
 import { LIGHT, HALFWAY } from "./solid.js"
 
-// Facets around the axis, and the largest number of pixels on a side.
+// Facets around the axis, and the largest number of pixels on a side, at rest and while it turns.
 const AROUND = 96
 const MOST = 640
+const QUICK = 420
 const BUCKETS = 1024
 
 // Tones of the outside, of the inside and of a dense part, and the brightness without direct light.
@@ -278,9 +279,10 @@ export function createRevolved() {
      * @param {ArrayLike<number>} height
      * @param {[number, number]} turn azimuth and elevation of the eye
      * @param {((i: number, phi: number) => number) | null} density see `place`
+     * @param {boolean} isQuick whether fewer pixels will do
      */
-    shade({ edge, ratio, scale, dark }, radius, height, turn, density) {
-      const pixels = Math.min(MOST, Math.round(edge * ratio))
+    shade({ edge, ratio, scale, dark }, radius, height, turn, density, isQuick) {
+      const pixels = Math.min(isQuick ? QUICK : MOST, Math.round(edge * ratio))
       perEdge = pixels / edge
       // Without a density the surface looks the same from all azimuths.
       const now = [pixels, dark, turn[1], density && turn[0]].join()

@@ -87,7 +87,7 @@ function captions(type) {
   const high = (count, size) => Math.ceil((count * LINE + AIR) * size)
   /** @param {number} width */
   const title = (width) => {
-    if (!isPresenting()) return high(Math.min(2, linesOf(TITLE, width)), own(width))
+    if (!isPresenting()) return high(TITLE > width / own(width) - SIDE ? 2 : 1, own(width))
     const size = Math.min(ASIDE * type, width / WORD)
     return size < LEAST * type ? Infinity : high(Math.ceil((TITLE + BREAK) / (width / size - MARGINS)), size)
   }

@@ -17,6 +17,8 @@ import { circle, scaled } from "./vectors.js"
 // The orbit is thin, as it may fill the surface; its trail is not.
 const THIN = 1.3
 const HIDDEN = 0.55
+// Milliseconds after which a surface that was turned rests, and is shaded in full.
+const REST = 150
 // How far behind the surface curves may seem to lie, in radii of the unit sphere.  At its outline it is steep.
 const [ON_IT, AT_EDGE] = [0.05, 0.25]
 
@@ -50,9 +52,18 @@ export function torus(el, options, source, isShown) {
   const own = source(options.name)
   const surface = createRevolved()
   let t = 0
-  const { request, shoot } = turnable(el, "torus", {
+  /** @type {ReturnType<typeof setTimeout> | null} */
+  let turning = null
+  const { request, shoot, onTurn } = turnable(el, "torus", {
     name: options.name, title: "The torus in space", what: "torus", isShown,
   }, paint)
+  onTurn(() => {
+    clearTimeout(turning)
+    turning = setTimeout(() => {
+      turning = null
+      request()
+    }, REST)
+  })
 
   /** Return [look, columns, times] of each curve. @returns {[string, Columns, ArrayLike<number> | undefined][]} */
   const curves = () => Object.entries(options.curves).map(([name, look]) => {
@@ -65,7 +76,7 @@ export function torus(el, options, source, isShown) {
     const { radius, height } = own.data
     if (!(radius?.length > 2)) return
     const sheet = createSheet(ctx, look, turn)
-    const image = surface.shade(sheet, radius, height, turn, densityOf(own.data))
+    const image = surface.shade(sheet, radius, height, turn, densityOf(own.data), turning !== null)
     const on = {
       ...sheet,
       /** @type {Sheet["stroke"]} */
