@@ -34,6 +34,9 @@ def pytest_configure(config):
     from support.thorough import load_profile
 
     load_profile(is_thorough=config.getoption("thorough"))
+    # Films have this low priority; among tests of another they would wait for minutes.
+    if hasattr(os, "setpriority"):
+        os.setpriority(os.PRIO_PROCESS, 0, 15)
     if config.getoption("numprocesses", None) and not config.option.collectonly:
         compile_half = "from hess_explorer.server.warm import compile_all; compile_all(backwards={})"
         halves = [subprocess.Popen([sys.executable, "-c", compile_half.format(end)]) for end in (False, True)]
