@@ -69,12 +69,13 @@ def test_its_links_lead_somewhere(document):
 def test_every_scene_is_there_with_its_picture_and_words():
     for scene in scenes().values():
         if scene.origin is None:
-            assert f'src=".github/pictures/{scene.name}.png"' in README, scene.name
+            for theme in ("light", "dark"):
+                assert f'.github/pictures/{scene.name}-{theme}.jpg"' in README, scene.name
 
 
 def test_pictures_are_light():
     assert (ROOT / ".github/pictures/page.png").stat().st_size <= 250_000
-    assert sum(path.stat().st_size for path in (ROOT / ".github/pictures").glob("*.png")) <= 750_000
+    assert sum(path.stat().st_size for path in (ROOT / ".github/pictures").glob("*.[jp]*g")) <= 1_000_000
 
 
 def test_the_python_of_the_readme_runs(capsys, tmp_path, monkeypatch):

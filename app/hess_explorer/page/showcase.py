@@ -1,6 +1,6 @@
 """The gallery in the menu of scenes: examples in rows, one row per idea.
 
-`tests/make_thumbnails.py` makes the pictures.
+`tests/make_pictures.py` makes the pictures.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ class Exhibit:
     """One picture of an example.
 
     scene : name of the scene; example : beginning of the name of its preset; picture : name of the picture; title : a
-    few words.
+    few words, in the gallery.
     """
 
     scene: str
     example: str
     picture: str
-    title: str
+    title: str = ""
 
     @property
     def query(self) -> str:
