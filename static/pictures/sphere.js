@@ -10,9 +10,8 @@
 import { listen } from "../page/bus.js"
 import { bodyIn } from "./body.js"
 import { drawPoint } from "./body_parts.js"
-import { squareCanvas } from "./canvas.js"
 import { sphereClouds } from "./cloud_on_sphere.js"
-import { FAINT } from "./ghost.js"
+import { FAINT, squareGhost } from "./ghost.js"
 import { circlePath, drawMark, LOOKS } from "./looks.js"
 import { createSheet } from "./projection.js"
 import { turnable } from "./turnable.js"
@@ -38,9 +37,10 @@ function drawAxis({ isNear, at, line, write }, axis, label, near) {
  */
 export function sphere(el, options, source, isShown) {
   const inSpace = options.attitude !== undefined
-  const { request, shoot, turn, onTurn } = turnable(el, inSpace ? "solid" : "sphere", {
+  const turned = turnable(el, inSpace ? "solid" : "sphere", {
     name: options.name, title: options.title ?? "Poisson sphere", what: "sphere", isShown,
   }, paint)
+  const { request } = turned
   const lines = options.bare ? [circle([0, 0, 1], 0)] : graticule()
   /** @type {Vector | null} */
   let point = null
@@ -106,25 +106,6 @@ export function sphere(el, options, source, isShown) {
     if (point !== null) drawPoint(on, point, on.isNear(point))
   }
 
-  // The tracks of an earlier state.
-  /** @type {ReturnType<typeof tracks> | null} */
-  let kept = null
-  /** @type {ReturnType<typeof squareCanvas> | null} */
-  let faint = null
-  /** @type {PaintSquare} */
-  function paintGhost(ctx, look) {
-    if (kept === null) return
-    const on = createSheet(ctx, look, turn())
-    for (const [name, track] of kept) {
-      on.use(LOOKS[name])
-      for (const near of [false, true]) {
-        ctx.globalAlpha = near ? FAINT : 0.3 * FAINT
-        on.stroke(track, near)
-      }
-    }
-  }
-
-  onTurn(() => faint?.request())
   listen({
     time({ t, state }) {
       if (!isShown()) return
@@ -135,13 +116,14 @@ export function sphere(el, options, source, isShown) {
   })
   const watched = [options.name, ...Object.keys(options.tracks), options.clouds, options.attitude]
   for (const name of watched) if (name !== undefined) source(name).watch(request)
-  return {
-    shoot, take: tracks,
-    show(what) {
-      if (what === kept) return
-      kept = what
-      faint ??= squareCanvas(el, "ghost", { ariaHidden: true }, paintGhost)
-      faint.request()
-    },
-  }
+  const ghost = squareGhost(el, turned, tracks, (on, kept) => {
+    for (const [name, track] of kept) {
+      on.use(LOOKS[name])
+      for (const near of [false, true]) {
+        on.ctx.globalAlpha = near ? FAINT : 0.3 * FAINT
+        on.stroke(track, near)
+      }
+    }
+  })
+  return { shoot: turned.shoot, ...ghost }
 }

@@ -7,6 +7,7 @@
 
 import { listen } from "../page/bus.js"
 import { drawPoint, drawTrail, TRAIL } from "./body_parts.js"
+import { FAINT, squareGhost } from "./ghost.js"
 import { LOOKS } from "./looks.js"
 import { between } from "./moment.js"
 import { createSheet } from "./projection.js"
@@ -54,10 +55,11 @@ export function torus(el, options, source, isShown) {
   let t = 0
   /** @type {ReturnType<typeof setTimeout> | null} */
   let turning = null
-  const { request, shoot, onTurn } = turnable(el, "torus", {
+  const turned = turnable(el, "torus", {
     name: options.name, title: "The torus in space", what: "torus", isShown,
   }, paint)
-  onTurn(() => {
+  const { request } = turned
+  turned.onTurn(() => {
     clearTimeout(turning)
     turning = setTimeout(() => {
       turning = null
@@ -159,5 +161,19 @@ export function torus(el, options, source, isShown) {
     },
   })
   for (const name of [options.name, ...Object.keys(options.curves)]) source(name).watch(request)
-  return { shoot }
+  /** Return the surface and its curves. */
+  const take = () => ({ radius: own.data.radius, height: own.data.height, list: curves() })
+  const ghost = squareGhost(el, turned, take, (on, { radius, height, list }) => {
+    if (!(radius?.length > 2)) return
+    on.ctx.globalAlpha = FAINT
+    for (const near of [false, true]) {
+      on.use({ weight: 1.5 })
+      for (const segment of outline(radius, height, ...turned.turn())) on.stroke(segment, near)
+      for (const [look, curve] of list) {
+        on.use(LOOKS[look])
+        on.stroke(curve, near)
+      }
+    }
+  })
+  return { shoot: turned.shoot, ...ghost }
 }

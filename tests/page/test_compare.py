@@ -48,7 +48,8 @@ def test_while_a_slider_is_held_the_state_before_it_is_seen_and_no_longer(explor
     sent = len(explorer.sent)
     explorer.change(page.mouse.move, box["x"] + 0.6 * box["width"], middle)
     # The plane, the diagram and the circle map.
-    assert painted(explorer) >= 3
+    # The plane, the sphere, the diagram, the circle map and the torus.
+    assert painted(explorer) == 5
     before = page.evaluate(GHOSTS)
     explorer.change(page.mouse.move, box["x"] + 0.7 * box["width"], middle)
     wait_frames(explorer, 3)
@@ -118,7 +119,8 @@ def test_a_pinned_state_is_seen_beside_others_named_in_numbers_and_gone_back_to(
     assert pin.get_attribute("aria-pressed") == "true"
     assert rows(explorer) == {}
     explorer.change(lambda: explorer.slide(h=1.8))
-    assert painted(explorer) >= 3
+    # The plane, the sphere, the diagram, the circle map and the torus.
+    assert painted(explorer) == 5
     found = rows(explorer)
     assert found["h"] == ("1.5", "1.8")
     assert not {"a", "b", "f", "I₂₃", "accuracy"} & set(found)
@@ -131,7 +133,8 @@ def test_a_pinned_state_is_seen_beside_others_named_in_numbers_and_gone_back_to(
     explorer.change(page.keyboard.press, "c")
     assert_orbit(explorer, DEFAULTS)
     assert rows(explorer)["h"] == ("1.5", "1.8")
-    assert painted(explorer) >= 3
+    # The plane, the sphere, the diagram, the circle map and the torus.
+    assert painted(explorer) == 5
     explorer.change(page.locator(".param-flip").click)
     assert_orbit(explorer, {**DEFAULTS, "h": 1.8})
     # In another scene it is named, and gone back to.
