@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from functools import cache
 from pathlib import Path
 
 __all__ = ["MODULES", "STATIC", "modules_path"]
@@ -14,6 +15,7 @@ MODULES = r"(?:page|controls|pictures)/[a-z_]+\.js|page/handout\.css|thumbnails/
 """Regular expression for the files in `STATIC` that are served: modules, style sheet for printing, and the gallery."""
 
 
+@cache
 def modules_path() -> str:
     """Return the URL folder of the modules, relative to the page; it contains a hash of their contents."""
     digest = hashlib.sha256()
