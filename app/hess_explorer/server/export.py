@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import Any
 from urllib.parse import urlencode
 
@@ -19,7 +20,6 @@ from hess_explorer.export.notebook import PROGRAMS
 from hess_explorer.export.picture_data import address, compute
 from hess_explorer.page.offline import as_html
 from hess_explorer.protocol.parameters import MAX_QUERY, Choice, Number, decode
-from hess_explorer.scenes import scenes
 from hess_explorer.server.film import Film
 from hess_explorer.server.refusal import refuse
 from hess_mechanics.errors import ModelError
@@ -118,6 +118,8 @@ class Export(RequestHandler):
     async def _answer_film(self, state: dict[str, str], picture: str, read: dict[str, Any]) -> None:
         """Send the film, after progress lines if they are requested.  Raises `ModelError`, `Abandoned`."""
         loop, kind, lines = asyncio.get_running_loop(), str(read["format"]), read["progress"] == "1"
+        # A film that cannot be made is refused at once, and not after those that wait.
+        where = await loop.run_in_executor(_files, partial(address, urlencode(state), picture, lenient=True))
         words = [
             f"--state={self._home}?{urlencode(state)}",
             "--lenient",
@@ -155,8 +157,7 @@ class Export(RequestHandler):
             say(f"file {len(data)}")
             self.finish(data)
         else:
-            scene = state.get("scene", "")
-            self._send(f"{scene if scene in scenes() else next(iter(scenes()))}-{picture or 'film'}", kind, data)
+            self._send(f"{where.scene.name}-{where.picture.name}", kind, data)
 
     def _send(self, name: str, kind: str, data: bytes) -> None:
         self.set_header("Content-Type", FORMATS[kind].media)
