@@ -14,6 +14,7 @@ import numpy as np
 from hess_mechanics.chaplygin_ball import phase_cloud_density
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
+from hess_mechanics.dynamics.attraction import arrivals
 from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
@@ -24,7 +25,7 @@ from hess_mechanics.numerics.arguments import as_a, as_cells, as_level, as_numbe
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, frozen
-from hess_mechanics.suslov.basins import Contraction, contraction_at, groups_of_cells, middle_cells
+from hess_mechanics.suslov.basins import Contraction, SectionOrbits, attractors
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.section import SuslovSection, require_reached
 from hess_mechanics.suslov_hess.rotation_number import TorusValues, values_at
@@ -33,14 +34,12 @@ __all__ = ["Basins", "basins", "cloud", "rotation_along_line", "rotation_numbers
 
 _MOST_ORBITS = 1000
 _LONG = 1000.0
-"""Time over which the divergence of one motion per group is averaged."""
+"""Time over which a divergence is averaged."""
 
 
 @dataclass(frozen=True)
 class Basins(Result):
     """Basins of attraction on a section of the Suslov problem.
-
-    Cells belong to one group if the long-run means of ω₁ along their orbits agree.
 
     Attributes
     ----------
@@ -48,30 +47,29 @@ class Basins(Result):
         Centres of the cells in ψ, in radians.
     delta : ndarray, shape (n,)
         Centres of the cells in δ, in radians.
-    mean : ndarray, shape (n, m)
-        Long-run mean of ω₁; NaN where no motion crosses the section.
-    group : ndarray of int, shape (n, m)
-        Group of each cell; −1 where no motion crosses the section.
+    attractor : ndarray of int, shape (n, m)
+        Attractor 0, 1, … that the orbit from each cell reaches; −1 where no motion crosses the section, −2 where no
+        attractor is reached in 240 crossings.
+    crossings : ndarray, shape (n, m)
+        Crossings until the attractor is reached; NaN where none is.
     divergence : tuple of Contraction
-        Mean divergence along one motion of each group.
+        Mean divergence on each set that orbits approach, an attractor or not.
+    attractors : int
+        Number of attractors.
     level : str
         Name of the accuracy level.
     """
 
     psi: Array
     delta: Array
-    mean: Array
-    group: Array
+    attractor: Array
+    crossings: Array
     divergence: tuple[Contraction, ...]
+    attractors: int
     level: str
 
-    @property
-    def attractors(self) -> int:
-        """Number of groups that attract."""
-        return sum(one.attracts for one in self.divergence)
-
     def labels(self) -> Labels:
-        """Return the mean and the group, labelled with δ and ψ.
+        """Return the attractor and the crossings, labelled with δ and ψ.
 
         Returns
         -------
@@ -80,9 +78,9 @@ class Basins(Result):
         """
         return Labels(
             {"δ": (("δ",), self.delta), "ψ": (("ψ",), self.psi)},
-            {"mean": (("δ", "ψ"), self.mean), "group": (("δ", "ψ"), self.group)},
-            {"δ": "rad", "ψ": "rad", "mean": "rad/T"},
-            {"groups": len(self.divergence), "attractors": self.attractors, "level": self.level},
+            {"attractor": (("δ", "ψ"), self.attractor), "crossings": (("δ", "ψ"), self.crossings)},
+            {"δ": "rad", "ψ": "rad"},
+            {"attractors": self.attractors, "level": self.level},
         )
 
 
@@ -93,7 +91,6 @@ def basins(
     plane: int = 3,
     cells: tuple[int, int] = (16, 12),
     window: Window = ((-math.pi, 0.0), (math.pi, math.pi)),
-    crossings: int = 150,
     accuracy: Accuracy = "standard",
 ) -> Basins:
     """Return the basins of attraction on a section of the Suslov problem.
@@ -110,15 +107,13 @@ def basins(
         Number of cells along ψ and along δ.
     window : ((float, float), (float, float)), optional
         Corners (ψ0, δ0) and (ψ1, δ1) of the window, in radians.  By default the whole section.
-    crossings : int, default 150
-        Number of crossings for which each orbit is followed.
     accuracy : str or Level, default "standard"
         Accuracy level.  The four named levels are coarser here than for orbits.
 
     Returns
     -------
     Basins
-        The group of each cell, and the divergence of each group.
+        The attractor of each cell, and the divergence on each set that orbits approach.
 
     Raises
     ------
@@ -132,29 +127,25 @@ def basins(
     Examples
     --------
     >>> from hess_mechanics import SuslovBody, basins
-    >>> basins(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842, cells=(6, 4), accuracy="draft").group.shape
-    (4, 6)
+    >>> basins(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842, cells=(6, 4), accuracy="draft").attractors
+    2
     """
     section = SuslovSection(as_a(SuslovBody, body), as_number("E", E), as_whole("plane", plane, 1, 3))
     require_reached(section)
     m, n = as_cells(cells)
     (x0, y0), (x1, y1) = _window(window)
-    ends, chosen = np.empty((n, m)), plan(Computation.BASINS, accuracy).level
+    chosen = plan(Computation.BASINS, accuracy).level
+    there = attractors(section, _LONG, chosen)
+    x, y = centres(x0, x1, m), centres(y0, y1, n)
+    number, crossings = np.empty((n, m)), np.empty((n, m))
 
     def row(i: int) -> None:
-        ends[i] = section.ends(window, (m, n), i, crossings, level=chosen)
+        found = arrivals(SectionOrbits(section, chosen), there.sets, x, np.full(m, y[i]))
+        number[i], crossings[i] = found.number, found.crossings
 
     share(row, n)
-    group = groups_of_cells(ends)
-    on_each = tuple(contraction_at(section, window, (m, n), *cell, _LONG) for cell in middle_cells(ends, group))
-    return Basins(
-        frozen(centres(x0, x1, m)),
-        frozen(centres(y0, y1, n)),
-        frozen(np.where(np.isfinite(ends), ends, np.nan)),
-        frozen(group),
-        on_each,
-        chosen.name,
-    )
+    crossings[number < 0.0] = np.nan
+    return Basins(frozen(x), frozen(y), frozen(number), frozen(crossings), there.contractions, there.count, chosen.name)
 
 
 def cloud(

@@ -13,7 +13,7 @@ SECTION = typed("section ball --I 1,3,0.2,-0.1 --D 5 --b 0.5,0.2,0.8 --omega 0.6
 
 PERIOD = typed("period --I 1.3,0.8 --b 0.5,-0.2 --omega 1,-0.5 --gamma 0,0.6,0.8")
 CLOUD = typed("cloud --I 2,1,0.5,0.7 --D 1.5 --h 2 --count 200 --t 3")
-BASINS = typed("basins --I 1.5,1,0.4,0 --b 0.3,-0.5,1 --E 1.842 --cells 6,4 --crossings 240")
+BASINS = typed("basins --I 1.5,1,0.4,0 --b 0.3,-0.5,1 --E 1.842 --cells 6,4")
 
 
 # ---- sections and exponents -------------------------------------------------------------------------------------
@@ -74,22 +74,31 @@ def test_the_density_of_a_cloud_counts_its_points(answer):
 # ---- basins -----------------------------------------------------------------------------------------------------
 
 
+def test_the_attractors_of_the_cells_are_counted(answer):
+    found = answer(*BASINS)
+    assert found["attractors"] == 2
+    assert found["counts"] == np.bincount(found["attractor"]).tolist()
+    assert min(found["counts"]) >= 2
+    assert found["psi"][:6] == approx([-np.pi + (i + 0.5) * np.pi / 3.0 for i in range(6)])
+    assert sorted(set(found["delta"])) == approx([(j + 0.5) * np.pi / 4.0 for j in range(4)])
+
+
 def test_cells_that_the_energy_forbids_are_empty(answer, as_table):
-    words = replaced(replaced(BASINS, "--E", "0.3"), "--crossings", "100")
+    words = replaced(BASINS, "--E", "0.3")
     found = answer(*words)
     psi = np.array(found["psi"])
     forbidden = 0.3 * np.cos(psi) - 0.5 * np.sin(psi) >= 0.3
     assert 0 < forbidden.sum() < 24
-    assert [value is None for value in found["mean"]] == [value is None for value in found["group"]]
-    assert all(found["mean"][i] is None for i in np.flatnonzero(forbidden))
+    assert [value is None for value in found["crossings"]] == [value is None for value in found["attractor"]]
+    assert all(found["attractor"][i] is None for i in np.flatnonzero(forbidden))
     assert found["notes"] == []
     _, header, rows = as_table(*words)
-    assert header == ["psi", "delta", "mean", "group"]
-    assert [row[2:] == ["", ""] for row in rows] == [value is None for value in found["mean"]]
+    assert header == ["psi", "delta", "attractor", "crossings"]
+    assert [row[2:] == ["", ""] for row in rows] == [value is None for value in found["attractor"]]
 
 
 def test_on_a_principal_axis_it_is_said_that_nothing_attracts(answer):
-    words = replaced(replaced(replaced(BASINS, "--I", "1.5,1,0,0"), "--cells", "2,2"), "--crossings", "100")
+    words = replaced(replaced(BASINS, "--I", "1.5,1,0,0"), "--cells", "2,2")
     assert answer(*words)["notes"] == ["With I13 = I23 = 0 phase volume is conserved: there are no attractors."]
 
 

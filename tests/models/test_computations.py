@@ -89,7 +89,7 @@ def test_a_system_with_values_of_its_parameters_moves_as_the_body_does():
 
 def test_basins_clouds_and_maps_have_coordinates():
     basins = hm.basins(SUSLOV, 1.842, cells=(6, 4), accuracy="draft").to_xarray()
-    assert basins["group"].dims == ("δ", "ψ")
+    assert basins["attractor"].dims == ("δ", "ψ")
     assert float(basins["ψ"][0]) == approx(-pi + pi / 6.0)
     theta = hm.circle_map(0.5, 1.5, 0.6, hm.level("precise"))
     curve = theta.to_xarray()["Θ"]

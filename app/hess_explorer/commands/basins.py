@@ -11,7 +11,7 @@ from hess_mechanics import basins
 from hess_mechanics.parameters import E
 
 from . import CommandError
-from .command import OUTPUT, Command, Options, number, option, vector, whole
+from .command import OUTPUT, Command, Options, number, option, vector
 from .motions import SUSLOV, check_of, suslov_of
 from .output import Answer, body_facts, table
 
@@ -30,26 +30,22 @@ def _computed(options: Options) -> Answer:
         plane=options.k,
         cells=(m, n),
         window=((psi0, delta0), (psi1, delta1)),
-        crossings=options.crossings,
         accuracy=options.accuracy,
     )
-    on_each, known = found.divergence, found.group >= 0.0
     psi, delta = np.meshgrid(found.psi, found.delta)
+    numbers = found.attractor.astype(int).ravel()
+    reached = (numbers >= 0).tolist()
     series: dict[str, list[Any]] = {"psi": psi.ravel().tolist(), "delta": delta.ravel().tolist()}
-    for name, kind, column in (("mean", float, found.mean), ("group", int, found.group)):
-        series[name] = [
-            kind(value) if there else None
-            for value, there in zip(column.ravel().tolist(), known.ravel().tolist(), strict=True)
-        ]
-    counts = np.bincount(found.group[known].astype(int), minlength=len(on_each)).tolist()
+    for name, values in (("attractor", numbers), ("crossings", found.crossings.ravel())):
+        series[name] = [int(value) if there else None for value, there in zip(values.tolist(), reached, strict=True)]
     return Answer(
         series,
         {
             "cells": [m, n],
-            "counts": counts,
+            "counts": [int(np.sum(numbers == one)) for one in range(found.attractors)],
             "level": found.level,
-            "divergence": [one.mean for one in on_each],
-            "divergence error": [one.error for one in on_each],
+            "divergence": [one.mean for one in found.divergence],
+            "divergence error": [one.error for one in found.divergence],
             "attractors": found.attractors,
             **body_facts(check_of(body)),
         },
@@ -60,7 +56,7 @@ def _computed(options: Options) -> Answer:
 def _notes(kept: bool, attractors: int) -> list[str]:
     if kept:
         return ["With I13 = I23 = 0 phase volume is conserved: there are no attractors."]
-    return [] if attractors else ["No attractor: the mean divergence of no group is negative beyond its error."]
+    return [] if attractors else ["No attractor: no mean divergence is negative beyond its error."]
 
 
 def _cells(given: tuple[float, ...]) -> tuple[int, int]:
@@ -75,10 +71,10 @@ def _cells(given: tuple[float, ...]) -> tuple[int, int]:
 COMMAND = Command(
     "Compute basins of attraction in the section γ_k = 0 (upward crossings) of the Suslov problem with gravity at the "
     "energy E.  Coordinates: ψ is the angle of γ in its plane, δ from 0 to π the angle of ω from the direction that "
-    "leaves γ_k constant.  For the orbit from the centre of each cell the output has the mean of ω1 over the last "
-    "third of its crossings, and the group of that mean: 0, 1, … if the means form separate clusters, else 0.  A group "
-    "is an attractor if the mean divergence on one of its motions is negative by three times its error.  A value is "
-    "empty or null if no motion has this energy, or if the orbit stops crossing.",
+    "leaves γ_k constant.  For the orbit from the centre of each cell the output has the attractor that it reaches, 0, "
+    "1, …, and the number of crossings until then.  The sets that orbits approach are found from 256 orbits over the "
+    "section.  A set is an attractor if the mean divergence on it is negative by three times its error.  A value is "
+    "empty or null if no motion has this energy, or if no attractor is reached in 240 crossings.",
     (
         *SUSLOV,
         number(E, help="energy"),
@@ -90,9 +86,8 @@ COMMAND = Command(
             (-math.pi, math.pi, 0.0, math.pi),
         ),
         vector("--cells", "across,up", "number of cells in ψ and δ (default 40,30)", (40.0, 30.0)),
-        whole("--crossings", 100, 10_000, "number of crossings of each orbit", 300),
         *OUTPUT,
     ),
     table(_computed),
-    "--I 1.5,1,0.4,0 --b 0.3,-0.5,1 --E 0.68 --k 2 --cells 8,6 --crossings 150 --accuracy draft --format csv",
+    "--I 1.5,1,0.4,0 --b 0.3,-0.5,1 --E 0.68 --k 2 --cells 8,6 --accuracy draft --format csv",
 )

@@ -13,7 +13,7 @@ import numpy as np
 
 from hess_explorer.sweep.errors import NoValue
 from hess_explorer.sweep.motions import MOTIONS, SUSLOV_ENERGY, suslov_section
-from hess_explorer.sweep.quantity import Cell, CellArrays, CellResults, Outcome, Quantity, one_by_one, usual, whole
+from hess_explorer.sweep.quantity import Cell, CellArrays, CellResults, Outcome, Quantity, one_by_one, usual
 from hess_mechanics import parameters as known
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import period
@@ -21,7 +21,7 @@ from hess_mechanics.chaplygin_ball.scattering import ball_scattering
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import PLANS, Computation, Level
 from hess_mechanics.parameters import Parameter
-from hess_mechanics.suslov.basins import count_attractors
+from hess_mechanics.suslov.basins import attractors
 from hess_mechanics.suslov.equations import SuslovBody, unit_vector
 from hess_mechanics.suslov.kharlamova import PlaneBody, arc
 from hess_mechanics.suslov.scattering import Scattering, cos_chi, scattering
@@ -126,9 +126,9 @@ def _ball_theta_plus(level: Level, theta: float, phi: float, distance: float, **
 # ---- Suslov problem with gravity --------------------------------------------------------------------------------
 
 
-def _attractors(level: Level, across: float, up: float, crossings: float, t: float, **values: float) -> Cell:
+def _attractors(level: Level, t: float, **values: float) -> Cell:
     plan = PLANS[Computation.BASINS][level.name]
-    return Cell(float(count_attractors(suslov_section(values), (int(across), int(up)), int(crossings), t, plan.level)))
+    return Cell(float(attractors(suslov_section(values), t, plan.level).count))
 
 
 # ---- the table --------------------------------------------------------------------------------------------------
@@ -241,12 +241,9 @@ _TABLE: tuple[Quantity, ...] = (
         "N",
         "Number of attractors: Suslov problem with gravity",
         "1",
-        "Groups of motions of a section whose mean divergence is negative by three times its error.",
+        "Sets that orbits of a section approach, with a mean divergence that is negative by three times its error.",
         (
             *SUSLOV_ENERGY,
-            whole("across", "m", 8, 2, 400, "Orbits across the section."),
-            whole("up", "n", 6, 2, 400, "Orbits up the section."),
-            whole("crossings", "N", 150, 100, 10_000, "Crossings of each orbit."),
             usual(known.SPAN, 1000.0, "Time over which the divergence is averaged."),
         ),
         one_by_one(_attractors),

@@ -23,7 +23,7 @@ _ACROSS = 384
 _SHADES = 40
 """Shades of a basin, by the time of arrival."""
 _BASINS = (
-    "largest basin, from late to soon",
+    "first basin, from late to soon",
     *(f"{which} basin, from late to soon" for which in ("second", "third", "fourth", "any other")),
     "no attractor reached",
 )

@@ -19,7 +19,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from hess_mechanics.dynamics.cells import Window, centres, evenly
+from hess_mechanics.dynamics.cells import Window, evenly
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, SectionPoints, section_points
@@ -270,35 +270,6 @@ class SuslovSection(PoincareSection):
         """Return cells (1, n) over the window: 1 where the energy does not allow ψ."""
         psi = np.linspace(window[0][0], window[1][0], _COLUMNS + 1)
         return frozen(1.0 - self.possible(0.5 * (psi[1:] + psi[:-1]))[None, :].astype(float))
-
-    def cells_of_row(self, window: Window, cells: tuple[int, int], row: int) -> tuple[Array, Mask]:
-        """Return the states (m, 5) at the centres of the cells of a row, and the mask (m,) of those with motion."""
-        (x0, y0), (x1, y1) = window
-        m, n = cells
-        return self.states_at(centres(x0, x1, m), np.full(m, centres(y0, y1, n)[row]))
-
-    def ends(
-        self,
-        window: Window,
-        cells: tuple[int, int],
-        row: int,
-        crossings: int,
-        most_steps: int = MAX_STEPS,
-        level: Accuracy = DRAFT,
-    ) -> Array:
-        """Return the mean of ω1 over the last third of the crossings of the orbits from the cells of a row.
-
-        cells : (m, n) cells of the window.  The result has shape (m,), with ∞ where there is no orbit.  Raises
-        `WorkLimit`.
-        """
-        states, ok = self.cells_of_row(window, cells, row)
-        out = np.full(cells[0], np.inf)
-        if ok.any():
-            found = self.points(states[ok].tolist(), crossings, True, level, threads=1, most_steps=most_steps)
-            out[ok] = [
-                float(orbit[2 * len(orbit) // 3 :, 0].mean()) if len(orbit) > 30 else math.inf for orbit in found.states
-            ]
-        return frozen(out)
 
 
 def require_reached(section: SuslovSection) -> None:

@@ -1,4 +1,4 @@
-"""Groups of averages, and volume contraction: by hand, and by SciPy from the written-out equations."""
+"""Volume contraction, by SciPy from the written-out equations."""
 
 import math
 
@@ -7,7 +7,7 @@ from pytest import approx, mark
 from scipy.integrate import solve_ivp
 
 from hess_mechanics import SuslovBody
-from hess_mechanics.suslov.basins import Contraction, contraction, groups, middles
+from hess_mechanics.suslov.basins import Contraction, contraction
 from hess_mechanics.suslov.section import SuslovSection
 from support.suslov import divergence, field
 
@@ -16,42 +16,11 @@ TWO = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842
 # A chaotic sea whose motions are their own mirror images backward in time; and a body that keeps volume.
 SEA = SuslovBody(1.5, 3.0, 0.4, 0.4, -0.5, -0.5, 0.7), 0.005
 KEPT = SuslovBody(1.5, 3.0, 0.0, 0.0, -0.5, 0.6, 0.7), 0.95
-WINDOW = (-math.pi, 0.0), (math.pi, math.pi)
-
-
-@mark.parametrize("centres", [(-0.3, 0.8), (-0.3, 0.1, 0.8), (-1.0, -0.4, 0.1, 0.9)], ids=len)
-def test_averages_far_apart_are_told_apart(centres):
-    rng = np.random.default_rng(5)
-    which = rng.integers(0, len(centres), 300)
-    averages = np.array(centres)[which] + rng.uniform(-0.02, 0.02, 300)
-    assert np.array_equal(groups(averages), which)
-    middle = middles(averages, which)
-    assert [which[i] for i in middle] == list(range(len(centres)))
-    for i, centre in zip(middle, centres, strict=True):
-        assert abs(averages[i] - centre) < 0.01
-
-
-@mark.parametrize(
-    "averages", [np.empty(0), np.array([0.4]), np.full(30, 0.7), 0.5 + 1e-4 * np.arange(8), np.linspace(-1.0, 1.0, 50)]
-)
-def test_averages_of_one_group_are_one(averages):
-    assert np.array_equal(groups(averages), np.zeros(averages.size))
-
-
-def test_one_orbit_aside_does_not_split_a_sea():
-    sea = np.random.default_rng(2).normal(0.0, 0.1, 400)
-    assert groups(np.append(sea, [1.5, 1.52])).tolist() == [0] * 402
-    # As many as a group needs are one.
-    assert groups(np.append(sea, np.full(20, 1.5))).tolist() == [0] * 400 + [1] * 20
-
-
-def test_wide_groups_with_a_narrow_gap_are_one():
-    averages = np.concatenate([np.linspace(0.0, 1.0, 200), np.linspace(1.3, 2.3, 200)])
-    assert set(groups(averages)) == {0}
 
 
 def starts(body, E, count=3):
-    states, ok = SuslovSection(body, E, 3).cells_of_row(WINDOW, (12, 9), 4)
+    psi = -math.pi + (np.arange(12) + 0.5) * math.pi / 6.0
+    states, ok = SuslovSection(body, E, 3).states_at(psi, np.full(12, 0.5 * math.pi))
     return states[ok][:: max(1, ok.sum() // count)][:count]
 
 
