@@ -41,9 +41,7 @@ def _picture(options: Options) -> bytes:
     from hess_explorer.export.picture_data import picture_data
 
     found = picture_data(options.state, options.picture, lenient=options.lenient)
-    # A full link begins with the address of the page.
-    home = options.state.partition("?")[0] if "://" in options.state else ""
-    loop = Loop(options.loop == "dark", home) if options.loop else None
+    loop = Loop(options.loop == "dark", options.page) if options.loop else None
     request = FileRequest(options.format, options.width, options.black, options.seconds, loop)
     return content(found, request, _progress_printer(options.progress))
 
@@ -93,6 +91,7 @@ COMMAND = Command(
             choices=("light", "dark"),
             default=None,
         ),
+        option("--page", "address of the page, for the link in a loop", default="", metavar="URL"),
         flag("--black", "draw in black on white instead of the colours of the page"),
         flag("--progress", "print the progress of a film to stderr, one line per frame"),
     ),

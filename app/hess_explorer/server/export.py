@@ -21,10 +21,11 @@ from hess_explorer.export.picture_data import address, compute
 from hess_explorer.page.offline import as_html
 from hess_explorer.protocol.parameters import MAX_QUERY, Choice, Number, decode
 from hess_explorer.server.film import Film
+from hess_explorer.server.home import home_of
 from hess_explorer.server.refusal import refuse
 from hess_mechanics.errors import ModelError
 
-__all__ = ["Export"]
+__all__ = ["FILES", "Export"]
 
 _SPECS = (
     Choice("format", "Format", tuple(FORMATS), "csv"),
@@ -36,7 +37,7 @@ _SPECS = (
 )
 
 # One file and one film at a time, so that open pages have priority.
-_files = ThreadPoolExecutor(max_workers=1, thread_name_prefix="export")
+FILES = ThreadPoolExecutor(max_workers=1, thread_name_prefix="export")
 _films = ThreadPoolExecutor(max_workers=1, thread_name_prefix="film")
 _MOST, _MOST_FILMS = 20, 5
 """Maximum number of waiting requests, for files and for films."""
@@ -87,7 +88,7 @@ class Export(RequestHandler):
             else:
                 request = FileRequest(str(read["format"]), float(read["width"]), read["black"] == "1")
                 name, data = await asyncio.get_running_loop().run_in_executor(
-                    _files, self._file, state, picture, request
+                    FILES, self._file, state, picture, request
                 )
                 self._send(name, request.kind, data)
         except (Abandoned, StreamClosedError):
@@ -98,16 +99,13 @@ class Export(RequestHandler):
             Export.filming -= is_film
             Export.waiting -= not is_film
 
-    @property
-    def _home(self) -> str:
-        """The address of the page."""
-        return self.request.full_url().partition("?")[0].removesuffix("export")
-
     def _file(self, state: dict[str, str], picture: str, request: FileRequest) -> tuple[str, bytes]:
         """Return name and contents of the file.  Raises `ModelError`, `Abandoned`."""
         if request.kind == "html":
             with limited(self._left, _SECONDS), np.errstate(all="ignore"):
-                return as_html(urlencode(state), picture.split(",") if picture else (), self._home, lenient=True)
+                return as_html(
+                    urlencode(state), picture.split(",") if picture else (), home_of(self.request), lenient=True
+                )
         where = address(urlencode(state), picture, lenient=True)
         name = f"{where.scene.name}-{where.picture.name}"
         if request.kind in PROGRAMS:
@@ -121,7 +119,7 @@ class Export(RequestHandler):
         # A film that cannot be made is refused at once, and not after those that wait.
         where = await loop.run_in_executor(_files, partial(address, urlencode(state), picture, lenient=True))
         words = [
-            f"--state={self._home}?{urlencode(state)}",
+            f"--state={urlencode(state)}",
             "--lenient",
             f"--picture={picture}",
             "--format",
@@ -131,7 +129,7 @@ class Export(RequestHandler):
             "--seconds",
             f"{read['seconds']:g}",
             *(["--black"] if read["black"] == "1" else []),
-            *(["--loop", str(read["loop"])] if read["loop"] else []),
+            *(["--loop", str(read["loop"]), f"--page={home_of(self.request)}"] if read["loop"] else []),
         ]
 
         def say(line: str) -> None:

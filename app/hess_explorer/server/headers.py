@@ -13,12 +13,16 @@ from typing import ClassVar
 from panel.io.server import DocHandler
 
 from hess_explorer.protocol.parameters import MAX_QUERY
+from hess_explorer.server.preview import tags
 from hess_explorer.server.refusal import refuse
 
 __all__ = ["GuardedDocument", "policy"]
 
 QUERY_LIMIT = 4 * MAX_QUERY
 """Maximum length of a query in characters; the websocket request repeats it in a header."""
+
+_VIEWPORT = '<meta name="viewport"'
+"""Beginning of the last meta element of Panel's template."""
 
 
 def policy(nonce: str, embedders: tuple[str, ...]) -> str:
@@ -76,7 +80,12 @@ class GuardedDocument(DocHandler):
         self.set_header("Referrer-Policy", "same-origin")
 
     def write(self, chunk: str | bytes | dict[str, object]) -> None:
-        """Write a part of the page and add the nonce to its script tags; tags in the data are escaped."""
+        """Write a part of the page; add the nonce to its script tags and the description of the state to its head.
+
+        Tags in the data are escaped.
+        """
         if isinstance(chunk, str):
             chunk = chunk.replace("<script", f'<script nonce="{self._nonce}"')
+            if _VIEWPORT in chunk:
+                chunk = chunk.replace(_VIEWPORT, tags(self.request, self.request.query) + _VIEWPORT, 1)
         super().write(chunk)

@@ -31,6 +31,7 @@ from hess_explorer.server.handlers import replace_handlers
 from hess_explorer.server.limits import MESSAGE_LIMIT, OPEN_SOCKETS
 from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.modules import module_routes
+from hess_explorer.server.preview import Preview
 from hess_explorer.server.qr_code import QrCode
 from hess_explorer.server.relay import Relay
 from hess_explorer.server.room_page import RoomPage
@@ -141,6 +142,7 @@ def options(
             (f"/rooms/({CODE})", RoomSocket, {"rooms": rooms, "relay": relay}),
             ("/qr.svg", QrCode),
             ("/export", Export),
+            ("/preview", Preview),
             *module_routes(),
         ],
         "liveness": True,

@@ -1,0 +1,27 @@
+"""The address of the page as browsers reach it."""
+
+from __future__ import annotations
+
+import re
+
+from tornado.httputil import HTTPServerRequest
+
+__all__ = ["home_of"]
+
+_HOST = re.compile(r"[\w.-]+(:\d{1,5})?|\[[\da-fA-F:]+\](:\d{1,5})?", re.ASCII)
+_SCHEME = re.compile("https?")
+_PREFIX = re.compile(r"(/[\w.-]+)+", re.ASCII)
+
+
+def home_of(request: HTTPServerRequest) -> str:
+    """Return the address of the page, with a slash at its end, also behind a proxy that sets X-Forwarded headers."""
+
+    def told(name: str, allowed: re.Pattern[str], otherwise: str) -> str:
+        # Each proxy appends to the header; the first entry is the one that the browser talked to.
+        value = request.headers.get(f"X-Forwarded-{name}", "").split(",")[0].strip()
+        return value if allowed.fullmatch(value) else otherwise
+
+    scheme = told("Proto", _SCHEME, request.protocol)
+    host = told("Host", _HOST, request.host if _HOST.fullmatch(request.host) else "localhost")
+    folder = request.path.rpartition("/")[0]
+    return f"{scheme}://{host}{told('Prefix', _PREFIX, '')}{folder}/"
