@@ -132,6 +132,8 @@ HALL = """() => {
       .map((item) => item.textContent),
   }
 }"""
+
+
 @pytest.mark.parametrize("size", [(1920, 1080), (1600, 950), (1280, 720)])
 def test_pictures_fill_the_hall(tab, size):
     page, (width, height) = tab.page, size

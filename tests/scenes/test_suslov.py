@@ -217,6 +217,16 @@ def test_a_saddle_bounds_the_basins_and_its_manifold_runs_between_their_cells():
     assert sum(branch.length for branch in view.result.basins.manifolds) > 9.0
 
 
+@pytest.mark.parametrize(("colours", "message"), [("basins", ""), ("forward only", "None of the points lies")])
+def test_a_window_of_basins_is_not_empty_without_points(colours, message):
+    values = {**example(TWO).values, **FEW, "indicator": "nothing", "accuracy": "draft", "starts": "0.2446,2.3992"}
+    view = View(SCENE, {**values, "colours": colours, "window": "2.4,1.7;2.41,1.71"}, seen=("section",))
+    assert view.report.todo == ()
+    said = view.result.section.nothing_seen()
+    assert said.startswith(message)
+    assert bool(said) == bool(message)
+
+
 def test_where_volume_is_kept_no_attractor_is_claimed():
     view = View(SCENE, {**FEW, "I13": 0.0, "I23": 0.0, "colours": "basins", "h": 2.0, "long": 300.0})
     assert view.text["section"].endswith("No attractor is seen. mean div = 0 ± 0.")

@@ -219,7 +219,15 @@ class Suslov(State):
     @part
     def section(self) -> FilledSection:
         """The orbits of the section."""
-        return FilledSection(self, "no motion has this energy", _BOUNDS, (12, 40), self._ways, self.drop != "all")
+        return FilledSection(
+            self,
+            "no motion has this energy",
+            _BOUNDS,
+            (12, 40),
+            self._ways,
+            self.drop != "all",
+            alone=self.colours != "basins",
+        )
 
     @property
     def _ways(self) -> tuple[bool, ...]:

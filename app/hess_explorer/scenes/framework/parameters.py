@@ -90,7 +90,7 @@ def accuracy_level() -> Any:
         "double precision. One orbit costs about the same at every level: reference takes 0.74 to 2.2 × "
         "as long as draft, whose error is up to 0.2 pixels. Draft is cheaper where it computes less: "
         "of sections 25 % of the crossings (6.3 to 9.2 ×, error up to 6.9 pixels), of basins 33 % of "
-        "the cells along a side (14 ×, 3.8 % of the cells change). Auto: the cheapest that shows all "
+        "the cells along a side (6.9 ×, 0.41 % of the cells change). Auto: the cheapest that shows all "
         "of it right to half a pixel.",
     )
 

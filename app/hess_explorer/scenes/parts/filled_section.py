@@ -157,6 +157,7 @@ class FilledSection(Part[_Host]):
     bounds : the whole section, as places in a link are written; held : the largest numbers of orbits and of crossings
     while a slider is held.
     ways : directions of time, True is forward; later : draw only the later half of the crossings.
+    alone : whether a window without points is empty: nothing else is drawn there.
     """
 
     excuse: str
@@ -164,6 +165,7 @@ class FilledSection(Part[_Host]):
     held: tuple[int, int]
     ways: tuple[bool, ...] = (True,)
     later: bool = False
+    alone: bool = True
 
     @property
     def poincare(self) -> PoincareSection:
@@ -363,6 +365,7 @@ class FilledSection(Part[_Host]):
         if (
             self.work.dragging
             or self.work.todo
+            or not self.alone
             or self.host.density.tones
             or any(
                 np.any((x >= x0) & (x <= x1) & (y >= y0) & (y <= y1))
