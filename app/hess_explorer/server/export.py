@@ -117,7 +117,7 @@ class Export(RequestHandler):
         """Send the film, after progress lines if they are requested.  Raises `ModelError`, `Abandoned`."""
         loop, kind, lines = asyncio.get_running_loop(), str(read["format"]), read["progress"] == "1"
         # A film that cannot be made is refused at once, and not after those that wait.
-        where = await loop.run_in_executor(_files, partial(address, urlencode(state), picture, lenient=True))
+        where = await loop.run_in_executor(FILES, partial(address, urlencode(state), picture, lenient=True))
         words = [
             f"--state={urlencode(state)}",
             "--lenient",
