@@ -64,3 +64,27 @@ def test_the_scale_of_turns_ends_where_it_begins():
     lightness = [luminance(colour) for colour in theme.TURN_MAP]
     assert abs(int(np.argmax(lightness)) - 128) <= 4
     assert int(np.argmin(lightness)) in (0, 1, 255)
+
+
+# How eyes without one kind of cones mix linear red, green and blue (Machado, Oliveira and Fernandes 2009).
+EYES = {
+    "all cones": np.eye(3),
+    "protan": [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+    "deutan": [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.01182, 0.04294, 0.968881]],
+    "tritan": [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.3039]],
+}
+XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
+
+
+def lab(colour, eye):
+    """CIELAB of a colour as an eye sees it."""
+    parts = np.array([int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5)])
+    linear = np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
+    x, y, z = np.cbrt(XYZ @ np.clip(np.array(eye) @ linear, 0.0, 1.0) / XYZ.sum(axis=1))
+    return np.array([116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)])
+
+
+@pytest.mark.parametrize("eye", EYES.values(), ids=EYES)
+def test_the_colour_blind_tell_the_basins_apart(eye):
+    seen = [lab(colour, eye) for colour in (*theme.BASINS, theme.MUTED)]
+    assert min(np.linalg.norm(a - b) for i, a in enumerate(seen) for b in seen[:i]) > 15.0
