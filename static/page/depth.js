@@ -2,7 +2,7 @@
 // How much of a scene's text is shown: the idea, what a student needs, or all that the paper has.  Kept in the browser.
 
 import { element } from "./elements.js"
-import { keep, kept } from "./kept.js"
+import { browserStore } from "./stores.js"
 
 /** @type {[value: string, text: string][]} */
 const DEPTHS = [["idea", "Idea"], ["student", "What you see"], ["paper", "With equations"]]
@@ -16,11 +16,11 @@ export function depthMenu(text) {
   const select = element("select", {
     ariaLabel: "Depth of the text", title: "How much of the text is shown, in every scene",
     onchange: () => {
-      keep("depth", select.value)
+      browserStore.set("depth", select.value)
       follow()
     },
   }, ...DEPTHS.map(([value, words]) => new Option(words, value)))
-  select.value = DEPTHS.find(([value]) => value === kept("depth"))?.[0] ?? ALL
+  select.value = DEPTHS.find(([value]) => value === browserStore.get("depth"))?.[0] ?? ALL
 
   function follow() {
     const parts = /** @type {HTMLElement[]} */ ([...text.children])

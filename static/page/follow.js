@@ -9,7 +9,8 @@ import { listen, tell } from "./bus.js"
 import { element } from "./elements.js"
 import { createMount } from "./mount.js"
 import { fill, paint } from "./painting.js"
-import { atMost, kept, newName, openRoom } from "./room_socket.js"
+import { atMost, followed, newName, openRoom } from "./room_socket.js"
+import { tabStore } from "./stores.js"
 import { decode } from "./websocket.js"
 
 const NAME = "name-in-room"
@@ -54,9 +55,9 @@ function start() {
     mount("lessons", renderStep, {}, element("aside", { tabIndex: 0, ariaLabel: "Lesson" })))
 
   // The name makes guesses of one phone count once, also after a reload.
-  const name = kept.get(NAME) ?? newName()
-  kept.set(NAME, name)
-  kept.set("followed-room", code)
+  const name = tabStore.get(NAME) ?? newName()
+  tabStore.set(NAME, name)
+  followed.code = code
 
   /** @type {Map<string, SceneDescription>} */
   const descriptions = new Map()
@@ -152,7 +153,7 @@ function start() {
     },
     connected(on) { status.textContent = !on ? LOST : root.dataset.ready ? FOLLOWING : WAITING },
     ended(_, reason) {
-      kept.set("followed-room", null)
+      followed.code = null
       status.textContent = reason
       free.textContent = "Open Hess Explorer"
       root.dataset.over = ""

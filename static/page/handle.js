@@ -4,18 +4,18 @@
 import { listen } from "./bus.js"
 import { isEmbedded } from "./embedding.js"
 import { element } from "./elements.js"
-import { keep, kept } from "./kept.js"
+import { browserStore } from "./stores.js"
 
 /** @type {(keyof PageEvents)[]} */
 const CHANGES = ["change", "expression", "preset", "reset", "clear", "pick", "restore", "step", "enter"]
 
-// Scenes whose sign was shown.
-const said = new Set(kept("handles")?.split(","))
+// Scenes whose sign was shown.  Without a store each tab shows it once.
+const said = new Set(browserStore.get("handles")?.split(","))
 
 /** @param {string} name */
 function remember(name) {
   said.add(name)
-  keep("handles", [...said].join(","))
+  browserStore.set("handles", [...said].join(","))
 }
 
 /**

@@ -5,8 +5,8 @@
 import { stepControls } from "../controls/step_controls.js"
 import { listen, tell } from "./bus.js"
 import { button, element } from "./elements.js"
-import { isStoring, keep, kept } from "./kept.js"
 import { onKeys } from "./keys.js"
+import { browserStore } from "./stores.js"
 
 // One turn of a wheel brings one picture.
 const PAUSE = 700
@@ -33,8 +33,8 @@ const STEPS = [
 
 /** Return whether the page is opened for the first time, by its bare address.  Programs that drive a browser get the whole page. */
 function isFirstVisit() {
-  // Without local storage every visit would be the first.
-  return location.search === "" && !navigator.webdriver && isStoring && kept("introduced") === null
+  // Without a store every visit would be the first.
+  return location.search === "" && !navigator.webdriver && browserStore.works() && browserStore.get("introduced") === null
 }
 
 /** Render the introduction. @param {{el: HTMLElement}} part */
@@ -82,7 +82,7 @@ export function render({ el }) {
   listen({
     enter() {
       if (at >= 0) return
-      keep("introduced", "1")
+      browserStore.set("introduced", "1")
       el.append(box)
       next()
     },

@@ -3,7 +3,8 @@
 
 import { createAudience } from "../pictures/audience.js"
 import { listen, tell } from "./bus.js"
-import { addressOf, atMost, kept, newCode, openRoom, TAKEN } from "./room_socket.js"
+import { addressOf, atMost, newCode, openRoom, TAKEN } from "./room_socket.js"
+import { tabStore } from "./stores.js"
 
 const KEY = "own-room"
 
@@ -47,7 +48,7 @@ export function createRoom({ query }) {
   /** @param {string} reason */
   function forget(reason) {
     own = room = null
-    kept.set(KEY, null)
+    tabStore.set(KEY, null)
     endAudience()
     tell("room", { code: null, address: "", followers: 0, said: reason })
   }
@@ -57,7 +58,7 @@ export function createRoom({ query }) {
     const { key, followers, guesses: count, cloud } = JSON.parse(/** @type {string} */ (data))
     if (key !== undefined) {
       own.key = key
-      kept.set(KEY, JSON.stringify(own))
+      tabStore.set(KEY, JSON.stringify(own))
     }
     if (key !== undefined || followers !== undefined) {
       tell("room", { code: own.code, address: addressOf(own.code), followers: followers ?? 0, said: "" })
@@ -88,7 +89,7 @@ export function createRoom({ query }) {
   listen({
     client(given) {
       wanted = { ...wanted, lesson: given.lesson, step: Number(given.step), picture: given.large.split(",")[0] }
-      const text = kept.get(KEY)
+      const text = tabStore.get(KEY)
       if (text === null) return
       own = JSON.parse(text)
       connect()

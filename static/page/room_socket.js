@@ -1,6 +1,7 @@
 // @ts-check
 // The websocket of a room, see "rooms/messages.py", and what a tab keeps of its room.
 
+import { tabStore } from "./stores.js"
 import { answering } from "./websocket.js"
 
 // Close codes of "server/room_socket.py": the room is over, or not for this page.
@@ -10,6 +11,7 @@ const FULL = 1013
 // A device that slept longer than this connects anew: its connection may be dead without its knowledge.
 const SLEEP = 20_000
 const PAUSE = 1000
+const FOLLOWED = "followed-room"
 
 const CODE = /^[2-9A-HJ-NP-Z]{6}$/
 const LETTERS = "23456789ABCDEFGHJKLMNPQRSTUVWXYZ"
@@ -23,30 +25,14 @@ export const newName = () => Array.from(crypto.getRandomValues(new Uint8Array(16
 /** Return the address at which the audience follows. @param {string} code */
 export const addressOf = (code) => new URL(`r/${code}`, document.baseURI).href
 
-/** Session storage of the tab; does nothing if the browser forbids it. */
-export const kept = {
-  /** @param {string} key @returns {string | null} */
-  get(key) {
-    try {
-      return sessionStorage.getItem(key)
-    } catch {
-      return null
-    }
-  },
-  /** @param {string} key @param {string | null} value null removes it */
-  set(key, value) {
-    try {
-      if (value === null) sessionStorage.removeItem(key)
-      else sessionStorage.setItem(key, value)
-    } catch {
-      // The room works until the next reload.
-    }
-  },
-  /** Return the code of the room that this tab follows. */
-  get followed() {
-    const code = this.get("followed-room")
+/** The room that this tab follows. */
+export const followed = {
+  /** Return its code, or null. */
+  get code() {
+    const code = tabStore.get(FOLLOWED)
     return code !== null && CODE.test(code) ? code : null
   },
+  set code(code) { tabStore.set(FOLLOWED, code) },
 }
 
 /**

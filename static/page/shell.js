@@ -21,7 +21,7 @@ import { render as renderProgress } from "./progress.js"
 import { render as renderProse } from "./prose.js"
 import { render as renderStatus } from "./status.js"
 import { render as renderText } from "./text.js"
-import { kept } from "./room_socket.js"
+import { followed } from "./room_socket.js"
 import { NARROW, PHONE } from "./windows.js"
 
 /** Return the tabs of the columns. @param {Record<string, HTMLElement>} columns label → column */
@@ -79,7 +79,7 @@ function opener() {
 
 /** Return the link back to the lecture that this tab has left to play on its own. @param {ClientKeys} own */
 function rejoin({ embed }) {
-  const code = kept.followed
+  const { code } = followed
   return code === null || embed === "1" ? [] : [element("a.rejoin", { href: `r/${code}` }, "Back to the lecture")]
 }
 

@@ -1,5 +1,5 @@
 // @ts-check
-// Hides one layer of a picture at a time, for a step of a lesson.
+// Hides one layer of a picture at a time, with its label, for a step of a lesson.
 
 import { gallery } from "./gallery.js"
 
@@ -8,7 +8,9 @@ import { gallery } from "./gallery.js"
 /** @param {Layer | null} layer @returns {BokehModel[]} */
 function renderersOf(layer) {
   const plot = layer === null ? undefined : gallery.plots.find(({ model }) => model.name === layer.picture)
-  return plot === undefined ? [] : plot.model.renderers.filter(({ data_source: data }) => data?.name === layer.source)
+  // The label names the layer where it is.
+  const sources = [layer?.source, `${layer?.source}-label`]
+  return plot === undefined ? [] : plot.model.renderers.filter(({ data_source: data }) => sources.includes(data?.name))
 }
 
 /** Return the function that hides a layer of the scene on show, and shows the one that it has hidden before. */

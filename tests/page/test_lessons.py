@@ -23,9 +23,10 @@ LOGARITHMIC = """name => {
   const { model } = hess.plots.find(({ model }) => model.name === name)
   return [model.x_scale, model.y_scale].map(({ type }) => type === "LogScale")
 }"""
-# Visibility of a source's layers in a picture.
-SEEN = """([picture, source]) => hess.plots.find(({ model }) => model.name === picture).model.renderers
-  .filter((one) => one.data_source?.name === source).map((one) => one.visible)"""
+# Whether a source's layers in a picture and their labels are visible, [true, false] if only some are.
+SEEN = """([picture, source]) => [...new Set(
+  hess.plots.find(({ model }) => model.name === picture).model.renderers
+    .filter((one) => [source, `${source}-label`].includes(one.data_source?.name)).map((one) => one.visible))]"""
 
 
 def here(explorer):
