@@ -6,6 +6,7 @@ from pytest import approx
 
 from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework import points
 from hess_explorer.scenes.parts import density
 from hess_explorer.views.density import tones
 from hess_mechanics import section
@@ -54,7 +55,7 @@ def test_a_finer_level_gives_the_same_density_of_a_sea():
 def test_a_section_fills_in_stages_and_says_its_number_of_crossings(name, monkeypatch):
     few = FEW if "orbits" in SCENES[name].defaults() else {"count": 50.0}
     for most, stages in ((5e3, 1), (3e4, 3)):
-        monkeypatch.setattr(density, "_MOST", most)
+        monkeypatch.setattr(points, "_MOST", most)
         view = shown(name, **few)
         counts = np.sum(view.result.density.counts, axis=0)
         assert counts.sum() == 128 * 32 * (2**stages - 1)

@@ -9,6 +9,8 @@ import pytest
 from pytest import approx
 
 from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework import points
+from hess_explorer.views.layers import Axes
 from hess_explorer.views.text import digits
 from hess_mechanics import ReturnMap, check_body, level, lyapunov_exponent, lyapunov_spectrum, solve
 from hess_mechanics.dynamics.birkhoff import rotation_number
@@ -63,11 +65,29 @@ def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_oth
         assert third < first + second
 
 
+def drawn_in(state, name):
+    """Columns of a layer of the diagram within its opening axes."""
+    plot = next(one for one in SCENE.views if one.name == "diagram")
+    (x0, y0), (x1, y1) = state.diagram.frame
+    return next(one for one in plot.layers if one.name == name).within(state, Axes((x0, x1), (y0, y1)))
+
+
 def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one():
     state, captions = complete(SCENE, "Period doubling", SEEN)
     found = state.diagram.cascade
+    # The diagram opens on the attractor, with the doublings in the middle, each with its value.
+    (x0, y0), (x1, y1) = state.diagram.frame
+    low, high = np.quantile(state.diagram.points("rising")[1], (0.0, 1.0))
+    assert y0 < low < high < y1 < y0 + 3.0 * (high - low)
+    shares = (found.values - x0) / (x1 - x0)
+    assert 0.2 < shares[0] < 0.5 < shares[-1] < 0.85
+    assert drawn_in(state, "flip-values")["text"] == [
+        f"{m}→{2 * m}: {digits(value)}" for m, value in zip((1, 2, 4, 8), found.values.tolist(), strict=True)
+    ]
     assert found.periods.tolist() == [1, 2, 4, 8]
-    assert "4 period doublings located. The first of period 1 at I₂₃ = −0.04983" in captions["diagram"]
+    assert re.search(
+        r"4 period doublings located. [\d,]+ points. The first of period 1 at I₂₃ = −0.04983", captions["diagram"]
+    )
     # The numbers of the words beside the pictures.
     assert found.values == approx([-0.0498281, 0.0873376, 0.1281912, 0.1376316], abs=6e-8)
     assert found.ratios == approx([3.357, 4.328], abs=6e-4)
@@ -158,6 +178,42 @@ LIGHT = {
     "h": 2.0,
 }
 """Few points, of a body whose doublings along I22 are wide apart."""
+
+
+def test_the_density_counts_the_points_of_scipy_and_a_window_counts_them_in_its_own_pixels(monkeypatch):
+    view = View(SCENE, LIGHT, seen=["diagram"])
+    state, found = view.result, view.result.density
+    (x0, y0), (x1, y1) = state.diagram.frame
+    assert f"{found.points:,} points. " in view.text["diagram"]
+    # As many as allowed, in 120 columns forward and back; nearly all lie in the picture.
+    asked = 2 * 120 * (20_000 // (2 * 120))
+    assert 0.97 * asked < found.points == sum(found.counts(way).sum() for way in found.forward) <= asked
+    assert len(view.data["diagram-rising"]["x"]) == 0
+    shaded = [np.asarray(view.data[f"diagram-density-{i}"]["image"][0]) for i in range(3)]
+    assert np.array_equal(
+        np.max(shaded, axis=0).ravel() > 0.0, sum(map(found.counts, state.density.forward)).ravel() > 0
+    )
+    # The last column: of period 2, SciPy's points in the same pixels.
+    value = x1 - 0.5 * (x1 - x0) / 120
+    body, E = replace(state, I22=value).body, state.poincare.E
+    place = next(one for one in reversed(state.diagram.branches["rising"][-1].places))[-1]
+    exact = image(body, E, place, 60)[-8:, 0]
+    rows = ((exact - y0) / (y1 - y0) * 512).astype(int)
+    assert set(np.flatnonzero(found.counts("rising")[:, -1] > 5)) <= {row + off for row in rows for off in (-1, 0, 1)}
+    half = View(SCENE, {**LIGHT, "window": f"{x0},{0.5 * (y0 + y1)};{x1},{y1}"}, seen=["diagram"]).result.density
+    assert half.points == sum(found.counts(way)[256:].sum() for way in ("rising", "falling"))
+    assert half.counts("rising").sum() > 0
+    # The branch of the orbit that doubles goes through the picture, though none is chosen.
+    (flip,) = (one for part in state.continuation.branches for one in part.bifurcations)
+    assert flip.value == approx(state.diagram.flips[0], abs=1e-8)
+    assert state.closed is None
+    # More stages with more points; a held slider shows the points themselves.
+    monkeypatch.setattr(points, "_MOST", 3e5)
+    more = View(SCENE, LIGHT, seen=["diagram"]).result.density
+    assert 0.97 * 5 * 49_000 < more.points < 3e5
+    held = View(SCENE, LIGHT, True, ["diagram"])
+    assert held.result.density.tones == ()
+    assert len(held.data["diagram-rising"]["x"]) > 0
 
 
 def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_doubles():
@@ -316,7 +372,7 @@ def test_a_motion_that_comes_to_a_saddle_focus_has_left_it_before():
 def test_a_click_on_a_branch_shows_that_orbit_and_the_mouse_is_told_what_it_is_over():
     values = {**LIGHT, "branch": "period 1"}
     view = View(SCENE, values, seen=SEEN)
-    x, y = 2.2801, 0.868
+    x, y = 2.2801, 0.844
     chosen = view.result.choose(x, y)
     assert chosen["I22"] == approx(x, abs=2e-3)
     body = type(view.result.body)(1.0, chosen["I22"], 0.6, 0.6, -1.0, -0.5, 0.7)
@@ -325,7 +381,7 @@ def test_a_click_on_a_branch_shows_that_orbit_and_the_mouse_is_told_what_it_is_o
     hover = view.result.continuation.about(x, y)
     assert re.match(r"I₂₂ = 2\.2[78]\d*: period 1, saddle with reflection, μ = −[\d.]+, −[\d.]+$", hover)
     assert float(hover.split("μ = −")[1].split(",")[0]) == approx(-found[0].real, rel=0.03)
-    assert view.result.continuation.about(2.126, 0.69).startswith("flip of period 1 at I₂₂ = 2.1260498 ± ")
+    assert view.result.continuation.about(2.126, 0.8).startswith("flip of period 1 at I₂₂ = 2.1260498 ± ")
     assert view.result.continuation.about(2.3, -2.0) == ""
     # The state that it chooses shows the orbit itself, though nothing stays there.
     after = View(SCENE, {**values, **chosen}, seen=SEEN)
@@ -377,7 +433,7 @@ def test_a_branch_folds_and_where_there_is_none_that_is_said():
 @pytest.mark.parametrize("scene", [SCENE, scenes()["ball-diagram"]], ids=lambda scene: scene.name)
 def test_volume_that_is_kept_is_said(scene):
     state, captions = complete(scene, "Equal: volume", SEEN, steps=30.0)
-    assert captions["diagram"].endswith("Volume is preserved: no attractors. One orbit for each value.")
+    assert captions["diagram"].endswith("Volume is preserved: no attractors. 19,800 points. One orbit for each value.")
     assert "Conservative: volume is preserved." in captions["section"]
     assert state.regime.kind.regime.divergence == 0.0
 

@@ -32,7 +32,6 @@ PRESETS = (
         along="h",
         first=2.4,
         last=3.0,
-        window="",
         chosen="2.5,1.5",
     ),
     Preset(
@@ -40,7 +39,6 @@ PRESETS = (
         **_ball(0.9, 1.3, -0.3, 0.2, 2.3, -1.5, -1.3, 1.1, 4.116),
         first=1.5,
         last=3.0,
-        window="",
         chosen="1.62191,0.01002",
         span=150.0,
     ),
@@ -50,7 +48,6 @@ PRESETS = (
         along="h",
         first=1.0,
         last=3.0,
-        window="",
         chosen="1,1.5",
     ),
 )
@@ -71,9 +68,8 @@ class BallDiagram(DiagramState):
     b3: float = parameter(ball.B3, 0.7, softbounds=(-2.0, 2.0))
     h: float = parameter(H_BALL, 2.72)
     along: str = parameter_of_diagram(tuple(ball.PARAMETERS), "𝒟")
-    first: float = like(DiagramState, "first", 1.34)
-    last: float = like(DiagramState, "last", 1.75)
-    window: str = like(DiagramState, "window", "1.34,-2.9;1.75,-2.65")
+    first: float = like(DiagramState, "first", 1.3)
+    last: float = like(DiagramState, "last", 1.7)
     chosen: str = like(DiagramState, "chosen", "-2.6813,0.9923")
 
     symbols: ClassVar[Mapping[str, str]] = ball.PARAMETERS

@@ -23,17 +23,19 @@ from hess_explorer.scenes.framework.parameters import (
     time_span,
 )
 from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS
+from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS, Closed
 from hess_explorer.scenes.framework.scene import Motion, State
 from hess_explorer.scenes.framework.solid_body import Solid, constrained_solid, solid_body
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.parts.branch import Continuation
+from hess_explorer.scenes.parts.diagram_density import DiagramDensity, diagram_density_layers
 from hess_explorer.scenes.parts.orbit import Orbit
 from hess_explorer.scenes.parts.orbit_diagram import (
     ANEW,
     BOUNDS,
     FARTHEST,
     FOLLOWED,
+    FORWARD,
     WAYS,
     OrbitDiagram,
     diagram_picture,
@@ -188,8 +190,12 @@ class DiagramState(State, ABC):
     @property
     def start(self) -> Start:
         """The initial state of the orbit on show: on the periodic orbit if its branch is shown."""
-        closed = self.continuation.closed
-        return self.diagram.start if closed is None else closed.state
+        return self.diagram.start if self.closed is None else self.closed.state
+
+    @property
+    def closed(self) -> Closed | None:
+        """The periodic orbit on show; None if none is requested, or none is found."""
+        return None if self.branch == NONE else self.continuation.closed
 
     @property
     def lasts(self) -> float:
@@ -206,6 +212,11 @@ class DiagramState(State, ABC):
     def diagram(self) -> OrbitDiagram:
         """The attractors over the parameter."""
         return OrbitDiagram(self, self.symbols)
+
+    @part
+    def density(self) -> DiagramDensity:
+        """The density of its points."""
+        return DiagramDensity(self.diagram, FORWARD)
 
     @part
     def continuation(self) -> Continuation:
@@ -260,8 +271,11 @@ class DiagramState(State, ABC):
 
     def _about_diagram(self) -> Caption:
         if self.branch == NONE:
-            return self.diagram.caption()
-        return self.continuation.caption or Caption(self.work.awaited("A periodic orbit is"))
+            return self.diagram.caption(self.density.said)
+        found = self.continuation.caption
+        if found is None:
+            return Caption(self.work.awaited("A periodic orbit is"))
+        return replace(found, numbers=f"{self.density.said}{found.numbers}".rstrip())
 
     def _about_turning(self) -> Caption:
         times = self.turned.times
@@ -305,8 +319,7 @@ def pictures(state: type[S], ball: bool = False) -> tuple[Picture[S], ...]:
     """Return the pictures: diagram with branch, body, section, reversal and, folded, Poisson sphere."""
 
     def closed(s: S) -> list[PeriodicOrbit]:
-        found = s.continuation.closed
-        return [] if found is None else [found.orbit]
+        return [] if s.closed is None else [s.closed.orbit]
 
     return (
         diagram_picture(
@@ -315,6 +328,8 @@ def pictures(state: type[S], ball: bool = False) -> tuple[Picture[S], ...]:
             caption=lambda s: s._about_diagram(),
             on_click=lambda s, x, y: s.choose(x, y),
             on_hover=lambda s, x, y: s.continuation.about(x, y),
+            shaded=lambda s: bool(s.density.tones),
+            under=diagram_density_layers(lambda s: s.density),
             over=branch.layers(
                 lambda s: s.continuation.branches, lambda s: s.diagram.side, lambda s: s.poincare.turns[s.diagram.side]
             ),

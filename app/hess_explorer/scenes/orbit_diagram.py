@@ -95,6 +95,7 @@ class SuslovDiagram(DiagramState):
     b3: float = like(DiagramState, "b3", 1.2)
     h: float = like(DiagramState, "h", 2.3)
     along: str = parameter_of_diagram(tuple(_PARAMETERS), "I₂₃")
+    last: float = like(DiagramState, "last", 0.2)
     chosen: str = like(DiagramState, "chosen", "0.7248,1.8925")
 
     symbols: ClassVar[Mapping[str, str]] = _PARAMETERS

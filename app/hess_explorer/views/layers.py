@@ -434,6 +434,9 @@ def image(
     return _layer(layer, _cells, data)
 
 
+_PAPER = {"background_fill_color": theme.PAPER, "background_fill_alpha": 0.75}
+
+
 def levels(name: str, data: Callable[[S], Sequence[float]]) -> Layer[S]:
     """Return a layer of dotted lines across the frame at given heights."""
 
@@ -453,9 +456,10 @@ def names(
     *,
     size: int = 16,
     above: int = 0,
+    on_paper: bool = False,
     within: Within[S] = None,
 ) -> Layer[S]:
-    """Return a layer of words at places or some pixels above: data(state) = [(x, y, word), …]."""
+    """Return a layer of words at places or some pixels above, on paper or not: data(state) = [(x, y, word), …]."""
     layer: Layer[S] = Layer(
         name,
         "text",
@@ -466,6 +470,7 @@ def names(
             "text_align": "center",
             "text_baseline": "bottom" if above else "middle",
             "y_offset": -above,
+            **(_PAPER if on_paper else {}),
         },
     )
     return _layer(layer, lambda value: _rows(layer.columns, value), data, within)
@@ -480,7 +485,7 @@ def label(layer: Layer[S]) -> Layer[S]:
         "text_font_style": "bold",
         "text_align": "center",
         "text_baseline": "middle",
-        **({"background_fill_color": theme.PAPER, "background_fill_alpha": 0.75} if own else {}),
+        **(_PAPER if own else {}),
     }
     return Layer(f"{layer.name}-label", "text", ("x", "y", "text"), style)
 

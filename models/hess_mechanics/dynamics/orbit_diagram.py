@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import groupby, pairwise
+from itertools import groupby
 from operator import itemgetter
 from typing import Protocol
 
@@ -57,6 +57,8 @@ _AHEAD = (0.25, 0.05, 0.01)
 _GROWTH = 4.669
 """Feigenbaum's δ; it only guides the search."""
 _POINTS = 120
+_UNSETTLED = 2
+"""Largest number of values without a period between an orbit and that of twice the period."""
 
 
 Whole = NDArray[np.int64]
@@ -261,6 +263,7 @@ def diagram_over(
 def doubling_seen(parts: Sequence[Diagram]) -> tuple[float, Array, float] | None:
     """Return the first doubling of the smallest period in a diagram, or None if no period doubles between neighbours.
 
+    Next to a doubling orbits settle slowly, so that a few values between may have no period.
     parts : the parts of the diagram, in order.  They are searched forward, and backward if nothing is found.
     The result is the value before the doubling, the points (m, d) there, and the last value in that direction.
     """
@@ -268,7 +271,12 @@ def doubling_seen(parts: Sequence[Diagram]) -> tuple[float, Array, float] | None
         one for part in parts for one in zip(part.values.tolist(), part.periods.tolist(), part.places, strict=True)
     ]
     for way in (known, known[::-1]):
-        steps = [(m, k) for k, ((_, m, _), (_, following, _)) in enumerate(pairwise(way)) if m and following == 2 * m]
+        periods = [m for _, m, _ in way]
+        steps = [
+            (m, k)
+            for k, m in enumerate(periods)
+            if m and next(filter(None, periods[k + 1 : k + 2 + _UNSETTLED]), 0) == 2 * m
+        ]
         if steps:
             m, k = min(steps)
             return way[k][0], way[k][2][-m:], way[-1][0]

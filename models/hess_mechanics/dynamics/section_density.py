@@ -1,8 +1,9 @@
-"""How often orbits visit the cells of a Poincaré section: pictures of millions of crossings."""
+"""How often orbits visit the cells of a section, or of an orbit diagram: pictures of millions of crossings."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,10 +12,11 @@ from numpy.typing import NDArray
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section import section_points
+from hess_mechanics.errors import ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["Visits", "visits"]
+__all__ = ["Visits", "visits", "visits_over"]
 
 _TURNS = 60.0
 """Time limit per crossing, in units of 1/ν times the slowness of the section."""
@@ -26,7 +28,8 @@ _TOGETHER = 8
 class Visits:
     """Crossings of some orbits, counted in the cells of a window.
 
-    counts : crossings (n, m) in each cell, rows of equal y; ends : the last crossing (k, d) of each orbit.
+    counts : crossings (n, m) in each cell, rows of equal y; ends : the last crossing (k, d) of each orbit, as a state
+    (`visits`) or as a place, NaN if there is none (`visits_over`).
     points : number of counted crossings, which are those within the window; drift : the largest drift of each integral.
     """
 
@@ -37,7 +40,7 @@ class Visits:
 
     def after(self, before: Visits) -> Visits:
         """Return these visits added to those of the same orbits before."""
-        drift = {name: max(value, before.drift[name]) for name, value in self.drift.items()}
+        drift = _larger(before.drift, self.drift)
         return replace(
             self, counts=frozen(self.counts + before.counts), points=self.points + before.points, drift=drift
         )
@@ -64,8 +67,7 @@ def visits(
     starts = np.asarray(starts, float)
     for first in range(0, len(starts), _TOGETHER):
         some = starts[first : first + _TOGETHER]
-        fastest = float(np.max(section.system.frequency(some.T, np.array(section.parameters))))
-        end = _TURNS * crossings * section.slowness / (fastest or 1.0)
+        end = _limit(section, some, crossings)
         found = section_points(section, some, section.surface, end if forward else -end, level, crossings, threads=1)
         for states in found.states:
             places = section.places_of(states[section.is_on(states)])
@@ -74,7 +76,67 @@ def visits(
             np.add.at(counts, at[:, 1] * cells[0] + at[:, 0], 1)
             points += len(within)
             ends.extend(states[-1:])
-        drift |= {name: max(value, drift.get(name, 0.0)) for name, value in found.drift.items()}
+        drift = _larger(drift, found.drift)
     return Visits(
         frozen(counts.reshape(cells[::-1])), frozen(np.array(ends).reshape(-1, starts.shape[1])), points, drift
     )
+
+
+def visits_over(
+    family: Callable[[float], PoincareSection],
+    values: Sequence[float],
+    side: int,
+    reach: tuple[float, float],
+    rows: int,
+    starts: Sequence[Sequence[float]] | Array,
+    skipped: int,
+    crossings: int,
+    forward: bool,
+    level: Accuracy,
+) -> Visits:
+    """Return the visits of one orbit at each value of a parameter, in a column of cells for each, on one core.
+
+    side, reach, rows : the coordinate that is counted, its range, and the number of cells there.
+    starts : places (n, k) of the orbits, NaN for none; skipped : crossings left out before `crossings` are counted.
+    Columns without motion are empty.  Raises `WorkLimit`.
+    """
+    low, high = reach
+    counts = np.zeros((rows, len(values)), np.uint32)
+    ends, points, drift = np.full((len(values), len(starts[0])), np.nan), 0, dict[str, float]()
+    for j, (value, start) in enumerate(zip(values, starts, strict=True)):
+        if not all(map(math.isfinite, start)):
+            continue
+        try:
+            section = family(value)
+            state, there = section.states_at(*np.array(start)[:, None])
+            if not there[0]:
+                continue
+            end = _limit(section, state, skipped + crossings)
+            found = section_points(
+                section, state, section.surface, end if forward else -end, level, skipped + crossings, threads=1
+            )
+        except WorkLimit:
+            raise
+        except ModelError:
+            # At this value there is no such body, or no motion.
+            continue
+        states = found.states[0]
+        places = section.places_of(states[section.is_on(states)])
+        ends[j] = places[-1] if len(places) else np.nan
+        y = places[skipped:, side]
+        within = y[(y >= low) & (y < high)]
+        np.add.at(counts[:, j], ((within - low) * (rows / (high - low))).astype(int), 1)
+        points += len(within)
+        drift = _larger(drift, found.drift)
+    return Visits(frozen(counts), frozen(ends), points, drift)
+
+
+def _limit(section: PoincareSection, starts: Array, crossings: int) -> float:
+    """Return the time limit of the orbits from some states."""
+    fastest = float(np.max(section.system.frequency(starts.T, np.array(section.parameters))))
+    return _TURNS * crossings * section.slowness / (fastest or 1.0)
+
+
+def _larger(one: Mapping[str, float], other: Mapping[str, float]) -> dict[str, float]:
+    """Return the larger drift of each integral."""
+    return {name: max(one.get(name, 0.0), other.get(name, 0.0)) for name in {**one, **other}}

@@ -41,11 +41,17 @@ class Work:
         self.dragging = dragging
         self.auto, self._settled = accuracy == AUTO, False
         self.chosen = STANDARD.name if self.auto else accuracy
-        self.todo: list[Task] = []
+        self._todo: list[Task] = []
+        self._refinements: list[Task] = []
         self.pieces = 0
         chosen = level(self.chosen)
         # While a slider is dragged, use the cheapest level that is right to half a pixel.
         self.level: Level = min(chosen, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order) if dragging else chosen
+
+    @property
+    def todo(self) -> list[Task]:
+        """The computations of missing results, in their order: refinements of pictures come last."""
+        return self._todo + self._refinements
 
     def settle(self, name: str) -> None:
         """Set the measured level of "auto"; until then it is `standard`."""
@@ -79,26 +85,27 @@ class Work:
         self.pieces += 1
         value = CACHE.peek(function, *arguments)
         if value is None:
-            self.todo.append(Task(function, arguments))
+            self._todo.append(Task(function, arguments))
         return cast("T | None", value)
 
     def known(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T | None:
         """Return the result if it is cached, else None."""
         return cast("T | None", CACHE.peek(function, *arguments))
 
-    def newest(self, chains: Sequence[Sequence[Task]]) -> list[Any]:
+    def newest(self, chains: Sequence[Sequence[Task]], last: bool = False) -> list[Any]:
         """Return the last cached result of each chain of tasks, or None, and add the tasks after it to `todo`.
 
-        Each task of a chain continues the one before.  The earlier ones need not be cached any more.
+        Each task of a chain continues the one before.  The earlier ones need not be cached any more.  With
+        `last`, all other computations come first.
         """
         found, waiting = [], []
         for chain in chains:
             known = ((i, CACHE.peek(task.function, *task.arguments)) for i, task in reversed([*enumerate(chain)]))
-            last, value = next(((i, value) for i, value in known if value is not None), (-1, None))
+            newest, value = next(((i, value) for i, value in known if value is not None), (-1, None))
             found.append(value)
-            waiting += [(i, task) for i, task in enumerate(chain) if i > last]
+            waiting += [(i, task) for i, task in enumerate(chain) if i > newest]
         self.pieces += sum(map(len, chains))
-        self.todo += [task for _, task in sorted(waiting, key=lambda one: one[0])]
+        (self._refinements if last else self._todo).extend(task for _, task in sorted(waiting, key=lambda one: one[0]))
         return found
 
     def soon(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T | None:

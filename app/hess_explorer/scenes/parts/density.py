@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,6 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import CACHE, Task
 from hess_explorer.scenes.framework.part import Part, Sectioned, Start
+from hess_explorer.scenes.framework.points import stages_of
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.framework.work import drift_status
@@ -33,8 +33,6 @@ _FIRST = 32
 """Crossings of each orbit in the first stage; each further stage has twice as many."""
 _STAGES = {"draft": 6, "standard": 8, "precise": 9, "reference": 10}
 """Stages by accuracy level: 1,044,480 crossings at `standard`."""
-_MOST = float(os.environ.get("HESS_EXPLORER_POINTS", "1e7"))
-"""Largest number of crossings, smaller on a server with many visitors."""
 _LEVEL = plan(Computation.SECTION, "draft").level
 """Level of the orbits: in a million crossings its drift stays below a pixel, and finer ones show the same density."""
 
@@ -92,7 +90,7 @@ class Density(Part[_Host]):
 
     @property
     def _stages(self) -> int:
-        return max(1, min(_STAGES[self.work.chosen], int(np.log2(_MOST / (_ORBITS * _FIRST) + 1.0))))
+        return stages_of(_ORBITS * _FIRST, _STAGES[self.work.chosen])[1]
 
     @property
     def points(self) -> int:

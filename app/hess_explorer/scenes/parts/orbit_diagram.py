@@ -19,7 +19,7 @@ from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.windows import Window, boxed, tidy_window, window_of
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.layers import Axes, Layer, Range, curves, dots
+from hess_explorer.views.layers import Axes, Layer, Range, curves, dots, names
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
@@ -27,10 +27,10 @@ from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, doubling_see
 from hess_mechanics.dynamics.parameter_diagram import diagram, doublings, nearest_place
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.errors import OutsideRegion
-from hess_mechanics.numerics.accuracy import Computation
+from hess_mechanics.numerics.accuracy import Computation, plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["ANEW", "BOUNDS", "FARTHEST", "FOLLOWED", "WAYS", "OrbitDiagram", "diagram_picture", "edges"]
+__all__ = ["ANEW", "BOUNDS", "FARTHEST", "FOLLOWED", "FORWARD", "WAYS", "OrbitDiagram", "diagram_picture", "edges"]
 
 _RISING, _FALLING, _BACKWARD = "rising", "falling", "backward"
 WAYS = {
@@ -38,6 +38,8 @@ WAYS = {
     "there and back": (_RISING, _FALLING),
     "there, and backward in time": (_RISING, _BACKWARD),
 }
+FORWARD = {_BACKWARD: False, _FALLING: True, _RISING: True}
+"""The direction of time of each way, in the order in which they are drawn."""
 FOLLOWED, ANEW = "where it was at the value before", "at the chosen place"
 FARTHEST = (-1e3, 1e3)
 BOUNDS = ((FARTHEST[0], -TURN), (FARTHEST[1], TURN))
@@ -46,6 +48,16 @@ _TOGETHER = 30
 _FEW = 30
 """Largest number of values while a slider is held."""
 _DOUBLINGS = 4
+_GLANCES = 12
+"""Values of the parameter from which the vertical range is taken."""
+_BOTH = 2.5
+"""Largest height of attractor and repeller together, in heights of the attractor, at which both are in sight."""
+_FEW_FAR = 0.1
+"""Share of these values that do not count."""
+_ROOM, _LEAST = 0.1, 0.01
+"""Room above and below, in heights of what is there, and at least in those of the section."""
+_TOP, _LINE = 0.06, 0.07
+"""Distance of the first name of a doubling from the top, and of one name from the next, in heights of the picture."""
 
 
 def edges(one: float, other: float) -> tuple[float, float]:
@@ -153,13 +165,15 @@ class OrbitDiagram(Part[_Host]):
 
     @property
     def begin(self) -> Begin | None:
-        """The start of the branch of a periodic orbit; None if no branch is requested."""
+        """The start of the branch of a periodic orbit: the requested one, or the one that doubles first, if any."""
+        at, place, period = self.at, self.place, PERIODS.get(self.host.branch)
         if self.host.branch == NONE:
-            return None
+            if self._doubling is None:
+                return None
+            at, places, _ = self._doubling
+            place, period = tuple(places[0].tolist()), len(places)
         (low, _), (high, _) = self.frame
-        return Begin(
-            self.family, self.at, self.place, PERIODS[self.host.branch], (min(low, self.at), max(high, self.at))
-        )
+        return Begin(self.family, at, place, period, (min(low, at), max(high, at)))
 
     @property
     def seen(self) -> Window:
@@ -168,9 +182,12 @@ class OrbitDiagram(Part[_Host]):
 
     @property
     def full(self) -> Window:
-        """The whole diagram."""
-        low, high = (-math.pi, math.pi) if self.host.shown == "ψ" else (0.0, math.pi)
-        return (self.host.first, low), (self.host.last, high)
+        """The whole diagram, cropped to the attractor; while a slider is held, the axes stay as they are."""
+        low, high = self.host.poincare.window[self.side]
+        ends = self.host.first, self.host.last
+        if not self.work.dragging:
+            low, high = self.work.get(_cropped, self.family, self.name, ends, self.place, self.side, (low, high))
+        return (ends[0], low), (ends[1], high)
 
     @cached_property
     def frame(self) -> Window:
@@ -253,16 +270,18 @@ class OrbitDiagram(Part[_Host]):
         return joined(parts).T
 
     @cached_property
-    def cascade(self) -> Cascade | str | None:
-        """The period doublings from the first one seen, or why none was located; None if unknown or none is seen."""
+    def _doubling(self) -> tuple[float, Array, float] | None:
+        """The first doubling seen, see `doubling_seen`; None if unknown or none is seen."""
         known = self.branches[_RISING]
         missing = sum(len(one.values) for one in known) < self.along_values.size
-        if missing or self.work.dragging or self.work.level.name == "draft":
+        return None if missing or self.work.dragging or self.work.level.name == "draft" else doubling_seen(known)
+
+    @cached_property
+    def cascade(self) -> Cascade | str | None:
+        """The period doublings from the first one seen, or why none was located; None if unknown or none is seen."""
+        if self._doubling is None:
             return None
-        seen = doubling_seen(known)
-        if seen is None:
-            return None
-        value, places, end = seen
+        value, places, end = self._doubling
         return self.work.later(
             doublings, self.family, self.name, value, tuple(map(tuple, places.tolist())), end, _DOUBLINGS
         )
@@ -280,14 +299,14 @@ class OrbitDiagram(Part[_Host]):
         value, place = found
         return {self.name: value, "chosen": written([place])}
 
-    def caption(self) -> Caption:
-        """Return the caption: progress, doublings, periods."""
+    def caption(self, points: str = "") -> Caption:
+        """Return the caption: progress, doublings, periods; points : their number in words."""
         known = sum(len(one.values) for way in self.branches.values() for one in way)
         asked = self.along_values.size * len(WAYS[self.host.ways])
         if known < asked:
             return Caption(self.work.awaited(), f"{known} of {asked} values are known.")
         if all(one.conservative.all() for one in self.branches[_RISING]):
-            return Caption("Volume is preserved: no attractors.", "One orbit for each value.")
+            return Caption("Volume is preserved: no attractors.", f"{points}One orbit for each value.")
         if isinstance(self.cascade, Cascade) and self.flips.size:
             ratios = self.cascade.ratios
             ratio = (
@@ -299,11 +318,11 @@ class OrbitDiagram(Part[_Host]):
                 else "One period doubling located."
             )
             period, place = self.cascade.periods[0], digits(self.flips[0])
-            return Caption(many, f"The first of period {period} at {self.host.along} = {place}{ratio}.")
+            return Caption(many, f"{points}The first of period {period} at {self.host.along} = {place}{ratio}.")
         periods = sorted({int(m) for one in self.branches[_RISING] for m in one.periods if m})
         if not periods:
-            return Caption("No periodic orbit is seen.")
-        return Caption(numbers=f"Periods seen: {', '.join(map(str, periods[:8]))}.")
+            return Caption("No periodic orbit is seen.", points.rstrip())
+        return Caption(numbers=f"{points}Periods seen: {', '.join(map(str, periods[:8]))}.")
 
     def status(self) -> Iterator[str]:
         """Yield the error of the doublings."""
@@ -314,6 +333,29 @@ class OrbitDiagram(Part[_Host]):
         """Yield the reason why a doubling could not be located."""
         if self.asked("cascade") and isinstance(self.cascade, str):
             yield f"The doubling that is seen was not located: {self.cascade}"
+
+
+def _cropped(
+    family: Family, name: str, ends: Range, place: tuple[float, float], side: int, whole: Range
+) -> tuple[float, float]:
+    """Return the range of a coordinate with the attractor over the parameter, and the repeller if it is near."""
+    values, level = tuple(np.linspace(*ends, _GLANCES).tolist()), plan(Computation.SECTION, "draft").level
+    attractor, repeller = (
+        [one[:, side] for one in diagram(family, name, values, place, place, 200, 30, True, backward, level).places]
+        for backward in (False, True)
+    )
+    if not any(map(len, attractor)):
+        return whole
+    alone, both = _range(attractor), _range(attractor + repeller)
+    low, high = both if both[1] - both[0] < _BOTH * (alone[1] - alone[0]) else alone
+    room = max(_ROOM * (high - low), _LEAST * (whole[1] - whole[0]))
+    return max(whole[0], low - room), min(whole[1], high + room)
+
+
+def _range(parts: Sequence[Array]) -> tuple[float, float]:
+    """Return the range of the points at most values: at a few of them a motion may go far away for a moment."""
+    lows, highs = zip(*((one.min(), one.max()) for one in parts if len(one)), strict=True)
+    return float(np.quantile(lows, _FEW_FAR)), float(np.quantile(highs, 1.0 - _FEW_FAR))
 
 
 def _end(parts: list[Diagram]) -> tuple[float, ...] | None:
@@ -331,12 +373,30 @@ def diagram_picture(
     caption: Callable[[S], Caption],
     on_click: Callable[[S, float, float], Values],
     on_hover: Callable[[S, float, float], str],
+    shaded: Callable[[S], bool],
+    under: tuple[Layer[S], ...] = (),
     over: tuple[Layer[S], ...] = (),
 ) -> Plot[S]:
     """Return the picture of the diagram.
 
-    first : its horizontal range before the first state; over : layers on top.
+    first : its horizontal range before the first state; under, over : layers below and on top.
+    shaded : whether those below show the points of the diagram.
     """
+
+    def dotted(way: str) -> Callable[[S], Array | None]:
+        return lambda s: None if shaded(s) else of(s).points(way)
+
+    def named(s: S, axes: Axes) -> list[tuple[float, float, str]]:
+        located, (low, high) = of(s).cascade, axes.y
+        if not isinstance(located, Cascade):
+            return []
+        # Each name is lower than the one before, as the doublings come closer and closer.
+        heights = high - (high - low) * (_TOP + _LINE * np.arange(len(located.values)))
+        return [
+            (float(x), float(y), f"{m}→{2 * m}: {digits(float(x))}")
+            for x, y, m in zip(located.values, heights, located.periods, strict=True)
+            if axes.x[0] < x < axes.x[1]
+        ]
 
     def upright(values: Callable[[S], Sequence[float]]) -> Callable[[S, Axes], list[Array]]:
         return lambda s, axes: [np.array([[x, axes.y[0]], [x, axes.y[1]]]) for x in values(s)]
@@ -353,6 +413,7 @@ def diagram_picture(
         y=lambda s: (of(s).frame[0][1], of(s).frame[1][1]),
         on_box=lambda s, corners: boxed(corners, BOUNDS),
         layers=(
+            *under,
             curves(
                 "flips",
                 within=upright(lambda s: of(s).flips.tolist()),
@@ -361,13 +422,9 @@ def diagram_picture(
                 dash="dashed",
                 label="the period doubles",
             ),
-            dots("backward", lambda s: of(s).points(_BACKWARD), color=theme.UNSTABLE, size=3, label="backward in time"),
-            dots(
-                "falling", lambda s: of(s).points(_FALLING), color=theme.MAP, size=5, label="forward, parameter falling"
-            ),
-            dots(
-                "rising", lambda s: of(s).points(_RISING), color=theme.ORBIT, size=3, label="forward, parameter rising"
-            ),
+            dots("backward", dotted(_BACKWARD), color=theme.UNSTABLE, size=3, label="backward in time"),
+            dots("falling", dotted(_FALLING), color=theme.MAP, size=5, label="forward, parameter falling"),
+            dots("rising", dotted(_RISING), color=theme.ORBIT, size=3, label="forward, parameter rising"),
             curves(
                 "here",
                 within=upright(lambda s: [of(s).at]),
@@ -377,5 +434,6 @@ def diagram_picture(
                 tag="state on show",
             ),
             *over,
+            names("flip-values", within=named, size=13, on_paper=True),
         ),
     )
