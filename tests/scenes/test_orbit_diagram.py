@@ -222,7 +222,8 @@ def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_do
     (flip,) = (one for part in state.continuation.branches for one in part.bifurcations)
     (said, value) = view.derived("flip of period # at I₂₂ = # ± ")
     assert (said, value) == (1.0, approx(flip.value, abs=1e-7))
-    assert view.text["diagram"].split("\n")[1] == "Period 1, saddle with reflection here. 1 bifurcation on its branch."
+    said = r"Period 1, saddle with reflection here. [\d,]+ points. 1 bifurcation on its branch."
+    assert re.fullmatch(said, view.text["diagram"].split("\n")[1])
     attracts, repels = (view.curve(f"diagram-branch-{sign}") for sign in ("attracts", "repels"))
     assert attracts[0].min() == approx(2.1, abs=1e-6)
     assert attracts[0].max() == approx(flip.value, abs=1e-6) == approx(repels[0].min(), abs=1e-6)
@@ -426,7 +427,7 @@ def test_a_branch_folds_and_where_there_is_none_that_is_said():
         },
         seen=["diagram"],
     )
-    assert none.text["diagram"].split("\n")[1] == "No periodic orbit found from here."
+    assert none.text["diagram"].split("\n")[1] == "No periodic orbit found from here. 20,000 points."
     assert any("Newton's method finds no orbit of period 1" in note for note in none.report.notes)
 
 

@@ -52,7 +52,7 @@ _GLANCES = 12
 """Values of the parameter from which the vertical range is taken."""
 _BOTH = 2.5
 """Largest height of attractor and repeller together, in heights of the attractor, at which both are in sight."""
-_FEW_FAR = 0.1
+_FEW_FAR = 0.05
 """Share of these values that do not count."""
 _ROOM, _LEAST = 0.1, 0.01
 """Room above and below, in heights of what is there, and at least in those of the section."""
