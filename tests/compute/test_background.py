@@ -126,6 +126,33 @@ def test_pieces_are_begun_in_their_order_and_on_all_threads(gate):
     assert work.left == 9
 
 
+def test_added_pieces_follow_those_under_way(gate):
+    work = Background()
+    work.follow(tasks(2))
+    assert gate.begun.acquire(timeout=60.0)
+    work.add(tasks(3, first=2))
+    assert work.left == 5
+    gate.let(5)
+    wait_until(lambda: work.left == 0)
+    assert sorted(arguments for _, arguments in gate.calls) == [(n,) for n in range(5)]
+    # Also when nothing is under way any more.
+    work.add(tasks(1, first=9))
+    gate.let()
+    wait_until(lambda: gate.peek(square, 9) == 81)
+
+
+def test_refinements_are_begun_when_nothing_else_is_missing(free_gate):
+    work = Work()
+    work.newest([tasks(2, first=7)], last=True)
+    work.later(square, 3)
+    assert work.todo == tasks(1, first=3)
+    free_gate.get(square, 3)
+    again = Work()
+    again.newest([tasks(2, first=7)], last=True)
+    again.later(square, 3)
+    assert again.todo == tasks(2, first=7)
+
+
 def test_a_newer_choice_ends_the_older_work(gate):
     work = Background()
     work.follow(tasks(20))

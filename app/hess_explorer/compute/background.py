@@ -68,8 +68,20 @@ class Background:
         """Compute these tasks into the cache.  Earlier tasks are discarded, except running ones that are listed."""
         wanted = list(tasks)
         self._discard(wanted)
-        self._job = job = _Job(wanted)
-        for _ in range(min(THREADS, len(wanted))):
+        self._job = _Job(wanted)
+        self._run(len(wanted))
+
+    def add(self, tasks: Iterable[Task]) -> None:
+        """Compute these tasks too, after the others."""
+        with self._lock:
+            before = len(self._job.tasks)
+            self._job.tasks.extend(tasks)
+            added = len(self._job.tasks) - before
+        self._run(added)
+
+    def _run(self, count: int) -> None:
+        job = self._job
+        for _ in range(min(THREADS, count)):
             run_in_steps(lambda: self._step(job))
 
     def stop(self) -> None:

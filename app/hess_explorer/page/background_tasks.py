@@ -22,6 +22,7 @@ class BackgroundTasks:
         self.progress: tuple[int, int] | None = None
         self._followed: set[Task] = set()
         self._next: list[Task] | None = None
+        self._adds = False
         self._left = 0
         self._stopped = False
 
@@ -62,9 +63,10 @@ class BackgroundTasks:
         # Results may add tasks.
         fresh = [task for task in report.todo if task not in self._followed]
         # After a stop, a picture that enters the viewport does not start tasks again.
-        if not self._stopped and (not more or (ended and fresh and not self.background.error)):
+        if not self._stopped and (not more or (fresh and not self.background.error)):
             self._followed.update(fresh)
-            self._left = len(fresh)
+            self._adds = more
+            self._left = len(fresh) + (self._left if more else 0)
             self._next = fresh
             ended = False
         elif not more:
@@ -80,5 +82,5 @@ class BackgroundTasks:
     def start(self) -> None:
         """Start the tasks after the response has been sent; they would delay it by holding the interpreter lock."""
         if self._next is not None:
-            self.background.follow(self._next)
+            (self.background.add if self._adds else self.background.follow)(self._next)
             self._next = None

@@ -50,8 +50,8 @@ class Work:
 
     @property
     def todo(self) -> list[Task]:
-        """The computations of missing results, in their order: refinements of pictures come last."""
-        return self._todo + self._refinements
+        """The computations of missing results, in their order: refinements of pictures once all others are there."""
+        return self._todo or self._refinements
 
     def settle(self, name: str) -> None:
         """Set the measured level of "auto"; until then it is `standard`."""
