@@ -20,6 +20,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.server import preview
 from hess_explorer.server.preview import KEPT, MOST, Preview, tags
 from hess_mechanics.errors import WorkLimit
+from support.asynchronous import finished
 
 
 class Head(HTMLParser):
@@ -125,7 +126,7 @@ def test_equal_states_are_drawn_once_and_a_busy_server_sends_a_fixed_picture(mon
         server.stop()
         return refused, made, failed
 
-    refused, made, failed = asyncio.run(run())
+    refused, made, failed = finished(run())
     assert set(made) == {("image/png", b"a card")}
     for kind, body in (refused, failed):
         assert kind == "image/jpeg"
