@@ -1,5 +1,5 @@
 // @ts-check
-// Plays a scene slowly when it is first shown, so that newcomers see what moves; the first touch ends it.
+// Plays a scene slowly when it has first been drawn whole, so that newcomers see what moves; the first touch ends it.
 //
 // It does not play if the user prefers reduced motion, in an embedded page, or in a lesson.
 
@@ -19,6 +19,8 @@ export function opening({ begin, end, isOwn }) {
   const begun = new Set()
   let isResting = false
   let isWaiting = false
+  // Motion takes the time of the browser, and on some machines that of the computation.
+  let isComputing = false
   let isReading = false
   // In the introduction the motion goes on under the hand.
   let isIntroducing = false
@@ -26,7 +28,9 @@ export function opening({ begin, end, isOwn }) {
   listen({
     introduce(names) { isIntroducing = names !== null },
     reading(on) { isReading = on },
+    progress(progress) { isComputing = progress !== null },
     painted() {
+      if (isComputing) return
       if (isWaiting && !isReading) begin()
       isWaiting = false
     },
