@@ -82,8 +82,9 @@ class Regime(Part[_Host]):
         if motion.volume_kept:
             return Caption(f"{kind}. Conservative: volume is preserved.")
         div = f"div = {digits(motion.divergence, 2)} ± {digits(motion.divergence_error, 1)}"
-        apart = f"{digits(found.dynamics.distance, 2)} ± {digits(found.dynamics.distance_error, 1)} apart"
-        return Caption(f"{kind}. Looks {found.dynamics.verdict}.", f"{div}; attractor and repeller {apart}.")
+        away = f"{digits(found.dynamics.distance, 2)} ± {digits(found.dynamics.distance_error, 1)} away"
+        # Short enough for four lines in a small cell.
+        return Caption(f"{kind}. Looks {found.dynamics.verdict}.", f"{div}; repeller {away}.")
 
 
 def few(found: Array) -> Array | None:
