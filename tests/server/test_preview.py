@@ -1,4 +1,4 @@
-"""What chats show for a link: the words and the picture of its state, whatever the link holds."""
+"""Previews of links: the words and the picture of a state, for any link."""
 
 import asyncio
 import io

@@ -1,4 +1,4 @@
-"""What chats and posts show for a shared link: title, description and picture of its state (Open Graph)."""
+"""Title, description and picture of a shared link, for chats and posts (Open Graph)."""
 
 from __future__ import annotations
 

@@ -145,12 +145,12 @@ class Basins(Part[_Host]):
 
     @property
     def known(self) -> bool:
-        """Whether every cell is known."""
+        """True if every cell is known."""
         return self.stage == _STAGES - 1
 
     @cached_property
     def found(self) -> Arrivals | None:
-        """Where the orbits of the cells (n, m) arrive and when; coarse until all stages are known."""
+        """The attractor and the time of arrival of each cell (n, m); coarse until all stages are known."""
         if self._what is None or self.stage < 0 or not self._what.attractors().count:
             return None
         return self.work.get(_cells, self._what, self.stage)
