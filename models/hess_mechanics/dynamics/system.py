@@ -7,9 +7,10 @@ floats, arrays, symbols and multiple-precision numbers; its kernels are derived 
 from __future__ import annotations
 
 import importlib
+import math
 import pkgutil
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from threading import RLock
@@ -25,7 +26,7 @@ from hess_mechanics.numerics.jit import derived_kernel, inner
 from hess_mechanics.numerics.measured import nearby
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.numerics.taylor_kernels import orbit_integrator
-from hess_mechanics.numerics.tracing import Field, Recursion, trace
+from hess_mechanics.numerics.tracing import Field, Recursion, check, trace
 from hess_mechanics.numerics.variation_kernels import Variation, variation, variation_integrator
 
 __all__ = ["Body", "ParametrizedSystem", "Problem", "System", "in_units_of_time", "systems"]
@@ -62,38 +63,75 @@ def in_units_of_time(first: int, velocities: int = 2) -> Callable[[Array, Array,
     return rescale
 
 
-@dataclass(frozen=True)
+def _no_integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
+    return {}
+
+
+def _own_unit(y: Array, p: Array) -> Array | float:
+    return np.ones(np.shape(y)[1:])
+
+
+def _as_it_is(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
+    return y.copy(), p.copy()
+
+
+def _plain(p: Array) -> float:
+    return 1.0
+
+
+def _names(system: str, what: str, given: str | Iterable[str]) -> tuple[str, ...]:
+    """Return names given as a text or a sequence.  Raises `InvalidParameter`."""
+    found = tuple(given.replace(",", " ").split() if isinstance(given, str) else given)
+    if not all(isinstance(name, str) and name for name in found) or (what == "variables" and not found):
+        raise InvalidParameter(f'{system}: `{what}` must be names, such as "x y" or ("x", "y").')
+    return found
+
+
+def _numbers(what: str, names: tuple[str, ...], values: Any) -> tuple[float, ...]:
+    """Return one finite number for each name.  Raises `InvalidParameter`."""
+    try:
+        found = tuple(float(x) for x in values)
+    except (TypeError, ValueError):
+        found = (math.nan,)
+    if len(found) != len(names) or not all(map(math.isfinite, found)):
+        raise InvalidParameter(f"{what} must be {len(names)} finite numbers: {', '.join(names) or 'none'}.")
+    return found
+
+
+@dataclass(frozen=True, init=False)
 class System:
     """A system of differential equations ẏ = f(y, p).
+
+    Name, field and variables are enough; the rest has defaults, and is checked when given.
 
     Parameters
     ----------
     name : str
         Identifier.
-    title : str
-        Name in words.
-    source : str
-        Equation numbers in the paper.
-    labels : tuple of str
-        Labels of these equations in the paper's LaTeX source.
-    variables : tuple of str
-        Names of the d components of y.
-    parameters : tuple of str
-        Names of the q components of p.
-    angular_velocities : int
-        Number of leading variables that scale with 1/time, as angular velocities and momenta do.
     field : callable
         The rates field(y, p), in plain arithmetic on sequences; it is traced, see `numerics.tracing`.
-    integrals : callable
+    variables : str or sequence of str
+        Names of the d components of y: a text such as "x y px py", or a sequence.
+    parameters : str, sequence of str or mapping of str to float, default none
+        Names of the q components of p.  A mapping also gives values, which become those of the example.
+    example : (sequence of float, sequence of float) or sequence of float, optional
+        A state and parameters to try, or the state alone.  By default 0.1, 0.2, … for the state, and 1 for parameters.
+    title : str, optional
+        Name in words.  By default the name.
+    source : str, optional
+        Equation numbers in the paper, or another citation.
+    labels : tuple of str, optional
+        Labels of these equations in the paper's LaTeX source.
+    integrals : callable, optional
         First integrals by name, integrals(y, p), in plain arithmetic on sequences.
-    frequency : callable
+    frequency : callable, optional
         A bound ν of every |ω|, frequency(y, p), for y of shape (d,) or (d, n).  Orbits are integrated in units of time
-        1/ν.
-    rescale : callable
+        1/ν.  Without it and `rescale`, the user's own units are kept: choose them so that states are O(1).
+    rescale : callable, optional
         States and parameters in units of time 1/ν, rescale(y, p, nu), for y of shape (d,) or (d, n).  It divides the
         leading variables by ν and `unit`, leaves the others, and scales p so that the motion stays the same.
-    example : (tuple of float, tuple of float)
-        A state and parameters to try.
+    angular_velocities : int, default 0
+        Number of leading variables that scale with 1/time, as angular velocities and momenta do.
     unit : callable, optional
         Scale unit(p) of the leading variables besides ν.  By default 1.
     tolerance : callable, optional
@@ -101,50 +139,120 @@ class System:
 
     Raises
     ------
+    InvalidParameter
+        If names, example or integrals do not fit the field.
+    NotTraceable
+        If the field cannot be traced.
     WrongScaling
-        If `rescale`, `angular_velocities` and `unit` do not fit the field.  This is checked at random points.
+        If `rescale`, `frequency`, `angular_velocities` and `unit` do not fit the field.  This is checked at random
+        points.
 
     Examples
     --------
     >>> from hess_mechanics import System, solve
-    >>> from hess_mechanics.dynamics.system import in_units_of_time
-    >>> pendulum = System(  # ẇ = −k sin θ, θ̇ = w, with s = sin θ, c = cos θ
-    ...     name="pendulum", title="A pendulum", source="", labels=(), variables=("w", "s", "c"), parameters=("k",),
-    ...     angular_velocities=1,
-    ...     field=lambda y, p: (-p[0] * y[1], y[0] * y[2], -y[0] * y[1]),
-    ...     integrals=lambda y, p: {"H": y[0] ** 2 / 2 - p[0] * y[2]},
-    ...     frequency=lambda y, p: (y[0] ** 2 + 4 * p[0]) ** 0.5,
-    ...     rescale=in_units_of_time(first=0, velocities=1),
-    ...     example=((0.5, 0.0, 1.0), (9.81,)))
-    >>> str(solve(*pendulum.example_motion, [1.0], "precise").status)
+    >>> lorenz = System(
+    ...     "lorenz", lambda y, p: (p[0] * (y[1] - y[0]), y[0] * (p[1] - y[2]) - y[1], y[0] * y[1] - p[2] * y[2]),
+    ...     variables="x y z", parameters={"sigma": 10.0, "rho": 28.0, "beta": 8 / 3})
+    >>> str(solve(lorenz.at(rho=24.0), (1.0, 1.0, 20.0), [1.0], "precise").status)
     'ok'
     """
 
     name: str
+    field: Field
+    variables: tuple[str, ...]
+    parameters: tuple[str, ...]
+    example: tuple[tuple[float, ...], tuple[float, ...]]
     title: str
     source: str
     labels: tuple[str, ...]
-    variables: tuple[str, ...]
-    parameters: tuple[str, ...]
-    angular_velocities: int
-    field: Field
     integrals: Callable[[Sequence[Any], Sequence[Any]], Mapping[str, Any]]
     frequency: Callable[[Array, Array], Array | float]
     rescale: Callable[[Array, Array, float], tuple[Array, Array]]
-    example: tuple[tuple[float, ...], tuple[float, ...]]
-    unit: Callable[[Array], float] = lambda p: 1.0
-    tolerance: Callable[[Array, Array, int, float], float] | None = None
+    angular_velocities: int
+    unit: Callable[[Array], float]
+    tolerance: Callable[[Array, Array, int, float], float] | None
 
-    def __post_init__(self) -> None:
-        if not 0 <= self.angular_velocities <= len(self.variables):
-            raise WrongScaling(
-                f"{self.title}: angular_velocities counts the leading variables that scale with 1/time, "
-                f"so it is from 0 to {len(self.variables)}."
-            )
+    def __init__(
+        self,
+        name: str,
+        field: Field,
+        variables: str | Sequence[str],
+        parameters: str | Sequence[str] | Mapping[str, float] = (),
+        example: Sequence[float] | tuple[Sequence[float], Sequence[float]] | None = None,
+        title: str = "",
+        source: str = "",
+        labels: Sequence[str] = (),
+        integrals: Callable[[Sequence[Any], Sequence[Any]], Mapping[str, Any]] = _no_integrals,
+        frequency: Callable[[Array, Array], Array | float] = _own_unit,
+        rescale: Callable[[Array, Array, float], tuple[Array, Array]] = _as_it_is,
+        angular_velocities: int = 0,
+        unit: Callable[[Array], float] = _plain,
+        tolerance: Callable[[Array, Array, int, float], float] | None = None,
+    ) -> None:
+        if not isinstance(name, str) or not name:
+            raise InvalidParameter(f'{name!r} is not the name of a system: give a text such as "henon-heiles".')
+        known = {
+            "name": name,
+            "title": title or name,
+            "field": field,
+            "variables": _names(name, "variables", variables),
+            "parameters": _names(name, "parameters", parameters),
+            "source": source,
+            "labels": tuple(labels),
+            "integrals": integrals,
+            "frequency": frequency,
+            "rescale": rescale,
+            "angular_velocities": angular_velocities,
+            "unit": unit,
+            "tolerance": tolerance,
+        }
+        for key, value in known.items():
+            object.__setattr__(self, key, value)
+        values = tuple(parameters.values()) if isinstance(parameters, Mapping) else (1.0,) * len(self.parameters)
+        object.__setattr__(self, "example", self._checked_example(example, values))
+        self._check_field()
         self._check_scaling()
+
+    def _checked_example(self, example: Any, values: Sequence[float]) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Return the example, completed by defaults.  Raises `InvalidParameter`."""
+        found = tuple((i + 1) / 10 for i in range(len(self.variables))) if example is None else tuple(example)
+        state, p = found if len(found) == 2 and np.ndim(found[0]) else (found, values)
+        return (
+            _numbers(f"{self.title}: the state of the example", self.variables, state),
+            _numbers(f"{self.title}: the parameters", self.parameters, p),
+        )
+
+    def _check_field(self) -> None:
+        """Record the field with symbols, and compute the integrals of the example."""
+        if len({*self.variables, *self.parameters}) < len(self.variables) + len(self.parameters):
+            raise InvalidParameter(f"{self.title}: each name may occur once among variables and parameters.")
+        for what in ("field", "integrals", "frequency", "rescale", "unit"):
+            if not callable(getattr(self, what)):
+                raise InvalidParameter(f"{self.title}: `{what}` must be a function of y and p.")
+        check(self.field, len(self.variables), len(self.parameters))
+        try:
+            found = dict(self.integrals(*self.example))
+        except (TypeError, ValueError, LookupError, ArithmeticError) as error:
+            raise InvalidParameter(
+                f'{self.title}: `integrals` must return first integrals by name, such as {{"E": …}}: {error}.'
+            ) from error
+        if not all(isinstance(key, str) and np.ndim(value) == 0 for key, value in found.items()):
+            raise InvalidParameter(f"{self.title}: `integrals` must return one number for each name, for one state.")
 
     def _check_scaling(self) -> None:
         """Compare states and rates at random points before and after `rescale`.  Raises `WrongScaling`."""
+        d = len(self.variables)
+        if isinstance(self.angular_velocities, bool) or self.angular_velocities not in range(d + 1):
+            raise WrongScaling(
+                f"{self.title}: angular_velocities counts the leading variables that scale with 1/time, "
+                f"so it is from 0 to {d}."
+            )
+        given = self.frequency is not _own_unit, self.rescale is not _as_it_is
+        if given[0] != given[1] or (self.angular_velocities and not given[1]):
+            raise WrongScaling(
+                f"{self.title}: `frequency` and `rescale` belong together, and `angular_velocities` to both: give "
+                "`frequency` and `rescale`, or none of the three."
+            )
         draw = np.random.default_rng(_SEED)
         state, parameters = (np.array(values, float) for values in self.example)
         for _ in range(_CHECKS):
@@ -277,7 +385,7 @@ class System:
     ) -> Callable[..., Any]:
         """Return the compiled `make(recursion)`; if `adjusts`, it applies the `tolerance` of the system first."""
         with _DERIVING:
-            name = f"{re.sub(r'[^0-9A-Za-z]', '_', self.name)}_{task}"
+            name = f"{re.sub(r'^(?=[0-9])|[^0-9A-Za-z]', '_', self.name)}_{task}"
             names = {"run": make(self.recursion)}
             passed = arguments
             if adjusts and self.tolerance is not None:
@@ -289,22 +397,36 @@ class System:
                 f"# The {task} of the system {self.name!r}, derived from its field.  The Taylor recursion:\n#\n"
                 f"{derived}\n\ndef {name}({arguments}):\n    return run({passed})\n"
             )
-            return derived_kernel(name, source, self.field.__module__, **names)
+            return derived_kernel(name, source, getattr(self.field, "__module__", __name__), **names)
 
-    def at(self, parameters: Sequence[float] | Array) -> ParametrizedSystem:
+    def at(self, parameters: Sequence[float] | Array | None = None, **values: float) -> ParametrizedSystem:
         """Return the system with values of its parameters.
 
         Parameters
         ----------
-        parameters : sequence of float, shape (q,)
-            Values of the parameters.
+        parameters : sequence of float, shape (q,), optional
+            Values of the parameters.  By default those of the example.
+        **values : float
+            Values of single parameters by name, which replace these.
 
         Returns
         -------
         ParametrizedSystem
             A `Body`.
+
+        Raises
+        ------
+        InvalidParameter
+            If there is no parameter of this name.
         """
-        return ParametrizedSystem(self, tuple(parameters))
+        found = tuple(self.example[1] if parameters is None else parameters)
+        for name, value in values.items():
+            if name not in self.parameters:
+                raise InvalidParameter(
+                    f"{self.title} has no parameter {name}: choose one of {', '.join(self.parameters) or 'none'}."
+                )
+            found = tuple(value if own == name else x for own, x in zip(self.parameters, found, strict=True))
+        return ParametrizedSystem(self, found)
 
     @property
     def example_motion(self) -> tuple[ParametrizedSystem, tuple[float, ...]]:
@@ -409,7 +531,7 @@ class Problem:
         if not (isinstance(getattr(body, "system", None), System) and hasattr(body, "parameters")):
             raise InvalidParameter(
                 f"{body!r} is not a body with equations of motion: give a SuslovBody, a PlaneBody, a QuarticBody, "
-                "a BallBody or a HeavyBody."
+                "a BallBody or a HeavyBody, or a System with its parameters, system.at(…)."
             )
         system = body.system
         try:

@@ -31,7 +31,7 @@ import numpy as np
 
 from hess_mechanics.numerics.unrolled import items
 
-__all__ = ["Field", "NotTraceable", "Recursion", "Symbol", "constant", "derivative", "trace"]
+__all__ = ["Field", "NotTraceable", "Recursion", "Symbol", "check", "constant", "derivative", "trace"]
 
 Field = Callable[[Sequence[Any], Sequence[Any]], Sequence[Any]]
 """field(y, p) → ẏ in plain arithmetic."""
@@ -102,6 +102,18 @@ def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> R
     variables, parameters : lengths of y and p; observed : number of expressions that it returns after its rates.
     Raises `NotTraceable` if the field uses anything but arithmetic.
     """
+    tape, rates = _record(field, variables, parameters, observed)
+    plain = _Series(tape, variables, multiplies_out=True).recursion(rates, parameters)
+    return _Series(tape, variables, multiplies_out=False).recursion(rates, parameters) if plain.stages else plain
+
+
+def check(field: Field, variables: int, parameters: int) -> None:
+    """Raise `NotTraceable` if the field cannot be traced, or does not return one rate for each variable."""
+    _record(field, variables, parameters, 0)
+
+
+def _record(field: Field, variables: int, parameters: int, observed: int) -> tuple[_Tape, list[_Node]]:
+    """Return the tape of a field, and the nodes that it returns."""
     tape = _Tape()
     y = tuple(Symbol(tape, tape.leaf("variable", i)) for i in range(variables))
     p = tuple(Symbol(tape, tape.leaf("parameter", i)) for i in range(parameters))
@@ -115,8 +127,7 @@ def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> R
         raise NotTraceable(
             f"This field has {variables} variables and returns {len(rates) - observed} rates: return one for each."
         )
-    plain = _Series(tape, variables, multiplies_out=True).recursion(rates, parameters)
-    return _Series(tape, variables, multiplies_out=False).recursion(rates, parameters) if plain.stages else plain
+    return tape, rates
 
 
 _ALLOWED = (

@@ -365,3 +365,55 @@ def test_unit_vectors_have_length_one_and_keep_their_direction(gamma):
     assert np.linalg.norm(unit) == approx(1.0, abs=1e-15)
     assert np.array(unit) * length == approx(np.array(gamma), rel=0, abs=1e-15 * length)
     assert (note is None) == (abs(length - 1) <= 1e-15)
+
+
+def henon_heiles(**given):
+    return System(
+        **{
+            "name": "henon-heiles",
+            "field": lambda y, p: (y[2], y[3], -y[0] - 2 * y[0] * y[1], -y[1] - y[0] ** 2 + y[1] ** 2),
+            "variables": "x y px py",
+            **given,
+        }
+    )
+
+
+def test_name_field_and_variables_are_enough():
+    system = henon_heiles()
+    assert (system.title, system.variables, system.parameters) == ("henon-heiles", ("x", "y", "px", "py"), ())
+    assert system.example == ((0.1, 0.2, 0.3, 0.4), ())
+    times = np.linspace(0.0, 10.0, 5)
+    found = solve(*system.example_motion, times, "reference")
+    assert np.max(np.abs(found.states - scipy_states(system, *system.example, times))) < 1e-9
+
+
+def test_parameters_have_values_by_name():
+    decay = System("decay", lambda y, p: (-p[0] * y[0] + p[1],), "x", {"k": 2.0, "c": 1.0}, example=(3.0,))
+    assert decay.example == ((3.0,), (2.0, 1.0))
+    assert decay.at().parameters == (2.0, 1.0)
+    assert decay.at(c=5.0).parameters == (2.0, 5.0)
+    assert decay.at((1.0, 2.0), k=4.0).parameters == (4.0, 2.0)
+    with raises(InvalidParameter, match="no parameter q: choose one of k, c"):
+        decay.at(q=1.0)
+
+
+@mark.parametrize(
+    ("wrong", "words"),
+    [
+        ({"name": ""}, "not the name of a system"),
+        ({"variables": ""}, "`variables` must be names"),
+        ({"variables": ("x", 1, 2, 3)}, "`variables` must be names"),
+        ({"parameters": "x"}, "each name may occur once"),
+        ({"parameters": {"k": np.nan}}, "the parameters must be 1 finite numbers: k"),
+        ({"example": (1.0, 2.0)}, "must be 4 finite numbers: x, y, px, py"),
+        ({"integrals": lambda y, p: 3}, "`integrals` must return first integrals by name"),
+        ({"integrals": lambda y, p: {"E": y}}, "one number for each name"),
+        ({"field": 3}, "`field` must be a function"),
+        ({"angular_velocities": 1}, "belong together"),
+        ({"frequency": lambda y, p: 1.0}, "belong together"),
+        ({"rescale": unscaled}, "belong together"),
+    ],
+)
+def test_what_does_not_fit_is_refused_when_a_system_is_made(wrong, words):
+    with raises(ModelError, match=words):
+        henon_heiles(**wrong)
