@@ -1,14 +1,18 @@
 """`hess-explorer sweep`: numbers, formats, stores; killed, interrupted and resumed runs; one-sentence errors."""
 
+import os
+import re
 import signal
 import subprocess
 import sys
 import time
+import types
 
 import pytest
+from distributed import LocalCluster
 
 from hess_explorer.__main__ import main
-from hess_explorer.sweep import read
+from hess_explorer.sweep import StoreStatus, read, store_status, sweep
 from hess_mechanics import systems
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.numerics.accuracy import PLANS, Computation
@@ -49,6 +53,96 @@ def test_a_store_is_kept_read_back_and_refused_to_others(answer, refusal, tmp_pa
     assert "--read can be combined only with --format and --out" in refusal(*SWEEP, "--read", store)
 
 
+def test_a_function_of_a_file_is_swept_and_written_as_a_table(answer, refusal, tmp_path):
+    file = tmp_path / "mine.py"
+    file.write_text(
+        "import collections\n"
+        "Both = collections.namedtuple('Both', 'sum product')\n"
+        "def both(x, y=2.0):\n    return Both(x + y, x * y)\n"
+    )
+    words = ["sweep", f"{file}:both", "--over", "x=1,3", "--set", "y=4", "--workers", "2"]
+    found = answer(*words)
+    assert (found["sum"], found["product"], found["x"]) == ([5.0, 7.0], [4.0, 12.0], [1.0, 3.0])
+    assert (found["quantity"], found["parameters"]) == ("both", {"y": 4.0})
+    assert "defines no function 'neither'" in refusal("sweep", f"{file}:neither", "--over", "x=1,3")
+    assert "cannot be read (No such file" in refusal("sweep", f"{file}x:both", "--over", "x=1,3")
+    assert "no parameter 'store' that --set can give" in refusal(*replaced(words, "--set", "store=1"))
+    file.write_text("1 / 0")
+    assert "stops with ZeroDivisionError" in refusal(*words)
+
+
+def test_parts_share_a_store_whose_status_says_what_is_missing(answer, refusal, tmp_path):
+    store = str(tmp_path / "rho.zarr")
+    one = answer(*SWEEP, "--part", "1/2", "--store", store)
+    assert one == answer("sweep", "--status", store)
+    assert (one["cells"], one["parts"], one["missing_parts"]) == (6, 2, "2")
+    assert 0 < one["missing"] < 6
+    assert answer(*SWEEP, "--part", "2/2", "--store", store)["missing"] == 0
+    assert answer("sweep", "--read", store)["status_counts"] == {"ok": 4, "no such motion": 1, "separatrix": 1}
+    assert "was begun in 2 parts, not 3" in refusal(*SWEEP, "--part", "1/3", "--store", store)
+    assert "need a store that they share" in refusal(*SWEEP, "--part", "1/3")
+    assert "--status can be combined only with --out" in refusal(*SWEEP, "--status", store)
+
+
+GUIDES = ROOT / "app/hess_explorer/docs/guides"
+
+
+def test_the_script_for_slurm_computes_a_sweep_as_plain_processes(tmp_path):
+    """Bash reads the lines for Slurm as comments; the variables are those of a job array."""
+    script = (GUIDES / "array.sbatch").read_text()
+    small = re.sub(r":\d+(?= )", ":12", script)
+    assert small != script
+    (tmp_path / "array.sbatch").write_text(small)
+    command = tmp_path / "hess-explorer"
+    command.write_text(f'#!/bin/sh\nexec {sys.executable} -m hess_explorer "$@"\n')
+    command.chmod(0o755)
+    known = {**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}", "SLURM_ARRAY_TASK_MAX": "3"}
+    known["PYTHONPATH"] = os.pathsep.join(filter(None, sys.path))
+
+    def jobs(*numbers, **more):
+        started = [
+            subprocess.Popen(
+                ["bash", "array.sbatch"],
+                cwd=tmp_path,
+                env={**known, "SLURM_ARRAY_TASK_ID": number, **more},
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+            )
+            for number in numbers
+        ]
+        for one in started:
+            _, err = one.communicate(timeout=300)
+            assert one.returncode == 0, err
+
+    jobs("1", "3")
+    assert store_status(tmp_path / "rho.zarr").missing_parts == (2,)
+    # Again by the numbers that the status names, as the guide says.
+    jobs("2", SLURM_ARRAY_TASK_MAX="2", PARTS="3")
+    assert store_status(tmp_path / "rho.zarr").missing == 0
+    found = read(tmp_path / "rho.zarr")
+    over = {"h": (-0.9, 2.0, 12), "f": (-1.5, 1.5, 12)}
+    assert found.rotation_number.equals(sweep("rotation-number", over, a=0.5).rotation_number)
+
+
+def test_the_script_for_dask_jobqueue_computes_a_sweep(tmp_path, monkeypatch, capsys):
+    """In place of jobs, processes of this machine: dask-jobqueue needs a queue."""
+
+    class OnThisMachine(LocalCluster):
+        def __init__(self, cores, processes, memory, walltime):
+            quiet = {"dashboard_address": None, "silence_logs": "ERROR"}
+            super().__init__(0, threads_per_worker=cores, host="127.0.0.1", protocol="tcp", processes=False, **quiet)
+
+        def scale(self, jobs):
+            super().scale(2)
+
+    monkeypatch.setitem(sys.modules, "dask_jobqueue", types.SimpleNamespace(SLURMCluster=OnThisMachine))
+    monkeypatch.chdir(tmp_path)
+    script = re.sub(r"\b(300|200)\)", "6)", (GUIDES / "jobqueue.py").read_text())
+    exec(compile(script, "jobqueue.py", "exec"), {"__name__": "__main__"})
+    assert "rotation_number" in capsys.readouterr().out
+    assert store_status(tmp_path / "rho.zarr") == StoreStatus(36, 0, 1, ())
+
+
 def test_quantities_and_their_parameters_are_listed(capsys):
     assert main(["sweep", "--list"]) == 0
     said = capsys.readouterr().out
@@ -75,11 +169,15 @@ LAMBDA = [
 
 
 def begun(store):
-    return len([path for path in (store / "status" / "c").rglob("*") if path.is_file() and path.suffix != ".partial"])
+    """Return the number of cells that are done."""
+    if not store.exists():
+        return 0
+    found = store_status(store)
+    return found.cells - found.missing
 
 
 def started(words, store, least):
-    """Start the command as a process and return when this many pieces are done."""
+    """Start the command as a process and return when this many cells are done."""
     with interruptible():
         process = subprocess.Popen(
             [sys.executable, "-m", "hess_explorer", *words, "--store", str(store)],
@@ -100,11 +198,9 @@ def test_a_sweep_that_is_killed_and_then_interrupted_goes_on_and_is_the_loop_by_
     first.send_signal(signal.SIGKILL)
     first.communicate(timeout=60)
     assert first.returncode == -signal.SIGKILL
-    kept = begun(store)
-    cells = read(store)
-    done = int((cells.status.values > 0).sum())
-    assert 0 < done < 64
-    second = started(LAMBDA, store, kept + 1)
+    done = int((read(store).status.values > 0).sum())
+    assert 0 < done == begun(store) < 64
+    second = started(LAMBDA, store, done + 1)
     second.send_signal(signal.SIGINT)
     out, err = second.communicate(timeout=60)
     assert second.returncode == 130, err
@@ -156,6 +252,7 @@ def test_ctrl_c_without_a_store_writes_what_is_done(capsys, monkeypatch, tmp_pat
         (replaced(SWEEP, "--over", "h=0:1"), "is not a range"),
         (replaced(SWEEP, "--over", "h=0:1:1000000"), "at most 1000000 rows: use --store FOLDER"),
         ([*replaced(SWEEP, "--over", "h=0:1:9000000"), "--store", "x"], "at most 10000000 are allowed"),
+        ([*SWEEP, "--part", "3"], "'3' is not a part; write it like 3/40"),
         ([*SWEEP, "--workers", "many"], "is not a whole number from 1"),
         ([*SWEEP, "--store", "/proc/nowhere/at/all"], "cannot be written"),
         (["sweep", "--list", "speed"], "There is no quantity"),

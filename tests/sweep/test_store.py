@@ -1,14 +1,19 @@
 """Stores: resumed after every kind of end, read back, and refused if they belong to another sweep."""
 
 import json
+import math
 import shutil
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+import xarray as xr
 
-from hess_explorer.sweep import Interrupted, OtherSweep, Outcome, StoreError, read, sweep, work
+from hess_explorer.sweep import QUANTITIES, Interrupted, OtherSweep, Outcome, StoreError, read, sweep, work
 from hess_explorer.sweep import run as running
+from hess_explorer.sweep import store as storing
 from hess_explorer.sweep import workers as working
+from hess_explorer.sweep.grid import SweepGrid
 
 TORI = {"h": (-1.2, 2.0, 12), "f": (0.0, 1.2, 9)}
 CYCLES = {"h": (0.5, 2.0, 6), "f": (0.0, 0.6, 4)}
@@ -63,39 +68,83 @@ def test_a_second_run_goes_on_where_the_first_ended(tmp_path, computed, name, ov
     assert read(tmp_path / "rho.zarr").identical(in_memory)
 
 
-def test_pieces_half_written_are_computed_again(tmp_path, computed, monkeypatch):
+def test_damaged_pieces_are_computed_again(tmp_path, computed, monkeypatch):
     monkeypatch.setattr(running, "_cells_of_a_piece", lambda *_: 4)
+    monkeypatch.setattr("hess_explorer.sweep.store._MOST_BOXES", 2)
     store = tmp_path / "cycles.zarr"
     whole = sweep("limit-cycles", CYCLES, a=0.5, store=store)
+    # Of the four files two have two pieces, and two have one.
     assert len(computed) == 6
+    assert len([path for path in (store / "status" / "c").rglob("*") if path.is_file()]) == 4
 
-    # The numbers of one piece are cut, those of one are away, of one a bit of the errors is wrong, of one the status is
-    # cut.
-    cut = store / "limit_cycles" / "c" / "2" / "0" / "0"
+    # The numbers of two pieces are cut, those of one are away; in one a bit of the errors is wrong, in one the status
+    # is cut.
+    cut = store / "limit_cycles" / "c" / "0" / "0" / "0"
     cut.write_bytes(cut.read_bytes()[:-7])
     with pytest.raises(StoreError, match="run the same sweep again"):
         read(store)
-    (store / "limit_cycles" / "c" / "2" / "1" / "0").unlink()
-    flipped = store / "error" / "c" / "1" / "1"
+    (store / "limit_cycles" / "c" / "1" / "0" / "0").unlink()
+    flipped = store / "error" / "c" / "0" / "1"
     content = bytearray(flipped.read_bytes())
-    content[-6] ^= 1
+    content[6] ^= 1
     flipped.write_bytes(bytes(content))
-    status = store / "status" / "c" / "0" / "0"
+    status = store / "status" / "c" / "1" / "1"
     status.write_bytes(status.read_bytes()[:5])
     # Leftovers of a killed writer.
     (status.parent / "0.5e1f.partial").write_bytes(b"\x28\xb5")
     again = sweep("limit-cycles", CYCLES, a=0.5, store=store)
     assert again.identical(whole)
-    assert len(computed) == 6 + 4
+    assert len(computed) == 6 + 5
 
 
-def test_a_store_that_was_not_whole_when_it_was_made_is_made_again(tmp_path):
-    (tmp_path / "rho.zarr.begun" / "h").mkdir(parents=True)
-    (tmp_path / "rho.zarr.begun" / "zarr.json").write_text("{")
+def test_what_is_left_of_a_store_that_was_killed_when_it_was_made_does_no_harm(tmp_path):
+    (tmp_path / "rho.zarr.begun-0" / "h").mkdir(parents=True)
+    (tmp_path / "rho.zarr.begun-0" / "zarr.json").write_text("{")
     (tmp_path / "rho.zarr").mkdir()
     found = tori(store=tmp_path / "rho.zarr")
     assert (found.status.values > 0).all()
-    assert not (tmp_path / "rho.zarr.begun").exists()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["rho.zarr", "rho.zarr.begun-0"]
+
+
+@pytest.mark.parametrize("name, over", [("rotation-number", TORI), ("limit-cycles", CYCLES)])
+def test_a_store_opens_with_xarray_without_a_warning_as_it_was_in_memory(tmp_path, name, over):
+    in_memory = sweep(name, over, a=0.5)
+    sweep(name, over, a=0.5, store=tmp_path / "found.zarr")
+    # A warning is an error here.
+    with xr.open_zarr(tmp_path / "found.zarr") as found:
+        assert found.identical(in_memory)
+        assert [*found.variables] == [*in_memory.variables]
+        assert [*found.attrs.items()] == [*in_memory.attrs.items()]
+
+
+def test_a_hundred_thousand_pieces_are_few_files():
+    what = QUANTITIES["rotation-number"]
+    grid = SweepGrid.of(what, {"h": (0.0, 2.0, 4000), "f": (0.0, 1.0, 2500)}, {"a": 0.5}, 10**7)
+    boxes = math.prod(grid.shape) // 100
+    for parts in (1, 40):
+        files = len(list(grid.boxes(storing._shards(grid, (10, 10), what.numbers, parts))))
+        assert 4 * parts <= files <= boxes // 50
+    # Large pieces are files of their own, and the parts of a small sweep have files of one piece.
+    assert storing._shards(grid, (1000, 500), what.numbers, 1) == (1000, 500)
+    assert storing._shards(grid, (2000, 625), what.numbers, 40) == (2000, 625)
+
+
+def test_two_runs_at_once_lose_nothing(tmp_path):
+    """Each piece is written by reading its file and writing it again."""
+    in_memory = tori()
+    what, store = QUANTITIES["rotation-number"], tmp_path / "rho.zarr"
+    grid = SweepGrid.of(what, TORI, {"a": 0.5}, 10**4)
+    boxes = list(grid.boxes((2, 1)))
+    storing.Store.create(store, what, grid, "precise", (2, 1))
+
+    def write(own):
+        run = storing.Store(store, what, grid)
+        for box in own:
+            run.write(box, work.compute(work.Chunk(what.name, "precise", work.version(), grid.pieces(box), grid.fixed)))
+
+    with ThreadPoolExecutor(2) as both:
+        list(both.map(write, (boxes[::2], boxes[1::2])))
+    assert read(store).identical(in_memory)
 
 
 def test_a_store_is_plain_zarr_that_says_what_it_is(tmp_path):
@@ -137,7 +186,7 @@ def test_the_store_of_another_sweep_is_refused_and_not_touched(tmp_path, change,
 
 def test_the_store_of_another_version_is_refused(tmp_path, monkeypatch):
     tori(store=tmp_path / "rho.zarr")
-    monkeypatch.setattr("hess_explorer.sweep.result.version", lambda: "9.9")
+    monkeypatch.setattr("hess_explorer.sweep.store.version", lambda: "9.9")
     with pytest.raises(OtherSweep, match=r"has version .*, not '9.9'"):
         tori(store=tmp_path / "rho.zarr")
 

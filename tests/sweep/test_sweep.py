@@ -160,10 +160,12 @@ def test_pieces_take_as_long_as_they_should(monkeypatch):
     grid = SweepGrid.of(what, {"h": (0.5, 2.0, 300), "f": (0.0, 0.2, 200)}, {"a": 0.5}, 10**6)
     # By that clock every trial takes half a second, also the first, of one cell.
     assert cost_of_a_cell(what, grid, level("draft")) == 0.5
-    assert running._cells_of_a_piece(what, grid, level("draft"), 1) == 4.0
+    assert running._cells_of_a_piece(what, grid, level("draft"), 1, 1) == 4.0
     monkeypatch.undo()
-    shape = grid.box_of(running._cells_of_a_piece(what, grid, level("draft"), 2))
+    shape = grid.box_of(running._cells_of_a_piece(what, grid, level("draft"), 2, 1))
     assert np.prod(shape) > 1000
+    # In 40 parts there are at least 160 pieces.
+    assert running._cells_of_a_piece(what, grid, level("draft"), 40, 40) <= 60_000 / 160
     boxes = list(grid.boxes((77, 41)))
     covered = np.zeros(grid.shape, int)
     for (a, b), (c, d) in boxes:

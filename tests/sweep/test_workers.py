@@ -2,6 +2,7 @@
 
 import os
 import signal
+import subprocess
 import threading
 import time
 from contextlib import suppress
@@ -12,6 +13,7 @@ import pytest
 from hess_explorer.sweep import WorkersLost, sweep
 from hess_explorer.sweep import run as running
 from hess_explorer.sweep import workers as working
+from hess_mechanics.errors import InvalidParameter
 from support.cluster import local_cluster
 from support.processes import interruptible
 
@@ -68,6 +70,37 @@ def test_workers_find_the_same_and_one_that_is_killed_is_no_loss(cluster, client
     # Another one has taken its place.
     client.wait_for_workers(2, timeout=60)
     assert set(client.run(os.getpid).values()) - set(before.values())
+
+
+def test_a_client_is_used_and_stays_open(cluster, client, pairs, alone):
+    def scaled(w1, I22=1.0):
+        return 2.0 * w1 * I22
+
+    assert motions(workers=client).identical(alone)
+    assert sweep(scaled, {"w1": [0.2, 0.3]}, workers=client).scaled.values.tolist() == [0.4, 0.6]
+    assert client.submit(sum, [1, 2]).result() == 3
+
+
+def test_a_scheduler_answers_over_tls(tmp_path, pairs, alone):
+    import dask
+    from distributed import LocalCluster, Security
+
+    certificate, key = str(tmp_path / "certificate.pem"), str(tmp_path / "key.pem")
+    words = ["req", "-x509", "-newkey", "rsa:2048", "-nodes", "-subj", "/CN=localhost", "-days", "2"]
+    subprocess.run(["openssl", *words, "-keyout", key, "-out", certificate], check=True, capture_output=True)
+    client = {"ca-file": certificate, "client.cert": certificate, "client.key": key}
+    roles = {
+        f"tls_{role}_{end}": file
+        for role in ("scheduler", "worker", "client")
+        for end, file in (("cert", certificate), ("key", key))
+    }
+    security = Security(tls_ca_file=certificate, require_encryption=True, **roles)
+    quiet = {"dashboard_address": None, "silence_logs": "ERROR"}
+    with LocalCluster(1, processes=False, host="tls://127.0.0.1", security=security, **quiet) as cluster:
+        with pytest.raises(InvalidParameter, match="set the certificates in Dask's configuration, or pass a Client"):
+            motions(workers=cluster.scheduler_address)
+        with dask.config.set({f"distributed.comm.tls.{name}": file for name, file in client.items()}):
+            assert motions(workers=cluster.scheduler_address).identical(alone)
 
 
 def children():

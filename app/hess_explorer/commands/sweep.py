@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import argparse
+import inspect
 import json
 import math
+import runpy
+from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from . import CommandError
-from .arguments import assigned, ends, integer, listed
+from .arguments import assigned, ends, integer, listed, shown
 from .arguments import number as any_number
 from .command import OUTPUT, Command, Options, flag, option, whole
 from .output import Answer, computing, show, write
@@ -18,7 +23,6 @@ from .output import Answer, computing, show, write
 if TYPE_CHECKING:
     import xarray as xr
 
-    from hess_explorer.sweep import Quantity
 
 __all__ = ["COMMAND"]
 
@@ -34,6 +38,27 @@ def _workers(text: str) -> str | int:
     if text == "all" or "://" in text:
         return text
     return integer(1, 10_000)(text)
+
+
+def _part(text: str) -> tuple[int, int]:
+    number, slash, parts = text.partition("/")
+    if not slash:
+        raise argparse.ArgumentTypeError(f"{shown(text)} is not a part; write it like 3/40")
+    return integer(1, 10_000)(number), integer(1, 10_000)(parts)
+
+
+def _function(text: str) -> Callable[..., object]:
+    """Return the function FILE.py:NAME."""
+    path, _, name = text.rpartition(":")
+    try:
+        found: Any = runpy.run_path(path).get(name)
+    except OSError as error:
+        raise CommandError(f"{shown(path)} cannot be read ({error.strerror}): choose another file.") from error
+    except Exception as error:
+        raise CommandError(f"{shown(path)} stops with {type(error).__name__}: {error}.") from error
+    if not callable(found):
+        raise CommandError(f"{shown(path)} defines no function {shown(name)}: write it like mine.py:energy.")
+    return cast("Callable[..., object]", found)
 
 
 def _once(pairs: list[tuple[str, Any]], option: str) -> dict[str, Any]:
@@ -55,8 +80,16 @@ def _run(options: Options) -> None:
             if options.quantity or options.over or options.set or options.store:
                 raise CommandError("--read can be combined only with --format and --out: remove the other options.")
             found = read(options.read)
+        elif options.status is not None:
+            if options.quantity or options.over or options.set or options.store:
+                raise CommandError("--status can be combined only with --out: remove the other options.")
+            _write_status(options, options.status)
+            return
         else:
             found = _swept(options)
+            if options.part is not None:
+                _write_status(options, options.store)
+                return
     table = options.store is None or options.format is not None or options.out is not None
     options.format = options.format or "json"
     _write(options, found, table)
@@ -70,10 +103,11 @@ def _swept(options: Options) -> xr.Dataset:
     if options.quantity is None:
         raise CommandError("A sweep needs a quantity: run hess-explorer sweep --list to see all of them.")
     over, fixed = _once(options.over, "--over"), _once(options.set, "--set")
-    what = quantity(options.quantity)
+    what = _function(options.quantity) if ":" in options.quantity else quantity(options.quantity).name
     for name in fixed:
-        # Check the name before it becomes a keyword argument of `sweep`, which has others.
-        what.parameter(name)
+        # It becomes a keyword argument of `sweep`, which has others.
+        if name in inspect.signature(sweep).parameters:
+            raise CommandError(f"{options.quantity} has no parameter {name!r} that --set can give: rename it.")
     rows = math.prod(values[2] if isinstance(values, tuple) else len(values) for values in over.values())
     if options.store is None and rows > _MOST_ROWS:
         raise CommandError(
@@ -81,10 +115,11 @@ def _swept(options: Options) -> xr.Dataset:
         )
     try:
         return sweep(
-            options.quantity,
+            what,
             over,
             level=options.accuracy,
             store=options.store,
+            part=options.part,
             workers=options.workers,
             progress=True,
             most_cells=options.most_cells or MAX_NUMBERS,
@@ -112,20 +147,29 @@ def _listed(name: str | None) -> str:
     return f"{one.name}\n    {one.symbol}: {one.title}, {one.units}\n    {one.doc}\n\n{''.join(rows)}"
 
 
+def _write_status(options: Options, store: Path) -> None:
+    """Write what is missing in a store."""
+    from hess_explorer.sweep import store_status
+
+    found = store_status(store)
+    options.format = "json"
+    # As `sbatch --array` takes it.
+    missing = ",".join(map(str, found.missing_parts))
+    write(options, Answer({}, {"store": str(store), **asdict(found), "missing_parts": missing}))
+
+
 def _write(options: Options, found: xr.Dataset, table: bool) -> None:
     """Write the table of a sweep, or only its facts."""
     from hess_explorer.sweep import Outcome
-    from hess_explorer.sweep.quantities import quantity
 
-    what = quantity(found.attrs["quantity"])
     status = found.status.values
     counts = {
         Outcome(code).words: int(count) for code, count in zip(*np.unique(status, return_counts=True), strict=True)
     }
     facts = {
-        "quantity": what.name,
-        "title": what.title,
-        "units": what.units,
+        "quantity": found.attrs["quantity"],
+        "title": found.attrs["title"],
+        "units": found[_variables(found)[0]].attrs["units"],
         "parameters": json.loads(found.attrs["parameters"]),
         "level": found.attrs["level"],
         "version": found.attrs["version"],
@@ -134,11 +178,16 @@ def _write(options: Options, found: xr.Dataset, table: bool) -> None:
         **{name: found.attrs[name] for name in ("link", "largest_error") if name in found.attrs},
         **({} if options.store is None else {"store": str(options.store)}),
     }
-    series = _series(what, found) if table else {}
+    series = _series(found) if table else {}
     write(options, Answer(series, facts))
 
 
-def _series(what: Quantity, found: xr.Dataset) -> dict[str, list[Any]]:
+def _variables(found: xr.Dataset) -> list[str]:
+    """Return the names of the variables with values."""
+    return [str(name) for name in found.data_vars if name not in ("status", "error")]
+
+
+def _series(found: xr.Dataset) -> dict[str, list[Any]]:
     from hess_explorer.sweep import Outcome
 
     status = found.status.values
@@ -151,11 +200,14 @@ def _series(what: Quantity, found: xr.Dataset) -> dict[str, list[Any]]:
     series: dict[str, list[Any]] = {
         str(name): axis.ravel().tolist() for name, axis in zip(found.status.dims, axes, strict=True)
     }
-    values = found[what.variable].values
-    columns = {what.variable: values}
-    if what.parts:
-        # A chart contains only one part.
-        columns = {f"{what.variable}_{part}": values[..., i] for i, part in enumerate(found.number.values.tolist())}
+    columns: dict[str, Any] = {}
+    for name in _variables(found):
+        values = found[name].values
+        if values.ndim > status.ndim:
+            # A chart contains only one part.
+            columns |= {f"{name}_{part}": values[..., i] for i, part in enumerate(found.number.values.tolist())}
+        else:
+            columns[name] = values
     if "error" in found:
         columns["error"] = found["error"].values
     for name, column in columns.items():
@@ -170,7 +222,12 @@ COMMAND = Command(
     "are saved in a folder, and the same command resumes an interrupted sweep; the table is printed only with "
     "--format.  Ctrl-C stops the sweep and keeps the finished parts.  Requires: pip install 'hess-explorer[sweep]'.",
     (
-        option("quantity", "quantity to compute, see --list", nargs="?", metavar="QUANTITY"),
+        option(
+            "quantity",
+            "quantity to compute, see --list; or a function of yours, FILE.py:NAME",
+            nargs="?",
+            metavar="QUANTITY",
+        ),
         flag("--list", "list all quantities, or the parameters of the given quantity"),
         option(
             "--over",
@@ -191,6 +248,13 @@ COMMAND = Command(
         option(
             "--store", "folder that saves the results (Zarr); an existing store is resumed", type=Path, metavar="FOLDER"
         ),
+        option(
+            "--part",
+            "compute only part k of n, counted from 1: the jobs of an array share the store",
+            type=_part,
+            metavar="K/N",
+        ),
+        option("--status", "tell what is missing in this store, without computing", type=Path, metavar="FOLDER"),
         option(
             "--read",
             "write the table of this store, or of a chart saved by the page, without computing",

@@ -4,7 +4,8 @@
 >>> sweep("cos-chi", over={"I11": (1.0, 3.0, 5)}).cos_chi.shape
 (5,)
 
-`QUANTITIES` lists the quantities.  Requires the extra "sweep": pip install 'hess-explorer[sweep]'.
+`QUANTITIES` lists the quantities; a function of your own is swept in the same way.  Requires the extra "sweep": pip
+install 'hess-explorer[sweep]'.
 """
 
 from hess_explorer.sweep.errors import (
@@ -17,8 +18,8 @@ from hess_explorer.sweep.errors import (
 from hess_explorer.sweep.progress import Progress
 from hess_explorer.sweep.quantities import QUANTITIES
 from hess_explorer.sweep.quantity import Outcome, Quantity
-from hess_explorer.sweep.result import read
 from hess_explorer.sweep.run import explain, sweep
+from hess_explorer.sweep.store import StoreStatus, read, store_status
 from hess_mechanics.errors import MissingLibrary
 
 __all__ = [
@@ -31,8 +32,10 @@ __all__ = [
     "Progress",
     "Quantity",
     "StoreError",
+    "StoreStatus",
     "WorkersLost",
     "explain",
     "read",
+    "store_status",
     "sweep",
 ]

@@ -37,25 +37,32 @@ def described(
 
     dimensions = tuple(axes)
     coordinates: dict[str, Any] = {name: (name, places, attrs) for name, (places, attrs) in axes.items()}
-    if parts:
+    together = bool(parts) and not what.separate
+    if together:
         coordinates[PART] = (PART, np.array(parts, object), {"long_name": what.doc})
-    variables = {
-        what.variable: (
-            (*dimensions, PART) if parts else dimensions,
-            values,
-            {"long_name": what.title, "symbol": what.symbol, "units": what.units, "description": what.doc},
-        ),
-        "status": (
-            dimensions,
-            status,
+    variables: dict[str, Any] = {
+        name: (
+            (*dimensions, PART) if together else dimensions,
+            own,
             {
-                "long_name": "how each cell ended",
-                "units": "1",
-                "flag_values": [int(one) for one in Outcome],
-                "flag_meanings": " ".join(one.words.replace(" ", "_") for one in Outcome),
+                "long_name": what.title if name == what.variable else name,
+                "symbol": what.symbol if name == what.variable else name,
+                "units": what.units,
+                "description": what.doc,
             },
-        ),
+        )
+        for name, own in zip(what.variables, what.columns(values), strict=True)
     }
+    variables["status"] = (
+        dimensions,
+        status,
+        {
+            "long_name": "how each cell ended",
+            "units": "1",
+            "flag_values": [int(one) for one in Outcome],
+            "flag_meanings": " ".join(one.words.replace(" ", "_") for one in Outcome),
+        },
+    )
     if errors is not None:
         variables["error"] = (dimensions, errors, {"long_name": f"estimated error: {what.error}", "units": what.units})
     return xr.Dataset(variables, coordinates, {"title": what.title, "quantity": what.name, **facts})

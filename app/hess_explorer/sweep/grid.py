@@ -14,7 +14,7 @@ from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import Parameter
 
-__all__ = ["HARD_LIMIT", "MAX_NUMBERS", "Axis", "Box", "SweepGrid", "expanded"]
+__all__ = ["HARD_LIMIT", "MAX_NUMBERS", "Axis", "Box", "Part", "SweepGrid", "boxes", "expanded", "size"]
 
 MAX_NUMBERS = 10_000_000
 """Default limit of the number of values of a sweep, which take 90 MB in memory or on disk."""
@@ -26,6 +26,9 @@ Axis = tuple[float, float, int] | Sequence[float] | Array
 
 Box = tuple[tuple[int, int], ...]
 """Half-open range of indices along each axis."""
+
+Part = tuple[int, int]
+"""(k, n): part k of n of a job array, counted from 1."""
 
 
 @dataclass(frozen=True)
@@ -73,6 +76,12 @@ class SweepGrid:
         """Return the parts of the axes in a box, by name."""
         return {name: values[low:high] for (name, values), (low, high) in zip(self.axes.items(), box, strict=True)}
 
+    def cell(self, index: int) -> dict[str, float]:
+        """Return all parameters of a cell, the last axis varying fastest."""
+        places = np.unravel_index(index, self.shape)
+        swept = {name: values[i].item() for (name, values), i in zip(self.axes.items(), places, strict=True)}
+        return {**swept, **self.fixed}
+
     def box_of(self, cells: float) -> tuple[int, ...]:
         """Return the shape of boxes with at most `cells` cells, by halving the longest side."""
         shape = list(self.shape)
@@ -83,11 +92,19 @@ class SweepGrid:
 
     def boxes(self, shape: Sequence[int]) -> Iterator[Box]:
         """Yield all boxes of this shape; the last one along an axis may be smaller."""
-        starts = [range(0, whole, side) for whole, side in zip(self.shape, shape, strict=True)]
-        for corner in product(*starts):
-            yield tuple(
-                (low, min(low + side, whole)) for low, side, whole in zip(corner, shape, self.shape, strict=True)
-            )
+        return boxes(tuple((0, whole) for whole in self.shape), shape)
+
+
+def boxes(outer: Box, shape: Sequence[int]) -> Iterator[Box]:
+    """Yield the boxes of this shape in a box; the last one along an axis may be smaller."""
+    starts = [range(*ends, side) for ends, side in zip(outer, shape, strict=True)]
+    for corner in product(*starts):
+        yield tuple((low, min(low + side, end)) for low, side, (_, end) in zip(corner, shape, outer, strict=True))
+
+
+def size(box: Box) -> int:
+    """Return the number of cells of a box."""
+    return math.prod(high - low for low, high in box)
 
 
 def expanded(pieces: Mapping[str, Array], fixed: Mapping[str, float]) -> CellArrays:

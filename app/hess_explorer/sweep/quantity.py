@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
 
@@ -145,6 +145,7 @@ class Quantity:
     turn : period of the values, for example 1 for rotation numbers; 0 if they are not periodic.
     needed : names of the parameters without a default.
     named : values that stand for categories, with their names, by part ("" for a scalar).
+    source : text of a function of the user, whose parts are variables of their own; None for a quantity of the table.
     """
 
     name: str
@@ -159,11 +160,26 @@ class Quantity:
     turn: float = 0.0
     needed: tuple[str, ...] = ()
     named: Mapping[str, Mapping[int, str]] = field(default_factory=dict)
+    source: str | None = None
 
     @property
     def variable(self) -> str:
         """The name of the variable in a Dataset."""
         return self.name.replace("-", "_")
+
+    @property
+    def separate(self) -> bool:
+        """True if each part is a variable of its own."""
+        return self.source is not None and bool(self.parts)
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """The names of all variables with values in a Dataset."""
+        return self.parts if self.separate else (self.variable,)
+
+    def columns(self, values: Array) -> Iterable[Array]:
+        """Return the values of each of the variables; values : (…) or (…, m)."""
+        return np.moveaxis(values, -1, 0) if self.separate else (values,)
 
     @property
     def numbers(self) -> int:

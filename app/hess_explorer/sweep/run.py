@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import json
-import math
 import signal
 import threading
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from types import FrameType
@@ -15,11 +14,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hess_explorer.sweep.errors import Interrupted, StoreError, WorkersLost
-from hess_explorer.sweep.grid import MAX_NUMBERS, Axis, Box, SweepGrid, expanded
+from hess_explorer.sweep.function import quantity_of, sendable
+from hess_explorer.sweep.grid import MAX_NUMBERS, Axis, Part, SweepGrid, expanded, size
 from hess_explorer.sweep.progress import Report, reporting
 from hess_explorer.sweep.quantities import quantity as named
 from hess_explorer.sweep.quantity import Outcome, Quantity, evaluate
-from hess_explorer.sweep.result import Memory, Storage, Store, opened, require_libraries
+from hess_explorer.sweep.result import Memory, Storage, require_libraries
+from hess_explorer.sweep.store import FILES, Store, opened
 from hess_explorer.sweep.work import Chunk, cost_of_a_cell, version
 from hess_explorer.sweep.workers import WorkerCount, crew
 from hess_mechanics.errors import InvalidParameter
@@ -37,6 +38,7 @@ _PIECES = 16
 """Pieces per worker, so that all workers finish at about the same time; fewer if they would be too short."""
 _RATE = 50.0
 """Maximum number of pieces per second for the scheduler and the writer."""
+_MOST_PARTS = 10_000
 _MOST_NUMBERS = 1_000_000
 """Maximum number of values of a piece, which take 8 MB."""
 
@@ -47,17 +49,20 @@ def seconds_of_a_piece(work: float, workers: int) -> float:
     return min(max(_LONGEST, least), max(_SHORTEST, least, work / (_PIECES * workers)))
 
 
-def _cells_of_a_piece(what: Quantity, grid: SweepGrid, accuracy: Level, workers: int) -> float:
+def _cells_of_a_piece(what: Quantity, grid: SweepGrid, accuracy: Level, workers: int, parts: int) -> float:
     cost = cost_of_a_cell(what, grid, accuracy)
-    return min(seconds_of_a_piece(cost * grid.cells, workers) / cost, _MOST_NUMBERS / what.numbers)
+    wanted = min(seconds_of_a_piece(cost * grid.cells, workers) / cost, _MOST_NUMBERS / what.numbers)
+    # Each part of a job array has several files, however cheap the cells are.
+    return wanted if parts == 1 else min(wanted, grid.cells / (FILES * parts))
 
 
 def sweep(
-    quantity: str,
+    quantity: str | Callable[..., object],
     over: Mapping[str, Axis],
     *,
     level: Accuracy = "precise",
     store: str | Path | None = None,
+    part: Part | None = None,
     workers: WorkerCount = None,
     progress: bool | Report | None = None,
     most_cells: int = MAX_NUMBERS,
@@ -68,8 +73,10 @@ def sweep(
 
     Parameters
     ----------
-    quantity : str
-        A name in `QUANTITIES`, which defines the parameters, their bounds and defaults.
+    quantity : str or callable
+        A name in `QUANTITIES`, which defines the parameters, their bounds and defaults.  Or your function: its
+        parameters are numbers given by name, and it returns a number or a named tuple of numbers, whose fields become
+        variables.  A parameter `level` receives the level.  The function is called once before the sweep begins.
     over : mapping of str
         The swept parameters: (low, high, count) for evenly spaced values with both ends, or a list of values.
     level : str or Level
@@ -77,9 +84,13 @@ def sweep(
     store : str or Path, optional
         Folder of a Zarr store that saves every finished piece.  The same call resumes an interrupted sweep.
         Simultaneous runs are safe but repeat work.
-    workers : None, "all", int or str
-        None computes in this thread; "all" starts a process per core; an integer is a number of processes; "tcp://…" is
-        the address of a Dask scheduler, whose workers need the same version of this package.
+    part : (int, int), optional
+        (3, 40) computes part 3 of 40, counted from 1: the jobs of an array share a store, and each one writes its own
+        files.
+    workers : None, "all", int, str or distributed.Client
+        None computes in this thread; "all" starts a process per core; an integer is a number of processes.  "tcp://…"
+        or "tls://…" is the address of a Dask scheduler, and a Client of Dask is used as it is; its workers need the
+        same version of this package.
     progress : bool or callable, optional
         True shows a progress bar; a function is called with a `Progress`.
     most_cells : int
@@ -93,7 +104,7 @@ def sweep(
     -------
     xarray.Dataset
         The values, their `status` (see `Outcome` and `explain`) and, if available, the estimated `error`.  On one kind
-        of processor the values do not depend on `store` and `workers`.
+        of processor the values do not depend on `store`, `part` and `workers`.
 
     Raises
     ------
@@ -118,21 +129,22 @@ def sweep(
     >>> found = sweep("rotation-number", over={"h": (1.2, 1.6, 3), "f": [0.1, 0.6]}, a=0.5)
     >>> found.rotation_number.dims, found.status.values.tolist()
     (('h', 'f'), [[1, 1], [1, 1], [1, 1]])
+    >>> def area(width, height=2.0):
+    ...     return width * height
+    >>> sweep(area, over={"width": [1.0, 3.0]}).area.values.tolist()
+    [2.0, 6.0]
     """
     require_libraries()
-    what, level = named(quantity), as_level_name(level)
+    level = as_level_name(level)
     accuracy = as_level(level)
+    what = named(quantity) if isinstance(quantity, str) else quantity_of(quantity, over, fixed, accuracy, most_cells)
     grid = SweepGrid.of(what, over, fixed, most_cells)
     path = None if store is None else Path(store)
-    begun = None if path is None else opened(path, what, grid, level)
-    kept: Storage | None = begun
-    todo: Iterable[Box] = ()
-    missing = grid.cells
-    if begun is not None:
-        todo = [box for box in grid.boxes(begun.shape) if not begun.has(box)]
-        missing = sum(map(_size, todo))
-        if not missing:
-            return begun.dataset()
+    parts = _parts(part, path)
+    kept: Storage | None = None if path is None else opened(path, what, grid, level, parts)
+    todo = [] if kept is None else kept.missing(part)
+    if kept is not None and not todo:
+        return kept.dataset()
     try:
         with ExitStack() as stack:
             interrupted = stack.enter_context(_ctrl_c())
@@ -144,14 +156,20 @@ def sweep(
             if kept is None:
                 if interrupted.is_set():
                     raise KeyboardInterrupt("stopped before anything was computed.")
-                shape = grid.box_of(_cells_of_a_piece(what, grid, accuracy, hands.size))
-                kept = Memory(what, grid, level) if path is None else Store.create(path, what, grid, level, shape)
-                todo = grid.boxes(shape)
-            pieces = ((box, Chunk(what.name, level, version(), grid.pieces(box), grid.fixed)) for box in todo)
-            report = stack.enter_context(reporting(progress, grid.cells, grid.cells - missing))
+                shape = grid.box_of(_cells_of_a_piece(what, grid, accuracy, parts * hands.size, parts))
+                kept = (
+                    Memory(what, grid, level, shape)
+                    if path is None
+                    else Store.create(path, what, grid, level, shape, parts)
+                )
+                todo = kept.missing(part)
+            sent = sendable(what, workers in (None, 1))
+            pieces = ((box, Chunk(sent, level, version(), grid.pieces(box), grid.fixed)) for box in todo)
+            cells = kept.cells(part)
+            report = stack.enter_context(reporting(progress, cells, cells - sum(map(size, todo))))
             for box, done in hands.run(pieces, stopped):
                 kept.write(box, done)
-                report(_size(box))
+                report(size(box))
         if interrupted.is_set():
             raise KeyboardInterrupt
     except KeyboardInterrupt as error:
@@ -167,8 +185,16 @@ def sweep(
     return kept.dataset()
 
 
-def _size(box: Box) -> int:
-    return math.prod(high - low for low, high in box)
+def _parts(part: Part | None, path: Path | None) -> int:
+    """Return the number of parts of a job array, 1 without one.  Raises `InvalidParameter`."""
+    if part is None:
+        return 1
+    number, parts = part
+    if not 1 <= number <= parts <= _MOST_PARTS:
+        raise InvalidParameter(f"Part {number} of {parts} does not exist: count from 1, up to {_MOST_PARTS} parts.")
+    if path is None:
+        raise InvalidParameter("The parts of a sweep need a store that they share: name its folder.")
+    return parts
 
 
 @contextmanager
@@ -209,7 +235,7 @@ def explain(found: xr.Dataset, **cell: float) -> str:
     Raises
     ------
     InvalidParameter
-        If the coordinates do not match the sweep.
+        If the coordinates do not match the sweep, or the sweep is one of a function of your own.
     StoreError
         If the Dataset is not a result of `sweep`.
     """
@@ -223,6 +249,10 @@ def explain(found: xr.Dataset, **cell: float) -> str:
         from hess_explorer.sweep.chart_file import chart_of
 
         return chart_of(found).why(*(cell[name] for name in axes))
+    if "source" in found.attrs:
+        raise InvalidParameter(
+            f"{found.attrs['quantity']} is a function of your own: call it with the values of the cell for the reason."
+        )
     what, accuracy = named(found.attrs["quantity"]), as_level(found.attrs["level"])
     fixed = json.loads(found.attrs["parameters"])
     grid = SweepGrid.of(what, {name: [cell[name]] for name in axes}, fixed, what.numbers)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import pickle
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from importlib import metadata
 
 import numpy as np
@@ -31,9 +32,12 @@ def version() -> str:
 
 @dataclass(frozen=True)
 class Chunk:
-    """A box of cells to compute: its parts of the axes, and all other inputs; a few kilobytes."""
+    """A box of cells to compute: its parts of the axes, and all other inputs; a few kilobytes.
 
-    quantity: str
+    quantity : its name; that of a function itself, or pickled for another process.
+    """
+
+    quantity: str | bytes | Quantity
     level: str
     version: str
     axes: Mapping[str, Array]
@@ -59,7 +63,13 @@ def compute(piece: Chunk) -> ChunkResult:
             f"A worker has version {version()} of hess-explorer, but the sweep needs {piece.version}: "
             "install the same version on all workers."
         )
-    what = quantity(piece.quantity)
+    match piece.quantity:
+        case str():
+            what = quantity(piece.quantity)
+        case bytes():
+            what = _unpickled(piece.quantity)
+        case _:
+            what = piece.quantity
     found = evaluate(what, expanded(piece.axes, piece.fixed), level(piece.level))
     shape = tuple(part.size for part in piece.axes.values())
     return ChunkResult(
@@ -67,6 +77,13 @@ def compute(piece: Chunk) -> ChunkResult:
         (found.errors.reshape(shape),) if what.error else (),
         found.status.reshape(shape),
     )
+
+
+@lru_cache(maxsize=1)
+def _unpickled(content: bytes) -> Quantity:
+    """Return the same object for all pieces, so that a function keeps what it has compiled."""
+    found: Quantity = pickle.loads(content)
+    return found
 
 
 _LONG_ENOUGH = 0.05

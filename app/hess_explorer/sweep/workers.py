@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import os
 import queue
+import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError, Future
 from contextlib import ExitStack, contextmanager
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, TypeAlias, TypeGuard
 
 from hess_explorer.sweep.errors import WorkersLost
 from hess_explorer.sweep.grid import Box
@@ -25,8 +26,9 @@ if TYPE_CHECKING:
 
 __all__ = ["WorkerCount", "Workers", "crew"]
 
-WorkerCount = str | int | None
-"""None for this thread, "all" for a process per core, a number of processes, or the address of a Dask scheduler."""
+WorkerCount: TypeAlias = "str | int | Client | None"
+"""None for this thread, "all" for a process per core, a number of processes, or the address or a client of a Dask
+scheduler."""
 
 Chunks = Iterable[tuple[Box, Chunk]]
 
@@ -135,7 +137,16 @@ def crew(workers: WorkerCount, stopped: Callable[[], bool]) -> Iterator[Workers]
             count = wanted
             yield _ExternalWorkers(stack.enter_context(processes(count)), lambda: count)
             return
-        client = _connected(stack, str(wanted), stopped)
+        if isinstance(wanted, str):
+            client = _connected(stack, wanted)
+        elif _is_client(wanted):
+            client = wanted
+        else:
+            raise InvalidParameter(
+                f"{wanted!r} are no workers: give a number, all, the address of a Dask scheduler, or a Client that is "
+                "not asynchronous."
+            )
+        _wait_for_a_worker(client, stopped)
         executor = client.get_executor(pure=False)
         stack.callback(executor.shutdown, wait=False)
         yield _ExternalWorkers(lambda piece: executor.submit(compute, piece), lambda: _threads(client))
@@ -148,11 +159,8 @@ def _threads(client: Client) -> int:
         raise _gone() from error
 
 
-def _connected(stack: ExitStack, address: str, stopped: Callable[[], bool]) -> Client:
-    """Return a client of the scheduler as soon as it has a worker.
-
-    Raises `InvalidParameter`, `MissingLibrary`, `WorkersLost`.
-    """
+def _connected(stack: ExitStack, address: str) -> Client:
+    """Return a client of a scheduler.  Raises `InvalidParameter`, `MissingLibrary`, `WorkersLost`."""
     if "://" not in address:
         raise InvalidParameter(
             f"{address!r} is not the address of a Dask scheduler: write it like tcp://host:8786, or all."
@@ -161,19 +169,40 @@ def _connected(stack: ExitStack, address: str, stopped: Callable[[], bool]) -> C
         from distributed import Client
     except ImportError as error:
         raise MissingLibrary("A cluster needs Dask: pip install 'hess-explorer[sweep]'.") from error
+    try:
+        return stack.enter_context(Client(address, timeout=_WAIT, set_as_default=False))
+    # Without certificates Dask raises these for tls://.
+    except (TypeError, RuntimeError) as error:
+        raise InvalidParameter(
+            f"{address} cannot be used ({error}): set the certificates in Dask's configuration, or pass a Client."
+        ) from error
+    except (OSError, TimeoutError, ValueError) as error:
+        raise _none_answered(address) from error
+
+
+def _is_client(workers: object) -> TypeGuard[Client]:
+    # A client exists only if Dask has been imported.
+    dask = sys.modules.get("distributed")
+    return dask is not None and isinstance(workers, dask.Client) and not workers.asynchronous
+
+
+def _wait_for_a_worker(client: Client, stopped: Callable[[], bool]) -> None:
+    """Wait until the scheduler has a worker, or until `stopped`.  Raises `WorkersLost`."""
     latest = time.monotonic() + _WAIT
     try:
-        client = stack.enter_context(Client(address, timeout=_WAIT, set_as_default=False))
         while not client.nthreads() and not stopped():
             if time.monotonic() > latest:
                 raise TimeoutError
             time.sleep(_LOOK)
     except (OSError, TimeoutError, ValueError) as error:
-        raise WorkersLost(
-            f"No Dask scheduler with a worker answered at {address} within {_WAIT:g} s: "
-            "start one with `dask scheduler`, and workers with `dask worker`."
-        ) from error
-    return client
+        raise _none_answered(client.scheduler.address) from error
+
+
+def _none_answered(address: str) -> WorkersLost:
+    return WorkersLost(
+        f"No Dask scheduler with a worker answered at {address} within {_WAIT:g} s: "
+        "start one with `dask scheduler`, and workers with `dask worker`."
+    )
 
 
 def _cores() -> int:

@@ -1,0 +1,181 @@
+"""Functions of the user: the same stores, workers and statuses as quantities of the table."""
+
+import functools
+import math
+import threading
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from hess_explorer.sweep import Interrupted, OtherSweep, Outcome, WorkersLost, explain, read, sweep
+from hess_explorer.sweep import run as running
+from hess_mechanics import circle_map
+from hess_mechanics.errors import InvalidParameter, NoField, WorkLimit
+
+OVER = {"x": (-1.0, 1.0, 7), "y": [0.5, 2.0, 3.0]}
+
+
+class Both(NamedTuple):
+    product: float
+    ratio: float
+
+
+def both(x, y, scale=2.0):
+    """Product and ratio.
+
+    More words.
+    """
+    return Both(scale * x * y, x / y)
+
+
+def product_of(x, y):
+    return x * y
+
+
+def test_fields_become_variables_and_a_number_one_of_the_name_of_the_function():
+    found = sweep(both, OVER)
+    x, y = np.linspace(-1.0, 1.0, 7), np.array([0.5, 2.0, 3.0])
+    assert list(found.data_vars) == ["product", "ratio", "status"]
+    assert np.array_equal(found["product"], 2.0 * x[:, None] * y)
+    assert np.array_equal(found["ratio"], x[:, None] / y)
+    assert (found["ratio"].dims, found.attrs["parameters"]) == (("x", "y"), '{"scale": 2.0}')
+    assert found["ratio"].attrs["description"] == "Product and ratio."
+    assert "return Both(" in found.attrs["source"]
+    single = sweep(product_of, OVER)
+    assert list(single.data_vars) == ["product_of", "status"]
+    assert np.array_equal(single.product_of, x[:, None] * y)
+
+
+def test_a_function_may_take_any_names_other_values_and_the_level():
+    def rotation(h, level, **others):
+        return circle_map(h=h, level=level, **others).rotation_number
+
+    tori = {"over": {"h": (1.2, 1.6, 3)}, "a": 0.5, "f": 0.3}
+    assert np.allclose(sweep(rotation, **tori).rotation, sweep("rotation-number", **tori).rotation_number)
+
+    def chosen(x, name="sin"):
+        return getattr(math, name)(x)
+
+    assert sweep(chosen, {"x": [0.5]}).chosen.item() == math.sin(0.5)
+    assert sweep(functools.partial(chosen, name="cos"), {"x": [0.5]}).chosen.item() == math.cos(0.5)
+
+
+@pytest.mark.parametrize("workers", [None, 2])
+def test_a_cell_without_a_number_has_a_status(workers):
+    def partial(x):
+        if x == 1.0:
+            raise NoField("No field at x = 1.")
+        if x == 2.0:
+            raise KeyError("a mistake")
+        if x == 3.0:
+            return math.nan
+        if x == 4.0:
+            return math.inf
+        return 1.0 / x if x != 5.0 else x / 0.0
+
+    found = sweep(partial, {"x": (0.0, 6.0, 7)}, workers=workers)
+    wanted = [
+        Outcome.BEYOND_RANGE,
+        Outcome.NO_FIELD,
+        Outcome.FAILED,
+        Outcome.NO_VALUE,
+        Outcome.BEYOND_RANGE,
+        Outcome.BEYOND_RANGE,
+        Outcome.OK,
+    ]
+    assert found.status.values.tolist() == wanted
+    assert found.partial.values[-1] == 1.0 / 6.0
+    with pytest.raises(InvalidParameter, match="a function of your own: call it"):
+        explain(found, x=1.0)
+
+
+def test_a_closure_runs_in_processes_and_a_run_that_was_stopped_goes_on(tmp_path, monkeypatch):
+    monkeypatch.setattr(running, "_cells_of_a_piece", lambda *_: 2)
+    scale = 3.0
+
+    def scaled(x, y):
+        return Both(scale * x, math.hypot(x, y))
+
+    whole = sweep(scaled, OVER)
+
+    def stop(now):
+        if now.done >= 5:
+            raise KeyboardInterrupt
+
+    with pytest.raises(Interrupted):
+        sweep(scaled, OVER, workers=2, store=tmp_path / "own.zarr", progress=stop)
+    assert 0 < (read(tmp_path / "own.zarr").status == 0).sum() < 21
+    seen = []
+    assert sweep(scaled, OVER, workers=2, store=tmp_path / "own.zarr", progress=seen.append).identical(whole)
+    assert seen[0].done >= 5
+    with xr.open_zarr(tmp_path / "own.zarr") as opened:
+        assert opened.identical(whole)
+        assert [*opened.variables] == [*whole.variables]
+
+
+def test_the_store_of_another_function_is_refused(tmp_path):
+    def own(x):
+        return x
+
+    sweep(own, {"x": [1.0, 2.0]}, store=tmp_path / "own.zarr")
+
+    def own(x):
+        return 2.0 * x
+
+    with pytest.raises(OtherSweep, match="another text of the function own"):
+        sweep(own, {"x": [1.0, 2.0]}, store=tmp_path / "own.zarr")
+    with pytest.raises(OtherSweep, match="has quantity 'own', not 'product_of'"):
+        sweep(product_of, {"x": [1.0, 2.0]}, y=1.0, store=tmp_path / "own.zarr")
+
+
+def refuses(function, over, said, **fixed):
+    with pytest.raises(InvalidParameter, match=said):
+        sweep(function, over, **fixed)
+
+
+def test_what_is_wrong_is_one_sentence():
+    x = {"x": [1.0, 2.0]}
+    refuses(math.hypot, x, r"hypot has no named parameters: wrap it, as in `def f\(x\): return hypot\(x\)`")
+    refuses(product_of, x, "product_of needs y")
+    refuses(product_of, {"z": [1.0]}, "product_of has no parameter 'z'; choose from x, y")
+    refuses(lambda x: "many", x, "value returns str: let it return a number or a named tuple of numbers")
+    refuses(lambda x: (x, x), x, "returns tuple")
+    refuses(lambda x: {}[x], x, r"failed at all cells that were tried; first: KeyError: 1\.0")
+    refuses(both, {"x": [1.0], "y": [1.0]}, "no parameter 'ratio'", ratio=1.0)
+    refuses(lambda x, status=1.0: Status(x), x, "returns 'status', the name of another variable")
+    with pytest.raises(WorkLimit, match="42 numbers"):
+        sweep(both, OVER, most_cells=30)
+
+
+class Status(NamedTuple):
+    status: float
+
+
+def test_a_function_that_cannot_be_sent_is_said():
+    lock = threading.Lock()
+
+    def locked(x):
+        with lock:
+            return x
+
+    assert sweep(locked, {"x": [1.0]}).locked.item() == 1.0
+    refuses(locked, {"x": [1.0]}, "locked cannot be sent to other processes", workers=2)
+
+
+def test_other_results_than_at_first_are_a_failed_cell():
+    def changes(x):
+        return x if x < 1.5 else Both(x, x)
+
+    assert sweep(changes, {"x": [1.0, 2.0]}).status.values.tolist() == [Outcome.OK, Outcome.FAILED]
+
+
+def test_a_function_whose_module_the_workers_lack_is_said(monkeypatch, tmp_path):
+    (tmp_path / "only_here.py").write_text("def own(x):\n    return x\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    from only_here import own
+
+    monkeypatch.undo()
+    with pytest.raises(WorkersLost, match="No module named 'only_here'"):
+        sweep(own, {"x": [1.0, 2.0]}, workers=2)
