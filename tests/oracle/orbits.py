@@ -10,6 +10,7 @@ from operator import mul
 import numpy as np
 
 from hess_mechanics.numerics.taylor_kernels import columns_of, convolution_source, expansion_source
+from hess_mechanics.numerics.tracing import FUNCTIONS
 from oracle.kept import kept
 
 
@@ -145,7 +146,7 @@ def uncompiled(recursion, number=None):
 
     number : makes one of these from the text of a constant, where a float would not do.
     """
-    functions = {"number": number}
+    functions = {"number": number, **FUNCTIONS}
     for source in (recursion.source, convolution_source(columns_of(recursion)), expansion_source(recursion)):
         exec(re.sub(r"\b\d+\.\d+(e[-+]?\d+)?", r"number('\g<0>')", source) if number else source, functions)
     return functions

@@ -19,6 +19,7 @@ enclose.  It says nothing about a body whose parameters are measured.
 
 from __future__ import annotations
 
+import ast
 import math
 import time
 from collections.abc import Callable, Sequence
@@ -34,7 +35,7 @@ from hess_mechanics.dynamics.orbit import checked_times
 from hess_mechanics.dynamics.polynomials import Along, Slope
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.balls import ArbBall, Enclosure, enclosure, rational, working
+from hess_mechanics.numerics.balls import BALL_FUNCTIONS, ArbBall, Enclosure, enclosure, rational, working
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.numerics.tracing import Recursion
@@ -196,11 +197,24 @@ def _cost(system: System, bits: int) -> float:
     return _terms(bits) ** 2 * (1.0 if system.recursion.is_quadratic else 3.0)
 
 
+class _Exact(ast.NodeTransformer):
+    """Replace numbers by balls, so that a quotient of numbers is enclosed; leave indices unchanged."""
+
+    def visit_Subscript(self, node: ast.Subscript) -> ast.AST:
+        return node
+
+    def visit_Constant(self, node: ast.Constant) -> ast.AST:
+        return ast.Call(ast.Name("arb", ast.Load()), [node], [])
+
+
 @cache
 def _functions(recursion: Recursion) -> dict[str, Callable[..., Any]]:
     """Return the functions of the recursion's source, not compiled, for any kind of numbers."""
-    namespace: dict[str, Any] = {}
-    exec(recursion.source, namespace)
+    from flint import arb
+
+    namespace: dict[str, Any] = {**BALL_FUNCTIONS, "arb": arb}
+    tree = ast.fix_missing_locations(_Exact().visit(ast.parse(recursion.source)))
+    exec(compile(tree, "<balls>", "exec"), namespace)
     return namespace
 
 
@@ -220,10 +234,17 @@ class _Walk:
         from flint import arb
 
         self.system, self.bits, self.terms, self.cost = system, bits, _terms(bits), _cost(system, bits)
-        self.centre = [arb(x) for x in state]
-        self.radius = arb(0)
         self.p = [arb(x) for x in parameters]
         self.scale = [float(x) for x in scale]
+        self.field, self.variables = system.field, len(state)
+        start = [arb(x) for x in state]
+        if system.recursion.functions:
+            # Functions of the state are variables of an arithmetic field; balls enclose them at the start.
+            self.field = _functions(system.recursion)["extended"]
+            start += _functions(system.recursion)["started"](tuple(start), tuple(self.p))
+            self.scale += [max(1.0, abs(float(x))) for x in start[self.variables :]]
+        self.centre = [x.mid() for x in start]
+        self.radius = _norm([x.rad() / size for x, size in zip(start, self.scale, strict=True)])
         self.t = Fraction(0)
         self.steps, self.work, self.spent = 0, 0.0, False
         self.last = math.inf
@@ -253,9 +274,9 @@ class _Walk:
                 radius = step.radius if gone else self.radius
                 y = [
                     one(arb(rational(gone))) + arb(0, (radius * size).abs_upper())
-                    for one, size in zip(step.series, self.scale, strict=True)
+                    for one, size in zip(step.series[: self.variables], self.scale, strict=False)
                 ]
-                width = max(2.0 * float(x.rad()) / size for x, size in zip(y, self.scale, strict=True))
+                width = max(2.0 * float(x.rad()) / size for x, size in zip(y, self.scale, strict=False))
                 if width > tolerance:
                     return found, widest
                 widest = max(widest, width)
@@ -323,7 +344,7 @@ class _Walk:
         from flint import arb, ctx
 
         delta = arb(length)
-        rates = self.system.field([Along(one, delta, self.terms) for one in along], self.p)
+        rates = self.field([Along(one, delta, self.terms) for one in along], self.p)
         defects = []
         for one, rate, size in zip(along, rates, self.scale, strict=True):
             known = rate if isinstance(rate, Along) else Along.number(rate, delta, self.terms)
@@ -352,7 +373,7 @@ class _Walk:
         from flint import arb, arb_mat
 
         n, scale = len(box), [arb(size) for size in self.scale]
-        rates = self.system.field([Slope.of(x, i, n) for i, x in enumerate(box)], self.p)
+        rates = self.field([Slope.of(x, i, n) for i, x in enumerate(box)], self.p)
         J = [
             [rate.slopes[j] * sign * scale[j] / scale[i] if isinstance(rate, Slope) else 0 * box[0] for j in range(n)]
             for i, rate in enumerate(rates)
@@ -377,7 +398,7 @@ def _norm(sizes: Sequence[ArbBall]) -> ArbBall:
 def _series(
     recursion: Recursion, y: Sequence[ArbBall], parameters: Sequence[ArbBall], terms: int
 ) -> list[list[ArbBall]]:
-    """Return the first Taylor coefficients of each variable, by the recursion in ball arithmetic."""
+    """Return the first Taylor coefficients of variables and functions y, by the recursion in ball arithmetic."""
     from flint import arb
 
     functions, zero = _functions(recursion), arb(0)
@@ -408,7 +429,7 @@ def _series(
             own.append(value)
         rates = functions["rates"](tuple(now), products(now), p, one)
         now = [rate / (k + 1) for rate in rates]
-    return series[: recursion.variables]
+    return series[: recursion.moving]
 
 
 # ---- an orbit judged by its tube ------------------------------------------------------------------------------------

@@ -18,8 +18,10 @@ from fractions import Fraction
 from typing import Any
 
 from hess_mechanics.errors import InvalidParameter, MissingLibrary, WorkLimit
+from hess_mechanics.numerics.tracing import FUNCTIONS
 
 __all__ = [
+    "BALL_FUNCTIONS",
     "ArbBall",
     "Enclosure",
     "ExactNumber",
@@ -55,6 +57,18 @@ def flint() -> Any:
 def has_flint() -> bool:
     """Return True if python-flint is installed."""
     return importlib.util.find_spec("flint") is not None
+
+
+def _of_balls(name: str) -> Callable[..., ArbBall]:
+    def call(*arguments: Any) -> ArbBall:
+        arb = flint().arb
+        return getattr(arb, name)(*map(arb, arguments))
+
+    return call
+
+
+BALL_FUNCTIONS = {name: _of_balls("__pow__" if name == "pow" else name) for name in FUNCTIONS}
+"""Functions of balls, by the names in the source of a recursion."""
 
 
 @contextmanager

@@ -34,15 +34,20 @@ def expansion_of_lanes(recursion: Recursion) -> Callable[..., Any]:
 
     q[product, lane] is scratch space.  Only for recursions without auxiliary series.
     """
-    m, n = len(recursion.pairs), recursion.variables
+    m, n = len(recursion.pairs), recursion.moving
     states = [items(f"c[k, {i}, {lane}]" for i in range(n)) for lane in range(LANES)]
     products = [items(f"q[{j}, {lane}]" for j in range(m)) for lane in range(LANES)]
     results = [f"c[k + 1, {i}, {lane}] = y{lane}[{i}] * s" for i in range(n) for lane in range(LANES)]
+    first = recursion.variables
+    given = [items(f"c[0, {i}, {lane}]" for i in range(first)) for lane in range(LANES)]
+    starts = [f"c[0, {first + j}, {lane}] = y{lane}[{j}]" for j in range(recursion.functions) for lane in range(LANES)]
     # All lanes are read before any is written, so that the compiler can vectorise the loop.
     return compiled(
         f"""
 def expand(c, q, parameters, order):
     p = ({items(f"parameters[{i}]" for i in range(recursion.parameters))})
+    {_for_lanes(lambda lane: f"y{lane} = started(({given[lane]}), p)") if starts else "pass"}
+    {"; ".join(starts) or "pass"}
     for k in range(order):
         convolve(c, q, k)
         s = 1.0 / (k + 1.0)
@@ -125,7 +130,7 @@ def ensemble_integrator(recursion: Recursion) -> Callable[..., Any]:
     `states` (orbits, d), at the times (n,), monotonic and all ≥ 0 or all ≤ 0, into `out` (orbits, n, d).
     It returns the total number of steps, or `STEP_LIMIT_REACHED` if an orbit took more than `max_steps`.
     """
-    n, m = recursion.variables, len(recursion.pairs)
+    n, m, moving = recursion.variables, len(recursion.pairs), recursion.moving
     expand = expansion_of_lanes(recursion)
     largest, values, add = compiled(f"""
 def largest(c, k, out):
@@ -155,7 +160,7 @@ def add(y, low, s, compensated):
 
     @part
     def integrate(states, parameters, times, order, tolerance, max_steps, out):
-        c = np.zeros((order + 1, n, LANES))
+        c = np.zeros((order + 1, moving, LANES))
         q = np.zeros((m, LANES))
         low = np.zeros((n, LANES))
         last = np.zeros(LANES)

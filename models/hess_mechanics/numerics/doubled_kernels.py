@@ -1,10 +1,8 @@
 # mypy: allow-untyped-defs
 """Taylor series in double-double arithmetic, from the same traced fields: the reference for measured errors.
 
-A number with 31 digits is the sum of two doubles, high + low, |low| at most half a unit in the last place of high.  The
-pair is stored as a complex number, so that arrays, tuples and assignments need no change.  The arithmetic is that of
-Dekker (1971) and Knuth (The Art of Computer Programming 2, 4.2.2).  It replaces every operation in the source of a
-`Recursion`.
+A number with 31 digits is a pair of doubles, stored as a complex number, so that arrays, tuples and assignments need no
+change.  The functions of `pairs_kernels` replace every operation and function in the source of a `Recursion`.
 """
 
 from __future__ import annotations
@@ -16,7 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from hess_mechanics.numerics.jit import as_written, part
+from hess_mechanics.numerics.jit import part
+from hess_mechanics.numerics.pairs_kernels import DOUBLED_FUNCTIONS, add, divide, multiply, subtract
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, step_size
 from hess_mechanics.numerics.tracing import Recursion
 from hess_mechanics.numerics.unrolled import compiled, items
@@ -25,53 +24,6 @@ __all__ = ["ORDER", "TOLERANCE", "doubled_integrator"]
 
 ORDER, TOLERANCE = 36, 1e-31
 """Order of the Taylor series, and tolerance in units in which the state is O(1)."""
-
-_SPLITTER = 134217729.0
-"""2^27 + 1: splits a double into two halves, whose products are exact."""
-
-
-@as_written
-def add(a, b):
-    """Return a + b, to 31 digits of the larger operand."""
-    total = a.real + b.real
-    part_of_b = total - a.real
-    low = (a.real - (total - part_of_b)) + (b.real - part_of_b)
-    low += a.imag + b.imag
-    high = total + low
-    return complex(high, low - (high - total))
-
-
-@as_written
-def subtract(a, b):
-    """Return a − b."""
-    return add(a, -b)
-
-
-@as_written
-def multiply(a, b):
-    """Return a · b."""
-    product = a.real * b.real
-    scaled = _SPLITTER * a.real
-    a_high = scaled - (scaled - a.real)
-    a_low = a.real - a_high
-    scaled = _SPLITTER * b.real
-    b_high = scaled - (scaled - b.real)
-    b_low = b.real - b_high
-    low = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
-    low += a.real * b.imag + a.imag * b.real
-    high = product + low
-    return complex(high, low - (high - product))
-
-
-@as_written
-def divide(a, b):
-    """Return a/b, by long division."""
-    first = complex(a.real / b.real, 0.0)
-    left = subtract(a, multiply(first, b))
-    second = complex(left.real / b.real, 0.0)
-    left = subtract(left, multiply(second, b))
-    return add(add(first, second), complex(left.real / b.real, 0.0))
-
 
 _OPERATIONS = {ast.Add: "add", ast.Sub: "subtract", ast.Mult: "multiply", ast.Div: "divide"}
 _NAMES = {"add": add, "subtract": subtract, "multiply": multiply, "divide": divide}
@@ -105,8 +57,9 @@ def _expansion(recursion: Recursion) -> Callable[..., Any]:
     steps[k] = unit of time/(k+1).  Auxiliary series that are still unknown are 0, so that products omit their terms.
     """
     tree = ast.fix_missing_locations(_Doubled().visit(ast.parse(recursion.source)))
-    functions = compiled(compile(tree, "<doubled>", "exec"), **_NAMES)
+    functions = compiled(compile(tree, "<doubled>", "exec"), **_NAMES, **DOUBLED_FUNCTIONS)
     n, known, pairs = recursion.variables, recursion.known, recursion.pairs
+    moving = recursion.moving
     y, q = items(f"c[k, {i}]" for i in range(known[-1])), items(f"q[{j}]" for j in range(len(pairs)))
     stages = "".join(
         f"""
@@ -136,14 +89,17 @@ def _expansion(recursion: Recursion) -> Callable[..., Any]:
     return compiled(
         f"""
 def expand(c, p, steps, inner, q):
-    {f"k = 0; p = p + constants(({y}), p)" if recursion.constants else "pass"}
+    k = 0
+    {f"found = started(({y}), p)" if recursion.functions else "pass"}
+    {"; ".join(f"c[0, {n + j}] = found[{j}]" for j in range(recursion.functions)) or "pass"}
+    {f"p = p + constants(({y}), p)" if recursion.constants else "pass"}
     for k in range(steps.size):
-        {"; ".join(f"c[k, {i}] = 0.0" for i in range(n, known[-1])) or "pass"}
+        {"; ".join(f"c[k, {i}] = 0.0" for i in range(moving, known[-1])) or "pass"}
         one = complex(1.0, 0.0) if k == 0 else complex(0.0, 0.0)
         inside(c, k, inner){stages}
         ends(c, inner, k, q)
         found = rates(({y}), ({q}), p, one)
-        {"; ".join(f"c[k + 1, {i}] = multiply(found[{i}], steps[k])" for i in range(n))}
+        {"; ".join(f"c[k + 1, {i}] = multiply(found[{i}], steps[k])" for i in range(moving))}
 """,
         inside=inside,
         ends=ends,

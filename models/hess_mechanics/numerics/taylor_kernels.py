@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from hess_mechanics.numerics.jit import inner, part
-from hess_mechanics.numerics.tracing import Recursion
+from hess_mechanics.numerics.tracing import FUNCTIONS, Recursion
 from hess_mechanics.numerics.unrolled import compiled, evaluation, items
 
 __all__ = [
@@ -43,7 +43,7 @@ FALL = 0.64
 @cache
 def parts(recursion: Recursion) -> dict[str, Callable[..., Any]]:
     """Return the compiled functions of the source of a recursion."""
-    return compiled(recursion.source)
+    return compiled(recursion.source, **FUNCTIONS)
 
 
 @cache
@@ -62,7 +62,7 @@ def expansion(recursion: Recursion) -> Callable[..., Any]:
 def expansion_source(recursion: Recursion) -> str:
     """Return the Python source of `expand`, which calls the functions of `recursion.source` and `convolve`."""
     pairs, known = recursion.pairs, recursion.known
-    variables = range(recursion.variables)
+    variables, moving = range(recursion.variables), range(recursion.moving)
     observed = range(recursion.observed)
 
     def keep(order: str, y: str, since: int, count: int) -> str:
@@ -95,26 +95,27 @@ def expansion_source(recursion: Recursion) -> str:
         )
 
     def seen(order: str) -> str:
-        return "; ".join(f"seen[{order}, {i}] = found[{recursion.variables + i}]" for i in observed) or "pass"
+        return "; ".join(f"seen[{order}, {i}] = found[{recursion.moving + i}]" for i in observed) or "pass"
 
     return f"""
 def expand(c, left, right, inverses, parameters{", seen" if observed else ""}):
     p = ({items(f"parameters[{i}]" for i in range(recursion.parameters))})
     y0 = ({items(f"c[0, {i}]" for i in variables)})
+    {"y0 = y0 + started(y0, p)" if recursion.functions else "pass"}
     {"p = p + constants(y0, p)" if recursion.constants else "pass"}
-    {keep("0", "y0", 0, recursion.variables)}
+    {keep("0", "y0", 0, recursion.moving)}
     if True:{stages("0", "y0", "1.0", first_products) or " pass"}
     found = rates(y0, ({first_products(known[-1])}), p, 1.0)
     {"; ".join(f"c[1, {i}] = found[{i}]" for i in variables)}
     {seen("0")}
-    y = ({items(f"found[{i}]" for i in variables)})
+    y = ({items(f"found[{i}]" for i in moving)})
     for k in range(1, inverses.size):
-        {keep("k", "y", 0, recursion.variables)}
+        {keep("k", "y", 0, recursion.moving)}
         s = convolve(left, right, k){stages("k", "y", "0.0", products)}
         q = ({products(known[-1])})
         found = rates(y, q, p, 0.0)
         {seen("k")}
-        y = ({items(f"found[{i}] * inverses[k]" for i in variables)})
+        y = ({items(f"found[{i}] * inverses[k]" for i in moving)})
         {"; ".join(f"c[k + 1, {i}] = y[{i}]" for i in variables)}
 """
 

@@ -14,8 +14,13 @@ Expressions in the parameters alone are computed once, and so is `constant(x)`, 
 that x does not change along a motion.  Expressions keep the form in which they were written, so that a common factor
 has the same round-off everywhere.
 
-A field may use only plain arithmetic.  Its expressions can be differentiated (`derivative`).  A field may return
-further expressions after its rates; their series are computed along with the motion.
+A function of the state, such as u = sin x, becomes a further variable, whose rate is arithmetic again: u̇ = cos(x) ẋ.
+Its value at the start of each step is computed by the function itself, so that it does not drift.  Hence kernels need
+functions at order 0 only.
+
+A field may use arithmetic and these functions, without conditions.  Its expressions can be differentiated
+(`derivative`).  A field may return further expressions after its rates; their series are computed along with the
+motion.
 """
 
 from __future__ import annotations
@@ -24,25 +29,66 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from operator import add, mul, sub, truediv
 from typing import Any, NoReturn
 
 import numpy as np
 
+from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.unrolled import items
 
-__all__ = ["Field", "NotTraceable", "Recursion", "Symbol", "check", "constant", "derivative", "trace"]
+__all__ = ["FUNCTIONS", "Field", "NotTraceable", "Recursion", "Symbol", "check", "constant", "derivative", "trace"]
 
 Field = Callable[[Sequence[Any], Sequence[Any]], Sequence[Any]]
-"""field(y, p) → ẏ in plain arithmetic."""
+"""field(y, p) → ẏ in arithmetic and `FUNCTIONS`."""
 
 
 _Number = int | float | np.integer | np.floating
-_ARITHMETIC: dict[str, Callable[[float, float], float]] = {"+": add, "-": sub, "*": mul, "/": truediv}
+_ARITHMETIC: dict[str, Callable[[Any, Any], Any]] = {"+": add, "-": sub, "*": mul, "/": truediv}
 
 
-class NotTraceable(TypeError):
-    """A field that is not made of sums, products, quotients and whole powers of its variables and parameters."""
+FUNCTIONS: dict[str, Callable[..., Any]] = {
+    "acos": math.acos,
+    "asin": math.asin,
+    "atan": math.atan,
+    "atan2": math.atan2,
+    "cos": math.cos,
+    "cosh": math.cosh,
+    "exp": math.exp,
+    "log": math.log,
+    "pow": math.pow,
+    "sin": math.sin,
+    "sinh": math.sinh,
+    "sqrt": math.sqrt,
+    "tan": math.tan,
+    "tanh": math.tanh,
+}
+"""Functions that a field may use, by the names in the source of a recursion."""
+
+_RATES: dict[str, Callable[..., Any]] = {
+    "acos": lambda u, x, dx: -dx / (1 - x * x).sqrt(),
+    "asin": lambda u, x, dx: dx / (1 - x * x).sqrt(),
+    "atan": lambda u, x, dx: dx / (1 + x * x),
+    "atan2": lambda u, y, x, dy, dx: (x * dy - y * dx) / (x * x + y * y),
+    "cos": lambda u, x, dx: -x.sin() * dx,
+    "cosh": lambda u, x, dx: x.sinh() * dx,
+    "exp": lambda u, x, dx: u * dx,
+    "log": lambda u, x, dx: dx / x.carried(),
+    "pow": lambda u, x, a, dx, da: a * (u / x.carried()) * dx + u * x.log() * da,
+    "sin": lambda u, x, dx: x.cos() * dx,
+    "sinh": lambda u, x, dx: x.cosh() * dx,
+    "sqrt": lambda u, x, dx: 0.5 * (dx / u),
+    "tan": lambda u, x, dx: (1 + u * u) * dx,
+    "tanh": lambda u, x, dx: (1 - u * u) * dx,
+    "carried": lambda u, x, dx: dx,
+}
+"""The rate of each function u of x from x and the rate of x, in arithmetic and functions.  `carried(x)` is x itself,
+followed as a variable of its own: a quotient then waits for fewer products."""
+
+
+class NotTraceable(InvalidParameter, TypeError):
+    """A field with conditions, or with functions that have no Taylor recursion here."""
 
 
 @dataclass(frozen=True)
@@ -54,8 +100,11 @@ class Recursion:
     pairs : indices into y of the two factors of each product.
     constants : number of values that are constant during a step; they follow the parameters in p.
     observed : number of series that the field returns after its rates.
+    functions : number of functions of the state, which follow the variables in y and the rates of these.
     source : Python source of `rates(y, q, p, one)` and, if needed, of `stage0(y, q, p, one)`, … and `constants(y, p)`;
         each returns a tuple.  one : the series of the number 1, which is 1 at order 0 and 0 at all others.
+        `started(y, p)` returns the functions at a state, and `extended(y, p)` the rates of variables and functions in
+        plain arithmetic.
     """
 
     variables: int
@@ -65,15 +114,21 @@ class Recursion:
     constants: int
     source: str
     observed: int = 0
+    functions: int = 0
+
+    @property
+    def moving(self) -> int:
+        """Number of series with a rate: variables and functions."""
+        return self.variables + self.functions
 
     @property
     def known(self) -> list[int]:
-        """Number of series known before the first stage and after each stage; the variables come first."""
-        return [self.variables + sum(self.stages[:i]) for i in range(len(self.stages) + 1)]
+        """Number of series known before the first stage and after each stage; those with a rate come first."""
+        return [self.moving + sum(self.stages[:i]) for i in range(len(self.stages) + 1)]
 
     @property
     def is_quadratic(self) -> bool:
-        """True if the recursion needs products of variables only."""
+        """True if the recursion needs products of variables and functions only."""
         return not self.stages and not self.constants
 
 
@@ -100,11 +155,15 @@ def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> R
     """Return the Taylor recursion of a field.
 
     variables, parameters : lengths of y and p; observed : number of expressions that it returns after its rates.
-    Raises `NotTraceable` if the field uses anything but arithmetic.
+    Raises `NotTraceable` if the field uses anything but arithmetic and `FUNCTIONS`.
     """
-    tape, rates = _record(field, variables, parameters, observed)
-    plain = _Series(tape, variables, multiplies_out=True).recursion(rates, parameters)
-    return _Series(tape, variables, multiplies_out=False).recursion(rates, parameters) if plain.stages else plain
+    tape, found = _record(field, variables, parameters, observed)
+    functions = tape.functions(found, variables)
+    rates = [*found[:variables], *functions.values(), *found[variables:]]
+    plain = _Series(tape, variables, [*functions], multiplies_out=True).recursion(rates, parameters)
+    if not plain.stages:
+        return plain
+    return _Series(tape, variables, [*functions], multiplies_out=False).recursion(rates, parameters)
 
 
 def check(field: Field, variables: int, parameters: int) -> None:
@@ -131,8 +190,9 @@ def _record(field: Field, variables: int, parameters: int, observed: int) -> tup
 
 
 _ALLOWED = (
-    "Use +, −, *, / and whole powers of numbers, variables and parameters only, without conditions, and unpack "
-    "as many variables and parameters as the system has."
+    "Use +, −, *, /, powers, and NumPy's sqrt, exp, log, sin, cos, tan, sinh, cosh, tanh, arcsin, arccos, arctan and "
+    "arctan2 of numbers, variables and parameters, without conditions, and unpack as many variables and parameters as "
+    "the system has."
 )
 
 
@@ -156,7 +216,8 @@ class _Tape:
 
     def __init__(self) -> None:
         self._nodes: dict[tuple[Any, ...], _Node] = {}
-        self._derivatives: dict[tuple[_Node, _Node], _Node] = {}
+        self._derivatives: dict[tuple[_Node, _Node | None], _Node] = {}
+        self._rates: Sequence[_Node] = ()
 
     def _node(self, operation: str, arguments: tuple[_Node, ...], value: Any, moves: bool, started: bool) -> _Node:
         key = (operation, *map(id, arguments), value)
@@ -186,7 +247,10 @@ class _Tape:
         if operation == "/" and b is zero:
             raise NotTraceable("This field cannot be traced: it divides by 0.")
         if a.operation == b.operation == "number":
-            return self.number(_ARITHMETIC[operation](a.value, b.value))
+            found = _ARITHMETIC[operation](a.value, b.value)
+            # 1/3 stays a quotient: its double would be wrong in arithmetic with more digits.
+            if found == _ARITHMETIC[operation](Fraction(a.value), Fraction(b.value)):
+                return self.number(found)
         if b is zero and operation in "+-":
             return a
         if a is zero and operation in "+-":
@@ -195,6 +259,11 @@ class _Tape:
             return zero
         if b is one and operation in "*/":
             return a
+        if operation == "/" and b.operation == "pow":
+            # The inverse is shared by all quotients, and costs no product.
+            return self.apply("*", a, self.power(b.arguments[0], self.negative(b.arguments[1])))
+        if operation == "*" and a is b and a.operation == "sqrt":
+            return a.arguments[0]
         if a is one and operation == "*":
             return b
         return self._node(operation, (a, b), None, a.moves or b.moves, a.started or b.started)
@@ -204,26 +273,64 @@ class _Tape:
             return self.number(-a.value)
         return a.arguments[0] if a.operation == "negative" else self._node("negative", (a,), None, a.moves, a.started)
 
-    def power(self, a: _Node, exponent: Any) -> _Node:
-        if not isinstance(exponent, int | np.integer):
-            raise NotTraceable(f"This field cannot be traced: {exponent!r} is not an integer exponent. {_ALLOWED}")
-        if exponent < 0:
-            return self.apply("/", self.number(1), self.power(a, -exponent))
-        if exponent < 2:
-            return a if exponent else self.number(1)
-        half = self.power(a, exponent // 2)
+    def power(self, a: _Node, exponent: _Node) -> _Node:
+        """Return a to the power of a number or another expression."""
+        n = exponent.value if exponent.operation == "number" else None
+        if a.operation in ("sqrt", "pow") and isinstance(n, int):
+            # A power of a power: r³ with r = √x costs no product.
+            inner = a.arguments[1] if a.operation == "pow" else self.number(0.5)
+            return self.power(a.arguments[0], self.apply("*", inner, exponent))
+        if n == 0.5:
+            return self.call("sqrt", a)
+        if exponent.moves:
+            return self.call("exp", self.apply("*", exponent, self.call("log", a)))
+        if not isinstance(n, int):
+            return self.call("pow", a, exponent)
+        if n < 0:
+            return self.apply("/", self.number(1), self.power(a, self.number(-n)))
+        if n < 2:
+            return a if n else self.number(1)
+        half = self.power(a, self.number(n // 2))
         square = self.apply("*", half, half)
-        return self.apply("*", square, a) if exponent % 2 else square
+        return self.apply("*", square, a) if n % 2 else square
 
-    def derivative(self, x: _Node, y: _Node) -> _Node:
-        """Return ∂x/∂y for a variable y."""
+    def call(self, function: str, *arguments: _Node) -> _Node:
+        """Return a function of expressions."""
+        if function == "carried" and arguments[0].operation in ("variable", *FUNCTIONS):
+            return arguments[0]
+        moves = any(argument.moves for argument in arguments)
+        # One of parameters only is computed once in each step.
+        return self._node(function, arguments, None, moves, not moves or any(one.started for one in arguments))
+
+    def functions(self, results: Sequence[_Node], variables: int) -> dict[_Node, _Node]:
+        """Return the functions of the state in a field that returns these results, with their rates."""
+        self._rates = results[:variables]
+        found: dict[_Node, _Node] = {}
+        waiting = list(results)
+        seen: set[_Node] = set()
+        while waiting:
+            node = waiting.pop()
+            if node in seen:
+                continue
+            seen.add(node)
+            if node.moves and node.operation in _RATES:
+                found[node] = self.derivative(node)
+                waiting.append(found[node])
+            else:
+                waiting += node.arguments
+        return found
+
+    def derivative(self, x: _Node, y: _Node | None = None) -> _Node:
+        """Return ∂x/∂y for a variable y, or by default the rate of x along the motion."""
         if (x, y) not in self._derivatives:
             self._derivatives[x, y] = self._derive(x, y)
         return self._derivatives[x, y]
 
-    def _derive(self, x: _Node, y: _Node) -> _Node:
+    def _derive(self, x: _Node, y: _Node | None) -> _Node:
+        if y is None and not x.moves:
+            return self.number(0)
         if not x.arguments:
-            return self.number(1 if x is y else 0)
+            return self._rates[x.value] if y is None else self.number(1 if x is y else 0)
         inner = [self.derivative(argument, y) for argument in x.arguments]
         if x.operation == "start":
             return inner[0]
@@ -231,6 +338,10 @@ class _Tape:
             return self.negative(inner[0])
         if x.operation in "+-":
             return self.apply(x.operation, *inner)
+        if x.operation in _RATES:
+            if all(one is self.number(0) for one in inner):
+                return self.number(0)
+            return self.lifted(_RATES[x.operation](*(Symbol(self, node) for node in (x, *x.arguments, *inner))))
         (a, b), (da, db) = x.arguments, inner
         if x.operation == "*":
             return self.apply("+", self.apply("*", da, b), self.apply("*", a, db))
@@ -250,7 +361,6 @@ class Symbol:
     """A variable, a parameter, or an expression in them, as a traced field sees it."""
 
     __slots__ = ("node", "tape")
-    __array_ufunc__ = None  # NumPy's numbers leave arithmetic with symbols to this class
     __hash__ = None  # type: ignore[assignment]
 
     def __init__(self, tape: _Tape, node: _Node) -> None:
@@ -273,8 +383,21 @@ class Symbol:
     def __pos__(self) -> Symbol:
         return self
 
-    def __pow__(self, exponent: Any) -> Symbol:
-        return Symbol(self.tape, self.tape.power(self.node, exponent))
+    def __pow__(self, exponent: Any) -> Any:
+        if not isinstance(exponent, Symbol | _Number):
+            return NotImplemented
+        return Symbol(self.tape, self.tape.power(self.node, self.tape.lifted(exponent)))
+
+    def __rpow__(self, base: Any) -> Any:
+        if not isinstance(base, _Number):
+            return NotImplemented
+        return Symbol(self.tape, self.tape.power(self.tape.lifted(base), self.node))
+
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **given: Any) -> Any:
+        """Leave functions and arithmetic to the methods of this class, for each element of an array."""
+        if method != "__call__" or given:
+            return NotImplemented
+        return ufunc(*(np.asarray(x).astype(object) for x in inputs))
 
     @property
     def moves(self) -> bool:
@@ -287,20 +410,37 @@ class Symbol:
 
     def _refuse(self, *_: Any) -> NoReturn:
         raise NotTraceable(
-            "This field cannot be traced: it compares its variables or parameters, or passes them to a "
-            f"function other than arithmetic. {_ALLOWED}"
+            "This field cannot be traced: it compares its variables or parameters, or passes them to a function that "
+            f"takes floats only, as those of `math` do. {_ALLOWED} For a motion with cases, find the event with "
+            "`section(body, state, plane, end, level)` and go on from it with a system for the next case."
         )
 
     __bool__ = __float__ = __int__ = __index__ = __complex__ = __abs__ = __round__ = _refuse
     __eq__ = __ne__ = __lt__ = __le__ = __gt__ = __ge__ = _refuse
-    __mod__ = __floordiv__ = __rpow__ = __rmod__ = __rfloordiv__ = __matmul__ = __rmatmul__ = _refuse
+    __mod__ = __floordiv__ = __rmod__ = __rfloordiv__ = __matmul__ = __rmatmul__ = _refuse
+
+
+def _function_of(name: str) -> Callable[..., Symbol]:
+    """Return the method of `Symbol` for a function, which NumPy calls for arrays of objects."""
+
+    def call(self: Symbol, *others: Any) -> Symbol:
+        return Symbol(self.tape, self.tape.call(name, self.node, *map(self.tape.lifted, others)))
+
+    return call
+
+
+for _name in _RATES:
+    setattr(Symbol, _name, _function_of(_name))
+    setattr(Symbol, _name.replace("a", "arc", 1) if _name[0] == "a" else _name, _function_of(_name))
 
 
 class _Series:
     """The expressions of a tape, rewritten in terms of series and their products."""
 
-    def __init__(self, tape: _Tape, variables: int, multiplies_out: bool) -> None:
-        self._tape, self._variables, self._multiplies_out = tape, variables, multiplies_out
+    def __init__(self, tape: _Tape, variables: int, functions: Sequence[_Node], multiplies_out: bool) -> None:
+        self._tape, self._multiplies_out = tape, multiplies_out
+        self._functions = {node: variables + i for i, node in enumerate(functions)}
+        self._variables = variables + len(functions)  # all series with a rate
         self._one = tape.linear("one")
         self._lowered: dict[_Node, _Node] = {}
         self._rules: list[_Node] = []  # of the auxiliary series
@@ -318,6 +458,8 @@ class _Series:
             return self._scaled(node, self._one)
         if node.operation == "variable":
             return self._tape.leaf("series", node.value)
+        if node in self._functions:
+            return self._tape.leaf("series", self._functions[node])
         if node.operation == "negative":
             return self._sum((-1, self.lowered(node.arguments[0])))
         a, b = node.arguments
@@ -433,17 +575,22 @@ class _Series:
             # Later stages use these results instead of computing them again.
             names |= {self._rules[j]: f"y[{places[self._variables + j]}]" for j in stage}
         functions.insert(0, _function("rates(y, q, p, one)", forms, names, late))
+        at_start = {node: f"y[{i}]" for node, i in self._functions.items()}
         if kept:
-            functions.append(_function("constants(y, p)", kept, {}, {}))
+            functions.append(_function("constants(y, p)", kept, at_start, {}))
+        if self._functions:
+            functions.append(_function("started(y, p)", [*self._functions], {}, {}))
+            functions.append(_function("extended(y, p)", rates[: self._variables], at_start, {}))
         pairs = tuple((places[a.value], places[b.value]) for a, b in (node.arguments for node in products))
         return Recursion(
-            self._variables,
+            self._variables - len(self._functions),
             parameters,
             tuple(map(len, stages)),
             pairs,
             len(kept),
             "\n\n".join(functions),
             len(rates) - self._variables,
+            len(self._functions),
         )
 
     def _used(self, forms: Sequence[_Node]) -> list[int]:
@@ -533,8 +680,10 @@ def _written(node: _Node, text: Callable[[_Node], str], when: Callable[[_Node], 
         rest = "".join(f" {'+' if sign > 0 else '-'} {text(term)}" for sign, term in terms)
         return f"({'' if first[0] > 0 else '-'}{text(first[1])}{rest})"
     arguments = [text(argument) for argument in node.arguments]
-    if node.operation == "start":
+    if node.operation in ("start", "carried"):
         return arguments[0]
+    if node.operation in FUNCTIONS:
+        return f"{node.operation}({', '.join(arguments)})"
     if node.operation == "negative":
         return f"(-{arguments[0]})"
     sign = "*" if node.operation == "scaled" else node.operation

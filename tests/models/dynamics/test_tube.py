@@ -14,6 +14,21 @@ from hess_mechanics.dynamics.system import System
 from hess_mechanics.dynamics.tube import _Walk, error_bounds
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.balls import flint, working
+from hess_mechanics.numerics.functions import (
+    acos,
+    asin,
+    atan,
+    atan2,
+    cos,
+    cosh,
+    exp,
+    log,
+    sin,
+    sinh,
+    sqrt,
+    tan,
+    tanh,
+)  # fmt: skip
 from support.thorough import sample
 
 TIMES = [0.0, 0.3, 1.0]
@@ -120,20 +135,7 @@ def test_work_is_counted_and_more_of_it_goes_farther():
 
 def divides(field):
     """An own system of x and y whose field divides by x."""
-    return System(
-        "divides",
-        "Divides",
-        "",
-        (),
-        ("x", "y"),
-        (),
-        0,
-        field,
-        lambda y, p: {},
-        lambda y, p: np.zeros(y[0].shape),
-        lambda y, p, nu: (y, p),
-        ((1.0, 0.0), ()),
-    )
+    return System("divides", field, "x y", example=(1.0, 0.0))
 
 
 def test_a_divisor_that_vanishes_ahead_ends_a_tube_and_raises_nothing():
@@ -186,6 +188,30 @@ def test_sizes_whose_quotient_is_no_double_are_divided_in_balls():
         # The symmetric part is ((0, 1/6), (1/6, 0)).
         assert rate >= flint().arb(1) / 6
         assert rate - flint().arb(1) / 6 < flint().arb(2) ** -45
+
+
+def every_function(y, p):
+    """A field with all functions: of variables, of parameters, of functions."""
+    x, z = y
+    return (
+        sin(z) * exp(-(x**2)) + tanh(z) - 2 ** sin(x) * tan(z / 9) / 3,
+        atan2(x, 1 + z**2) - log(2 + cos(x)) + (1 + x**2) ** p[0] * cosh(z / 3) / 5 - asin(tanh(x) / 2) + atan(z)
+        - acos(x / 9) * sqrt(p[0]) + sinh(z / 7) - (2 + sin(z)) ** cos(x),
+    )  # fmt: skip
+
+
+def test_functions_in_a_field_have_tubes_too():
+    system = System("every function", every_function, "x z", {"a": 0.3}, example=(0.4, 0.3))
+    times = [0.02, 0.2]
+    found = tube(*system.example_motion, times, digits=20)
+    assert found.complete
+    with mpmath.workdps(40):
+        exact = mpmath.odefun(lambda _, y: every_function(y, [mpmath.mpf(0.3)]), 0, [mpmath.mpf(0.4), mpmath.mpf(0.3)])
+        for t, state in zip(times, found.states, strict=True):
+            for x, one in zip(exact(t), state, strict=True):
+                low, high = (mpmath.mpf(end.numerator) / end.denominator for end in (one.low, one.high))
+                assert low - 1e-38 <= x <= high + 1e-38
+                assert high - low < 1e-20
 
 
 @mark.parametrize("digits", [40, 100])

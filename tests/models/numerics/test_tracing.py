@@ -10,8 +10,9 @@ from pytest import approx, mark, raises
 
 from hess_mechanics import System, ensemble, solve, systems
 from hess_mechanics.chaplygin_ball import phase_cloud_kernels
+from hess_mechanics.numerics import functions
 from hess_mechanics.numerics.taylor_kernels import columns_of
-from hess_mechanics.numerics.tracing import NotTraceable, Symbol, constant, derivative, trace
+from hess_mechanics.numerics.tracing import FUNCTIONS, NotTraceable, Symbol, constant, derivative, trace
 from hess_mechanics.numerics.variation_kernels import variation
 from hess_mechanics.suslov import free_kernels
 from hess_mechanics.suslov_hess import circle_map_kernels
@@ -166,13 +167,9 @@ def test_a_system_of_ones_own_needs_its_field_only(system):
 
 NOT_ARITHMETIC = {
     "math": lambda y, p: (math.sin(y[0]), y[1]),
-    "numpy": lambda y, p: (np.sin(y[0]), y[1]),
     "abs": lambda y, p: (abs(y[0]), y[1]),
     "condition": lambda y, p: (y[0] if y[1] > 0 else -y[0], y[1]),
     "equal": lambda y, p: (y[0] if y[1] == p[0] else -y[0], y[1]),
-    "root": lambda y, p: (y[0] ** 0.5, y[1]),
-    "power": lambda y, p: (y[0] ** y[1], y[1]),
-    "exponential": lambda y, p: (2 ** y[0], y[1]),
     "modulo": lambda y, p: (y[0] % 2, y[1]),
     "complex": lambda y, p: (y[0] * 1j, y[1]),
     "nan": lambda y, p: (y[0] * math.nan, y[1]),
@@ -196,6 +193,65 @@ def test_what_is_no_arithmetic_is_refused(field):
 def test_a_field_returns_one_rate_for_each_variable(count):
     with raises(NotTraceable, match=f"2 variables and returns {count} rates: return one for each"):
         trace(lambda y, p: (y[0],) * count, 2, 0)
+
+
+# Fields of x, z and a parameter 1/2, for which every function is defined near (1/3, 1/5).
+FUNCTIONS_OF_FIELDS = {
+    **{
+        name: lambda y, p, name=name: (getattr(functions, name)(y[0] * y[1] + p[0]), y[0] - y[1] ** 2)
+        for name in sorted({*FUNCTIONS} - {"atan2", "pow"})
+    },
+    "atan2": lambda y, p: (functions.atan2(y[0] - y[1], y[0] + p[0] * y[1]), functions.atan2(y[1], p[0])),
+    "square root of a variable": lambda y, p: (functions.sqrt(y[0]) * y[1], p[0] / functions.sqrt(y[1])),
+    "cube of a root": lambda y, p: (y[1] / functions.sqrt(y[0] ** 2 + y[1] ** 2) ** 3, functions.sqrt(y[0]) ** 2),
+    "power": lambda y, p: (y[0] ** 1.25, (y[0] + y[1]) ** p[0]),
+    "negative power": lambda y, p: (y[0] ** -0.5, y[1] / (y[0] + y[1]) ** 1.5),
+    "exponent": lambda y, p: (2 ** y[0], y[0] ** y[1]),
+    "of parameters": lambda y, p: (functions.sin(p[0]) * y[1], functions.exp(p[0] / 3) + y[0] / functions.log(p[0])),
+    "of constants": lambda y, p: (functions.cos(constant(p[0] + 0 * y[0])) * y[1], functions.sin(y[0])),
+    "of functions": lambda y, p: (functions.sin(functions.exp(y[0] * y[1])), functions.log(1 + functions.cos(y[1]))),
+}
+
+
+@mark.parametrize("field", FUNCTIONS_OF_FIELDS.values(), ids=FUNCTIONS_OF_FIELDS)
+def test_functions_have_their_taylor_series_and_derivatives(field):
+    y, p = [sympy.Rational(1, 3), sympy.Rational(1, 5)], [sympy.Rational(1, 2)]
+    floats = [float(x) for x in y], [float(x) for x in p]
+    found = coefficients(trace(field, 2, 1), *floats, 4)
+    expected = np.array(derivatives(field, y, p, 4)).astype(float)
+    assert found.astype(float) == approx(expected, rel=1e-12, abs=1e-14)
+    assert field(*floats) == approx(tuple(expected[1]))
+    of = variation(field, 2, 1)
+    names, columns = sympy.symbols("y:2"), columns_of(of.recursion)
+    seen = np.full((1, of.recursion.observed), 0.0, dtype=object)
+    c, left, right = (np.full((2, size), 0.0, dtype=object) for size in (2, columns, columns))
+    c[0] = floats[0]
+    uncompiled(of.recursion)["expand"](c, left, right, np.array([1.0], dtype=object), floats[1], seen)
+    for (i, j), value in zip((*of.moving, *of.fixed), seen[0], strict=False):
+        exact = sympy.diff(field(names, p)[i], names[j]).subs(dict(zip(names, y, strict=True)))
+        assert value == approx(float(exact), rel=1e-12)
+
+
+def test_arrays_of_symbols_are_fields_too():
+    turn = np.array([[0.0, 1.0], [-2.0, 0.5]])
+
+    def field(y, p):
+        return turn @ np.array(y) + np.sin(np.array(y)) - np.float64(2.0) * np.arctan2(y[0], 1.0) * np.ones(2)
+
+    found = coefficients(trace(field, 2, 0), [0.3, 0.4], [], 1)[1]
+    assert found.astype(float) == approx(field([0.3, 0.4], []))
+
+
+def test_conditions_are_refused_with_what_to_do_instead():
+    with raises(NotTraceable, match=r"without conditions.*find the event with `section"):
+        trace(lambda y, p: (np.where(y[0] > 0, 1.0, 2.0),), 1, 0)
+    with raises(NotTraceable, match="takes floats only"):
+        trace(lambda y, p: (math.sin(y[0]),), 1, 0)
+
+
+def test_a_function_costs_one_product_and_no_stage():
+    pendulum = trace(lambda y, p: (y[1], -functions.sin(y[0])), 2, 0)
+    assert (pendulum.functions, pendulum.stages, len(pendulum.pairs)) == (2, (), 2)
 
 
 def test_numbers_of_numpy_and_symbols_mix():

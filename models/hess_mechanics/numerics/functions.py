@@ -1,0 +1,31 @@
+"""Elementary functions of all numbers on which a field is evaluated.
+
+NumPy's own functions take floats, arrays and the symbols of a traced field.  These also take numbers of SymPy and
+mpmath, for checks.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from typing import Any
+
+__all__ = [
+    "acos", "asin", "atan", "atan2", "cos", "cosh", "exp", "log", "sin", "sinh", "sqrt", "tan", "tanh",
+]  # fmt: skip
+
+
+def _function(name: str) -> Callable[..., Any]:
+    def call(*arguments: Any) -> Any:
+        roots = (type(x).__module__.partition(".")[0] for x in arguments)
+        library = next((root for root in roots if root in ("sympy", "mpmath")), "numpy")
+        return getattr(importlib.import_module(library), name)(*arguments)
+
+    call.__name__ = call.__qualname__ = name
+    call.__doc__ = f"Return {name} of numbers, arrays or symbols."
+    return call
+
+
+acos, asin, atan, atan2 = (_function(name) for name in ("acos", "asin", "atan", "atan2"))
+cos, cosh, exp, log = (_function(name) for name in ("cos", "cosh", "exp", "log"))
+sin, sinh, sqrt, tan, tanh = (_function(name) for name in ("sin", "sinh", "sqrt", "tan", "tanh"))
