@@ -25,7 +25,8 @@ class Formula:
     volume_kept: bool = False
 
     def image(self, place):
-        return np.array(self.of(*place), float)
+        places = np.asarray(place, float)
+        return np.array([self.of(*one) for one in np.atleast_2d(places)], float).reshape(places.shape)
 
     def after(self, place, count):
         for _ in range(count):
@@ -42,7 +43,9 @@ class Formula:
         return np.array(found).reshape(-1, len(self.turns))
 
     def with_derivative(self, place):
-        return self.image(place), np.array(self.derivative(*place), float)
+        places = np.asarray(place, float)
+        derivatives = np.array([self.derivative(*one) for one in np.atleast_2d(places)], float)
+        return self.image(places), derivatives.reshape(*places.shape, places.shape[-1])
 
     def inverse(self):
         if self.back is None:

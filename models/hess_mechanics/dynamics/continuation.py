@@ -234,7 +234,7 @@ class _Track:
         shot = shoot(map_, places)
         # Only Newton's steps and the tangent use this derivative; its error does not move the orbit.
         h = 1e-5 * self.width
-        sides = [np.array([self.at(value + sign * h).image(place) for place in places]) for sign in (1.0, -1.0)]
+        sides = [self.at(value + sign * h).image(places) for sign in (1.0, -1.0)]
         by_value = apart(map_.turns, *sides) / (2.0 * h)
         # The equations are divided by √m, like the points.
         return _Point(z, shot, by_value.ravel() * self.width / self.root, iterations)

@@ -48,6 +48,10 @@ _PROMISES = 3.0
 """The same tolerance in errors of the map: a long orbit moves by some errors when it is projected to its integrals."""
 _SETTLING = 0.8
 """An orbit is still settling if its distance from closing falls below this fraction from one half to the next."""
+_WATCHED = 50
+"""Crossings after which a transient is looked at."""
+_CLOSER, _CLOSE = 1e-3, 0.1
+"""A transient ends where an orbit closes this much better than at its start, and to this share of the map's error."""
 _AMPLITUDES = 0.4 * 0.4 ** np.arange(6, -1, -1)
 """Distances from a flip at which the orbit of twice the period is searched, the nearest first."""
 _NEAR = 3.0
@@ -186,7 +190,8 @@ def diagram_over(
     start : array_like, shape (d,)
         Point where the orbit starts.
     transient : int, default 200
-        Crossings discarded at each value.
+        Largest number of crossings discarded at each value.  The points are kept as soon as the orbit has come a
+        thousand times closer to a periodic one than it was.
     kept : int, default 64
         Crossings kept at each value.
     follow : bool, default True
@@ -230,11 +235,11 @@ def diagram_over(
             conservative[i] = map_.volume_kept
             for origin in (place, anew) if follow else (anew,):
                 try:
-                    orbit = map_.orbit(origin, transient + kept)
+                    orbit = _after_transient(map_, origin, transient, kept)
                 except OutsideRegion:
                     continue
-                if len(orbit) == transient + kept:
-                    found = orbit[transient:]
+                if len(orbit) == kept:
+                    found = orbit
                     break
         except WorkLimit:
             raise
@@ -258,6 +263,27 @@ def diagram_over(
         frozen(conservative),
         level,
     )
+
+
+def _after_transient(map_: Followed, origin: Array, transient: int, kept: int) -> Array:
+    """Return `kept` points of an orbit after its transient; fewer if the motion stays away."""
+    orbit = np.asarray(origin, float)[None]
+    while len(orbit) <= transient and not _has_approached(map_, orbit):
+        piece = map_.orbit(orbit[-1], min(_WATCHED, transient + 1 - len(orbit)))
+        if not len(piece):
+            return piece
+        orbit = np.concatenate([orbit, piece])
+    return map_.orbit(orbit[-1], kept)
+
+
+def _has_approached(map_: Followed, orbit: Array) -> bool:
+    """Return True if the points (n, d) have come a thousand times closer to a periodic orbit than they were."""
+    for m in range(1, min(_WATCHED, len(orbit) - 1) // 3 + 1):
+        steps = np.abs(apart(map_.turns, orbit[m:], orbit[:-m])).max(axis=1)
+        first, last = float(steps[:m].max()), float(steps[-m:].max())
+        if last <= min(_CLOSE * map_.promise, _CLOSER * first):
+            return True
+    return False
 
 
 def doubling_seen(parts: Sequence[Diagram]) -> tuple[float, Array, float] | None:

@@ -72,13 +72,13 @@ class Map(Protocol):
         """True if the map cannot be computed more accurately."""
 
     def image(self, place: Array) -> Array:
-        """Return P(x), shape (d,)."""
+        """Return P(x) at a point (d,) or at several points (m, d), in the same shape."""
 
     def after(self, place: Array, count: int) -> Array:
-        """Return P^count(x), shape (d,)."""
+        """Return P^count(x) at a point (d,) or at several points (m, d), in the same shape."""
 
     def with_derivative(self, place: Array) -> tuple[Array, Array]:
-        """Return P(x), shape (d,), and DP(x), shape (d, d)."""
+        """Return P(x), and DP(x), shape (d, d) or (m, d, d)."""
 
     def inverse(self) -> Map:
         """Return P⁻¹."""
@@ -138,9 +138,8 @@ class Shot:
 
 def shoot(map_: Map, places: Array) -> Shot:
     """Return the map and its derivatives at all points (m, d).  Raises as the map."""
-    both = [map_.with_derivative(place) for place in places]
-    images = np.array([image for image, _ in both])
-    return Shot(places, apart(map_.turns, images, np.roll(places, -1, axis=0)), np.array([one for _, one in both]))
+    images, derivatives = map_.with_derivative(places)
+    return Shot(places, apart(map_.turns, images, np.roll(places, -1, axis=0)), derivatives)
 
 
 def multipliers_of(derivatives: Array) -> tuple[Complex, float, float]:

@@ -372,7 +372,7 @@ def _ensemble(map_: ReturnMap, places: Array) -> Array:
 
 
 def _indicated(map_: ReturnMap, places: Array, t: float) -> Megno:
-    states = np.array([map_.state_at(place) for place in places])
+    states = map_.state_at(places)
     return megno(map_.section, states, -t if map_.backward else t, map_.accuracy, threads=1)
 
 

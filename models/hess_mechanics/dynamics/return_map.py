@@ -12,6 +12,7 @@ are computed by differences of sixth order, accurate to about 1e-13.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -24,8 +25,8 @@ from hess_mechanics.dynamics.orbit import MAX_STEPS, require_finite_states, requ
 from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.dynamics.section import Surface
 from hess_mechanics.dynamics.symmetry import Mirror, sign_symmetries
-from hess_mechanics.dynamics.system import Body, Problem
-from hess_mechanics.dynamics.variation import followed, onto_surface
+from hess_mechanics.dynamics.system import Body, Problem, System
+from hess_mechanics.dynamics.variation import onto_surface
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.patience import go_on
@@ -50,6 +51,9 @@ _TRIED = 100
 _TOO_LONG = f"This return needs more than {MAX_STEPS} steps: choose another place, or a cheaper level."
 _AT_ONCE = 1e-8
 """A crossing before this time, in units of 1/ν, is the start itself."""
+
+
+_Search = Callable[[Array, int, float], tuple[int, Array, Array]]
 
 
 class PoincareSection(Body, Protocol):
@@ -218,37 +222,39 @@ class ReturnMap:
 
         Parameters
         ----------
-        place : array_like, shape (k,)
-            Coordinates of the point.
+        place : array_like, shape (k,) or (m, k)
+            Coordinates of the point, or of several points.
 
         Returns
         -------
-        ndarray, shape (d,)
-            The state.
+        ndarray, shape (d,) or (m, d)
+            The state, or those of all points.
 
         Raises
         ------
         OutsideRegion
-            If no motion crosses the section at the point.
+            If no motion crosses the section at a point.
         """
-        states, there = self.section.states_at(*(np.array([x]) for x in place))
-        if not there[0]:
-            where = ", ".join(f"{name} = {x:.6g}" for name, x in zip(self.names, place, strict=True))
+        places = np.asarray(place, float)
+        states, there = self.section.states_at(*np.atleast_2d(places).T)
+        if not np.all(there):
+            outside = np.atleast_2d(places)[int(np.argmin(there))]
+            where = ", ".join(f"{name} = {x:.6g}" for name, x in zip(self.names, outside, strict=True))
             raise OutsideRegion(f"No motion crosses the section at {where}: choose another place, or a larger energy.")
-        return np.asarray(states[0])
+        return np.asarray(states if places.ndim > 1 else states[0])
 
     def image(self, place: Array) -> Array:
         """Return the image of a point: the next crossing.
 
         Parameters
         ----------
-        place : array_like, shape (k,)
-            Coordinates of the point.
+        place : array_like, shape (k,) or (m, k)
+            Coordinates of the point, or of several points.
 
         Returns
         -------
-        ndarray, shape (k,)
-            Coordinates of the image.
+        ndarray, shape (k,) or (m, k)
+            Coordinates of the image, or of all images.
 
         Raises
         ------
@@ -266,15 +272,15 @@ class ReturnMap:
 
         Parameters
         ----------
-        place : array_like, shape (k,)
-            Coordinates of the point.
+        place : array_like, shape (k,) or (m, k)
+            Coordinates of the point, or of several points.
         count : int
             Number of returns.
 
         Returns
         -------
-        ndarray, shape (k,)
-            Coordinates of the image.
+        ndarray, shape (k,) or (m, k)
+            Coordinates of the image, or of all images.
 
         Raises
         ------
@@ -285,10 +291,11 @@ class ReturnMap:
         WorkLimit
             If the returns need too many steps.
         """
+        places = np.asarray(place, float)
         if count == 0:
-            return np.asarray(place, float)
-        problem, _, state = self._crossing(self.state_at(place), count, _LONGEST)
-        return np.asarray(self.section.places_of((state * problem.scale)[None])[0])
+            return places
+        problem, _, states = self._crossings(self.state_at(np.atleast_2d(places)), count, _LONGEST)
+        return np.asarray(self.section.places_of(states * problem.scale)).reshape(places.shape)
 
     def orbit(self, place: Array, count: int) -> Array:
         """Return the next crossings of the orbit from a point.
@@ -317,11 +324,12 @@ class ReturnMap:
         section = self.section
         parts = [np.empty((0, len(self.turns)))]
         left, place = count, np.asarray(place, float)
+        problem, search = self._search(self.state_at(place)[None])
+        start = problem.states[0]
         while left > 0:
             go_on()
-            problem = self._problem(self.state_at(place))
             wanted = min(left, _PIECE)
-            found, times, states = self._crossed(problem, wanted + 1, _WAIT)
+            found, times, states = search(start, wanted + 1, _WAIT)
             require_steps(
                 found,
                 f"{wanted} returns need more than {MAX_STEPS} steps here: choose another place, or a cheaper level.",
@@ -335,7 +343,7 @@ class ReturnMap:
                 break
             # If the last crossings are on another sheet, the next call repeats them.
             left -= int(on[-1]) + 1
-            place = parts[-1][-1]
+            start = self.state_at(parts[-1][-1]) / problem.scale
         return np.concatenate(parts)
 
     def wait(self, place: Array) -> float:
@@ -382,121 +390,167 @@ class ReturnMap:
         WorkLimit
             If the returns need too many steps.
         """
-        problem, time, _ = self._crossing(self.state_at(place), count, _WAIT)
-        return time / problem.nu
+        problem, times, _ = self._crossings(self.state_at(place)[None], count, _WAIT)
+        return float(times[0] / problem.nu)
 
     def with_derivative(self, place: Array) -> tuple[Array, Array]:
         """Return the image of a point and the derivative of the map there.
 
         Parameters
         ----------
-        place : array_like, shape (k,)
-            Coordinates of the point.
+        place : array_like, shape (k,) or (m, k)
+            Coordinates of the point, or of several points.
 
         Returns
         -------
-        image : ndarray, shape (k,)
-            Coordinates of the image.
-        derivative : ndarray, shape (k, k)
-            DP at the point.
+        image : ndarray, shape (k,) or (m, k)
+            Coordinates of the image, or of all images.
+        derivative : ndarray, shape (k, k) or (m, k, k)
+            DP at the point, or at all points.
 
         Raises
         ------
         NoReturn
             If the orbit does not return within the time limit.
         OutsideRegion
-            If no motion crosses the section at the point.
+            If no motion crosses the section at a point.
         WorkLimit
-            If the return needs too many steps.
+            If a return needs too many steps.
         """
-        start = self.state_at(place)
-        problem, time, scaled = self._crossing(start, 1, _LONGEST)
-        system = self.section.system
-        steps, _, frames, _ = followed(
-            system, problem, np.array([time]), self.accuracy.order, self.accuracy.tolerance, MAX_STEPS
+        places = np.asarray(place, float)
+        several = np.atleast_2d(places)
+        problem, times, ends = self._crossings(self.state_at(several), 1, _LONGEST)
+        section, scale = self.section, problem.scale
+        states = ends * scale
+        flow, frame = self._flow(problem, times)
+        onto = onto_surface(
+            scale[:, None] * flow,
+            scale * problem.nu * _rates(section.system, ends, problem.parameters),
+            np.array([section.surface.gradient(state) for state in states]),
         )
-        require_steps(steps, _TOO_LONG)
-        require_finite_states(frames)
-        state = scaled * problem.scale
-        flow = problem.scale[:, None] * frames[0] / problem.scale
-        rate = np.array(system.field(state.tolist(), list(self.section.parameters)), float)
-        onto = onto_surface(flow, rate, self.section.surface.gradient(state))
-        found = np.asarray(self.section.places_of(state[None])[0])
-        return found, self._in_plane(state, found, self._tangents(place) @ onto.T)
+        moved = onto @ frame.swapaxes(1, 2) @ (self._tangents(several) / scale).swapaxes(1, 2)
+        found = np.asarray(section.places_of(states))
+        derivatives = self._in_plane(states, found, moved.swapaxes(1, 2))
+        return found.reshape(places.shape), derivatives.reshape(*places.shape, places.shape[-1])
 
-    def _problem(self, start: Array) -> Problem:
-        problem = Problem.of(self.section, [start])
-        return problem.nearby() if self.accuracy.aside else problem
+    def _flow(self, problem: Problem, times: Array) -> tuple[Array, Array]:
+        """Return the derivative (m, d, d − 1) of the flow along orthonormal directions, and these, (m, d, d − 1).
 
-    def _crossed(self, problem: Problem, wanted: int, longest: float) -> tuple[int, Array, Array]:
-        """Return the number of crossings within a time limit, with times and states in the problem's units."""
-        section, accuracy = self.section, self.accuracy
-        cross, normal, offset = section.surface.scaled(section.system, problem)
-        end = longest * section.slowness * (-1.0 if self.backward else 1.0)
-        times, states = np.empty(wanted), np.empty((wanted, problem.scale.size))
-        found, _ = cross(
-            problem.states[0],
-            problem.parameters,
-            normal,
-            offset,
-            section.surface.sense,
-            end,
-            accuracy.order,
-            accuracy.tolerance,
-            MAX_STEPS,
-            times,
-            states,
-        )
-        return found, times, states
-
-    def _crossing(self, start: Array, count: int, longest: float) -> tuple[Problem, float, Array]:
-        """Return the scaled problem, and the time and the state (d,) of the crossing with this number."""
-        go_on()
-        problem, wanted = self._problem(start), count
-        while True:
-            found, times, states = self._crossed(problem, wanted, longest * count)
-            # Round-off may put the start a little before a curved surface, which it then crosses at once.
-            if not (found and wanted == count and abs(times[0]) < _AT_ONCE):
-                break
-            wanted += 1
-        require_steps(found, _TOO_LONG)
-        if found < wanted:
-            raise NoReturn(
-                f"From here the motion did not return to the section {_times(count)} within t = "
-                f"{longest * count * self.section.slowness / problem.nu:.4g}: choose another place."
+        The direction of motion is left out: the return map takes it to 0.
+        """
+        system, accuracy = self.section.system, self.accuracy
+        m, d = problem.states.shape
+        rates = _rates(system, problem.states, problem.parameters)[:, :, None]
+        frames = np.linalg.qr(np.concatenate([rates, np.broadcast_to(np.eye(d), (m, d, d))], axis=2))[0][:, :, 1:]
+        found = np.empty((m, d, d - 1))
+        state, growth, volume = np.empty((1, d)), np.empty((1, d - 1)), np.empty(1)
+        for i in range(m):
+            steps = system.vary_others(
+                problem.states[i],
+                np.ascontiguousarray(frames[i]),
+                problem.parameters,
+                times[i : i + 1],
+                accuracy.order,
+                accuracy.tolerance,
+                MAX_STEPS,
+                math.inf,
+                state,
+                found[i : i + 1],
+                growth,
+                volume,
             )
+            require_steps(steps, _TOO_LONG)
+        require_finite_states(found)
+        return found, frames
+
+    def _search(self, starts: Array) -> tuple[Problem, _Search]:
+        """Return the scaled problem, and the search for the crossings of one of its orbits.
+
+        search(start, wanted, longest) returns the number of crossings found within a time limit, with their times and
+        states in the problem's units.
+        """
+        section, accuracy = self.section, self.accuracy
+        problem = Problem.of(section, starts)
+        problem = problem.nearby() if accuracy.aside else problem
+        surface = section.surface
+        cross, normal, offset = surface.scaled(section.system, problem)
+        direction = section.slowness * (-1.0 if self.backward else 1.0)
+
+        def search(start: Array, wanted: int, longest: float) -> tuple[int, Array, Array]:
+            times, states = np.empty(wanted), np.empty((wanted, problem.scale.size))
+            found, _ = cross(
+                start,
+                problem.parameters,
+                normal,
+                offset,
+                surface.sense,
+                longest * direction,
+                accuracy.order,
+                accuracy.tolerance,
+                MAX_STEPS,
+                times,
+                states,
+            )
+            return found, times, states
+
+        return problem, search
+
+    def _crossings(self, starts: Array, count: int, longest: float) -> tuple[Problem, Array, Array]:
+        """Return the scaled problem, and times (m,) and states (m, d) of the crossings with this number."""
+        problem, search = self._search(starts)
+        times, states = np.empty(len(starts)), np.empty_like(problem.states)
+        for i, start in enumerate(problem.states):
+            go_on()
+            wanted = count
+            while True:
+                found, all_times, all_states = search(start, wanted, longest * count)
+                # Round-off may put the start a little before a curved surface, which it then crosses at once.
+                if not (found and wanted == count and abs(all_times[0]) < _AT_ONCE):
+                    break
+                wanted += 1
+            require_steps(found, _TOO_LONG)
+            if found < wanted:
+                raise NoReturn(
+                    f"From here the motion did not return to the section {_times(count)} within t = "
+                    f"{longest * count * self.section.slowness / problem.nu:.4g}: choose another place."
+                )
+            times[i], states[i] = all_times[-1], all_states[-1]
         require_finite_states(states)
-        if not self.section.is_on(states[-1:] * problem.scale)[0]:
+        if not np.all(self.section.is_on(states * problem.scale)):
             raise NoReturn("From here the motion returns on another sheet of the section: choose another point.")
-        return problem, float(times[-1]), states[-1]
+        return problem, times, states
 
-    def _tangents(self, place: Array) -> Array:
-        """Return ∂Y/∂x (k, d).  Raises `OutsideRegion` at the very edge of the section."""
-        k = len(place)
-        step = _STEP
-        while True:
+    def _tangents(self, places: Array) -> Array:
+        """Return ∂Y/∂x (m, k, d) at points (m, k).  Raises `OutsideRegion` at the very edge of the section."""
+        m, k = places.shape
+        found = np.empty((m, k, len(self.section.system.variables)))
+        left, step = np.arange(m), _STEP
+        while left.size:
             sizes = np.array([step, 0.25 * step])
-            shifts = (sizes[:, None, None, None] * _SHIFTS[:, None, None] * np.eye(k)).reshape(-1, k)
-            states, there = self.section.states_at(*(np.asarray(place, float) + shifts).T)
-            if there.all():
-                both = np.tensordot(states.reshape(2, _SHIFTS.size, k, -1), _WEIGHTS, (1, 0)) / sizes[:, None, None]
-                # Close to the edge, where states change as a root, the step has to be shorter.
-                size = max(1.0, float(np.abs(both).max()))
-                if float(np.abs(both[0] - both[1]).max()) <= _AGREE / step * size or step < 1e-5:
-                    return np.asarray(both[0])
-            step *= 0.25
-            if step < 1e-6:
+            shifts = sizes[:, None, None, None] * _SHIFTS[:, None, None] * np.eye(k)
+            states, there = self.section.states_at(*(places[left, None, None, None] + shifts).reshape(-1, k).T)
+            whole = np.asarray(there.reshape(left.size, -1).all(axis=1))
+            inside = states.reshape(left.size, *shifts.shape[:3], -1)[whole]
+            both = np.einsum("nswkd,w->nskd", inside, _WEIGHTS) / sizes[:, None, None]
+            # Close to the edge, where states change as a root, the step has to be shorter.
+            size = np.abs(both).max(axis=(1, 2, 3), initial=1.0)
+            agree = np.abs(both[:, 0] - both[:, 1]).max(axis=(1, 2), initial=0.0) <= _AGREE / step * size
+            whole[whole] = done = agree | (step < 1e-5)
+            found[left[whole]] = both[done, 0]
+            left, step = left[~whole], 0.25 * step
+            if left.size and step < 1e-6:
                 raise OutsideRegion("This point is too close to the edge of the section: choose another one.")
+        return found
 
-    def _in_plane(self, state: Array, place: Array, away: Array) -> Array:
-        """Return ∂x/∂Y at a state along directions (k, d); column j belongs to direction j."""
+    def _in_plane(self, states: Array, places: Array, away: Array) -> Array:
+        """Return ∂x/∂Y at states (m, d) along directions (m, k, d); column j belongs to direction j."""
         # In units of the state: its components differ in size.
-        unit = max(1.0, float(np.abs(state).max()))
-        sizes = np.maximum(np.linalg.norm(away, axis=1), 1e-300)
-        shifts = _SHIFTS[:, None, None] * _STEP * unit * away / sizes[:, None]
-        places = self.section.places_of(state + shifts.reshape(-1, state.size))
-        moved = apart(self.turns, places, place).reshape(_SHIFTS.size, len(away), -1)
-        return np.asarray((np.tensordot(_WEIGHTS, moved, 1) / (_STEP * unit) * sizes[:, None]).T)
+        unit = _STEP * np.abs(states).max(axis=1, initial=1.0)[:, None, None]
+        sizes = np.maximum(np.linalg.norm(away, axis=2, keepdims=True), 1e-300)
+        shifted = states[:, None] + _SHIFTS[:, None, None, None] * unit * away / sizes
+        near = self.section.places_of(shifted.reshape(-1, states.shape[1])).reshape(_SHIFTS.size, *away.shape[:2], -1)
+        moved = apart(self.turns, near, places[:, None])
+        return np.asarray((np.tensordot(_WEIGHTS, moved, 1) / unit * sizes).swapaxes(1, 2))
 
     @cached_property
     def volume_kept(self) -> bool:
@@ -585,6 +639,11 @@ class ReturnMap:
             ):
                 found.append(mirror.name)
         return tuple(found)
+
+
+def _rates(system: System, states: Array, parameters: Array) -> Array:
+    """Return the field at states (m, d)."""
+    return np.stack(np.broadcast_arrays(*system.field(list(states.T), parameters.tolist())), axis=1)
 
 
 def _times(count: int) -> str:

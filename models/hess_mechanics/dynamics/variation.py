@@ -286,15 +286,17 @@ def neighbours(
 
 
 def onto_surface(matrix: Array, rate: Array, gradient: Array) -> Array:
-    """Return the derivative (d, d) of the first return to a surface, from the derivative `matrix` of the flow.
+    """Return the derivative (…, d, k) of the first return to a surface, from that of the flow, `matrix` (…, d, k).
 
-    A neighbour arrives earlier or later: (1 − f nᵀ/(n·f)) V, where f is the `rate` ẏ and n the `gradient` of the
-    surface at the crossing.  Raises `InvalidParameter` if the orbit is tangent to the surface.
+    A neighbour arrives earlier or later: (1 − f nᵀ/(n·f)) V, where f is the `rate` ẏ (…, d) and n the `gradient` (…, d)
+    of the surface at the crossing.  Raises `InvalidParameter` if an orbit is tangent to the surface.
     """
-    across = float(gradient @ rate)
-    if not abs(across) > 1e-12 * float(np.linalg.norm(gradient) * np.linalg.norm(rate)):
+    across = (gradient * rate).sum(axis=-1)
+    size = np.linalg.norm(gradient, axis=-1) * np.linalg.norm(rate, axis=-1)
+    if not np.all(np.abs(across) > 1e-12 * size):
         raise InvalidParameter("The orbit touches the surface here and does not cross it: choose another start.")
-    return np.asarray(matrix - np.outer(rate, gradient @ matrix) / across)
+    along = gradient[..., None, :] @ matrix / across[..., None, None]
+    return np.asarray(matrix - rate[..., :, None] * along)
 
 
 @dataclass(frozen=True)

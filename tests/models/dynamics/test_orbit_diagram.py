@@ -1,6 +1,7 @@
 """Orbit diagrams of sections, and of maps with known periods, doublings and hysteresis."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from pytest import approx, mark, raises
@@ -45,6 +46,19 @@ def test_a_cascade_says_why_it_ends():
     assert found.periods.tolist() == [1]
     assert found.ended.startswith("The orbit of period 2 keeps its period")
     assert math.isnan(found.limit)
+
+
+def test_a_transient_is_cut_short_next_to_a_periodic_orbit_and_nowhere_else():
+    def images(a):
+        seen = []
+        exact = henon(a)
+        counting = replace(exact, of=lambda x, y: seen.append(x) or exact.of(x, y))
+        diagram_over(lambda _: counting, "a", [a], (0.5, 0.1), transient=600, kept=60)
+        return len(seen)
+
+    # Multipliers of the fixed point: −0.81, and −0.99 shortly before its doubling; then chaos.
+    assert images(0.2) < 300
+    assert images(0.36) == images(1.4) == 660
 
 
 def test_a_diagram_of_the_map_of_henon_has_its_periods():
