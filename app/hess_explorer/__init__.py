@@ -16,11 +16,18 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from hess_explorer.library.exploring import explore
+    from hess_explorer.library.own_scene import scene
     from hess_explorer.library.state import SceneState, from_link, state
 
-__all__ = ["SceneState", "explore", "from_link", "state"]
+__all__ = ["SceneState", "explore", "from_link", "scene", "state"]
 
-_PLACES = {"SceneState": "state", "explore": "exploring", "from_link": "state", "state": "state"}
+_PLACES = {
+    "SceneState": "state",
+    "explore": "exploring",
+    "from_link": "state",
+    "scene": "own_scene",
+    "state": "state",
+}
 
 
 def __getattr__(name: str) -> Any:

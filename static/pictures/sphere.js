@@ -17,8 +17,8 @@ import { createSheet } from "./projection.js"
 import { turnable } from "./turnable.js"
 import { circle, graticule, scaled } from "./vectors.js"
 
-/** @type {[Vector, string][]} */
-const AXES = [[[1, 0, 0], "γ₁"], [[0, 1, 0], "γ₂"], [[0, 0, 1], "γ₃"]]
+/** @type {Vector[]} */
+const AXES = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
 
 /** @param {Sheet} sheet @param {Vector} axis @param {string} label @param {boolean} near */
 function drawAxis({ isNear, at, line, write }, axis, label, near) {
@@ -70,7 +70,7 @@ export function sphere(el, options, source, isShown) {
     ctx.textBaseline = "middle"
     const { axis, label: name, circles = [], marks = [] } = own.data
     if (!inSpace) {
-      for (const [direction, label] of AXES) drawAxis(on, direction, label, near)
+      AXES.forEach((direction, i) => drawAxis(on, direction, options.labels[i], near))
       if (axis?.length === 3) drawAxis(on, axis, name, near)
     }
     for (const [a, b, c, height, look] of circles) {

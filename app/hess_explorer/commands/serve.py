@@ -7,6 +7,7 @@ import errno
 import gc
 import os
 import re
+import runpy
 import signal
 import socket
 import webbrowser
@@ -38,6 +39,7 @@ def _embedder(text: str) -> str:
 
 
 def _run(options: Options) -> None:
+    _add_scenes(options.scenes)
     lessons = _lessons(options.lessons)
     _require_free(options.address, options.port)
     if options.workers > 1 and not hasattr(os, "fork"):
@@ -77,6 +79,18 @@ def _run(options: Options) -> None:
             )
         except HandlerMissing as error:
             raise CommandError(str(error)) from error
+
+
+def _add_scenes(paths: Sequence[Path]) -> None:
+    """Add the `SCENE` of each file.  Raises `CommandError`."""
+    for path in paths:
+        from hess_explorer.scenes import add
+        from hess_mechanics.errors import ModelError
+
+        try:
+            add(runpy.run_path(str(path)).get("SCENE"), str(path))
+        except (ModelError, OSError, SyntaxError, ImportError) as error:
+            raise CommandError(f"{shown(str(path))} brings no scene: {error}") from error
 
 
 def _lessons(paths: Sequence[Path]) -> tuple[Lesson, ...]:
@@ -167,6 +181,15 @@ COMMAND = Command(
         ),
         whole("--workers", 1, 64, "number of worker processes; for a class, about the number of cores", 1),
         whole("--sessions", 1, 100_000, "maximum number of open pages per worker; 1000 need about 3 GB", 1000),
+        option(
+            "--scene",
+            "Python file of your own scene, SCENE = hess.scene(…), which is run; may be repeated, and the first opens",
+            dest="scenes",
+            type=Path,
+            default=[],
+            metavar="FILE",
+            **_SEVERAL,
+        ),
         option(
             "--lesson",
             "Markdown file of your own lesson, or a folder of such files; may be repeated, and the first lesson opens",

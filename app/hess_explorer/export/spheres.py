@@ -77,8 +77,8 @@ def _half(canvas: SphereCanvas, data: PictureData, near: bool, body: BodyDrawing
     in_space = picture if isinstance(picture, BodyInSpace) else None
     for line in [circle(np.array([0.0, 0.0, 1.0]), 0.0)] if in_space and in_space.bare else graticule():
         canvas.stroke(line, (theme.INK, "-", 0.4), near, 0.25 if near else 0.1)
-    if in_space is None:
-        for axis, label in zip(np.eye(3), ("γ₁", "γ₂", "γ₃"), strict=True):
+    if isinstance(picture, Sphere):
+        for axis, label in zip(np.eye(3), picture.labels, strict=True):
             _axis(canvas, axis, label, near)
         if len(own.get("axis", ())):
             _axis(canvas, np.array(own["axis"]), own["label"], near)

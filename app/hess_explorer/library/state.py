@@ -21,6 +21,7 @@ from hess_explorer.export.formats import FileRequest, holding
 from hess_explorer.export.picture_data import CLIENT_KEPT, Address, PictureData, address, compute, picture_of
 from hess_explorer.protocol.parameters import Number, Places, Spec, Value, query_in, refusal, written
 from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.arguments import as_level_name
@@ -304,13 +305,13 @@ class SceneState:
         return f"hess.state({self.scene!r}, {given})"
 
 
-def state(scene: str = "suslov-hess", /, **parameters: Any) -> SceneState:
+def state(scene: str | Scene[Any] = "suslov-hess", /, **parameters: Any) -> SceneState:
     """Return the state of a scene with the given parameters.
 
     Parameters
     ----------
-    scene : str
-        Name of the scene, as in a link.
+    scene : str or Scene
+        Name of the scene, as in a link, or a scene of your own.
     **parameters
         Values by the names that a link uses; other parameters have the defaults of the page.  Besides the parameters of
         the scene: `t`, the time of bodies and clouds; `az` and `el`, azimuth and elevation of the view of a sphere in
@@ -335,16 +336,17 @@ def state(scene: str = "suslov-hess", /, **parameters: Any) -> SceneState:
     Traceback (most recent call last):
     hess_mechanics.errors.InvalidParameter: The scene suslov-hess has no parameter 'height': choose one of I22, ...
     """
-    known = scenes()
-    if scene not in known:
-        public = ", ".join(name for name, one in known.items() if one.origin is None)
+    found = scene if isinstance(scene, Scene) else scenes().get(scene)
+    if found is None:
+        public = ", ".join(name for name, one in scenes().items() if one.origin is None)
         raise InvalidParameter(f"There is no scene {scene!r}: choose one of {public}.")
-    found = known[scene]
     looks = {spec.name: spec for spec in CLIENT_KEPT}
     specs: dict[str, Spec] = {**{spec.name: spec for spec in found.specs}, **looks}
     for name in parameters:
         if name not in specs:
-            raise InvalidParameter(f"The scene {scene} has no parameter {name!r}: choose one of {', '.join(specs)}.")
+            raise InvalidParameter(
+                f"The scene {found.name} has no parameter {name!r}: choose one of {', '.join(specs)}."
+            )
     given = {name: _checked(specs[name], value) for name, value in parameters.items()}
     wanted = {name: given.get(name, spec.default) for name, spec in specs.items()}
     client = {name: float(wanted.pop(name)) for name in looks}

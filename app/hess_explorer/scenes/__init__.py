@@ -1,22 +1,54 @@
-"""The scenes: the `SCENE` of every module in this package, and "Speed and accuracy" for each."""
+"""The scenes: the `SCENE` of every module in this package, those from elsewhere, and "Speed and accuracy" for each."""
 
 from __future__ import annotations
 
 import importlib
 import pkgutil
 from functools import cache
+from importlib.metadata import entry_points
 from typing import Any
 
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.speed_accuracy import speed_and_accuracy
+from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["scenes"]
+__all__ = ["PLUGINS", "add", "scenes"]
+
+PLUGINS = "hess_explorer.scenes"
+"""Group of the entry points by which other packages bring their scenes."""
+
+_added: list[Scene[Any]] = []
 
 
 @cache
 def scenes() -> dict[str, Scene[Any]]:
-    """Return all scenes by name, in menu order; scenes derived from another scene come last."""
+    """Return all scenes by name, in menu order: added ones first, and scenes derived from another scene last."""
     modules = (importlib.import_module(f"{__name__}.{module.name}") for module in pkgutil.iter_modules(__path__))
     own = [module.SCENE for module in modules if isinstance(getattr(module, "SCENE", None), Scene)]
-    own += [speed_and_accuracy(scene) for scene in own if scene.trials]
-    return {scene.name: scene for scene in sorted(own, key=lambda scene: (scene.origin is not None, scene.place))}
+    own += [_checked(one.load(), one.value) for one in entry_points(group=PLUGINS)]
+    own = [*_added, *sorted(own, key=lambda scene: scene.place)]
+    found = {scene.name: scene for scene in [*own, *(speed_and_accuracy(scene) for scene in own if scene.trials)]}
+    if len(found) < len(own) + sum(bool(scene.trials) for scene in own):
+        raise InvalidParameter("Two scenes have the same name: rename the system or the file of yours.")
+    return found
+
+
+def add(scene: Any, source: str) -> None:
+    """Add a scene of one's own, before the page is served.
+
+    source : where it comes from, for messages.  Raises `InvalidParameter`, also if its name is taken.
+    """
+    _added.append(_checked(scene, source))
+    scenes.cache_clear()
+    try:
+        scenes()
+    except InvalidParameter:
+        _added.pop()
+        scenes.cache_clear()
+        raise
+
+
+def _checked(scene: Any, source: str) -> Scene[Any]:
+    if not isinstance(scene, Scene):
+        raise InvalidParameter(f"{source} is {scene!r} and no scene: make one with hess.scene(system, pictures).")
+    return scene

@@ -93,6 +93,7 @@ class Sphere(Picture[S]):
     looks : track → look, "orbit", "second", "stable", "unstable" or "muted".
     axis(state), circles(state), marks(state) : additional marks.
     clouds : the picture whose clouds it also shows.
+    labels : names of the three axes.
     """
 
     name: str = "sphere"
@@ -102,6 +103,7 @@ class Sphere(Picture[S]):
     circles: Callable[[S], Sequence[Circle]] = lambda state: ()
     marks: Callable[[S], Sequence[Mark]] = lambda state: ()
     clouds: str = ""
+    labels: tuple[str, str, str] = ("γ₁", "γ₂", "γ₃")
 
     kind: ClassVar[str] = "sphere"
 
@@ -123,7 +125,8 @@ class Sphere(Picture[S]):
     def describe(self) -> dict[str, Any]:
         """Return the description of the picture for the browser."""
         clouds = {"clouds": self.clouds} if self.clouds else {}
-        return {**super().describe(), "tracks": {f"data-{track}": look for track, look in self.looks.items()}, **clouds}
+        tracks = {f"data-{track}": look for track, look in self.looks.items()}
+        return {**super().describe(), "tracks": tracks, "labels": self.labels, **clouds}
 
     def data(self, state: S) -> Sources:
         """Return the columns of its axis, circles and marks."""

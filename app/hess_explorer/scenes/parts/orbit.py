@@ -87,14 +87,16 @@ class Orbit(Part[_Host]):
 S = TypeVar("S", bound=State)
 
 
-def orbit_picture(of: Callable[[S], Orbit], x: str, y: str, title: str = "The orbit") -> Picture[S]:
+def orbit_picture(
+    of: Callable[[S], Orbit], x: str, y: str, title: str = "The orbit", name: str = "orbit"
+) -> Picture[S]:
     """Return the picture of the orbit in the plane of two variables; the scene has `columns` as its track "orbit"."""
 
     def room_for(name: str) -> Callable[[Orbit], Range]:
         return lambda s: with_room(s.columns[name], 0.06, 1e-3)
 
     return Plot[Orbit](
-        name="orbit",
+        name=name,
         title=title,
         caption=lambda s: Caption(numbers=f"From t = 0 to t = {digits(s.host.lasts)}."),
         axes=(x, y),

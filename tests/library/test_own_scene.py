@@ -1,0 +1,75 @@
+"""A scene for a system of one's own, here an oscillator whose motion is known."""
+
+import numpy as np
+from pytest import approx, mark, raises
+
+import hess_explorer as hess
+from hess_explorer.scenes import add, scenes
+from hess_mechanics import System
+from hess_mechanics.errors import InvalidParameter
+
+OSCILLATOR = System(
+    "oscillator",
+    lambda y, p: (y[1], -p[0] * y[0], 0 * y[2]),
+    variables="x v c",
+    parameters={"k": 4.0},
+    example=(1.0, 0.0, 1.0),
+    title="An oscillator",
+)
+SCENE = hess.scene(
+    OSCILLATOR, ["x v", "t x", "x v c", "exponent"], sliders={"k": (1.0, 9.0)}, presets={"Slow": {"k": 1}}
+)
+
+
+def test_its_pictures_show_the_motion_with_the_values_of_its_sliders():
+    state = hess.state(SCENE, p_k=9.0, y_x=0.5, lasts=2.0)
+    for picture, name in (("x-v", "orbit"), ("t-x", "orbit")):
+        layer = state.data(picture).layer(name)
+        t = np.asarray(layer["t"])
+        assert t[-1] == 2.0
+        assert np.asarray(layer["x"]) == approx(0.5 * np.cos(3.0 * t), abs=1e-6)
+    vector = np.column_stack([0.5 * np.cos(3.0 * t), -1.5 * np.sin(3.0 * t), np.ones(len(t))])
+    sphere = state.data("sphere").layer("orbit")
+    found = np.column_stack([np.asarray(sphere[name]) for name in ("g1", "g2", "g3")])
+    assert found == approx(vector / np.linalg.norm(vector, axis=1, keepdims=True), abs=1e-6)
+
+
+def test_it_has_a_slider_for_each_parameter_and_initial_value_and_the_presets_asked_for():
+    ranges = {spec.name: (spec.default, spec.softbounds) for spec in SCENE.specs if spec.name[1] == "_"}
+    assert ranges == {
+        "p_k": (4.0, (1.0, 9.0)),
+        "y_x": (1.0, (0.0, 2.0)),
+        "y_v": (0.0, (-1.0, 1.0)),
+        "y_c": (1.0, (0.0, 2.0)),
+    }
+    assert [(one.name, one.values) for one in SCENE.presets] == [("Slow", {"p_k": 1.0})]
+    assert hess.scene(OSCILLATOR).pictures == ("x-v",)
+
+
+@mark.parametrize(
+    ("given", "message"),
+    [
+        ({"pictures": ["x q"]}, "has no 'q': choose among x, v, c"),
+        ({"pictures": ["x"]}, "'x' is no picture. Write two names"),
+        ({"pictures": ["x v", "x v"]}, "each picture may occur once"),
+        ({"sliders": {"q": (0, 1)}}, "has no 'q': choose among k, x, v, c"),
+        ({"sliders": {"k": (1, 1)}}, "two different ends"),
+        ({"presets": {"A": {"q": 1}}}, "has no 'q'"),
+    ],
+)
+def test_what_the_system_does_not_have_is_refused(given, message):
+    with raises(InvalidParameter, match=message):
+        hess.scene(OSCILLATOR, **given)
+
+
+def test_a_name_that_cannot_stand_in_a_link_is_refused():
+    with raises(InvalidParameter, match="'x-y' cannot stand in a link"):
+        hess.scene(System("s", lambda y, p: (y[0],), variables=["x-y"]))
+
+
+def test_an_added_scene_comes_first_and_its_name_must_be_new():
+    with raises(InvalidParameter, match=r"mine.py is 3 and no scene: make one with hess.scene"):
+        add(3, "mine.py")
+    with raises(InvalidParameter, match="same name"):
+        add(hess.scene(System("suslov", lambda y, p: (y[0],), variables="x")), "mine.py")
+    assert next(iter(scenes())) == "suslov-hess"
