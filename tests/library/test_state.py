@@ -18,7 +18,7 @@ from pytest import approx
 import hess_explorer as hess
 from hess_explorer.export.figure import as_file
 from hess_explorer.export.picture_data import picture_data
-from hess_mechanics import BallBody, HeavyBody, HessBody, SuslovBody, circle_map, level
+from hess_mechanics import BallBody, HeavyBody, HessBody, SuslovBody, basins, circle_map, level
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.euler_poisson import equations as euler_poisson
 
@@ -119,14 +119,43 @@ def test_the_mechanics_behind_a_state_are_objects_of_the_library():
 
 def test_columns_become_frames_of_pandas_and_xarray():
     data = hess.state("suslov-hess", accuracy="draft").data("circle")
-    frame, whole = data.to_pandas(), data.to_xarray()
-    assert list(frame.columns) == list(data) == list(whole.data_vars)
-    assert len(frame) == len(data) == whole.sizes["row"]
-    assert frame.attrs["link"] == whole.attrs["link"] == data.facts["link"]
+    frame, layers = data.to_pandas(), data.to_xarray()
+    assert list(frame.columns) == list(data)
+    assert len(frame) == len(data) == sum(layer.sizes["point"] for layer in layers.values())
+    assert frame.attrs["link"] == layers["cobweb"].attrs["link"] == data.facts["link"]
     cobweb = frame[frame.layer == "cobweb"]
     assert np.array_equal(cobweb.phi, data.layer("cobweb")["phi"])
     assert not data["phi"].flags.writeable
     assert "<table>" in data._repr_html_()
+
+
+def test_a_layer_is_a_data_set_with_coordinates_and_units():
+    data = hess.state("suslov-hess", accuracy="draft").data("circle")
+    layers = data.to_xarray()
+    assert tuple(layers) == data.layers
+    found = layers["stable"]
+    assert (list(found.coords), list(found.data_vars)) == (["phi"], ["theta"])
+    assert found.phi.attrs["units"] == found.theta.attrs["units"] == "rad"
+    curve = layers["map"]
+    assert (set(curve.coords), list(curve.data_vars)) == ({"part", "x"}, ["y"])
+    assert (curve.attrs["x_axis"], curve.attrs["y_axis"]) == data.axes
+    assert np.array_equal(curve.y, data.layer("map")["y"])
+    cells = hess.state("scattering", accuracy="draft").data("map")
+    rows, grid = cells.layer("theta"), cells.to_xarray()["theta"]
+    assert grid.value.dims == ("y", "x")
+    for i in (0, len(rows) // 3, len(rows) - 1):
+        assert grid.value.sel(x=rows["x"][i], y=rows["y"][i]).item() == rows["value"][i]
+
+
+def test_a_figure_is_that_of_the_file_and_can_be_changed():
+    state = hess.state("suslov-hess", accuracy="draft")
+    figure = state.figure("circle", width=60.0)
+    (axes,) = figure.axes
+    found = picture_data(state.link, "circle").axes
+    assert (axes.get_xlim(), axes.get_ylim()) == (found.x, found.y)
+    assert figure.get_size_inches() == approx([60.0 / 25.4] * 2)
+    with pytest.raises(InvalidParameter, match="mm wide, not 1"):
+        state.figure("circle", width=1.0)
 
 
 @pytest.mark.parametrize("scene, picture, layer, columns", DRAWN)
@@ -180,6 +209,33 @@ def test_a_sphere_is_the_figure_for_paper_in_pixels():
     figure = np.asarray(Image.open(io.BytesIO(as_file(picture_data(state.link, "sphere"), "png", 71.0))).convert("RGB"))
     assert np.array_equal(pixels[::-1], figure[..., 0] / np.float32(255.0))
     assert pixels.std() > 0.05
+
+
+@pytest.mark.parametrize("backend", ["bokeh", "matplotlib"])
+def test_pictures_and_results_are_drawn_with_either_extension(backend):
+    hv.extension(backend)
+    try:
+        for plot in (
+            hess.state("suslov-hess", accuracy="draft").plot("sphere"),
+            circle_map(a=0.5, h=1.5, f=0.6, level=level("draft")).plot(),
+            basins(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842, cells=(6, 4), accuracy="draft").plot(),
+        ):
+            assert hv.render(plot) is not None
+            assert hv.Store.current_backend == backend
+    finally:
+        hv.Store.set_current_backend("bokeh")
+
+
+def test_data_load_neither_panel_nor_anything_that_draws():
+    """As the page computes them; their times are in the change log."""
+    program = (
+        "import sys, hess_explorer as hess; hess.state('suslov-hess', accuracy='draft').data('circle'); "
+        "print(*{name.partition('.')[0] for name in sys.modules})"
+    )
+    names = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True, text=True).stdout.split()
+    assert not {"panel", "panel_material_ui", "param", "holoviews", "matplotlib", "tornado", "pandas", "xarray"} & set(
+        names
+    )
 
 
 def test_importing_it_loads_nothing_that_draws():

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from hess_explorer.export.picture_data import PictureData
 from hess_explorer.export.table import Block, blocks, names_of
+from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import frozen
@@ -30,6 +31,8 @@ class Table(Result):
         The columns by the names of the CSV file, read-only.
     facts : mapping of str
         Link, parameters, accuracy, errors and version, the same as in exported files.
+    axes : tuple of str
+        Names of the axes of a plot, empty for other pictures.
 
     Examples
     --------
@@ -43,6 +46,7 @@ class Table(Result):
 
     columns: Mapping[str, NDArray[Any]]
     facts: Mapping[str, Any]
+    axes: tuple[str, ...] = ()
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         if name not in self.columns:
@@ -89,10 +93,37 @@ class Table(Result):
         if name not in self.layers:
             raise InvalidParameter(f"There is no layer {name!r}: choose one of {', '.join(self.layers)}.")
         there = self.columns["layer"] == name
-        return Table({key: part for key, column in self.columns.items() if _has_any(part := column[there])}, self.facts)
+        return Table(
+            {key: part for key, column in self.columns.items() if _has_any(part := column[there])},
+            self.facts,
+            self.axes,
+        )
+
+    def to_xarray(self) -> dict[str, Any]:
+        """Return an `xarray.Dataset` for each layer, with coordinates and units.
+
+        Returns
+        -------
+        dict of str to xarray.Dataset
+            The layers by name.  A map has the coordinates y and x.  Other layers have points along a dimension, with
+            the first column as coordinate.
+
+        Raises
+        ------
+        InvalidParameter
+            If xarray is not installed.
+
+        Examples
+        --------
+        >>> import hess_explorer as hess
+        >>> layers = hess.state("suslov-hess", accuracy="draft").data("circle").to_xarray()
+        >>> list(layers["stable"].coords), layers["stable"].theta.attrs["units"]
+        (['phi'], 'rad')
+        """
+        return {name: _Layer(self.layer(name)).to_xarray() for name in self.layers}
 
     def labels(self) -> Labels:
-        """Return the columns as variables over the rows, for `to_pandas` and `to_xarray`.
+        """Return the columns as variables over the rows, for `to_pandas`.
 
         Returns
         -------
@@ -105,10 +136,48 @@ class Table(Result):
         return f"<{len(self)} rows of {self.facts['title']!r}: {', '.join(self.columns)}>"
 
 
+@dataclass(frozen=True, eq=False)
+class _Layer(Result):
+    """One layer of a table, as points or as a map."""
+
+    table: Table
+
+    def labels(self) -> Labels:
+        columns = {name: column for name, column in self.table.columns.items() if name != "layer"}
+        axes = dict(zip("xy", self.table.axes, strict=False))
+        # Columns x and y are what the axes of the plot say.
+        symbols = {name: axes.get(name, name) for name, column in columns.items() if column.dtype.kind == "f"}
+        units = {name: _UNITS.get(symbol, "1") for name, symbol in symbols.items()}
+        facts = {**self.table.facts, **{f"{name}_axis": symbol for name, symbol in axes.items()}}
+        if "value" in columns:
+            y, x = np.unique(columns["y"]), np.unique(columns["x"])
+            if (y.size, x.size) != (1, 1) and y.size * x.size == columns["value"].size:
+                order = np.lexsort((columns["x"], columns["y"]))
+                cells = columns["value"][order].reshape(y.size, x.size)
+                return Labels({"y": (("y",), y), "x": (("x",), x)}, {"value": (("y", "x"), cells)}, units, facts)
+        numbers = [name for name in columns if name not in ("part", "ring")]
+        coords = [name for name in columns if name not in numbers] + (numbers[:1] if len(numbers) > 1 else [])
+        points = {name: (("point",), column) for name, column in columns.items()}
+        return Labels(
+            {name: one for name, one in points.items() if name in coords},
+            {name: one for name, one in points.items() if name not in coords},
+            units,
+            facts,
+        )
+
+
+_UNITS = {
+    **dict.fromkeys(("t", "time", "tau", "τ"), "T"),
+    **dict.fromkeys(("phi", "phi_start", "theta", "psi", "delta", "l", "φ", "θ", "θ⁻", "θ⁺", "ψ", "δ", "Θ(φ)"), "rad"),
+}
+"""Units of columns and axes; all others are numbers in the units of the problem."""
+
+
 def columns_of(data: PictureData) -> Table:
     """Return the data of a picture in double precision."""
     found = blocks(data)
-    return Table({name: frozen(_column(name, found)) for name in names_of(found)}, data.facts)
+    axes = data.picture.names(data.state) if isinstance(data.picture, Plot) else ()
+    return Table({name: frozen(_column(name, found)) for name in names_of(found)}, data.facts, axes)
 
 
 def _column(name: str, found: Sequence[Block]) -> NDArray[Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Mapping
+from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any
 
 from hess_explorer.export import clouds, plots, spheres, torus
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes as Frame
     from matplotlib.figure import Figure
 
-__all__ = ["STYLE", "as_file", "draw", "draw_moving", "draw_still", "in_black", "saved"]
+__all__ = ["STYLE", "as_figure", "as_file", "draw", "draw_moving", "draw_still", "in_black", "saved"]
 
 _DOTS_PER_INCH = 300
 STYLE: Mapping[str, Any] = {
@@ -62,16 +63,43 @@ def as_file(data: PictureData, kind: str, width: float = 85.0, black: bool = Fal
     """
     if kind not in holding("figure"):
         raise InvalidParameter(f"{kind!r} is not a figure format: choose one of {', '.join(holding('figure'))}.")
+    with _style():
+        return saved(as_figure(data, width, black), data, kind)
+
+
+def as_figure(data: PictureData, width: float = 85.0, black: bool = False) -> Figure:
+    """Return a square figure of Matplotlib, to be changed or saved.
+
+    Parameters
+    ----------
+    data, width, black
+        As in `as_file`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure, with one Axes.
+
+    Raises
+    ------
+    InvalidParameter
+        If the width is not supported, or Matplotlib is not installed.
+    """
     if not WIDTHS.low <= width <= WIDTHS.high:
         raise InvalidParameter(f"A figure must be {WIDTHS} mm wide, not {width:g}.")
+    with _style():
+        return draw(data, width, black)
+
+
+def _style() -> AbstractContextManager[None]:
+    """Return a context with the fonts of figures.  Raises `InvalidParameter` without Matplotlib."""
     try:
         import matplotlib as mpl
     except ImportError as error:
         raise InvalidParameter(
             "Figures need Matplotlib: pip install 'hess-explorer[export]'. CSV and JSON work without it."
         ) from error
-    with mpl.rc_context(dict(STYLE)):
-        return saved(draw(data, width, black), data, kind)
+    return mpl.rc_context(dict(STYLE))
 
 
 def saved(figure: Figure, data: PictureData, kind: str) -> bytes:

@@ -13,7 +13,7 @@ import numpy as np
 from hess_explorer.export.figure import as_file
 from hess_explorer.export.picture_data import PictureData
 from hess_explorer.views import theme
-from hess_explorer.views.elements import SIDE, overlay
+from hess_explorer.views.elements import SIDE, overlay, with_options
 from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.labelled import Labels, Result
@@ -69,8 +69,10 @@ def _painted(data: PictureData) -> Any:
     from matplotlib.image import imread
 
     pixels = imread(io.BytesIO(file))
-    return hv.RGB(pixels, bounds=(-1.0, -1.0, 1.0, 1.0)).opts(
-        hv.opts.RGB(frame_width=SIDE, frame_height=SIDE, title=data.title, xaxis=None, yaxis=None)
+    shared = {"title": data.title, "xaxis": None, "yaxis": None}
+    return with_options(
+        hv.RGB(pixels, bounds=(-1.0, -1.0, 1.0, 1.0)),
+        {"bokeh": {**shared, "frame_width": SIDE, "frame_height": SIDE}, "matplotlib": shared},
     )
 
 
@@ -99,8 +101,13 @@ def draw_result(result: Result) -> Any:
     points = [(name, values) for name, (dims, values) in known.variables.items() if len(dims) == 1]
     if not axes and len(points) > 1:
         (x, across), (y, up), *_ = points
-        return hv.Points((across, up), [_axis(known, x), _axis(known, y)]).opts(
-            hv.opts.Points(size=1.5, frame_width=SIDE, frame_height=SIDE, title=type(result).__name__)
+        title = {"title": type(result).__name__}
+        return with_options(
+            hv.Points((across, up), [_axis(known, x), _axis(known, y)]),
+            {
+                "bokeh": {**title, "size": 1.5, "frame_width": SIDE, "frame_height": SIDE},
+                "matplotlib": {**title, "s": 1.5, "aspect": "auto"},
+            },
         )
     panels = [
         _panel(known, name, axes)
@@ -121,10 +128,21 @@ def _panel(known: Labels, name: str, axes: list[str]) -> Any:
     dims, values = known.variables[name]
     x = known.coords[dims[-1]][1]
     if len(dims) > 1 and dims[-2] in axes:
-        return hv.Image(
-            (x, known.coords[dims[-2]][1], values), [_axis(known, dims[-1]), _axis(known, dims[-2])], _axis(known, name)
-        ).opts(hv.opts.Image(colorbar=True, title=name, frame_width=SIDE // 2))
+        shared = {"colorbar": True, "title": name}
+        return with_options(
+            hv.Image(
+                (x, known.coords[dims[-2]][1], values),
+                [_axis(known, dims[-1]), _axis(known, dims[-2])],
+                _axis(known, name),
+            ),
+            {"bokeh": {**shared, "frame_width": SIDE // 2}, "matplotlib": {**shared, "aspect": "auto"}},
+        )
     curves = [np.column_stack([x, one]) for one in values.reshape(-1, x.size)]
-    return hv.Path(curves, [_axis(known, dims[-1]), _axis(known, name)]).opts(
-        hv.opts.Path(frame_width=SIDE, frame_height=SIDE // 3, color=theme.ORBIT)
+    colour = {"color": theme.ORBIT}
+    return with_options(
+        hv.Path(curves, [_axis(known, dims[-1]), _axis(known, name)]),
+        {
+            "bokeh": {**colour, "frame_width": SIDE, "frame_height": SIDE // 3},
+            "matplotlib": {**colour, "aspect": 3.0},
+        },
     )

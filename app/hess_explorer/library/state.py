@@ -16,7 +16,6 @@ import numpy as np
 
 from hess_explorer.export.code import code
 from hess_explorer.export.columns import Table, columns_of
-from hess_explorer.export.file import content
 from hess_explorer.export.formats import FileRequest, holding
 from hess_explorer.export.picture_data import CLIENT_KEPT, Address, PictureData, address, compute, picture_of
 from hess_explorer.protocol.parameters import Number, Places, Spec, Value, query_in, refusal, written
@@ -204,6 +203,41 @@ class SceneState:
 
         return draw(self._shown(picture))
 
+    def figure(self, picture: str = "", *, width: float = 85.0, black: bool = False) -> Any:
+        """Return a picture as a figure of Matplotlib, as `save` writes it.
+
+        Parameters
+        ----------
+        picture : str
+            Name of the picture; the first picture by default.
+        width : float
+            Width in millimetres.
+        black : bool
+            True for black on white instead of the colours of the page.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure; `figure.axes[0]` is its Axes.
+
+        Raises
+        ------
+        InvalidParameter
+            If the scene has no such picture, the width is not supported, or Matplotlib is not installed.
+        ModelError
+            If the state cannot be computed.
+
+        Examples
+        --------
+        >>> import hess_explorer as hess
+        >>> axes = hess.state("suslov-hess", accuracy="draft").figure("circle").axes[0]
+        >>> axes.set_xlabel("phase")  # doctest: +ELLIPSIS
+        Text(...)
+        """
+        from hess_explorer.export.figure import as_figure
+
+        return as_figure(self._shown(picture), width, black)
+
     def save(
         self, file: str | Path, picture: str = "", *, width: float = 85.0, black: bool = False, seconds: float = 10.0
     ) -> Path:
@@ -243,6 +277,9 @@ class SceneState:
             raise InvalidParameter(
                 f"The file format {path.suffix!r} is not supported: choose one of .{', .'.join(_ENDINGS)}."
             )
+        # Imported here, because drawing needs libraries that data do not.
+        from hess_explorer.export.file import content
+
         path.write_bytes(content(self._shown(picture), FileRequest(kind, width, black, seconds)))
         return path
 

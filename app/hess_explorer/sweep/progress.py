@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -31,11 +32,18 @@ def reporting(progress: bool | Report | None, cells: int, done: int) -> Iterator
     elif progress is True:
         from tqdm.auto import tqdm
 
-        # None disables the bar unless stderr is a terminal.
-        with tqdm(total=cells, initial=done, unit="cell", unit_scale=True, disable=None, dynamic_ncols=True) as bar:
+        # None disables a bar of text unless stderr is a terminal; the one of a notebook is always shown.
+        hidden = False if _in_notebook() else None
+        with tqdm(total=cells, initial=done, unit="cell", unit_scale=True, disable=hidden, dynamic_ncols=True) as bar:
             yield lambda more: (bar.update(more), None)[1]
     else:
         yield Clock(progress, cells, done)
+
+
+def _in_notebook() -> bool:
+    """Return True in a kernel of Jupyter, whose stderr is not a terminal but is shown."""
+    kernel = sys.modules.get("IPython")
+    return kernel is not None and "IPKernelApp" in getattr(kernel.get_ipython(), "config", {})
 
 
 class Clock:

@@ -17,7 +17,7 @@ from hess_explorer.views.layers import Axes, Columns, Layer
 if TYPE_CHECKING:
     from hess_explorer.views.plot import Plot
 
-__all__ = ["SIDE", "Colour", "as_it_is", "frame", "on_paper", "overlay"]
+__all__ = ["SIDE", "Colour", "as_it_is", "frame", "on_paper", "overlay", "with_options"]
 
 Colour = Callable[[str], str]
 """Maps a colour of the light page to the colour to use."""
@@ -68,7 +68,7 @@ def overlay(
     ]
     found = hv.Overlay(drawn or [hv.Curve([])])
     shared = {**frame(plot, axes, names), "title": title, "show_legend": False}
-    return _with_options(
+    return with_options(
         found,
         {
             "bokeh": {**shared, "frame_width": SIDE, "frame_height": SIDE, "fontsize": {"labels": 13}},
@@ -107,10 +107,11 @@ def _element(layer: Layer[Any], columns: Columns, colour: Colour) -> hv.Element:
     element = kind.element(layer.name.replace("-", " "), *(columns[name] for name in layer.columns))
     style = _exchanged(layer.style, colour)
     hooks = {} if kind.hook is None else {"hooks": [kind.hook(style)]}
-    return _with_options(element, {"bokeh": kind.bokeh(style), "matplotlib": {**kind.matplotlib(style), **hooks}})
+    return with_options(element, {"bokeh": kind.bokeh(style), "matplotlib": {**kind.matplotlib(style), **hooks}})
 
 
-def _with_options(element: Any, options: Mapping[str, Options]) -> Any:
+def with_options(element: Any, options: Mapping[str, Options]) -> Any:
+    """Return an element with its options by backend."""
     # HoloViews rejects options of a backend that is not loaded.
     for backend in set(options) & set(hv.Store.loaded_backends()):
         element = element.opts(getattr(hv.opts, type(element).__name__)(backend=backend, **options[backend]))

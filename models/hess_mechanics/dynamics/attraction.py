@@ -14,9 +14,6 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.numerics.patience import go_on
@@ -109,6 +106,11 @@ def _joined(cells: Sequence[tuple[NDArray[np.int64], NDArray[np.int64]]]) -> NDA
     visited = np.zeros(_CELLS[::-1], bool)
     for one in cells:
         visited[one] = True
+    # Imported where they are used: together they take a fifth of a second, which few states need.
+    from scipy import ndimage
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
     patches, count = ndimage.label(visited, np.ones((3, 3)))
     # Orbits and patches of cells are the nodes of a graph, joined by a visit.
     orbit = np.repeat(np.arange(len(cells)), [len(row) for row, _ in cells])
@@ -140,6 +142,8 @@ def recurrent_sets(orbits: Orbits) -> RecurrentSets:
     order = np.argsort(np.argsort(firsts))
     for one, number in zip(cells, order[numbers], strict=True):
         table[one] = number
+    from scipy import ndimage
+
     around = ndimage.maximum_filter(
         table, 3, mode=["wrap" if np.isfinite(turn) else "nearest" for turn in orbits.turns[::-1]]
     )

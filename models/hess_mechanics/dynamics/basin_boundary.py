@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from hess_mechanics.dynamics.attraction import Arrivals, Orbits, RecurrentSets, arrivals
 from hess_mechanics.dynamics.cells import Window, centres
@@ -18,6 +17,8 @@ __all__ = ["arrivals_of_cells", "divided", "joined", "resolved", "unsure"]
 
 def _on_boundary(cells: NDArray[Any]) -> Mask:
     """Return a mask (n, m) of the cells with another number than one of their eight neighbours."""
+    from scipy import ndimage
+
     return np.asarray(ndimage.maximum_filter(cells, 3) != ndimage.minimum_filter(cells, 3))
 
 

@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import Protocol, TypeVar
 
 import numpy as np
-from scipy.ndimage import maximum_filter1d
 
 from hess_explorer.compute.cache import CACHE, Task
 from hess_explorer.scenes.framework.families import Family
@@ -159,6 +158,8 @@ class DiagramDensity(Part[_Host]):
         if not (self._complete and self.points):
             return ()
         backward, back, there = (self.counts(way) for way in self.forward)
+        from scipy.ndimage import maximum_filter1d
+
         near = maximum_filter1d(there, 2 * _NEAR + 1, axis=0) > 0
         # Where both ways agree they have one colour.
         return view.tones((backward, np.where(near, 0, back), there + np.where(near, back, 0)))

@@ -1,0 +1,68 @@
+"""Metadata and extras: complete, and every requirement of an extra for use can be imported where it is installed."""
+
+import importlib
+import re
+import tomllib
+from importlib import metadata
+
+import pytest
+import yaml
+from packaging.requirements import Requirement
+
+from support.mechanics import ROOT
+
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+EXTRAS = PROJECT["optional-dependencies"]
+IMPORTED_AS = {
+    "python-flint": "flint",
+    "imageio-ffmpeg": "imageio_ffmpeg",
+    "jupyter-server-proxy": "jupyter_server_proxy",
+    "myst-nb": "myst_nb",
+}
+FOR_USE = {"export", "data", "notebook", "shot", "prove", "sweep", "docs"}
+"""Extras of users; the others are for developers, or compare with other programs."""
+
+
+def requirements(extra):
+    """Return the requirements of an extra without those of this package."""
+    return [one for one in map(Requirement, EXTRAS[extra]) if one.name != "hess-explorer"]
+
+
+def test_all_has_every_extra_for_use_but_the_documentation():
+    (everything,) = map(Requirement, EXTRAS["all"])
+    assert everything.name == PROJECT["name"]
+    assert everything.extras == FOR_USE - {"docs"}
+    assert set(EXTRAS) == FOR_USE | {"all", "bench", "test", "lint"}
+
+
+@pytest.mark.parametrize(
+    "of", [one for extra in sorted(FOR_USE) for one in requirements(extra)], ids=lambda one: one.name
+)
+def test_each_requirement_of_an_extra_is_imported_where_it_is_installed(of):
+    try:
+        installed = metadata.version(of.name)
+    except metadata.PackageNotFoundError:
+        pytest.skip(f"{of.name} is not installed")
+    assert of.specifier.contains(installed)
+    importlib.import_module(IMPORTED_AS.get(of.name, of.name.replace("-", "_")))
+
+
+def test_the_metadata_say_who_what_and_for_whom():
+    assert PROJECT["authors"] == [{"name": "Hess Explorer maintainers"}]
+    assert len(PROJECT["keywords"]) == len(set(PROJECT["keywords"])) >= 5
+    assert "Typing :: Typed" in PROJECT["classifiers"]
+    versions = [one for one in PROJECT["classifiers"] if re.search(r"Python :: 3\.\d+$", one)]
+    assert versions[0].endswith(PROJECT["requires-python"].removeprefix(">="))
+
+
+def test_binder_installs_extras_that_exist():
+    environment = yaml.safe_load((ROOT / ".binder/environment.yml").read_text(encoding="utf-8"))
+    *conda, pip = environment["dependencies"]
+    assert "pip" in conda
+    (own,) = pip["pip"]
+    named = re.fullmatch(r"\.\.\[([a-z,]+)\]", own)
+    assert {"notebook", "sweep"} <= set(named[1].split(",")) <= FOR_USE
+    # The folder that ".." is, seen from the file.
+    assert (ROOT / ".binder" / ".." / "pyproject.toml").samefile(ROOT / "pyproject.toml")
+    (python,) = (one for one in conda if one.startswith("python"))
+    assert f"Programming Language :: Python :: {python.partition('=')[2]}" in PROJECT["classifiers"]
