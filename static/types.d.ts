@@ -85,7 +85,8 @@ declare const Bokeh: any
 
 type ControlDescription = { name: string, label: string, help: string, group: string } & (
   { kind: "number", symbol: string, range: [number, number], options?: undefined } |
-  { kind: "choice", symbol?: undefined, range?: undefined, options: string[] })
+  { kind: "choice", symbol?: undefined, range?: undefined, options: string[] } |
+  { kind: "formula", symbol?: undefined, range?: undefined, options?: undefined })
 
 /** A picture of a scene; the fields beyond these depend on its kind. */
 interface PictureDescription {

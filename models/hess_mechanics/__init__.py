@@ -55,6 +55,7 @@ from hess_mechanics.return_maps import (
     section_orbits,
 )
 from hess_mechanics.rigid_body.inertia import BodyCheck, check_body
+from hess_mechanics.rigid_body.own_body import OwnBody, Polynomial
 from hess_mechanics.suslov.additional_integral import AdditionalIntegral, additional_integral
 from hess_mechanics.suslov.equations import SuslovBody, unit_vector
 from hess_mechanics.suslov.free import FreeMotion, free_motion
@@ -148,6 +149,8 @@ __all__ = [  # noqa: RUF022 (by subject)
     "HessBody",
     "BallBody",
     "HeavyBody",
+    "OwnBody",
+    "Polynomial",
     "BodyCheck",
     "check_body",
     "unit_vector",

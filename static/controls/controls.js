@@ -6,9 +6,9 @@ import { button, element } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
 import { sayDragMe } from "../page/handle.js"
 import { PHONE } from "../page/windows.js"
-import { choice, menu, twice } from "./choice.js"
+import { menu, twice } from "./choice.js"
 import { comparison } from "./comparison.js"
-import { number } from "./number.js"
+import { control as controlOf } from "./control.js"
 
 const EXAMPLES = "preset"
 
@@ -64,7 +64,7 @@ export function render({ el }) {
     items = new Map([[EXAMPLES, /** @type {HTMLElement} */ (examples)]])
     const signs = new Map([[EXAMPLES, "Example"]])
     for (const control of scene.controls) {
-      const [item, show, refuse, follow] = control.kind === "number" ? number(control) : choice(control)
+      const [item, show, refuse, follow] = controlOf(control)
       shows[control.name] = show
       refusals[`error-${control.name}`] = refuse
       follows[control.name] = follow

@@ -7,8 +7,7 @@ import { isEmbedded } from "../page/embedding.js"
 import { element } from "../page/elements.js"
 import { isPresenting } from "../page/presenting.js"
 import { NARROW, PHONE } from "../page/windows.js"
-import { choice } from "./choice.js"
-import { number } from "./number.js"
+import { control as controlOf } from "./control.js"
 
 // Where the column of controls is beside the text, it is enough.
 const isColumnAway = () => NARROW.matches || PHONE.matches || isPresenting() || isEmbedded()
@@ -39,7 +38,7 @@ export function stepControls(isNeeded = isColumnAway) {
     parts = {}
     const wanted = isNeeded() ? names.map((name) => known.find((control) => control.name === name)).filter(Boolean) : []
     group.replaceChildren(...wanted.map((control) => {
-      const [item, showOne, refuse, follow] = control.kind === "number" ? number(control) : choice(control)
+      const [item, showOne, refuse, follow] = controlOf(control)
       parts[control.name] = { show: showOne, refuse, follow }
       return item
     }))

@@ -7,7 +7,7 @@ from typing import Any, TypeGuard
 
 from hess_explorer.lessons.lesson import TIME, Animation, HiddenLayer, LessonError, Prediction, StateLink
 from hess_explorer.lessons.links import not_one_of, place_of
-from hess_explorer.protocol.parameters import Choice, Number
+from hess_explorer.protocol.parameters import Controlled, Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.layers import Layer
@@ -74,7 +74,7 @@ def controls_of(found: object, animation: Animation | None, scene: Scene[Any], l
         return (animation.name,) if animation and animation.name != TIME else ()
     if not isinstance(found, list) or len(found) > _MOST_CONTROLS:
         raise LessonError(f"controls must be a list of at most {_MOST_CONTROLS} names, like controls: [h, f].", line)
-    names = tuple(spec.name for spec in scene.specs if isinstance(spec, Number | Choice))
+    names = tuple(spec.name for spec in scene.specs if isinstance(spec, Controlled))
     for name in found:
         if name not in names:
             raise LessonError(not_one_of("a name in controls", name, names), line)

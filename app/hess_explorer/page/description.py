@@ -17,7 +17,7 @@ from hess_explorer.lessons.lesson import Lesson, LessonStep
 from hess_explorer.lessons.markdown import to_html
 from hess_explorer.lessons.reading import without_tries
 from hess_explorer.page.glossary import explained
-from hess_explorer.protocol.parameters import Choice, Number
+from hess_explorer.protocol.parameters import Choice, Controlled, Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.charted import Charted
 from hess_explorer.scenes.framework.scene import Scene
@@ -49,13 +49,13 @@ def _describe(name: str) -> str:
             "name": scene.name,
             "title": scene.title,
             "pictures": [{**view.describe(), "folded": view.folded or None} for view in scene.views],
-            "controls": [_control(spec) for spec in scene.specs if isinstance(spec, Number | Choice)],
+            "controls": [_control(spec) for spec in scene.specs if isinstance(spec, Controlled)],
             "essential": list(scene.essential),
             "handle": _handle(scene),
             "moves": scene.moves,
             "opening": scene.opening or scene.open_pictures[0],
             "groups": list(GROUPS),
-            "drawn": not all(isinstance(spec, Number | Choice) for spec in scene.specs),
+            "drawn": not all(isinstance(spec, Controlled) for spec in scene.specs),
             "charts": [_chart(scene, charted) for charted in scene.charts],
             "sides": sides_of_places(scene),
             "presets": [preset.name for preset in scene.presets],
@@ -129,11 +129,13 @@ def _html(scene: Scene[Any]) -> str:
     return html
 
 
-def _control(spec: Number | Choice) -> dict[str, Any]:
+def _control(spec: Controlled) -> dict[str, Any]:
     common = {"name": spec.name, "label": spec.label, "help": spec.doc, "group": spec.group}
     if isinstance(spec, Number):
         return {"kind": "number", "symbol": spec.symbol, "range": list(spec.softbounds), **common}
-    return {"kind": "choice", "options": list(spec.options), **common}
+    if isinstance(spec, Choice):
+        return {"kind": "choice", "options": list(spec.options), **common}
+    return {"kind": "formula", **common}
 
 
 @cache

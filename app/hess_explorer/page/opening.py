@@ -10,7 +10,7 @@ from urllib.parse import urlencode
 from hess_explorer.lessons import shipped
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.requested import linked
-from hess_explorer.protocol.parameters import CLIENT, Choice, Link, Names, Number, Values
+from hess_explorer.protocol.parameters import CLIENT, Choice, Controlled, Link, Names, Number, Values
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
@@ -109,7 +109,7 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
 
 def _embedded(scene: Scene[Any]) -> tuple[Names, Names]:
     """Return the parameters "pictures" and "controls" of an embedded page; "none" means no control."""
-    controls = tuple(spec.name for spec in scene.specs if isinstance(spec, Number | Choice))
+    controls = tuple(spec.name for spec in scene.specs if isinstance(spec, Controlled))
     return (
         Names("pictures", "Embedded pictures", scene.pictures, len(scene.pictures), ",".join(scene.open_pictures)),
         Names("controls", "Embedded controls", (*controls, "none"), len(controls), ",".join(scene.essential)),

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from hess_explorer.lessons.lesson import StateLink
-from hess_explorer.protocol.parameters import Choice, Link, Number, Value, Values
+from hess_explorer.protocol.parameters import Choice, Formula, Link, Number, Value, Values
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
@@ -92,5 +92,10 @@ class RequestedState:
                     self.values[name], note = spec.admit(float(value) if isinstance(value, int | float) else math.nan)
                     if note:
                         self.notes.append(note)
+                case Formula() as spec:
+                    # A formula that cannot be read leaves the one before.
+                    formula, note = spec.read(str(value))
+                    self.values[name] = self.values[name] if note else formula
+                    self.notes += [note] if note else []
                 case spec if spec is not None:
                     self.values[name], _ = spec.read(str(value))

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from urllib.parse import parse_qsl, urlencode, urlsplit
 
+from hess_explorer.protocol.formulas import polynomial
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.parameters import Group, Parameter
 
@@ -20,6 +21,8 @@ __all__ = [
     "PAGE_KEYS",
     "VERSION",
     "Choice",
+    "Controlled",
+    "Formula",
     "Link",
     "Names",
     "Number",
@@ -83,6 +86,25 @@ class Choice:
         if text in self.options:
             return text, None
         return self.default, f"{self.label} must be one of {', '.join(self.options)}: set to {self.default}."
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A polynomial in γ₁, γ₂, γ₃, as a text."""
+
+    name: str
+    label: str
+    default: str
+    doc: str = ""
+    group: Group = "Body"
+
+    def read(self, text: str) -> tuple[str, str | None]:
+        """Return the formula without surrounding spaces; otherwise the default and a note."""
+        try:
+            polynomial(text)
+        except InvalidParameter as error:
+            return self.default, f"{self.label}: {error}"
+        return text.strip(), None
 
 
 @dataclass(frozen=True)
@@ -153,7 +175,10 @@ def places(text: Value) -> list[tuple[float, float]]:
     return [(float(x), float(y)) for x, y in pairs]
 
 
-Spec = Number | Choice | Places | Names
+Controlled = Number | Choice | Formula
+"""Parameters with a control."""
+
+Spec = Controlled | Places | Names
 
 CLIENT: tuple[Number, ...] = (
     Number("t", "t", "Time", 0.0, (0.0, 1000.0), 0.0, (0.0, 1e6)),

@@ -6,7 +6,7 @@ import math
 from dataclasses import field, fields, replace
 from typing import Any
 
-from hess_explorer.protocol.parameters import Choice, Number, Places, Spec, Value
+from hess_explorer.protocol.parameters import Choice, Formula, Number, Places, Spec, Value
 from hess_explorer.scenes.framework.work import AUTO
 from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.parameters import Group, Parameter
@@ -18,6 +18,7 @@ __all__ = [
     "accuracy_level",
     "choice",
     "exponent_time",
+    "formula",
     "like",
     "number",
     "parameter",
@@ -73,6 +74,11 @@ def number(
 def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, group: Group = "Computation") -> Any:
     """Declare a choice from a fixed list of names."""
     return _field(Choice("", label, options, default, doc, group))
+
+
+def formula(label: str, default: str, *, doc: str) -> Any:
+    """Declare a polynomial in γ₁, γ₂, γ₃, typed as a formula."""
+    return _field(Formula("", label, default, doc))
 
 
 def places(label: str, most: int, low: tuple[float, float], high: tuple[float, float], default: str = "") -> Any:

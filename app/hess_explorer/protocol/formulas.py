@@ -1,0 +1,175 @@
+"""Polynomials that a user types as formulas: 0.5*g1^2 − g3.
+
+The text is untrusted.  As in `expressions`, simpleeval evaluates it without running code; names stand for polynomials,
+so that only polynomials come out, with bounds on length, degree and number of terms.
+"""
+
+from __future__ import annotations
+
+import ast
+import operator
+import re
+import warnings
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from simpleeval import InvalidExpression, SimpleEval
+
+from hess_mechanics.errors import InvalidParameter
+
+__all__ = ["MOST", "polynomial", "written_polynomial"]
+
+MOST = 200
+"""Maximum length of a formula, in characters."""
+_DEGREE = 6
+_LARGEST = 1e6
+_NAMES = ("g1", "g2", "g3")
+_KINDS = (ast.Expr, ast.Constant, ast.Name, ast.UnaryOp, ast.BinOp)
+_TEXT = re.compile(r"(?>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![\w.])|g[123](?![\w.])|[-+*/()]|\s)+")
+
+Exponents = tuple[int, int, int]
+
+
+class _Terms(dict[Exponents, float]):
+    """The coefficient of each product of powers of g1, g2, g3."""
+
+    def add(self, exponents: Exponents, value: float) -> None:
+        """Add to a coefficient."""
+        self[exponents] = self.get(exponents, 0.0) + value
+
+
+def _of(x: Any) -> _Terms:
+    return x if isinstance(x, _Terms) else _Terms({(0, 0, 0): float(x)})
+
+
+def _sum(a: Any, b: Any, sign: float = 1.0) -> _Terms:
+    found = _Terms(_of(a))
+    for exponents, value in _of(b).items():
+        found.add(exponents, sign * value)
+    return found
+
+
+def _product(a: Any, b: Any) -> _Terms:
+    found = _Terms()
+    for one, x in _of(a).items():
+        for other, y in _of(b).items():
+            together = (one[0] + other[0], one[1] + other[1], one[2] + other[2])
+            if sum(together) > _DEGREE:
+                raise InvalidParameter(f"The degree of the formula is more than {_DEGREE}: choose lower powers.")
+            found.add(together, x * y)
+    return found
+
+
+def _quotient(a: Any, b: Any) -> _Terms:
+    divisor = _of(b)
+    if set(divisor) != {(0, 0, 0)} or divisor[0, 0, 0] == 0.0:
+        raise InvalidParameter("The formula divides by something other than a number: write a polynomial.")
+    return _product(a, 1.0 / divisor[0, 0, 0])
+
+
+def _power(a: Any, n: Any) -> _Terms:
+    exponent = _of(n)
+    if set(exponent) != {(0, 0, 0)} or exponent[0, 0, 0] not in range(_DEGREE + 1):
+        raise InvalidParameter(f"The exponents of the formula are whole numbers from 0 to {_DEGREE}.")
+    found = _of(1.0)
+    for _ in range(int(exponent[0, 0, 0])):
+        found = _product(found, a)
+    return found
+
+
+_OPERATORS: Mapping[type[ast.AST], Callable[..., Any]] = {
+    ast.Add: _sum,
+    ast.Sub: lambda a, b: _sum(a, b, -1.0),
+    ast.Mult: _product,
+    ast.Div: _quotient,
+    ast.Pow: _power,
+    ast.USub: lambda a: _product(a, -1.0),
+    ast.UAdd: operator.pos,
+}
+
+
+def polynomial(text: str) -> dict[Exponents, float]:
+    """Return the coefficients of a polynomial in g1, g2, g3 by exponents.
+
+    Parameters
+    ----------
+    text : str
+        The formula, for example "0.5*g1^2 - g3"; "^" means a power.  An empty text means 0.
+
+    Returns
+    -------
+    dict
+        Coefficients other than 0, without the constant, by the exponents of g1, g2, g3.
+
+    Raises
+    ------
+    InvalidParameter
+        If the text is too long or no polynomial of degree 6 or less with coefficients up to 1e6.
+
+    Examples
+    --------
+    >>> polynomial("(g1 + 2)^2/2")
+    {(2, 0, 0): 0.5, (1, 0, 0): 2.0}
+    """
+    plain = text.strip().replace("−", "-").replace("^", "**").replace("·", "*").replace("γ", "g")
+    plain = plain.translate(str.maketrans("₁₂₃", "123"))
+    if len(plain) > MOST:
+        raise InvalidParameter(f"The formula is longer than {MOST} characters: shorten it.")
+    if not plain:
+        return {}
+    names = {name: _Terms({tuple(int(i == k) for k in range(3)): 1.0}) for i, name in enumerate(_NAMES)}  # type: ignore[dict-item]
+    evaluator = SimpleEval(operators=dict(_OPERATORS), functions={}, names=names)
+    evaluator.nodes = {kind: evaluator.nodes[kind] for kind in _KINDS}
+    try:
+        if not _TEXT.fullmatch(plain):
+            raise InvalidExpression
+        # Python warns about suspicious syntax; such formulas are rejected.
+        with warnings.catch_warnings(action="error"):
+            found = _of(evaluator.eval(plain))
+    except InvalidParameter:
+        raise
+    except (
+        InvalidExpression,
+        SyntaxError,
+        TypeError,
+        ValueError,
+        ArithmeticError,
+        RecursionError,
+        MemoryError,
+        Warning,
+    ):
+        raise InvalidParameter(
+            "This is no polynomial: use numbers, g1, g2, g3, + − * / ^ and parentheses, like 0.5*g1^2 - g3."
+        ) from None
+    # The constant part of a potential moves nothing.
+    kept = {exponents: value for exponents, value in found.items() if value != 0.0 and any(exponents)}
+    if not all(abs(value) <= _LARGEST for value in kept.values()):
+        raise InvalidParameter(f"A coefficient of the formula is larger than {_LARGEST:g}: choose smaller numbers.")
+    return kept
+
+
+def written_polynomial(coefficients: Mapping[Exponents, float]) -> str:
+    """Return the formula of a polynomial, as a link holds it.
+
+    Parameters
+    ----------
+    coefficients : mapping
+        Coefficients by the exponents of g1, g2, g3.
+
+    Returns
+    -------
+    str
+        The formula.
+
+    Examples
+    --------
+    >>> written_polynomial({(2, 0, 0): 0.5, (0, 0, 1): -1.0})
+    '0.5*g1^2 - 1*g3'
+    """
+    terms = [
+        "*".join(
+            [f"{value:.17g}", *(name if n == 1 else f"{name}^{n}" for name, n in zip(_NAMES, powers, strict=True) if n)]
+        )
+        for powers, value in coefficients.items()
+    ]
+    return " + ".join(terms).replace("+ -", "- ")

@@ -1,0 +1,327 @@
+"""A body of one's own: inertia, potential, constraint, gyrostatic momentum and drive."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+
+from hess_explorer.protocol.formulas import polynomial
+from hess_explorer.scenes.framework.parameters import (
+    ONE_TURN,
+    accuracy_level,
+    choice,
+    exponent_time,
+    formula,
+    number,
+    parameter,
+    time_span,
+)
+from hess_explorer.scenes.framework.part import Start, part
+from hess_explorer.scenes.framework.scene import Preset, Scene, State
+from hess_explorer.scenes.parts.exponent import Exponent, exponent_picture
+from hess_explorer.scenes.parts.orbit import Orbit
+from hess_explorer.views import theme
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.graph import over_time, with_room
+from hess_explorer.views.layers import Columns, Range, line
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.poisson_sphere import Sphere, gamma_columns
+from hess_explorer.views.text import digits
+from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.system import System
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.parameters import I11, I13, I22, I23
+from hess_mechanics.rigid_body.own_body import OwnBody, Polynomial
+
+__all__ = ["SCENE", "OwnBodyState"]
+
+_CONSTRAINED, _FREE = "(a, ω) = 0", "none"
+_CHANGE = 1e-9
+"""Changes of the energy below this share of it are drawn as no change."""
+
+
+def _component(symbol: str, label: str, default: float, doc: str, largest: float = 2.0) -> Any:
+    return number(
+        symbol,
+        default,
+        (-largest, largest),
+        0.01,
+        bounds=(-1e3, 1e3),
+        label=label,
+        doc=doc,
+        group="Body",
+        means="own body",
+    )
+
+
+def _velocity(symbol: str, default: float) -> Any:
+    return number(
+        symbol,
+        default,
+        (-5.0, 5.0),
+        0.01,
+        bounds=(-1e3, 1e3),
+        label=f"Velocity {symbol}",
+        doc="Angular velocity at t = 0; the part that the constraint forbids is left out.",
+        means="own body",
+    )
+
+
+class _NoPeriodicOrbit:
+    """No periodic orbit is searched for."""
+
+    growth = None
+    looking = False
+
+
+@dataclass(frozen=True)
+class OwnBodyState(State):
+    """A motion of the body."""
+
+    U: str = formula("Potential U(γ)", "g3 - 0.5*g1", doc="A polynomial in g1, g2, g3, like 0.5*g1^2 - g3.")
+    constraint: str = choice(
+        "Constraint",
+        (_CONSTRAINED, _FREE),
+        _CONSTRAINED,
+        doc="The velocity along a is 0, or the body is free.",
+        group="Body",
+    )
+    I11: float = parameter(I11, 2.0)
+    I22: float = parameter(I22, 1.5)
+    I33: float = number(
+        "I₃₃",
+        1.2,
+        (0.2, 5.0),
+        0.01,
+        bounds=(1e-3, 1e3),
+        label="Inertia I₃₃",
+        doc="Third moment of inertia.",
+        group="Body",
+    )
+    I12: float = _component("I₁₂", "Inertia I₁₂", 0.0, "Product of inertia.")
+    I13: float = parameter(I13, 0.3)
+    I23: float = parameter(I23, 0.2)
+    a1: float = _component("a₁", "Constraint a₁", 0.0, "First component of a.")
+    a2: float = _component("a₂", "Constraint a₂", 0.0, "Second component of a.")
+    a3: float = _component("a₃", "Constraint a₃", 1.0, "Third component of a.")
+    k1: float = _component("k₁", "Rotor k₁", 0.0, "Gyrostatic momentum, first component.")
+    k2: float = _component("k₂", "Rotor k₂", 0.0, "Gyrostatic momentum, second component.")
+    k3: float = _component("k₃", "Rotor k₃", 0.0, "Gyrostatic momentum, third component.")
+    d1: float = _component("d₁", "Drive d₁", 0.0, "The gyrostatic momentum is k + d cos Ωt.")
+    d2: float = _component("d₂", "Drive d₂", 0.0, "The gyrostatic momentum is k + d cos Ωt.")
+    d3: float = _component("d₃", "Drive d₃", 0.0, "The gyrostatic momentum is k + d cos Ωt.")
+    frequency: float = number(
+        "Ω", 1.0, (0.0, 5.0), 0.01, bounds=(0.0, 100.0), label="Frequency Ω", doc="Of the drive.", group="Body"
+    )
+    w1: float = _velocity("ω₁(0)", 0.5)
+    w2: float = _velocity("ω₂(0)", 1.0)
+    w3: float = _velocity("ω₃(0)", 0.0)
+    azimuth: float = number(
+        "φ",
+        0.0,
+        ONE_TURN,
+        0.01,
+        bounds=ONE_TURN,
+        label="Azimuth of γ",
+        doc="Of the vertical, in the plane 1, 2.",
+        means="own body",
+    )
+    height: float = number(
+        "γ₃(0)",
+        0.6,
+        (-1.0, 1.0),
+        0.01,
+        bounds=(-1.0, 1.0),
+        label="Height γ₃",
+        doc="Third component of the vertical.",
+        means="own body",
+    )
+    lasts: float = time_span(40.0, 300.0)
+    long: float = exponent_time(500.0, 5000.0, 2e4, "the exponent is")
+    accuracy: str = accuracy_level()
+
+    periodic_orbit: ClassVar[_NoPeriodicOrbit] = _NoPeriodicOrbit()
+
+    @cached_property
+    def potential(self) -> Polynomial:
+        """The potential.  Raises `InvalidParameter`."""
+        found = polynomial(self.U)
+        return Polynomial(tuple(found), tuple(found.values()))
+
+    @cached_property
+    def body(self) -> OwnBody:
+        """The body.  Raises `ModelError`."""
+        return OwnBody(
+            (self.I11, self.I22, self.I33, self.I12, self.I13, self.I23),
+            self.potential,
+            (self.a1, self.a2, self.a3) if self.constraint == _CONSTRAINED else None,
+            (self.k1, self.k2, self.k3),
+            (self.d1, self.d2, self.d3),
+            self.frequency,
+        )
+
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """Pixels of the pictures per unit of each variable."""
+        return (100.0, 100.0, 100.0, 250.0, 250.0, 250.0, *((1.0, 1.0, 100.0) if self.body.is_driven else ()))
+
+    @property
+    def start(self) -> Start:
+        """The initial state."""
+        around = math.sqrt(max(0.0, 1.0 - self.height**2))
+        gamma = around * math.cos(self.azimuth), around * math.sin(self.azimuth), self.height
+        return self.body.start((self.w1, self.w2, self.w3), gamma)
+
+    @cached_property
+    def is_compiled(self) -> bool:
+        """True once the equations of this form are compiled."""
+        return self.work.later(_compiled, self.body.system) is not None
+
+    @part
+    def orbit(self) -> Orbit:
+        """The motion."""
+        return Orbit(self)
+
+    @part
+    def exponent(self) -> Exponent:
+        """Its largest Lyapunov exponent."""
+        return Exponent(self)
+
+    @property
+    def track(self) -> Columns | None:
+        """The track of the orbit; None until the equations are compiled."""
+        if not self.is_compiled:
+            return None
+        states = self.orbit.path.states
+        return {**self.orbit.columns, **gamma_columns(states[:, 3:6])}
+
+    @cached_property
+    def energies(self) -> tuple[Array, Array, Array] | None:
+        """Times, changes of the energy, and the work of the drive; None until the equations are compiled."""
+        if not self.is_compiled:
+            return None
+        path, body = self.orbit.path, self.body
+        kept = np.array(next(iter(body.system.integrals([*path.states.T], body.parameters).values())))
+        work = path.states[:, 8] if body.is_driven else np.zeros(path.times.size)
+        return path.times, kept + work - kept[0], work
+
+    def idle(self) -> Mapping[str, float]:
+        """Return the numbers without effect: the constraint of a free body, the frequency of no drive."""
+        found = {} if self.constraint == _CONSTRAINED else {"a1": 0.0, "a2": 0.0, "a3": 0.0}
+        return found if any((self.d1, self.d2, self.d3)) else {**found, "frequency": self.frequency}
+
+    def derived(self) -> Iterator[str]:
+        """Yield what is conserved."""
+        yield f"conserved: {', '.join(self.body.system.integrals(*self.body.system.example))}"
+
+
+def _compiled(system: System) -> bool:
+    """Compile the equations by following their example."""
+    solve(*system.example_motion, [0.1], "draft")
+    return True
+
+
+def _caption(s: OwnBodyState) -> Caption:
+    if not s.is_compiled:
+        return Caption("The equations are being compiled.", "Some seconds; numbers then change at once.")
+    return Caption(numbers=f"From t = 0 to t = {digits(s.lasts)}.")
+
+
+def _room(name: str) -> Any:
+    return lambda s: None if s.track is None else with_room(s.track[name], 0.06, 1e-2)
+
+
+def _energy_caption(s: OwnBodyState) -> Caption:
+    if s.energies is None:
+        return _caption(s)
+    _, change, work = s.energies
+    if s.body.is_driven:
+        off = float(np.abs(change - work).max())
+        return Caption("The drive does work.", f"|E − E₀ − W| ≤ {digits(off, 1)}.")
+    return Caption("The energy is conserved.", f"|E − E₀| ≤ {digits(float(np.abs(change).max()), 1)}.")
+
+
+def _energy_range(s: OwnBodyState) -> Range | None:
+    return None if s.energies is None else with_room(np.concatenate(s.energies[1:]), 0.1, 1e-3)
+
+
+def _graph(i: int) -> Any:
+    return lambda s: None if s.energies is None else (s.energies[0], s.energies[i])
+
+
+PRESETS = (
+    Preset("Suslov problem with an oblique field"),
+    Preset("Suslov gyrostat", U="", k1=0.3, k2=0.2, k3=0.8, I13=0.5, I23=0.0),
+    Preset("Driven Suslov body", U="", d3=1.0, frequency=1.3, I13=0.3, I23=0.4, w1=1.0, w2=0.2, lasts=100.0),
+    Preset("Oblique constraint", a1=0.5, a2=-0.3, U="g3"),
+    Preset("Euler top", U="", constraint=_FREE, I11=3.0, I22=2.0, I33=1.0, I13=0.0, I23=0.0, w1=0.05, w2=1.5, w3=0.05),
+    Preset(
+        "Kovalevskaya top",
+        U="g1",
+        constraint=_FREE,
+        I11=2.0,
+        I22=2.0,
+        I33=1.0,
+        I13=0.0,
+        I23=0.0,
+        w1=0.5,
+        w2=0.3,
+        w3=1.0,
+    ),
+    Preset("A quartic potential", U="g1^4 + g2^4 - g3^2", I13=0.0, I23=0.0),
+)
+"""The third is a Suslov body whose rotor's speed changes periodically."""
+
+SCENE = Scene(
+    OwnBodyState,
+    __file__,
+    place=25,
+    group="Your own",
+    presets=PRESETS,
+    essential=("U", "constraint", "I13", "k3", "d3"),
+    handle="I13",
+    title="Your own body",
+    summary="Type a potential; choose inertia, constraint, rotor and drive. Equations are derived, checked and solved.",
+    tracks={"orbit": lambda s: s.track},
+    views=(
+        Plot[OwnBodyState](
+            name="omega",
+            title="Angular velocity",
+            caption=_caption,
+            axes=("ω₁", "ω₂"),
+            x=_room("ω1"),
+            y=_room("ω2"),
+            dot=("ω1", "ω2"),
+            layers=(
+                line(
+                    "orbit",
+                    track="orbit",
+                    columns=("ω1", "ω2"),
+                    color=theme.ORBIT,
+                    width=2.5,
+                    label="orbit",
+                    tag="orbit",
+                ),
+            ),
+        ),
+        Sphere[OwnBodyState](looks={"orbit": "orbit"}, caption=lambda s: Caption("The vertical γ along the orbit.")),
+        Plot[OwnBodyState](
+            name="energy",
+            title="Energy",
+            caption=_energy_caption,
+            axes=("t", "E − E₀"),
+            x=lambda s: (0.0, s.lasts),
+            y=_energy_range,
+            layers=(
+                over_time("work", _graph(2), color=theme.MAP, dash="dashed", label="work W of the drive"),
+                over_time("change", _graph(1), color=theme.ORBIT, label="change of the energy"),
+            ),
+        ),
+        exponent_picture(lambda s: s.exponent),
+    ),
+)

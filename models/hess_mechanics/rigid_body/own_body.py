@@ -1,0 +1,295 @@
+"""A rigid body of one's own: a fixed point, a linear constraint, a gyrostatic momentum, a polynomial potential.
+
+State y = (ω1, ω2, ω3, γ1, γ2, γ3), and with a drive (cos Ωt, sin Ωt, W) after these.  With M = Iω + K,
+
+    I ω̇ = M × ω + γ × ∂U/∂γ − K̇ + λ a,   γ̇ = γ × ω,   (a, ω) = 0,
+
+where K = k + d cos Ωt is the momentum of the rotors.  The multiplier λ keeps (a, ω) = 0; without a constraint it is 0.
+The drive does the work W, Ẇ = −(K̇, ω), so that E − W is constant, E = (Iω, ω)/2 + U.  For a = e3 and K = 0 these are
+the equations of the Suslov problem (`Biz01`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from hess_mechanics.dynamics.system import System
+from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
+from hess_mechanics.rigid_body.inertia import require_finite
+
+__all__ = ["OwnBody", "Polynomial"]
+
+_TERMS, _DEGREE = 20, 6
+"""Largest number of terms of the potential, and largest degree: the compile time grows with both."""
+_FORMS = 300
+"""Largest number of forms of the equations that a process compiles: kernels are never freed."""
+
+Vector = tuple[float, float, float]
+_NOTHING: Vector = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Polynomial:
+    """A polynomial in γ1, γ2, γ3.
+
+    Parameters
+    ----------
+    exponents : tuple of (int, int, int)
+        Exponents of γ1, γ2, γ3 in each term, without repetition.
+    coefficients : tuple of float
+        Coefficient of each term.
+
+    Raises
+    ------
+    InvalidParameter
+        If there are more than 20 terms, a degree exceeds 6, or a coefficient is not finite.
+
+    Examples
+    --------
+    >>> from hess_mechanics import Polynomial
+    >>> Polynomial(((1, 0, 0), (0, 0, 2)), (0.5, 1.0))(1.0, 0.0, 2.0)
+    4.5
+    """
+
+    exponents: tuple[tuple[int, int, int], ...] = ()
+    coefficients: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        if len(self.exponents) != len(self.coefficients) or len(self.exponents) > _TERMS:
+            raise InvalidParameter(f"A potential has at most {_TERMS} terms, each with one coefficient.")
+        if any(min(one) < 0 or sum(one) > _DEGREE for one in self.exponents):
+            raise InvalidParameter(f"The degree of a potential is at most {_DEGREE}.")
+        if not all(map(math.isfinite, self.coefficients)):
+            raise InvalidParameter("The coefficients of a potential are finite numbers.")
+
+    def __call__(self, g1: Any, g2: Any, g3: Any) -> Any:
+        """Return the value at a point.
+
+        Parameters
+        ----------
+        g1, g2, g3 : float or ndarray
+            Components of γ.
+
+        Returns
+        -------
+        float or ndarray
+            The value.
+        """
+        return _value(self.exponents, self.coefficients, (g1, g2, g3))
+
+
+def _value(exponents: Sequence[Sequence[int]], c: Sequence[Any], g: Sequence[Any]) -> Any:
+    return sum(
+        ck * _power(g[0], i) * _power(g[1], j) * _power(g[2], k) for ck, (i, j, k) in zip(c, exponents, strict=True)
+    )
+
+
+def _power(x: Any, n: int) -> Any:
+    """Return xⁿ as products, which all kinds of numbers have; 1 for n = 0."""
+    return x * _power(x, n - 1) if n > 1 else x if n else 1
+
+
+def _slope(exponents: Sequence[Sequence[int]], c: Sequence[Any], g: Sequence[Any], i: int) -> Any:
+    """Return ∂U/∂γ_i."""
+    lower = [
+        (one[i] * ck, [n - (k == i) for k, n in enumerate(one)]) for ck, one in zip(c, exponents, strict=True) if one[i]
+    ]
+    return _value([one for _, one in lower], [ck for ck, _ in lower], g)
+
+
+def _cross(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, Any, Any]:
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def _dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _times(I: Sequence[Any], x: Sequence[Any]) -> tuple[Any, Any, Any]:
+    """Return I x for I = (I11, I22, I33, I12, I13, I23)."""
+    I11, I22, I33, I12, I13, I23 = I
+    return (
+        I11 * x[0] + I12 * x[1] + I13 * x[2],
+        I12 * x[0] + I22 * x[1] + I23 * x[2],
+        I13 * x[0] + I23 * x[1] + I33 * x[2],
+    )
+
+
+def _inverse(I: Sequence[Any]) -> tuple[Any, ...]:
+    """Return I⁻¹ in the same order, by cofactors."""
+    I11, I22, I33, I12, I13, I23 = I
+    A11, A22, A33 = I22 * I33 - I23 * I23, I11 * I33 - I13 * I13, I11 * I22 - I12 * I12
+    A12, A13, A23 = I13 * I23 - I12 * I33, I12 * I23 - I13 * I22, I12 * I13 - I11 * I23
+    determinant = I11 * A11 + I12 * A12 + I13 * A13
+    return tuple(one / determinant for one in (A11, A22, A33, A12, A13, A23))
+
+
+@cache
+def _system(exponents: tuple[tuple[int, int, int], ...], is_constrained: bool, is_driven: bool) -> System:
+    """Return the equations of all bodies whose potential has these terms."""
+    names = [*("I11", "I22", "I33", "I12", "I13", "I23"), *("k1", "k2", "k3")]
+    names += ["a1", "a2", "a3"] if is_constrained else []
+    names += ["d1", "d2", "d3", "Omega"] if is_driven else []
+
+    def split(p: Sequence[Any]) -> tuple[Sequence[Any], ...]:
+        """Return I, k, a, d and Ω, and the coefficients of U."""
+        a = p[9:12] if is_constrained else _NOTHING
+        first = 12 if is_constrained else 9
+        drive = p[first : first + 4] if is_driven else (0, 0, 0, 0)
+        return p[:6], p[6:9], a, drive, p[first + 4 if is_driven else first :]
+
+    def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
+        I, k, a, (*d, Omega), c = split(p)
+        omega, gamma = y[:3], y[3:6]
+        cosine, sine = y[6:8] if is_driven else (1, 0)
+        K = [ki + di * cosine for ki, di in zip(k, d, strict=True)] if is_driven else k
+        change = [-(di * Omega) * sine for di in d] if is_driven else _NOTHING
+        M = [one + other for one, other in zip(_times(I, omega), K, strict=True)]
+        forces = _cross(gamma, [_slope(exponents, c, gamma, i) for i in range(3)])
+        torque = [one + other - rate for one, other, rate in zip(_cross(M, omega), forces, change, strict=True)]
+        inverse = _inverse(I)
+        rates = _times(inverse, torque)
+        if is_constrained:
+            reaction = _times(inverse, a)
+            multiplier = _dot(a, rates) * (1 / _dot(a, reaction))
+            rates = tuple(rate - multiplier * one for rate, one in zip(rates, reaction, strict=True))
+        moved = (-Omega * sine, Omega * cosine, -_dot(change, omega)) if is_driven else ()
+        return (*rates, *_cross(gamma, omega), *moved)
+
+    def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
+        I, k, a, _, c = split(p)
+        omega, gamma = y[:3], y[3:6]
+        E = _dot(_times(I, omega), omega) / 2 + _value(exponents, c, gamma)
+        found = {"E − W": E - y[8]} if is_driven else {"E": E}
+        found["γ²"] = _dot(gamma, gamma)
+        if is_constrained:
+            found["(a, ω)"] = _dot(a, omega)
+        elif not is_driven:
+            found["(M, γ)"] = _dot([one + other for one, other in zip(_times(I, omega), k, strict=True)], gamma)
+        return found
+
+    state = (0.5, 0.4, 0.0, 0.6, 0.0, 0.8, *((1.0, 0.0, 0.0) if is_driven else ()))
+    values = [2.0, 1.5, 1.0, 0.0, 0.1, 0.2, 0.0, 0.0, 0.3]
+    values += [0.0, 0.0, 1.0] if is_constrained else []
+    values += [0.0, 0.0, 0.5, 1.0] if is_driven else []
+    form = "_".join("".join(map(str, one)) for one in exponents)
+    return System(
+        f"own_body_{int(is_constrained)}{int(is_driven)}_{form}",
+        field,
+        ("ω1", "ω2", "ω3", "γ1", "γ2", "γ3", *(("cosΩt", "sinΩt", "W") if is_driven else ())),
+        (*names, *(f"c{i + 1}" for i in range(len(exponents)))),
+        (state, (*values, *([0.5] * len(exponents)))),
+        title="Your own body",
+        integrals=integrals,
+    )
+
+
+@dataclass(frozen=True)
+class OwnBody:
+    """A body with a fixed point.
+
+    Parameters
+    ----------
+    inertia : tuple of float, shape (6,)
+        I11, I22, I33, I12, I13, I23.
+    potential : Polynomial, optional
+        The potential U(γ).
+    constraint : (float, float, float), optional
+        The vector a of the constraint (a, ω) = 0; None for a free body.
+    momentum : (float, float, float), optional
+        Constant part k of the gyrostatic momentum.
+    drive : (float, float, float), optional
+        Amplitude d of its periodic part d cos Ωt.
+    frequency : float, optional
+        Frequency Ω of the drive.
+
+    Raises
+    ------
+    InvalidParameter
+        If a number is not finite, or a = 0.
+    NotPositiveDefinite
+        If the inertia tensor is not positive definite.
+
+    References
+    ----------
+    `Biz01`.
+
+    Examples
+    --------
+    >>> from hess_mechanics import OwnBody, solve
+    >>> top = OwnBody((3.0, 2.0, 1.0, 0.0, 0.0, 0.0))
+    >>> str(solve(top, top.start((0.1, 1.0, 0.1), (0.0, 0.0, 1.0)), [1.0], "precise").status)
+    'ok'
+    """
+
+    inertia: tuple[float, float, float, float, float, float]
+    potential: Polynomial = Polynomial()
+    constraint: Vector | None = None
+    momentum: Vector = _NOTHING
+    drive: Vector = _NOTHING
+    frequency: float = 1.0
+
+    def __post_init__(self) -> None:
+        numbers = (*self.inertia, *(self.constraint or ()), *self.momentum, *self.drive, self.frequency)
+        require_finite(**{f"number {i + 1}": value for i, value in enumerate(numbers)})
+        I11, I22, I33, I12, I13, I23 = self.inertia
+        if not np.linalg.eigvalsh([[I11, I12, I13], [I12, I22, I23], [I13, I23, I33]])[0] > 0.0:
+            raise NotPositiveDefinite(
+                "The inertia tensor is not positive definite: choose larger moments I11, I22, I33, or smaller products "
+                "I12, I13, I23."
+            )
+        if self.constraint is not None and not any(self.constraint):
+            raise InvalidParameter("The vector a of the constraint is 0: choose another one, or no constraint.")
+
+    @property
+    def is_driven(self) -> bool:
+        """True if the gyrostatic momentum depends on time."""
+        return any(self.drive)
+
+    @property
+    def system(self) -> System:
+        """The equations of motion, shared by all bodies whose potential has the same terms.  Raises `WorkLimit`."""
+        if _system.cache_info().currsize >= _FORMS:
+            raise WorkLimit(f"{_FORMS} forms of equations have been compiled here: start the program anew.")
+        return _system(self.potential.exponents, self.constraint is not None, self.is_driven)
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """Values of the parameters of the equations."""
+        drive = (*self.drive, self.frequency) if self.is_driven else ()
+        return (*self.inertia, *self.momentum, *(self.constraint or ()), *drive, *self.potential.coefficients)
+
+    def start(self, omega: Sequence[float], gamma: Sequence[float]) -> tuple[float, ...]:
+        """Return the state for an angular velocity and a vertical.
+
+        Parameters
+        ----------
+        omega : sequence of float, shape (3,)
+            Angular velocity; its part along the constraint is removed.
+        gamma : sequence of float, shape (3,)
+            Direction of the vertical; it is normalised.
+
+        Returns
+        -------
+        tuple of float
+            The state.
+
+        Raises
+        ------
+        InvalidParameter
+            If the vertical is 0.
+        """
+        w, g = np.array(omega, float), np.array(gamma, float)
+        length = float(np.linalg.norm(g))
+        if not length > 0.0:
+            raise InvalidParameter("The vertical γ is 0: give a direction.")
+        if self.constraint is not None:
+            a = np.array(self.constraint) / np.linalg.norm(self.constraint)
+            w = w - (a @ w) * a
+        return (*w.tolist(), *(g / length).tolist(), *((1.0, 0.0, 0.0) if self.is_driven else ()))

@@ -1,0 +1,46 @@
+// @ts-check
+// The control of a parameter: a slider with a box, a menu, or a line for a formula.
+
+import { tell } from "../page/bus.js"
+import { element } from "../page/elements.js"
+import { choice } from "./choice.js"
+import { number } from "./number.js"
+
+const TYPE = "Press Enter to use it."
+
+/**
+ * Return the line of a formula and the function that shows it.
+ * @param {ControlDescription} description
+ * @returns {[HTMLElement, import("./choice.js").Show]}
+ */
+function formula({ name, label, help }) {
+  let shown = ""
+  const line = element("input.formula", {
+    type: "text", spellcheck: false, autocomplete: "off", title: `${help} ${TYPE}`, maxLength: 200,
+    onchange: () => { if (line.value.trim() !== shown) tell("change", { [name]: line.value.trim() }) },
+    /** @param {KeyboardEvent} event */
+    onkeydown(event) {
+      if (event.key === "Escape") line.value = shown
+      // The browser itself undoes typing.
+      if ((event.ctrlKey || event.metaKey) && line.value !== shown) event.stopPropagation()
+    },
+  })
+  const isFocused = () => /** @type {ShadowRoot} */ (line.getRootNode()).activeElement === line
+  /** @param {string} value */
+  const show = (value) => {
+    // A formula that was refused stays, to be corrected.
+    if (!isFocused() || value !== shown) line.value = value
+    shown = value
+  }
+  return [element("div", element(`label.menu.param-${name}`, element("span", label), line), element("p.text.help", help)), show]
+}
+
+/**
+ * Return the control of a parameter and its functions: show a value, refuse an expression, follow an animated number.
+ * @param {ControlDescription} description
+ * @returns {any[]}
+ */
+export function control(description) {
+  if (description.kind === "number") return number(description)
+  return description.kind === "choice" ? choice(description) : formula(description)
+}

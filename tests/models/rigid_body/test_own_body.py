@@ -1,0 +1,109 @@
+"""A body of one's own against the paper's systems and against equations with the multiplier as an unknown."""
+
+import numpy as np
+from pytest import approx, mark, raises
+from scipy.integrate import solve_ivp
+
+from hess_mechanics import ModelError, OwnBody, Polynomial, SuslovBody, solve
+from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
+
+TENSOR = (1.5, 1.0, 1.2, 0.1, 0.4, 0.2)
+FIELD = Polynomial(((1, 0, 0), (0, 1, 0), (0, 0, 1)), (0.3, -0.5, 1.0))
+BENT = Polynomial(((2, 0, 0), (1, 1, 2), (0, 0, 3)), (0.7, -0.4, 0.6))
+VERTICAL = (0.6, 0.0, 0.8)
+TIMES = np.linspace(0.0, 10.0, 21)
+
+BODIES = {
+    "gyrostat": OwnBody(TENSOR, FIELD, (0.0, 0.0, 1.0), (0.3, -0.2, 0.8)),
+    "driven": OwnBody(TENSOR, FIELD, (0.3, -0.2, 1.0), (0.1, 0.2, 0.3), (0.4, 0.1, -0.6), 1.3),
+    "bent": OwnBody(TENSOR, BENT, (1.0, 0.5, -0.3)),
+    "free": OwnBody(TENSOR, BENT, None, (0.2, 0.1, 0.0)),
+}
+
+
+def matrix(tensor):
+    I11, I22, I33, I12, I13, I23 = tensor
+    return np.array([[I11, I12, I13], [I12, I22, I23], [I13, I23, I33]])
+
+
+def rates(body):
+    """The equations with ω̇ and λ as four unknowns; the gradient of U by differences."""
+    inertia = matrix(body.inertia)
+
+    def gradient(gamma, step=1e-5):
+        return np.array([(body.potential(*(gamma + e)) - body.potential(*(gamma - e))) for e in step * np.eye(3)]) / (
+            2 * step
+        )
+
+    def of(t, y):
+        omega, gamma = y[:3], y[3:]
+        K = np.array(body.momentum) + np.array(body.drive) * np.cos(body.frequency * t)
+        rate = -np.array(body.drive) * body.frequency * np.sin(body.frequency * t)
+        N = np.cross(inertia @ omega + K, omega) + np.cross(gamma, gradient(gamma)) - rate
+        if body.constraint is None:
+            return np.concatenate([np.linalg.solve(inertia, N), np.cross(gamma, omega)])
+        a = np.array(body.constraint)
+        whole = np.block([[inertia, -a[:, None]], [a[None], np.zeros((1, 1))]])
+        return np.concatenate([np.linalg.solve(whole, [*N, 0.0])[:3], np.cross(gamma, omega)])
+
+    return of
+
+
+@mark.parametrize("name", BODIES)
+def test_motions_are_those_of_the_equations_with_the_multiplier_and_keep_their_integrals(name):
+    body = BODIES[name]
+    start = body.start((0.5, 0.9, -0.3), VERTICAL)
+    found = solve(body, start, TIMES, "precise")
+    exact = solve_ivp(rates(body), (0.0, 10.0), start[:6], "DOP853", TIMES, rtol=1e-10, atol=1e-11).y.T
+    assert np.abs(found.states[:, :6] - exact).max() < 1e-7
+    assert max(found.drift.values()) < 1e-9
+    if body.is_driven:
+        # The work of the drive, by quadrature along the other solution.
+        fine = np.linspace(0.0, 10.0, 4001)
+        along = solve_ivp(rates(body), (0.0, 10.0), start[:6], "DOP853", fine, rtol=1e-10, atol=1e-11).y
+        power = body.frequency * np.sin(body.frequency * fine) * (np.array(body.drive) @ along[:3])
+        assert found.states[-1, 8] == approx(np.trapezoid(power, fine), abs=1e-5)
+
+
+def test_with_the_constraint_along_the_third_axis_it_is_the_suslov_problem():
+    tensor = (1.5, 1.0, 1.2, 0.0, 0.4, 0.1)
+    own = OwnBody(tensor, FIELD, (0.0, 0.0, 2.0))
+    found = solve(own, own.start((0.5, 0.4, 9.0), VERTICAL), TIMES, "precise").states
+    suslov = solve(SuslovBody(1.5, 1.0, 0.4, 0.1, 0.3, -0.5, 1.0), (0.5, 0.4, *VERTICAL), TIMES, "precise").states
+    assert found[:, [0, 1, 3, 4, 5]] == approx(suslov, abs=1e-9)
+    assert np.abs(found[:, 2]).max() < 1e-14
+
+
+def test_the_euler_top_turns_about_the_middle_axis_as_its_closed_form_says():
+    # On the separatrix: ω2 = w tanh(τ), with the moments 3, 2, 1 and 2E I2 = M².
+    own = OwnBody((3.0, 2.0, 1.0, 0.0, 0.0, 0.0))
+    w, n = 1.5, 1.5 * np.sqrt((3.0 - 2.0) * (2.0 - 1.0) / (3.0 * 1.0))
+    first, third = w * np.sqrt(2.0 * 1.0 / (3.0 * 2.0)), w * np.sqrt(2.0 * 1.0 / (1.0 * 2.0))
+    found = solve(own, own.start((first, 0.0, third), VERTICAL), np.linspace(0.0, 4.0, 9), "precise").states
+    t = np.linspace(0.0, 4.0, 9)
+    sign = np.sign(found[1, 1])
+    assert found[:, 1] == approx(sign * w * np.tanh(n * t), abs=1e-8)
+    assert found[:, 0] == approx(first / np.cosh(n * t), abs=1e-8)
+
+
+def test_numbers_in_a_potential_do_not_change_the_equations_and_other_terms_do():
+    other = OwnBody(TENSOR, Polynomial(FIELD.exponents, (1.0, 2.0, 3.0)), (0.0, 0.0, 1.0))
+    assert other.system is BODIES["gyrostat"].system
+    assert BODIES["bent"].system is not other.system
+
+
+@mark.parametrize(
+    ("make", "message", "error"),
+    [
+        (lambda: OwnBody((1.0, 1.0, 1.0, 2.0, 0.0, 0.0)), "not positive definite: choose larger", NotPositiveDefinite),
+        (lambda: OwnBody(TENSOR, constraint=(0.0, 0.0, 0.0)), "a of the constraint is 0", InvalidParameter),
+        (lambda: OwnBody(TENSOR, momentum=(0.0, np.inf, 0.0)), "not a finite number", InvalidParameter),
+        (lambda: OwnBody(TENSOR).start((1.0, 0.0, 0.0), (0.0, 0.0, 0.0)), "vertical γ is 0", InvalidParameter),
+        (lambda: Polynomial(((4, 3, 0),), (1.0,)), "at most 6", InvalidParameter),
+        (lambda: Polynomial(((1, 0, 0),), ()), "at most 20 terms, each with one", InvalidParameter),
+    ],
+)
+def test_what_is_no_body_is_refused(make, message, error):
+    with raises(error, match=message) as found:
+        make()
+    assert isinstance(found.value, ModelError)

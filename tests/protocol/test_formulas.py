@@ -1,0 +1,93 @@
+"""Formulas that a visitor types: polynomials come out, and nothing else."""
+
+import random
+
+import numpy as np
+from pytest import approx, mark, raises
+
+from hess_explorer.protocol.formulas import MOST, polynomial, written_polynomial
+from hess_explorer.protocol.parameters import Formula
+from hess_mechanics.errors import InvalidParameter
+
+PIECES = [
+    *["g1", "g2", "g3", "0.5", "2", "3e-1", "(", ")", "+", "-", "*", "/", "^", "**", "−"],
+    "γ₁",
+    ".",
+    "__",
+    "e",
+    "g4",
+    "'",
+    "[",
+    ",",
+    "lambda",
+    "\n",
+    "x",
+]
+
+
+@mark.parametrize(
+    ("text", "expected"),
+    [
+        ("", {}),
+        ("3", {}),
+        ("0.5*g1^2 - g3", {(2, 0, 0): 0.5, (0, 0, 1): -1.0}),
+        ("(g1 + g2)**2/2 − γ₃", {(2, 0, 0): 0.5, (1, 1, 0): 1.0, (0, 2, 0): 0.5, (0, 0, 1): -1.0}),
+        ("g1 - g1 + 7", {}),
+        ("-g1*g2*g3^4", {(1, 1, 4): -1.0}),
+    ],
+)
+def test_a_formula_is_its_coefficients(text, expected):
+    assert polynomial(text) == approx(expected)
+    assert polynomial(written_polynomial(expected)) == approx(expected)
+
+
+@mark.parametrize(
+    ("text", "message"),
+    [
+        ("g1^7", "whole numbers"),
+        ("g1^4*g1^3", "degree"),
+        ("(g1*g2)^4", "degree"),
+        ("1/g1", "divides by something other than a number"),
+        ("g1/0", "divides by"),
+        ("g1^0.5", "whole numbers from 0 to 6"),
+        ("g1^-1", "whole numbers"),
+        ("2^g1", "whole numbers"),
+        ("g4", "no polynomial: use numbers, g1, g2, g3"),
+        ("sin(g1)", "no polynomial"),
+        ("g1.real", "no polynomial"),
+        ("(g1", "no polynomial"),
+        ("1e9*g1", "larger than 1e"),
+        ("9**9**9", "whole numbers"),
+        ("g1+" * MOST, f"longer than {MOST}"),
+    ],
+)
+def test_what_is_no_polynomial_is_refused(text, message):
+    with raises(InvalidParameter, match=message):
+        polynomial(text)
+
+
+def test_a_parameter_keeps_the_text_and_refuses_with_its_name():
+    spec = Formula("U", "Potential", "g3")
+    assert spec.read(" g1 ^ 2 ") == ("g1 ^ 2", None)
+    assert spec.read("g1 +") == ("g3", spec.read("g1 +")[1])
+    assert spec.read("g1 +")[1].startswith("Potential: This is no polynomial")
+
+
+def test_random_formulas_are_polynomials_with_the_same_values_or_refused(request):
+    draw = random.Random(5)
+    place = {f"g{i + 1}": x for i, x in enumerate((0.3, -1.2, 0.7))}
+    read = 0
+    for _ in range(100_000 if request.config.getoption("thorough") else 3000):
+        text = "".join(draw.choice(PIECES[:15] if draw.random() < 0.8 else PIECES) for _ in range(draw.randint(1, 12)))
+        try:
+            found = polynomial(text)
+        except InvalidParameter:
+            continue
+        read += 1
+        python = text.replace("^", "**").replace("−", "-").replace("γ₁", "g1")
+        here, there = (
+            eval(python.strip() or "0", {"__builtins__": {}}, values) for values in (place, dict.fromkeys(place, 0.0))
+        )
+        value = sum(c * np.prod(np.array([*place.values()]) ** one) for one, c in found.items())
+        assert value == approx(here - there, rel=1e-9, abs=1e-9), text
+    assert read > 100
