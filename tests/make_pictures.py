@@ -38,6 +38,7 @@ FRONT = (
     Exhibit("singular-measures", "Free Suslov", "sphere"),
     Exhibit("orbit-diagram", "Period doubling", "diagram"),
     Exhibit("ball-diagram", "Period doubling", "diagram"),
+    Exhibit("own-body", "Suslov problem", "sphere"),
 )
 """The front picture of each scene."""
 VIEWPORT = {"width": 560, "height": 680}

@@ -14,6 +14,7 @@ from hess_explorer.protocol.parameters import (
     MAX_QUERY,
     VERSION,
     Choice,
+    Formula,
     Names,
     Number,
     Places,
@@ -36,6 +37,8 @@ every_number = pytest.mark.parametrize("spec", NUMBERS, ids=[spec.name for spec 
 def admissible(spec):
     if isinstance(spec, Number):
         return st.floats(spec.bounds[0], spec.bounds[1])
+    if isinstance(spec, Formula):
+        return st.sampled_from(["", "g1", "0.5*g1^2 - g3"])
     return st.sampled_from(spec.options) if isinstance(spec, Choice) else texts_of(spec)
 
 
@@ -52,6 +55,8 @@ def states(specs):
 
 
 def is_admissible(spec, value):
+    if isinstance(spec, Formula):
+        return spec.read(value) == (value, None)
     if isinstance(spec, Choice):
         return value in spec.options
     if isinstance(spec, Places):

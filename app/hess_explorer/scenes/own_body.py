@@ -216,8 +216,9 @@ class OwnBodyState(State):
         return found if any((self.d1, self.d2, self.d3)) else {**found, "frequency": self.frequency}
 
     def derived(self) -> Iterator[str]:
-        """Yield what is conserved."""
+        """Yield what is conserved, and whether it is a rigid body."""
         yield f"conserved: {', '.join(self.body.system.integrals(*self.body.system.example))}"
+        yield self.body.check.sentence
 
 
 def _compiled(system: System) -> bool:
@@ -283,7 +284,7 @@ SCENE = Scene(
     place=25,
     group="Your own",
     presets=PRESETS,
-    essential=("U", "constraint", "I13", "k3", "d3"),
+    essential=("U", "I13", "k3", "d3"),
     handle="I13",
     title="Your own body",
     summary="Type a potential; choose inertia, constraint, rotor and drive. Equations are derived, checked and solved.",

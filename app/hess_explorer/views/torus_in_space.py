@@ -101,7 +101,7 @@ def _kind(theta: CircleMap | None, turning: TurningPoints | None) -> str:
     if turning.roots[2] - turning.roots[1] < 1e-6:
         return "Bifurcation curve: the torus is a circle."
     if turning.f == 0.0 and turning.h < 1.0:
-        return "At f = 0 the centre is a circle of states."
+        return "f = 0: the centre is a circle."
     if theta.kind == "hyperbolic":
         return "Two limit cycles on the torus."
     return "The limit cycles have merged." if theta.kind == "parabolic" else "No limit cycle on the torus."

@@ -21,7 +21,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
-from hess_mechanics.rigid_body.inertia import require_finite
+from hess_mechanics.rigid_body.inertia import BodyCheck, require_finite
 
 __all__ = ["OwnBody", "Polynomial"]
 
@@ -238,14 +238,28 @@ class OwnBody:
     def __post_init__(self) -> None:
         numbers = (*self.inertia, *(self.constraint or ()), *self.momentum, *self.drive, self.frequency)
         require_finite(**{f"number {i + 1}": value for i, value in enumerate(numbers)})
-        I11, I22, I33, I12, I13, I23 = self.inertia
-        if not np.linalg.eigvalsh([[I11, I12, I13], [I12, I22, I23], [I13, I23, I33]])[0] > 0.0:
+        if not self._moments[0] > 0.0:
             raise NotPositiveDefinite(
                 "The inertia tensor is not positive definite: choose larger moments I11, I22, I33, or smaller products "
                 "I12, I13, I23."
             )
         if self.constraint is not None and not any(self.constraint):
             raise InvalidParameter("The vector a of the constraint is 0: choose another one, or no constraint.")
+
+    @property
+    def _moments(self) -> Any:
+        """The principal moments of inertia (3,), in increasing order."""
+        I11, I22, I33, I12, I13, I23 = self.inertia
+        return np.linalg.eigvalsh([[I11, I12, I13], [I12, I22, I23], [I13, I23, I33]])
+
+    @property
+    def check(self) -> BodyCheck:
+        """Whether the principal moments satisfy the triangle inequality; those of a flat body just do."""
+        small, middle, large = self._moments
+        is_body = bool(small + middle >= large * (1.0 - 1e-12))
+        inequality = f"{small:.4g} + {middle:.4g} {'≥' if is_body else '<'} {large:.4g}"
+        words = "A rigid body" if is_body else "Not a rigid body, yet the equations are shown"
+        return BodyCheck(is_body, None, f"{words}: of its principal moments {inequality}.")
 
     @property
     def is_driven(self) -> bool:
