@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import threading
@@ -22,6 +23,7 @@ _START_SECONDS = 120.0
 """Timeout of the start, which compiles the first time."""
 _PAGES = 20
 """Maximum number of pages, for a notebook that is open in several windows."""
+_HUB = "JUPYTERHUB_SERVICE_PREFIX"
 _CHILD = "from hess_explorer.library.exploring import serve_alone; serve_alone(int(__import__('sys').argv[1]))"
 
 
@@ -34,7 +36,8 @@ class Exploration:
     Attributes
     ----------
     url : str
-        Address of the page, for any browser on this machine.
+        Address of the page, for any browser on this machine; on JupyterHub, Binder and Colab for the browser that shows
+        the notebook, on the first two through jupyter-server-proxy.
     """
 
     def __init__(self, first: SceneState, height: int) -> None:
@@ -42,7 +45,7 @@ class Exploration:
         self._reached = first.link
         self._ready = threading.Event()
         port = free_port()
-        self.url = f"http://127.0.0.1:{port}/{first.link}"
+        self.url = f"{_reached(port)}{first.link}"
         # A separate process, so that the page and the notebook's cells do not block each other.
         self._child = subprocess.Popen(
             [sys.executable, "-c", _CHILD, str(port)],
@@ -92,7 +95,7 @@ class Exploration:
 
 
 def explore(scene: str = "suslov-hess", /, *, height: int = 640, **parameters: Any) -> Exploration:
-    """Show a scene in a notebook that runs on this machine.
+    """Show a scene in a notebook that runs on this machine, on JupyterHub, Binder or Colab.
 
     Parameters
     ----------
@@ -125,6 +128,23 @@ def explore(scene: str = "suslov-hess", /, *, height: int = 640, **parameters: A
     return Exploration(state(scene, **parameters), height)
 
 
+def _reached(port: int) -> str:
+    """Return the address of a server in this notebook, as the browser reaches it, with a slash at its end."""
+    # JupyterHub and Binder set the folder of the user's server.
+    hub = os.environ.get(_HUB)
+    if hub is not None:
+        return f"{hub}proxy/{port}/"
+    colab = sys.modules.get("google.colab.output")
+    if colab is not None:
+        return str(colab.eval_js(f"google.colab.kernel.proxyPort({port})")).rstrip("/") + "/"
+    return f"http://127.0.0.1:{port}/"
+
+
+def _origins() -> tuple[str, ...]:
+    """Return further origins: behind a proxy any, since only the proxy, which checks them, reaches the server."""
+    return ("*",) if _HUB in os.environ or "COLAB_RELEASE_TAG" in os.environ else ()
+
+
 def serve_alone(port: int) -> None:
     """Run the server of an `Exploration`; it prints messages as lines of JSON [word, text]."""
 
@@ -133,7 +153,13 @@ def serve_alone(port: int) -> None:
 
     threading.Thread(target=end_with_stdin, daemon=True).start()
     serve(
-        port, "127.0.0.1", False, (), lambda: tell("ready"), sessions=_PAGES, follow=lambda query: tell("state", query)
+        port,
+        "127.0.0.1",
+        False,
+        _origins(),
+        lambda: tell("ready"),
+        sessions=_PAGES,
+        follow=lambda query: tell("state", query),
     )
 
 

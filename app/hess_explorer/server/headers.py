@@ -15,6 +15,7 @@ from panel.io.server import DocHandler
 from hess_explorer.protocol.parameters import MAX_QUERY
 from hess_explorer.server.preview import tags
 from hess_explorer.server.refusal import refuse
+from hess_explorer.server.web_app import HEAD
 
 __all__ = ["GuardedDocument", "policy"]
 
@@ -39,6 +40,7 @@ def policy(nonce: str, embedders: tuple[str, ...]) -> str:
             "font-src 'self' data:",
             "media-src 'self' blob:",
             "worker-src 'self' blob:",
+            "manifest-src 'self'",
             # The websocket and those modules.  The comparison of two states embeds the page itself twice.
             "connect-src 'self' blob:",
             "frame-src 'self'",
@@ -80,11 +82,12 @@ class GuardedDocument(DocHandler):
         self.set_header("Referrer-Policy", "same-origin")
 
     def write(self, chunk: str | bytes | dict[str, object]) -> None:
-        """Write a part of the page; add the nonce to its script tags and the description of the state to its head.
+        """Write a part of the page; add the app and the description of the state to its head, and the nonce to scripts.
 
         Tags in the data are escaped.
         """
         if isinstance(chunk, str):
+            chunk = chunk.replace(_VIEWPORT, HEAD + _VIEWPORT, 1)
             chunk = chunk.replace("<script", f'<script nonce="{self._nonce}"')
             if _VIEWPORT in chunk:
                 chunk = chunk.replace(_VIEWPORT, tags(self.request, self.request.query) + _VIEWPORT, 1)

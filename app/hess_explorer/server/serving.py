@@ -38,6 +38,7 @@ from hess_explorer.server.room_page import RoomPage
 from hess_explorer.server.room_socket import RoomSocket
 from hess_explorer.server.shutdown import Workers, end_on_signals, leave
 from hess_explorer.server.warm import warm
+from hess_explorer.server.web_app import web_app_routes
 from hess_explorer.server.websockets import StateSocket
 
 # The workers are forked and share it; a page describes its pictures with it.
@@ -144,6 +145,7 @@ def options(
             ("/export", Export),
             ("/preview", Preview),
             *module_routes(),
+            *web_app_routes(),
         ],
         "liveness": True,
         "verbose": False,

@@ -1,0 +1,45 @@
+"""The page as an installed app: manifest and icons, and a page that says what to do when the server does not run."""
+
+import io
+from urllib.request import urlopen
+
+from PIL import Image
+
+from hess_explorer.headless.browser import wait_ready
+from hess_explorer.headless.screenshot import server_process
+
+REGISTERED = "navigator.serviceWorker.getRegistrations().then((found) => found.length)"
+KEPT = """
+caches.keys().then((names) => Promise.all(names.map((name) => caches.open(name).then((one) => one.keys()))))
+  .then((found) => found.flat().map((one) => one.url))
+"""
+
+
+def test_an_installed_app_says_what_to_do_when_its_server_has_stopped(browser, tmp_path):
+    with server_process(tmp_path / "log") as (process, url):
+        context = browser.new_context()
+        page = context.new_page()
+        page.goto(f"{url}/?scene=suslov-hess")
+        wait_ready(page)
+        assert page.locator("link[rel=manifest]").get_attribute("href") == "app.webmanifest"
+        manifest = page.evaluate("fetch('app.webmanifest').then((one) => one.json())")
+        assert (manifest["display"], manifest["scope"]) == ("standalone", "./")
+        for icon in manifest["icons"]:
+            with urlopen(f"{url}/{icon['src']}") as found:
+                assert "x".join(map(str, Image.open(io.BytesIO(found.read())).size)) == icon["sizes"]
+        # A window of the browser needs no worker; one that is embedded never has one.
+        assert page.evaluate(REGISTERED) == 0
+        page.evaluate("window.dispatchEvent(new Event('appinstalled'))")
+        page.evaluate("navigator.serviceWorker.ready.then(() => null)")
+        assert page.evaluate(KEPT) == [f"{url}/offline.html"]
+        # With the worker the page is as before, and nothing else is kept.
+        page.reload()
+        wait_ready(page)
+        assert page.evaluate("navigator.serviceWorker.controller !== null")
+        assert page.evaluate(KEPT) == [f"{url}/offline.html"]
+        process.terminate()
+        process.wait(60)
+        page.goto(f"{url}/?scene=suslov")
+        assert page.locator("h1").inner_text() == "Hess Explorer is not running"
+        assert "hess-explorer" in page.locator("code").inner_text()
+        context.close()
