@@ -386,8 +386,10 @@ def _regimes(of: _Motions) -> Quantity:
     )
 
 
+_OF_THE_PAPER = [system for system in systems().values() if system.labels]
+"""Systems whose parameters have descriptions; for others, a function of one's own is swept."""
 MOTIONS: tuple[Quantity, ...] = (
-    *(one for of in (*map(_anywhere, systems().values()), *_ON_SECTIONS) for one in _quantities(of)),
+    *(one for of in (*map(_anywhere, _OF_THE_PAPER), *_ON_SECTIONS) for one in _quantities(of)),
     *map(_regimes, _ON_SECTIONS),
 )
-"""Quantities of every system, then of every section."""
+"""Quantities of every system of the paper, then of every section."""

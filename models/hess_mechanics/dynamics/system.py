@@ -13,6 +13,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
+from importlib.metadata import entry_points
 from threading import RLock
 from typing import Any, Protocol
 
@@ -482,12 +483,18 @@ class ParametrizedSystem:
 
 @cache
 def systems() -> dict[str, System]:
-    """Return all systems of the package.
+    """Return all systems.
 
     Returns
     -------
     dict of str to System
-        The `SYSTEM` of every module that defines one, by name.
+        By name, the `SYSTEM` of every module that defines one, and those that other packages bring by entry points of
+        the group `hess_mechanics.systems`.
+
+    Raises
+    ------
+    InvalidParameter
+        If an entry point names something else than a `System`, or the name of a system is taken.
 
     Examples
     --------
@@ -501,6 +508,11 @@ def systems() -> dict[str, System]:
         system = getattr(importlib.import_module(module.name), "SYSTEM", None)
         if isinstance(system, System):
             found[system.name] = system
+    for brought in entry_points(group="hess_mechanics.systems"):
+        system = brought.load()
+        if not isinstance(system, System) or system.name in found:
+            raise InvalidParameter(f"{brought.value} must be a System with a name of its own, not {system!r}.")
+        found[system.name] = system
     return found
 
 
