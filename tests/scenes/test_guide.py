@@ -15,11 +15,18 @@ PACKAGE = Path(hess_explorer.__file__).parent
 GUIDE = (PACKAGE / "docs/guides/scene.md").read_text(encoding="utf-8")
 
 
+def test_the_scene_of_one_call_has_the_pictures_asked_for():
+    source, _ = re.findall(r"```python\n(.*?)```", GUIDE, re.DOTALL)
+    found = {}
+    exec(source, found)
+    assert found["SCENE"].pictures == ("x-z", "t-x", "exponent")
+
+
 @pytest.fixture(scope="module")
 def scene(tmp_path_factory):
     """The scene of the example."""
     file = tmp_path_factory.mktemp("scenes") / "simple.py"
-    (source,) = re.findall(r"```python\n(.*?)```", GUIDE, re.DOTALL)
+    _, source = re.findall(r"```python\n(.*?)```", GUIDE, re.DOTALL)
     assert sum(bool(line.strip()) for line in source.splitlines()) <= 60
     file.write_text(source, encoding="utf-8")
     spec = spec_from_file_location("simple_scene", file)
