@@ -272,8 +272,13 @@ export function chartPanel(palettes) {
   async function take() {
     const [given] = file.files
     if (given === undefined) return
-    const { chart: found, why } = fromFile(await given.text())
+    turnToText(await given.text())
     file.value = ""
+  }
+
+  /** Show the chart in the text of a file. @param {string} text */
+  function turnToText(text) {
+    const { chart: found, why } = fromFile(text)
     if (why !== undefined) {
       message.textContent = why
       return
@@ -281,6 +286,16 @@ export function chartPanel(palettes) {
     job.stop()
     before = []
     turnTo(found)
+  }
+
+  /** Open the chart that the server was started with, if there is one. */
+  async function openServed() {
+    const address = document.querySelector('meta[name="chart"]')?.getAttribute("content")
+    if (address === undefined || address === null || window.top !== window) return
+    const served = await fetch(new URL(address, document.baseURI))
+    turnToText(await served.text())
+    panel.showPopover()
+    stepAside()
   }
 
   function hide() {
@@ -317,6 +332,7 @@ export function chartPanel(palettes) {
     /** @param {SceneDescription} description */
     show(description) {
       if (scene?.name === description.name) return
+      if (scene === null) openServed()
       scene = description
       values = {}
       const { charts } = scene

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import errno
 import gc
+import json
 import os
 import re
 import runpy
@@ -41,12 +42,13 @@ def _embedder(text: str) -> str:
 def _run(options: Options) -> None:
     _add_scenes(options.scenes)
     lessons = _lessons(options.lessons)
+    chart, state = _chart(options.chart)
     _require_free(options.address, options.port)
     if options.workers > 1 and not hasattr(os, "fork"):
         raise CommandError("--workers needs an operating system with fork: run the command without it.")
     # A browser cannot open a wildcard address.
     host = "localhost" if options.address in ("127.0.0.1", "0.0.0.0", "::") else options.address
-    url = f"http://{f'[{host}]' if ':' in host else host}:{options.port}"
+    url = f"http://{f'[{host}]' if ':' in host else host}:{options.port}{state}"
     show = options.browser and _has_browser()
     print(_first_words(), flush=True)
 
@@ -73,6 +75,7 @@ def _run(options: Options) -> None:
                 origins=options.origins,
                 ready=ready,
                 lessons=lessons,
+                chart=chart,
                 embedders=embedders,
                 workers=options.workers,
                 sessions=options.sessions,
@@ -91,6 +94,21 @@ def _add_scenes(paths: Sequence[Path]) -> None:
             add(runpy.run_path(str(path)).get("SCENE"), str(path))
         except (ModelError, OSError, SyntaxError, ImportError) as error:
             raise CommandError(f"{shown(str(path))} brings no scene: {error}") from error
+
+
+def _chart(path: Path | None) -> tuple[str | None, str]:
+    """Return the text of the chart of a store, and the address of its state behind that of the server."""
+    if path is None:
+        return None, ""
+    from hess_explorer.sweep import read
+    from hess_explorer.sweep.shown import chart_file
+    from hess_mechanics.errors import ModelError
+
+    try:
+        found = chart_file(read(path))
+    except ModelError as error:
+        raise CommandError(str(error)) from error
+    return json.dumps(found, ensure_ascii=False, allow_nan=False), f"/{found['link']}"
 
 
 def _lessons(paths: Sequence[Path]) -> tuple[Lesson, ...]:
@@ -181,6 +199,12 @@ COMMAND = Command(
         ),
         whole("--workers", 1, 64, "number of worker processes; for a class, about the number of cores", 1),
         whole("--sessions", 1, 100_000, "maximum number of open pages per worker; 1000 need about 3 GB", 1000),
+        option(
+            "--chart",
+            "store of a sweep over two parameters of a scene, which opens as a chart",
+            type=Path,
+            metavar="FOLDER",
+        ),
         option(
             "--scene",
             "Python file of your own scene, SCENE = hess.scene(…), which is run; may be repeated, and the first opens",

@@ -56,6 +56,8 @@ class GuardedDocument(DocHandler):
 
     embedders: ClassVar[tuple[str, ...]] = ("*",)
     """Sites that may embed a part of the page (`embed=1`)."""
+    head_elements: ClassVar[str] = HEAD
+    """Elements of the head that are the same in every response."""
 
     # A default, because Tornado may send an error before `prepare`.
     _nonce = ""
@@ -87,7 +89,7 @@ class GuardedDocument(DocHandler):
         Tags in the data are escaped.
         """
         if isinstance(chunk, str):
-            chunk = chunk.replace(_VIEWPORT, HEAD + _VIEWPORT, 1)
+            chunk = chunk.replace(_VIEWPORT, self.head_elements + _VIEWPORT, 1)
             chunk = chunk.replace("<script", f'<script nonce="{self._nonce}"')
             if _VIEWPORT in chunk:
                 chunk = chunk.replace(_VIEWPORT, tags(self.request, self.request.query) + _VIEWPORT, 1)

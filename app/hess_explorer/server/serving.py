@@ -28,6 +28,7 @@ from hess_explorer.server.capacity import Capacity
 from hess_explorer.server.export import Export
 from hess_explorer.server.garbage import GARBAGE
 from hess_explorer.server.handlers import replace_handlers
+from hess_explorer.server.headers import GuardedDocument
 from hess_explorer.server.limits import MESSAGE_LIMIT, OPEN_SOCKETS
 from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.modules import module_routes
@@ -36,6 +37,7 @@ from hess_explorer.server.qr_code import QrCode
 from hess_explorer.server.relay import Relay
 from hess_explorer.server.room_page import RoomPage
 from hess_explorer.server.room_socket import RoomSocket
+from hess_explorer.server.served_chart import ServedChart
 from hess_explorer.server.shutdown import Workers, end_on_signals, leave
 from hess_explorer.server.warm import warm
 from hess_explorer.server.web_app import web_app_routes
@@ -124,6 +126,7 @@ def options(
     follow: Callable[[str], None] | None = None,
     rooms: Rooms | None = None,
     relay: Relay | None = None,
+    chart: str | None = None,
 ) -> dict[str, Any]:
     """Return the options of `panel.serve`; the parameters are those of `serve`.
 
@@ -146,6 +149,7 @@ def options(
             ("/preview", Preview),
             *module_routes(),
             *web_app_routes(),
+            *([] if chart is None else [("/chart.json", ServedChart, {"content": chart})]),
         ],
         "liveness": True,
         "verbose": False,
@@ -171,6 +175,7 @@ def serve(
     *,
     sessions: int,
     follow: Callable[[str], None] | None = None,
+    chart: str | None = None,
 ) -> NoReturn:
     """Serve the explorer until Ctrl-C or SIGTERM, then end the process with exit status 0.
 
@@ -196,6 +201,8 @@ def serve(
         Maximum number of sessions per worker.
     follow : callable or None
         Called with the query of every state that a page shows.
+    chart : str or None
+        Text of a chart, as the page saves it, which every page opens.
     """
     logging.basicConfig(format="%(asctime)s %(name)s %(message)s")
     logger.setLevel(logging.INFO)
@@ -204,10 +211,14 @@ def serve(
     sys.setswitchinterval(0.001)
     pn.extension()
     replace_handlers(embedders)
+    if chart is not None:
+        GuardedDocument.head_elements += ServedChart.HEAD
     together = Workers() if workers > 1 else None
     # With several workers, `get_server` forks and returns in each worker; the parent process supervises them.
     rooms, relay = Rooms(_lessons(lessons)), Relay(workers)
-    told = options(port, address, origins, lessons, sessions=sessions, follow=follow, rooms=rooms, relay=relay)
+    told = options(
+        port, address, origins, lessons, sessions=sessions, follow=follow, rooms=rooms, relay=relay, chart=chart
+    )
     server = get_server(told.pop("panels"), start=False, show=show and workers == 1, num_procs=workers, **told)
     end_on_signals(server.io_loop)
     rooms_only = [(f"/rooms/({CODE})", RoomSocket, {"rooms": rooms})]

@@ -131,6 +131,10 @@ class Chart:
             step //= 2
         return np.concatenate(parts)
 
+    def arguments(self, cell: Mapping[str, float]) -> Mapping[str, float]:
+        """Return the parameters of the quantity at a cell, given by its sides.  Raises `ModelError`."""
+        return _arguments(self.scene, self.charted, _put(self.scene, self.values, cell))
+
     def compute(self, indices: Indices) -> CellResults:
         """Return the quantity at these cells, one number for each."""
         rows, columns = np.divmod(indices, self.x.count)

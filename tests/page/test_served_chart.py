@@ -1,0 +1,65 @@
+"""A store of a sweep as a chart of the page: `hess-explorer serve --chart`."""
+
+import json
+
+import numpy as np
+import pytest
+
+from hess_explorer.headless.browser import wait_ready
+from hess_explorer.headless.screenshot import server_process
+from hess_explorer.sweep import explain, read, sweep
+from hess_explorer.sweep.shown import chart_file
+from hess_mechanics.errors import InvalidParameter
+
+OVER = {"h": (-0.5, 2.0, 6), "f": (-1.0, 1.0, 5)}
+
+
+def test_a_sweep_is_the_chart_that_the_page_would_save(tmp_path):
+    found = sweep("rotation-number", OVER, a=0.25)
+    (tmp_path / "chart.json").write_text(json.dumps(chart_file(found), allow_nan=False))
+    again = read(tmp_path / "chart.json")
+    assert again.attrs["state"].startswith("v=1&scene=") and "a=0.25" in again.attrs["state"]
+    assert np.array_equal(again.rotation_number, found.rotation_number, equal_nan=True)
+    assert np.array_equal(again.status, found.status)
+    assert again.rotation_number.dims == ("h", "f")
+    # A cell is computed again as a state of the scene.
+    assert explain(again, h=-0.5, f=1.0) == explain(found, h=-0.5, f=1.0)
+
+
+def test_a_long_side_has_every_second_cell():
+    found = sweep("rotation-number", {"h": (0.0, 2.0, 401), "f": [0.1, 0.3]}, a=0.25)
+    chart = chart_file(found)
+    assert (chart["x"]["count"], chart["x"]["low"], chart["x"]["high"]) == (201, 0.0, 2.0)
+    assert chart["values"][:201] == found.rotation_number.values[::2, 0].tolist()
+
+
+@pytest.mark.parametrize(
+    "over, said",
+    [
+        ({"h": [0.5, 1.0]}, "A chart has two sides, but this sweep is over h"),
+        ({"h": [0.5, 1.0, 2.0], "f": [0.1, 0.2]}, "evenly spaced"),
+        ({"h": [0.5], "f": [0.1, 0.2]}, "needs two values or more"),
+    ],
+)
+def test_what_is_no_chart_is_said(over, said):
+    with pytest.raises(InvalidParameter, match=said):
+        chart_file(sweep("rotation-number", over, a=0.5, **({} if "f" in over else {"f": 0.1})))
+
+
+def test_a_function_belongs_to_no_scene():
+    def own(x, y):
+        return x * y
+
+    with pytest.raises(InvalidParameter, match="No scene shows own over x and y"):
+        chart_file(sweep(own, {"x": [0.0, 1.0], "y": [0.0, 1.0]}))
+
+
+def test_the_page_opens_the_chart_of_a_store(browser, tmp_path):
+    sweep("rotation-number", OVER, a=0.25, store=tmp_path / "rho.zarr")
+    with server_process(tmp_path / "log", options=["--chart", str(tmp_path / "rho.zarr")]) as (_, url):
+        page = browser.new_page()
+        page.goto(url)
+        wait_ready(page)
+        page.get_by_text("6 × 5, precise accuracy").wait_for(timeout=60_000)
+        assert page.get_by_text("Chart: ρ").is_visible()
+        page.close()
