@@ -64,7 +64,7 @@ def test_a_chart_from_its_start_to_its_file(explorer, tmp_path):
     file, (h, f), values, status = numbers(path)
     assert np.array_equal(values, rotation_numbers(h, f), equal_nan=True)
     assert np.array_equal(np.isnan(values.ravel()), status >= 10) and (status > 0).all()
-    assert_accessible(page)
+    assert_accessible(page, panel)
     # By keys: the middle of the chart, then its state, as one change.
     canvas.focus()
     page.keyboard.press("ArrowRight")

@@ -92,7 +92,7 @@ def assert_side_by_side(explorer):
         low, high = half.evaluate(H_AXIS)
         assert low <= before[0] and high >= before[1]
     assert one.evaluate(H_AXIS) == other.evaluate(H_AXIS)
-    assert_accessible(page)
+    assert_accessible(page, page.get_by_role("dialog", name="Side by side"))
     for half, follower, t in ((one, other, "7.25"), (other, one, "3.5")):
         half.locator("input.param-t").evaluate(
             "(slider, t) => { slider.value = t; slider.dispatchEvent(new Event('input')) }", t

@@ -86,7 +86,7 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer):
     page.unroute("**/export?*")
     # The browser itself reports an answer that refuses.
     explorer.errors[:] = [error for error in explorer.errors if "status of 400" not in error]
-    assert_accessible(page)
+    assert_accessible(page, dialog)
     page.keyboard.press("Escape")
     assert not dialog.is_visible()
     explorer.assert_quiet()

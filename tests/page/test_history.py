@@ -74,7 +74,6 @@ def test_undo_and_redo_go_through_all_that_was_done_and_one_drag_is_one_step(exp
 
 def test_back_and_forward_go_by_scenes_and_examples_and_do_not_reload(explorer):
     page = explorer.page
-    explorer.goto(f"/?scene={HESS}")
     page.evaluate("window.kept = true")
     # A browser keeps fifty entries, and other tests have made some in this tab.
     length = min(page.evaluate("history.length") + 2, 50)

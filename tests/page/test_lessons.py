@@ -9,12 +9,14 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import server_process
 from hess_explorer.lessons import shipped, tries
 from hess_explorer.lessons.reading import read
+from hess_explorer.page.opening import opening
 from support.accessible import assert_accessible
 from support.board import SCENES
-from support.page import ALL, HESS, Explorer, flat, values_of, wait_frames
+from support.page import ALL, HESS, WIDE, Explorer, flat, values_of, wait_frames
 from support.pointer import at, frame
 from support.serving import UNWARMED
 
@@ -138,36 +140,13 @@ def test_a_link_to_a_step_that_is_not_there_is_one_to_the_last_and_a_lesson_is_c
     page.locator(".param-leave-lesson").click()
     assert page.locator(".words").is_visible()
     assert here(explorer)[2:] == (None, None)
-    explorer.goto("/?lesson=none")
-    assert "Lesson must be one of" in explorer.text("notes")
+    assert "Lesson must be one of" in "".join(opening("lesson=none").notes)
     page.locator(".lesson-menu > summary").click()
     assert page.locator(".lesson-menu li").count() == len(lessons)
     explorer.change(page.locator(".param-lesson-limit-cycles-and-locking").click)
     first = lessons["limit-cycles-and-locking"].steps[0]
     assert here(explorer)[1:4] == (first.at.values, "limit-cycles-and-locking", "1")
     page.locator(".param-leave-lesson").click()
-
-
-def test_a_narrow_window_opens_a_lesson_with_its_text_and_the_slider_follows_what_is_animated(tab):
-    tab.fresh()
-    tab.resize(1280, 720)
-    page = tab.page
-    step = shipped()["limit-cycles-and-locking"].steps[6]
-    tab.goto("/?lesson=limit-cycles-and-locking&step=7")
-    box = page.locator(".lesson .title").bounding_box()
-    assert page.locator(".lesson .title").is_visible()
-    assert 0 <= box["y"] < box["y"] + box["height"] <= 720
-    assert page.locator(".param-tab-text").get_attribute("aria-selected") == "true"
-    page.locator(".param-animate").click()
-    page.wait_for_function("() => new URLSearchParams(location.search).get('h') > 0.55")
-    # The control in the column and that beside the text.
-    controls = page.locator(".param-h input").all()
-    assert len(controls) == 4
-    assert min(float(one.input_value()) for one in controls) > step.animation.start + 0.04
-    page.keyboard.press("Escape")
-    page.mouse.click(5, 5)
-    page.locator(".param-leave-lesson").click()
-    tab.assert_quiet()
 
 
 LAYERS, CYCLES = "two-chaotic-layers-that-never-mix", "limit-cycles-and-locking"
@@ -189,18 +168,69 @@ LINES = """item => {
 }"""
 
 
-def test_a_picture_has_its_new_size_in_a_scene_that_is_entered_again(tab):
+def turn_to(tab, number):
+    """Go on in the lesson to this step, past guesses and questions."""
+    count = tab.page.locator(".lesson .count")
+    while not count.inner_text().startswith(f"{number} /"):
+        tab.page.keyboard.press("PageDown")
+        wait_ready(tab.page)
+
+
+def test_a_lesson_in_a_narrow_and_a_wide_window_keeps_text_slider_and_pictures_in_sight(tab):
+    """One visit: from a guess that leaves no frame to pictures that have their new size."""
     tab.fresh()
-    page = tab.page
-    tab.goto(f"/?lesson={CYCLES}&step=11")
-    for _ in range(2):
-        page.keyboard.press("PageDown")
-        tab.change(page.keyboard.press, "PageDown")
+    page, steps = tab.page, shipped()[CYCLES].steps
+    tab.goto(f"/?lesson={CYCLES}&step=5")
+    sheet = page.locator("canvas.guess")
+    for key in ("Tab", "ArrowRight"):
+        sheet.press(key) if key == "ArrowRight" else sheet.focus()
+    assert sheet.evaluate("item => item.style.boxShadow") != ""
+    tab.change(page.keyboard.press, "PageDown")
+    wait_frames(tab)
+    assert sheet.evaluate("item => [getComputedStyle(item).outlineStyle, item.style.boxShadow]") == ["none", ""]
+    assert sheet.evaluate("item => item.getRootNode().activeElement") is None
+    # A narrow window has the text of the lesson; the slider follows what is animated.
+    turn_to(tab, 7)
+    tab.resize(1280, 720)
+    box = page.locator(".lesson .title").bounding_box()
+    assert page.locator(".lesson .title").is_visible()
+    assert 0 <= box["y"] < box["y"] + box["height"] <= 720
+    assert page.locator(".param-tab-text").get_attribute("aria-selected") == "true"
+    page.locator(".param-animate").click()
+    page.wait_for_function("() => new URLSearchParams(location.search).get('h') > 0.55")
+    # The control in the column and that beside the text.
+    controls = page.locator(".param-h input").all()
+    assert len(controls) == 4
+    assert min(float(one.input_value()) for one in controls) > steps[6].animation.start + 0.04
+    page.keyboard.press("Escape")
+    page.mouse.click(5, 5)
+    # Text and slider of a step are in sight together, and there is one value.
+    turn_to(tab, 10)
+    text, control = page.locator(".lesson .text"), page.locator(".step-controls .param-h")
+    for item in (text, control):
+        box = item.bounding_box()
+        assert 0 <= box["y"] < box["y"] + box["height"] <= 720
+    assert page.locator(".step-controls .number").count() == 1
+    beside, column = control.locator(".hand"), page.locator(".controls .param-h .hand")
+    tab.change(lambda: beside.press("ArrowRight"))
+    moved = float(tab.wait_url(h=column.input_value())["h"])
+    assert moved > steps[9].at.values["h"]
+    assert beside.input_value() == column.input_value()
+    page.locator(".param-tab-controls").click()
+    tab.change(lambda: column.press("ArrowRight"))
+    assert float(tab.wait_url(h=column.input_value())["h"]) > moved
+    assert [control.locator(".exact").input_value(), beside.input_value()] == 2 * [column.input_value()]
+    tab.resize(*WIDE)
+    assert page.locator(".step-controls").is_hidden()
+    # A picture has its new size in a scene that is entered again.
+    page.evaluate("document.activeElement?.blur()")
+    turn_to(tab, 13)
     wait_frames(tab, 4)
-    assert page.locator(".lesson .count").inner_text() == "13 / 15"
     widths = page.evaluate(WIDTHS)
     assert len(widths) == 3
     assert all(drawn == laid for drawn, laid in widths)
+    page.locator(".param-leave-lesson").dispatch_event("click")
+    tab.assert_quiet()
 
 
 def test_a_layer_is_hidden_until_it_is_asked_for(tab):
@@ -220,66 +250,28 @@ def test_a_layer_is_hidden_until_it_is_asked_for(tab):
     tab.assert_quiet()
 
 
-def test_a_revealed_guess_leaves_no_frame(tab):
-    tab.fresh()
-    page = tab.page
-    tab.goto(f"/?lesson={CYCLES}&step=5")
-    sheet = page.locator("canvas.guess")
-    for key in ("Tab", "ArrowRight"):
-        sheet.press(key) if key == "ArrowRight" else sheet.focus()
-    assert sheet.evaluate("item => item.style.boxShadow") != ""
-    tab.change(page.keyboard.press, "PageDown")
-    wait_frames(tab)
-    assert sheet.evaluate("item => [getComputedStyle(item).outlineStyle, item.style.boxShadow]") == ["none", ""]
-    assert sheet.evaluate("item => item.getRootNode().activeElement") is None
-
-
-def test_text_and_slider_of_a_step_are_in_sight_together_and_there_is_one_value(tab):
-    tab.fresh()
-    page = tab.page
-    tab.goto(f"/?lesson={CYCLES}&step=10")
-    assert page.locator(".step-controls").is_hidden()
-    tab.resize(1280, 720)
-    text, control = page.locator(".lesson .text"), page.locator(".step-controls .param-h")
-    for item in (text, control):
-        box = item.bounding_box()
-        assert 0 <= box["y"] < box["y"] + box["height"] <= 720
-    assert page.locator(".step-controls .number").count() == 1
-    beside, column = control.locator(".hand"), page.locator(".controls .param-h .hand")
-    tab.change(lambda: beside.press("ArrowRight"))
-    moved = float(tab.wait_url(h=column.input_value())["h"])
-    assert moved > shipped()[CYCLES].steps[9].at.values["h"]
-    assert beside.input_value() == column.input_value()
-    page.locator(".param-tab-controls").click()
-    tab.change(lambda: column.press("ArrowRight"))
-    assert float(tab.wait_url(h=column.input_value())["h"]) > moved
-    assert [control.locator(".exact").input_value(), beside.input_value()] == 2 * [column.input_value()]
-    page.locator(".param-leave-lesson").dispatch_event("click")
-    tab.assert_quiet()
-
-
-@pytest.mark.parametrize(("size", "is_beside"), [((1000, 600), True), ((960, 480), True), ((600, 800), False)])
-def test_an_embedded_lesson_has_its_text_and_buttons_by_the_picture(open_page, server, size, is_beside):
-    page = open_page(f"lesson={CYCLES}&step=7&embed=1", size=size)
-    title = page.locator(".lesson .title")
-    picture, text, slider, following = (
-        item.bounding_box()
-        for item in (
-            page.locator(".gallery:not(.away) .picture-circle .host"),
-            title,
-            page.locator(".step-controls .param-h .hand"),
-            page.locator(".param-next-step"),
+def test_an_embedded_lesson_has_its_text_and_buttons_by_the_picture(open_page, server):
+    page = open_page(f"lesson={CYCLES}&step=7&embed=1", size=(1000, 600))
+    tab, title = Explorer(page, server), page.locator(".lesson .title")
+    for size, is_beside in (((1000, 600), True), ((960, 480), True), ((600, 800), False)):
+        tab.resize(*size)
+        picture, text, slider, following = (
+            item.bounding_box()
+            for item in (
+                page.locator(".gallery:not(.away) .picture-circle .host"),
+                title,
+                page.locator(".step-controls .param-h .hand"),
+                page.locator(".param-next-step"),
+            )
         )
-    )
-    for box in (picture, text, slider, following):
-        assert 0 <= box["x"] < box["x"] + box["width"] <= size[0]
-        assert 0 <= box["y"] < box["y"] + box["height"] <= size[1]
-    side, start = ("x", "width") if is_beside else ("y", "height")
-    assert picture[side] + picture[start] <= text[side] + 1
-    for hidden in (".controls", ".tools", ".tabs", ".words", ".param-leave-lesson"):
-        assert not page.locator(hidden).first.is_visible()
+        for box in (picture, text, slider, following):
+            assert 0 <= box["x"] < box["x"] + box["width"] <= size[0]
+            assert 0 <= box["y"] < box["y"] + box["height"] <= size[1]
+        side, start = ("x", "width") if is_beside else ("y", "height")
+        assert picture[side] + picture[start] <= text[side] + 1
+        for hidden in (".controls", ".tools", ".tabs", ".words", ".param-leave-lesson"):
+            assert not page.locator(hidden).first.is_visible()
     # A step of another scene, with a picture that a link could not name.
-    tab = Explorer(page, server)
     page.keyboard.press("PageDown")
     tab.change(page.keyboard.press, "PageDown")
     assert title.inner_text() == shipped()[CYCLES].steps[7].title

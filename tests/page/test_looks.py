@@ -232,7 +232,7 @@ def assert_looks(page, scene, size, theme, artefacts):
 # a theme that turns paints all that was built.
 @pytest.mark.parametrize(
     "theme, scene",
-    [*(("light", scene) for scene in sample(SCENES, 6)), *(("dark", scene) for scene in sample(SCENES, 2))],
+    [*(("light", scene) for scene in sample(SCENES, 4)), *(("dark", scene) for scene in sample(SCENES[1:], 1))],
 )
 def test_a_scene_has_its_columns_and_colours_and_nothing_is_covered_cut_off_or_hard_to_read(
     look_at, artefacts, theme, scene
@@ -256,7 +256,6 @@ def test_a_scene_has_its_columns_and_colours_and_nothing_is_covered_cut_off_or_h
     "scene, size, theme",
     [
         *((scene, "phone", "light") for scene in sample((HESS, "ball-section", "scattering", "singular-measures"), 2)),
-        (HESS, "sideways", "light"),
         (HESS, "sideways", "dark"),
         (HESS, "laptop", "dark"),
     ],
@@ -277,7 +276,8 @@ def test_on_a_phone_one_hand_suffices_for_all_that_can_be_touched(look_at, size)
     # A term is a word of a sentence, as high as its line.
     for name, smallest in page.locator("button:not(.term), select, input").evaluate_all(TARGETS):
         assert smallest >= 43.9, name
-    assert_accessible(page)
+    if size == "phone":
+        assert_accessible(page)
     # The picture and the slider are there at once, and stay where they are while the text is scrolled.
     before = places_of(page, HESS)
     page.locator(".reader").evaluate("item => item.scrollTo(0, 400)")
@@ -351,7 +351,7 @@ def test_where_there_is_little_room_controls_and_text_are_tabs(look_at):
     assert_accessible(page)
     text.press("ArrowRight")
     assert (slider.is_visible(), words.is_visible()) == (True, False)
-    assert_accessible(page)
+    assert_accessible(page, page.get_by_role("tablist"))
 
 
 def axis_colour(page, name="omega"):
@@ -360,16 +360,7 @@ def axis_colour(page, name="omega"):
     )
 
 
-def test_a_scene_that_is_entered_is_as_dark_as_one_that_a_link_opens(open_page, look_at):
-    linked = open_page(f"scene={STUDY}&theme=dark")
-    look_at(HESS, theme="dark")
-    entered = look_at(STUDY, theme="dark")
-    for name in planar(STUDY):
-        assert axis_colour(entered, name) == axis_colour(linked, name), name
-    assert brightness(seen(entered)) == approx(brightness(seen(linked)), abs=1)
-
-
-def test_the_page_follows_the_theme_of_the_system_until_one_is_chosen(open_page):
+def test_the_page_is_dark_from_its_first_frame_as_its_system_is_until_a_theme_is_chosen(open_page, look_at):
     page = open_page(f"scene={STUDY}")
 
     def turns(scheme, is_dark):
@@ -382,14 +373,7 @@ def test_the_page_follows_the_theme_of_the_system_until_one_is_chosen(open_page)
     turns("light", False)
     turns("dark", True)
     assert "theme=" not in page.url
-    page.get_by_role("button", name="theme").click()
-    page.wait_for_function("location.search.includes('theme=light')")
-    turns("light", False)
-    turns("dark", False)
-
-
-def test_a_dark_page_is_dark_from_its_first_frame(open_page):
-    page = open_page(f"scene={STUDY}", color_scheme="dark")
+    # Opened again, no frame of it is bright.
     session, frames = page.context.new_cdp_session(page), []
 
     def keep(event):
@@ -401,9 +385,19 @@ def test_a_dark_page_is_dark_from_its_first_frame(open_page):
     page.reload()
     page.wait_for_function("document.documentElement.dataset.ready === 'true'")
     session.send("Page.stopScreencast")
-    brightness = [ImageStat.Stat(frame).mean[0] for frame in frames]
-    assert len(brightness) > 2
-    assert max(brightness) < 80, brightness
+    means = [ImageStat.Stat(frame).mean[0] for frame in frames]
+    assert len(means) > 2
+    assert max(means) < 80, means
+    # A scene that is entered is as dark as one that is opened.
+    look_at(HESS, theme="dark")
+    entered = look_at(STUDY, theme="dark")
+    for name in planar(STUDY):
+        assert axis_colour(entered, name) == axis_colour(page, name), name
+    assert brightness(seen(entered)) == approx(brightness(seen(page)), abs=1)
+    page.get_by_role("button", name="theme").click()
+    page.wait_for_function("location.search.includes('theme=light')")
+    turns("light", False)
+    turns("dark", False)
 
 
 @pytest.mark.parametrize("theme", sample(["light", "dark"], 1))
@@ -422,37 +416,46 @@ def test_no_rule_of_wcag_is_broken(look_at, theme):
     box.press("Escape")
     # With the menu of scenes; with a pinned state and another one.
     tab.open_menu()
-    assert_accessible(tab.page)
+    assert_accessible(tab.page, tab.page.get_by_role("dialog", name="Scenes", exact=True))
     tab.page.keyboard.press("Escape")
     tab.page.locator(".param-pin").click()
     tab.change(lambda: tab.slide(h=2.0))
-    assert_accessible(tab.page)
+    assert_accessible(tab.page, tab.page.locator(".comparison"))
     tab.page.locator(".param-unpin").click()
     tab.change(tell, tab.page, "reset")
 
 
-@pytest.mark.parametrize("size, theme", [("wide", "dark"), ("phone", "light")])
+@pytest.mark.parametrize("size, theme", sample([("wide", "dark"), ("phone", "light")], 1))
 def test_no_rule_of_wcag_is_broken_in_the_accuracy_scene(look_at, size, theme):
     assert_accessible(look_at(STUDY, size, theme))
 
 
-def test_every_control_is_reached_by_the_tab_key(look_at):
+STOP = """() => {
+  let item = document.activeElement
+  while (item?.shadowRoot?.activeElement) item = item.shadowRoot.activeElement
+  const own = /^(A|BUTTON|SUMMARY)$/.test(item.tagName) ? item.textContent : ""
+  const name = item.ariaLabel || item.labels?.[0]?.textContent || item.title || own
+  const classes = []
+  for (let at = item; at; at = at.parentElement ?? at.getRootNode().host)
+    classes.push(...[...(at.classList ?? [])].filter((name) => /^param-|^solid$|^corner$/.test(name)))
+  return [`${item.tagName}.${item.className}`, name.trim(), classes]
+}"""
+"""The element in focus, its name, and the controls that it is part of."""
+
+
+def test_every_control_is_reached_by_the_tab_key_and_every_stop_has_a_name(look_at):
     tab = Explorer(look_at(HESS), "").unfold_controls()
     page = tab.page
-    page.evaluate("document.activeElement?.blur()")
-    reached = set()
-    for _ in range(90):
+    page.locator(".param-scenes").focus()
+    reached, stops = set(), []
+    for _ in range(120):
+        stop, name, classes = page.evaluate(STOP)
+        reached |= set(classes)
+        stops.append((stop, name))
         page.keyboard.press("Tab")
-        reached |= set(
-            page.evaluate("""() => {
-            let item = document.activeElement
-            while (item?.shadowRoot?.activeElement) item = item.shadowRoot.activeElement
-            const names = []
-            for (let at = item; at; at = at.parentElement ?? at.getRootNode().host)
-                names.push(...[...(at.classList ?? [])].filter((name) => /^param-|^solid$|^corner$/.test(name)))
-            return names
-        }""")
-        )
+        if len(stops) > 5 and stops[-1] == stops[0]:
+            break
+    assert [stop for stop, name in stops if not name and not stop.startswith("BODY")] == []
     tools = ["preset", "accuracy", "reset", "share", "present", "play", "t", "speed", "scenes", "theme", "fullscreen"]
     wanted = {"solid", "corner", *(f"param-{name}" for name in (*tools, *SLIDERS))}
     assert wanted <= reached, wanted - reached
@@ -479,7 +482,7 @@ def test_on_a_phone_tools_without_room_in_the_bar_are_in_a_menu(look_at, size):
         assert min(box["width"], box["height"]) >= 44
         assert 0 <= box["x"] < box["x"] + box["width"] <= SIZES[size][0]
         assert 0 <= box["y"] < box["y"] + box["height"] <= SIZES[size][1]
-    assert_accessible(page)
+    assert_accessible(page, page.get_by_role("group", name="More tools"))
     page.locator(".param-present").click()
     assert page.evaluate("document.documentElement.hasAttribute('data-present')")
     assert page.locator(".param-pin").is_hidden()
@@ -560,7 +563,7 @@ def gaps_of(labels):
     ]
 
 
-@pytest.mark.parametrize("scene", ["free-suslov", "scattering", "loxodrome"])
+@pytest.mark.parametrize("scene", sample(["free-suslov", "loxodrome", "scattering"], 2))
 def test_on_a_sphere_no_label_touches_the_next(look_at, scene):
     page = look_at(scene, "laptop")
     touching = """const all = (root) => [...root.querySelectorAll("*")].flatMap((item) =>

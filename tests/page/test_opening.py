@@ -52,6 +52,7 @@ def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_noth
     page = explorer.page
     # The address is written a moment after the first state.
     page.wait_for_function("location.search.includes('v=1')")
+    assert page.locator(SIGN).count() == 1
     before = explorer.state, page.url, page.evaluate("history.length"), len(explorer.sent)
     page.mouse.move(300, 300)
     assert all(moves(explorer) for _ in range(3))
@@ -83,11 +84,15 @@ def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_noth
         expect(page.locator(".player[role=group]")).not_to_have_attribute("data-playing", "true")
         assert not moves(explorer)
         assert explorer.time > 0
-    # No animation starts a second time, and a link with a time opens at that time.
+    # No animation starts a second time, and a link with a time opens at that time; a speed not offered is put right.
     explorer.change(lambda: page.evaluate("name => hess.tell('scene', name)", HESS))
     assert not explorer.playing
-    explorer.open(f"scene={HESS}&t=3.5")
+    explorer.change(page.locator(".param-h .hand").press, "ArrowRight")
+    explorer.open(f"scene={HESS}&t=3.5&speed=3")
     assert (explorer.playing, explorer.time) == (False, approx(3.5))
+    assert explorer.wait_url(v="1").get("speed", "1") == page.locator(".param-speed").input_value() != "3"
+    # Nor is the handle pointed out again.
+    assert page.locator(SIGN).count() == 0
 
 
 def test_the_one_handle_says_drag_me_once_and_what_the_mouse_does_is_said_where_it_does_it(fresh_browser):
@@ -123,6 +128,3 @@ def test_the_one_handle_says_drag_me_once_and_what_the_mouse_does_is_said_where_
         found, said = page.evaluate(UNDER, place)
         assert found == cursor, picture
         assert word in said
-    # Never again in this browser.
-    explorer.open(f"scene={HESS}")
-    assert page.locator(SIGN).count() == 0

@@ -222,7 +222,9 @@ def test_the_link_follows_what_the_user_does_and_opens_the_same_page_elsewhere(e
 def test_a_script_in_any_key_of_a_link_is_neither_run_nor_shown(explorer):
     payload = "<img src=x onerror=pwned=1>\"'><script>pwned=1</script>"
     keys = ["v", *DEFAULTS, "t", "speed", "az", "el", "theme", "large"]
-    explorer.open("&".join(f"{key}={quote(payload)}" for key in keys) + f"&{quote(payload)}=1")
+    # Nor do very many keys keep the page from opening.
+    others = "&".join([f"{quote(payload)}=1", *(f"k{i}=1" for i in range(250))])
+    explorer.open("&".join(f"{key}={quote(payload)}" for key in keys) + f"&{others}")
     for name in SLIDERS:
         assert explorer.shown(name)[0] == DEFAULTS[name]
     assert explorer.page.evaluate("window.pwned") is None
@@ -257,14 +259,6 @@ def test_whatever_a_text_of_the_page_is_told_to_say_it_shows_as_text(explorer):
     explorer.change(lambda: explorer.slide(h=0.9))
     assert payload not in explorer.text("status")
     assert "onerror" not in explorer.caption("omega")
-
-
-def test_a_link_of_very_many_keys_opens_the_page_and_a_speed_not_offered_is_put_right_in_it(explorer):
-    explorer.open("h=2.5&speed=3&" + "&".join(f"k{i}=1" for i in range(250)))
-    assert explorer.here()[0] == 2.5
-    shown = explorer.page.locator(".param-speed").input_value()
-    found = explorer.wait_url(v="1")
-    assert float(found.get("speed", "1")) == float(shown)
 
 
 # --- What the page needs of Bokeh beyond its documentation ---------------------------------------------

@@ -43,7 +43,7 @@ def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(exp
         assert dict(parse_qsl(urlsplit(link).query)).get("theme", "light") == theme
         page.locator(".share .code svg").wait_for()
         assert read(page.locator(".share .code").screenshot()) == [link]
-        assert_accessible(page)
+        assert_accessible(page, page.get_by_role("dialog", name="Share"))
         page.keyboard.press("Escape")
     page.get_by_role("button", name="Share").click()
     dialog = page.get_by_role("dialog", name="Share")

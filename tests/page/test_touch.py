@@ -59,7 +59,7 @@ def test_a_finger_moves_a_slider_and_its_name(phone):
 # One picture of each kind, with and without gestures of one finger.
 @pytest.mark.parametrize(
     ("scene", "picture"),
-    [(HESS, "omega"), (HESS, "bifurcation"), (HESS, "sphere"), (HESS, "body"), ("rotation-number", "map")],
+    sample([(HESS, "omega"), (HESS, "sphere"), (HESS, "bifurcation"), ("rotation-number", "map"), (HESS, "body")], 3),
 )
 def test_two_fingers_zoom_and_choose_nothing(phone, scene, picture):
     phone = phone(scene)
@@ -132,7 +132,7 @@ TAPPED = [
     (name, view.name)
     for name, scene in scenes().items()
     for view in scene.views
-    if scene.origin is None and "tap" in view.describe().get("picks", ())
+    if scene.origin is None and "tap" in getattr(view, "events", ())
 ]
 
 
@@ -179,7 +179,7 @@ def test_a_phone_opens_on_the_picture_that_the_sentence_speaks_of(phone):
         (view,) = (view for view in scene.views if tab.picture(view.name).is_visible())
         # The sentence asks for a click or a drag: the picture takes it.
         assert re.search("Click|Drag|drag", scene.moves)
-        assert view.describe()["hands"]
+        assert view.hands
         # Each chip has the name of its picture, and the one on show is pressed.
         chips = tab.page.locator(".chips .chip")
         pressed = chips.and_(tab.page.locator("[aria-pressed=true]"))

@@ -22,7 +22,8 @@ def test_the_cost_of_all_is_measured_when_its_button_is_pressed(tab):
 
 
 def test_a_link_with_the_accuracy_auto_says_what_it_stands_for(tab):
-    explorer = tab.open("scene=kharlamova&accuracy=auto")
+    explorer = tab.fresh("kharlamova")
+    explorer.change(lambda: explorer.page.evaluate("hess.tell('restore', 'scene=kharlamova&accuracy=auto')"))
     expect(explorer.page.locator(".text.details")).to_contain_text("auto: draft · ")
     assert explorer.text("status").startswith("draft: orbit")
     assert explorer.chosen("accuracy") == "auto"

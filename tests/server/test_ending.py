@@ -5,13 +5,12 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import pytest
 
 from hess_explorer.headless.screenshot import server_process
 from support.asynchronous import finished
-from support.processes import below
+from support.processes import assert_gone, below
 from support.serving import UNWARMED
 from support.visitor import Visitor
 
@@ -29,13 +28,6 @@ async def told(base, end, count):
     return heard
 
 
-def gone(processes):
-    ends = time.monotonic() + 20.0
-    while any(Path(f"/proc/{one}").exists() for one in processes):
-        assert time.monotonic() < ends, "a process was left behind"
-        time.sleep(0.05)
-
-
 def test_of_several_workers_all_tell_their_pages_and_end_with_the_process_that_began(tmp_path):
     log = tmp_path / "log"
     with server_process(log, UNWARMED, WORKERS) as (process, base):
@@ -45,19 +37,11 @@ def test_of_several_workers_all_tell_their_pages_and_end_with_the_process_that_b
         os.kill(workers[0], signal.SIGKILL)
         heard = finished(told(base, process.terminate, 4))
         assert process.wait(20) == 0
-        gone(workers)
+        assert_gone(workers)
     assert heard == ["1001: The server is shutting down or restarting: open the page again in a moment."] * 8
     said = log.read_text()
     assert "Traceback" not in said
     assert "ERROR" not in said
-
-
-def test_no_worker_outlives_the_process_that_began(tmp_path):
-    with server_process(tmp_path / "log", UNWARMED, WORKERS) as (process, _):
-        workers = below(process.pid)[1:]
-        process.kill()
-        process.wait()
-        gone(workers)
 
 
 COMPILES = """
@@ -82,4 +66,4 @@ def test_the_compiler_beside_a_server_holds_none_of_its_pipes_and_ends_with_it(t
         killed = time.monotonic()
         assert server.stdout.read() == b""
         assert time.monotonic() - killed < 2.0
-        gone(compilers)
+        assert_gone(compilers)

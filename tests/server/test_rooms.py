@@ -13,6 +13,7 @@ from hess_explorer.rooms import room
 from hess_explorer.scenes import scenes
 from hess_explorer.server.room_socket import Outbox
 from support.asynchronous import finished
+from support.processes import assert_gone, below
 from support.room import Follower, Lecturer, new_code
 from support.serving import UNWARMED, served
 
@@ -278,7 +279,7 @@ def test_to_a_follower_who_reads_nothing_only_the_newest_state_waits():
     assert finished(visit()) == [("A", False), ("B", False), (b"d", True)]
 
 
-def test_with_several_workers_all_members_of_a_room_meet(tmp_path):
+def test_with_several_workers_all_members_of_a_room_meet_and_no_worker_outlives_the_server(tmp_path):
     async def visit(base):
         for _ in range(4):
             # Codes of both workers.
@@ -295,8 +296,14 @@ def test_with_several_workers_all_members_of_a_room_meet(tmp_path):
             assert await lecturer.end() == ENDED
 
     log = tmp_path / "log"
-    with server_process(log, UNWARMED, ("--workers", "2")) as (_, base):
+    with server_process(log, UNWARMED, ("--workers", "2")) as (process, base):
         finished(visit(base))
+        # No worker outlives the process that began, however that ends.
+        workers = below(process.pid)[1:]
+        process.kill()
+        process.wait()
+        assert_gone(workers)
+    assert len(workers) == 2
     assert "Traceback" not in log.read_text()
 
 

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import time
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -28,6 +29,14 @@ def below(pid):
         except OSError:
             continue
     return found
+
+
+def assert_gone(processes, seconds=20.0):
+    """Assert that these processes end by then."""
+    ends = time.monotonic() + seconds
+    while any(Path(f"/proc/{one}").exists() for one in processes):
+        assert time.monotonic() < ends, "a process was left behind"
+        time.sleep(0.05)
 
 
 def memory(pid):

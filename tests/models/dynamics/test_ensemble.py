@@ -3,16 +3,18 @@
 import re
 import sys
 from functools import cache
+from itertools import product
 
 import numpy as np
-from pytest import approx, mark, param, raises
+from pytest import approx, mark, raises
 
-from hess_mechanics import Level, Status, ensemble, level, solve
+from hess_mechanics import Level, Status, ensemble, level, solve, systems
 from hess_mechanics.dynamics.ensemble import MAX_NUMBERS
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
 from hess_mechanics.numerics.batch_kernels import LANES
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 from support.mechanics import EQUILIBRIA, every_level, every_system
+from support.thorough import sample
 
 FORWARD = np.linspace(0.0, 10.0, 61)
 
@@ -40,20 +42,13 @@ def unit_of(system, states, parameters):
     return np.where(np.arange(len(system.variables)) < system.angular_velocities, nu, 1.0)
 
 
-TIMES = [
-    param([10.0], id="one"),
-    param(FORWARD, id="forward"),
-    param(-FORWARD, id="backward"),
-    param(np.linspace(0.0, 5.0, 2001), id="dense"),
-    param([0.0], id="the start"),
-    param([0.0, 0.0, 1e-9, 1.0, 1.0, 7.0], id="equal ones"),
-]
+TIMES = ([10.0], FORWARD, -FORWARD, np.linspace(0.0, 5.0, 2001), [0.0], [0.0, 0.0, 1e-9, 1.0, 1.0, 7.0])
 
 
-@every_system
 @every_level
-@mark.parametrize("times", TIMES)
-@mark.parametrize("count", [1, LANES - 1, LANES, 3 * LANES + 5])
+@mark.parametrize(
+    ("system", "count", "times"), sample(product(systems().values(), (1, LANES - 1, LANES, 3 * LANES + 5), TIMES), 24)
+)
 def test_the_orbits_of_an_ensemble_are_those_of_solve(system, name, times, count):
     states = starts(system, count)
     result = ensemble(system.at(system.example[1]), states, times, name)
