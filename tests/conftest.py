@@ -30,7 +30,7 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
-    """With several test processes, compile all kernels once before they start and share one server."""
+    """With several test processes, compile all kernels once before they start; those of the page share one server."""
     from support.thorough import load_profile
 
     load_profile(is_thorough=config.getoption("thorough"))
@@ -41,9 +41,11 @@ def pytest_configure(config):
         compile_half = "from hess_explorer.server.warm import compile_all; compile_all(backwards={})"
         halves = [subprocess.Popen([sys.executable, "-c", compile_half.format(end)]) for end in (False, True)]
         assert [half.wait() for half in halves] == [0, 0], "the kernels could not be compiled"
-        shared = config.stash[SHARED] = ExitStack()
-        log = Path(shared.enter_context(tempfile.TemporaryDirectory())) / "server.log"
-        config.stash[SHARED_SERVER] = (shared.enter_context(server_process(log))[1], str(log))
+        # It computes the first states of all scenes while the tests begin: only the page needs them.
+        if any(Path(one.partition("::")[0]).name in ("tests", "page") for one in config.args):
+            shared = config.stash[SHARED] = ExitStack()
+            log = Path(shared.enter_context(tempfile.TemporaryDirectory())) / "server.log"
+            config.stash[SHARED_SERVER] = (shared.enter_context(server_process(log))[1], str(log))
 
 
 def pytest_collection_modifyitems(config, items):
@@ -56,8 +58,8 @@ def pytest_collection_modifyitems(config, items):
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_configure_node(node):
-    """Pass the shared server to a test process."""
-    node.workerinput["server"] = node.config.stash[SHARED_SERVER]
+    """Pass the shared server, if there is one, to a test process."""
+    node.workerinput["server"] = node.config.stash.get(SHARED_SERVER, None)
 
 
 def pytest_unconfigure(config):

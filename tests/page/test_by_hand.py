@@ -106,12 +106,13 @@ def through_pictures(explorer):
             explorer.change(mouse.click, left + 0.45 * (right - left), top + 0.4 * (bottom - top))
 
 
-OWN = [name for name, scene in SCENES.items() if scene.origin is None]
+# First one that takes numbers, boxes and clicks.
+OWN = sorted((name for name, scene in SCENES.items() if scene.origin is None), key=lambda name: name != "ball-section")
 # Scenes of errors are all of one class: the first one of each number of pictures.
 ERRORS = {len(scene.views): name for name, scene in reversed(SCENES.items()) if scene.origin is not None}.values()
 
 
-@pytest.mark.parametrize("scene", [*sample(OWN, 2), *sample(ERRORS, 1)])
+@pytest.mark.parametrize("scene", [*sample(OWN, 1), *sample(ERRORS, 1)])
 def test_a_state_reached_by_hand_looks_as_the_one_its_link_opens(tab, artefacts, scene):
     tab.fresh(scene)
     # All levels draw the same picture.

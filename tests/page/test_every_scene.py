@@ -21,7 +21,7 @@ EXAMPLES = [
 ]
 
 
-@pytest.mark.parametrize("scene, preset", sample(EXAMPLES, 8))
+@pytest.mark.parametrize("scene, preset", sample(EXAMPLES, 5))
 def test_an_example_is_drawn_as_the_scene_computes_it(tab, scene, preset):
     explorer = brought(tab, scene)
     values = chosen(explorer, scene, preset)

@@ -10,7 +10,7 @@ from support.thorough import examples
 
 @pytest.mark.parametrize(
     "fuzz, count",
-    [(fuzz_links, examples(4)), (fuzz_messages, examples(12)), (fuzz_commands, examples(3))],
+    [(fuzz_links, examples(4)), (fuzz_messages, examples(12)), (fuzz_commands, examples(6))],
     ids=["links", "messages", "commands"],
 )
 def test_strangers_get_answers(fuzz, count):

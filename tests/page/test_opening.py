@@ -87,10 +87,10 @@ def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_noth
     # No animation starts a second time, and a link with a time opens at that time; a speed not offered is put right.
     explorer.change(lambda: page.evaluate("name => hess.tell('scene', name)", HESS))
     assert not explorer.playing
-    explorer.change(page.locator(".param-h .hand").press, "ArrowRight")
-    explorer.open(f"scene={HESS}&t=3.5&speed=3")
+    # Very many other keys are no obstacle.
+    explorer.open(f"scene={HESS}&t=3.5&speed=3&" + "&".join(f"k{i}=1" for i in range(250)))
     assert (explorer.playing, explorer.time) == (False, approx(3.5))
-    assert explorer.wait_url(v="1").get("speed", "1") == page.locator(".param-speed").input_value() != "3"
+    assert float(explorer.wait_url(v="1").get("speed", "1")) == float(page.locator(".param-speed").input_value()) != 3.0
     # Nor is the handle pointed out again.
     assert page.locator(SIGN).count() == 0
 

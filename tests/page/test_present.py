@@ -137,7 +137,7 @@ HALL = """() => {
 @pytest.mark.parametrize("size", sample([(1920, 1080), (1280, 720), (1600, 950)], 2))
 def test_pictures_fill_the_hall(tab, size):
     page, (width, height) = tab.page, size
-    for scene in sample([name for name, one in scenes().items() if one.origin in (None, HESS)], 3):
+    for scene in sample([name for name, one in scenes().items() if one.origin in (None, HESS)], 2):
         tab.fresh(scene)
         tab.resize(*size)
         desk = page.evaluate(HALL)["pictures"]

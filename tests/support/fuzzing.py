@@ -531,9 +531,9 @@ def fuzz_commands(random, count):
 
 
 def _fuzz_commands(random, count):
-    # Those that take long or a browser are for other tests.
+    # Those that take minutes or a browser are for other tests.
     findings = Findings()
-    examples = [one for one in _examples(_parser()) if one[0] not in ("bench", "shot")]
+    examples = [one for one in _examples(_parser()) if one[0] not in ("bench", "docs", "shot")]
     for _ in range(count):
         if findings.over:
             break
