@@ -1,14 +1,16 @@
 """Elementary functions of all numbers on which a field is evaluated.
 
-NumPy's own functions take floats, arrays and the symbols of a traced field.  These also take numbers of SymPy and
-mpmath, for checks.
+NumPy's own functions take floats, arrays and the symbols of a traced field.  These also take the numbers of any library
+that has functions of these names, such as SymPy and mpmath, for checks.
 """
 
 from __future__ import annotations
 
-import importlib
+import sys
 from collections.abc import Callable
 from typing import Any
+
+import numpy as np
 
 __all__ = [
     "acos", "asin", "atan", "atan2", "cos", "cosh", "exp", "log", "sin", "sinh", "sqrt", "tan", "tanh",
@@ -17,9 +19,8 @@ __all__ = [
 
 def _function(name: str) -> Callable[..., Any]:
     def call(*arguments: Any) -> Any:
-        roots = (type(x).__module__.partition(".")[0] for x in arguments)
-        library = next((root for root in roots if root in ("sympy", "mpmath")), "numpy")
-        return getattr(importlib.import_module(library), name)(*arguments)
+        libraries = (sys.modules.get(type(x).__module__.partition(".")[0]) for x in arguments)
+        return getattr(next((one for one in libraries if hasattr(one, name)), np), name)(*arguments)
 
     call.__name__ = call.__qualname__ = name
     call.__doc__ = f"Return {name} of numbers, arrays or symbols."
