@@ -6,7 +6,7 @@ their first argument.  All results have `.to_pandas()`, `.to_xarray()` and `.plo
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,7 +21,8 @@ from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, dia
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, PeriodicOrbit, find_periodic, place_units
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.dynamics.section import section_points
-from hess_mechanics.dynamics.system import Problem
+from hess_mechanics.dynamics.system import ParametrizedSystem, Problem
+from hess_mechanics.dynamics.variable_section import variable_section
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
@@ -46,7 +47,7 @@ __all__ = [
     "section_orbits",
 ]
 
-SectionedBody = SuslovBody | QuarticBody | BallBody | HeavyBody | HessBody
+SectionedBody = SuslovBody | QuarticBody | BallBody | HeavyBody | HessBody | ParametrizedSystem
 _MOST_PLACES = 1_000_000
 _MOST_ORBITS, _MOST_CROSSINGS = 1000, 10_000
 _TURNS = 120.0
@@ -99,6 +100,10 @@ def return_map(
     f: float | None = None,
     plane: int = 3,
     sheet: int = 0,
+    integrals: Mapping[str, float] | None = None,
+    surface: tuple[str, float] | None = None,
+    coordinates: str | Sequence[str] | None = None,
+    window: Sequence[tuple[float, float]] | None = None,
     accuracy: Accuracy = "precise",
 ) -> ReturnMap:
     """Return the return map of a Poincaré section of a body at fixed values of its integrals.
@@ -110,10 +115,12 @@ def return_map(
     - `HeavyBody`: the Andoyer–Deprit section at `h` and `f`, coordinates (l, L/G).
     - `HessBody`: a circle on the torus (`h`, `f`) in units b = 1, coordinate φ.
     - `QuarticBody`: the section of the plane motion at the body's own energy, coordinates (q, p).
+    - Any other system, `System.at`: a variable increases through a value, and one or two others are the coordinates.
+      The rest follows from `integrals`, of which `E`, `h` and `f` are short forms.
 
     Parameters
     ----------
-    body : SuslovBody, BallBody, HeavyBody, HessBody or QuarticBody
+    body : SuslovBody, BallBody, HeavyBody, HessBody, QuarticBody or ParametrizedSystem
         The body.
     E : float, optional
         Energy of a `SuslovBody`.
@@ -125,6 +132,15 @@ def return_map(
         Index k of the plane γ_k = 0 of a `SuslovBody`: 1, 2 or 3.
     sheet : int, default 0
         Sheet of the section of a `HeavyBody`, 0 to 2; the largest momentum G is on sheet 0.
+    integrals : mapping of str to float, optional
+        Values of first integrals of any other system, by name.
+    surface : (str, float), optional
+        The variable of any other system that increases through a value.  By default the first, through 0.
+    coordinates : str or sequence of str, optional
+        Coordinates of the section of any other system, one or two of its variables.  By default those on which the
+        rate of the surface's variable depends least.
+    window : sequence of (float, float), optional
+        Range of each of these coordinates.
     accuracy : str or Level, default "precise"
         Accuracy level.
 
@@ -155,6 +171,9 @@ def return_map(
     elif isinstance(body, HeavyBody):
         at = _given(asked, "h", "f")
         found = AndoyerSection(body, at[0], at[1], as_whole("sheet", sheet, 0, 2))
+    elif isinstance(body, ParametrizedSystem):
+        given = {name: value for name, value in asked.items() if value is not None}
+        found = variable_section(body, {**given, **(integrals or {})}, surface, coordinates, window)
     elif isinstance(body, QuarticBody):
         _given(asked)
         found = QuarticSection(body)

@@ -15,8 +15,8 @@ import heyoka
 import numpy as np
 
 from benchmarks.integrators.machine import conditions
-from models.dynamics.textbook import TEXTBOOK
 from support.measured import table, write_measured
+from support.textbook import TEXTBOOK
 
 TARGET = 1e-9
 """Largest error of a component, relative to the largest component of the state if that exceeds 1."""

@@ -4,7 +4,7 @@ import numpy as np
 from pytest import approx, mark
 
 from hess_mechanics import solve
-from models.dynamics.textbook import TEXTBOOK, states_of
+from support.textbook import TEXTBOOK, states_of
 from support.thorough import sample
 
 

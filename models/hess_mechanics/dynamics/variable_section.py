@@ -1,0 +1,263 @@
+"""Sections of any system: a variable passes a value, two other variables are the coordinates.
+
+The variables that are neither follow from first integrals with given values, by Newton's method.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from hess_mechanics.dynamics.return_map import PoincareSection
+from hess_mechanics.dynamics.section import Plane
+from hess_mechanics.dynamics.system import ParametrizedSystem, System
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.arguments import as_number
+from hess_mechanics.numerics.results import Array, Mask
+
+__all__ = ["VariableSection", "variable_section"]
+
+_STEP = 6e-6
+"""Step of central differences, relative to the size of a variable."""
+_ITERATIONS = 100
+_FAR = 10.0
+"""Start of Newton's method beyond the outermost root, in units of the example's size."""
+_ROUNDING = 1e-13
+
+
+@dataclass(frozen=True)
+class VariableSection(PoincareSection):
+    """The section variable = value, crossed with increasing (sense 1) or decreasing (−1) variable.
+
+    Parameters
+    ----------
+    body : ParametrizedSystem
+        The system with values of its parameters.
+    variable : str
+        The variable that passes the value.
+    value : float
+        The value.
+    coordinates : tuple of str
+        One or two other variables.
+    solved : tuple of str
+        The variables that follow from the integrals.
+    integrals : tuple of (str, float)
+        Names and values of the integrals, as many as `solved`.
+    ranges : tuple of (float, float)
+        Range of each coordinate.
+    sense : int, default 1
+        1 or −1.
+    """
+
+    body: ParametrizedSystem
+    variable: str
+    value: float
+    coordinates: tuple[str, ...]
+    solved: tuple[str, ...]
+    integrals: tuple[tuple[str, float], ...]
+    ranges: tuple[tuple[float, float], ...]
+    sense: int = 1
+
+    slowness = 1.0
+
+    @property
+    def system(self) -> System:
+        """The equations of motion."""
+        return self.body.system
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """Values of the parameters."""
+        return self.body.parameters
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the coordinates."""
+        return self.coordinates
+
+    @property
+    def turns(self) -> tuple[float, ...]:
+        """Period of each coordinate: ∞, for none is taken as an angle."""
+        return (math.inf,) * len(self.coordinates)
+
+    @property
+    def window(self) -> tuple[tuple[float, float], ...]:
+        """Range of each coordinate."""
+        return self.ranges
+
+    @property
+    def surface(self) -> Plane:
+        """The plane variable = value."""
+        normal = tuple(float(name == self.variable) for name in self.system.variables)
+        return Plane(normal, self.value, self.sense)
+
+    @property
+    def constants(self) -> Mapping[str, float]:
+        """The parameters, and the values of the integrals."""
+        return {**dict(zip(self.system.parameters, self.parameters, strict=True)), **dict(self.integrals)}
+
+    def moved(self, name: str, value: float) -> VariableSection:
+        """Return the section with another value of one constant."""
+        if name in self.system.parameters:
+            return replace(self, body=self.system.at(self.parameters, **{name: value}))
+        return replace(self, integrals=tuple((own, value if own == name else x) for own, x in self.integrals))
+
+    @property
+    def states_at(self) -> Callable[..., tuple[Array, Mask]]:
+        """Function of the coordinates (n,) that returns states (n, d) and a mask (n,) of those with motion."""
+        return self._states_at
+
+    def places_of(self, states: Array) -> Array:
+        """Return the coordinates (n, k) of states (n, d)."""
+        return np.asarray(states[:, [self._index(name) for name in self.names]])
+
+    def is_on(self, states: Array) -> Mask:
+        """Return a mask (n,) of the states (n, d) that have a place here: all of them."""
+        return np.ones(len(states), bool)
+
+    def _index(self, name: str) -> int:
+        return self.system.variables.index(name)
+
+    def _states_at(self, *places: Array) -> tuple[Array, Mask]:
+        y = np.zeros((len(self.system.variables), np.size(places[0])))
+        y[self._index(self.variable)] = self.value
+        for name, place in zip(self.names, places, strict=True):
+            y[self._index(name)] = place
+        unknown, here = [self._index(name) for name in self.solved], self._index(self.variable)
+        example = np.array(self.system.example[0])
+        size = max(1.0, float(np.abs(example).max()))
+        found = y.copy()
+        there = np.zeros(y.shape[1], bool)
+        with np.errstate(all="ignore"):
+            for start in (np.full(example.size, _FAR * size), np.full(example.size, -_FAR * size), example):
+                tried = y.copy()
+                tried[unknown] = start[unknown][:, None]
+                solved = self._solve(tried, unknown)
+                rate = np.broadcast_to(self.system.field(list(tried), self.parameters)[here], solved.shape)
+                solved &= self.sense * rate > 0.0
+                new = solved & ~there
+                found[:, new] = tried[:, new]
+                there |= solved
+        return found.T.copy(), there
+
+    def _solve(self, y: Array, unknown: list[int]) -> Mask:
+        """Move the unknown variables of y (d, n) to the values of the integrals; return a mask of those that are."""
+        if not unknown:
+            return np.ones(y.shape[1], bool)
+        for _ in range(_ITERATIONS):
+            off = self._off(y)
+            slopes = np.empty((y.shape[1], len(unknown), len(unknown)))
+            for j, i in enumerate(unknown):
+                ahead, behind = y.copy(), y.copy()
+                step = _STEP * np.maximum(1.0, np.abs(y[i]))
+                ahead[i] += step
+                behind[i] -= step
+                slopes[:, :, j] = ((self._off(ahead) - self._off(behind)) / (2.0 * step)).T
+            singular = ~np.isfinite(slopes).all((1, 2)) | (np.abs(np.linalg.det(slopes)) < 1e-300)
+            slopes[singular] = np.eye(len(unknown))
+            change = np.linalg.solve(slopes, off.T[:, :, None])[:, :, 0].T
+            y[unknown] -= change
+            if not np.any(np.abs(change) > 1e-15 * np.maximum(1.0, np.abs(y[unknown]))):
+                break
+        scale = np.array([max(1.0, abs(value)) for _, value in self.integrals])[:, None]
+        return np.asarray(np.all(np.abs(self._off(y)) < _ROUNDING * scale, axis=0))
+
+    def _off(self, y: Array) -> Array:
+        values: Any = self.system.integrals(list(y), self.parameters)
+        return np.array([np.broadcast_to(values[name], y.shape[1:]) - value for name, value in self.integrals])
+
+
+def variable_section(
+    body: ParametrizedSystem,
+    integrals: Mapping[str, float],
+    surface: tuple[str, float] | None = None,
+    coordinates: str | Sequence[str] | None = None,
+    window: Sequence[tuple[float, float]] | None = None,
+) -> VariableSection:
+    """Return a section of any system, with defaults.
+
+    Parameters
+    ----------
+    body : ParametrizedSystem
+        The system with values of its parameters.
+    integrals : mapping of str to float
+        Values of first integrals, by the names that the system gives them.
+    surface : (str, float), optional
+        The variable that increases through a value.  By default the first variable, through 0.
+    coordinates : str or sequence of str, optional
+        The one or two variables that are the coordinates.  By default those on which the rate of the surface's
+        variable depends least; the others follow from the integrals.
+    window : sequence of (float, float), optional
+        Range of each coordinate.  By default (−1, 1), or as wide as the state of the example.
+
+    Returns
+    -------
+    VariableSection
+        The section.
+
+    Raises
+    ------
+    InvalidParameter
+        If names are not those of the system, or the number of coordinates is not 1 or 2.
+
+    Examples
+    --------
+    >>> from hess_mechanics import System
+    >>> from hess_mechanics.dynamics.variable_section import variable_section
+    >>> swing = System("swing", lambda y, p: (y[1], -y[0] - y[0] ** 3), "x v",
+    ...                integrals=lambda y, p: {"E": y[1] ** 2 / 2 + y[0] ** 2 / 2 + y[0] ** 4 / 4})
+    >>> variable_section(swing.at(), {}).names
+    ('v',)
+    """
+    system = body.system
+    variable, value = surface or (system.variables[0], 0.0)
+    known = system.integrals(*system.example)
+    for name, names, what in (
+        *((one, (*known,), "integral") for one in integrals),
+        (variable, system.variables, "variable"),
+    ):
+        if name not in names:
+            raise InvalidParameter(f"{system.title} has no {what} {name}: choose one of {', '.join(names) or 'none'}.")
+    rest = [name for name in system.variables if name != variable]
+    if coordinates is None:
+        controls = _controls(system, body.parameters, variable)
+        following = sorted(rest, key=lambda name: -controls[name])[: len(integrals)]
+        chosen = tuple(name for name in rest if name not in following)
+    else:
+        chosen = tuple(coordinates.replace(",", " ").split() if isinstance(coordinates, str) else coordinates)
+    solved = tuple(name for name in rest if name not in chosen)
+    if not 1 <= len(chosen) <= 2 or not {*chosen} <= {*rest} or len(solved) != len(integrals):
+        raise InvalidParameter(
+            f"{system.title}: a section has one or two coordinates among {', '.join(rest)}, and an integral for each "
+            f"of the other variables. Here the coordinates are {', '.join(chosen) or 'none'}, the others "
+            f"{', '.join(solved) or 'none'}, and the integrals {', '.join(integrals) or 'none'}: give `coordinates`, "
+            "or values of more or fewer integrals."
+        )
+    reach = max(1.0, 1.5 * max(map(abs, system.example[0])))
+    return VariableSection(
+        body,
+        variable,
+        as_number(variable, value),
+        chosen,
+        solved,
+        tuple((name, as_number(name, x)) for name, x in integrals.items()),
+        tuple(window) if window is not None else ((-reach, reach),) * len(chosen),
+    )
+
+
+def _controls(system: System, parameters: tuple[float, ...], variable: str) -> dict[str, float]:
+    """Return how much the rate of a variable depends on each variable, at the example."""
+    state, here = np.array(system.example[0]), system.variables.index(variable)
+    found = {}
+    for i, name in enumerate(system.variables):
+        ahead, behind = state.copy(), state.copy()
+        ahead[i] += _STEP
+        behind[i] -= _STEP
+        found[name] = abs(
+            float(system.field(list(ahead), parameters)[here] - system.field(list(behind), parameters)[here])
+        )
+    return found
