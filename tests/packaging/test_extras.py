@@ -66,3 +66,11 @@ def test_binder_installs_extras_that_exist():
     assert (ROOT / ".binder" / ".." / "pyproject.toml").samefile(ROOT / "pyproject.toml")
     (python,) = (one for one in conda if one.startswith("python"))
     assert f"Programming Language :: Python :: {python.partition('=')[2]}" in PROJECT["classifiers"]
+
+
+def test_the_description_of_the_package_needs_no_repository():
+    text = (ROOT / PROJECT["readme"]).read_text(encoding="utf-8")
+    links = re.findall(r"\]\(([^)\s]+)\)", text) + re.findall(r'(?:src|href)="([^"]+)"', text)
+    assert links
+    assert all(link.startswith("https://") for link in links)
+    assert "![" not in text
