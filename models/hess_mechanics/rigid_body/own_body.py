@@ -254,7 +254,7 @@ class OwnBody:
 
     @property
     def check(self) -> BodyCheck:
-        """Whether the principal moments satisfy the triangle inequality; those of a flat body just do."""
+        """The triangle inequality of the principal moments; a flat body just satisfies it."""
         small, middle, large = self._moments
         is_body = bool(small + middle >= large * (1.0 - 1e-12))
         inequality = f"{small:.4g} + {middle:.4g} {'≥' if is_body else '<'} {large:.4g}"
