@@ -4,6 +4,7 @@ import numpy as np
 from pytest import approx, mark, raises
 
 import hess_explorer as hess
+from hess_explorer.__main__ import main
 from hess_explorer.scenes import add, scenes
 from hess_mechanics import System
 from hess_mechanics.errors import InvalidParameter
@@ -34,6 +35,19 @@ def test_its_pictures_show_the_motion_with_the_values_of_its_sliders():
     assert found == approx(vector / np.linalg.norm(vector, axis=1, keepdims=True), abs=1e-6)
 
 
+def test_its_section_has_the_crossings_of_the_motion_and_a_click_chooses_one():
+    scene = hess.scene(OSCILLATOR, ["section at x = 0.5"])
+    crossings = hess.state(scene, y_x=1.0, y_c=0.7, count=50.0).data("section").layer("own")
+    # At x = 1/2 the velocity of cos 2t is √3, where it grows.
+    assert len(crossings["x"]) > 30
+    assert np.asarray(crossings["x"]) == approx(np.sqrt(3.0), abs=1e-6)
+    assert np.asarray(crossings["y"]) == approx(0.7, abs=1e-6)
+    (view,) = scene.views
+    assert view.on_click(scene.of(scene.defaults()), 0.8, 0.3) == {"y_x": 0.5, "y_v": 0.8, "y_c": 0.3}
+    # There the motion crosses the other way.
+    assert view.on_click(scene.of(scene.defaults()), -0.8, 0.3) == {}
+
+
 def test_it_has_a_slider_for_each_parameter_and_initial_value_and_the_presets_asked_for():
     ranges = {spec.name: (spec.default, spec.softbounds) for spec in SCENE.specs if spec.name[1] == "_"}
     assert ranges == {
@@ -52,6 +66,9 @@ def test_it_has_a_slider_for_each_parameter_and_initial_value_and_the_presets_as
         ({"pictures": ["x q"]}, "has no 'q': choose among x, v, c"),
         ({"pictures": ["x"]}, "'x' is no picture. Write two names"),
         ({"pictures": ["x v", "x v"]}, "each picture may occur once"),
+        ({"pictures": ["section at q = 1"]}, "has no 'q'"),
+        ({"pictures": ["section at x = a"]}, "not a valid expression"),
+        ({"pictures": ["section v q"]}, "coordinates among v, c"),
         ({"sliders": {"q": (0, 1)}}, "has no 'q': choose among k, x, v, c"),
         ({"sliders": {"k": (1, 1)}}, "two different ends"),
         ({"presets": {"A": {"q": 1}}}, "has no 'q'"),
@@ -73,3 +90,21 @@ def test_an_added_scene_comes_first_and_its_name_must_be_new():
     with raises(InvalidParameter, match="same name"):
         add(hess.scene(System("suslov", lambda y, p: (y[0],), variables="x")), "mine.py")
     assert next(iter(scenes())) == "suslov-hess"
+
+
+@mark.parametrize(
+    ("text", "message"),
+    [
+        (None, "No such file"),
+        ("SCENE = 3", "is 3 and no scene"),
+        ("x =", "invalid syntax"),
+        ("", "is None and no scene"),
+    ],
+)
+def test_a_file_without_a_scene_is_refused(tmp_path, capsys, text, message):
+    path = tmp_path / "mine.py"
+    if text is not None:
+        path.write_text(text)
+    assert main(["serve", "--no-browser", "--scene", str(path)]) == 2
+    said = capsys.readouterr().err
+    assert "brings no scene" in said and message in said

@@ -4,30 +4,35 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, make_dataclass
+from dataclasses import dataclass, make_dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
 
+from hess_explorer.protocol.expressions import NotANumber
+from hess_explorer.protocol.expressions import evaluate as number_of
 from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, number, time_span
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
 from hess_explorer.scenes.parts.exponent import Exponent, exponent_picture
 from hess_explorer.scenes.parts.orbit import Orbit, orbit_picture
+from hess_explorer.scenes.parts.section import Section, crossings_of_each, section_picture
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.poisson_sphere import Sphere, gamma_columns
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.system import Body, System
+from hess_mechanics.dynamics.system import ParametrizedSystem, System
+from hess_mechanics.dynamics.variable_section import VariableSection, variable_section
 from hess_mechanics.errors import InvalidParameter
 
 __all__ = ["OwnScene", "scene"]
 
 _EXPONENT = "exponent"
+_SECTION = re.compile(r"section(?: (\S+) (\S+))?(?: at (\S+) *= *(\S+))?")
 _PIXELS = 300.0
 """Size of an orbit in a picture, in pixels."""
 _FARTHEST = 1e6
@@ -49,13 +54,16 @@ class OwnState(State):
 
     lasts: float = time_span(30.0, 300.0)
     long: float = exponent_time(500.0, 5000.0, 2e4, "the exponent is")
+    count: float = crossings_of_each()
     accuracy: str = accuracy_level()
 
     system: ClassVar[System]
+    surface: ClassVar[tuple[str, float] | None] = None
+    coordinates: ClassVar[tuple[str, str] | None] = None
     periodic_orbit: ClassVar[_NoPeriodicOrbit] = _NoPeriodicOrbit()
 
     @cached_property
-    def body(self) -> Body:
+    def body(self) -> ParametrizedSystem:
         """The system with the values of its parameters."""
         return self.system.at([getattr(self, f"p_{name}") for name in self.system.parameters])
 
@@ -78,6 +86,25 @@ class OwnState(State):
     def exponent(self) -> Exponent:
         """Its largest Lyapunov exponent."""
         return Exponent(self)
+
+    @cached_property
+    def poincare(self) -> VariableSection:
+        """The section at the values that the integrals have along the motion."""
+        known = self.system.integrals(self.start, self.body.parameters)
+        needed = len(self.system.variables) - 3
+        values = {name: float(value) for name, value in [*known.items()][:needed]}
+        return variable_section(self.body, values, self.surface, self.coordinates)
+
+    @part
+    def section(self) -> Section:
+        """The crossings of the motion and of others with the same integrals."""
+        return Section(self, lambda: self.start)
+
+    def at(self, x: float, y: float) -> dict[str, Value]:
+        """Return the initial values at a place of the section; none where no motion crosses it."""
+        states, there = self.poincare.states_at(np.array([x]), np.array([y]))
+        named = zip(self.system.variables, states[0].tolist(), strict=True)
+        return {f"y_{name}": value for name, value in named} if there[0] else {}
 
 
 def _pixels(system: System) -> tuple[float, ...]:
@@ -127,8 +154,9 @@ def scene(
         The equations of motion; its example is the first state.
     pictures : sequence of str, optional
         One text for each picture: two names of variables for an orbit in their plane, "t" and a name for a graph over
-        time, three names for the direction of a vector on a sphere, "exponent" for the largest Lyapunov exponent.  By
-        default the plane of the first two variables, or the graph of a single one.
+        time, three names for the direction of a vector on a sphere, "exponent" for the largest Lyapunov exponent, and
+        "section", "section x px" or "section x px at y = 0" for a Poincaré section, in which a click chooses the
+        motion.  By default the plane of the first two variables, or the graph of a single one.
     sliders : mapping of str to (float, float), optional
         Ends of the sliders, by the names of parameters and variables.
     presets : mapping of str to mapping, optional
@@ -180,9 +208,10 @@ def scene(
             for name, (field, default) in fields.items()
         ],
         bases=(OwnState,),
-        namespace={"system": system},
+        namespace={"system": system, **_section_of(system, pictures)},
         frozen=True,
     )
+    _check_section(state, names)
     chosen: dict[str, Mapping[str, Value]] = {
         title: {fields[name][0]: float(value) for name, value in values.items()}
         for title, values in (presets or {"The example of the system": {}}).items()
@@ -200,6 +229,29 @@ def scene(
         essential=tuple(field for field, _ in fields.values())[:_ESSENTIAL],
         text=text or f"### {system.title}\n\n{_summary(system)}\n",
     )
+
+
+def _section_of(system: System, pictures: Sequence[str]) -> dict[str, Any]:
+    """Return surface and coordinates of the section among the pictures.  Raises `InvalidParameter`."""
+    found = next(filter(None, map(_SECTION.fullmatch, pictures)), None)
+    if found is None:
+        return {}
+    x, y, variable, value = found.groups()
+    surface = None
+    if variable is not None:
+        try:
+            surface = _require(system, variable, system.variables), number_of(value)
+        except NotANumber as error:
+            raise InvalidParameter(f"{system.title}, section at {variable} = {value}: {error}") from error
+    return {"surface": surface, "coordinates": None if x is None else (x, y)}
+
+
+def _check_section(state: type[OwnState], pictures: Sequence[str]) -> None:
+    """Raise `InvalidParameter` if the section cannot be made, or has one coordinate only."""
+    if "section" in pictures and len(state().poincare.names) != 2:
+        raise InvalidParameter(
+            f"{state.system.title}: a picture of a section needs a system of three or more variables."
+        )
 
 
 def _fields(system: System) -> dict[str, tuple[str, float]]:
@@ -251,6 +303,8 @@ def _picture(system: System, wanted: str) -> Picture[OwnState]:
     """Return the picture that a text asks for.  Raises `InvalidParameter`."""
     if wanted == _EXPONENT:
         return exponent_picture(lambda s: s.exponent)
+    if _SECTION.fullmatch(wanted):
+        return replace(section_picture(lambda s: s.section, ""), on_click=lambda s, x, y: s.at(x, y))
     names = wanted.split()
     if len(names) == 3:
         a, b, c = (_require(system, name, system.variables) for name in names)
@@ -263,7 +317,7 @@ def _picture(system: System, wanted: str) -> Picture[OwnState]:
     if len(names) != 2:
         raise InvalidParameter(
             f"{system.title}: {wanted!r} is no picture. Write two names of variables, t and one of them, three for a "
-            f"sphere, or {_EXPONENT}."
+            f"sphere, section, or {_EXPONENT}."
         )
     x, y = _require(system, names[0], ("t", *system.variables)), _require(system, names[1], system.variables)
     return orbit_picture(lambda s: s.orbit, x, y, f"{y} over {x}", name=f"{x}-{y}")
