@@ -341,17 +341,6 @@ SYSTEMS = [
     ),
     (
         System(
-            "rattleback",
-            rattleback,
-            "M1 M2 M3 γ1 γ2 γ3",
-            {"I11": 0.2, "I22": 1.5, "I33": 1.6, "I12": 0.1, "a": 0.8, "b": 6.0, "h": 0.5},
-            (0.05, 0.02, 0.9, 0.02, 0.01, 0.99975),
-            integrals=rattleback_integrals,
-        ),
-        10.0,
-    ),
-    (
-        System(
             "Euler top",
             lambda y, p: ((p[2] - p[1]) * y[1] * y[2], (p[0] - p[2]) * y[2] * y[0], (p[1] - p[0]) * y[0] * y[1]),
             "M1 M2 M3",
@@ -360,6 +349,17 @@ SYSTEMS = [
             integrals=lambda y, p: {"M²": dot(y, y), "E": (p[0] * y[0] ** 2 + p[1] * y[1] ** 2 + p[2] * y[2] ** 2) / 2},
         ),
         50.0,
+    ),
+    (
+        System(
+            "rattleback",
+            rattleback,
+            "M1 M2 M3 γ1 γ2 γ3",
+            {"I11": 0.2, "I22": 1.5, "I33": 1.6, "I12": 0.1, "a": 0.8, "b": 6.0, "h": 0.5},
+            (0.05, 0.02, 0.9, 0.02, 0.01, 0.99975),
+            integrals=rattleback_integrals,
+        ),
+        10.0,
     ),
     (
         System(
