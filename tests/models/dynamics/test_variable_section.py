@@ -4,7 +4,17 @@ import numpy as np
 from pytest import approx, fixture, mark, raises
 from scipy.integrate import solve_ivp
 
-from hess_mechanics import System, continued_orbit, periodic_orbit, return_map
+from hess_mechanics import (
+    System,
+    continued_orbit,
+    lyapunov_spectrum,
+    manifold,
+    orbit_diagram,
+    periodic_orbit,
+    return_map,
+    section_orbits,
+    tube,
+)  # fmt: skip
 from hess_mechanics.errors import InvalidParameter
 
 E = 1 / 12
@@ -64,6 +74,21 @@ def test_a_straight_orbit_is_found_and_continued(returns):
     assert branch.values[-1] > E
     for value, (place,) in zip(branch.values, branch.places, strict=True):
         assert place == approx([0.0, np.sqrt(value / 2)], abs=1e-9)
+
+
+def test_tools_take_a_system_of_ones_own(returns):
+    for points in section_orbits(returns, orbits=3, crossings=10).orbits:
+        y, py = points.T
+        assert np.all(py**2 + y**2 - 2 * y**3 / 3 <= 2 * E + 1e-9)
+    diagram = orbit_diagram(returns, "E", [0.08, 0.09], (0.1, 0.05), transient=5, kept=5)
+    assert [len(places) for places in diagram.places] == [5, 5]
+    saddle = periodic_orbit(returns, (-0.12, 0.0), 1)
+    assert saddle.kind == "saddle"
+    assert manifold(returns, saddle, 0.2).length >= 0.2
+    spectrum = lyapunov_spectrum(*SYSTEM.example_motion, 100.0)
+    assert (spectrum.values.size, spectrum.divergence) == (4, 0.0)
+    assert spectrum.values.sum() == approx(0.0, abs=1e-9)
+    assert tube(*SYSTEM.example_motion, [1.0]).width < 1e-18
 
 
 @mark.parametrize(
