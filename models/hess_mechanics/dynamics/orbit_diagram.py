@@ -141,27 +141,18 @@ def period_of(turns: Sequence[float], places: Array, promise: float = 0.0, most:
     still settling.  `promise` is the error of the points, `most` the largest period tried.
     """
     most = min(most, len(places) // 3)
-    ways = np.array(
-        [
-            [
-                np.abs(apart(turns, one[m:], one[:-m])).max()
-                for one in (places[: len(places) // 2 + m // 2], places[len(places) // 2 - m // 2 :])
-            ]
-            for m in range(1, most + 1)
-        ]
-    )
-    if not len(ways):
+    if most < 1:
         return 0, False
+    ways = np.empty((most, 2))
+    for m in range(1, most + 1):
+        halves = places[: len(places) // 2 + m // 2], places[len(places) // 2 - m // 2 :]
+        ways[m - 1] = [np.abs(apart(turns, one[m:], one[:-m])).max() for one in halves]
+        if ways[m - 1].max() <= max(_SAME, _PROMISES * promise):
+            # A multiplier near −1 makes an orbit look twice as long while it is still settling.
+            shorter = [k - 1 for k in range(1, m) if m % k == 0]
+            is_settled = bool(np.all(ways[shorter, 1] >= _SETTLING * ways[shorter, 0]))
+            return (m, True) if is_settled else (0, False)
     first, second = ways.T
-    closed = np.flatnonzero(np.maximum(first, second) <= max(_SAME, _PROMISES * promise))
-    if closed.size:
-        m = int(closed[0]) + 1
-        # A multiplier near −1 makes an orbit look twice as long while it is still settling.
-        return (
-            (m, True)
-            if all(second[k - 1] >= _SETTLING * first[k - 1] for k in range(1, m) if m % k == 0)
-            else (0, False)
-        )
     # If all candidates close better over time, or the best one does, the orbit tends to a periodic one.
     ratios = second / first
     return 0, min(float(np.median(ratios)), float(ratios[second.argmin()])) >= _SETTLING

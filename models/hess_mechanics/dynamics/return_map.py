@@ -562,10 +562,9 @@ class ReturnMap:
         system, p = self.section.system, list(self.section.parameters)
         d = len(system.variables)
         states = np.cos(1.0 + np.arange(3 * d).reshape(3, d) ** 2)
-        total = sum(
-            np.array(system.field(list((states + e).T), p)[i]) - np.array(system.field(list((states - e).T), p)[i])
-            for i, e in enumerate(np.eye(d))
-        )
+        sides = states + np.array([1.0, -1.0])[:, None, None, None] * np.eye(d)[:, None]
+        rates = system.field(list(np.moveaxis(sides, -1, 0)), p)
+        total = sum(np.subtract(*np.broadcast_to(rate, sides.shape[:-1])[:, i]) for i, rate in enumerate(rates))
         size = max(1.0, *(float(np.abs(one).max()) for one in system.field(list(states.T), p)))
         return bool(np.abs(total).max() <= 1e-12 * size)
 

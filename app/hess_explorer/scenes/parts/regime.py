@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
+from typing import Protocol, cast
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Part, Sectioned
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.text import digits
@@ -60,10 +61,11 @@ class Regime(Part[_Host]):
         """The kind of motion and of dynamics; None until known."""
         if self.work.dragging:
             return None
-        t = self.work.plan(Computation.EXPONENT).share * self.long
-        return self.work.later(
-            at_state, self.host.poincare, self.host.place, 500, 1500, t, self.work.plan(Computation.SECTION).level
-        )
+        t, level = self.work.plan(Computation.EXPONENT).share * self.long, self.work.plan(Computation.SECTION).level
+        task = Task(at_state, (self.host.poincare, self.host.place, 500, 1500, t, level))
+        # It takes as long as the diagram, whose orbits and doublings come first.
+        (found,) = self.work.newest([[task]], last=True)
+        return cast("AtState | None", found)
 
     @property
     def caption(self) -> Caption:
