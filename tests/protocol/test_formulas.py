@@ -5,7 +5,7 @@ import random
 import numpy as np
 from pytest import approx, mark, raises
 
-from hess_explorer.protocol.formulas import MOST, polynomial, written_polynomial
+from hess_explorer.protocol.formulas import MOST, polynomial
 from hess_explorer.protocol.parameters import Formula
 from hess_mechanics.errors import InvalidParameter
 
@@ -38,7 +38,6 @@ PIECES = [
 )
 def test_a_formula_is_its_coefficients(text, expected):
     assert polynomial(text) == approx(expected)
-    assert polynomial(written_polynomial(expected)) == approx(expected)
 
 
 @mark.parametrize(

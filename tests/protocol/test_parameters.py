@@ -55,11 +55,9 @@ def states(specs):
 
 
 def is_admissible(spec, value):
-    if isinstance(spec, Formula):
-        return spec.read(value) == (value, None)
     if isinstance(spec, Choice):
         return value in spec.options
-    if isinstance(spec, Places):
+    if isinstance(spec, Places | Formula):
         return spec.read(value) == (value, None)
     return isinstance(value, float) and spec.bounds[0] <= value <= spec.bounds[1]
 

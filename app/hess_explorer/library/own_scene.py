@@ -16,7 +16,7 @@ from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, number, time_span
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
-from hess_explorer.scenes.parts.exponent import Exponent, exponent_picture
+from hess_explorer.scenes.parts.exponent import Exponent, NotPeriodic, exponent_picture
 from hess_explorer.scenes.parts.orbit import Orbit, orbit_picture
 from hess_explorer.scenes.parts.section import Section, crossings_of_each, section_picture
 from hess_explorer.views.caption import Caption
@@ -41,13 +41,6 @@ _ESSENTIAL = 4
 _CURVE = '<path d="M5 25C9 2 18 2 22 16S34 30 38 12 43 6 44 9" fill="none" stroke="#0072B2" stroke-width="1.8"/>'
 
 
-class _NoPeriodicOrbit:
-    """No periodic orbit is searched for."""
-
-    growth = None
-    looking = False
-
-
 @dataclass(frozen=True)
 class OwnState(State):
     """A motion of a system; each scene adds the system's parameters, `p_…`, and initial values, `y_…`, as fields."""
@@ -60,7 +53,7 @@ class OwnState(State):
     system: ClassVar[System]
     surface: ClassVar[tuple[str, float] | None] = None
     coordinates: ClassVar[tuple[str, str] | None] = None
-    periodic_orbit: ClassVar[_NoPeriodicOrbit] = _NoPeriodicOrbit()
+    periodic_orbit: ClassVar[NotPeriodic] = NotPeriodic()
 
     @cached_property
     def body(self) -> ParametrizedSystem:

@@ -17,7 +17,7 @@ from simpleeval import InvalidExpression, SimpleEval
 
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["MOST", "polynomial", "written_polynomial"]
+__all__ = ["MOST", "polynomial"]
 
 MOST = 200
 """Maximum length of a formula, in characters."""
@@ -146,30 +146,3 @@ def polynomial(text: str) -> dict[Exponents, float]:
     if not all(abs(value) <= _LARGEST for value in kept.values()):
         raise InvalidParameter(f"A coefficient of the formula is larger than {_LARGEST:g}: choose smaller numbers.")
     return kept
-
-
-def written_polynomial(coefficients: Mapping[Exponents, float]) -> str:
-    """Return the formula of a polynomial, as a link holds it.
-
-    Parameters
-    ----------
-    coefficients : mapping
-        Coefficients by the exponents of g1, g2, g3.
-
-    Returns
-    -------
-    str
-        The formula.
-
-    Examples
-    --------
-    >>> written_polynomial({(2, 0, 0): 0.5, (0, 0, 1): -1.0})
-    '0.5*g1^2 - 1*g3'
-    """
-    terms = [
-        "*".join(
-            [f"{value:.17g}", *(name if n == 1 else f"{name}^{n}" for name, n in zip(_NAMES, powers, strict=True) if n)]
-        )
-        for powers, value in coefficients.items()
-    ]
-    return " + ".join(terms).replace("+ -", "- ")

@@ -23,7 +23,7 @@ from hess_explorer.scenes.framework.parameters import (
 )
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
-from hess_explorer.scenes.parts.exponent import Exponent, exponent_picture
+from hess_explorer.scenes.parts.exponent import Exponent, NotPeriodic, exponent_picture
 from hess_explorer.scenes.parts.orbit import Orbit
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
@@ -41,8 +41,6 @@ from hess_mechanics.rigid_body.own_body import OwnBody, Polynomial
 __all__ = ["SCENE", "OwnBodyState"]
 
 _CONSTRAINED, _FREE = "(a, ω) = 0", "none"
-_CHANGE = 1e-9
-"""Changes of the energy below this share of it are drawn as no change."""
 
 
 def _component(symbol: str, label: str, default: float, doc: str, largest: float = 2.0) -> Any:
@@ -70,13 +68,6 @@ def _velocity(symbol: str, default: float) -> Any:
         doc="Angular velocity at t = 0; the part that the constraint forbids is left out.",
         means="own body",
     )
-
-
-class _NoPeriodicOrbit:
-    """No periodic orbit is searched for."""
-
-    growth = None
-    looking = False
 
 
 @dataclass(frozen=True)
@@ -145,7 +136,7 @@ class OwnBodyState(State):
     long: float = exponent_time(500.0, 5000.0, 2e4, "the exponent is")
     accuracy: str = accuracy_level()
 
-    periodic_orbit: ClassVar[_NoPeriodicOrbit] = _NoPeriodicOrbit()
+    periodic_orbit: ClassVar[NotPeriodic] = NotPeriodic()
 
     @cached_property
     def potential(self) -> Polynomial:

@@ -26,7 +26,7 @@ from hess_mechanics.dynamics.system import Body
 from hess_mechanics.numerics.accuracy import Computation, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Exponent", "exponent_picture", "exponent_trial"]
+__all__ = ["Exponent", "NotPeriodic", "exponent_picture", "exponent_trial"]
 
 _LONG = 2000.0
 """The longest time for which levels are compared."""
@@ -40,6 +40,13 @@ class _Periodic(Protocol):
     @property
     def looking(self) -> bool:
         """True while a requested periodic orbit is not known yet."""
+
+
+class NotPeriodic:
+    """For scenes without a search for periodic orbits."""
+
+    growth: tuple[float, float] | None = None
+    looking = False
 
 
 class _Host(Host, Protocol):
