@@ -20,7 +20,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import ellipk, ellipkinc
 
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy
@@ -79,6 +78,9 @@ def _times(n0: float, n1: float, n2: float, theta: Array) -> Array:
     if n1 == n0:
         return np.where(theta > 0.0, math.inf, 0.0)
     m = (n2 - n1) / (n2 - n0)
+    # Imported here because it takes 0.2 s, and few commands draw a torus.
+    from scipy.special import ellipk, ellipkinc
+
     found = math.sqrt(2.0 / (n2 - n0)) * (ellipk(m) - ellipkinc(0.5 * (math.pi - theta), m))
     return np.asarray(np.maximum(0.0, found))
 
