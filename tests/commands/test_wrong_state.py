@@ -8,7 +8,18 @@ import hess_explorer as hess
 from hess_explorer.__main__ import main
 from hess_explorer.export.picture_data import address
 from hess_explorer.page.opening import opening
-from hess_explorer.protocol.parameters import CLIENT, PAGE_KEYS, Choice, Link, Names, Number, Places, encode, refusal
+from hess_explorer.protocol.parameters import (
+    CLIENT,
+    PAGE_KEYS,
+    Choice,
+    Formula,
+    Link,
+    Names,
+    Number,
+    Places,
+    encode,
+    refusal,
+)
 from hess_explorer.scenes import scenes
 from hess_mechanics.errors import InvalidParameter
 from support.command_line import typed
@@ -120,6 +131,7 @@ def test_every_note_says_what_was_wrong_before_a_colon_and_then_what_was_done():
         texts = {
             Number: ("abc", "nan", "1e300"),
             Choice: ("nothing like it",),
+            Formula: ("g4", "g1^7"),
             Names: ("d", "a,b,c"),
             Places: ("abc", ";".join(["0.1,0.1"] * (getattr(spec, "most", 0) + 1))),
         }[type(spec)]

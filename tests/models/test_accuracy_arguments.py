@@ -98,7 +98,7 @@ def test_a_level_and_its_name_mean_the_same_and_a_name_that_no_level_has_is_refu
         CALLS[name]("exact")
 
 
-INTERNAL = {"measured", "evaluate", "cost_of_a_cell", "create", "require", "opened"}
+INTERNAL = {"measured", "evaluate", "cost_of_a_cell", "create", "empty", "quantity_of", "require", "opened"}
 """Functions that take a level that is already read, or its name in a store."""
 
 

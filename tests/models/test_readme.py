@@ -55,7 +55,7 @@ def decorators(path):
 
 @pytest.mark.parametrize("path", sorted(PACKAGE.rglob("*.py")), ids=lambda path: str(path.relative_to(PACKAGE)))
 def test_kernels_are_in_files_told_apart_by_name(path):
-    has_kernels = bool(decorators(path) & {"kernel", "inner", "part"})
+    has_kernels = bool(decorators(path) & {"kernel", "inner", "part", "as_written"})
     assert has_kernels == path.name.endswith("kernels.py")
     # mypy's patterns cannot tell them by the end of their names: each says so itself.
     assert path.read_text(encoding="utf-8").startswith("# mypy: allow-untyped-defs\n") == has_kernels

@@ -264,7 +264,7 @@ def test_where_there_is_no_second_sheet_that_is_said():
 
 def test_curves_that_do_not_go_round_have_no_rotation_number():
     view = EulerPoisson({**values_of(EP, "Figure 13 b"), "orbits": 0.0}, seen={"rotation"})
-    assert "No closed curve on the line makes a turn." in view.text["rotation"]
+    assert "No closed curve here makes a turn." in view.text["rotation"]
     assert len(view.data["rotation-orbits"]["x"]) == 0
     # l of an orbit from the middle of the line stays in a part of the circle.
     l = np.sort(places_from(view, (2.8, 0.1), 2000)[:, 0])

@@ -23,7 +23,7 @@ from hess_explorer.scenes.framework.parameters import (
 )
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
-from hess_explorer.scenes.parts.exponent import Exponent, NotPeriodic, exponent_picture
+from hess_explorer.scenes.parts.exponent import Exponent, NotPeriodic, exponent_picture, exponent_trial
 from hess_explorer.scenes.parts.orbit import Orbit
 from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
@@ -280,6 +280,7 @@ SCENE = Scene(
     title="Your own body",
     summary="Type a potential; choose inertia, constraint, rotor and drive. Equations are derived, checked and solved.",
     tracks={"orbit": lambda s: s.track},
+    measures=(exponent_trial(lambda s: s.exponent),),
     views=(
         Plot[OwnBodyState](
             name="omega",

@@ -229,6 +229,9 @@ def _finish(plot: Any, element: hv.Overlay) -> None:
     for text in axis.texts:
         (x0, x1), (y0, y1), (x, y) = axis.get_xlim(), axis.get_ylim(), text.get_position()
         text.set(visible=x0 <= x <= x1 and y0 <= y <= y1, in_layout=False)
+        # No font with a bold 𝒟 comes with Matplotlib.
+        if "𝒟" in text.get_text():
+            text.set_fontweight("normal")
 
 
 Hook = Callable[[Any, Any], None]

@@ -144,7 +144,7 @@ class RotationAcross(Part[_Host]):
         if self.found.numbers.size or not self._orbits_on_line[1]:
             return ""
         return (
-            "No closed curve on the line makes a turn"
+            "No closed curve here makes a turn"
             if self.found.standing.size
             else "No orbit on the line is a closed curve"
         )
