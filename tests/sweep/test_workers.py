@@ -81,6 +81,7 @@ def test_a_client_is_used_and_stays_open(cluster, client, pairs, alone):
     assert client.submit(sum, [1, 2]).result() == 3
 
 
+@pytest.mark.thorough
 def test_a_scheduler_answers_over_tls(tmp_path, pairs, alone):
     import dask
     from distributed import LocalCluster, Security
