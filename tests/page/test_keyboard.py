@@ -36,7 +36,8 @@ def test_arrow_keys_move_the_ring_of_the_bifurcation_diagram_by_pixels(explorer)
     h, f = explorer.here()
     t = explorer.time
     host.focus()
-    explorer.change(page.keyboard.press, "ArrowRight")
+    expect(host).to_be_focused()
+    explorer.change(host.press, "ArrowRight")
     assert explorer.here() == pytest.approx((h + wide, f), abs=0.51 * max(wide, high))
     assert explorer.here()[0] > h
     explorer.change(page.keyboard.press, "Shift+ArrowUp")
