@@ -36,7 +36,7 @@ def test_its_pictures_show_the_motion_with_the_values_of_its_sliders():
 
 
 def test_its_section_has_the_crossings_of_the_motion_and_a_click_chooses_one():
-    scene = hess.scene(OSCILLATOR, ["section at x = 0.5"])
+    scene = hess.scene(OSCILLATOR, ["section v c at x = 0.5"])
     crossings = hess.state(scene, y_x=1.0, y_c=0.7, count=50.0).data("section").layer("own")
     # At x = 1/2 the velocity of cos 2t is √3, where it grows.
     assert len(crossings["x"]) > 30
@@ -44,6 +44,8 @@ def test_its_section_has_the_crossings_of_the_motion_and_a_click_chooses_one():
     assert np.asarray(crossings["y"]) == approx(0.7, abs=1e-6)
     (view,) = scene.views
     assert view.on_click(scene.of(scene.defaults()), 0.8, 0.3) == {"y_x": 0.5, "y_v": 0.8, "y_c": 0.3}
+    # Three words, but no direction on a sphere.
+    assert len(hess.state(hess.scene(OSCILLATOR, ["section v c"])).data("section").layer("own")["x"]) > 30
     # There the motion crosses the other way.
     assert view.on_click(scene.of(scene.defaults()), -0.8, 0.3) == {}
 

@@ -1,12 +1,16 @@
-"""Argument types for argparse: numbers, lists of numbers, ranges, states."""
+"""Arguments of commands: numbers, lists of numbers, ranges, states, Python files."""
 
 from __future__ import annotations
 
 import argparse
 import math
+import runpy
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NoReturn, TypeVar
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 from urllib.parse import parse_qsl, urlencode
+
+from . import CommandError
 
 if TYPE_CHECKING:
     # Importing the mechanics takes a second, which would delay the first message of `serve`.
@@ -20,6 +24,7 @@ __all__ = [
     "listed",
     "number",
     "numbers",
+    "run_file",
     "samples",
     "shown",
     "state_of",
@@ -29,6 +34,17 @@ __all__ = [
 
 T = TypeVar("T")
 _SHOWN, _MAX_STATE = 60, 2000
+
+
+def run_file(path: str | Path) -> dict[str, Any]:
+    """Return the names that a Python file of the user defines.  Raises `CommandError` if it stops."""
+    try:
+        return runpy.run_path(str(path))
+    except OSError as error:
+        raise CommandError(f"{shown(str(path))} cannot be read ({error.strerror}): choose another file.") from error
+    # Whatever the user's code raises.
+    except Exception as error:
+        raise CommandError(f"{shown(str(path))} stops with {type(error).__name__}: {error}.") from error
 
 
 def shown(text: str) -> str:

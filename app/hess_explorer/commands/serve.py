@@ -8,7 +8,6 @@ import gc
 import json
 import os
 import re
-import runpy
 import signal
 import socket
 import webbrowser
@@ -18,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from . import CommandError
-from .arguments import shown
+from .arguments import run_file, shown
 from .command import Command, Options, option, whole
 
 if TYPE_CHECKING:
@@ -91,8 +90,8 @@ def _add_scenes(paths: Sequence[Path]) -> None:
         from hess_mechanics.errors import ModelError
 
         try:
-            add(runpy.run_path(str(path)).get("SCENE"), str(path))
-        except (ModelError, OSError, SyntaxError, ImportError) as error:
+            add(run_file(path).get("SCENE"), str(path))
+        except (ModelError, CommandError) as error:
             raise CommandError(f"{shown(str(path))} brings no scene: {error}") from error
 
 

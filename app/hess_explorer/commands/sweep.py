@@ -6,7 +6,6 @@ import argparse
 import inspect
 import json
 import math
-import runpy
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
@@ -15,7 +14,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from . import CommandError
-from .arguments import assigned, ends, integer, listed, shown
+from .arguments import assigned, ends, integer, listed, run_file, shown
 from .arguments import number as any_number
 from .command import OUTPUT, Command, Options, flag, option, whole
 from .output import Answer, computing, show, write
@@ -50,12 +49,7 @@ def _part(text: str) -> tuple[int, int]:
 def _function(text: str) -> Callable[..., object]:
     """Return the function FILE.py:NAME."""
     path, _, name = text.rpartition(":")
-    try:
-        found: Any = runpy.run_path(path).get(name)
-    except OSError as error:
-        raise CommandError(f"{shown(path)} cannot be read ({error.strerror}): choose another file.") from error
-    except Exception as error:
-        raise CommandError(f"{shown(path)} stops with {type(error).__name__}: {error}.") from error
+    found = run_file(path).get(name)
     if not callable(found):
         raise CommandError(f"{shown(path)} defines no function {shown(name)}: write it like mine.py:energy.")
     return cast("Callable[..., object]", found)

@@ -185,14 +185,16 @@ def scene(
     names = [view.name for view in views]
     if len(set(names)) < len(names) or sum(isinstance(view, Sphere) for view in views) > 1:
         raise InvalidParameter(f"{system.title}: each picture may occur once, and one of them may be a sphere.")
-    sphere = next((one.split() for one in pictures if len(one.split()) == 3), None)
+    sphere = next((view.labels for view in views if isinstance(view, Sphere)), None)
 
     def track(state: OwnState) -> Columns:
         columns = state.orbit.columns
         if sphere is None:
             return columns
         vector = np.column_stack([columns[name] for name in sphere])
-        return {**columns, **gamma_columns(vector / np.linalg.norm(vector, axis=1, keepdims=True))}
+        # At the origin it has no direction.
+        length = np.maximum(np.linalg.norm(vector, axis=1, keepdims=True), 1e-300)
+        return {**columns, **gamma_columns(vector / length)}
 
     state = make_dataclass(
         "Motion",

@@ -16,7 +16,7 @@ from typing import Any
 
 from simpleeval import InvalidExpression, SimpleEval
 
-__all__ = ["FUNCTIONS", "MOST", "NotANumber", "evaluate"]
+__all__ = ["FUNCTIONS", "MOST", "NotANumber", "Unreadable", "calculated", "evaluate", "in_python"]
 
 MOST = 100
 """Maximum length of an expression, in characters."""
@@ -48,6 +48,35 @@ class NotANumber(ValueError):
     """The text is not a number; the message lists the accepted forms."""
 
 
+class Unreadable(Exception):
+    """The text is no expression of the allowed kinds."""
+
+
+def in_python(text: str) -> str:
+    """Return an expression as Python writes it: signs as typed or printed, "^" for a power."""
+    return text.strip().replace("−", "-").replace("^", "**").replace("·", "*")
+
+
+def calculated(
+    text: str,
+    operators: Mapping[type[ast.AST], Callable[..., Any]],
+    names: Mapping[str, Any],
+    functions: Mapping[str, Callable[..., Any]],
+) -> Any:
+    """Return the value of an expression of numbers, names, operators and functions, without running other code.
+
+    Raises `Unreadable`, and whatever the operators and functions raise of `ArithmeticError` and `ValueError`.
+    """
+    evaluator = SimpleEval(operators=dict(operators), functions=dict(functions), names=dict(names))
+    evaluator.nodes = {kind: evaluator.nodes[kind] for kind in _KINDS}
+    try:
+        # Python warns about suspicious syntax; such expressions are rejected.
+        with warnings.catch_warnings(action="error"):
+            return evaluator.eval(text)
+    except (InvalidExpression, SyntaxError, TypeError, RecursionError, MemoryError, Warning) as error:
+        raise Unreadable(str(error)) from None
+
+
 def evaluate(text: str) -> float:
     """Return the value of an expression.
 
@@ -66,23 +95,19 @@ def evaluate(text: str) -> float:
     NotANumber
         If the text is too long, cannot be parsed, or has no finite value.
     """
-    text = text.strip().replace("−", "-").replace("^", "**").replace("·", "*")
+    text = in_python(text)
     if len(text) > MOST:
         raise NotANumber(f"The expression is longer than {MOST} characters.")
     if not _TEXT.fullmatch(text):
         raise NotANumber("This is not a number: type one like 1.5, 1e-8, pi/3, sqrt(2) or 1/7.")
-    evaluator = SimpleEval(operators=_OPERATORS, functions=dict(FUNCTIONS), names=_NAMES)
-    evaluator.nodes = {kind: evaluator.nodes[kind] for kind in _KINDS}
     try:
-        # Python warns about suspicious syntax; such expressions are rejected.
-        with warnings.catch_warnings(action="error"):
-            value = evaluator.eval(text)
+        value = calculated(text, _OPERATORS, _NAMES, FUNCTIONS)
         if isinstance(value, bool) or not isinstance(value, int | float):
-            raise TypeError
+            raise Unreadable
         value = float(value)
     except (ArithmeticError, ValueError):
         value = math.nan
-    except (InvalidExpression, SyntaxError, TypeError, RecursionError, MemoryError, Warning):
+    except Unreadable:
         raise NotANumber(
             f"This is not a valid expression: use numbers, + − * / **, parentheses, pi, e and {', '.join(FUNCTIONS)}."
         ) from None

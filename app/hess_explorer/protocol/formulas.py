@@ -1,7 +1,7 @@
 """Polynomials that a user types as formulas: 0.5*g1^2 − g3.
 
-The text is untrusted.  As in `expressions`, simpleeval evaluates it without running code; names stand for polynomials,
-so that only polynomials come out, with bounds on length, degree and number of terms.
+The text is untrusted.  `calculated` evaluates it without running code; names stand for polynomials, so that only
+polynomials come out, with bounds on length, degree and number of terms.
 """
 
 from __future__ import annotations
@@ -9,12 +9,10 @@ from __future__ import annotations
 import ast
 import operator
 import re
-import warnings
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from simpleeval import InvalidExpression, SimpleEval
-
+from hess_explorer.protocol.expressions import Unreadable, calculated, in_python
 from hess_mechanics.errors import InvalidParameter
 
 __all__ = ["MOST", "polynomial"]
@@ -24,7 +22,6 @@ MOST = 200
 _DEGREE = 6
 _LARGEST = 1e6
 _NAMES = ("g1", "g2", "g3")
-_KINDS = (ast.Expr, ast.Constant, ast.Name, ast.UnaryOp, ast.BinOp)
 _TEXT = re.compile(r"(?>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![\w.])|g[123](?![\w.])|[-+*/()]|\s)+")
 
 Exponents = tuple[int, int, int]
@@ -111,33 +108,19 @@ def polynomial(text: str) -> dict[Exponents, float]:
     >>> polynomial("(g1 + 2)^2/2")
     {(2, 0, 0): 0.5, (1, 0, 0): 2.0}
     """
-    plain = text.strip().replace("−", "-").replace("^", "**").replace("·", "*").replace("γ", "g")
-    plain = plain.translate(str.maketrans("₁₂₃", "123"))
+    plain = in_python(text).replace("γ", "g").translate(str.maketrans("₁₂₃", "123"))
     if len(plain) > MOST:
         raise InvalidParameter(f"The formula is longer than {MOST} characters: shorten it.")
     if not plain:
         return {}
-    names = {name: _Terms({tuple(int(i == k) for k in range(3)): 1.0}) for i, name in enumerate(_NAMES)}  # type: ignore[dict-item]
-    evaluator = SimpleEval(operators=dict(_OPERATORS), functions={}, names=names)
-    evaluator.nodes = {kind: evaluator.nodes[kind] for kind in _KINDS}
+    names = {name: _Terms({(int(i == 0), int(i == 1), int(i == 2)): 1.0}) for i, name in enumerate(_NAMES)}
     try:
         if not _TEXT.fullmatch(plain):
-            raise InvalidExpression
-        # Python warns about suspicious syntax; such formulas are rejected.
-        with warnings.catch_warnings(action="error"):
-            found = _of(evaluator.eval(plain))
+            raise Unreadable
+        found = _of(calculated(plain, _OPERATORS, names, {}))
     except InvalidParameter:
         raise
-    except (
-        InvalidExpression,
-        SyntaxError,
-        TypeError,
-        ValueError,
-        ArithmeticError,
-        RecursionError,
-        MemoryError,
-        Warning,
-    ):
+    except (Unreadable, ValueError, ArithmeticError):
         raise InvalidParameter(
             "This is no polynomial: use numbers, g1, g2, g3, + − * / ^ and parentheses, like 0.5*g1^2 - g3."
         ) from None
