@@ -23,7 +23,7 @@ SCENE = hess.scene(
 
 
 def test_its_pictures_show_the_motion_with_the_values_of_its_sliders():
-    state = hess.state(SCENE, p_k=9.0, y_x=0.5, lasts=2.0)
+    state = hess.state(SCENE, p_k=9.0, y_x=0.5, span=2.0)
     for picture, name in (("x-v", "orbit"), ("t-x", "orbit")):
         layer = state.data(picture).layer(name)
         t = np.asarray(layer["t"])
@@ -50,6 +50,35 @@ def test_its_section_has_the_crossings_of_the_motion_and_a_click_chooses_one():
     assert view.on_click(scene.of(scene.defaults()), -0.8, 0.3) == {}
 
 
+def test_a_section_at_a_level_has_periodic_orbits_and_their_branch():
+    """On the straight orbits y = ±x/√3 of Hénon–Heiles py² is a quarter of p²: py = √(E/2) at the origin."""
+    system = System(
+        "henon-heiles",
+        lambda y, p: (y[2], y[3], -y[0] - 2 * p[0] * y[0] * y[1], -y[1] - p[0] * (y[0] ** 2 - y[1] ** 2)),
+        "x y px py",
+        {"lam": 1.0},
+        example=(0.0, 0.1, 0.3, 0.2),
+        integrals=lambda y, p: {"E": sum(x**2 for x in y) / 2 + p[0] * (y[0] ** 2 * y[1] - y[1] ** 3 / 3)},
+    )
+    scene = hess.scene(system, ["section y py at x = 0 on E", "branch", "x y"], sliders={"E": (0.01, 0.16)})
+    assert {"i_E", "p_lam", "place", "over"} <= (names := {spec.name for spec in scene.specs})
+    assert "y_x" not in names
+    assert scene.defaults()["place"] == "0.1,0.2"
+    chosen = {"i_E": 0.08, "place": "0,0.21", "over": "E", "upwards": "py"}
+    state = hess.state(scene, **chosen, periodic="period 1", low=0.075, high=0.085)
+    assert np.asarray(state.data("branch").layer("shown")["y"]) == approx(np.sqrt(0.04), abs=1e-9)
+    branch = state.data("branch").layer("branch-neither")
+    levels = np.asarray(branch["x"])
+    assert (levels.min(), levels.max()) == approx((0.075, 0.085))
+    assert np.asarray(branch["y"]) == approx(np.sqrt(levels / 2), abs=1e-8)
+    # A click starts the motion at a place of the section, at its level.
+    (section, *_) = scene.views
+    assert section.on_click(scene.of(scene.defaults()), 0.1, 0.0) == {"place": "0.1,0"}
+    x, y, px, py = scene.of({**scene.defaults(), **chosen}).start
+    assert (x, y, py) == (0.0, 0.0, 0.21)
+    assert px == approx(np.sqrt(0.16 - py**2))
+
+
 def test_it_has_a_slider_for_each_parameter_and_initial_value_and_the_presets_asked_for():
     ranges = {spec.name: (spec.default, spec.softbounds) for spec in SCENE.specs if spec.name[1] == "_"}
     assert ranges == {
@@ -71,6 +100,8 @@ def test_it_has_a_slider_for_each_parameter_and_initial_value_and_the_presets_as
         ({"pictures": ["section at q = 1"]}, "has no 'q'"),
         ({"pictures": ["section at x = a"]}, "not a valid expression"),
         ({"pictures": ["section v q"]}, "coordinates among v, c"),
+        ({"pictures": ["section on E"]}, "has no 'E': choose among none"),
+        ({"pictures": ["branch"]}, "a branch needs a section"),
         ({"sliders": {"q": (0, 1)}}, "has no 'q': choose among k, x, v, c"),
         ({"sliders": {"k": (1, 1)}}, "two different ends"),
         ({"presets": {"A": {"q": 1}}}, "has no 'q'"),

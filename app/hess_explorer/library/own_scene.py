@@ -5,105 +5,49 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, make_dataclass, replace
-from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
+from hess_explorer.library.own_state import LevelState, OwnState
 from hess_explorer.protocol.expressions import NotANumber
 from hess_explorer.protocol.expressions import evaluate as number_of
-from hess_explorer.protocol.parameters import Value
-from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, number, time_span
-from hess_explorer.scenes.framework.part import Start, part
-from hess_explorer.scenes.framework.scene import Preset, Scene, State
-from hess_explorer.scenes.parts.exponent import Exponent, NotPeriodic, exponent_picture
-from hess_explorer.scenes.parts.orbit import Orbit, orbit_picture
-from hess_explorer.scenes.parts.section import Section, crossings_of_each, section_picture
+from hess_explorer.protocol.parameters import Value, written
+from hess_explorer.scenes.framework.parameters import number, places
+from hess_explorer.scenes.framework.part import part
+from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.parts.branch import (
+    Branch,
+    branch_picture,
+    coordinate_of_branch,
+    end_of_branch,
+    parameter_of_branch,
+)
+from hess_explorer.scenes.parts.exponent import exponent_picture
+from hess_explorer.scenes.parts.orbit import orbit_picture
+from hess_explorer.scenes.parts.periodic_orbit import layers
+from hess_explorer.scenes.parts.section import section_picture
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.poisson_sphere import Sphere, gamma_columns
 from hess_explorer.views.text import digits
-from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.system import ParametrizedSystem, System
+from hess_mechanics.dynamics.cells import evenly
+from hess_mechanics.dynamics.system import System
 from hess_mechanics.dynamics.variable_section import VariableSection, variable_section
 from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.parameters import Group
 
 __all__ = ["OwnScene", "scene"]
 
-_EXPONENT = "exponent"
-_SECTION = re.compile(r"section(?: (\S+) (\S+))?(?: at (\S+) *= *(\S+))?")
-_PIXELS = 300.0
-"""Size of an orbit in a picture, in pixels."""
+_EXPONENT, _BRANCH = "exponent", "branch"
+_SECTION = re.compile(r"section(?: (?!on )(\S+) (\S+))?(?: at (\S+) *= *(\S+))?(?: on (.+))?")
 _FARTHEST = 1e6
+_TRIED = 200
+"""Places of a section that are tried as the start of a motion."""
 _ESSENTIAL = 4
 """Largest number of parameters whose controls are open at first."""
 _CURVE = '<path d="M5 25C9 2 18 2 22 16S34 30 38 12 43 6 44 9" fill="none" stroke="#0072B2" stroke-width="1.8"/>'
-
-
-@dataclass(frozen=True)
-class OwnState(State):
-    """A motion of a system; each scene adds the system's parameters, `p_…`, and initial values, `y_…`, as fields."""
-
-    lasts: float = time_span(30.0, 300.0)
-    long: float = exponent_time(500.0, 5000.0, 2e4, "the exponent is")
-    count: float = crossings_of_each()
-    accuracy: str = accuracy_level()
-
-    system: ClassVar[System]
-    surface: ClassVar[tuple[str, float] | None] = None
-    coordinates: ClassVar[tuple[str, str] | None] = None
-    periodic_orbit: ClassVar[NotPeriodic] = NotPeriodic()
-
-    @cached_property
-    def body(self) -> ParametrizedSystem:
-        """The system with the values of its parameters."""
-        return self.system.at([getattr(self, f"p_{name}") for name in self.system.parameters])
-
-    @property
-    def start(self) -> Start:
-        """The initial values."""
-        return tuple(getattr(self, f"y_{name}") for name in self.system.variables)
-
-    @cached_property
-    def weights(self) -> tuple[float, ...]:
-        """Pixels of the pictures per unit of each variable."""
-        return self.work.get(_pixels, self.system)
-
-    @part
-    def orbit(self) -> Orbit:
-        """The motion."""
-        return Orbit(self)
-
-    @part
-    def exponent(self) -> Exponent:
-        """Its largest Lyapunov exponent."""
-        return Exponent(self)
-
-    @cached_property
-    def poincare(self) -> VariableSection:
-        """The section at the values that the integrals have along the motion."""
-        known = self.system.integrals(self.start, self.body.parameters)
-        needed = len(self.system.variables) - 3
-        values = {name: float(value) for name, value in [*known.items()][:needed]}
-        return variable_section(self.body, values, self.surface, self.coordinates)
-
-    @part
-    def section(self) -> Section:
-        """The crossings of the motion and of others with the same integrals."""
-        return Section(self, lambda: self.start)
-
-    def at(self, x: float, y: float) -> dict[str, Value]:
-        """Return the initial values at a place of the section; none where no motion crosses it."""
-        states, there = self.poincare.states_at(np.array([x]), np.array([y]))
-        named = zip(self.system.variables, states[0].tolist(), strict=True)
-        return {f"y_{name}": value for name, value in named} if there[0] else {}
-
-
-def _pixels(system: System) -> tuple[float, ...]:
-    """Return pixels per unit of each variable, such that the example of the system fills a picture."""
-    states = solve(*system.example_motion, np.linspace(0.0, 30.0, 200), "draft").states
-    return tuple((_PIXELS / np.maximum(np.ptp(states, axis=0), 1e-3)).tolist())
 
 
 @dataclass(frozen=True, repr=False)
@@ -123,7 +67,8 @@ class OwnScene(Scene[OwnState]):
     @property
     def moves(self) -> str:
         """A sentence on the controls."""
-        return "The parameters change the equations, the initial values choose the motion."
+        chosen = "a click in the section chooses" if issubclass(self.state, LevelState) else "the initial values choose"
+        return f"The parameters change the equations, {chosen} the motion."
 
     @property
     def thumbnail(self) -> str:
@@ -141,6 +86,8 @@ def scene(
 ) -> OwnScene:
     """Return a scene for a system of one's own, with a slider for each parameter and each initial value.
 
+    A section at levels of integrals has sliders of these instead of the initial values, and periodic orbits.
+
     Parameters
     ----------
     system : System
@@ -149,11 +96,13 @@ def scene(
         One text for each picture: two names of variables for an orbit in their plane, "t" and a name for a graph over
         time, three names for the direction of a vector on a sphere, "exponent" for the largest Lyapunov exponent, and
         "section", "section x px" or "section x px at y = 0" for a Poincaré section, in which a click chooses the
-        motion.  By default the plane of the first two variables, or the graph of a single one.
+        motion.  "section x px at y = 0 on E, L" lies at levels of these integrals.  "branch" continues a periodic
+        orbit of that section over a parameter or a level.  By default the plane of the first two variables, or the
+        graph of a single one.
     sliders : mapping of str to (float, float), optional
-        Ends of the sliders, by the names of parameters and variables.
+        Ends of the sliders, by the names of parameters, variables and integrals.
     presets : mapping of str to mapping, optional
-        Named states: values by the names of parameters and variables.
+        Named states: values by the names of parameters, variables and integrals.
     text : str, optional
         What stands beside the pictures: Markdown with formulas.
 
@@ -166,7 +115,7 @@ def scene(
     Raises
     ------
     InvalidParameter
-        If a picture, slider or preset names something else than variables and parameters of the system.
+        If a picture, slider or preset names something that the system does not have.
 
     Examples
     --------
@@ -178,10 +127,11 @@ def scene(
     >>> hess.scene(lorenz, ["x z", "t x", "exponent"], sliders={"rho": (0.0, 50.0)}).pictures
     ('x-z', 't-x', 'exponent')
     """
-    fields = _fields(system)
+    section = _section_of(system, pictures)
+    fields = _fields(system, section.get("integrals"))
     for name in {**(sliders or {}), **{name: 0 for values in (presets or {}).values() for name in values}}:
         _require(system, name, tuple(fields))
-    views = [_picture(system, one) for one in pictures or [_first_picture(system)]]
+    views = [_picture(system, one, "integrals" in section) for one in pictures or [_first_picture(system)]]
     names = [view.name for view in views]
     if len(set(names)) < len(names) or sum(isinstance(view, Sphere) for view in views) > 1:
         raise InvalidParameter(f"{system.title}: each picture may occur once, and one of them may be a sphere.")
@@ -196,17 +146,31 @@ def scene(
         length = np.maximum(np.linalg.norm(vector, axis=1, keepdims=True), 1e-300)
         return {**columns, **gamma_columns(vector / length)}
 
+    controls: list[Any] = [
+        (field, float, _slider(system, name, field, default, (sliders or {}).get(name)))
+        for name, (field, default) in fields.items()
+    ]
+    if section:
+        own = _checked_section(system, section)
+        if "integrals" in section:
+            low, high = (-_FARTHEST, -_FARTHEST), (_FARTHEST, _FARTHEST)
+            controls.append(("place", str, places("Start of the motion", 1, low, high, _place(own))))
+        if _BRANCH in names:
+            along = {name: field for name, (field, _) in fields.items()}
+            section["branch"] = part(lambda s: Branch(s, s.periodic_orbit, along))
+            controls += [
+                ("over", str, parameter_of_branch(tuple(along))),
+                ("low", float, end_of_branch("from")),
+                ("high", float, end_of_branch("to")),
+                ("upwards", str, coordinate_of_branch((own.names[0], own.names[1]))),
+            ]
     state = make_dataclass(
         "Motion",
-        [
-            (field, float, _slider(system, name, default, (sliders or {}).get(name)))
-            for name, (field, default) in fields.items()
-        ],
-        bases=(OwnState,),
-        namespace={"system": system, **_section_of(system, pictures)},
+        controls,
+        bases=(LevelState if "integrals" in section else OwnState,),
+        namespace={"system": system, **section},
         frozen=True,
     )
-    _check_section(state, names)
     chosen: dict[str, Mapping[str, Value]] = {
         title: {fields[name][0]: float(value) for name, value in values.items()}
         for title, values in (presets or {"The example of the system": {}}).items()
@@ -227,66 +191,100 @@ def scene(
 
 
 def _section_of(system: System, pictures: Sequence[str]) -> dict[str, Any]:
-    """Return surface and coordinates of the section among the pictures.  Raises `InvalidParameter`."""
+    """Return surface, coordinates and levels of the section among the pictures.  Raises `InvalidParameter`."""
     found = next(filter(None, map(_SECTION.fullmatch, pictures)), None)
     if found is None:
+        if _BRANCH in pictures:
+            raise InvalidParameter(f"{system.title}: a branch needs a section: add the picture section.")
         return {}
-    x, y, variable, value = found.groups()
+    x, y, variable, value, levels = found.groups()
     surface = None
     if variable is not None:
         try:
             surface = _require(system, variable, system.variables), number_of(value)
         except NotANumber as error:
             raise InvalidParameter(f"{system.title}, section at {variable} = {value}: {error}") from error
-    return {"surface": surface, "coordinates": None if x is None else (x, y)}
+    section = {"surface": surface, "coordinates": None if x is None else (x, y)}
+    if levels is None and _BRANCH not in pictures:
+        return section
+    integrals = tuple(re.split(r" *, *", levels)) if levels else ()
+    known = (*system.integrals(*system.example),)
+    return {**section, "integrals": tuple(_require(system, name, known) for name in integrals)}
 
 
-def _check_section(state: type[OwnState], pictures: Sequence[str]) -> None:
-    """Raise `InvalidParameter` if the section cannot be made, or has one coordinate only."""
-    if "section" in pictures and len(state().poincare.names) != 2:
-        raise InvalidParameter(
-            f"{state.system.title}: a picture of a section needs a system of three or more variables."
-        )
+def _checked_section(system: System, section: Mapping[str, Any]) -> VariableSection:
+    """Return the section at the example.  Raises `InvalidParameter` if it has one coordinate only."""
+    known = {name: float(value) for name, value in system.integrals(*system.example).items()}
+    levels = section.get("integrals", [*known][: len(system.variables) - 3])
+    found = variable_section(
+        system.at(), {name: known[name] for name in levels}, section["surface"], section["coordinates"]
+    )
+    if len(found.names) != 2:
+        raise InvalidParameter(f"{system.title}: a picture of a section needs a system of three or more variables.")
+    return found
 
 
-def _fields(system: System) -> dict[str, tuple[str, float]]:
-    """Return the field and the default of each parameter and variable.  Raises `InvalidParameter`."""
+def _place(section: VariableSection) -> str:
+    """Return a place of a section where motions cross it, that of the example if it is one."""
+    low, high = np.array(section.window).T
+    tried = np.concatenate(
+        [section.places_of(np.array([section.system.example[0]])), low + evenly(_TRIED).T * (high - low)]
+    )
+    _, there = section.states_at(*tried.T)
+    return written([tuple(tried[int(np.argmax(there))])])
+
+
+def _fields(system: System, integrals: Sequence[str] | None) -> dict[str, tuple[str, float]]:
+    """Return the field and the default of each parameter, and of each variable or of these integrals.
+
+    Raises `InvalidParameter`.
+    """
     state, values = system.example
-    known = {
-        **{name: (f"p_{name}", value) for name, value in zip(system.parameters, values, strict=True)},
-        **{name: (f"y_{name}", value) for name, value in zip(system.variables, state, strict=True)},
-    }
+    known = {name: (f"p_{name}", value) for name, value in zip(system.parameters, values, strict=True)}
+    if integrals is None:
+        known |= {name: (f"y_{name}", value) for name, value in zip(system.variables, state, strict=True)}
+    else:
+        levels = system.integrals(state, values)
+        known |= {name: (f"i_{name}", float(levels[name])) for name in integrals}
     for name, (field, _) in known.items():
         if not field.isidentifier():
             raise InvalidParameter(f"{system.title}: {name!r} cannot stand in a link: name it like x, k2 or ω1.")
     return known
 
 
-def _slider(system: System, name: str, default: float, ends: tuple[float, float] | None) -> Any:
-    """Return the field of a parameter or an initial value."""
-    is_parameter = name in system.parameters
-    around = max(1.0, abs(default))
+_KINDS: Mapping[str, tuple[str, str, str, Group]] = {
+    "p": ("{}", "{}", "A parameter of the equations.", "Body"),
+    "y": ("{}(0)", "Initial {}", "The value at t = 0.", "State"),
+    "i": ("{}", "Level of {}", "The value of the integral in the section.", "State"),
+}
+"""Symbol, label, description and group of parameters, initial values and integrals."""
+
+
+def _slider(system: System, name: str, field: str, default: float, ends: tuple[float, float] | None) -> Any:
+    """Return the field of a parameter, an initial value or an integral."""
+    symbol, label, doc, group = _KINDS[field[0]]
+    around = abs(default) or 1.0 if field[0] == "i" else max(1.0, abs(default))
     low, high = ends or (default - around, default + around)
     if not -_FARTHEST <= low < high <= _FARTHEST:
         raise InvalidParameter(
             f"{system.title}: the slider of {name} must have two different ends between ±{_FARTHEST:g}."
         )
     return number(
-        name if is_parameter else f"{name}(0)",
+        symbol.format(name),
         default,
         (low, high),
         (high - low) / 200.0,
         bounds=(min(low, -_FARTHEST), _FARTHEST),
-        label=name if is_parameter else f"Initial {name}",
-        doc="A parameter of the equations." if is_parameter else "The value at t = 0.",
-        group="Body" if is_parameter else "State",
+        label=label.format(name),
+        doc=doc,
+        group=group,
         means=system.name,
     )
 
 
 def _require(system: System, name: str, allowed: Sequence[str]) -> str:
     if name not in allowed:
-        raise InvalidParameter(f"{system.title} has no {name!r}: choose among {', '.join(allowed)}.")
+        raise InvalidParameter(f"{system.title} has no {name!r}: choose among {', '.join(allowed) or 'none'}.")
     return name
 
 
@@ -294,12 +292,15 @@ def _first_picture(system: System) -> str:
     return " ".join(system.variables[:2]) if len(system.variables) > 1 else f"t {system.variables[0]}"
 
 
-def _picture(system: System, wanted: str) -> Picture[OwnState]:
-    """Return the picture that a text asks for.  Raises `InvalidParameter`."""
+def _picture(system: System, wanted: str, leveled: bool) -> Picture[Any]:
+    """Return the picture of a text; leveled : its section has periodic orbits.  Raises `InvalidParameter`."""
     if wanted == _EXPONENT:
         return exponent_picture(lambda s: s.exponent)
+    if wanted == _BRANCH:
+        return branch_picture(lambda s: s.branch)
     if _SECTION.fullmatch(wanted):
-        return replace(section_picture(lambda s: s.section, ""), on_click=lambda s, x, y: s.at(x, y))
+        view: Any = section_picture(lambda s: s.section, "")
+        return _with_periodic_orbits(view) if leveled else replace(view, on_click=OwnState.start_at)
     names = wanted.split()
     if len(names) == 3:
         a, b, c = (_require(system, name, system.variables) for name in names)
@@ -316,6 +317,17 @@ def _picture(system: System, wanted: str) -> Picture[OwnState]:
         )
     x, y = _require(system, names[0], ("t", *system.variables)), _require(system, names[1], system.variables)
     return orbit_picture(lambda s: s.orbit, x, y, f"{y} over {x}", name=f"{x}-{y}")
+
+
+def _with_periodic_orbits(view: Any) -> Picture[LevelState]:
+    """Return the picture of a section with its periodic orbit."""
+    found: Picture[LevelState] = replace(
+        view,
+        layers=(*view.layers, *layers(lambda s: s.periodic_orbit)),
+        caption=lambda s: s.periodic_orbit.caption or s.section.caption,
+        on_click=LevelState.start_at,
+    )
+    return found
 
 
 def _summary(system: System) -> str:

@@ -1,0 +1,159 @@
+"""The states of a scene for any system of differential equations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+
+from hess_explorer.protocol.parameters import Value, Values, written
+from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, time_span
+from hess_explorer.scenes.framework.part import Start, part
+from hess_explorer.scenes.framework.periodic_search import Closed
+from hess_explorer.scenes.framework.scene import State
+from hess_explorer.scenes.parts.exponent import Exponent, NotPeriodic
+from hess_explorer.scenes.parts.orbit import Orbit
+from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, length_of_manifolds, which
+from hess_explorer.scenes.parts.section import Section, crossings_of_each, start_on
+from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.system import ParametrizedSystem, System
+from hess_mechanics.dynamics.variable_section import VariableSection, variable_section
+
+__all__ = ["LevelState", "OwnState"]
+
+_PIXELS = 300.0
+"""Size of an orbit in a picture, in pixels."""
+
+
+@dataclass(frozen=True)
+class OwnState(State):
+    """A motion of a system; each scene adds the system's parameters, `p_…`, and initial values, `y_…`, as fields."""
+
+    span: float = time_span(30.0, 300.0)
+    long: float = exponent_time(500.0, 5000.0, 2e4, "the exponent is")
+    count: float = crossings_of_each()
+    accuracy: str = accuracy_level()
+
+    system: ClassVar[System]
+    surface: ClassVar[tuple[str, float] | None] = None
+    coordinates: ClassVar[tuple[str, str] | None] = None
+
+    @cached_property
+    def body(self) -> ParametrizedSystem:
+        """The system with the values of its parameters."""
+        return self.system.at([getattr(self, f"p_{name}") for name in self.system.parameters])
+
+    @property
+    def given(self) -> Start:
+        """The chosen initial state."""
+        return tuple(getattr(self, f"y_{name}") for name in self.system.variables)
+
+    @property
+    def start(self) -> Start:
+        """The initial state of the orbit on show."""
+        return self.given
+
+    @property
+    def lasts(self) -> float:
+        """The time span of the orbit on show."""
+        return self.span
+
+    @cached_property
+    def weights(self) -> tuple[float, ...]:
+        """Pixels of the pictures per unit of each variable."""
+        return self.work.get(_pixels, self.system)
+
+    @property
+    def periodic_orbit(self) -> NotPeriodic | PeriodicOrbit:
+        """The periodic orbit in place of the chosen one: none is searched for."""
+        return NotPeriodic()
+
+    @property
+    def closed(self) -> Closed | None:
+        """The periodic orbit, if known."""
+        return None
+
+    @part
+    def orbit(self) -> Orbit:
+        """The motion."""
+        return Orbit(self)
+
+    @part
+    def exponent(self) -> Exponent:
+        """Its largest Lyapunov exponent."""
+        return Exponent(self)
+
+    def levels(self) -> dict[str, float]:
+        """Return the values of integrals at which the section lies: those along the motion."""
+        known = self.system.integrals(self.given, self.body.parameters)
+        needed = len(self.system.variables) - 3
+        return {name: float(value) for name, value in [*known.items()][:needed]}
+
+    @cached_property
+    def poincare(self) -> VariableSection:
+        """The section."""
+        return variable_section(self.body, self.levels(), self.surface, self.coordinates)
+
+    @part
+    def section(self) -> Section:
+        """The crossings of the motion and of others with the same integrals."""
+        return Section(self, lambda: self.given, closed=lambda: self.closed)
+
+    def start_at(self, x: float, y: float) -> Values:
+        """Return the initial values at a place of the section; none where no motion crosses it."""
+        states, there = self.poincare.states_at(np.array([x]), np.array([y]))
+        named = zip(self.system.variables, states[0].tolist(), strict=True)
+        values: dict[str, Value] = {f"y_{name}": value for name, value in named}
+        return values if there[0] else {}
+
+
+@dataclass(frozen=True)
+class LevelState(OwnState):
+    """A motion from a place of a section; each scene adds the values of the integrals there, `i_…`, and the `place`."""
+
+    periodic: str = which()
+    reach: float = length_of_manifolds()
+
+    integrals: ClassVar[tuple[str, ...]] = ()
+    place: ClassVar[str] = ""
+
+    @cached_property
+    def given(self) -> Start:
+        """The state at the place.  Raises `OutsideRegion`."""
+        return start_on(self.poincare, self.place)
+
+    @property
+    def start(self) -> Start:
+        """The initial state of the orbit on show."""
+        return self.periodic_orbit.start
+
+    @property
+    def lasts(self) -> float:
+        """The time span of the orbit on show."""
+        return self.periodic_orbit.lasts
+
+    @part
+    def periodic_orbit(self) -> PeriodicOrbit:
+        """The periodic orbit in place of the chosen one."""
+        return PeriodicOrbit(self.section, self.periodic, self.reach, self.span)
+
+    @property
+    def closed(self) -> Closed | None:
+        """The periodic orbit, if known."""
+        return self.periodic_orbit.closed
+
+    def levels(self) -> dict[str, float]:
+        """Return the chosen values of integrals."""
+        return {name: getattr(self, f"i_{name}") for name in self.integrals}
+
+    def start_at(self, x: float, y: float) -> Values:
+        """Return the place as the start of the motion."""
+        return {"place": written([(x, y)])}
+
+
+def _pixels(system: System) -> tuple[float, ...]:
+    """Return pixels per unit of each variable, such that the example of the system fills a picture."""
+    states = solve(*system.example_motion, np.linspace(0.0, 30.0, 200), "draft").states
+    return tuple((_PIXELS / np.maximum(np.ptp(states, axis=0), 1e-3)).tolist())
