@@ -60,7 +60,8 @@ def test_a_section_at_a_level_has_periodic_orbits_and_their_branch():
         example=(0.0, 0.1, 0.3, 0.2),
         integrals=lambda y, p: {"E": sum(x**2 for x in y) / 2 + p[0] * (y[0] ** 2 * y[1] - y[1] ** 3 / 3)},
     )
-    scene = hess.scene(system, ["section y py at x = 0 on E", "branch", "x y"], sliders={"E": (0.01, 0.16)})
+    sliders = {"E": (0.01, 0.16), "y": (-0.5, 0.6)}
+    scene = hess.scene(system, ["section y py at x = 0 on E", "branch", "x y"], sliders=sliders)
     assert {"i_E", "p_lam", "place", "over"} <= (names := {spec.name for spec in scene.specs})
     assert "y_x" not in names
     assert scene.defaults()["place"] == "0.1,0.2"
@@ -73,7 +74,8 @@ def test_a_section_at_a_level_has_periodic_orbits_and_their_branch():
     assert np.asarray(branch["y"]) == approx(np.sqrt(levels / 2), abs=1e-8)
     # A click starts the motion at a place of the section, at its level.
     (section, *_) = scene.views
-    assert section.on_click(scene.of(scene.defaults()), 0.1, 0.0) == {"place": "0.1,0"}
+    assert section.x(state_of := scene.of(scene.defaults())) == (-0.5, 0.6)
+    assert section.on_click(state_of, 0.1, 0.0) == {"place": "0.1,0"}
     x, y, px, py = scene.of({**scene.defaults(), **chosen}).start
     assert (x, y, py) == (0.0, 0.0, 0.21)
     assert px == approx(np.sqrt(0.16 - py**2))

@@ -100,7 +100,8 @@ def scene(
         orbit of that section over a parameter or a level.  By default the plane of the first two variables, or the
         graph of a single one.
     sliders : mapping of str to (float, float), optional
-        Ends of the sliders, by the names of parameters, variables and integrals.
+        Ends of the sliders, by the names of parameters, variables and integrals.  Those of a coordinate are also the
+        range of the section.
     presets : mapping of str to mapping, optional
         Named states: values by the names of parameters, variables and integrals.
     text : str, optional
@@ -129,8 +130,11 @@ def scene(
     """
     section = _section_of(system, pictures)
     fields = _fields(system, section.get("integrals"))
-    for name in {**(sliders or {}), **{name: 0 for values in (presets or {}).values() for name in values}}:
+    for name in (name for values in (presets or {}).values() for name in values):
         _require(system, name, tuple(fields))
+    ends = dict(sliders or {})
+    for name in ends:
+        _require(system, name, tuple(dict.fromkeys((*fields, *system.variables))))
     views = [_picture(system, one, "integrals" in section) for one in pictures or [_first_picture(system)]]
     names = [view.name for view in views]
     if len(set(names)) < len(names) or sum(isinstance(view, Sphere) for view in views) > 1:
@@ -147,23 +151,19 @@ def scene(
         return {**columns, **gamma_columns(vector / length)}
 
     controls: list[Any] = [
-        (field, float, _slider(system, name, field, default, (sliders or {}).get(name)))
+        (field, float, _slider(system, name, field, default, ends.get(name)))
         for name, (field, default) in fields.items()
     ]
     if section:
         own = _checked_section(system, section)
+        section["window"] = tuple(ends.get(name, range_) for name, range_ in zip(own.names, own.window, strict=True))
         if "integrals" in section:
             low, high = (-_FARTHEST, -_FARTHEST), (_FARTHEST, _FARTHEST)
             controls.append(("place", str, places("Start of the motion", 1, low, high, _place(own))))
         if _BRANCH in names:
             along = {name: field for name, (field, _) in fields.items()}
             section["branch"] = part(lambda s: Branch(s, s.periodic_orbit, along))
-            controls += [
-                ("over", str, parameter_of_branch(tuple(along))),
-                ("low", float, end_of_branch("from")),
-                ("high", float, end_of_branch("to")),
-                ("upwards", str, coordinate_of_branch((own.names[0], own.names[1]))),
-            ]
+            controls += _of_branch(tuple(along), own)
     state = make_dataclass(
         "Motion",
         controls,
@@ -222,6 +222,17 @@ def _checked_section(system: System, section: Mapping[str, Any]) -> VariableSect
     if len(found.names) != 2:
         raise InvalidParameter(f"{system.title}: a picture of a section needs a system of three or more variables.")
     return found
+
+
+def _of_branch(symbols: tuple[str, ...], section: VariableSection) -> list[tuple[str, type, Any]]:
+    """Return the fields of a branch over one of these parameters."""
+    first, second = section.names
+    return [
+        ("over", str, parameter_of_branch(symbols)),
+        ("low", float, end_of_branch("from")),
+        ("high", float, end_of_branch("to")),
+        ("upwards", str, coordinate_of_branch((first, second))),
+    ]
 
 
 def _place(section: VariableSection) -> str:

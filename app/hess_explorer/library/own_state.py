@@ -39,6 +39,7 @@ class OwnState(State):
     system: ClassVar[System]
     surface: ClassVar[tuple[str, float] | None] = None
     coordinates: ClassVar[tuple[str, str] | None] = None
+    window: ClassVar[tuple[tuple[float, float], ...] | None] = None
 
     @cached_property
     def body(self) -> ParametrizedSystem:
@@ -94,7 +95,7 @@ class OwnState(State):
     @cached_property
     def poincare(self) -> VariableSection:
         """The section."""
-        return variable_section(self.body, self.levels(), self.surface, self.coordinates)
+        return variable_section(self.body, self.levels(), self.surface, self.coordinates, self.window)
 
     @part
     def section(self) -> Section:

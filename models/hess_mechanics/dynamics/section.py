@@ -23,6 +23,7 @@ from hess_mechanics.numerics.results import Array, Cost, SectionCrossings, froze
 
 __all__ = [
     "MAX_CROSSINGS",
+    "AnglePlane",
     "Plane",
     "SectionPoints",
     "Surface",
@@ -119,6 +120,87 @@ class Plane:
         if not math.isfinite(offset):
             raise InvalidParameter("The offset of the plane is too large for its normal: choose a smaller one.")
         return system.cross, normal / length, offset
+
+
+@dataclass(frozen=True)
+class AnglePlane:
+    """The planes on which an angle equals a value up to full turns, for stroboscopic sections.
+
+    Parameters
+    ----------
+    index : int
+        Index of the angle among the variables.
+    value : float, default 0
+        The value, in radians.
+    sense : {1, -1, 0}, default 1
+        Crossings that count: with increasing angle (1), with decreasing angle (−1), or both (0).
+
+    Raises
+    ------
+    InvalidParameter
+        If the value is not finite, or `sense` is another number.
+
+    Examples
+    --------
+    >>> import math
+    >>> from hess_mechanics import System, section
+    >>> from hess_mechanics.dynamics.section import AnglePlane
+    >>> turning = System("turning", lambda y, p: (1,), "phase")
+    >>> found = section(turning.at(), (0.0,), AnglePlane(0, math.pi), 20.0, "precise")
+    >>> [round(t / math.pi, 9) for t in found.times]
+    [1.0, 3.0, 5.0]
+    """
+
+    index: int
+    value: float = 0.0
+    sense: int = 1
+
+    def __post_init__(self) -> None:
+        # The conditions are those of a plane.
+        Plane((1.0,), self.value, self.sense)
+
+    def gradient(self, state: Array) -> Array:
+        """Return the gradient of the angle.
+
+        Parameters
+        ----------
+        state : ndarray, shape (d,)
+            Any state.
+
+        Returns
+        -------
+        ndarray, shape (d,)
+            1 for the angle, 0 for the other variables.
+        """
+        return np.array(np.arange(len(state)) == self.index, float)
+
+    def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
+        """Return the crossing kernel and its constants in the units of a problem.
+
+        Parameters
+        ----------
+        system : System
+            The equations of motion.
+        problem : Problem
+            The initial states and their units.
+
+        Returns
+        -------
+        cross : callable
+            Kernel that finds the crossings.
+        constants : ndarray, shape (3,)
+            Index of the angle, its scale, and the value.
+        offset : float
+            0.
+
+        Raises
+        ------
+        InvalidParameter
+            If the system has no variable with this index.
+        """
+        if self.index not in range(len(system.variables)):
+            raise InvalidParameter(f"{system.title}: the index of the angle is from 0 to {len(system.variables) - 1}.")
+        return system.cross_angle, np.array([self.index, problem.scale[self.index], self.value]), 0.0
 
 
 class Surface(Protocol):

@@ -22,7 +22,7 @@ import numpy as np
 from hess_mechanics.errors import InvalidParameter, ModelError, WrongScaling
 from hess_mechanics.numerics.batch_kernels import ensemble_integrator, one_by_one
 from hess_mechanics.numerics.doubled_kernels import doubled_integrator
-from hess_mechanics.numerics.events_kernels import PLANE, SurfaceKernels, crossing_finder
+from hess_mechanics.numerics.events_kernels import ANGLE, PLANE, SurfaceKernels, crossing_finder
 from hess_mechanics.numerics.jit import derived_kernel, inner
 from hess_mechanics.numerics.measured import nearby
 from hess_mechanics.numerics.results import Array
@@ -137,6 +137,9 @@ class System:
         Scale unit(p) of the leading variables besides ν.  By default 1.
     tolerance : callable, optional
         Tolerance for an orbit from y whose series needs a smaller one, tolerance(y, p, order, asked).  It is compiled.
+    angles : str or sequence of str, default none
+        Names of variables that are angles in radians: the field is the same after a full turn, and sections count them
+        up to full turns.
 
     Raises
     ------
@@ -172,6 +175,7 @@ class System:
     angular_velocities: int
     unit: Callable[[Array], float]
     tolerance: Callable[[Array, Array, int, float], float] | None
+    angles: tuple[str, ...]
 
     def __init__(
         self,
@@ -189,6 +193,7 @@ class System:
         angular_velocities: int = 0,
         unit: Callable[[Array], float] = _plain,
         tolerance: Callable[[Array, Array, int, float], float] | None = None,
+        angles: str | Sequence[str] = (),
     ) -> None:
         if not isinstance(name, str) or not name:
             raise InvalidParameter(f'{name!r} is not the name of a system: give a text such as "henon-heiles".')
@@ -206,6 +211,7 @@ class System:
             "angular_velocities": angular_velocities,
             "unit": unit,
             "tolerance": tolerance,
+            "angles": _names(name, "angles", angles),
         }
         for key, value in known.items():
             object.__setattr__(self, key, value)
@@ -213,6 +219,7 @@ class System:
         object.__setattr__(self, "example", self._checked_example(example, values))
         self._check_field()
         self._check_scaling()
+        self._check_angles()
 
     def _checked_example(self, example: Any, values: Sequence[float]) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """Return the example, completed by defaults.  Raises `InvalidParameter`."""
@@ -273,6 +280,17 @@ class System:
             for y, scaled in zip(states, problem.states, strict=True):
                 self._compare(y, p, scaled, problem)
 
+    def _check_angles(self) -> None:
+        """Compare the rates at the example with those after full turns.  Raises `InvalidParameter`."""
+        state, parameters = (np.array(values, float) for values in self.example)
+        for name in self.angles:
+            if name not in self.variables[self.angular_velocities :]:
+                raise InvalidParameter(f"{self.title}: the angle {name} must be a variable that is no velocity.")
+            turned = state + 2.0 * math.pi * (np.array(self.variables) == name)
+            one, other = self._rates(state, parameters), self._rates(turned, parameters)
+            if one is None or other is None or not np.allclose(one, other, rtol=_ROUNDING, atol=_ROUNDING):
+                raise InvalidParameter(f"{self.title}: {name} is no angle: after a full turn the field is another one.")
+
     def _compare(self, y: Array, p: Array, scaled: Array, problem: Problem) -> None:
         rates = self._rates(y, p), self._rates(scaled, problem.parameters)
         if rates[0] is None or rates[1] is None:
@@ -323,6 +341,11 @@ class System:
     def cross(self) -> Callable[..., tuple[int, int]]:
         """Kernel that finds the crossings of a plane by one orbit, see `events_kernels.crossing_finder`."""
         return self.crosses("cross", PLANE)
+
+    @cached_property
+    def cross_angle(self) -> Callable[..., tuple[int, int]]:
+        """Kernel that finds where a variable equals a value up to full turns, see `events_kernels.ANGLE`."""
+        return self.crosses("cross_angle", ANGLE)
 
     def crosses(self, task: str, surface: SurfaceKernels) -> Callable[..., tuple[int, int]]:
         """Return a kernel that finds the crossings of a surface by one orbit.

@@ -1,6 +1,7 @@
 """Sections of any system: a variable passes a value, two other variables are the coordinates.
 
-The variables that are neither follow from first integrals with given values, by Newton's method.
+The variables that are neither follow from first integrals with given values, by Newton's method.  Angles of the system
+count up to full turns.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from hess_mechanics.dynamics.return_map import PoincareSection
-from hess_mechanics.dynamics.section import Plane
+from hess_mechanics.dynamics.section import AnglePlane, Plane
 from hess_mechanics.dynamics.system import ParametrizedSystem, System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.arguments import as_number
@@ -27,6 +28,7 @@ _ITERATIONS = 100
 _FAR = 10.0
 """Start of Newton's method beyond the outermost root, in units of the example's size."""
 _ROUNDING = 1e-13
+_TURN = 2.0 * math.pi
 
 
 @dataclass(frozen=True)
@@ -81,8 +83,8 @@ class VariableSection(PoincareSection):
 
     @property
     def turns(self) -> tuple[float, ...]:
-        """Period of each coordinate: ∞, for none is taken as an angle."""
-        return (math.inf,) * len(self.coordinates)
+        """Period of each coordinate, ∞ if it is not an angle."""
+        return tuple(_TURN if name in self.system.angles else math.inf for name in self.names)
 
     @property
     def window(self) -> tuple[tuple[float, float], ...]:
@@ -90,8 +92,10 @@ class VariableSection(PoincareSection):
         return self.ranges
 
     @property
-    def surface(self) -> Plane:
+    def surface(self) -> Plane | AnglePlane:
         """The plane variable = value."""
+        if self.variable in self.system.angles:
+            return AnglePlane(self._index(self.variable), self.value, self.sense)
         normal = tuple(float(name == self.variable) for name in self.system.variables)
         return Plane(normal, self.value, self.sense)
 
@@ -112,8 +116,10 @@ class VariableSection(PoincareSection):
         return self._states_at
 
     def places_of(self, states: Array) -> Array:
-        """Return the coordinates (n, k) of states (n, d)."""
-        return np.asarray(states[:, [self._index(name) for name in self.names]])
+        """Return the coordinates (n, k) of states (n, d), angles between −π and π."""
+        places = states[:, [self._index(name) for name in self.names]]
+        turns = np.array(self.turns)
+        return np.asarray(places - np.where(np.isinf(turns), 0.0, _TURN) * np.round(places / turns))
 
     def is_on(self, states: Array) -> Mask:
         """Return a mask (n,) of the states (n, d) that have a place here: all of them."""
@@ -187,12 +193,14 @@ def variable_section(
     integrals : mapping of str to float
         Values of first integrals, by the names that the system gives them.
     surface : (str, float), optional
-        The variable that increases through a value.  By default the first variable, through 0.
+        The variable that increases through a value, an angle up to full turns.  By default the first variable,
+        through 0.
     coordinates : str or sequence of str, optional
         The one or two variables that are the coordinates.  By default those on which the rate of the surface's
         variable depends least; the others follow from the integrals.
     window : sequence of (float, float), optional
-        Range of each coordinate.  By default (−1, 1), or as wide as the state of the example.
+        Range of each coordinate.  By default (−π, π) for an angle, otherwise (−1, 1), or as wide as the state of the
+        example.
 
     Returns
     -------
@@ -245,7 +253,9 @@ def variable_section(
         chosen,
         solved,
         tuple((name, as_number(name, x)) for name, x in integrals.items()),
-        tuple(window) if window is not None else ((-reach, reach),) * len(chosen),
+        tuple(window)
+        if window is not None
+        else tuple((-math.pi, math.pi) if name in system.angles else (-reach, reach) for name in chosen),
     )
 
 

@@ -10,6 +10,7 @@ steps is found exactly once.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -28,7 +29,7 @@ from hess_mechanics.numerics.taylor_kernels import (
 from hess_mechanics.numerics.tracing import Recursion
 from hess_mechanics.numerics.unrolled import evaluation
 
-__all__ = ["PLANE", "SurfaceKernels", "crossing_finder"]
+__all__ = ["ANGLE", "PLANE", "SurfaceKernels", "crossing_finder"]
 
 _DEPTH = 45
 """Number of bisections after which a piece is a point in double precision."""
@@ -136,6 +137,11 @@ def roots_on_step(e, h, below, end, below_at_end, roots, pieces):
     return found
 
 
+@part
+def _as_it_is(e, h):
+    return h
+
+
 @dataclass(frozen=True)
 class SurfaceKernels:
     """A surface e(y) = offset, given by compiled functions with a vector `normal` of constants.
@@ -145,12 +151,14 @@ class SurfaceKernels:
     height(y, normal) : returns e(y).
     counted(y, normal) : returns True if a crossing at y counts.
     curved : True if e is nonlinear, so that its truncated series is less accurate than those of the state.
+    shorter(e, h) : returns the largest step up to h on which e is its series.
     """
 
     along: Callable[..., Any]
     height: Callable[..., Any]
     counted: Callable[..., Any]
     curved: bool
+    shorter: Callable[..., Any] = _as_it_is
 
 
 @part
@@ -178,6 +186,45 @@ def _always(y, normal):
 PLANE = SurfaceKernels(_along_plane, _height_over_plane, _always, curved=False)
 
 
+@inner
+def _within_half_a_turn(angle):
+    return angle - 2.0 * math.pi * np.round(angle / (2.0 * math.pi))
+
+
+@part
+def _along_angle(c, normal, e, scratch):
+    i = int(normal[0])
+    for k in range(e.size):
+        e[k] = normal[1] * c[k, i]
+    e[0] = _within_half_a_turn(e[0] - normal[2])
+
+
+@part
+def _height_of_angle(y, normal):
+    return _within_half_a_turn(normal[1] * y[int(normal[0])] - normal[2])
+
+
+@part
+def _at_the_value(y, normal):
+    """Return False opposite the value, where the height jumps from π to −π."""
+    return abs(_within_half_a_turn(normal[1] * y[int(normal[0])] - normal[2])) < 0.5 * math.pi
+
+
+@part
+def _less_than_a_quarter_turn(e, h):
+    while True:
+        moved = 0.0
+        for k in range(e.size - 1, 0, -1):
+            moved = (moved + abs(e[k])) * h
+        if not moved >= 0.5 * math.pi:
+            return h
+        h *= 0.5
+
+
+ANGLE = SurfaceKernels(_along_angle, _height_of_angle, _at_the_value, False, _less_than_a_quarter_turn)
+"""A variable equals a value up to full turns; normal is the index of the variable, its scale and the value."""
+
+
 def crossing_finder(recursion: Recursion, surface: SurfaceKernels = PLANE) -> Callable[..., Any]:
     """Return the compiled search for crossings of a plane, or of another surface, by an orbit.
 
@@ -190,6 +237,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels = PLANE) -> Ca
     n, columns = recursion.variables, columns_of(recursion)
     expand, evaluate = expansion(recursion), evaluation(n)
     along, height, counted, curved = surface.along, surface.height, surface.counted, surface.curved
+    shorter = surface.shorter
 
     @part
     def cross(state, parameters, normal, offset, sense, end, order, tolerance, max_steps, times, states):
@@ -228,10 +276,9 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels = PLANE) -> Ca
                         if abs(e[k]) > 1e-14:
                             below = e[k] < 0.0
                             break
-            h = step_of(c, n, tolerance)
             remaining = direction * ((end - t) - t_low)
+            h = shorter(e, min(step_of(c, n, tolerance), remaining))
             last = h >= remaining
-            h = min(h, remaining)
             steps += 1
             if steps > max_steps or not (h > 0.0 or last):
                 return STEP_LIMIT_REACHED, steps

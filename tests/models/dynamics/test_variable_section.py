@@ -2,7 +2,7 @@
 
 import numpy as np
 from pytest import approx, fixture, mark, raises
-from scipy.integrate import solve_ivp
+from scipy.integrate import quad, solve_ivp
 
 from hess_mechanics import (
     System,
@@ -12,9 +12,11 @@ from hess_mechanics import (
     orbit_diagram,
     periodic_orbit,
     return_map,
+    section,
     section_orbits,
     tube,
 )  # fmt: skip
+from hess_mechanics.dynamics.section import AnglePlane
 from hess_mechanics.errors import InvalidParameter
 
 E = 1 / 12
@@ -27,6 +29,14 @@ SYSTEM = System(
     integrals=lambda y, p: {
         "E": (y[0] ** 2 + y[1] ** 2 + y[2] ** 2 + y[3] ** 2) / 2 + p[0] * (y[0] ** 2 * y[1] - y[1] ** 3 / 3)
     },
+)
+DRIVEN = System(
+    "driven-pendulum",
+    lambda y, p: (y[1], -np.sin(y[0]) - p[0] * y[1] + p[1] * np.cos(y[2]), p[2]),
+    "theta v phase",
+    {"friction": 0.2, "force": 0.5, "W": 0.7},
+    example=(0.3, 0.0, 0.0),
+    angles="theta phase",
 )
 LORENZ = System("lorenz", lambda y, p: (10 * (y[1] - y[0]), y[0] * (28 - y[2]) - y[1], y[0] * y[1] - y[2]), "x y z")
 
@@ -89,6 +99,52 @@ def test_tools_take_a_system_of_ones_own(returns):
     assert (spectrum.values.size, spectrum.divergence) == (4, 0.0)
     assert spectrum.values.sum() == approx(0.0, abs=1e-9)
     assert tube(*SYSTEM.example_motion, [1.0]).width < 1e-18
+
+
+@mark.parametrize("start", [(0.2, 0.5), (2.0, 2.5), (-3.0, -2.0)])
+def test_a_driven_pendulum_has_a_stroboscopic_map(start):
+    strobe = return_map(DRIVEN.at(), surface=("phase", 5.0))
+    assert (strobe.names, strobe.turns) == (("theta", "v"), (2 * np.pi, np.inf))
+    period = 2 * np.pi / 0.7
+    found = solve_ivp(
+        lambda _, y: DRIVEN.field(y, (0.2, 0.5, 0.7)), (0.0, period), (*start, 5.0), "DOP853", rtol=1e-12, atol=1e-12
+    ).y[:, -1]
+    theta, v = strobe.image(start)
+    assert -np.pi <= theta <= np.pi
+    assert (np.cos(theta), np.sin(theta), v) == approx((np.cos(found[0]), np.sin(found[0]), found[1]), abs=1e-8)
+    # Liouville: areas shrink by the friction.
+    assert np.linalg.det(strobe.with_derivative(start)[1]) == approx(np.exp(-0.2 * period), rel=1e-7)
+    assert strobe.inverse().image((theta, v)) == approx(start, abs=1e-6)
+
+
+def test_an_angle_passes_its_value_up_to_full_turns():
+    """A pendulum that turns over has the period of the quadrature, and keeps its velocity at the value."""
+    pendulum = System("pendulum", lambda y, p: (y[1], -np.sin(y[0])), "theta v", angles="theta", example=(0.0, 2.5))
+    returns = return_map(pendulum.at(), surface=("theta", 3.0))
+    assert returns.orbit((1.0,), 3) == approx(np.ones((3, 1)), abs=1e-8)
+    period = quad(lambda a: 1 / np.sqrt(1 + 2 * np.cos(a) - 2 * np.cos(3.0)), 0.0, 2 * np.pi)[0]
+    assert returns.time_of((1.0,)) == approx(period, rel=1e-9)
+    # Small swings pass 0, and no full turn.
+    swings = return_map(pendulum.at(), surface=("theta", 0.0))
+    assert swings.image((0.1,)) == approx([0.1], abs=1e-9)
+
+
+@mark.parametrize(("sense", "end"), [(1, 30.0), (-1, -30.0), (0, 30.0), (0, -30.0), (-1, 30.0), (1, -30.0)])
+def test_a_uniform_rotation_passes_an_angle_once_a_turn(sense, end):
+    """A single step of its series would take it round many times."""
+    turning = System("turning", lambda y, p: (-p[0],), "phase", {"rate": 2.0}, angles="phase")
+    found = section(turning.at(), (0.5,), AnglePlane(0, 1.0, sense), end, "precise")
+    # As time grows the angle falls.
+    expected = np.arange(1, 10) * np.pi - 0.25 if end > 0 else -np.arange(10) * np.pi - 0.25
+    assert found.times == approx([] if sense > 0 else expected[np.abs(expected) < 30.0], abs=1e-9)
+
+
+@mark.parametrize(
+    ("angles", "words"), [("q", "the angle q must be a variable"), ("v", "v is no angle: after a full turn the field")]
+)
+def test_what_is_no_angle_is_refused(angles, words):
+    with raises(InvalidParameter, match=words):
+        System("pendulum", lambda y, p: (y[1], -np.sin(y[0])), "theta v", angles=angles)
 
 
 @mark.parametrize(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -96,7 +95,6 @@ class Section(Part[_Host]):
         default the others are spread over the window of the section.
     axes() : the axes of the picture, if it shows more than that window; closed() : the periodic orbit shown in place
         of the chosen one, if any; later : draw only the later half of the crossings.
-    periods : periods of the coordinates when two runs are compared.
     """
 
     start: Callable[[], Start]
@@ -104,7 +102,6 @@ class Section(Part[_Host]):
     axes: Callable[[], Axes] | None = None
     closed: Callable[[], Closed | None] = none_closed
     later: bool = False
-    periods: tuple[float, float] = (math.inf, math.inf)
 
     @property
     def poincare(self) -> PoincareSection:
@@ -214,7 +211,7 @@ class Section(Part[_Host]):
             return None
         at = self.poincare.places_of
         own, others = (
-            right_crossings([*map(at, coarse.states)], [*map(at, fine.states)], self.pixels, self.periods)
+            right_crossings([*map(at, coarse.states)], [*map(at, fine.states)], self.pixels, self.poincare.turns)
             for coarse, fine in zip((crossed.own, crossed.others), tight, strict=True)
             if fine is not None
         )
@@ -291,14 +288,14 @@ def section_trial(of: Callable[[S], Section]) -> Trial[S]:
     """Return the trial of the section, computed at each level."""
 
     def look(s: Section, orbits: list[Array]) -> Marks:
-        section = s
-        return Marks(frame_of(section.frame, section.poincare.names), tuple(orbits), section.periods, crossings=True)
+        first, second = s.poincare.turns
+        return Marks(frame_of(s.frame, s.poincare.names), tuple(orbits), (first, second), crossings=True)
 
     return Trial[Section](
         Computation.SECTION,
         ("section",),
         Section.orbits_at,
-        lambda s, orbits, truth: section_error(orbits, truth, s.pixels, s.periods),
+        lambda s, orbits, truth: section_error(orbits, truth, s.pixels, s.poincare.turns),
         look,
         most=(("count", _MOST_COMPARED),),
     ).of_part(of)
