@@ -5,7 +5,7 @@ import random
 import numpy as np
 from pytest import approx, mark, raises
 
-from hess_explorer.protocol.formulas import MOST, polynomial
+from hess_explorer.protocol.formulas import MOST, drive, polynomial
 from hess_explorer.protocol.parameters import Formula
 from hess_mechanics.errors import InvalidParameter
 
@@ -63,6 +63,39 @@ def test_a_formula_is_its_coefficients(text, expected):
 def test_what_is_no_polynomial_is_refused(text, message):
     with raises(InvalidParameter, match=message):
         polynomial(text)
+
+
+@mark.parametrize(
+    "text", ["cos(W*t)", "cos(W*t) + 0.5*sin(2*W*t)", "-sin(Ωt)*cos(5*Ω*t)/3 + 2", "(cos(W*t) - 1)^3", ""]
+)
+def test_a_drive_has_the_values_of_its_formula(text):
+    found = drive(text)
+    python = text.replace("^", "**").replace("Ωt", "Ω*t").replace("Ω", "W") or "0"
+    names = {"cos": np.cos, "sin": np.sin, "W": 0.7, "__builtins__": {}}
+    values = np.array([eval(python, {**names, "t": t}) for t in np.linspace(0.0, 9.0, 20)])
+    phase = 0.7 * np.linspace(0.0, 9.0, 20)
+    shape = sum(c * np.cos(phase) ** i * np.sin(phase) ** j for (i, j, _), c in found.items())
+    # The constant is left out.
+    assert np.ptp(values - shape) == approx(0.0, abs=1e-12)
+
+
+@mark.parametrize(
+    ("text", "message"),
+    [
+        ("cos(t)", "no drive: use numbers and cos"),
+        ("cos(W*t", "no drive"),
+        ("W*t", "inside cos and sin only"),
+        ("cos(W*t + 1)", "n a whole number from 1 to 6"),
+        ("cos(7*W*t)", "n a whole number from 1 to 6"),
+        ("sin(cos(W*t))", "n a whole number"),
+        ("1/cos(W*t)", "divides by something other than a number"),
+        ("cos(4*W*t)*sin(3*W*t)", "degree"),
+        ("exp(W*t)", "no drive"),
+    ],
+)
+def test_what_is_no_drive_is_refused(text, message):
+    with raises(InvalidParameter, match=message):
+        drive(text)
 
 
 def test_a_parameter_keeps_the_text_and_refuses_with_its_name():

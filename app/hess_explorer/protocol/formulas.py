@@ -1,4 +1,4 @@
-"""Polynomials that a user types as formulas: 0.5*g1^2 − g3.
+"""Formulas that a user types: polynomials such as 0.5*g1^2 − g3, and periodic drives such as cos(W*t).
 
 The text is untrusted.  `calculated` evaluates it without running code; names stand for polynomials, so that only
 polynomials come out, with bounds on length, degree and number of terms.
@@ -15,14 +15,16 @@ from typing import Any
 from hess_explorer.protocol.expressions import Unreadable, calculated, in_python
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["MOST", "polynomial"]
+__all__ = ["MOST", "drive", "polynomial"]
 
 MOST = 200
 """Maximum length of a formula, in characters."""
 _DEGREE = 6
 _LARGEST = 1e6
 _NAMES = ("g1", "g2", "g3")
-_TEXT = re.compile(r"(?>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![\w.])|g[123](?![\w.])|[-+*/()]|\s)+")
+_NUMBER = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![\w.])"
+_TEXT = re.compile(rf"(?>{_NUMBER}|g[123](?![\w.])|[-+*/()]|\s)+")
+_DRIVE = re.compile(rf"(?>{_NUMBER}|(?:cos|sin|phase)(?![\w.])|[-+*/()]|\s)+")
 
 Exponents = tuple[int, int, int]
 
@@ -33,6 +35,9 @@ class _Terms(dict[Exponents, float]):
     def add(self, exponents: Exponents, value: float) -> None:
         """Add to a coefficient."""
         self[exponents] = self.get(exponents, 0.0) + value
+
+
+_COSINE, _SINE, _PHASE = _Terms({(1, 0, 0): 1.0}), _Terms({(0, 1, 0): 1.0}), _Terms({(0, 0, 1): 1.0})
 
 
 def _of(x: Any) -> _Terms:
@@ -108,23 +113,82 @@ def polynomial(text: str) -> dict[Exponents, float]:
     >>> polynomial("(g1 + 2)^2/2")
     {(2, 0, 0): 0.5, (1, 0, 0): 2.0}
     """
+    names = {name: _Terms({(int(i == 0), int(i == 1), int(i == 2)): 1.0}) for i, name in enumerate(_NAMES)}
     plain = in_python(text).replace("γ", "g").translate(str.maketrans("₁₂₃", "123"))
+    return _read(
+        plain, _TEXT, names, {}, "polynomial: use numbers, g1, g2, g3, + − * / ^ and parentheses, like 0.5*g1^2 - g3"
+    )
+
+
+def drive(text: str) -> dict[Exponents, float]:
+    """Return a sum of cos(n*W*t) and sin(n*W*t), and of their products, as a polynomial in cos Ωt and sin Ωt.
+
+    Parameters
+    ----------
+    text : str
+        The formula, for example "cos(W*t) + 0.5*sin(2*W*t)"; W is Ω.  An empty text means 0.
+
+    Returns
+    -------
+    dict
+        Coefficients other than 0, without the constant, by the exponents of cos Ωt and sin Ωt, and 0.
+
+    Raises
+    ------
+    InvalidParameter
+        If the text is too long or no such sum of degree 6 or less with coefficients up to 1e6.
+
+    Examples
+    --------
+    >>> drive("cos(W*t) + sin(2*W*t)")
+    {(1, 0, 0): 1.0, (1, 1, 0): 2.0}
+    """
+    plain = re.sub(r"[WΩ]\s*\*?\s*t(?!\w)", "phase", in_python(text))
+    functions = {"cos": lambda angle: _harmonic(angle)[0], "sin": lambda angle: _harmonic(angle)[1]}
+    found = _read(
+        plain,
+        _DRIVE,
+        {"phase": _PHASE},
+        functions,
+        "drive: use numbers and cos(n*W*t), sin(n*W*t), like cos(W*t) + 0.5*sin(2*W*t)",
+    )
+    if any(exponents[2] for exponents in found):
+        raise InvalidParameter("The time of a drive stands inside cos and sin only: it must be periodic.")
+    return found
+
+
+def _harmonic(angle: Any) -> tuple[_Terms, _Terms]:
+    """Return cos and sin of n times the phase as polynomials in cos and sin of the phase."""
+    terms = _of(angle)
+    n = terms.get((0, 0, 1), 0.0)
+    if set(terms) != set(_PHASE) or n not in range(1, _DEGREE + 1):
+        raise InvalidParameter(f"A drive has cos(n*W*t) and sin(n*W*t), n a whole number from 1 to {_DEGREE}.")
+    real, imaginary = _of(1.0), _of(0.0)
+    for _ in range(int(n)):
+        real, imaginary = (
+            _sum(_product(real, _COSINE), _product(imaginary, _SINE), -1.0),
+            _sum(_product(real, _SINE), _product(imaginary, _COSINE)),
+        )
+    return real, imaginary
+
+
+def _read(
+    plain: str, allowed: re.Pattern[str], names: Mapping[str, Any], functions: Mapping[str, Any], wanted: str
+) -> dict[Exponents, float]:
+    """Return the coefficients of an expression in Python.  Raises `InvalidParameter`."""
     if len(plain) > MOST:
         raise InvalidParameter(f"The formula is longer than {MOST} characters: shorten it.")
     if not plain:
         return {}
-    names = {name: _Terms({(int(i == 0), int(i == 1), int(i == 2)): 1.0}) for i, name in enumerate(_NAMES)}
     try:
-        if not _TEXT.fullmatch(plain):
+        if not allowed.fullmatch(plain):
             raise Unreadable
-        found = _of(calculated(plain, _OPERATORS, names, {}))
+        found = _of(calculated(plain, _OPERATORS, names, functions))
     except InvalidParameter:
         raise
     except (Unreadable, ValueError, ArithmeticError):
-        raise InvalidParameter(
-            "This is no polynomial: use numbers, g1, g2, g3, + − * / ^ and parentheses, like 0.5*g1^2 - g3."
-        ) from None
-    # The constant part of a potential moves nothing.
+        raise InvalidParameter(f"This is no {wanted}.") from None
+    # The constant part of a potential moves nothing, and that of a drive belongs to the rotors.
     kept = {exponents: value for exponents, value in found.items() if value != 0.0 and any(exponents)}
     if not all(abs(value) <= _LARGEST for value in kept.values()):
         raise InvalidParameter(f"A coefficient of the formula is larger than {_LARGEST:g}: choose smaller numbers.")

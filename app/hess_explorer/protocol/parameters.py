@@ -7,7 +7,7 @@ change is reported in a note.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from urllib.parse import parse_qsl, urlencode, urlsplit
 
@@ -90,18 +90,19 @@ class Choice:
 
 @dataclass(frozen=True)
 class Formula:
-    """A polynomial in γ₁, γ₂, γ₃, as a text."""
+    """A formula as a text; reads : raises `InvalidParameter` for other texts."""
 
     name: str
     label: str
     default: str
     doc: str = ""
     group: Group = "Body"
+    reads: Callable[[str], object] = polynomial
 
     def read(self, text: str) -> tuple[str, str | None]:
         """Return the formula without surrounding spaces; otherwise the default and a note."""
         try:
-            polynomial(text)
+            self.reads(text)
         except InvalidParameter as error:
             return self.default, f"{self.label}: {error}"
         return text.strip(), None

@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from hess_explorer.protocol.formulas import polynomial
+from hess_explorer.protocol.formulas import drive, polynomial
 from hess_explorer.scenes.framework.parameters import (
     ONE_TURN,
     accuracy_level,
@@ -25,7 +25,7 @@ from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
 from hess_explorer.scenes.parts.exponent import Exponent, NotPeriodic, exponent_picture, exponent_trial
 from hess_explorer.scenes.parts.orbit import Orbit
-from hess_explorer.views import theme
+from hess_explorer.views import section_plane, theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import over_time, with_room
 from hess_explorer.views.layers import Columns, Range, line
@@ -33,13 +33,15 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Sphere, gamma_columns
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.section import section
 from hess_mechanics.dynamics.system import System
-from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.results import Array, SectionCrossings
 from hess_mechanics.parameters import I11, I13, I22, I23
 from hess_mechanics.rigid_body.own_body import OwnBody, Polynomial
 
 __all__ = ["SCENE", "OwnBodyState"]
 
+_MOST_CROSSINGS = 2000
 _CONSTRAINED, _FREE = "(a, ω) = 0", "none"
 
 
@@ -74,7 +76,13 @@ def _velocity(symbol: str, default: float) -> Any:
 class OwnBodyState(State):
     """A motion of the body."""
 
-    U: str = formula("Potential U(γ)", "g3 - 0.5*g1", doc="A polynomial in g1, g2, g3, like 0.5*g1^2 - g3.")
+    U: str = formula("Potential U(γ)", "g3 - 0.5*g1", polynomial, doc="A polynomial in g1, g2, g3, like 0.5*g1^2 - g3.")
+    p: str = formula(
+        "Drive p(t)",
+        "cos(W*t)",
+        drive,
+        doc="A sum of cos(n*W*t) and sin(n*W*t), like cos(W*t) + 0.5*sin(2*W*t); W is Ω.",
+    )
     constraint: str = choice(
         "Constraint",
         (_CONSTRAINED, _FREE),
@@ -103,9 +111,9 @@ class OwnBodyState(State):
     k1: float = _component("k₁", "Rotor k₁", 0.0, "Gyrostatic momentum, first component.")
     k2: float = _component("k₂", "Rotor k₂", 0.0, "Gyrostatic momentum, second component.")
     k3: float = _component("k₃", "Rotor k₃", 0.0, "Gyrostatic momentum, third component.")
-    d1: float = _component("d₁", "Drive d₁", 0.0, "The gyrostatic momentum is k + d cos Ωt.")
-    d2: float = _component("d₂", "Drive d₂", 0.0, "The gyrostatic momentum is k + d cos Ωt.")
-    d3: float = _component("d₃", "Drive d₃", 0.0, "The gyrostatic momentum is k + d cos Ωt.")
+    d1: float = _component("d₁", "Drive d₁", 0.0, "The gyrostatic momentum is k + d p(t).")
+    d2: float = _component("d₂", "Drive d₂", 0.0, "The gyrostatic momentum is k + d p(t).")
+    d3: float = _component("d₃", "Drive d₃", 0.0, "The gyrostatic momentum is k + d p(t).")
     frequency: float = number(
         "Ω", 1.0, (0.0, 5.0), 0.01, bounds=(0.0, 100.0), label="Frequency Ω", doc="Of the drive.", group="Body"
     )
@@ -139,21 +147,19 @@ class OwnBodyState(State):
     periodic_orbit: ClassVar[NotPeriodic] = NotPeriodic()
 
     @cached_property
-    def potential(self) -> Polynomial:
-        """The potential.  Raises `InvalidParameter`."""
-        found = polynomial(self.U)
-        return Polynomial(tuple(found), tuple(found.values()))
-
-    @cached_property
     def body(self) -> OwnBody:
         """The body.  Raises `ModelError`."""
+        potential, shape = (
+            Polynomial(tuple(found), tuple(found.values())) for found in (polynomial(self.U), drive(self.p))
+        )
         return OwnBody(
             (self.I11, self.I22, self.I33, self.I12, self.I13, self.I23),
-            self.potential,
+            potential,
             (self.a1, self.a2, self.a3) if self.constraint == _CONSTRAINED else None,
             (self.k1, self.k2, self.k3),
             (self.d1, self.d2, self.d3),
             self.frequency,
+            shape,
         )
 
     @property
@@ -201,6 +207,15 @@ class OwnBodyState(State):
         work = path.states[:, 8] if body.is_driven else np.zeros(path.times.size)
         return path.times, kept + work - kept[0], work
 
+    @cached_property
+    def crossings(self) -> SectionCrossings | None:
+        """The section of the motion up to the time of the exponent; None until it is known."""
+        if not self.is_compiled or self.dragging:
+            return None
+        return self.work.later(
+            section, self.body, self.start, self.body.surface, self.long, self.level, _MOST_CROSSINGS
+        )
+
     def idle(self) -> Mapping[str, float]:
         """Return the numbers without effect: the constraint of a free body, the frequency of no drive."""
         found = {} if self.constraint == _CONSTRAINED else {"a1": 0.0, "a2": 0.0, "a3": 0.0}
@@ -236,6 +251,30 @@ def _energy_caption(s: OwnBodyState) -> Caption:
         off = float(np.abs(change - work).max())
         return Caption("The drive does work.", f"|E − E₀ − W| ≤ {digits(off, 1)}.")
     return Caption("The energy is conserved.", f"|E − E₀| ≤ {digits(float(np.abs(change).max()), 1)}.")
+
+
+def _section_caption(s: OwnBodyState) -> Caption:
+    if not s.is_compiled or s.crossings is None:
+        return _caption(s) if not s.is_compiled else Caption(s.awaited())
+    where = "Once in each period of the drive." if s.body.is_driven and s.frequency else "Where γ₃ = 0, upwards."
+    return Caption(where, f"{len(s.crossings.times)} crossings up to t = {digits(s.long)}.")
+
+
+def _crossed(s: OwnBodyState) -> Array | None:
+    return None if s.crossings is None else s.crossings.states[:, :2]
+
+
+def _crossed_range(i: int) -> Any:
+    def of(s: OwnBodyState) -> Range | None:
+        found = _crossed(s)
+        return None if found is None or not len(found) else with_room(found[:, i], 0.06, 1e-2)
+
+    return of
+
+
+def _no_crossing(s: OwnBodyState) -> str:
+    found = _crossed(s)
+    return "" if found is None or len(found) else "No crossing: choose another motion, or a longer time of the exponent"
 
 
 def _energy_range(s: OwnBodyState) -> Range | None:
@@ -316,5 +355,15 @@ SCENE = Scene(
             ),
         ),
         exponent_picture(lambda s: s.exponent),
+        Plot[OwnBodyState](
+            name="section",
+            title="Poincaré section",
+            caption=_section_caption,
+            axes=("ω₁", "ω₂"),
+            x=_crossed_range(0),
+            y=_crossed_range(1),
+            message=_no_crossing,
+            layers=section_plane.layers(_crossed),
+        ),
     ),
 )

@@ -4,9 +4,9 @@ State y = (ω1, ω2, ω3, γ1, γ2, γ3), and with a drive (cos Ωt, sin Ωt, W)
 
     I ω̇ = M × ω + γ × ∂U/∂γ − K̇ + λ a,   γ̇ = γ × ω,   (a, ω) = 0,
 
-where K = k + d cos Ωt is the momentum of the rotors.  The multiplier λ keeps (a, ω) = 0; without a constraint it is 0.
-The drive does the work W, Ẇ = −(K̇, ω), so that E − W is constant, E = (Iω, ω)/2 + U.  For a = e3 and K = 0 these are
-the equations of the Suslov problem (`Biz01`).
+where K = k + d p(cos Ωt, sin Ωt) is the momentum of the rotors, p a polynomial.  The multiplier λ keeps (a, ω) = 0;
+without a constraint it is 0.  The drive does the work W, Ẇ = −(K̇, ω), so that E − W is constant, E = (Iω, ω)/2 + U.
+For a = e3 and K = 0 these are the equations of the Suslov problem (`Biz01`).
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from hess_mechanics.dynamics.section import Plane
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
 from hess_mechanics.rigid_body.inertia import BodyCheck, require_finite
@@ -26,7 +27,7 @@ from hess_mechanics.rigid_body.inertia import BodyCheck, require_finite
 __all__ = ["OwnBody", "Polynomial"]
 
 _TERMS, _DEGREE = 20, 6
-"""Largest number of terms of the potential, and largest degree: the compile time grows with both."""
+"""Largest number of terms of a polynomial, and largest degree: the compile time grows with both."""
 _FORMS = 300
 """Largest number of forms of the equations that a process compiles: kernels are never freed."""
 
@@ -36,12 +37,12 @@ _NOTHING: Vector = (0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Polynomial:
-    """A polynomial in γ1, γ2, γ3.
+    """A polynomial in three numbers: γ1, γ2, γ3 of a potential, or cos Ωt, sin Ωt, 0 of a drive.
 
     Parameters
     ----------
     exponents : tuple of (int, int, int)
-        Exponents of γ1, γ2, γ3 in each term, without repetition.
+        Exponents of the three numbers in each term, without repetition.
     coefficients : tuple of float
         Coefficient of each term.
 
@@ -62,11 +63,11 @@ class Polynomial:
 
     def __post_init__(self) -> None:
         if len(self.exponents) != len(self.coefficients) or len(self.exponents) > _TERMS:
-            raise InvalidParameter(f"A potential has at most {_TERMS} terms, each with one coefficient.")
+            raise InvalidParameter(f"A polynomial has at most {_TERMS} terms, each with one coefficient.")
         if any(min(one) < 0 or sum(one) > _DEGREE for one in self.exponents):
-            raise InvalidParameter(f"The degree of a potential is at most {_DEGREE}.")
+            raise InvalidParameter(f"The degree of a polynomial is at most {_DEGREE}.")
         if not all(map(math.isfinite, self.coefficients)):
-            raise InvalidParameter("The coefficients of a potential are finite numbers.")
+            raise InvalidParameter("The coefficients of a polynomial are finite numbers.")
 
     def __call__(self, g1: Any, g2: Any, g3: Any) -> Any:
         """Return the value at a point.
@@ -74,7 +75,7 @@ class Polynomial:
         Parameters
         ----------
         g1, g2, g3 : float or ndarray
-            Components of γ.
+            The three numbers.
 
         Returns
         -------
@@ -96,7 +97,7 @@ def _power(x: Any, n: int) -> Any:
 
 
 def _slope(exponents: Sequence[Sequence[int]], c: Sequence[Any], g: Sequence[Any], i: int) -> Any:
-    """Return ∂U/∂γ_i."""
+    """Return the derivative with respect to g[i]."""
     lower = [
         (one[i] * ck, [n - (k == i) for k, n in enumerate(one)]) for ck, one in zip(c, exponents, strict=True) if one[i]
     ]
@@ -130,26 +131,36 @@ def _inverse(I: Sequence[Any]) -> tuple[Any, ...]:
     return tuple(one / determinant for one in (A11, A22, A33, A12, A13, A23))
 
 
+Exponents = tuple[tuple[int, int, int], ...]
+
+
 @cache
-def _system(exponents: tuple[tuple[int, int, int], ...], is_constrained: bool, is_driven: bool) -> System:
-    """Return the equations of all bodies whose potential has these terms."""
+def _system(exponents: Exponents, is_constrained: bool, drive: Exponents) -> System:
+    """Return the equations of all bodies whose potential and drive have these terms; no terms for no drive."""
+    is_driven = bool(drive)
     names = [*("I11", "I22", "I33", "I12", "I13", "I23"), *("k1", "k2", "k3")]
     names += ["a1", "a2", "a3"] if is_constrained else []
-    names += ["d1", "d2", "d3", "Omega"] if is_driven else []
+    names += ["d1", "d2", "d3", "Omega", *(f"p{i + 1}" for i in range(len(drive)))] if is_driven else []
+    last = len(names)
 
     def split(p: Sequence[Any]) -> tuple[Sequence[Any], ...]:
-        """Return I, k, a, d and Ω, and the coefficients of U."""
-        a = p[9:12] if is_constrained else _NOTHING
+        """Return I, k, a, d, Ω and the coefficients of the drive, and those of U."""
         first = 12 if is_constrained else 9
-        drive = p[first : first + 4] if is_driven else (0, 0, 0, 0)
-        return p[:6], p[6:9], a, drive, p[first + 4 if is_driven else first :]
+        return p[:6], p[6:9], p[9:12] if is_constrained else _NOTHING, p[first:last], p[last:]
 
     def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-        I, k, a, (*d, Omega), c = split(p)
+        I, k, a, driven, c = split(p)
         omega, gamma = y[:3], y[3:6]
-        cosine, sine = y[6:8] if is_driven else (1, 0)
-        K = [ki + di * cosine for ki, di in zip(k, d, strict=True)] if is_driven else k
-        change = [-(di * Omega) * sine for di in d] if is_driven else _NOTHING
+        K: Sequence[Any] = k
+        change: Sequence[Any] = _NOTHING
+        moved: tuple[Any, ...] = ()
+        if is_driven:
+            (*d, Omega), shape, phase = driven[:4], driven[4:], (y[6], y[7], 0)
+            K = [ki + di * _value(drive, shape, phase) for ki, di in zip(k, d, strict=True)]
+            along, across = (_slope(drive, shape, phase, i) for i in (0, 1))
+            rate = Omega * (across * y[6] - along * y[7])
+            change = [di * rate for di in d]
+            moved = -Omega * y[7], Omega * y[6], -_dot(change, omega)
         M = [one + other for one, other in zip(_times(I, omega), K, strict=True)]
         forces = _cross(gamma, [_slope(exponents, c, gamma, i) for i in range(3)])
         torque = [one + other - rate for one, other, rate in zip(_cross(M, omega), forces, change, strict=True)]
@@ -159,7 +170,6 @@ def _system(exponents: tuple[tuple[int, int, int], ...], is_constrained: bool, i
             reaction = _times(inverse, a)
             multiplier = _dot(a, rates) * (1 / _dot(a, reaction))
             rates = tuple(rate - multiplier * one for rate, one in zip(rates, reaction, strict=True))
-        moved = (-Omega * sine, Omega * cosine, -_dot(change, omega)) if is_driven else ()
         return (*rates, *_cross(gamma, omega), *moved)
 
     def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
@@ -177,10 +187,10 @@ def _system(exponents: tuple[tuple[int, int, int], ...], is_constrained: bool, i
     state = (0.5, 0.4, 0.0, 0.6, 0.0, 0.8, *((1.0, 0.0, 0.0) if is_driven else ()))
     values = [2.0, 1.5, 1.0, 0.0, 0.1, 0.2, 0.0, 0.0, 0.3]
     values += [0.0, 0.0, 1.0] if is_constrained else []
-    values += [0.0, 0.0, 0.5, 1.0] if is_driven else []
-    form = "_".join("".join(map(str, one)) for one in exponents)
+    values += [0.0, 0.0, 0.5, 1.0, *([1.0] * len(drive))] if is_driven else []
+    form, shape = ("_".join("".join(map(str, one)) for one in terms) for terms in (exponents, drive))
     return System(
-        f"own_body_{int(is_constrained)}{int(is_driven)}_{form}",
+        f"own_body_{int(is_constrained)}_{shape}_{form}",
         field,
         ("ω1", "ω2", "ω3", "γ1", "γ2", "γ3", *(("cosΩt", "sinΩt", "W") if is_driven else ())),
         (*names, *(f"c{i + 1}" for i in range(len(exponents)))),
@@ -205,9 +215,11 @@ class OwnBody:
     momentum : (float, float, float), optional
         Constant part k of the gyrostatic momentum.
     drive : (float, float, float), optional
-        Amplitude d of its periodic part d cos Ωt.
+        Amplitude d of its periodic part d p(cos Ωt, sin Ωt).
     frequency : float, optional
         Frequency Ω of the drive.
+    shape : Polynomial, optional
+        The polynomial p.  By default p = cos Ωt.
 
     Raises
     ------
@@ -234,6 +246,7 @@ class OwnBody:
     momentum: Vector = _NOTHING
     drive: Vector = _NOTHING
     frequency: float = 1.0
+    shape: Polynomial = Polynomial(((1, 0, 0),), (1.0,))
 
     def __post_init__(self) -> None:
         numbers = (*self.inertia, *(self.constraint or ()), *self.momentum, *self.drive, self.frequency)
@@ -264,19 +277,31 @@ class OwnBody:
     @property
     def is_driven(self) -> bool:
         """True if the gyrostatic momentum depends on time."""
-        return any(self.drive)
+        return any(self.drive) and bool(self.shape.exponents)
+
+    @property
+    def surface(self) -> Plane:
+        """The section of its motions, crossed upwards: γ3 = 0, or sin Ωt = 0, once in a period of a drive."""
+        is_periodic = self.is_driven and self.frequency != 0.0
+        wanted = "sinΩt" if is_periodic else "γ3"
+        normal = tuple(float(name == wanted) for name in self.system.variables)
+        return Plane(normal, sense=-1 if is_periodic and self.frequency < 0.0 else 1)
 
     @property
     def system(self) -> System:
-        """The equations of motion, shared by all bodies whose potential has the same terms.  Raises `WorkLimit`."""
+        """The equations of motion, shared by all bodies with the same terms of potential and drive.
+
+        Raises `WorkLimit`.
+        """
         if _system.cache_info().currsize >= _FORMS:
             raise WorkLimit(f"{_FORMS} forms of equations have been compiled here: start the program anew.")
-        return _system(self.potential.exponents, self.constraint is not None, self.is_driven)
+        drive = self.shape.exponents if self.is_driven else ()
+        return _system(self.potential.exponents, self.constraint is not None, drive)
 
     @property
     def parameters(self) -> tuple[float, ...]:
         """Values of the parameters of the equations."""
-        drive = (*self.drive, self.frequency) if self.is_driven else ()
+        drive = (*self.drive, self.frequency, *self.shape.coefficients) if self.is_driven else ()
         return (*self.inertia, *self.momentum, *(self.constraint or ()), *drive, *self.potential.coefficients)
 
     def start(self, omega: Sequence[float], gamma: Sequence[float]) -> tuple[float, ...]:

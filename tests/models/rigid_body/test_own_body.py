@@ -4,18 +4,20 @@ import numpy as np
 from pytest import approx, mark, raises
 from scipy.integrate import solve_ivp
 
-from hess_mechanics import ModelError, OwnBody, Polynomial, SuslovBody, solve
+from hess_mechanics import ModelError, OwnBody, Polynomial, SuslovBody, section, solve
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
 
 TENSOR = (1.5, 1.0, 1.2, 0.1, 0.4, 0.2)
 FIELD = Polynomial(((1, 0, 0), (0, 1, 0), (0, 0, 1)), (0.3, -0.5, 1.0))
 BENT = Polynomial(((2, 0, 0), (1, 1, 2), (0, 0, 3)), (0.7, -0.4, 0.6))
+SHAPE = Polynomial(((1, 0, 0), (1, 1, 0), (0, 2, 0)), (0.8, 0.6, -0.3))
 VERTICAL = (0.6, 0.0, 0.8)
 TIMES = np.linspace(0.0, 10.0, 21)
 
 BODIES = {
     "gyrostat": OwnBody(TENSOR, FIELD, (0.0, 0.0, 1.0), (0.3, -0.2, 0.8)),
     "driven": OwnBody(TENSOR, FIELD, (0.3, -0.2, 1.0), (0.1, 0.2, 0.3), (0.4, 0.1, -0.6), 1.3),
+    "shaped": OwnBody(TENSOR, FIELD, (0.0, 0.0, 1.0), (0.1, 0.2, 0.3), (0.4, 0.1, -0.6), 1.3, SHAPE),
     "bent": OwnBody(TENSOR, BENT, (1.0, 0.5, -0.3)),
     "free": OwnBody(TENSOR, BENT, None, (0.2, 0.1, 0.0)),
 }
@@ -24,6 +26,10 @@ BODIES = {
 def matrix(tensor):
     I11, I22, I33, I12, I13, I23 = tensor
     return np.array([[I11, I12, I13], [I12, I22, I23], [I13, I23, I33]])
+
+
+def shape(body, t):
+    return body.shape(np.cos(body.frequency * t), np.sin(body.frequency * t), 0.0)
 
 
 def rates(body):
@@ -37,8 +43,8 @@ def rates(body):
 
     def of(t, y):
         omega, gamma = y[:3], y[3:]
-        K = np.array(body.momentum) + np.array(body.drive) * np.cos(body.frequency * t)
-        rate = -np.array(body.drive) * body.frequency * np.sin(body.frequency * t)
+        K = np.array(body.momentum) + np.array(body.drive) * shape(body, t)
+        rate = np.array(body.drive) * (shape(body, t + 1e-5) - shape(body, t - 1e-5)) / 2e-5
         N = np.cross(inertia @ omega + K, omega) + np.cross(gamma, gradient(gamma)) - rate
         if body.constraint is None:
             return np.concatenate([np.linalg.solve(inertia, N), np.cross(gamma, omega)])
@@ -61,7 +67,7 @@ def test_motions_are_those_of_the_equations_with_the_multiplier_and_keep_their_i
         # The work of the drive, by quadrature along the other solution.
         fine = np.linspace(0.0, 10.0, 4001)
         along = solve_ivp(rates(body), (0.0, 10.0), start[:6], "DOP853", fine, rtol=1e-10, atol=1e-11).y
-        power = body.frequency * np.sin(body.frequency * fine) * (np.array(body.drive) @ along[:3])
+        power = -np.gradient(shape(body, fine), fine, edge_order=2) * (np.array(body.drive) @ along[:3])
         assert found.states[-1, 8] == approx(np.trapezoid(power, fine), abs=1e-5)
 
 
@@ -84,6 +90,20 @@ def test_the_euler_top_turns_about_the_middle_axis_as_its_closed_form_says():
     sign = np.sign(found[1, 1])
     assert found[:, 1] == approx(sign * w * np.tanh(n * t), abs=1e-8)
     assert found[:, 0] == approx(first / np.cosh(n * t), abs=1e-8)
+
+
+def test_a_driven_body_is_seen_once_in_each_period_and_another_one_where_the_third_component_passes_zero():
+    body = BODIES["shaped"]
+    start = body.start((0.5, 0.9, -0.3), VERTICAL)
+    found = section(body, start, body.surface, 30.0, "precise")
+    assert found.times == approx(2 * np.pi / 1.3 * np.arange(1, 7), abs=1e-9)
+    assert found.states == approx(solve(body, start, found.times, "precise").states, abs=1e-7)
+    body = BODIES["gyrostat"]
+    found = section(body, body.start((0.5, 0.9, 0.0), VERTICAL), body.surface, 30.0, "precise")
+    assert found.times.size > 1
+    (w1, w2, _), (g1, g2, g3) = found.states[:, :3].T, found.states[:, 3:].T
+    assert np.abs(g3).max() < 1e-9
+    assert np.all(g1 * w2 - g2 * w1 > 0.0)
 
 
 def test_numbers_in_a_potential_do_not_change_the_equations_and_other_terms_do():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import field, fields, replace
 from typing import Any
 
@@ -76,9 +77,9 @@ def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, grou
     return _field(Choice("", label, options, default, doc, group))
 
 
-def formula(label: str, default: str, *, doc: str) -> Any:
-    """Declare a polynomial in γ₁, γ₂, γ₃, typed as a formula."""
-    return _field(Formula("", label, default, doc))
+def formula(label: str, default: str, reads: Callable[[str], object], *, doc: str) -> Any:
+    """Declare a formula; reads : raises `InvalidParameter` for texts that are none."""
+    return _field(Formula("", label, default, doc, reads=reads))
 
 
 def places(label: str, most: int, low: tuple[float, float], high: tuple[float, float], default: str = "") -> Any:
