@@ -21,25 +21,31 @@ from hess_explorer.library import exploring
 from hess_explorer.server.liveness import is_alive
 from hess_mechanics.errors import InvalidParameter
 from support.asynchronous import finished
+from support.visitor import Visitor
 
 
-def test_a_scene_in_a_notebook_says_what_the_hand_has_reached(browser):
+def wait_reached(shown, h):
+    """Wait until the state in Python is the one that was reached by hand."""
+    end = time.monotonic() + 30.0
+    while shown.state.parameters["h"] != h:
+        assert time.monotonic() < end, shown.state
+        time.sleep(0.05)
+
+
+def test_a_scene_in_a_notebook_says_what_the_hand_has_reached():
     with hess.explore("suslov-hess", h=1.2, accuracy="draft") as shown:
         assert (shown.state.scene, shown.state.parameters["h"]) == ("suslov-hess", 1.2)
         address = unescape(re.search(r'<iframe src="([^"]+)"', shown._repr_html_())[1])
         port = int(re.search(r":(\d+)/", address)[1])
-        page = browser.new_page()
-        page.goto(address)
-        wait_ready(page)
-        box = page.locator(".param-h input.exact")
-        box.fill("0.5")
-        box.press("Enter")
-        end = time.monotonic() + 30.0
-        while shown.state.parameters["h"] != 0.5:
-            assert time.monotonic() < end, shown.state
-            time.sleep(0.05)
+
+        async def move():
+            visitor = await Visitor.open(*address.split("/?"))
+            await visitor.ask(values={"h": 0.5})
+            await visitor.leave()
+
+        finished(move())
+        wait_reached(shown, 0.5)
         assert shown.state.parameters["accuracy"] == "draft"
-        page.close()
     assert not is_alive("127.0.0.1", port)
 
 
@@ -136,10 +142,7 @@ def test_a_scene_is_reached_through_the_proxy_of_a_hub(browser, monkeypatch):
         box = page.locator(".param-h input.exact")
         box.fill("0.5")
         box.press("Enter")
-        end = time.monotonic() + 30.0
-        while shown.state.parameters["h"] != 0.5:
-            assert time.monotonic() < end, shown.state
-            time.sleep(0.05)
+        wait_reached(shown, 0.5)
         # The manifest of the app is beside the page.
         manifest = page.evaluate("fetch(document.querySelector('link[rel=manifest]').href).then((one) => one.json())")
         assert manifest["start_url"] == "./"

@@ -72,30 +72,28 @@ def test_of_lorenz_they_are_those_of_the_literature():
     assert not found.paired
 
 
-def test_of_a_linear_system_they_are_its_eigenvalues():
-    def field(y, p):
-        a, b, c, d = p
-        return a * y[0] + y[1], b * y[1] + y[2], c * y[2] + d * y[0] * 0.0, -y[3]
+LINEAR = a_system(
+    lambda y, p: (p[0] * (1.0 - y[0]), p[1] * (2.0 + y[0] - y[1]), p[2] * (y[1] - 1.0 - y[2])),
+    "linear of a test",
+    3,
+    ((4.0, -2.0, 1.0), (0.2, 0.5, 0.9)),
+)
+"""A linear system at rest in (1, 3, 2), with the eigenvalues −p."""
 
-    linear = a_system(field, "linear of a test", 4, ((0.0, 0.0, 0.0, 0.0), (0.7, -0.3, 0.1, 0.0)))
-    found = lyapunov_spectrum(*linear.example_motion, 300.0, REFERENCE)
-    assert found.values == approx([0.7, 0.1, -0.3, -1.0], abs=1e-12)
+
+def test_of_a_linear_system_they_are_its_eigenvalues():
+    found = lyapunov_spectrum(LINEAR.at((-0.7, 1.0, -0.1)), (1.0, 3.0, 2.0), 300.0, REFERENCE)
+    assert found.values == approx([0.7, 0.1, -1.0], abs=1e-12)
     assert found.error_estimate < 1e-11
-    assert found.divergence == approx(-0.5, abs=1e-13)
-    assert found.signs == ("+", "+", "-", "-")
-    # k = 3: 3 + 0.5/1.
-    assert found.dimension[0] == approx(3.5, abs=1e-10)
+    assert found.divergence == approx(-0.2, abs=1e-13)
+    assert found.signs == ("+", "+", "-")
+    # k = 2: 2 + 0.8/1.
+    assert found.dimension[0] == approx(2.8, abs=1e-10)
 
 
 def test_of_a_motion_that_comes_to_rest_they_are_the_eigenvalues_there():
-    # Near rest at (1, 3, 2) the rate is lost in round-off, and long before the end it is 0.
-    comes = a_system(
-        lambda y, p: (p[0] * (1.0 - y[0]), p[1] * (2.0 + y[0] - y[1]), p[2] * (y[1] - 1.0 - y[2])),
-        "rest of a test",
-        3,
-        ((4.0, -2.0, 1.0), (0.2, 0.5, 0.9)),
-    )
-    found = lyapunov_spectrum(*comes.example_motion, 500.0, REFERENCE)
+    # Near rest the rate is lost in round-off, and long before the end it is 0.
+    found = lyapunov_spectrum(*LINEAR.example_motion, 500.0, REFERENCE)
     assert found.values == approx([-0.2, -0.5, -0.9], abs=1e-9)
     assert found.values.sum() == approx(found.divergence, abs=1e-10)
     assert found.signs == ("-", "-", "-")
