@@ -31,6 +31,7 @@ def pytest_addoption(parser):
 
 def pytest_configure(config):
     """With several test processes, compile all kernels once before they start; those of the page share one server."""
+    from support.processes import UNWARMED
     from support.thorough import load_profile
 
     load_profile(is_thorough=config.getoption("thorough"))
@@ -41,11 +42,11 @@ def pytest_configure(config):
         compile_half = "from hess_explorer.server.warm import compile_all; compile_all(backwards={})"
         halves = [subprocess.Popen([sys.executable, "-c", compile_half.format(end)]) for end in (False, True)]
         assert [half.wait() for half in halves] == [0, 0], "the kernels could not be compiled"
-        # It computes the first states of all scenes while the tests begin: only the page needs them.
+        # Only the page needs it.
         if any(Path(one.partition("::")[0]).name in ("tests", "page") for one in config.args):
             shared = config.stash[SHARED] = ExitStack()
             log = Path(shared.enter_context(tempfile.TemporaryDirectory())) / "server.log"
-            config.stash[SHARED_SERVER] = (shared.enter_context(server_process(log))[1], str(log))
+            config.stash[SHARED_SERVER] = (shared.enter_context(server_process(log, UNWARMED))[1], str(log))
 
 
 def pytest_collection_modifyitems(config, items):
@@ -79,11 +80,13 @@ def browser():
 @pytest.fixture(scope="session")
 def server(pytestconfig, tmp_path_factory):
     """Return the base URL of a server for the whole run; its log is checked when a process has ended."""
+    from support.processes import UNWARMED
+
     with ExitStack() as own:
         shared = getattr(pytestconfig, "workerinput", {}).get("server")
         if shared is None:
             log = tmp_path_factory.mktemp("server") / "server.log"
-            base = own.enter_context(server_process(log))[1]
+            base = own.enter_context(server_process(log, UNWARMED))[1]
         else:
             base, log = shared[0], Path(shared[1])
         yield base

@@ -24,9 +24,9 @@ if __name__ == "__main__":
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 
 from hess_explorer.headless.screenshot import wait_alive
-from support.processes import below
+from support.processes import UNWARMED, below
 from support.room import Follower, Lecturer
-from support.serving import UNWARMED, free_port
+from support.serving import free_port
 from support.visitor import Visitor
 
 ROOT = Path(__file__).resolve().parents[1]

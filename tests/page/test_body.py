@@ -11,6 +11,7 @@ from PIL import Image
 
 from hess_explorer.scenes import scenes
 from support.page import brought, wait_frames
+from support.thorough import sample
 
 QUARTIC = scenes()["quartic"]
 RADIUS = 0.84
@@ -163,15 +164,18 @@ def test_a_wheel_rolls_without_slipping(quartic):
     body = quartic.data("body")
     at, e = np.array(body["wheels"][:3]), np.array(body["wheels"][3:6])
     rotations = [placed(body, i) for i in range(len(body["t"]))]
-    way, checked = 0.0, 0
+    view = view_of(tuple(map(float, canvas(quartic).get_attribute("data-turn").split())))
+    way, seen_well = 0.0, []
     for i, (before, now) in enumerate(pairwise(rotations), 1):
         step = now @ at - before @ at
         way += 2.0 * asin(0.5 * hypot(*step)) * np.sign(step @ (now @ e))
-        turn = tuple(map(float, canvas(quartic).get_attribute("data-turn").split()))
-        contact, along, axle = (view_of(turn) @ now @ v for v in (at, e, np.cross(at, e)))
+        contact, along, axle = (view @ now @ v for v in (at, e, np.cross(at, e)))
         # Only where the wheel is in front, and seen from the side.
-        if i % 3 or contact[2] < 0.2 or abs(axle[2]) < 0.5:
-            continue
+        if contact[2] >= 0.2 and abs(axle[2]) >= 0.5:
+            seen_well.append((i, way, contact, along, axle))
+    checked = sample(seen_well, 12)
+    assert len(checked) > 5
+    for i, way, contact, along, axle in checked:
         quartic.set_time(body["t"][i])
         wait_frames(quartic)
         painted = pixels(quartic)
@@ -183,5 +187,3 @@ def test_a_wheel_rolls_without_slipping(quartic):
             red, _, blueness, _ = painted[round(half - RADIUS * half * y - 0.5), round(half + RADIUS * half * x - 0.5)]
             blue.append(blueness - red > 90)
         assert blue == [True] + [False] * 11, i
-        checked += 1
-    assert checked > 5

@@ -108,8 +108,9 @@ def through_pictures(explorer):
 
 # First one that takes numbers, boxes and clicks.
 OWN = sorted((name for name, scene in SCENES.items() if scene.origin is None), key=lambda name: name != "ball-section")
-# Scenes of errors are all of one class: the first one of each number of pictures.
-ERRORS = {len(scene.views): name for name, scene in reversed(SCENES.items()) if scene.origin is not None}.values()
+# Scenes of errors are all of one class: the first one of each number of pictures, that with the most pictures first.
+BY_PICTURES = {len(scene.views): name for name, scene in reversed(SCENES.items()) if scene.origin is not None}
+ERRORS = [name for _, name in sorted(BY_PICTURES.items(), reverse=True)]
 
 
 @pytest.mark.parametrize("scene", [*sample(OWN, 1), *sample(ERRORS, 1)])

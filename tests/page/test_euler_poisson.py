@@ -13,7 +13,7 @@ from hess_explorer.protocol.parameters import places
 from support.euler_poisson import EP
 from support.page import ENTER, brought, one_tab
 from support.pointer import at
-from support.serving import UNWARMED
+from support.processes import UNWARMED
 
 NUMBERS = {"orbits": 8.0, "count": 40.0, "long": 20.0, "span": 5.0}
 SMALL = {**NUMBERS, "indicator": "nothing"}

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import server_process
 from hess_explorer.lessons import shipped, tries
 from hess_explorer.lessons.reading import read
@@ -18,7 +17,7 @@ from support.accessible import assert_accessible
 from support.board import SCENES
 from support.page import ALL, HESS, WIDE, Explorer, flat, values_of, wait_frames
 from support.pointer import at, frame
-from support.serving import UNWARMED
+from support.processes import UNWARMED
 
 NAME = "scattering-by-a-nonholonomic-top"
 LOGARITHMIC = """name => {
@@ -82,7 +81,7 @@ def distance(explorer, prediction, shares, axes):
 
 def test_a_lesson_stays_beside_the_pictures_in_present_mode(explorer):
     page, step = explorer.page, shipped()[NAME].steps[2]
-    explorer.goto(f"/?lesson={NAME}&step=3")
+    explorer.begin_lesson(NAME, 3)
     assert page.locator(".words").is_hidden()
     assert re.fullmatch(r"\d:\d\d of 20 min", page.locator(".timer").inner_text())
     assert_accessible(page)
@@ -112,7 +111,7 @@ def test_a_lesson_stays_beside_the_pictures_in_present_mode(explorer):
     page.keyboard.press("m")
     page.keyboard.press("p")
     page.wait_for_function("!location.search.includes('present')")
-    page.locator(".param-leave-lesson").click()
+    explorer.leave_lesson()
 
 
 def test_what_can_be_tried_is_done_for_one(explorer):
@@ -168,19 +167,11 @@ LINES = """item => {
 }"""
 
 
-def turn_to(tab, number):
-    """Go on in the lesson to this step, past guesses and questions."""
-    count = tab.page.locator(".lesson .count")
-    while not count.inner_text().startswith(f"{number} /"):
-        tab.page.keyboard.press("PageDown")
-        wait_ready(tab.page)
-
-
 def test_a_lesson_in_a_narrow_and_a_wide_window_keeps_text_slider_and_pictures_in_sight(tab):
     """One visit: from a guess that leaves no frame to pictures that have their new size."""
     tab.fresh()
     page, steps = tab.page, shipped()[CYCLES].steps
-    tab.goto(f"/?lesson={CYCLES}&step=5")
+    tab.begin_lesson(CYCLES, 5)
     sheet = page.locator("canvas.guess")
     for key in ("Tab", "ArrowRight"):
         sheet.press(key) if key == "ArrowRight" else sheet.focus()
@@ -190,7 +181,7 @@ def test_a_lesson_in_a_narrow_and_a_wide_window_keeps_text_slider_and_pictures_i
     assert sheet.evaluate("item => [getComputedStyle(item).outlineStyle, item.style.boxShadow]") == ["none", ""]
     assert sheet.evaluate("item => item.getRootNode().activeElement") is None
     # A narrow window has the text of the lesson; the slider follows what is animated.
-    turn_to(tab, 7)
+    tab.turn_to_step(7)
     tab.resize(1280, 720)
     box = page.locator(".lesson .title").bounding_box()
     assert page.locator(".lesson .title").is_visible()
@@ -205,7 +196,7 @@ def test_a_lesson_in_a_narrow_and_a_wide_window_keeps_text_slider_and_pictures_i
     page.keyboard.press("Escape")
     page.mouse.click(5, 5)
     # Text and slider of a step are in sight together, and there is one value.
-    turn_to(tab, 10)
+    tab.turn_to_step(10)
     text, control = page.locator(".lesson .text"), page.locator(".step-controls .param-h")
     for item in (text, control):
         box = item.bounding_box()
@@ -224,7 +215,7 @@ def test_a_lesson_in_a_narrow_and_a_wide_window_keeps_text_slider_and_pictures_i
     assert page.locator(".step-controls").is_hidden()
     # A picture has its new size in a scene that is entered again.
     page.evaluate("document.activeElement?.blur()")
-    turn_to(tab, 13)
+    tab.turn_to_step(13)
     wait_frames(tab, 4)
     widths = page.evaluate(WIDTHS)
     assert len(widths) == 3
@@ -404,15 +395,18 @@ def assert_could_be_guessed(tab, prediction, axes):
 
 
 @pytest.mark.parametrize(("name", "place"), GIVEN)
-def test_a_lesson_is_given_from_start_to_end(browser, server, name, place):
-    (width, height), lesson, is_phone = SIZES[place], shipped()[name], place == "phone"
-    context = browser.new_context(
-        viewport={"width": width, "height": height}, reduced_motion="reduce", has_touch=is_phone, is_mobile=is_phone
-    )
-    tab = Explorer(context.new_page(), server)
+def test_a_lesson_is_given_from_start_to_end(request, name, place):
+    (width, height), lesson = SIZES[place], shipped()[name]
+    if place == "phone":
+        tab = request.getfixturevalue("phone")()
+    else:
+        tab = request.getfixturevalue("explorer")
+        tab.resize(width, height)
     page = tab.page
-    press = page.touchscreen.tap if is_phone else page.mouse.click
-    tab.goto(f"/?lesson={name}" + ("&present=1" if place == "present" else ""))
+    press = page.touchscreen.tap if place == "phone" else page.mouse.click
+    tab.begin_lesson(name)
+    if place == "present":
+        page.evaluate("hess.tell('present')")
     for number, step in enumerate(lesson.steps, 1):
         title, count, (lines, seen), controls, boxes, wide = page.evaluate(SHOWN, step.look)
         assert (title, count) == (step.title, f"{number} / {len(lesson.steps)}")
@@ -449,5 +443,6 @@ def test_a_lesson_is_given_from_start_to_end(browser, server, name, place):
             assert_in_sight(answer, 3)
         if number < len(lesson.steps):
             tab.change(page.keyboard.press, "PageDown")
-    tab.assert_quiet()
-    context.close()
+    if place == "present":
+        page.evaluate("hess.tell('present')")
+    tab.leave_lesson()

@@ -5,7 +5,7 @@ from playwright.sync_api import expect
 from pytest import approx
 
 from hess_explorer.scenes import scenes
-from support.page import HESS, WIDE, Explorer
+from support.page import HESS, VISITOR, WIDE, Explorer
 from support.pointer import at
 
 SIGN = ".drag-me:visible"
@@ -27,6 +27,7 @@ def fresh_browser(browser, server):
 
     def visit(query, motion):
         context = browser.new_context(viewport=dict(zip(("width", "height"), WIDE, strict=True)), reduced_motion=motion)
+        context.add_init_script(VISITOR)
         tabs.append(Explorer(context.new_page(), server))
         return tabs[-1].open(query)
 
@@ -50,6 +51,8 @@ def moves(explorer):
 def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_nothing(fresh_browser):
     explorer = fresh_browser(f"scene={HESS}", "no-preference")
     page = explorer.page
+    # A link with a state has no introduction.
+    assert page.get_by_role("region", name="Introduction").count() == 0
     # The address is written a moment after the first state.
     page.wait_for_function("location.search.includes('v=1')")
     assert page.locator(SIGN).count() == 1

@@ -21,6 +21,7 @@ from support.page import (
     SLIDE,
     SLIDERS,
     Explorer,
+    wait_frames,
 )
 from support.suslov_hess import assert_defaults, assert_orbit
 
@@ -187,6 +188,12 @@ def assert_linked(explorer, values):
     assert_orbit(explorer, {**DEFAULTS, **values})
 
 
+def widths(explorer):
+    """The width of each picture, of the enlarged ones too."""
+    pictures = explorer.page.locator(".gallery:not(.away) .picture:visible .host")
+    return pictures.evaluate_all("hosts => hosts.map((host) => host.getBoundingClientRect().width)")
+
+
 def test_the_link_follows_what_the_user_does_and_opens_the_same_page_elsewhere(explorer, open_page):
     explorer.change(lambda: explorer.slide(I22=1.25, I23=-0.5, h=0.75, span=15.0))
     explorer.change(lambda: explorer.type("f", "1e-3"))
@@ -202,7 +209,15 @@ def test_the_link_follows_what_the_user_does_and_opens_the_same_page_elsewhere(e
     explorer.page.wait_for_function("location.search.includes('el=1.57')")
     assert explorer.turn[1] == approx(pi / 2, abs=1e-4)
 
+    # Two enlarged pictures.
+    explorer.page.evaluate("document.activeElement?.blur()")
+    for key in ("3", "Shift+Digit1"):
+        explorer.page.keyboard.press(key)
+    explorer.page.wait_for_function("location.search.includes('large')")
+
     other = Explorer(open_page(urlsplit(explorer.page.url).query), explorer.base)
+    wait_frames(other, 4)
+    assert widths(other) == approx(widths(explorer), abs=1)
     assert_linked(other, {"I22": 1.25, "I23": -0.5, "h": 0.75, "span": 15.0, "f": 1e-3})
     assert other.time == approx(7.5)
     assert other.page.locator(".param-speed").input_value() == "2"

@@ -10,11 +10,11 @@ from PIL import Image, ImageChops
 from hess_explorer.protocol.parameters import Number
 from hess_explorer.scenes import scenes
 from hess_explorer.server.qr_code import drawing
-from support.page import HESS, WIDE, Explorer, wait_frames
+from support.page import HESS, wait_frames
 from support.thorough import sample
 
 # A print dialog cannot be answered by a test.
-NO_DIALOG = "window.printed = 0; window.print = () => { window.printed += 1 }"
+NO_DIALOG = "() => { window.printed = 0; window.print = () => { window.printed += 1 } }"
 # {text of the head of each row: value}; of each picture its width, the share of its pixels that are white or light
 # grey, and how many have the blue of an orbit on a light page.
 HANDOUT = """() => {
@@ -41,11 +41,15 @@ HANDOUT = """() => {
 
 
 @pytest.mark.parametrize("theme", sample(["light", "dark"], 1))
-def test_a_handout_has_the_pictures_the_numbers_the_text_and_the_link_dark_on_white(browser, server, theme):
-    context = browser.new_context(viewport=dict(zip(("width", "height"), WIDE, strict=True)), reduced_motion="reduce")
-    page = context.new_page()
-    page.add_init_script(NO_DIALOG)
-    explorer = Explorer(page, server).open(f"scene={HESS}&h=1.25&t=2&theme={theme}")
+def test_a_handout_has_the_pictures_the_numbers_the_text_and_the_link_dark_on_white(explorer, theme):
+    page = explorer.page
+    page.evaluate(NO_DIALOG)
+    # With all groups unfolded the controls can be scrolled, which printing forgets.
+    explorer.fold_controls()
+    explorer.turn_theme(is_dark=theme == "dark")
+    explorer.change(lambda: explorer.slide(h=1.25))
+    explorer.set_time(2.0)
+    explorer.wait_url(h="1.25")
     # Painted once more, as it is after a print: lines over lines differ by a shade.
     page.evaluate("hess.tell('turn', ['body', 0.6, 0.35])")
     wait_frames(explorer, 4)
@@ -84,5 +88,3 @@ def test_a_handout_has_the_pictures_the_numbers_the_text_and_the_link_dark_on_wh
     page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
     assert page.evaluate(HANDOUT)["pictures"] == found["pictures"]
     page.evaluate("window.dispatchEvent(new Event('afterprint'))")
-    explorer.assert_quiet()
-    context.close()

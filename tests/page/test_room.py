@@ -54,7 +54,7 @@ def lecture(tab, browser):
     )
     phone = Explorer(context.new_page(), tab.base)
     page = tab.page
-    tab.goto(f"/?lesson={LESSON.name}&step={STEP}")
+    tab.begin_lesson(LESSON.name, STEP)
     page.get_by_role("button", name="Invite").click()
     page.locator(".invite .code svg").wait_for()
     [address] = read(page.locator(".invite .code").screenshot())
@@ -72,8 +72,7 @@ def lecture(tab, browser):
         page.get_by_role("button", name="End the lecture").click()
         page.locator(".param-invite[aria-pressed=false]").wait_for()
         page.keyboard.press("Escape")
-    if page.locator(".param-leave-lesson").is_visible():
-        page.locator(".param-leave-lesson").click()
+    tab.leave_lesson()
     tab.assert_quiet()
 
 
@@ -163,7 +162,7 @@ def test_a_follower_plays_alone_and_comes_back_and_the_room_outlives_a_reload(le
         sockets.append(socket)
 
     page.keyboard.press("Escape")
-    page.locator(".param-leave-lesson").click()
+    tab.leave_lesson()
     tab.change(lambda: page.evaluate("hess.tell('scene', 'loxodrome')"))
     follows(small, "scene=loxodrome")
     assert small.locator(".lesson").is_hidden()
@@ -204,8 +203,9 @@ def test_a_follower_plays_alone_and_comes_back_and_the_room_outlives_a_reload(le
     assert small.get_by_role("link", name="Back to the lecture").count() == 0
 
 
-def test_a_code_that_is_none_says_so(open_page, server):
-    page = open_page()
+def test_a_code_that_is_none_says_so(browser, server):
+    page = browser.new_page()
     page.goto(f"{server}/r/AAAAAA")
     page.get_by_text("There is no such room: its lecture has ended, or the code is wrong.").wait_for()
     assert page.get_by_role("link", name="Open Hess Explorer").get_attribute("href") == "./"
+    page.close()

@@ -10,6 +10,7 @@ from hess_explorer.headless.screenshot import server_process
 from hess_explorer.sweep import explain, read, sweep
 from hess_explorer.sweep.shown import chart_file
 from hess_mechanics.errors import InvalidParameter
+from support.processes import UNWARMED
 
 OVER = {"h": (-0.5, 2.0, 6), "f": (-1.0, 1.0, 5)}
 
@@ -56,7 +57,7 @@ def test_a_function_belongs_to_no_scene():
 
 def test_the_page_opens_the_chart_of_a_store(browser, tmp_path):
     sweep("rotation-number", OVER, a=0.25, store=tmp_path / "rho.zarr")
-    with server_process(tmp_path / "log", options=["--chart", str(tmp_path / "rho.zarr")]) as (_, url):
+    with server_process(tmp_path / "log", UNWARMED, ["--chart", str(tmp_path / "rho.zarr")]) as (_, url):
         page = browser.new_page()
         page.goto(url)
         wait_ready(page)

@@ -173,7 +173,7 @@ def test_a_finger_draws_a_box_and_a_cancelled_one_is_forgotten(phone):
 
 def test_a_phone_opens_on_the_picture_that_the_sentence_speaks_of(phone):
     tab = phone("quartic")
-    for name in ("scattering", "suslov-hess", "orbit-diagram"):
+    for name in ("scattering", "suslov-hess", "chaplygin-ball"):
         tab.change(tab.page.evaluate, "scene => hess.tell('scene', scene)", name)
         scene = scenes()[name]
         (view,) = (view for view in scene.views if tab.picture(view.name).is_visible())

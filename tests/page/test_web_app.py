@@ -7,6 +7,7 @@ from PIL import Image
 
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import server_process
+from support.processes import UNWARMED
 
 REGISTERED = "navigator.serviceWorker.getRegistrations().then((found) => found.length)"
 KEPT = """
@@ -16,7 +17,7 @@ caches.keys().then((names) => Promise.all(names.map((name) => caches.open(name).
 
 
 def test_an_installed_app_says_what_to_do_when_its_server_has_stopped(browser, tmp_path):
-    with server_process(tmp_path / "log") as (process, url):
+    with server_process(tmp_path / "log", UNWARMED) as (process, url):
         context = browser.new_context()
         page = context.new_page()
         page.goto(f"{url}/?scene=suslov-hess")

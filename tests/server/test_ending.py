@@ -10,8 +10,7 @@ import pytest
 
 from hess_explorer.headless.screenshot import server_process
 from support.asynchronous import finished
-from support.processes import assert_gone, below
-from support.serving import UNWARMED
+from support.processes import UNWARMED, assert_gone, below
 from support.visitor import Visitor
 
 WORKERS = ("--workers", "2")

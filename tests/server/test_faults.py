@@ -14,7 +14,8 @@ from hess_explorer.server import compiled
 from hess_mechanics.numerics.jit import CACHE_FOLDER
 from support.asynchronous import finished
 from support.kernels import copy_kernels
-from support.serving import UNWARMED, free_port
+from support.processes import UNWARMED
+from support.serving import free_port
 from support.visitor import Visitor
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -13,9 +13,9 @@ from hess_explorer.rooms import room
 from hess_explorer.scenes import scenes
 from hess_explorer.server.room_socket import Outbox
 from support.asynchronous import finished
-from support.processes import assert_gone, below
+from support.processes import UNWARMED, assert_gone, below
 from support.room import Follower, Lecturer, new_code
-from support.serving import UNWARMED, served
+from support.serving import served
 
 ENDED = "4001: The lecture has ended."
 UNKNOWN = "4004: There is no such room: its lecture has ended, or the code is wrong."

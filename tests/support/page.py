@@ -2,6 +2,7 @@
 
 import json
 import re
+from functools import partial
 from urllib.parse import parse_qsl, urlsplit
 
 from hess_explorer.headless.browser import wait_ready
@@ -19,6 +20,9 @@ WIDE = (1600, 950)
 """The size of the window that most tests share."""
 SLIDERS = {"I22": 0.01, "I23": 0.01, "b3": 0.01, "h": 0.01, "f": 0.01, "phi0": 0.01, "span": 1.0}
 """The numbers, with the step of each slider at the default state."""
+
+VISITOR = "Object.defineProperty(navigator, 'webdriver', { get: () => false })"
+"""The introduction is not for programs that drive a browser."""
 
 
 def scene_of(query):
@@ -88,8 +92,7 @@ class Explorer:
             page.set_viewport_size({"width": WIDE[0], "height": WIDE[1]})
         if not page.url.startswith(self.base) or not self.ready:
             return self.open(f"scene={scene}")
-        if page.locator(".param-leave-lesson").is_visible():
-            page.locator(".param-leave-lesson").click()
+        self.leave_lesson()
         self.turn_theme(is_dark=False)
         if page.evaluate("document.documentElement.dataset.scene") != scene:
             # Without the menu, which offers of the scenes that look into another one only that of the scene on show.
@@ -274,6 +277,24 @@ class Explorer:
         """Open the menu of scenes."""
         self.page.locator(".param-scenes").click()
 
+    def begin_lesson(self, name, step=1):
+        """Choose a lesson from the menu, which may be folded, and go on to a step."""
+        self.change(self.page.locator(f".param-lesson-{name}").dispatch_event, "click")
+        self.turn_to_step(step)
+
+    def turn_to_step(self, number):
+        """Go on in the lesson to this step, past guesses and questions."""
+        count = self.page.locator(".lesson .count")
+        while not count.inner_text().startswith(f"{number} /"):
+            self.page.keyboard.press("PageDown")
+            wait_ready(self.page)
+
+    def leave_lesson(self):
+        """Leave the lesson, if there is one."""
+        button = self.page.locator(".param-leave-lesson")
+        if button.is_visible():
+            button.click()
+
     def type(self, name, text):
         """Type into the box of a number, and press Enter."""
         box = self.box(name)
@@ -407,22 +428,24 @@ def one_phone(browser, server):
     context.close()
 
 
+def brought_on_phone(phone_tab, scene=HESS):
+    """The page on a phone in the first state of a scene, with its first picture."""
+    page = phone_tab.page
+    phone_tab.leave_lesson()
+    if page.evaluate("document.documentElement.dataset.scene") != scene:
+        phone_tab.change(lambda: page.evaluate("scene => hess.tell('scene', scene)", scene))
+    first = page.locator(".chips .chip").first
+    if first.get_attribute("aria-pressed") != "true":
+        phone_tab.change(first.click)
+    page.evaluate(HOMEWARDS)
+    phone_tab.change(lambda: page.evaluate("hess.tell('reset')"))
+    return phone_tab
+
+
 def first_on_phone(phone_tab):
-    """phone(scene) → the page on a phone in the first state of a scene, with its first picture."""
-
-    def bring(scene=HESS):
-        page = phone_tab.page
-        if page.evaluate("document.documentElement.dataset.scene") != scene:
-            phone_tab.change(lambda: page.evaluate("scene => hess.tell('scene', scene)", scene))
-        first = page.locator(".chips .chip").first
-        if first.get_attribute("aria-pressed") != "true":
-            phone_tab.change(first.click)
-        page.evaluate(HOMEWARDS)
-        phone_tab.change(lambda: page.evaluate("hess.tell('reset')"))
-        return phone_tab
-
+    """phone(scene) → `brought_on_phone`; at the end assert no errors and no requests to other hosts."""
     phone_tab.assert_quiet()
-    yield bring
+    yield partial(brought_on_phone, phone_tab)
     phone_tab.assert_quiet()
 
 

@@ -1,10 +1,23 @@
-"""Child processes: interrupt them, and measure their memory and CPU time."""
+"""Child processes: servers, and how to interrupt them and measure their memory and CPU time."""
 
 import os
 import signal
 import time
 from contextlib import contextmanager
 from pathlib import Path
+
+# It gets no scene ready before somebody enters it: that takes longer than the test of one or two.
+UNWARMED = (
+    "-c",
+    """
+from hess_explorer.__main__ import main
+from hess_explorer.server import serving
+
+serving.warm = lambda first_is_ready: first_is_ready()
+main()
+""",
+)
+"""What Python is told to run as a server, for `server_process`."""
 
 
 @contextmanager

@@ -11,19 +11,6 @@ from hess_explorer.server import serving
 from hess_explorer.server.handlers import replace_handlers
 from hess_explorer.server.liveness import is_alive
 
-# It gets no scene ready before somebody enters it: that takes longer than the test of one or two.
-UNWARMED = (
-    "-c",
-    """
-from hess_explorer.__main__ import main
-from hess_explorer.server import serving
-
-serving.warm = lambda first_is_ready: first_is_ready()
-main()
-""",
-)
-"""What Python is told to run as a server, for `server_process`."""
-
 
 @contextmanager
 def served(embedders=("*",), sessions=1000, **changed):
