@@ -7,7 +7,7 @@ import hess_explorer as hess
 from hess_explorer.scenes import scenes
 from hess_mechanics import solve
 
-CHOSEN = {"U": "", "d3": 1.0, "frequency": 1.3, "p": "cos(W*t) + 0.5*sin(2*W*t)", "w1": 1.0, "long": 60.0}
+CHOSEN = {"U": "", "d1": 0.4, "d3": 1.0, "frequency": 1.3, "p": "cos(W*t) + 0.5*sin(2*W*t)", "w1": 1.0, "long": 60.0}
 
 
 def test_a_driven_body_is_shown_once_in_each_period_with_the_work_of_its_drive():
@@ -22,5 +22,6 @@ def test_a_driven_body_is_shown_once_in_each_period_with_the_work_of_its_drive()
     assert np.asarray(change["y"]) == approx(np.asarray(work["y"]), abs=1e-5)
     inertia = np.array([[2.0, 0.0, 0.3], [0.0, 1.5, 0.2], [0.3, 0.2, 1.2]])
     omega = solve(own.body, own.start, [own.lasts], "precise").states[0, :3]
+    assert abs(np.asarray(work["y"])[-1]) > 1e-3
     energies = [w @ inertia @ w / 2 for w in (np.array(own.start[:3]), omega)]
     assert np.asarray(change["y"])[-1] == approx(energies[1] - energies[0], abs=1e-5)
