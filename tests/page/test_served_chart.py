@@ -47,6 +47,21 @@ def test_what_is_no_chart_is_said(over, said):
         chart_file(sweep("rotation-number", over, a=0.5, **({} if "f" in over else {"f": 0.1})))
 
 
+def test_of_three_sides_one_has_a_chosen_value():
+    found = sweep("rotation-number", {"a": [0.25, 0.5], **OVER})
+    chart = chart_file(found, {"a": 0.5})
+    assert "a=0.5" in chart["state"]
+    single = chart_file(sweep("rotation-number", OVER, a=0.5))
+    assert (chart["values"], chart["link"]) == (single["values"], single["link"])
+    for at, said in (
+        ({}, "is over a, h, f: choose a value of each further one with --slice"),
+        ({"a": 0.3}, "no cells at a = 0.3: the nearest are at 0.25"),
+        ({"b": 1.0}, "no side 'b' to choose a value of: choose among a, h, f"),
+    ):
+        with pytest.raises(InvalidParameter, match=said):
+            chart_file(found, at)
+
+
 def test_a_function_belongs_to_no_scene():
     def own(x, y):
         return x * y

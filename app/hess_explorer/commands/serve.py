@@ -11,13 +11,13 @@ import re
 import signal
 import socket
 import webbrowser
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from . import CommandError
-from .arguments import run_file, shown
+from .arguments import assigned, number, run_file, shown
 from .command import Command, Options, option, whole
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ def _embedder(text: str) -> str:
 def _run(options: Options) -> None:
     _add_scenes(options.scenes)
     lessons = _lessons(options.lessons)
-    chart, state = _chart(options.chart)
+    chart, state = _chart(options.chart, dict(options.slice))
     _require_free(options.address, options.port)
     if options.workers > 1 and not hasattr(os, "fork"):
         raise CommandError("--workers needs an operating system with fork: run the command without it.")
@@ -95,16 +95,18 @@ def _add_scenes(paths: Sequence[Path]) -> None:
             raise CommandError(f"{shown(str(path))} brings no scene: {error}") from error
 
 
-def _chart(path: Path | None) -> tuple[str | None, str]:
+def _chart(path: Path | None, at: Mapping[str, float]) -> tuple[str | None, str]:
     """Return the text of the chart of a store, and the address of its state behind that of the server."""
     if path is None:
+        if at:
+            raise CommandError("--slice belongs to a chart: add --chart FOLDER.")
         return None, ""
     from hess_explorer.sweep import read
     from hess_explorer.sweep.shown import chart_file
     from hess_mechanics.errors import ModelError
 
     try:
-        found = chart_file(read(path))
+        found = chart_file(read(path), at)
     except ModelError as error:
         raise CommandError(str(error)) from error
     return json.dumps(found, ensure_ascii=False, allow_nan=False), f"/{found['link']}"
@@ -203,6 +205,14 @@ COMMAND = Command(
             "store of a sweep over two parameters of a scene, which opens as a chart",
             type=Path,
             metavar="FOLDER",
+        ),
+        option(
+            "--slice",
+            "value of a further parameter of that sweep; may be repeated",
+            type=assigned(number, "a=0.5"),
+            default=[],
+            metavar="NAME=NUMBER",
+            **_SEVERAL,
         ),
         option(
             "--scene",

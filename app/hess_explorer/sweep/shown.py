@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,15 +24,20 @@ if TYPE_CHECKING:
 __all__ = ["chart_file"]
 
 
-def chart_file(found: xr.Dataset) -> dict[str, Any]:
+def chart_file(found: xr.Dataset, at: Mapping[str, float] | None = None) -> dict[str, Any]:
     """Return the contents of the file in which the page would save this chart.
 
+    at : values of the other parameters of a sweep over more than two.
     A side with more cells than the page shows has every second or every third cell, and so on.  Raises
     `InvalidParameter` if the sweep is none over two evenly spaced parameters of a scene.
     """
+    found = _slice(found, at or {})
     names = tuple(map(str, found.status.dims))
     if len(names) != 2:
-        raise InvalidParameter(f"A chart has two sides, but this sweep is over {', '.join(names)}: open it in Python.")
+        advice = "choose a value of each further one with --slice NAME=NUMBER, or " if len(names) > 2 else ""
+        raise InvalidParameter(
+            f"A chart has two sides, but this sweep is over {', '.join(names)}: {advice}open it in Python."
+        )
     steps = {name: math.ceil((found.sizes[name] - 1) / (MOST_SIDE - 1)) for name in names}
     if min(steps.values()) < 1:
         raise InvalidParameter("A side of a chart needs two values or more: open the sweep in Python.")
@@ -43,7 +49,9 @@ def chart_file(found: xr.Dataset) -> dict[str, Any]:
     if not all(
         np.allclose(found[side.name], side.places, rtol=0.0, atol=1e-9 * abs(side.high - side.low)) for side in sides
     ):
-        raise InvalidParameter("The sides of a chart are evenly spaced: open the sweep in Python.")
+        raise InvalidParameter(
+            "The sides of a chart are evenly spaced: sweep over ranges LO:HI:N, or open the sweep in Python."
+        )
     fixed = json.loads(found.attrs["parameters"])
     for scene in scenes().values():
         for charted in scene.charts:
@@ -53,8 +61,26 @@ def chart_file(found: xr.Dataset) -> dict[str, Any]:
                     return _written(chart, found)
     raise InvalidParameter(
         f"No scene shows {found.attrs['quantity']} over {' and '.join(names)} with these parameters: open the sweep in "
-        "Python with hess_explorer.sweep.read."
+        "Python with hess_explorer.sweep.read, which also reads functions of your own."
     )
+
+
+def _slice(found: xr.Dataset, at: Mapping[str, float]) -> xr.Dataset:
+    """Return a sweep at values of some of its parameters, which become fixed ones.  Raises `InvalidParameter`."""
+    fixed = json.loads(found.attrs["parameters"])
+    for name, value in at.items():
+        if name not in found.status.dims:
+            raise InvalidParameter(
+                f"The sweep has no side {name!r} to choose a value of: choose among "
+                f"{', '.join(map(str, found.status.dims))}."
+            )
+        places = found[name].values
+        i = int(np.argmin(np.abs(places - value)))
+        if not math.isclose(places[i], value, rel_tol=1e-9, abs_tol=1e-12):
+            raise InvalidParameter(f"The sweep has no cells at {name} = {value:g}: the nearest are at {places[i]!s}.")
+        fixed[name] = float(places[i])
+        found = found.isel({name: i})
+    return found.assign_attrs(parameters=json.dumps(fixed))
 
 
 def _in_scene(
