@@ -97,14 +97,19 @@ def random_state(system, random):
     return np.concatenate((slow, vertical / np.linalg.norm(vertical) * np.linalg.norm(state[count:])))
 
 
+def rounded(values):
+    """Return the values with 12 digits: the last ones, which differ between processors, would not be found stored."""
+    return np.reshape([float(f"{x:.12g}") for x in np.ravel(values)], np.shape(values))
+
+
 @fixture(scope="module", params=SYSTEMS.values(), ids=SYSTEMS)
 def orbits(request):
     """A system with states, parameters and times of many orbits, and where these truly are."""
     system, random = request.param, np.random.default_rng(SEED)
-    parameters = np.array([random_parameters(system, random) for _ in range(ORBITS)])
-    states = np.array([random_state(system, random) for _ in range(ORBITS)])
+    parameters = rounded([random_parameters(system, random) for _ in range(ORBITS)])
+    states = rounded([random_state(system, random) for _ in range(ORBITS)])
     spans = random.choice([-1, 1], ORBITS) * 10 ** random.uniform(-1.0, log10(200.0), ORBITS)
-    times = spans[:, None] * SHARES_OF_THE_SPAN
+    times = rounded(spans[:, None] * SHARES_OF_THE_SPAN)
     return system, states, parameters, times, oracle.orbits_in_long_double(system, states, parameters, times)
 
 
