@@ -1,23 +1,20 @@
 // @ts-check
-// The bar: the menu of scenes, the title of the scene on show, and the tools of the page.
+// The bar: the title of the scene on show and the tools of the page.
 
 import { button, element, icon } from "../page/elements.js"
 import { listen, tell } from "../page/bus.js"
 import { isPresenting } from "../page/presenting.js"
-import { chartPanel } from "./chart.js"
-import { exportDialog } from "./export.js"
-import { inviteDialog } from "./invite.js"
 import { moreMenu } from "./more.js"
-import { sceneMenu } from "./scenes.js"
-import { shareDialog } from "./share.js"
 
 const MORE = "M5 10a2 2 0 1 0 0 4 2 2 0 0 0 0-4zm7 0a2 2 0 1 0 0 4 2 2 0 0 0 0-4zm7 0a2 2 0 1 0 0 4 2 2 0 0 0 0-4z"
-const MENU = "M4 6h16v2H4zm0 5h16v2H4zm0 5h16v2H4z"
 
 /**
  * A tool, which tells its name.  isDrawn: only for scenes where clicks and boxes draw something; without: why it is disabled
- * when there is no such step; isNear: on a phone it stays in the bar, and the others are in the menu More.
- * @typedef {{name: keyof PageEvents, title: string, icon: string, label?: string, isDrawn?: true, without?: string, isNear?: true}} Tool
+ * when there is no such step; isNear: on a phone it stays in the bar, and the others are in the menu More; asks: it opens a
+ * dialog, and is there only if the page has that dialog.
+ * @typedef {{name: keyof PageEvents, title: string, icon: string, label?: string, isDrawn?: true, without?: string,
+ *   isNear?: true, asks?: true}} Tool
+ * @typedef {{box: HTMLElement, open: () => void, show?: (scene: SceneDescription) => void}} Dialog
  */
 /** @type {Tool[][]} */
 const TOOLS = [
@@ -36,13 +33,13 @@ const TOOLS = [
   [
     { name: "pin", title: "Compare other states with this one",
       icon: "M9 3h6v2l-1 1v5l3 3v2h-4v5h-2v-5H7v-2l3-3V6L9 5z" },
-    { name: "chart", title: "A quantity over two parameters",
+    { name: "chart", asks: true, title: "A quantity over two parameters",
       icon: "M3 3h2v16h16v2H3zm4 2h4v4H7zm5 0h4v4h-4zm5 0h4v4h-4zM7 10h4v4H7zm5 0h4v4h-4zm0 5h4v3h-4zm5-5h4v4h-4z" },
-    { name: "share", title: "Link, QR code, HTML to embed", isNear: true,
+    { name: "share", asks: true, title: "Link, QR code, HTML to embed", isNear: true,
       icon: "M4 12a4 4 0 0 1 4-4h3v2H8a2 2 0 0 0 0 4h3v2H8a4 4 0 0 1-4-4zm5-1h6v2H9zm4-3h3a4 4 0 0 1 0 8h-3v-2h3a2 2 0 0 0 0-4h-3z" },
-    { name: "invite", title: "Let an audience follow on its phones: QR code, guesses",
+    { name: "invite", asks: true, title: "Let an audience follow on its phones: QR code, guesses",
       icon: "M8 4a3.5 3.5 0 1 0 0 7 3.5 3.5 0 0 0 0-7zm8.5 2a3 3 0 1 0 0 6 3 3 0 0 0 0-6zM8 13c-3.6 0-6 1.8-6 4.4V20h12v-2.6c0-2.6-2.4-4.4-6-4.4zm8.5 1c-.7 0-1.3.1-1.8.2.8.9 1.3 2 1.3 3.2V20h6v-1.9c0-2.4-2.2-4.1-5.5-4.1z" },
-    { name: "export", title: "Data and figures of a picture",
+    { name: "export", asks: true, title: "Data and figures of a picture",
       icon: "M11 3h2v8l3-3 1.4 1.4L12 14.8 6.6 9.4 8 8l3 3zM4 15h2v4h12v-4h2v6H4z" },
     { name: "print", title: "Handout: pictures, numbers, text, link (Ctrl+P)",
       icon: "M7 3h10v5H7zm-3 6h16a1 1 0 0 1 1 1v7h-4v4H7v-4H3v-7a1 1 0 0 1 1-1zm5 6v4h6v-4z" },
@@ -63,27 +60,22 @@ function tool({ name, label = name[0].toUpperCase() + name.slice(1), title, icon
 
 /**
  * Render the bar.
- * @param {Pick<PageModel, "scenes" | "showcase" | "files" | "palettes"> & {el: HTMLElement}} part
+ * @param {{first: HTMLElement[], dialogs: Record<string, Dialog>, el: HTMLElement}} part first: the elements before the title;
+ *   dialogs: those of the tools that ask, by tool, and others that follow the scene on show
  */
-export function render({ scenes, showcase, files, palettes, el }) {
-  const menu = sceneMenu(scenes, showcase)
-  const share = shareDialog()
-  const invite = inviteDialog()
-  const taking = exportDialog(files)
-  const chart = chartPanel(palettes)
+export function render({ first, dialogs, el }) {
   const heading = element("h1.heading")
-  const open = button("tool.param-scenes", menu.open, { title: "Choose a scene", ariaHasPopup: "dialog", innerHTML: icon(MENU) },
-    element("span", "Scenes"))
+  const groupsOfTools = TOOLS.map((group) => group.filter(({ name, asks }) => !asks || name in dialogs))
   // Name → [button, its description].
   /** @type {Map<string, [HTMLButtonElement, Tool]>} */
-  const tools = new Map(TOOLS.flat().map((one) => [one.name, [tool(one), one]]))
+  const tools = new Map(groupsOfTools.flat().map((one) => [one.name, [tool(one), one]]))
   /** @param {"without" | "isDrawn"} property */
   const those = (property) => [...tools.values()].filter(([, one]) => one[property])
-  const groups = TOOLS.map((group) => element("div.group", ...group.map(({ name }) => tools.get(name)[0])))
+  const groups = groupsOfTools.map((group) => element("div.group", ...group.map(({ name }) => tools.get(name)[0])))
   const more = moreMenu([...tools.values()].filter(([, { isNear }]) => !isNear).map(([item]) => item), icon(MORE))
   el.append(
-    element("div.tools", open, heading, element("span.room"), ...groups, ...more),
-    menu.dialog, share.dialog, invite.dialog, taking.dialog, chart.panel)
+    element("div.tools", ...first, heading, element("span.room"), ...groups, ...more),
+    ...Object.values(dialogs).map(({ box }) => box))
 
   /** @param {string} name @param {boolean} on */
   const press = (name, on) => { tools.get(name)[0].ariaPressed = String(on) }
@@ -99,6 +91,7 @@ export function render({ scenes, showcase, files, palettes, el }) {
   listen({
     // Progress of a chart whose panel may be closed.
     charting(share) {
+      if (!tools.has("chart")) return
       const [item, { title }] = tools.get("chart")
       const said = share === null ? "" : ` ${Math.floor(100 * share)} %`
       item.querySelector(".label").textContent = item.ariaLabel + said
@@ -106,6 +99,7 @@ export function render({ scenes, showcase, files, palettes, el }) {
     },
     // The number of followers.
     room({ code, followers }) {
+      if (!tools.has("invite")) return
       const [item] = tools.get("invite")
       item.querySelector(".label").textContent = code === null ? item.ariaLabel : `${item.ariaLabel} ${followers}`
       press("invite", code !== null)
@@ -116,12 +110,8 @@ export function render({ scenes, showcase, files, palettes, el }) {
     enter(scene) {
       heading.textContent = scene.title
       for (const [item] of those("isDrawn")) item.hidden = !scene.drawn
-      menu.show(scene.name)
-      for (const part of [share, taking, chart]) part.show(scene)
+      for (const { show } of Object.values(dialogs)) show?.(scene)
     },
-    share: share.open,
-    invite: invite.open,
-    export: taking.open,
-    chart: chart.open,
   })
+  for (const [name, [, { asks }]] of tools) if (asks) listen({ [name]: dialogs[name].open })
 }

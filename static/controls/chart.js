@@ -328,7 +328,7 @@ export function chartPanel(palettes) {
   follow()
 
   return {
-    panel,
+    box: panel,
     /** @param {SceneDescription} description */
     show(description) {
       if (scene?.name === description.name) return

@@ -75,14 +75,16 @@ export function render({ el }) {
     const groups = scene.groups
       .map((group) => /** @type {[string, ControlDescription[]]} */ ([group, further.filter((control) => control.group === group)]))
       .filter(([, members]) => members.length > 0)
+    examples.hidden = scene.presets.length === 0
     column.replaceChildren(
       element("div.column", examples, ...scene.essential.map((name) => items.get(name))),
       ...groups.map(([group, members]) => groupOf(group, members.map(({ name }) => items.get(name)))))
-    const order = [...scene.essential, EXAMPLES, ...further.map(({ name }) => name)]
+    const order = [...scene.essential, ...(examples.hidden ? [] : [EXAMPLES]), ...further.map(({ name }) => name)]
     chooser.replaceChildren(...order.map((name) => button(isEssential(name) ? "chip" : "chip.further", () => take(name), {
       dataset: { name },
     }, signs.get(name))))
-    take(isEssential(atHand) ? atHand : order[0])
+    chooser.hidden = order.length === 0
+    if (order.length > 0) take(isEssential(atHand) ? atHand : order[0])
   }
   /** @param {Record<string, ControlValue>} values */
   const show = (values) => {

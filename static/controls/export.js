@@ -142,7 +142,7 @@ export function exportDialog(files) {
   }
 
   return {
-    dialog,
+    box: dialog,
     /** @param {SceneDescription} description */
     show(description) { scene = description },
     open() {

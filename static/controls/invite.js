@@ -42,7 +42,7 @@ export function inviteDialog() {
     },
   })
   return {
-    dialog,
+    box: dialog,
     open() {
       tell("open-room")
       dialog.showModal()

@@ -92,7 +92,7 @@ export function sceneMenu(scenes, showcase) {
   })
 
   return {
-    dialog,
+    box: dialog,
     open() {
       gallery.replaceChildren(...showcaseOf(showcase, () => dialog.close()))
       search.value = ""
@@ -100,8 +100,8 @@ export function sceneMenu(scenes, showcase) {
       dialog.showModal()
       tiles().find((tile) => tile.ariaPressed === "true")?.focus()
     },
-    /** @param {string} name */
-    show(name) {
+    /** @param {SceneDescription} scene */
+    show({ name }) {
       const base = scenes.find((scene) => scene.name === name)?.origin ?? name
       // Scenes that look into another scene are offered only with that scene.
       const offered = scenes.filter((scene) => scene.origin === null || scene.origin === base)

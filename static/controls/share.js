@@ -78,7 +78,7 @@ export function shareDialog() {
     section("Embed", "Parts of this page in your own", pictures.frame, controls.frame, html, copyHtml)))
 
   return {
-    dialog,
+    box: dialog,
     /** @param {SceneDescription} description */
     show(description) { scene = description },
     async open() {

@@ -1,5 +1,6 @@
 // @ts-check
-// The client of the server: it requests states, fills the pictures with them, and tells when they are painted.
+// The client: it requests states, fills the pictures with them, and tells when they are painted.  The host of the page answers:
+// a server, or the file that holds the page.
 //
 // <html data-ready> is "false" from a change by the user until its state is on the screen; data-state counts the painted
 // states, and data-scene names the scene on show.
@@ -11,14 +12,11 @@ import { createCompare } from "./compare.js"
 import { embed, embedded } from "./embedding.js"
 import { createHandout } from "./handout.js"
 import { createHistory } from "./history.js"
-import { createRoom } from "./room.js"
 import { joinOther } from "./side_by_side.js"
 import { fill, paint, shareAxes } from "./painting.js"
-import { createPage } from "./panel_page.js"
 import { present } from "./presenting.js"
 import { createRequests } from "./requests.js"
 import { createVisibility } from "./visibility.js"
-import { answering, openWebsocket } from "./websocket.js"
 import { handleCommands } from "./commands.js"
 
 // The next part of a state is requested after a pause as long as the last part took: half of the time is left to the user,
@@ -27,11 +25,11 @@ const PAUSE_BETWEEN_PIECES = 80
 const LOST = "Connection to the server lost. This page continues as soon as the server answers."
 
 /**
- * Start the client.
- * @param {PageModel} model
- * @param {PanelView} view
+ * Start the client and return access to the state on show.
+ * @param {Pick<PageModel, "client" | "lesson">} model
+ * @param {Host} host
  */
-export function startClient(model, view) {
+export function startClient(model, host) {
   const root = document.documentElement
   const own = model.client
   /** @type {Map<string, SceneDescription>} */
@@ -51,10 +49,10 @@ export function startClient(model, view) {
   const isPart = own.embed === "1"
   if (isPart) embed()
 
-  /** @type {ReturnType<typeof openWebsocket>} */
+  /** @type {ReturnType<Host["connect"]>} */
   let send = null
-  const page = createPage(view)
-  const address = createAddress({ query: () => state.query, own })
+  const { page } = host
+  const address = createAddress({ query: () => state.query, own, mark: host.mark })
   const visibility = createVisibility(() => requests.request())
   const requests = createRequests({
     send: (message) => send(message),
@@ -75,7 +73,6 @@ export function startClient(model, view) {
   createHandout(() => latest)
   joinOther()
   shareAxes(() => scene)
-  if (!isPart) createRoom({ query: () => state?.query ?? null })
 
   listen({
     url(keys) {
@@ -169,7 +166,7 @@ export function startClient(model, view) {
     })
   }
 
-  /** @type {Parameters<typeof openWebsocket>[0]} */
+  /** @type {Parameters<Host["connect"]>[0]} */
   const onAnswer = ({ state: next = null, scene: described = null, lesson = null, chart = null }, block, cells) => {
     if (lesson !== null) tell("lesson-read", { lesson, step: null })
     if (next !== null) onState(next, described, block)
@@ -181,7 +178,7 @@ export function startClient(model, view) {
     if (requests.lost) return
     requests.lose()
     tell("texts", { busy: why || LOST })
-    await answering()
+    await host.answering()
     // The link restores the state.  A page that has never shown a state would only fail again.
     if (state === null) return
     address.writeNow()
@@ -209,8 +206,9 @@ export function startClient(model, view) {
     tell("client", own)
     // The lesson of a link begins when the page is ready.
     if (model.lesson !== "") tell("lesson-read", { lesson: JSON.parse(model.lesson), step: Number(own.step) - 1 })
-    send = openWebsocket(onAnswer, onLost)
+    send = host.connect(onAnswer, onLost)
     requests.begin()
   }
   start()
+  return { query: () => state?.query ?? null }
 }

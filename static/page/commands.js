@@ -21,7 +21,7 @@ async function copy(text, instead) {
 /**
  * Carry out the commands that the page tells.
  * @param {{address: ReturnType<typeof import("./address.js").createAddress>,
- *   page: ReturnType<typeof import("./panel_page.js").createPage>}} parts
+ *   page: Host["page"]}} parts
  */
 export function handleCommands({ address, page }) {
   listen({

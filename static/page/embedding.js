@@ -9,6 +9,9 @@ const root = document.documentElement
 /** Return whether the page is embedded. */
 export const isEmbedded = () => root.hasAttribute("data-embed")
 
+/** Return whether the page lives in a file, without a server. */
+export const isFile = () => root.dataset.home !== undefined
+
 /** Mark the page as embedded. */
 export function embed() {
   root.toggleAttribute("data-embed", true)
@@ -20,7 +23,8 @@ export function embed() {
  * @param {Record<string, string[]> | null} parts key of the address → names
  */
 export function linkTo(parts = null) {
-  const url = new URL(location.href)
+  // A file links to its explorer.
+  const url = isFile() ? new URL(`?${location.hash.slice(1)}`, root.dataset.home) : new URL(location.href)
   for (const key of [...KEYS, ...(parts === null ? [] : ["large", "present"])]) url.searchParams.delete(key)
   if (parts === null) return url.href
   url.searchParams.set("embed", "1")

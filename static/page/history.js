@@ -17,8 +17,8 @@ const sceneOf = (query) => new URLSearchParams(query).get("scene")
 
 /**
  * Return the function that is called when a state was painted.
- * @param {{query: () => string, isSettled: () => boolean, address: {push: (before: string) => void}}} page query() returns the
- *   query of the state on show, isSettled() whether that state answers the last request
+ * @param {{query: () => string, isSettled: () => boolean, address: {push: (before: string) => void, read: () => string}}} page
+ *   query() returns the query of the state on show, isSettled() whether that state answers the last request
  */
 export function createHistory({ query, isSettled, address }) {
   /** @type {string[]} */
@@ -117,7 +117,7 @@ export function createHistory({ query, isSettled, address }) {
   })
   window.addEventListener("popstate", () => {
     isPopped = true
-    tell("restore", location.search.slice(1))
+    tell("restore", address.read())
   })
   return { settle }
 }

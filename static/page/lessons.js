@@ -12,7 +12,6 @@ import { createAnimation } from "./animation.js"
 import { listen, tell } from "./bus.js"
 import { isEmbedded } from "./embedding.js"
 import { onKeys } from "./keys.js"
-import { recording } from "./recording.js"
 import { button, element } from "./elements.js"
 import { CALM } from "./windows.js"
 
@@ -34,16 +33,16 @@ const questionOf = ({ question, answer }) => (question === "" ? [] : [
 
 /**
  * Render the menu of lessons, the lesson and the suggestions.
- * @param {{index: PageModel["lessons"], el: HTMLElement}} part
+ * @param {{index: PageModel["lessons"], record?: {box: HTMLElement, begin: HTMLElement}, el: HTMLElement}} part record: the recorder
+ *   of lessons, if the page has one
  */
-export function render({ index, el }) {
-  const menu = element("details.lesson-menu")
+export function render({ index, record, el }) {
+  const menu = element("details.lesson-menu", { hidden: index.length === 0 })
   const panel = element("section.lesson", { hidden: true, ariaLabel: "Lesson" })
   const tries = element("section.tries", { hidden: true, ariaLabel: "Try this" })
   const controls = stepControls()
   const veil = createVeil()
-  const record = recording()
-  el.append(menu, record.box, panel, tries)
+  el.append(menu, ...(record ? [record.box] : []), panel, tries)
 
   /** @type {Lesson | null} */
   let lesson = null
@@ -202,7 +201,7 @@ export function render({ index, el }) {
     lesson = null
     panel.hidden = true
     panel.replaceChildren()
-    menu.hidden = false
+    menu.hidden = index.length === 0
     tries.hidden = tries.childElementCount === 0
     tell("reading", false)
     tell("url", { lesson: "", step: "" })
@@ -212,7 +211,7 @@ export function render({ index, el }) {
     element("li", button(`button.param-lesson-${name}`, () => {
       wanted = name
       tell("lesson", name)
-    }, `${title} (${minutes} min)`))))), record.begin)
+    }, `${title} (${minutes} min)`))))), ...(record ? [record.begin] : []))
 
   /** Show the suggestions for a scene, one at a time. @param {SceneDescription} scene */
   function showTries(scene) {

@@ -1,6 +1,8 @@
 // @ts-check
 // The QR code of a link, drawn by the server.
 
+import { isFile } from "./embedding.js"
+
 /** @param {string} link */
 const address = (link) => new URL(`qr.svg?text=${encodeURIComponent(link)}`, document.baseURI).href
 
@@ -13,6 +15,7 @@ const answer = (isThere, text) => (isThere ? { svg: text, said: "" } : { svg: ""
  * @returns {Promise<{svg: string, said: string}>}
  */
 export async function qrCode(link) {
+  if (isFile()) return answer(false, "")
   try {
     const response = await fetch(address(link))
     return answer(response.ok, await response.text())

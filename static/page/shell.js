@@ -3,7 +3,6 @@
 // narrow window the columns are tabs of one column; on a phone the picture stays at the top and one control at the bottom,
 // and the text scrolls between them.
 
-import { render as renderBar } from "../controls/bar.js"
 import { render as renderControls } from "../controls/controls.js"
 import { render as renderPlayer } from "../controls/player.js"
 import { render as renderPictures } from "../pictures/gallery.js"
@@ -14,14 +13,11 @@ import { linkTo } from "./embedding.js"
 import { button, element } from "./elements.js"
 import { arrowOf, onKeys } from "./keys.js"
 import { render as renderLessons } from "./lessons.js"
-import { render as renderIntroduction } from "./introduction.js"
-import { createMount } from "./mount.js"
 import { drawer, spot, wear } from "./presenting.js"
 import { render as renderProgress } from "./progress.js"
 import { render as renderProse } from "./prose.js"
 import { render as renderStatus } from "./status.js"
 import { render as renderText } from "./text.js"
-import { followed } from "./room_socket.js"
 import { NARROW, PHONE } from "./windows.js"
 
 /** Return the tabs of the columns. @param {Record<string, HTMLElement>} columns label → column */
@@ -64,9 +60,9 @@ function tabsOf(columns) {
   return element("div.tabs", { role: "tablist", ariaLabel: "Beside the pictures", onkeydown }, ...tabs.map(([tab]) => tab))
 }
 
-/** Return the link from an embedded page to the whole page. */
-function opener() {
-  const link = element("a.opener", { target: "_blank", rel: "noopener", href: "." }, "Open in Hess Explorer")
+/** Return a link to the state on show, in the explorer. @param {`a.${string}`} name its classes @param {string} label */
+export function opener(name, label) {
+  const link = element(name, { target: "_blank", rel: "noopener", href: "." }, label)
   // Link to the state on show when the link is used.
   for (const event of ["pointerdown", "focus", "click"]) {
     link.addEventListener(event, () => {
@@ -75,12 +71,6 @@ function opener() {
     })
   }
   return link
-}
-
-/** Return the link back to the lecture that this tab has left to play on its own. @param {ClientKeys} own */
-function rejoin({ embed }) {
-  const { code } = followed
-  return code === null || embed === "1" ? [] : [element("a.rejoin", { href: `r/${code}` }, "Back to the lecture")]
 }
 
 /**
@@ -99,23 +89,21 @@ function sayWhatMoves(stage, reading) {
   place()
 }
 
-/** @type {HTMLElement | null} */
-let page = null
-
 /**
- * Render the page.  Panel may call this again: the page is built once.
- * @param {{model: PageModel, view: PanelView, el: HTMLElement}} component
+ * Build the page and start its client, which is returned.
+ * @param {Pick<PageModel, "client" | "lesson">} model
+ * @param {Host} host answers the requests of the page
+ * @param {{mount: ReturnType<typeof import("./mount.js").createMount>, bar: HTMLElement[], lessons: object, introduction: HTMLElement}} parts the content
+ *   of the bar, the properties of the lessons, and the place of the introduction
+ * @param {HTMLElement} el
  */
-export function render({ model, view, el }) {
-  if (page !== null) return el.replaceWith(page)
-  page = el
-  const mount = createMount(model.sheets)
+export function buildPage(model, host, { mount, bar, lessons, introduction }, el) {
   /** @param {string} key @param {string} [tag] */
   const text = (key, tag) => mount("text", renderText, { key, tag })
   const controls = element("section.controls.column", { id: "controls" },
-    mount("controls", renderControls), text("derived", "div"))
+    mount("controls", renderControls), text("derived", "div"), text("fixed", "div"))
   const reader = element("section.reader.column", { id: "text" },
-    element("div.reading", mount("lessons", renderLessons, { index: model.lessons }), mount("prose", renderProse, { part: "words" })),
+    element("div.reading", mount("lessons", renderLessons, lessons), mount("prose", renderProse, { part: "words" })),
     element("div.signs", mount("prose", renderProse, { part: "legend" })))
   // Scrolling columns are reached with the keyboard.
   const [reading, signs] = /** @type {Iterable<HTMLElement>} */ (reader.children)
@@ -125,14 +113,12 @@ export function render({ model, view, el }) {
   }
   const stage = element("div.stage", mount("pictures", renderPictures),
     element("div.below", mount("player", renderPlayer), mount("progress", renderProgress)))
-  const { scenes, showcase, files, palettes } = model
   el.classList.add("frame")
   el.append(
-    element("header.bar", mount("bar", renderBar, { scenes, showcase, files, palettes }),
-      ...rejoin(model.client), element("div.news", text("busy"))),
+    element("header.bar", ...bar, element("div.news", text("busy"))),
     tabsOf({ Controls: controls, Text: reader }), controls, stage, reader,
-    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener(), drawer(el), spot(), announcer(),
-    mount("introduction", renderIntroduction))
+    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener("a.opener", "Open in Hess Explorer"), drawer(el), spot(), announcer(),
+    introduction)
   sayWhatMoves(stage, reading)
   wear(el)
   listen({
@@ -140,5 +126,5 @@ export function render({ model, view, el }) {
     introduce: (names) => el.classList.toggle("introducing", names !== null),
   })
   onKeys({ f: () => tell("fullscreen"), p: () => tell("present") })
-  startClient(model, view)
+  return startClient(model, host)
 }

@@ -30,10 +30,10 @@ def _progress_printer(lines: bool) -> Callable[[int, int], None]:
 
 
 def _page(options: Options) -> bytes:
-    from hess_explorer.page.offline import as_html
+    from hess_explorer.offline.pages import state_page
 
     pictures = options.picture.split(",") if options.picture else ()
-    return as_html(options.state, pictures, lenient=options.lenient)[1]
+    return state_page(options.state, pictures, lenient=options.lenient)[1]
 
 
 def _picture(options: Options) -> bytes:

@@ -1,6 +1,7 @@
 """The Panel component of the page: one ES module that builds the whole page in the browser.
 
-"page/shell.js" mounts its parts, the ES modules under `static/`.  They communicate only by the events of "page/bus.js".
+"page/served.js" builds it, "page/shell.js" mounts its parts: the ES modules under `static/`.  They communicate only by
+the events of "page/bus.js".
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ class Explorer(JSComponent):
     # A relative URL, which also works behind a proxy that serves the page under a prefix.
     _esm = f"""
 export const render = async (component) => {{
-  const module = await import(new URL("{modules_path()}/page/shell.js", document.baseURI).href)
+  const module = await import(new URL("{modules_path()}/page/served.js", document.baseURI).href)
   return module.render(component)
 }}
 """

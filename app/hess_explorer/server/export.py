@@ -18,7 +18,7 @@ from hess_explorer.export.file import content
 from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, FileRequest, holding
 from hess_explorer.export.notebook import PROGRAMS
 from hess_explorer.export.picture_data import address, compute
-from hess_explorer.page.offline import as_html
+from hess_explorer.offline.pages import state_page
 from hess_explorer.protocol.parameters import MAX_QUERY, Choice, Number, decode
 from hess_explorer.server.film import Film
 from hess_explorer.server.home import home_of
@@ -103,8 +103,8 @@ class Export(RequestHandler):
         """Return name and contents of the file.  Raises `ModelError`, `Abandoned`."""
         if request.kind == "html":
             with limited(self._left, _SECONDS), np.errstate(all="ignore"):
-                return as_html(
-                    urlencode(state), picture.split(",") if picture else (), home_of(self.request), lenient=True
+                return state_page(
+                    urlencode(state), picture.split(",") if picture else (), home=home_of(self.request), lenient=True
                 )
         where = address(urlencode(state), picture, lenient=True)
         name = f"{where.scene.name}-{where.picture.name}"

@@ -1,0 +1,171 @@
+"""Write a page as one HTML file that works without a server: the modules of the page with computed states inside."""
+
+from __future__ import annotations
+
+import base64
+import json
+import posixpath
+import re
+import zlib
+from collections.abc import Mapping
+from functools import cache
+from html import escape
+from importlib.metadata import version
+from typing import Any
+
+from bokeh.resources import Resources
+
+from hess_explorer.assets import STATIC
+from hess_explorer.offline.recording import Recording
+from hess_explorer.page.component import styles
+
+__all__ = ["HOME", "bundled", "document"]
+
+HOME = "http://localhost:5006/"
+"""Default address of the explorer."""
+
+_ENTRY = "offline/file.js"
+_IMPORT = re.compile(r'(?<=from )"(\.{1,2}/[\w./]+\.js)"')
+_SHEET = re.compile(r'new URL\("([\w.]+\.css)", import\.meta\.url\)\.href')
+_POLICY = "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline' data:; img-src data: blob:"
+"""Content-Security-Policy that blocks all requests to other hosts."""
+_EMPTY = ("az", "el", "large", "present", "theme", "lesson", "step")
+_CLIENT = {"t": "0", "speed": "1", **dict.fromkeys(_EMPTY, "")}
+
+_PAGE = """<!DOCTYPE html>
+<html lang="en" data-home="{home}">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<meta name="generator" content="{program}">
+<meta name="description" content="{summary}">
+<title>{title} · Hess Explorer</title>
+<link rel="icon" href="data:,">
+<style>:root {{ color-scheme: light dark }} body {{ margin: 0; color: CanvasText; background: Canvas }}</style>
+<script type="application/json" id="facts">{facts}</script>
+<script type="application/json" id="model">{model}</script>
+{strips}
+<script type="application/octet-stream" id="code">{code}</script>
+</head>
+<body>
+<div id="page"></div>
+<script type="module">{loader}</script>
+</body>
+</html>
+"""
+
+
+def document(
+    title: str,
+    summary: str,
+    recording: Recording,
+    facts: Mapping[str, Any],
+    client: Mapping[str, str],
+    lesson: str = "",
+    steps: Mapping[str, int] | None = None,
+    home: str = HOME,
+    contents: str = "",
+) -> bytes:
+    """Return the file of a page.
+
+    Parameters
+    ----------
+    title, summary : str
+        The title, and one sentence for search engines.
+    recording : Recording
+        The states.
+    facts : mapping
+        Metadata, kept in the file as JSON.
+    client : mapping
+        The keys that the browser keeps, such as the time and the view of spheres.
+    lesson : str
+        The description of the lesson as JSON; "" for none.
+    steps : mapping, optional
+        The family of each step of the lesson, by "lesson/number/revealed".
+    home : str
+        The address of the explorer, for the links.
+    contents : str
+        The relative address of a table of contents; "" for none.
+
+    Returns
+    -------
+    bytes
+        The file.
+    """
+    index, strips = recording.packed()
+    found = json.loads(lesson) if lesson else None
+    program = f"hess-explorer {version('hess-explorer')}"
+    model = {
+        "client": {**_CLIENT, **client},
+        "lesson": lesson,
+        "sheets": styles(),
+        "contents": contents,
+        "recording": {
+            **index,
+            "scenes": recording.described(),
+            "steps": steps or {},
+            "lessons": {found["name"]: found} if found else {},
+        },
+    }
+    page = _PAGE.format(
+        policy=escape(_POLICY),
+        home=escape(home),
+        program=escape(program),
+        title=escape(title),
+        summary=escape(summary),
+        loader=(STATIC / "offline/loader.js").read_text(encoding="utf-8"),
+        code=_code(),
+        facts=_json({**facts, "program": program}),
+        model=_json(model),
+        strips="\n".join(
+            f'<script type="application/octet-stream" id="strip-{i}">{strip}</script>' for i, strip in enumerate(strips)
+        ),
+    )
+    return page.encode()
+
+
+def bundled(entry: str) -> dict[str, str]:
+    """Return a module and all that it imports, by path, as data URLs for an import map.
+
+    Relative imports are rewritten to paths, because they cannot be resolved from a data URL.
+    """
+    found: dict[str, str] = {}
+
+    def add(path: str) -> None:
+        if path in found:
+            return
+        found[path] = ""
+        folder = posixpath.dirname(path)
+        code = (STATIC / path).read_text(encoding="utf-8")
+
+        def named(match: re.Match[str]) -> str:
+            other = posixpath.normpath(posixpath.join(folder, match[1]))
+            add(other)
+            return f'"{other}"'
+
+        def inlined(match: re.Match[str]) -> str:
+            return f'"{_data_url("text/css", (STATIC / folder / match[1]).read_bytes())}"'
+
+        code = _SHEET.sub(inlined, _IMPORT.sub(named, code))
+        found[path] = _data_url("text/javascript", code.encode())
+
+    add(entry)
+    return found
+
+
+@cache
+def _code() -> str:
+    """Return Bokeh and the modules of the page, compressed, in base 64."""
+    bokeh = "\n".join(Resources(mode="inline", components=["bokeh"]).js_raw)
+    code = json.dumps({"bokeh": bokeh, "modules": bundled(_ENTRY), "entry": _ENTRY})
+    return base64.b64encode(zlib.compress(code.encode(), 9)).decode()
+
+
+def _data_url(kind: str, content: bytes) -> str:
+    return f"data:{kind};base64,{base64.b64encode(content).decode()}"
+
+
+def _json(value: Any) -> str:
+    """Return JSON that is safe inside an HTML script element."""
+    return json.dumps(value, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c")

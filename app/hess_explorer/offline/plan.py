@@ -1,0 +1,152 @@
+"""The states that a file will hold: the points along sliders, chosen before anything is computed."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hess_explorer.protocol.parameters import Number, Values
+from hess_explorer.scenes.framework.scene import Scene
+from hess_mechanics.errors import InvalidParameter
+
+__all__ = ["MOST_STATES", "Family", "Slider", "across", "family", "read_slider"]
+
+MOST_STATES = 4000
+"""Maximum number of states of a file."""
+
+_MOST_VALUES = 400
+_DIGITS = 4
+"""Significant digits of the values, relative to the range of a slider."""
+_SLIDER = re.compile(r"(?P<name>\w+)=(?P<low>[^:=]+):(?P<high>[^:=]+)(?::(?P<count>\d{1,4}))?")
+
+
+@dataclass(frozen=True)
+class Slider:
+    """A slider of a file; name : the parameter; values : its values in ascending order."""
+
+    name: str
+    values: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Family:
+    """The states among which the sliders of a file move.
+
+    Attributes
+    ----------
+    scene : the scene; base : the values of the first state; names : the varied parameters; points : their values,
+    those of the first state first.
+    """
+
+    scene: Scene[Any]
+    base: Values
+    names: tuple[str, ...]
+    points: tuple[tuple[float, ...], ...]
+
+    def values(self, point: Sequence[float]) -> Values:
+        """Return the values of all parameters at a point."""
+        return {**self.base, **dict(zip(self.names, point, strict=True))}
+
+
+def across(low: float, high: float, count: int, own: float) -> tuple[float, ...]:
+    """Return about `count` values from low to high, rounded to digits that can be read, and the value `own`."""
+    decimals = _DIGITS - 1 - math.floor(math.log10(high - low))
+    return tuple(sorted({own, *(float(one) for one in np.round(np.linspace(low, high, count), decimals))}))
+
+
+def read_slider(text: str, scene: Scene[Any], base: Values, count: int = 40) -> Slider:
+    """Return the slider that a text describes.
+
+    Parameters
+    ----------
+    text : str
+        NAME=LOW:HIGH or NAME=LOW:HIGH:COUNT.
+    scene : Scene
+        The scene, which has a number of that name.
+    base : mapping
+        The values of the first state.
+    count : int
+        The number of values by default.
+
+    Returns
+    -------
+    Slider
+        The slider, whose values include that of the first state.
+
+    Raises
+    ------
+    InvalidParameter
+        If the text is no such description.
+    """
+    known = {spec.name: spec for spec in scene.specs if isinstance(spec, Number)}
+    found = _SLIDER.fullmatch(text)
+    if found is None:
+        raise InvalidParameter(f"{text!r} is no slider: write NAME=LOW:HIGH:COUNT, such as h=0.2:3.5:80.")
+    name = found["name"]
+    if name not in known:
+        raise InvalidParameter(
+            f"The scene {scene.name} has no number {name!r} to vary: choose one of {', '.join(known)}."
+        )
+    try:
+        low, high = float(found["low"]), float(found["high"])
+    except ValueError as error:
+        raise InvalidParameter(f"The ends of {text!r} are no numbers: write NAME=LOW:HIGH:COUNT.") from error
+    count = int(found["count"] or count)
+    least, most = known[name].bounds
+    if not (low < high and least <= low and high <= most):
+        raise InvalidParameter(f"{text!r}: the ends must increase and lie within [{least:g}, {most:g}].")
+    if not 2 <= count <= _MOST_VALUES:
+        raise InvalidParameter(f"{text!r}: a slider has 2 to {_MOST_VALUES} values.")
+    return Slider(name, across(low, high, count, float(base[name])))
+
+
+def family(scene: Scene[Any], base: Values, sliders: Sequence[Slider], *, grid: bool = False) -> Family:
+    """Return the states of sliders through a state.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    base : mapping
+        The values of the state.
+    sliders : sequence of Slider
+        The sliders.
+    grid : bool
+        True for all combinations of their values; by default each slider has its own line through the state.
+
+    Returns
+    -------
+    Family
+        The states.
+
+    Raises
+    ------
+    InvalidParameter
+        If there are more than `MOST_STATES`, or a parameter has two sliders.
+    """
+    names = tuple(slider.name for slider in sliders)
+    if len(set(names)) < len(names):
+        raise InvalidParameter(f"Vary each parameter once, not {', '.join(names)}.")
+    first = tuple(float(base[name]) for name in names)
+    lengths = [len(slider.values) for slider in sliders]
+    count = math.prod(lengths) if grid else sum(lengths)
+    if count > MOST_STATES:
+        raise InvalidParameter(f"These are {count} states; a file holds at most {MOST_STATES}: choose fewer values.")
+    if grid:
+        # There and back, so that consecutive states are neighbours.
+        points = _snake([slider.values for slider in sliders])
+    else:
+        points = [(*first[:i], value, *first[i + 1 :]) for i, one in enumerate(sliders) for value in one.values]
+    return Family(scene, base, names, tuple(dict.fromkeys([first, *points])))
+
+
+def _snake(sides: Sequence[Sequence[float]]) -> list[tuple[float, ...]]:
+    *outer, last = sides
+    rows = itertools.product(*outer)
+    return [(*row, value) for i, row in enumerate(rows) for value in (last if i % 2 == 0 else last[::-1])]

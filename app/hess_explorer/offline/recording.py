@@ -1,0 +1,180 @@
+"""Computed states of a file: what the server would answer at each place of its sliders."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from hess_explorer.export.picture_data import complete
+from hess_explorer.offline.plan import Family
+from hess_explorer.offline.strips import Strip, steps_of_plots
+from hess_explorer.page.controls import show_controls
+from hess_explorer.page.description import describe, without_gestures
+from hess_explorer.protocol.parameters import Number, Values, encode
+from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes.framework.scene import Scene
+from hess_explorer.scenes.framework.stage import Stage
+from hess_explorer.views.plot import Plot
+from hess_mechanics.errors import ModelError
+
+__all__ = ["Recording"]
+
+_LARGEST_STRIP = 600_000
+"""Numbers of a strip, after which the next one begins: the browser decodes a strip within a few frames."""
+_CLICKS = ("tap", "pan")
+"""Mouse events of a plot that choose a computed state."""
+
+
+def _fixed(one: Family) -> str:
+    """Return the numbers that do not move in the file."""
+    idle = one.scene.idle(one.base)
+    specs = [spec for spec in one.scene.specs if isinstance(spec, Number) and spec.name not in {*one.names, *idle}]
+    return ", ".join(f"{spec.symbol} = {one.base[spec.name]:g}".replace("-", "−") for spec in specs)
+
+
+@dataclass
+class Recording:
+    """The states of a file, computed one by one.
+
+    Parameters
+    ----------
+    pictures : mapping
+        The names of the pictures of each scene.
+    report : callable, optional
+        Gets the number of computed states and of all states.
+    """
+
+    pictures: Mapping[str, Sequence[str]]
+    report: Callable[[int, int], None] | None = None
+    _states: dict[str, tuple[int, int]] = field(default_factory=dict)
+    _strips: list[Strip] = field(default_factory=list)
+    _families: list[dict[str, Any]] = field(default_factory=list)
+    _varied: dict[str, dict[str, tuple[float, float]]] = field(default_factory=dict)
+    _picks: dict[str, dict[str, list[str]]] = field(default_factory=dict)
+    _columns: dict[str, dict[str, list[str]]] = field(default_factory=dict)
+
+    def record(self, families: Sequence[Family]) -> None:
+        """Compute the states of families, each state once.  Raises `ModelError` if a first state is impossible."""
+        queries = [{encode(one.scene.name, one.values(point)): point for point in one.points} for one in families]
+        total = len({query for found in queries for query in found} - self._states.keys())
+        done = 0
+        for one, points in zip(families, queries, strict=True):
+            self._note_sliders(one)
+            strip = self._begin()
+            for query, point in points.items():
+                if query in self._states:
+                    continue
+                if strip.size > _LARGEST_STRIP:
+                    strip = self._begin()
+                self._compute(one.scene, one.values(point), strip, must=point == one.points[0])
+                self._states[query] = len(self._strips) - 1, len(strip.trees) - 1
+                done += 1
+                if self.report is not None:
+                    self.report(done, total)
+            self._families.append(
+                {
+                    "scene": one.scene.name,
+                    "names": list(one.names),
+                    "points": [list(point) for point in points.values()],
+                    "states": [list(self._states[query]) for query in points],
+                    "queries": list(points),
+                    "fixed": _fixed(one),
+                }
+            )
+
+    def number_of(self, query: str) -> int:
+        """Return the number of the family that begins with the state of a query."""
+        return next(i for i, one in enumerate(self._families) if one["queries"][0] == query)
+
+    def _begin(self) -> Strip:
+        if not self._strips or self._strips[-1].trees:
+            self._strips.append(Strip())
+        return self._strips[-1]
+
+    def _note_sliders(self, one: Family) -> None:
+        varied = self._varied.setdefault(one.scene.name, {})
+        for name, values in zip(one.names, zip(*one.points, strict=True), strict=True):
+            low, high = varied.get(name, (np.inf, -np.inf))
+            varied[name] = min(low, *values), max(high, *values)
+
+    def _compute(self, scene: Scene[Any], values: Values, strip: Strip, *, must: bool) -> None:
+        """Append a state, complete; where the model refuses it, its reason as on the page, unless it must be there."""
+        wire = Wire()
+        stage = Stage(scene, wire)
+        pictures = self.pictures[scene.name]
+        plots = [view for view in scene.views if isinstance(view, Plot) and view.name in pictures]
+        try:
+            with np.errstate(all="ignore"):
+                values, notes = scene.admit(values)
+                state, report = complete(scene, values, pictures, lambda state: stage.show(state, False))
+        except ModelError as error:
+            if must:
+                raise
+            stage.fail(str(error))
+            axes = [(plot, plot.first_axes) for plot in plots]
+            texts = {"summary": "Nothing could be computed", "status": str(error), "derived": "", "notes": ""}
+        else:
+            axes = [(plot, plot.ranges(state) or plot.first_axes) for plot in plots]
+            texts = {
+                "summary": f"accuracy: {state.work.chosen}",
+                # Without the run times, which say nothing here.
+                "status": " · ".join(state.status()),
+                "derived": "\n".join(report.derived),
+                "notes": "\n".join([*notes, *report.notes]),
+            }
+            self._note_picks(scene, plots)
+        for plot, ranges in axes:
+            wire.put_ranges(plot.name, ranges.x, ranges.y)
+        for key, text in texts.items():
+            wire.say(key, text)
+        show_controls(scene, values, wire)
+        tree, block = wire.pack()
+        tree["controls"] = {name: shown for name, shown in tree["controls"].items() if name in self._varied[scene.name]}
+        self._note_columns(scene, tree["sources"])
+        strip.add(tree, block, steps_of_plots(axes))
+
+    def _note_columns(self, scene: Scene[Any], sources: Mapping[str, Mapping[str, Any]]) -> None:
+        """Note the columns of each source, which a state that does not fill them must empty."""
+        canvases = {view.name for view in scene.views if not isinstance(view, Plot)}
+        noted = self._columns.setdefault(scene.name, {})
+        for source, columns in sources.items():
+            # A canvas reads an absent column as none.
+            new = [] if source in canvases else [*columns]
+            noted[source] = [*dict.fromkeys([*noted.get(source, []), *new])]
+
+    def _note_picks(self, scene: Scene[Any], plots: Sequence[Plot[Any]]) -> None:
+        """Note which plots have varied parameters as their axes: a click there chooses a computed state."""
+        noted = self._picks.setdefault(scene.name, {})
+        for plot in plots:
+            handle = plot.handle
+            if handle is not None and set(handle.columns[:2]) & self._varied[scene.name].keys():
+                noted[plot.name] = list(handle.columns[:2])
+
+    def described(self) -> dict[str, Any]:
+        """Return the descriptions of the scenes, with the pictures, sliders and gestures that the file has."""
+        return {name: self._described(name) for name in self.pictures}
+
+    def _described(self, name: str) -> dict[str, Any]:
+        found = json.loads(describe(name))
+        varied, picks = self._varied.get(name, {}), self._picks.get(name, {})
+        chosen = [one for one in found["pictures"] if one["name"] in self.pictures[name]]
+        found["pictures"] = [
+            {**one, "folded": None, "picks": list(_CLICKS)} if one["name"] in picks else without_gestures(one)
+            for one in chosen
+        ]
+        found["controls"] = [
+            {**one, "range": list(varied[one["name"]])} for one in found["controls"] if one["name"] in varied
+        ]
+        for key in ("presets", "tries", "charts", "sides"):
+            found[key] = []
+        return {**found, "essential": [*varied], "drawn": False, "handle": None}
+
+    def packed(self) -> tuple[dict[str, Any], list[str]]:
+        """Return the index of the states and the strips in base 64."""
+        index = {"families": self._families, "picks": self._picks, "sources": self._columns}
+        return index, [base64.b64encode(strip.pack()).decode() for strip in self._strips]

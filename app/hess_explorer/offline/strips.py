@@ -1,0 +1,175 @@
+"""Strips: the arrays of consecutive states, quantised, coded by differences, and compressed.
+
+An array becomes whole numbers q = 1 + round(x/step) − low, 0 for NaN.  They are coded by their differences: from the
+array at the same place in the state before if both have the same length, and up to twice along the array.  Neighbouring
+states and neighbouring points of a curve differ little, so the differences are small.  All are taken modulo 2³².  They
+are stored by bytes, the lowest ones of all arrays first, and compressed.  "offline/strip.js" reverses this.
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+import zlib
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from hess_explorer.views.layers import Axes
+from hess_explorer.views.plot import Plot
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["EXACT", "PIXELS", "Strip", "steps_of_plots"]
+
+PIXELS = 16_000
+"""Steps across a plot: an eighth of a pixel of a picture that is 2000 pixels wide."""
+EXACT = 0.0
+"""Step of an array that is stored bit by bit in single precision."""
+
+_SPAN = 2**17
+"""Steps across the extent of an array that is no coordinate of a plot, such as a direction on a sphere."""
+_SHADES = 2**11
+"""Steps across the extent of an image, which has 256 colours."""
+_SMALL = 8
+"""Arrays of so few numbers are stored with 22 bits."""
+_LARGEST = 2.0**26
+_ORDERS = (0, 1, 2)
+
+
+def steps_of_plots(plots: Sequence[tuple[Plot[Any], Axes]]) -> dict[str, dict[str, float]]:
+    """Return the quantisation step of each column that is a coordinate of a plot, by source and column.
+
+    Parameters
+    ----------
+    plots : sequence of (Plot, Axes)
+        The plots and their axes.  A column of several plots has the smallest of their steps.
+
+    Returns
+    -------
+    dict
+        Steps in the units of the column; `EXACT` for a logarithmic axis.
+    """
+    found: dict[str, dict[str, float]] = {}
+    for plot, axes in plots:
+        for layer in plot.painted:
+            steps = found.setdefault(plot.source_of(layer), {})
+            for place, column in enumerate(layer.columns[:2]):
+                side, (low, high) = ("x", axes.x) if place == 0 else ("y", axes.y)
+                step = EXACT if side in plot.log else (high - low) / PIXELS
+                steps[column] = min(step, steps.get(column, step))
+    return found
+
+
+def _step(values: Array, column: str, known: float | None) -> float:
+    """Return the quantisation step of an array in single precision; known : that of its plot."""
+    finite = values[np.isfinite(values)]
+    if len(finite) == 0:
+        return 1.0
+    low, high = float(finite.min()), float(finite.max())
+    extent = high - low
+    if known == EXACT or np.isinf(values).any():
+        return EXACT
+    if extent < _SPAN and np.array_equal(finite, np.rint(finite)):
+        return 1.0
+    if values.size <= _SMALL:
+        return max(abs(low), abs(high)) / 2**22
+    step = known or extent / (_SHADES if column == "image" else _SPAN)
+    # A constant array, or a curve that leaves its plot by far.
+    return max(step, extent / _LARGEST) or 1.0
+
+
+def _quantised(values: Array, step: float) -> tuple[int, np.ndarray]:
+    """Return the least multiple of the step, and the whole numbers (n,) of an array."""
+    if step == EXACT:
+        return 0, values.view(np.uint32)
+    finite = np.isfinite(values)
+    multiples = np.rint(values[finite].astype(np.float64) / step).astype(np.int64)
+    low = int(multiples.min()) if len(multiples) else 0
+    whole = np.zeros(len(values), dtype=np.uint32)
+    whole[finite] = 1 + multiples - low
+    return low, whole
+
+
+class Strip:
+    """A sequence of states under construction: trees of pictures, texts and controls with their arrays."""
+
+    def __init__(self) -> None:
+        self.trees: list[Any] = []
+        self._arrays: list[list[float]] = []
+        self._wholes: list[np.ndarray] = []
+        self._residuals: list[np.ndarray] = []
+        # Place in the tree → number of its array in the last state.
+        self._last: dict[str, int] = {}
+        self.size = 0
+
+    def add(self, tree: Mapping[str, Any], block: bytes, steps: Mapping[str, Mapping[str, float]]) -> None:
+        """Append a state.
+
+        Parameters
+        ----------
+        tree, block : mapping and bytes
+            The result of `Wire.pack`, of one complete state.
+        steps : mapping
+            Quantisation steps by source and column, see `steps_of_plots`.
+        """
+        numbers = np.frombuffer(block, dtype="<f4")
+        places: dict[str, int] = {}
+
+        def stored(item: Any, path: str, source: str, column: str) -> Any:
+            if isinstance(item, list):
+                return [stored(part, f"{path}/{i}", source, column) for i, part in enumerate(item)]
+            if not (isinstance(item, dict) and "at" in item):
+                return item
+            values = numbers[item["at"] : item["at"] + item["n"]]
+            number = places[path] = self._array(values, column, steps.get(source, {}).get(column), self._last.get(path))
+            return {"of": number, **({"shape": item["shape"]} if "shape" in item else {})}
+
+        sources = {
+            source: {name: stored(item, f"{source}/{name}", source, name) for name, item in columns.items()}
+            for source, columns in tree["sources"].items()
+        }
+        self.trees.append({**tree, "sources": sources})
+        self._last = places
+
+    def _array(self, values: Array, column: str, known: float | None, before: int | None) -> int:
+        """Store an array unless it equals the one before it; return its number."""
+        step = _step(values, column, known)
+        starts = [-1]
+        if before is not None and len(self._wholes[before]) == len(values):
+            starts.append(before)
+            _, step_before, *_ = self._arrays[before]
+            # The same step, unless it is too coarse now or much too fine, so that the differences are small.
+            if EXACT not in (step, step_before) and 1.0 <= step / step_before <= 2.0:
+                step = step_before
+        low, whole = _quantised(values, step)
+        for one in starts[1:]:
+            if [step, low] == self._arrays[one][1:3] and np.array_equal(whole, self._wholes[one]):
+                return one
+        _, residual, order, start = min(self._codings(whole, starts), key=lambda one: one[0])
+        self._arrays.append([len(values), step, low, order, start])
+        self._wholes.append(whole)
+        self._residuals.append(residual)
+        self.size += len(values)
+        return len(self._wholes) - 1
+
+    def _codings(self, whole: np.ndarray, starts: Sequence[int]) -> Iterator[tuple[float, np.ndarray, int, int]]:
+        """Yield the possible codings of an array: size in _, residuals, order of differences, array before it."""
+        for start in starts:
+            residual = whole if start < 0 else whole - self._wholes[start]
+            for order in _ORDERS:
+                if order > 0:
+                    residual = np.diff(residual, prepend=np.uint32(0))
+                signed = residual.view(np.int32).astype(np.int64)
+                yield float(np.log2(1.0 + np.abs(signed)).sum()), residual, order, start
+
+    def pack(self) -> bytes:
+        """Return the compressed strip: the length of its head, the head as JSON, the bytes of the differences."""
+        signed = np.concatenate([np.empty(0, np.int32), *(one.view(np.int32) for one in self._residuals)])
+        zigzag = ((signed << 1) ^ (signed >> 31)).astype("<u4")
+        planes = zigzag.view(np.uint8).reshape(-1, 4).T
+        kept = max((i + 1 for i in range(4) if planes[i].any()), default=0)
+        head = json.dumps(
+            {"trees": self.trees, "arrays": self._arrays, "planes": kept}, ensure_ascii=False, allow_nan=False
+        ).encode()
+        return zlib.compress(struct.pack("<I", len(head)) + head + planes[:kept].tobytes(), 9)

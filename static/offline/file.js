@@ -1,0 +1,78 @@
+// @ts-check
+// The page in a file that works without a server ("offline/html.py" writes it): the same page, answered from the states that
+// the file holds.
+
+import { render as renderBar } from "../controls/bar.js"
+import { element } from "../page/elements.js"
+import { createMount } from "../page/mount.js"
+import { buildPage, opener } from "../page/shell.js"
+import { createRecorded } from "./recorded.js"
+import { createShelf } from "./strip.js"
+
+// Numbers of decoded strips that are kept, 4 bytes each.
+const MOST = 12_000_000
+
+/** @typedef {{client: ClientKeys, lesson: string, sheets: Record<string, string>, contents: string,
+ *   recording: import("./recorded.js").Recording}} FileModel
+ */
+
+/** @param {string} id */
+const read = (id) => document.getElementById(id).textContent
+
+/** The theme of the file: the page follows `color-scheme`. @returns {Host["page"]} */
+function createPage() {
+  let isDark = false
+  /** @type {(() => void)[]} */
+  const hearers = []
+  return {
+    isDark: () => isDark,
+    setDark(value) {
+      isDark = value
+      for (const hear of hearers) hear()
+    },
+    standing: () => Promise.resolve(),
+    themed: () => Promise.resolve(),
+    onThemeChange(hear) { hearers.push(hear) },
+  }
+}
+
+/** Answer from the file, one request after the other. @param {ReturnType<typeof createRecorded>} answer @returns {Host["connect"]} */
+const connectTo = (answer) => (receive) => {
+  let last = Promise.resolve()
+  /** @param {StateRequest | null} request */
+  const ask = (request) => {
+    last = last.then(async () => {
+      const { head, block } = await answer(request)
+      receive(head, block, new ArrayBuffer(0))
+    }).catch(console.error)
+  }
+  ask(null)
+  return (message) => { if (!("chart" in message)) ask(message) }
+}
+
+function start() {
+  /** @type {FileModel} */
+  const model = JSON.parse(read("model"))
+  const { client, sheets, recording, contents } = model
+  const given = new URLSearchParams(location.hash.slice(1))
+  for (const key of Object.keys(client)) if (given.has(key)) client[key] = given.get(key)
+  // The lesson of the file is open from the start.
+  const { lesson, step } = client
+  const query = lesson === "" ? location.hash.slice(1) : recording.families[recording.steps[`${lesson}/${Number(step) - 1}/false`] ?? 0].queries[0]
+  const stripAt = createShelf((number) => Uint8Array.from(atob(read(`strip-${number}`)), (letter) => letter.charCodeAt(0)), MOST)
+  const root = document.getElementById("page").attachShadow({ mode: "open" })
+  const el = element("div")
+  root.append(...["page/base.css", "page/shell.css"].map((path) => element("style", sheets[path])), el)
+  const mount = createMount(sheets)
+  const first = [
+    ...(contents === "" ? [] : [element("a.tool.contents", { href: contents }, "Contents")]),
+    opener("a.tool.home", "Explorer"),
+  ]
+  buildPage(model, { mark: "#", page: createPage(), connect: connectTo(createRecorded(recording, stripAt, query)), answering: () => new Promise(() => {}) }, {
+    mount, bar: [mount("bar", renderBar, { first, dialogs: {} })],
+    lessons: { index: Object.values(recording.lessons).map(({ name, title, minutes }) => ({ name, title, minutes })) },
+    introduction: element("div"),
+  }, el)
+}
+
+start()

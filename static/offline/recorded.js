@@ -1,0 +1,202 @@
+// @ts-check
+// Answers the requests of the page from the states that its file holds: the place of the server.
+
+/**
+ * The states among which sliders move; the first one is where they begin.
+ * @typedef {{scene: string, names: string[], points: number[][], states: [strip: number, at: number][], queries: string[],
+ *   fixed: string}} Family
+ */
+/**
+ * What a file holds.  picks: scene → plot → the parameters of its axes; sources: scene → source → its columns; steps:
+ * "lesson/number/revealed" → family; lessons: descriptions by name.
+ * @typedef {{families: Family[], picks: Record<string, Record<string, string[]>>,
+ *   sources: Record<string, Record<string, string[]>>, steps: Record<string, number>,
+ *   scenes: Record<string, SceneDescription>, lessons: Record<string, Lesson>}} Recording
+ */
+
+const ABSENT = "This file does not hold that state: the link at the top opens the explorer, where it can be reached."
+const NEAREST = "This file holds some states only: the nearest one is shown."
+
+/** @param {number} value */
+const shown = (value) => String(Number(value.toPrecision(6))).replace("-", "−")
+
+/**
+ * Return the point of a family that is nearest to a change: first in the changed parameters, then in the others.
+ * @param {Family} family
+ * @param {number} at the point on show
+ * @param {Record<string, number>} changes
+ */
+export function nearestPoint({ names, points }, at, changes) {
+  const here = points[at]
+  const spans = names.map((_, i) => Math.max(...points.map((point) => point[i])) - Math.min(...points.map((point) => point[i])) || 1)
+  /** @param {number[]} point @returns {[number, number, number]} */
+  const distance = (point) => {
+    let [asked, moved, away] = [0, 0, 0]
+    names.forEach((name, i) => {
+      if (name in changes) asked += ((point[i] - changes[name]) / spans[i]) ** 2
+      else {
+        moved += Number(point[i] !== here[i])
+        away += ((point[i] - here[i]) / spans[i]) ** 2
+      }
+    })
+    return [asked, moved, away]
+  }
+  /** @param {number[]} one @param {number[]} other */
+  const isLess = (one, other) => {
+    const i = one.findIndex((value, k) => value !== other[k])
+    return i >= 0 && one[i] < other[i]
+  }
+  let best = at
+  let least = distance(here)
+  points.forEach((point, k) => {
+    const found = distance(point)
+    if (isLess(found, least)) [best, least] = [k, found]
+  })
+  return best
+}
+
+/** @param {number[]} values their distinct values */
+const distinct = (values) => [...new Set(values)].sort((one, other) => one - other)
+
+/**
+ * Return the function that answers requests.
+ * @param {Recording} recording
+ * @param {(number: number) => Promise<import("./strip.js").Strip>} stripAt
+ * @param {string} query the query of the first state; "" for the first one of the file
+ */
+export function createRecorded({ families, picks, sources, steps, scenes, lessons }, stripAt, query) {
+  /** @type {Map<string, [family: number, at: number]>} */
+  const known = new Map()
+  families.forEach(({ queries }, i) => queries.forEach((one, k) => { if (!known.has(one)) known.set(one, [i, k]) }))
+  let [here, at] = find(query) ?? [0, 0]
+  let count = 0
+  let note = ""
+  const described = new Set()
+  // Scene → source → what the page shows, to leave out what stays the same.
+  /** @type {Map<string, Map<string, string>>} */
+  const filled = new Map()
+
+  /** Return the place of a query, which may have further keys. @param {string} wanted @returns {[number, number] | null} */
+  function find(wanted) {
+    if (known.has(wanted)) return known.get(wanted)
+    const given = new URLSearchParams(wanted)
+    if (!given.has("scene")) return null
+    return [...known].find(([one]) => [...new URLSearchParams(one)].every(([key, value]) => given.get(key) === value))?.[1] ?? null
+  }
+
+  /** @param {[number, number] | null} place */
+  function go(place) {
+    if (place === null) note = ABSENT
+    else [here, at] = place
+  }
+
+  /** @param {Record<string, number | string>} values */
+  function change(values) {
+    const family = families[here]
+    const changes = /** @type {Record<string, number>} */ (
+      Object.fromEntries(Object.entries(values).filter(([name, value]) => family.names.includes(name) && typeof value === "number")))
+    if (Object.keys(changes).length === 0) return
+    const before = family.points[at]
+    at = nearestPoint(family, at, changes)
+    const back = family.names.filter((name, i) => !(name in changes) && family.points[at][i] !== before[i])
+    const symbolOf = (/** @type {string} */ name) => scenes[family.scene].controls.find((one) => one.name === name)?.symbol ?? name
+    if (back.length > 0) {
+      const values = back.map((name) => `${symbolOf(name)} is ${shown(family.points[at][family.names.indexOf(name)])} again`)
+      note = `${values.join(", ")}: this file moves one slider at a time.`
+    }
+  }
+
+  /** @param {Picked} picked */
+  function pick([picture, x, y]) {
+    const family = families[here]
+    const axes = picks[family.scene]?.[picture]
+    if (axes === undefined) return
+    const changes = Object.fromEntries(axes.map((name, i) => [name, [x, y][i]]).filter(([name]) => family.names.includes(String(name))))
+    at = nearestPoint(family, at, /** @type {Record<string, number>} */ (changes))
+    note = NEAREST
+  }
+
+  /** @param {StateRequest} request */
+  function apply({ values, picked, step, restore, reset, scene }) {
+    note = ""
+    if (restore !== undefined) go(find(restore))
+    if (reset) go([here, 0])
+    if (step !== undefined) go(step.join("/") in steps ? [steps[step.join("/")], 0] : null)
+    else if (scene !== null && scene !== families[here].scene) {
+      const first = families.findIndex((family) => family.scene === scene)
+      go(first < 0 ? null : [first, 0])
+    }
+    if (picked !== undefined) pick(picked)
+    change(values)
+  }
+
+  /** Return the controls of the sliders, at the values on show. @returns {Record<string, ControlValue>} */
+  function controlsHere() {
+    const { names, points } = families[here]
+    return Object.fromEntries(names.map((name, i) => {
+      const values = distinct(points.map((point) => point[i]))
+      const [low, high] = [values[0], values.at(-1)]
+      return [name, [points[at][i], low, high, (high - low) / Math.max(1, values.length - 1)]]
+    }))
+  }
+
+  /** Return the text about what moves in this file and what does not. */
+  function fixedHere() {
+    const { points, fixed } = families[here]
+    const count = points.length === 1 ? "one computed state" : `${points.length} computed states here`
+    return `This file holds ${count}.${fixed === "" ? "" : ` Fixed: ${fixed}.`} Everything moves in the explorer.`
+  }
+
+  /**
+   * Return the sources that change, with all their columns: those that a state does not fill are empty.
+   * @param {string} scene
+   * @param {import("./strip.js").StoredTree} tree
+   * @param {number} number of the strip
+   */
+  function changed(scene, tree, number) {
+    const before = filled.get(scene) ?? new Map()
+    filled.set(scene, before)
+    /** @type {Record<string, Record<string, any>>} */
+    const found = {}
+    for (const [source, columns] of Object.entries(sources[scene])) {
+      const whole = { ...Object.fromEntries(columns.map((column) => /** @type {[string, any[]]} */ ([column, []]))), ...tree.sources[source] }
+      const text = JSON.stringify([number, whole])
+      if (before.get(source) === text) continue
+      before.set(source, text)
+      found[source] = whole
+    }
+    return found
+  }
+
+  /**
+   * Return the answer to a request, or to none: the first state.
+   * @param {StateRequest | null} request
+   * @returns {Promise<{head: Answer, block: ArrayBuffer}>}
+   */
+  return async (request) => {
+    if (request !== null) apply(request)
+    const { scene, states, queries } = families[here]
+    const [number, index] = states[at]
+    const [place, said, controls] = [queries[at], note, controlsHere()]
+    const strip = await stripAt(number)
+    const tree = strip.trees[index]
+    const [filledSources, block] = strip.block(changed(scene, tree, number))
+    // The strips of the neighbours, for the next move.
+    for (const near of [at - 1, at + 1]) if (states[near] !== undefined && states[near][0] !== number) stripAt(states[near][0])
+    count += 1
+    const lesson = lessons[request?.lesson ?? ""]
+    const fixed = fixedHere()
+    const isNew = !described.has(scene)
+    described.add(scene)
+    const { notes } = tree.texts
+    /** @type {StateAnswer} */
+    const state = {
+      number: count, answers: request?.requested ?? 0, query: place, scene, progress: null,
+      tree: {
+        ...tree, sources: filledSources, controls, ranges: request?.held ? {} : tree.ranges,
+        texts: { ...tree.texts, fixed, notes: [said, notes].filter(Boolean).join("\n") },
+      },
+    }
+    return { head: { state, ...(isNew && { scene: scenes[scene] }), ...(lesson && { lesson }) }, block }
+  }
+}

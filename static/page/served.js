@@ -1,0 +1,49 @@
+// @ts-check
+// The page beside its server: with the tools that ask the server, rooms and the introduction.
+
+import { render as renderBar } from "../controls/bar.js"
+import { chartPanel } from "../controls/chart.js"
+import { exportDialog } from "../controls/export.js"
+import { inviteDialog } from "../controls/invite.js"
+import { sceneMenu } from "../controls/scenes.js"
+import { shareDialog } from "../controls/share.js"
+import { button, element, icon } from "./elements.js"
+import { render as renderIntroduction } from "./introduction.js"
+import { createMount } from "./mount.js"
+import { createPage } from "./panel_page.js"
+import { recording } from "./recording.js"
+import { createRoom } from "./room.js"
+import { followed } from "./room_socket.js"
+import { buildPage } from "./shell.js"
+import { answering, openWebsocket } from "./websocket.js"
+
+const MENU = "M4 6h16v2H4zm0 5h16v2H4zm0 5h16v2H4z"
+
+/** Return the link back to the lecture that this tab has left to play on its own. @param {ClientKeys} own */
+function rejoin({ embed }) {
+  const { code } = followed
+  return code === null || embed === "1" ? [] : [element("a.rejoin", { href: `r/${code}` }, "Back to the lecture")]
+}
+
+/** @type {HTMLElement | null} */
+let built = null
+
+/**
+ * Render the page.  Panel may call this again: the page is built once.
+ * @param {{model: PageModel, view: PanelView, el: HTMLElement}} component
+ */
+export function render({ model, view, el }) {
+  if (built !== null) return el.replaceWith(built)
+  built = el
+  const { client, lessons: index, scenes, showcase, files, palettes, sheets } = model
+  const mount = createMount(sheets)
+  const menu = sceneMenu(scenes, showcase)
+  const dialogs = { menu, share: shareDialog(), invite: inviteDialog(), export: exportDialog(files), chart: chartPanel(palettes) }
+  const first = [button("tool.param-scenes", menu.open, { title: "Choose a scene", ariaHasPopup: "dialog", innerHTML: icon(MENU) },
+    element("span", "Scenes"))]
+  const { query } = buildPage(model, { mark: "?", page: createPage(view), connect: openWebsocket, answering }, {
+    mount, bar: [mount("bar", renderBar, { first, dialogs }), ...rejoin(client)],
+    lessons: { index, record: recording() }, introduction: mount("introduction", renderIntroduction),
+  }, el)
+  if (client.embed !== "1") createRoom({ query })
+}
