@@ -4,7 +4,7 @@
 /**
  * The states among which sliders move; the first one is where they begin.
  * @typedef {{scene: string, names: string[], points: number[][], states: [strip: number, at: number][], queries: string[],
- *   fixed: string}} Family
+ *   fixed: string, example: string}} Family
  */
 /**
  * What a file holds.  picks: scene → plot → the parameters of its axes; sources: scene → source → its columns; steps:
@@ -25,10 +25,14 @@ const shown = (value) => String(Number(value.toPrecision(6))).replace("-", "−"
  * @param {Family} family
  * @param {number} at the point on show
  * @param {Record<string, number>} changes
+ * @param {Record<string, number>} [scales] the range of each parameter in the picture where the change was made
  */
-export function nearestPoint({ names, points }, at, changes) {
+export function nearestPoint({ names, points }, at, changes, scales = {}) {
   const here = points[at]
-  const spans = names.map((_, i) => Math.max(...points.map((point) => point[i])) - Math.min(...points.map((point) => point[i])) || 1)
+  const spans = names.map((name, i) => {
+    const values = points.map((point) => point[i])
+    return scales[name] ?? (Math.max(...values) - Math.min(...values) || 1)
+  })
   /** @param {number[]} point @returns {[number, number, number]} */
   const distance = (point) => {
     let [asked, moved, away] = [0, 0, 0]
@@ -72,6 +76,8 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
   let count = 0
   let note = ""
   const described = new Set()
+  /** @type {Tree["ranges"]} */
+  let ranges = {}
   // Scene → source → what the page shows, to leave out what stays the same.
   /** @type {Map<string, Map<string, string>>} */
   const filled = new Map()
@@ -80,6 +86,8 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
   function find(wanted) {
     if (known.has(wanted)) return known.get(wanted)
     const given = new URLSearchParams(wanted)
+    const example = families.findIndex((family) => family.example !== "" && family.example === given.get("example"))
+    if (example >= 0) return [example, 0]
     if (!given.has("scene")) return null
     return [...known].find(([one]) => [...new URLSearchParams(one)].every(([key, value]) => given.get(key) === value))?.[1] ?? null
   }
@@ -111,16 +119,23 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
     const family = families[here]
     const axes = picks[family.scene]?.[picture]
     if (axes === undefined) return
-    const changes = Object.fromEntries(axes.map((name, i) => [name, [x, y][i]]).filter(([name]) => family.names.includes(String(name))))
-    at = nearestPoint(family, at, /** @type {Record<string, number>} */ (changes))
+    const [x0, x1, y0, y1] = ranges[picture]
+    /** @param {number[]} values @returns {Record<string, number>} */
+    const named = (values) => (
+      Object.fromEntries(axes.map((name, i) => /** @type {[string, number]} */ ([name, values[i]])).filter(([name]) => family.names.includes(name))))
+    at = nearestPoint(family, at, named([x, y]), named([x1 - x0, y1 - y0]))
     note = NEAREST
   }
 
   /** @param {StateRequest} request */
-  function apply({ values, picked, step, restore, reset, scene }) {
+  function apply({ values, picked, step, restore, reset, scene, preset }) {
     note = ""
     if (restore !== undefined) go(find(restore))
     if (reset) go([here, 0])
+    if (preset !== undefined) {
+      const { scene: name } = families[here]
+      go([families.findIndex((family) => family.scene === name && family.example === preset), 0])
+    }
     if (step !== undefined) go(step.join("/") in steps ? [steps[step.join("/")], 0] : null)
     else if (scene !== null && scene !== families[here].scene) {
       const first = families.findIndex((family) => family.scene === scene)
@@ -132,12 +147,14 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
 
   /** Return the controls of the sliders, at the values on show. @returns {Record<string, ControlValue>} */
   function controlsHere() {
-    const { names, points } = families[here]
-    return Object.fromEntries(names.map((name, i) => {
+    const { names, points, example } = families[here]
+    /** @type {[string, ControlValue][]} */
+    const sliders = names.map((name, i) => {
       const values = distinct(points.map((point) => point[i]))
       const [low, high] = [values[0], values.at(-1)]
       return [name, [points[at][i], low, high, (high - low) / Math.max(1, values.length - 1)]]
-    }))
+    })
+    return { ...Object.fromEntries(sliders), preset: at === 0 ? example : "" }
   }
 
   /** Return the text about what moves in this file and what does not. */
@@ -180,6 +197,7 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
     const [place, said, controls] = [queries[at], note, controlsHere()]
     const strip = await stripAt(number)
     const tree = strip.trees[index]
+    ranges = tree.ranges
     const [filledSources, block] = strip.block(changed(scene, tree, number))
     // The strips of the neighbours, for the next move.
     for (const near of [at - 1, at + 1]) if (states[near] !== undefined && states[near][0] !== number) stripAt(states[near][0])

@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 from hess_explorer.export.picture_data import address, picture_of
-from hess_explorer.lessons.lesson import TIME, Lesson, StateLink
+from hess_explorer.lessons.lesson import TIME, Lesson
 from hess_explorer.offline.html import HOME, document
-from hess_explorer.offline.plan import Slider, across, family, read_slider
+from hess_explorer.offline.plan import Family, Slider, across, family, read_slider, slider_of
 from hess_explorer.offline.recording import Recording
-from hess_explorer.page.controls import slider_limits
 from hess_explorer.page.description import describe_lesson
-from hess_explorer.protocol.parameters import Number, Values, encode
+from hess_explorer.protocol.parameters import Value, Values, encode
 from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_mechanics.numerics.accuracy import DRAFT
 
-__all__ = ["COUNT", "lesson_page", "state_page"]
+__all__ = ["COUNT", "lesson_page", "scene_page", "state_page"]
 
 COUNT = 40
 """Number of values of a slider by default."""
+_CLOUD = 1000.0
+"""Number of points of a cloud in the page of a scene."""
 
 Report = Callable[[int, int], None]
 
@@ -88,33 +92,91 @@ def state_page(
     return scene.name, document(scene.title, summary, recording, facts, client, home=home, contents=contents)
 
 
-def _sliders(lesson: Lesson, count: int) -> dict[str, tuple[StateLink, dict[str, Slider]]]:
-    """Return the states of the steps by query, each with the sliders that its steps name or animate."""
-    found: dict[str, tuple[StateLink, dict[str, Slider]]] = {}
+def scene_page(
+    scene: Scene[Any],
+    examples: Sequence[Preset] = (),
+    count: int = COUNT,
+    *,
+    home: str = HOME,
+    contents: str = "",
+) -> bytes:
+    """Return the HTML file of a scene: its first state with its two most important sliders, and examples.
+
+    All states have the accuracy of a drag, which is right to half a pixel, and clouds have `_CLOUD` points.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    examples : sequence of Preset
+        The examples.
+    count : int
+        Number of values of a slider.
+    home : str
+        Address of the explorer, for the links in the file.
+    contents : str
+        Relative address of a table of contents; "" for none.
+
+    Returns
+    -------
+    bytes
+        The contents of the file.
+
+    Raises
+    ------
+    ModelError
+        If the first state or an example cannot be computed.
+    """
+    light: dict[str, Value] = {"accuracy": DRAFT.name, "points": _CLOUD}
+    light = {name: value for name, value in light.items() if name in scene.defaults()}
+    values, _ = scene.admit({**scene.defaults(), **light})
+    sliders = [slider for name in scene.essential if (slider := slider_of(scene, name, values, count)) is not None]
+    families = [family(scene, values, sliders[:2])]
+    for preset in examples:
+        at, _ = scene.admit({**scene.defaults(), **scene.example(preset), **light})
+        families.append(family(scene, at, [], example=preset.name))
+    recording = Recording({scene.name: scene.open_pictures})
+    recording.record(families)
+    facts = {"scene": scene.name, "title": scene.title, "link": encode(scene.name, values)}
+    return document(scene.title, scene.summary, recording, facts, {}, home=home, contents=contents)
+
+
+def _moving(scene: Scene[Any]) -> Values:
+    """Return the values that all states of a slider have but the first.
+
+    Sections and diagrams shaded by density take seconds at full accuracy: their sliders move at the accuracy of a drag.
+    """
+    return {"accuracy": DRAFT.name} if hasattr(scene.state, "density") else {}
+
+
+def _planned(lesson: Lesson, count: int) -> list[Family]:
+    """Return the states of the steps, each once, with the sliders that its steps name or animate."""
+    found: dict[str, tuple[Scene[Any], Values, dict[str, set[float]]]] = {}
     for step in lesson.steps:
         scene = scenes()[step.at.scene]
-        values, _ = scene.admit(step.at.values)
-        states = [StateLink(scene.name, values)]
-        if step.prediction is not None:
-            then, _ = scene.admit(step.prediction.then.values)
-            states.append(StateLink(scene.name, then))
-        for state in states:
-            _, sliders = found.setdefault(encode(scene.name, state.values), (state, {}))
-        specs = {spec.name: spec for spec in scene.specs if isinstance(spec, Number)}
-        for at in states:
-            _, sliders = found[encode(scene.name, at.values)]
+        for state in (step.at, *([step.prediction.then] if step.prediction else [])):
+            values, _ = scene.admit(state.values)
+            _, _, sliders = found.setdefault(encode(scene.name, values), (scene, values, {}))
             for name in step.controls:
-                if name in specs:
-                    low, high, _ = slider_limits(specs[name], scene.limits(at.values))
-                    sliders[name] = Slider(name, across(low, high, count, float(at.values[name])))
-        if step.animation is not None and step.animation.name != TIME:
-            animation = step.animation
-            low, high = sorted((animation.start, animation.end))
-            _, sliders = found[encode(scene.name, values)]
-            known = sliders.get(animation.name, Slider(animation.name, ()))
-            more = across(low, high, count, float(values[animation.name]))
-            sliders[animation.name] = Slider(animation.name, tuple(sorted({*known.values, *more, low, high})))
-    return found
+                slider = slider_of(scene, name, values, count)
+                if slider is not None:
+                    sliders.setdefault(name, set()).update(slider.values)
+        animation = step.animation
+        if animation is not None and animation.name != TIME:
+            values, _ = scene.admit(step.at.values)
+            ends = sorted((animation.start, animation.end))
+            _, _, sliders = found[encode(scene.name, values)]
+            own = float(values[animation.name])
+            sliders.setdefault(animation.name, set()).update(ends, across(ends[0], ends[1], count, own))
+    return [
+        family(
+            scene,
+            values,
+            [Slider(name, tuple(sorted(each))) for name, each in sliders.items()],
+            moving=_moving(scene),
+        )
+        for scene, values, sliders in found.values()
+    ]
 
 
 def _pictures(lesson: Lesson) -> dict[str, list[str]]:
@@ -162,10 +224,7 @@ def lesson_page(
         If the state of a step cannot be computed.
     """
     recording = Recording(_pictures(lesson), report)
-    states = _sliders(lesson, count)
-    recording.record(
-        [family(scenes()[state.scene], state.values, [*sliders.values()]) for state, sliders in states.values()]
-    )
+    recording.record(_planned(lesson, count))
     steps: dict[str, int] = {}
     for number, step in enumerate(lesson.steps):
         scene = scenes()[step.at.scene]

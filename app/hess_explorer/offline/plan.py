@@ -6,16 +6,17 @@ import itertools
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from hess_explorer.page.controls import slider_limits
 from hess_explorer.protocol.parameters import Number, Values
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["MOST_STATES", "Family", "Slider", "across", "family", "read_slider"]
+__all__ = ["MOST_STATES", "Family", "Slider", "across", "family", "read_slider", "slider_of"]
 
 MOST_STATES = 4000
 """Maximum number of states of a file."""
@@ -41,17 +42,21 @@ class Family:
     Attributes
     ----------
     scene : the scene; base : the values of the first state; names : the varied parameters; points : their values,
-    those of the first state first.
+    those of the first state first; moving : values of parameters in all other states, such as the accuracy; example :
+    the name of the example that the first state is, "" for none.
     """
 
     scene: Scene[Any]
     base: Values
     names: tuple[str, ...]
     points: tuple[tuple[float, ...], ...]
+    moving: Values = field(default_factory=dict)
+    example: str = ""
 
     def values(self, point: Sequence[float]) -> Values:
         """Return the values of all parameters at a point."""
-        return {**self.base, **dict(zip(self.names, point, strict=True))}
+        moving = {} if point == self.points[0] else self.moving
+        return {**self.base, **moving, **dict(zip(self.names, point, strict=True))}
 
 
 def across(low: float, high: float, count: int, own: float) -> tuple[float, ...]:
@@ -106,7 +111,24 @@ def read_slider(text: str, scene: Scene[Any], base: Values, count: int = 40) -> 
     return Slider(name, across(low, high, count, float(base[name])))
 
 
-def family(scene: Scene[Any], base: Values, sliders: Sequence[Slider], *, grid: bool = False) -> Family:
+def slider_of(scene: Scene[Any], name: str, values: Values, count: int) -> Slider | None:
+    """Return the whole slider of a parameter in a state; None if it is no number."""
+    spec = next((spec for spec in scene.specs if spec.name == name), None)
+    if not isinstance(spec, Number):
+        return None
+    low, high, _ = slider_limits(spec, scene.limits(values))
+    return Slider(name, across(low, high, count, float(values[name])))
+
+
+def family(
+    scene: Scene[Any],
+    base: Values,
+    sliders: Sequence[Slider],
+    *,
+    grid: bool = False,
+    moving: Values | None = None,
+    example: str = "",
+) -> Family:
     """Return the states of sliders through a state.
 
     Parameters
@@ -119,6 +141,10 @@ def family(scene: Scene[Any], base: Values, sliders: Sequence[Slider], *, grid: 
         The sliders.
     grid : bool
         True for all combinations of their values; by default each slider has its own line through the state.
+    moving : mapping, optional
+        Values of parameters in all states but the first.
+    example : str
+        The name of the example that the state is.
 
     Returns
     -------
@@ -143,7 +169,7 @@ def family(scene: Scene[Any], base: Values, sliders: Sequence[Slider], *, grid: 
         points = _snake([slider.values for slider in sliders])
     else:
         points = [(*first[:i], value, *first[i + 1 :]) for i, one in enumerate(sliders) for value in one.values]
-    return Family(scene, base, names, tuple(dict.fromkeys([first, *points])))
+    return Family(scene, base, names, tuple(dict.fromkeys([first, *points])), moving or {}, example)
 
 
 def _snake(sides: Sequence[Sequence[float]]) -> list[tuple[float, ...]]:

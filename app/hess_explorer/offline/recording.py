@@ -84,6 +84,7 @@ class Recording:
                     "states": [list(self._states[query]) for query in points],
                     "queries": list(points),
                     "fixed": _fixed(one),
+                    "example": one.example,
                 }
             )
 
@@ -170,8 +171,9 @@ class Recording:
         found["controls"] = [
             {**one, "range": list(varied[one["name"]])} for one in found["controls"] if one["name"] in varied
         ]
-        for key in ("presets", "tries", "charts", "sides"):
+        for key in ("tries", "charts", "sides"):
             found[key] = []
+        found["presets"] = [one["example"] for one in self._families if one["scene"] == name and one["example"]]
         return {**found, "essential": [*varied], "drawn": False, "handle": None}
 
     def packed(self) -> tuple[dict[str, Any], list[str]]:

@@ -11,6 +11,7 @@ from typing import Any
 from urllib.parse import urlencode
 
 from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.scene import Preset
 
 __all__ = ["EXHIBITS", "IDEAS", "Exhibit", "rows"]
 
@@ -29,11 +30,15 @@ class Exhibit:
     title: str = ""
 
     @property
+    def preset(self) -> Preset:
+        """The example."""
+        (found,) = (one for one in scenes()[self.scene].presets if one.name.startswith(self.example))
+        return found
+
+    @property
     def query(self) -> str:
         """The query of the example, without "?"."""
-        scene = scenes()[self.scene]
-        (preset,) = (one for one in scene.presets if one.name.startswith(self.example))
-        return urlencode({"scene": self.scene, **preset.values})
+        return urlencode({"scene": self.scene, **self.preset.values})
 
     @property
     def file(self) -> str:
