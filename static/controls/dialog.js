@@ -47,6 +47,25 @@ export const snippet = (ariaLabel, rows) => (
 export const optionsOf = (pairs) => pairs.map(([value, text]) => new Option(text, value))
 
 /**
+ * Return a group of check boxes.
+ * @param {string} name class of the group
+ * @param {string} label
+ * @param {() => void} [onchange]
+ */
+export function choices(name, label, onchange) {
+  const list = element("div.choices", { onchange })
+  return {
+    frame: element(`fieldset.${name}`, element("legend", label), list),
+    /** @param {[value: string, words: string, isChecked: boolean][]} items */
+    put(items) {
+      list.replaceChildren(...items.map(([value, words, checked]) => element("label",
+        element("input", { type: "checkbox", value, checked }), words)))
+    },
+    chosen: () => /** @type {HTMLInputElement[]} */ ([...list.querySelectorAll("input:checked")]).map((box) => box.value),
+  }
+}
+
+/**
  * Let the browser save a file.
  * @param {Blob} content
  * @param {string} name

@@ -3,12 +3,19 @@
 // makes the file, and the Python code that computes the same.
 
 import { button, element } from "../page/elements.js"
-import { tell } from "../page/bus.js"
+import { listen, tell } from "../page/bus.js"
 import { linkTo } from "../page/embedding.js"
 import { gallery } from "../pictures/gallery.js"
 import { nameOf, titleOf } from "../pictures/picture.js"
-import { dialogOf, optionsOf, saveFile, section, snippet } from "./dialog.js"
-import { filmOf } from "./film.js"
+import { choices, dialogOf, optionsOf, saveFile, section, snippet } from "./dialog.js"
+import { slowFileOf } from "./slow_file.js"
+
+// [least, most, first] number of values of a slider.
+/** @type {[number, number, number]} */
+const VALUES = [2, 400, 40]
+// Megabytes of a state, at most, in scenes without density.
+const A_STATE = 0.05
+const FLAGS = new Set(["black", "grid"])
 
 /** @typedef {Record<string, string> & {picture: string, format: string}} Wanted */
 /** @typedef {{file?: Blob, why?: string}} Fetched a file, or the reason that there is none */
@@ -36,7 +43,7 @@ export function exportDialog(files) {
   const seconds = number("seconds", 1, files.seconds)
   const loop = element("select.param-loop", ...optionsOf([["", "the whole motion, once"],
     ["light", "a loop of 1080 pixels, light"], ["dark", "a loop of 1080 pixels, dark"]]))
-  const frames = element("progress", { ariaLabel: "Frames of the film", hidden: true })
+  const made = element("progress", { ariaLabel: "Frames or states", hidden: true })
   const black = element("input.param-black", { type: "checkbox" })
   const command = snippet("Command", 4)
   const python = element("textarea.snippet", { readOnly: true, rows: 6, ariaLabel: "Python" })
@@ -49,15 +56,27 @@ export function exportDialog(files) {
     element("label", "Width, mm ", width), element("label", black, " Black on white"))
   const one = element("label", "Picture ", picture)
   const film = element("div.figure", element("label", "Film ", loop), element("label", "Seconds ", seconds))
+  // Sliders that move in a page.
+  /** @type {Record<string, ControlValue>} */
+  let controls = {}
+  const moving = choices("moving", "Sliders that move in the file")
+  const values = number("values", 1, VALUES)
+  const grid = element("input.param-grid", { type: "checkbox" })
+  const states = element("p.states")
+  const page = element("div.page", moving.frame,
+    element("div.figure", element("label", "Values each ", values), element("label", grid, " All combinations")), states)
   const dialog = dialogOf("Export", "menu-of-scenes.share.export", [], element("div.parts",
-    section("File", "A picture as a file", one, element("label", "Format ", format), figure, film,
-      element("span", save, stop), frames, message),
+    section("File", "A picture as a file", one, element("label", "Format ", format), figure, film, page,
+      element("span", save, stop), made, message),
     section("Command", "The same on the command line", command),
     section("Python", "The same numbers in Python", python, element("span", copy, book))))
+  listen({ controls(changed) { Object.assign(controls, changed) } })
   dialog.addEventListener("close", () => running?.abort())
   dialog.addEventListener("input", write)
 
   const isAll = () => format.value === "html"
+  /** Return the sliders that are chosen to move, each over its whole range. */
+  const sliders = () => moving.chosen().map((name) => `${name}=${controls[name][1]}:${controls[name][2]}:${values.value}`)
   /** @param {Wanted} what */
   const fileName = ({ picture: name, format: kind }) => `${scene.name}${kind === "html" ? "" : `-${name}`}.${kind}`
 
@@ -70,6 +89,7 @@ export function exportDialog(files) {
       picture: isAll() ? gallery.openCells().map(nameOf).join(",") : picture.value, format: format.value,
       ...(drawn && { width: width.value }), ...(drawn && black.checked && { black: "1" }),
       ...(isFilm(format.value) && { seconds: seconds.value }), ...(isLoop && { loop: loop.value }),
+      ...(isAll() && sliders().length > 0 && { vary: sliders().join(","), ...(grid.checked && { grid: "1" }) }),
     }
   }
 
@@ -80,10 +100,15 @@ export function exportDialog(files) {
     figure.hidden = !isDrawn(format.value) || (isFilm(format.value) && loop.value !== "")
     one.hidden = isAll()
     film.hidden = !isFilm(format.value)
-    const what = wanted()
-    const options = Object.entries(what).filter(([, value]) => value !== "")
-      .map(([name, value]) => (name === "black" ? " --black" : ` --${name} ${value}`)).join("")
-    command.value = `hess-explorer export --state '${state().replaceAll("'", "%27")}'${options} --out ${fileName(what)}`
+    page.hidden = !isAll()
+    const count = sliders().length
+    const all = grid.checked ? values.valueAsNumber ** count : count * values.valueAsNumber
+    states.textContent = count === 0 ? "The file holds this state." : `About ${all} states, ${Math.ceil(all * A_STATE)} MB or less for most scenes.`
+    const options = Object.entries(wanted()).filter(([, value]) => value !== "").flatMap(([name, value]) => {
+      if (FLAGS.has(name)) return ` --${name}`
+      return (name === "vary" ? value.split(",") : [value]).map((one) => ` --${name} ${one}`)
+    }).join("")
+    command.value = `hess-explorer export --state '${state().replaceAll("'", "%27")}'${options} --out ${fileName(wanted())}`
   }
 
   // Answers may come in any order: keep the one for the picture that is chosen.
@@ -106,27 +131,28 @@ export function exportDialog(files) {
 
   /** @param {Wanted} what @param {AbortSignal} [signal] @returns {Promise<Fetched>} */
   async function fetched(what, signal) {
-    const query = new URLSearchParams({ ...what, ...(isFilm(what.format) && { progress: "1" }) })
+    const isSlow = isFilm(what.format) || "vary" in what
+    const query = new URLSearchParams({ ...what, ...(isSlow && { progress: "1" }) })
     try {
       const answer = await fetch(new URL(`export?${state()}&${query}`, document.baseURI), { signal })
       if (!answer.ok) return { why: await answer.text() }
-      return isFilm(what.format) ? await filmOf(answer, count) : { file: await answer.blob() }
+      return isSlow ? await slowFileOf(answer, count) : { file: await answer.blob() }
     } catch (error) {
       return { why: /** @type {Error} */ (error).name === "AbortError" ? "Stopped." : "The server does not answer: no file was made." }
     }
   }
 
-  /** @param {number[]} frame */
+  /** @param {number[]} progress */
   function count([done, of]) {
-    Object.assign(frames, { hidden: false, max: of, value: done })
-    message.textContent = `Frame ${done} of ${of}.`
+    Object.assign(made, { hidden: false, max: of, value: done })
+    message.textContent = `${isAll() ? "State" : "Frame"} ${done} of ${of}.`
   }
 
   /** @param {boolean} is */
   function busy(is) {
     save.disabled = is
     stop.hidden = !is
-    frames.hidden = true
+    made.hidden = true
   }
 
   /** @param {Wanted} what */
@@ -144,7 +170,12 @@ export function exportDialog(files) {
   return {
     box: dialog,
     /** @param {SceneDescription} description */
-    show(description) { scene = description },
+    show(description) {
+      scene = description
+      const numbers = scene.controls.filter(({ kind }) => kind === "number")
+      moving.put(numbers.map(({ name, label }) => [name, label, false]))
+      controls = {}
+    },
     open() {
       // The address bar may lag behind the screen.
       tell("address")

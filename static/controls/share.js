@@ -7,7 +7,7 @@ import { linkTo } from "../page/embedding.js"
 import { qrCode } from "../page/qr.js"
 import { gallery } from "../pictures/gallery.js"
 import { isFolded, labelOf, nameOf } from "../pictures/picture.js"
-import { dialogOf, section, snippet } from "./dialog.js"
+import { choices, dialogOf, section, snippet } from "./dialog.js"
 
 const SAID_FOR = 2000
 const HEIGHT = 600
@@ -39,20 +39,6 @@ function copyButton(name, label, copy) {
   return [element("span", item, said), say]
 }
 
-/** Return a group of check boxes. @param {string} name @param {string} label @param {() => void} onchange */
-function choices(name, label, onchange) {
-  const list = element("div.choices", { onchange })
-  return {
-    frame: element(`fieldset.embed-${name}`, element("legend", label), list),
-    /** @param {[value: string, words: string, isChecked: boolean][]} items */
-    put(items) {
-      list.replaceChildren(...items.map(([value, words, checked]) => element("label",
-        element("input", { type: "checkbox", value, checked }), words)))
-    },
-    chosen: () => /** @type {HTMLInputElement[]} */ ([...list.querySelectorAll("input:checked")]).map((box) => box.value),
-  }
-}
-
 /** Return the dialog and the functions that open it and set its scene. */
 export function shareDialog() {
   /** @type {SceneDescription | null} */
@@ -68,8 +54,8 @@ export function shareDialog() {
     html.value = `<iframe src="${src}" title="Hess Explorer: ${escaped(scene.title)}" width="100%" height="${HEIGHT}"` +
       ` style="border: 0" allow="fullscreen"></iframe>`
   }
-  const pictures = choices("pictures", "Pictures", write)
-  const controls = choices("controls", "Controls", write)
+  const pictures = choices("embed-pictures", "Pictures", write)
+  const controls = choices("embed-controls", "Controls", write)
   const [copyLink, sayLink] = copyButton("link", "Copy link", () => tell("link"))
   const [copyHtml, sayHtml] = copyButton("snippet", "Copy HTML", () => tell("copy", html.value))
   listen({ copied: ({ text, said }) => (text === null ? sayLink : sayHtml)(said) })

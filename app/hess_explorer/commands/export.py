@@ -1,14 +1,16 @@
-"""`hess-explorer export`: a picture of the page as a table, figure or film, or the whole state as HTML."""
+"""`hess-explorer export`: a picture as a table, figure or film, or a state or lesson as an HTML page."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from pathlib import Path
 
 from hess_explorer.export.formats import FILM_WIDTHS, SECONDS, WIDTHS, FileRequest, Loop, holding
 
 from . import CommandError
-from .command import Command, Options, flag, option, picture
+from .arguments import shown
+from .command import Command, Options, flag, option, picture, whole
 from .output import computing, show
 
 __all__ = ["COMMAND"]
@@ -16,24 +18,65 @@ __all__ = ["COMMAND"]
 _TEXTS = ("csv", "json", "svg", "html")
 
 
-def _progress_printer(lines: bool) -> Callable[[int, int], None]:
-    """Return a function that prints the progress of a film: as lines, or as one changing line in a terminal."""
+def _progress_printer(lines: bool, what: str) -> Callable[[int, int], None]:
+    """Return a function that prints the progress: as lines, or as one changing line in a terminal."""
     seen = sys.stderr.isatty()
 
     def report(done: int, of: int) -> None:
         if lines:
             print(f"{done}/{of}", file=sys.stderr, flush=True)
         elif seen:
-            print(f"\rframe {done} of {of}", end="" if done < of else "\n", file=sys.stderr, flush=True)
+            print(f"\r{what} {done} of {of}", end="" if done < of else "\n", file=sys.stderr, flush=True)
 
     return report
 
 
+def _states_printer(lines: bool) -> Callable[[int, int, int], None]:
+    """Return a function that prints the progress of a page, and its number of states and size at first."""
+    report = _progress_printer(lines, "state")
+
+    def tell(done: int, of: int, size: int) -> None:
+        if done == 1 and of > 1 and not lines:
+            print(f"{of} states, at most {max(0.1, size / 1e6):.1f} MB.", file=sys.stderr, flush=True)
+        report(done, of)
+
+    return tell
+
+
 def _page(options: Options) -> bytes:
+    from hess_explorer.offline.html import HOME
     from hess_explorer.offline.pages import state_page
 
     pictures = options.picture.split(",") if options.picture else ()
-    return state_page(options.state, pictures, lenient=options.lenient)[1]
+    return state_page(
+        options.state,
+        pictures,
+        options.vary,
+        grid=options.grid,
+        home=options.page or HOME,
+        lenient=options.lenient,
+        report=_states_printer(options.progress),
+    )[1]
+
+
+def _lesson(options: Options) -> bytes:
+    from hess_explorer.lessons import shipped
+    from hess_explorer.lessons.collection import read_paths
+    from hess_explorer.lessons.lesson import LessonError
+    from hess_explorer.offline.html import HOME
+    from hess_explorer.offline.pages import lesson_page
+
+    path = Path(options.lesson)
+    try:
+        lesson = read_paths([path])[0] if path.suffix == ".md" else shipped().get(options.lesson)
+    except LessonError as error:
+        raise CommandError(str(error)) from error
+    if lesson is None:
+        raise CommandError(
+            f"There is no lesson {shown(options.lesson)}: name a Markdown file or one of {', '.join(shipped())}."
+        )
+    report = _states_printer(options.progress)
+    return lesson_page(lesson, options.values, home=options.page or HOME, report=report)
 
 
 def _picture(options: Options) -> bytes:
@@ -43,24 +86,29 @@ def _picture(options: Options) -> bytes:
     found = picture_data(options.state, options.picture, lenient=options.lenient)
     loop = Loop(options.loop == "dark", options.page) if options.loop else None
     request = FileRequest(options.format, options.width, options.black, options.seconds, loop)
-    return content(found, request, _progress_printer(options.progress))
+    return content(found, request, _progress_printer(options.progress, "frame"))
 
 
 def _run(options: Options) -> None:
     if options.out is None and options.format not in _TEXTS:
         raise CommandError(f"{options.format.upper()} is a binary format: name a file with --out FILE.")
-    # A film prints its own progress.
-    with computing(own_progress=options.format in holding("film")):
-        data = _page(options) if options.format == "html" else _picture(options)
+    is_page = options.format in holding("state")
+    if (options.vary or options.lesson) and not is_page:
+        raise CommandError("Sliders and lessons need a page: add --format html.")
+    if options.lesson and (options.vary or options.state):
+        raise CommandError("A lesson has its own states and sliders: leave out --state and --vary.")
+    # Films and pages print their own progress.
+    with computing(own_progress=is_page or options.format in holding("film")):
+        data = (_lesson if options.lesson else _page)(options) if is_page else _picture(options)
     show(data, options.out)
 
 
 COMMAND = Command(
     "Export a picture of the state that a link describes: its data in full precision as CSV or JSON; a square figure "
     "as PNG, SVG or PDF, with bodies and clouds at the time of the link and without the moving point; or a film of the "
-    "motion as WebM, MP4 or GIF. HTML contains several pictures of the state in one interactive file that needs no "
-    "server. Every file contains link, parameters, accuracy, errors and version. Figures and films require: pip "
-    "install 'hess-explorer[export]'.",
+    "motion as WebM, MP4 or GIF. HTML is an interactive page in one file that needs no server: pictures of the state, "
+    "whose sliders move if they are named by --vary, or a lesson. Every file contains link, parameters, accuracy, errors "
+    "and version. Figures and films require: pip install 'hess-explorer[export]'.",
     (
         *picture("; for HTML a list with commas, by default those open at first"),
         option(
@@ -91,9 +139,19 @@ COMMAND = Command(
             choices=("light", "dark"),
             default=None,
         ),
-        option("--page", "address of the page, for the link in a loop", default="", metavar="URL"),
+        option(
+            "--vary",
+            "HTML: a slider that moves in the file, as NAME=LOW:HIGH:COUNT (default 40 values); may be repeated",
+            action="append",
+            default=[],
+            metavar="SLIDER",
+        ),
+        flag("--grid", "HTML: all combinations of the sliders; by default each has its own line through the state"),
+        option("--lesson", "HTML: a lesson, by its name or its Markdown file", default="", metavar="LESSON"),
+        whole("--values", 2, 400, "HTML: number of values of each slider of a lesson", default=40),
+        option("--page", "address of the explorer, for the links in a loop or a page", default="", metavar="URL"),
         flag("--black", "draw in black on white instead of the colours of the page"),
-        flag("--progress", "print the progress of a film to stderr, one line per frame"),
+        flag("--progress", "print the progress of a film or page to stderr, one line per frame or state"),
     ),
     _run,
     "--state 'h=1.2&f=0.3' --picture circle --format csv --out circle.csv",

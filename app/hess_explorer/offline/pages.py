@@ -2,28 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from hess_explorer.export.picture_data import address, picture_of
 from hess_explorer.lessons.lesson import TIME, Lesson
 from hess_explorer.offline.html import HOME, document
 from hess_explorer.offline.plan import Family, Slider, across, family, read_slider, slider_of
-from hess_explorer.offline.recording import Recording
+from hess_explorer.offline.recording import Recording, Report
 from hess_explorer.page.description import describe_lesson
 from hess_explorer.protocol.parameters import Value, Values, encode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_mechanics.numerics.accuracy import DRAFT
 
-__all__ = ["COUNT", "lesson_page", "scene_page", "state_page"]
+__all__ = ["COUNT", "lesson_page", "planned", "scene_page", "state_page"]
 
 COUNT = 40
 """Number of values of a slider by default."""
 _CLOUD = 1000.0
 """Number of points of a cloud in the page of a scene."""
 
-Report = Callable[[int, int], None]
+
+def planned(query: str, sliders: Sequence[str], *, grid: bool = False, lenient: bool = False) -> Family:
+    """Return the states of a page before they are computed; the parameters and errors are those of `state_page`."""
+    found = address(query, lenient=lenient)
+    varied = [read_slider(text, found.scene, found.values, COUNT) for text in sliders]
+    return family(found.scene, found.values, varied, grid=grid)
 
 
 def state_page(
@@ -56,7 +61,7 @@ def state_page(
     lenient : bool
         True to correct an invalid query, as in `address`.
     report : callable, optional
-        Gets the number of computed states and of all states.
+        See `Recording`.
 
     Returns
     -------
@@ -74,9 +79,9 @@ def state_page(
     scene = found.scene
     wanted = [picture_of(scene, name).name for name in pictures] or scene.open_pictures
     chosen = [name for name in scene.pictures if name in wanted]
-    varied = [read_slider(text, scene, found.values, COUNT) for text in sliders]
+    states = planned(query, sliders, grid=grid, lenient=lenient)
     recording = Recording({scene.name: chosen}, report)
-    recording.record([family(scene, found.values, varied, grid=grid)])
+    recording.record([states])
     parameters = ", ".join(f"{name} = {value}" for name, value in found.values.items())
     facts = {
         "link": found.link,
@@ -84,7 +89,7 @@ def state_page(
         "title": scene.title,
         "pictures": chosen,
         "parameters": dict(found.values),
-        "sliders": {slider.name: list(slider.values) for slider in varied},
+        "sliders": list(sliders),
         "notes": list(found.notes),
     }
     client = {name: repr(value) for name, value in found.client.items()}
@@ -211,7 +216,7 @@ def lesson_page(
     contents : str
         Relative address of a table of contents; "" for none.
     report : callable, optional
-        Gets the number of computed states and of all states.
+        See `Recording`.
 
     Returns
     -------

@@ -22,7 +22,10 @@ from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import ModelError
 
-__all__ = ["Recording"]
+__all__ = ["Recording", "Report"]
+
+Report = Callable[[int, int, int], None]
+"""Gets the number of computed states, that of all states, and the largest size of all in bytes."""
 
 _LARGEST_STRIP = 600_000
 """Numbers of a strip, after which the next one begins: the browser decodes a strip within a few frames."""
@@ -46,11 +49,11 @@ class Recording:
     pictures : mapping
         The names of the pictures of each scene.
     report : callable, optional
-        Gets the number of computed states and of all states.
+        Gets the number of computed states, that of all states, and their largest size in bytes.
     """
 
     pictures: Mapping[str, Sequence[str]]
-    report: Callable[[int, int], None] | None = None
+    report: Report | None = None
     _states: dict[str, tuple[int, int]] = field(default_factory=dict)
     _strips: list[Strip] = field(default_factory=list)
     _families: list[dict[str, Any]] = field(default_factory=list)
@@ -62,7 +65,7 @@ class Recording:
         """Compute the states of families, each state once.  Raises `ModelError` if a first state is impossible."""
         queries = [{encode(one.scene.name, one.values(point)): point for point in one.points} for one in families]
         total = len({query for found in queries for query in found} - self._states.keys())
-        done = 0
+        done = size = 0
         for one, points in zip(families, queries, strict=True):
             self._note_sliders(one)
             strip = self._begin()
@@ -75,7 +78,9 @@ class Recording:
                 self._states[query] = len(self._strips) - 1, len(strip.trees) - 1
                 done += 1
                 if self.report is not None:
-                    self.report(done, total)
+                    # The others are smaller, being differences from their neighbours.
+                    size = size or total * len(base64.b64encode(strip.pack()))
+                    self.report(done, total, size)
             self._families.append(
                 {
                     "scene": one.scene.name,

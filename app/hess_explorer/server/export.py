@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import threading
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from functools import partial
 from typing import Any
 from urllib.parse import urlencode
 
@@ -18,12 +18,12 @@ from hess_explorer.export.file import content
 from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, FileRequest, holding
 from hess_explorer.export.notebook import PROGRAMS
 from hess_explorer.export.picture_data import address, compute
-from hess_explorer.offline.pages import state_page
+from hess_explorer.offline.pages import planned, state_page
 from hess_explorer.protocol.parameters import MAX_QUERY, Choice, Number, decode
-from hess_explorer.server.film import Film
 from hess_explorer.server.home import home_of
 from hess_explorer.server.refusal import refuse
-from hess_mechanics.errors import ModelError
+from hess_explorer.server.slow_file import SlowFile
+from hess_mechanics.errors import InvalidParameter, ModelError
 
 __all__ = ["FILES", "Export"]
 
@@ -33,14 +33,17 @@ _SPECS = (
     Number("width", "width", "Width", FileRequest.width, WIDTHS, 5.0, WIDTHS),
     Number("seconds", "seconds", "Seconds", FileRequest.seconds, SERVED_SECONDS, 1.0, SERVED_SECONDS),
     Choice("loop", "Loop", ("", "light", "dark"), ""),
+    Choice("grid", "Grid", ("0", "1"), "0"),
     Choice("progress", "Progress", ("0", "1"), "0"),
 )
 
-# One file and one film at a time, so that open pages have priority.
+# One file and one slow file at a time, so that open pages have priority.
 FILES = ThreadPoolExecutor(max_workers=1, thread_name_prefix="export")
-_films = ThreadPoolExecutor(max_workers=1, thread_name_prefix="film")
-_MOST, _MOST_FILMS = 20, 5
-"""Maximum number of waiting requests, for files and for films."""
+_slow = ThreadPoolExecutor(max_workers=1, thread_name_prefix="slow-file")
+_MOST, _MOST_SLOW = 20, 5
+"""Maximum number of waiting requests, for files and for slow files."""
+_MOST_STATES = 400
+"""Maximum number of states of a page."""
 _SECONDS = 10.0
 """CPU time limit of a file in seconds."""
 
@@ -49,22 +52,23 @@ class Export(RequestHandler):
     """GET /export?<state>&picture=NAME&format=…&width=MM&black=1&seconds=S&loop=dark: the file, or an error message.
 
     The formats py and ipynb are Python code that computes the picture, as a script and as a notebook.  For HTML,
-    `picture` may be a list with commas.  With progress=1 a film is preceded by lines that report its progress:
-    "queued", "3/250" after the third of 250 frames, and finally "file 12345" with the number of bytes that follow, or
-    "why" and an error message.
+    `picture` and `vary`, the sliders that move in the page, may be lists with commas, and grid=1 asks for all
+    combinations.  With progress=1 a slow file, which is a film or a page with sliders, is preceded by lines that report
+    its progress: "queued", "3/250" after the third of 250 frames or states, and finally "file 12345" with the number of
+    bytes that follow, or "why" and an error message.
     """
 
-    waiting = filming = 0
+    waiting = slow_waiting = 0
 
     def initialize(self) -> None:
         """Create the events that cancel the export."""
         self._left = threading.Event()
-        self._film = Film()
+        self._slow_file = SlowFile()
 
     def on_connection_close(self) -> None:
         """Cancel the export, because the client has gone."""
         self._left.set()
-        self._film.stop()
+        self._slow_file.stop()
 
     async def get(self) -> None:
         """Respond with the file; with 400 and a message if it cannot be made, with 503 if too many requests wait."""
@@ -74,17 +78,18 @@ class Export(RequestHandler):
             return
         given = {name: self.get_query_argument(name) for name in self.request.query_arguments}
         read, _ = decode(self.request.query, _SPECS)
-        own = {spec.name for spec in _SPECS} | {"picture"}
+        own = {spec.name for spec in _SPECS} | {"picture", "vary"}
         state, picture = {name: value for name, value in given.items() if name not in own}, given.get("picture", "")
-        is_film = read["format"] in holding("film")
-        if (Export.filming >= _MOST_FILMS) if is_film else (Export.waiting >= _MOST):
+        sliders = given["vary"].split(",") if read["format"] in holding("state") and given.get("vary") else []
+        is_slow = bool(sliders) or read["format"] in holding("film")
+        if (Export.slow_waiting >= _MOST_SLOW) if is_slow else (Export.waiting >= _MOST):
             refuse(self, 503, "The server is making too many files at the moment: try again in a minute.")
             return
-        Export.filming += is_film
-        Export.waiting += not is_film
+        Export.slow_waiting += is_slow
+        Export.waiting += not is_slow
         try:
-            if is_film:
-                await self._answer_film(state, picture, read)
+            if is_slow:
+                await self._answer_slowly(state, picture, read, sliders)
             else:
                 request = FileRequest(str(read["format"]), float(read["width"]), read["black"] == "1")
                 name, data = await asyncio.get_running_loop().run_in_executor(
@@ -96,8 +101,8 @@ class Export(RequestHandler):
         except ModelError as error:
             refuse(self, 400, str(error))
         finally:
-            Export.filming -= is_film
-            Export.waiting -= not is_film
+            Export.slow_waiting -= is_slow
+            Export.waiting -= not is_slow
 
     def _file(self, state: dict[str, str], picture: str, request: FileRequest) -> tuple[str, bytes]:
         """Return name and contents of the file.  Raises `ModelError`, `Abandoned`."""
@@ -113,11 +118,15 @@ class Export(RequestHandler):
         with limited(self._left, _SECONDS), np.errstate(all="ignore"):
             return name, content(compute(where), request)
 
-    async def _answer_film(self, state: dict[str, str], picture: str, read: dict[str, Any]) -> None:
-        """Send the film, after progress lines if they are requested.  Raises `ModelError`, `Abandoned`."""
+    async def _answer_slowly(
+        self, state: dict[str, str], picture: str, read: dict[str, Any], sliders: Sequence[str]
+    ) -> None:
+        """Send a slow file, after progress lines if they are requested.  Raises `ModelError`, `Abandoned`."""
         loop, kind, lines = asyncio.get_running_loop(), str(read["format"]), read["progress"] == "1"
-        # A film that cannot be made is refused at once, and not after those that wait.
-        where = await loop.run_in_executor(FILES, partial(address, urlencode(state), picture, lenient=True))
+        # A file that cannot be made is refused at once, and not after those that wait.
+        name = await loop.run_in_executor(
+            FILES, self._name_of_slow, urlencode(state), picture, sliders, read["grid"] == "1"
+        )
         words = [
             f"--state={urlencode(state)}",
             "--lenient",
@@ -129,7 +138,10 @@ class Export(RequestHandler):
             "--seconds",
             f"{read['seconds']:g}",
             *(["--black"] if read["black"] == "1" else []),
-            *(["--loop", str(read["loop"]), f"--page={home_of(self.request)}"] if read["loop"] else []),
+            *(["--loop", str(read["loop"])] if read["loop"] else []),
+            *(f"--vary={slider}" for slider in sliders),
+            *(["--grid"] if sliders and read["grid"] == "1" else []),
+            f"--page={home_of(self.request)}",
         ]
 
         def say(line: str) -> None:
@@ -145,7 +157,7 @@ class Export(RequestHandler):
             self.set_header("Content-Type", "application/octet-stream")
             say("queued")
         try:
-            data = await loop.run_in_executor(_films, self._film.made, words, tell)
+            data = await loop.run_in_executor(_slow, self._slow_file.made, words, tell)
         except ModelError as error:
             if not lines:
                 raise
@@ -155,7 +167,20 @@ class Export(RequestHandler):
             say(f"file {len(data)}")
             self.finish(data)
         else:
-            self._send(f"{where.scene.name}-{where.picture.name}", kind, data)
+            self._send(name, kind, data)
+
+    def _name_of_slow(self, query: str, picture: str, sliders: Sequence[str], grid: bool) -> str:
+        """Return the name of a slow file, if it can be made.  Raises `InvalidParameter`."""
+        if not sliders:
+            where = address(query, picture, lenient=True)
+            return f"{where.scene.name}-{where.picture.name}"
+        states = planned(query, sliders, grid=grid, lenient=True)
+        if len(states.points) > _MOST_STATES:
+            raise InvalidParameter(
+                f"These are {len(states.points)} states; the server computes at most {_MOST_STATES}: choose fewer "
+                "values, or use the command."
+            )
+        return states.scene.name
 
     def _send(self, name: str, kind: str, data: bytes) -> None:
         self.set_header("Content-Type", FORMATS[kind].media)

@@ -1,4 +1,4 @@
-"""Make a film in a separate low-priority process that runs `hess-explorer export`."""
+"""Make a film or a page with sliders in a separate low-priority process that runs `hess-explorer export`."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ from pathlib import Path
 from hess_explorer.compute.budget import Abandoned
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 
-__all__ = ["LONGEST", "Film"]
+__all__ = ["LONGEST", "SlowFile"]
 
 LONGEST = 300.0
-"""Wall-clock limit of a film in seconds."""
+"""Wall-clock limit of a file in seconds."""
 _LATER = 15
 """Scheduling priority ("nice" value) of its process, below all others."""
 
 
-class Film:
-    """One film.  Call `made` in a separate thread; `stop` cancels it from any thread."""
+class SlowFile:
+    """One file.  Call `made` in a separate thread; `stop` cancels it from any thread."""
 
     def __init__(self) -> None:
         self._stopped = threading.Event()
         self._process: subprocess.Popen[str] | None = None
 
     def stop(self) -> None:
-        """Cancel the film."""
+        """Cancel it."""
         self._stopped.set()
         if self._process is not None:
             self._process.kill()
@@ -43,7 +43,7 @@ class Film:
         words : sequence of str
             Arguments of the command.
         tell : callable
-            Called with the progress, for example "3/250" after the third of 250 frames.
+            Called with the progress, for example "3/250" after the third of 250 frames or states.
 
         Raises
         ------
@@ -52,11 +52,11 @@ class Film:
         WorkLimit
             After `LONGEST` seconds.
         Abandoned
-            If the film was cancelled.
+            If it was cancelled.
         """
         # A killed process leaves temporary files, and its encoder may still be writing; this folder collects them.
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-            path = Path(folder) / "film"
+            path = Path(folder) / "file"
             command = [sys.executable, "-m", "hess_explorer", "export", *words, "--progress", "--out", str(path)]
             if self._stopped.is_set():
                 raise Abandoned
@@ -84,9 +84,11 @@ class Film:
             if self._stopped.is_set():
                 raise Abandoned
             if not in_time:
-                raise WorkLimit(f"This film takes more than {LONGEST:g} s to make: reduce its length or its width.")
+                raise WorkLimit(
+                    f"This file takes more than {LONGEST:g} s to make: choose a shorter or smaller film, or fewer values."
+                )
             if not path.exists():
-                raise InvalidParameter(last_line.removeprefix("hess-explorer: ") or "The film could not be made.")
+                raise InvalidParameter(last_line.removeprefix("hess-explorer: ") or "The file could not be made.")
             return path.read_bytes()
 
     def _heard(self, process: subprocess.Popen[str], tell: Callable[[str], None]) -> str:

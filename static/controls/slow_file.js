@@ -1,13 +1,13 @@
 // @ts-check
-// A film that arrives while it is made: lines with its progress come before the file.
+// A film or page that arrives while it is made: lines with its progress come before the file.
 
 /**
- * Return the film in an answer, see "server/export.py", or the reason that there is none.
+ * Return the file in an answer, see "server/export.py", or the reason that there is none.
  * @param {Response} answer
- * @param {(frames: number[]) => void} count gets [done, of]
+ * @param {(parts: number[]) => void} count gets [done, of]
  * @returns {Promise<{file?: Blob, why?: string}>}
  */
-export async function filmOf(answer, count) {
+export async function slowFileOf(answer, count) {
   const reader = answer.body.getReader()
   /** @type {Uint8Array<ArrayBuffer>[]} */
   const parts = []
@@ -31,5 +31,5 @@ export async function filmOf(answer, count) {
     if (begun) parts.push(value.subarray(from))
   }
   const file = new Blob(parts)
-  return begun && file.size === length ? { file } : { why: "The film is incomplete: no file was made." }
+  return begun && file.size === length ? { file } : { why: "The file is incomplete: none was made." }
 }

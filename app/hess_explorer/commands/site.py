@@ -1,0 +1,62 @@
+"""`hess-explorer site`: build a folder of pages that needs no server."""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+
+from . import CommandError
+from .arguments import integer
+from .command import Command, Options, option, whole
+from .output import show
+
+__all__ = ["COMMAND"]
+
+
+def _run(options: Options) -> None:
+    from hess_explorer.offline.html import HOME
+    from hess_explorer.offline.site import build
+    from hess_mechanics.errors import ModelError
+    from hess_mechanics.numerics.parallel import THREADS
+
+    begun = time.monotonic()
+
+    def report(name: str, done: int, of: int) -> None:
+        print(f"{done}/{of} {name}, {time.monotonic() - begun:.0f} s", file=sys.stderr, flush=True)
+
+    try:
+        sizes = build(
+            options.folder,
+            options.names,
+            count=options.values,
+            home=options.page or HOME,
+            workers=options.workers or THREADS,
+            report=report,
+        )
+    except ModelError as error:
+        raise CommandError(str(error)) from error
+    except OSError as error:
+        raise CommandError(f"{str(options.folder)!r} cannot be written: {error.strerror or error}.") from error
+    lines = [f"{size:>12,} bytes  {path}" for path, size in sorted(sizes.items())]
+    total = (
+        f"{sum(sizes.values()):>12,} bytes in {time.monotonic() - begun:.0f} s: open {options.folder / 'index.html'}"
+    )
+    show("\n".join([*lines, total, ""]).encode())
+
+
+COMMAND = Command(
+    "Build a folder of pages that works without a server, from a disk, on any host and inside other pages: an index "
+    "with the gallery, all lessons, and each scene with its two main sliders, which move through computed states.",
+    (
+        option("folder", "the folder; files of an earlier site are replaced", type=Path, metavar="OUT"),
+        option(
+            "--pages", "only these lessons and scenes, by name", nargs="+", default=[], dest="names", metavar="NAME"
+        ),
+        whole("--values", 2, 400, "number of values of a slider", default=40),
+        option("--page", "address of the explorer, for the links in the pages", default="", metavar="URL"),
+        option("--workers", "number of processes (default: one per core)", type=integer(1, 64), default=0, metavar="N"),
+    ),
+    _run,
+    "course-pages --pages limit-cycles-and-locking suslov-hess --values 20",
+)
