@@ -1,140 +1,231 @@
-"""A state in one HTML file: it plays and turns from the disk, where every request is refused."""
+"""Pages in files: from the disk, where every request is refused, they do what the served page does."""
 
+import io
 import json
-from contextlib import contextmanager
+import re
 
 import numpy as np
 import pytest
+from PIL import Image
 from playwright.sync_api import expect
 
 from hess_explorer.export.picture_data import picture_data
-from hess_explorer.page.offline import as_html, bundled
+from hess_explorer.lessons import shipped
+from hess_explorer.offline.html import bundled
+from hess_explorer.offline.pages import lesson_page, state_page
 from hess_mechanics.errors import ModelError
 from support.accessible import assert_accessible
+from support.offline import captions, change, opened
 
-DRAFT = "h=1.2&f=0.3&accuracy=draft"
-POINT = """name => {
-    const models = Bokeh.documents.flatMap((one) => [...one.all_models])
-    const { data } = models.find((one) => one.name === name)
-    const read = (column) => (data instanceof Map ? data.get(column) : data[column])[0]
-    return [read("x"), read("y")]
-}"""
+DRAFT = "scene=suslov-hess&h=1.2&f=0.3&accuracy=draft"
+FIRST = "limit-cycles-and-locking"
+# Five pages, with two sliders each.
+PAGES = {
+    "suslov-hess": (DRAFT, ("h=0.2:3.4:6", "f=0:1:5")),
+    "free-suslov": ("scene=free-suslov", ("k=0.2:0.9:6", "I23=-0.3:0.3:5")),
+    "chaplygin-ball": ("scene=chaplygin-ball", ("D=0.5:3:6", "h=0.5:2:5")),
+    "kharlamova": ("scene=kharlamova", ("q1=-0.5:0.5:6", "p=0.6:1.4:5")),
+    "loxodrome": ("scene=loxodrome", ("energy=0.5:2:6", "l=0.1:0.5:5")),
+}
 
 
-@contextmanager
-def opened(browser, path):
-    """The file in a browser without any network; no error, and no request but for the file itself."""
-    context = browser.new_context(viewport={"width": 1400, "height": 850}, offline=True, reduced_motion="reduce")
-    errors, asked = [], []
-    context.on("console", lambda message: errors.append(message.text) if message.type in ("error", "warning") else None)
-    context.on("weberror", lambda error: errors.append(str(error.error)))
-    context.on("request", lambda request: asked.append(request.url))
-    try:
-        page = context.new_page()
-        page.goto(path.as_uri())
-        page.wait_for_selector("html[data-ready=true]", state="attached")
-        yield page
-        assert errors == []
-        assert [url for url in asked if not url.startswith("data:")] == [path.as_uri()]
-    finally:
-        context.close()
+def written(folder, name, content):
+    path = folder / f"{name}.html"
+    path.write_bytes(content)
+    return path.as_uri()
 
 
 def time_of(page):
     """The time of the player."""
-    return float(page.locator("#player output").text_content().removeprefix("t = "))
+    return float(page.locator(".player output").text_content().removeprefix("t = "))
+
+
+def point_of(page, name):
+    """The place of a moving point, from Bokeh's models."""
+    return page.evaluate(
+        """name => {
+            const models = Bokeh.documents.flatMap((one) => [...one.all_models])
+            const { data } = models.find((one) => one.name === name)
+            const read = (column) => (data instanceof Map ? data.get(column) : data[column])[0]
+            return [read("x"), read("y")]
+        }""",
+        name,
+    )
+
+
+def drawn(page):
+    return page.locator("canvas.sphere").first.evaluate("canvas => canvas.toDataURL()")
 
 
 def test_a_state_plays_and_turns_from_the_disk(browser, tmp_path):
-    name, data = as_html(f"{DRAFT}&t=2&az=0.3&el=0.2", home="https://explorer.example/")
+    name, data = state_page(f"{DRAFT}&t=2&az=0.3&el=0.2", home="https://explorer.example/")
     assert name == "suslov-hess"
-    path = tmp_path / "suslov-hess.html"
-    path.write_bytes(data)
-    with opened(browser, path) as page:
-        assert page.locator("#pictures .picture").count() == 6
-        captions = page.locator("#pictures .title").all_text_contents()
-        assert captions == [
-            "The body in space",
-            "Angular velocity (ω₁, ω₂)",
-            "Poisson sphere",
-            "Bifurcation diagram",
-            "Circle map",
-            "The torus in space",
-        ]
+    with opened(browser, written(tmp_path, name, data)) as page:
+        assert page.locator(".picture").count() == 6
         found = picture_data(DRAFT, "omega")
         orbit = found.columns["data-orbit"]
 
         def assert_point(t):
             expected = [np.interp(t, orbit["t"], orbit[column]) for column in ("omega1", "omega2")]
             # The time is written with two digits.
-            assert page.evaluate(POINT, "omega-point") == pytest.approx(expected, abs=0.03)
+            assert point_of(page, "omega-point") == pytest.approx(expected, abs=0.03)
 
         assert time_of(page) == 2.0
         assert_point(2.0)
-        sphere = page.locator("#pictures canvas.sphere").first
+        sphere = page.locator("canvas.sphere").first
         assert sphere.get_attribute("data-turn") == "0.3000 0.2000"
-        before = sphere.evaluate("canvas => canvas.toDataURL()")
+        before = drawn(page)
         box = sphere.bounding_box()
         page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
         page.mouse.down()
         page.mouse.move(box["x"] + box["width"] / 2 + 60, box["y"] + box["height"] / 2 + 20)
         page.mouse.up()
-        page.wait_for_function(
-            "before => document.querySelector('#pictures').shadowRoot"
-            ".querySelector('canvas.sphere').toDataURL() !== before",
-            arg=before,
-        )
+        expect(sphere).not_to_have_attribute("data-turn", "0.3000 0.2000")
         assert float(sphere.get_attribute("data-turn").split()[0]) < 0.29
+        assert drawn(page) != before
         page.keyboard.press("Space")
-        page.wait_for_function(
-            "() => Number(document.querySelector('#player').shadowRoot"
-            ".querySelector('output').textContent.slice(4)) > 2.3"
+        expect(page.locator(".player output")).not_to_have_text("t = 2.00")
+        page.keyboard.press("Space")
+        assert_point(time_of(page))
+        # What moves in the file and what does not.
+        assert page.locator("input.hand").count() == 0
+        expect(page.locator(".fixed")).to_contain_text("This file holds one computed state. Fixed: I₂₂ = 0.96, ")
+        page.locator(".param-theme").click()
+        expect(page.locator("html")).to_have_attribute("style", re.compile("^color-scheme: dark"))
+        page.locator("a.home").hover()
+        page.mouse.down()
+        page.mouse.up()
+        assert (
+            page.locator("a.home").get_attribute("href").startswith("https://explorer.example/?v=1&scene=suslov-hess")
         )
-        page.keyboard.press("Space")
-        stopped = time_of(page)
-        assert_point(stopped)
-        # Controls that need a server are disabled, with the reason.
-        sliders = page.locator("#controls input")
-        assert sliders.count() == 7
-        assert all(sliders.nth(i).is_disabled() for i in range(7))
-        expect(page.locator("#controls")).to_contain_text("This file holds one state")
-        link = picture_data(f"{DRAFT}&t=2&az=0.3&el=0.2").link
-        assert page.locator("header a").get_attribute("href") == f"https://explorer.example/?{link}"
         facts = json.loads(page.locator("#facts").text_content())
         assert facts["parameters"] == dict(found.values)
-        assert facts["status"][0] == "accuracy: draft"
         assert facts["program"] == found.facts["program"]
         assert facts["link"] in page.locator("meta[name=description]").get_attribute("content")
-        assert "error" in page.locator("meta[name=description]").get_attribute("content")
-        assert page.locator("#words math").count() > 3
         assert_accessible(page)
 
 
-def test_clouds_move_without_a_server_and_only_the_pictures_asked_for_are_there(browser, tmp_path):
-    path = tmp_path / "clouds.html"
-    path.write_bytes(as_html("scene=singular-measures&points=1000&accuracy=draft", ("omega", "density"))[1])
-    with opened(browser, path) as page:
-        assert [one.get_attribute("data-name") for one in page.locator("#pictures .picture").all()] == [
-            "omega",
-            "density",
-        ]
-        cloud = page.locator("#pictures canvas.cloud")
+def pixels(page):
+    """The pictures as colours (n, m, 3)."""
+    shot = page.locator(".stage > div").first.screenshot()
+    return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB")).astype(int)
+
+
+@pytest.mark.parametrize(
+    "name", ["suslov-hess", *(pytest.param(one, marks=pytest.mark.thorough) for one in PAGES if one != "suslov-hess")]
+)
+def test_sliders_show_what_the_served_page_shows(browser, explorer, tmp_path, name):
+    query, sliders = PAGES[name]
+    content = state_page(query, sliders=sliders)[1]
+    names = [slider.partition("=")[0] for slider in sliders]
+    explorer.fresh(name)
+    with opened(browser, written(tmp_path, name, content)) as page:
+        for step in range(10):
+            slider = page.locator(f".param-{names[step // 5]} .hand").first
+            change(page, slider.press, "Home" if step % 5 == 0 else "ArrowRight")
+            page.locator("a.home").dispatch_event("pointerdown")
+            address = page.locator("a.home").get_attribute("href").partition("?")[2]
+            explorer.change(explorer.page.evaluate, "query => hess.tell('restore', query)", address)
+            assert captions(page) == captions(explorer.page)
+            for one in (page, explorer.page):
+                one.mouse.move(5, 5)
+            here, there = pixels(page), pixels(explorer.page)
+            assert here.shape == there.shape
+            off = np.abs(here - there).max(axis=2)
+            # Lines may be shifted by an eighth of a pixel of a picture that is three times as wide.
+            assert (off > 64).mean() < 5e-4, (step, address)
+            assert off.mean() < 0.1, (step, address)
+
+
+def test_the_file_says_what_it_cannot_show_and_keeps_its_place(browser, tmp_path):
+    uri = written(tmp_path, "page", state_page(DRAFT, ("omega", "bifurcation"), ("h=0.2:3.4:6", "f=0:1:5"))[1])
+    with opened(browser, uri) as page:
+        notes = page.locator(".notes")
+        change(page, page.locator(".param-h .hand").press, "End")
+        assert page.locator(".param-h .box").input_value() == "3.4"
+        expect(notes).to_be_hidden()
+        change(page, page.locator(".param-f .hand").press, "Home")
+        expect(notes).to_have_text("h is 1.2 again: this file moves one slider at a time.")
+        # A click in the bifurcation diagram chooses the nearest state.
+        plot = page.locator(".picture[data-name=bifurcation] .host").bounding_box()
+        change(page, page.mouse.click, plot["x"] + 0.85 * plot["width"], plot["y"] + 0.4 * plot["height"])
+        expect(notes).to_contain_text("the nearest one is shown")
+        assert float(page.locator(".param-h .box").input_value()) > 2
+        change(page, page.keyboard.press, "Control+z")
+        assert page.locator(".param-f .box").input_value() == "0"
+        page.wait_for_timeout(600)
+        address = page.url
+    assert "#v=1&scene=suslov-hess" in address
+    with opened(browser, address) as page:
+        assert page.locator(".param-f .box").input_value() == "0"
+
+
+def test_clouds_move_and_only_the_pictures_asked_for_are_there(browser, tmp_path):
+    content = state_page("scene=singular-measures&points=1000&accuracy=draft", ("omega", "density"))[1]
+    with opened(browser, written(tmp_path, "clouds", content)) as page:
+        assert [one.get_attribute("data-name") for one in page.locator(".picture").all()] == ["omega", "density"]
+        cloud = page.locator("canvas.cloud")
         before = cloud.evaluate("canvas => canvas.toDataURL()")
         page.keyboard.press("ArrowRight")
-        page.wait_for_function(
-            "before => document.querySelector('#pictures').shadowRoot"
-            ".querySelector('canvas.cloud').toDataURL() !== before",
-            arg=before,
-        )
+        page.wait_for_timeout(100)
+        assert cloud.evaluate("canvas => canvas.toDataURL()") != before
+
+
+@pytest.mark.parametrize(
+    "name", [FIRST, *(pytest.param(one, marks=pytest.mark.thorough) for one in shipped() if one != FIRST)]
+)
+def test_a_lesson_is_given_from_its_file(browser, tmp_path, name):
+    lesson = shipped()[name]
+    uri = written(tmp_path, name, lesson_page(lesson, 3))
+    with opened(browser, uri, (1280, 720)) as page:
+        assert_given(page, lesson)
+        # Back to the beginning, as a lecturer does after a question.
+        for _ in lesson.steps[1:]:
+            change(page, page.keyboard.press, "PageUp")
+        expect(page.locator(".lesson .count")).to_have_text(f"1 / {len(lesson.steps)}")
+    with opened(browser, f"{uri}#lesson={name}&step=3", (390, 844), has_touch=True, is_mobile=True) as page:
+        expect(page.locator(".lesson .count")).to_have_text(f"3 / {len(lesson.steps)}")
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+def assert_given(page, lesson):
+    """Go through all steps; guess where a step asks, move the sliders that it names."""
+    for number, step in enumerate(lesson.steps):
+        expect(page.locator(".lesson .count")).to_have_text(f"{number + 1} / {len(lesson.steps)}")
+        expect(page.locator("html")).to_have_attribute("data-scene", step.at.scene)
+        if step.prediction is not None:
+            plot = page.locator(f".picture[data-name={step.prediction.picture}] .host").bounding_box()
+            for share in (0.45, 0.6):
+                page.mouse.click(plot["x"] + share * plot["width"], plot["y"] + 0.4 * plot["height"])
+            change(page, page.keyboard.press, "PageDown")
+            expect(page.locator(".said")).not_to_be_empty()
+        for name in step.controls:
+            slider = page.locator(f".step-controls .param-{name} .hand")
+            if slider.count():
+                change(page, slider.press, "End")
+                change(page, slider.press, "Home")
+        if step.question:
+            page.keyboard.press("PageDown")
+            expect(page.locator(".answer")).to_have_attribute("open", "")
+        if number + 1 < len(lesson.steps):
+            change(page, page.keyboard.press, "PageDown")
 
 
 def test_the_modules_in_the_file_name_each_other_and_nothing_else():
-    modules = bundled("page/offline.js")
-    assert {"page/offline.js", "page/bus.js", "pictures/sphere.js", "controls/player.js"} <= modules.keys()
+    modules = bundled("offline/file.js")
+    assert {
+        "offline/file.js",
+        "page/shell.js",
+        "page/bus.js",
+        "pictures/sphere.js",
+        "controls/player.js",
+    } <= modules.keys()
     # The modules that talk to the server are not included.
-    assert not {"page/client.js", "page/requests.js", "page/websocket.js"} & modules.keys()
+    assert not {"page/served.js", "page/websocket.js", "page/room.js", "controls/export.js", "controls/chart.js"} & {
+        *modules
+    }
 
 
 def test_a_picture_that_is_not_there_is_refused():
     with pytest.raises(ModelError, match="has no picture 'x': choose one of body"):
-        as_html(DRAFT, ["x"])
+        state_page(DRAFT, ["x"])

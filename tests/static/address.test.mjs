@@ -14,7 +14,7 @@ globalThis.history = {
   },
   pushState: (_state, _title, url) => written.push(["push", url]),
 }
-const address = createAddress({ query: () => "scene=a&h=1", own })
+const address = createAddress({ query: () => "scene=a&h=1", own, mark: "?" })
 
 test("the address holds the state, the browser's own keys that are set", () => {
   address.writeNow()
@@ -25,6 +25,14 @@ test("the address holds the state, the browser's own keys that are set", () => {
   assert.deepEqual(written.splice(0), [
     ["replace", "?scene=a&h=1&t=1.5&az=0.6"], ["replace", "?scene=a&h=1&t=1.5&large=omega%2Ccircle&az=0.6&theme=dark"],
   ])
+})
+
+test("a page in a file has its state after #", () => {
+  location.hash = "#scene=a&h=2"
+  const inFile = createAddress({ query: () => "scene=a&h=1", own: {}, mark: "#" })
+  assert.equal(inFile.read(), "scene=a&h=2")
+  inFile.writeNow()
+  assert.deepEqual(written.splice(0), [["replace", "#scene=a&h=1"]])
 })
 
 test("a new entry leaves the state before in the old one", () => {

@@ -11,7 +11,8 @@ import { Element, point } from "./browser.mjs"
 let query = "scene=a&h=0"
 let steps = null
 const entries = []
-const history = createHistory({ query: () => query, isSettled: () => true, address: { push: (before) => entries.push(before) } })
+const address = { push: (before) => entries.push(before), read: () => location.search.slice(1) }
+const history = createHistory({ query: () => query, isSettled: () => true, address })
 
 function paint(next) {
   query = next

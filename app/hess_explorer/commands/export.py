@@ -107,8 +107,8 @@ COMMAND = Command(
     "Export a picture of the state that a link describes: its data in full precision as CSV or JSON; a square figure "
     "as PNG, SVG or PDF, with bodies and clouds at the time of the link and without the moving point; or a film of the "
     "motion as WebM, MP4 or GIF. HTML is an interactive page in one file that needs no server: pictures of the state, "
-    "whose sliders move if they are named by --vary, or a lesson. Every file contains link, parameters, accuracy, errors "
-    "and version. Figures and films require: pip install 'hess-explorer[export]'.",
+    "whose sliders move if they are named by --vary, or a lesson. Every file contains link, parameters, accuracy, "
+    "errors and version. Figures and films require: pip install 'hess-explorer[export]'.",
     (
         *picture("; for HTML a list with commas, by default those open at first"),
         option(

@@ -13,6 +13,7 @@ from hess_explorer.offline.recording import Recording, Report
 from hess_explorer.page.description import describe_lesson
 from hess_explorer.protocol.parameters import Value, Values, encode
 from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_mechanics.numerics.accuracy import DRAFT
 
@@ -20,8 +21,10 @@ __all__ = ["COUNT", "lesson_page", "planned", "scene_page", "state_page"]
 
 COUNT = 40
 """Number of values of a slider by default."""
-_CLOUD = 1000.0
+_CLOUD = 500.0
 """Number of points of a cloud in the page of a scene."""
+_WINDOW = ("first", "last")
+"""The ends of an orbit diagram: they choose what is computed."""
 
 
 def planned(query: str, sliders: Sequence[str], *, grid: bool = False, lenient: bool = False) -> Family:
@@ -107,7 +110,8 @@ def scene_page(
 ) -> bytes:
     """Return the HTML file of a scene: its first state with its two most important sliders, and examples.
 
-    All states have the accuracy of a drag, which is right to half a pixel, and clouds have `_CLOUD` points.
+    All states have the accuracy of a drag, which is right to half a pixel.  Scenes with clouds or densities have a
+    quarter of the values, and clouds `_CLOUD` points.
 
     Parameters
     ----------
@@ -135,7 +139,10 @@ def scene_page(
     light: dict[str, Value] = {"accuracy": DRAFT.name, "points": _CLOUD}
     light = {name: value for name, value in light.items() if name in scene.defaults()}
     values, _ = scene.admit({**scene.defaults(), **light})
-    sliders = [slider for name in scene.essential if (slider := slider_of(scene, name, values, count)) is not None]
+    if "points" in values or _accumulates(scene):
+        count = max(2, count // 4)
+    names = [name for name in scene.essential if name not in _WINDOW]
+    sliders = [slider for name in names if (slider := slider_of(scene, name, values, count)) is not None]
     families = [family(scene, values, sliders[:2])]
     for preset in examples:
         at, _ = scene.admit({**scene.defaults(), **scene.example(preset), **light})
@@ -151,7 +158,12 @@ def _moving(scene: Scene[Any]) -> Values:
 
     Sections and diagrams shaded by density take seconds at full accuracy: their sliders move at the accuracy of a drag.
     """
-    return {"accuracy": DRAFT.name} if hasattr(scene.state, "density") else {}
+    return {"accuracy": DRAFT.name} if _accumulates(scene) else {}
+
+
+def _accumulates(scene: Scene[Any]) -> bool:
+    """Return whether the pictures of a scene are shaded by the density of very many points."""
+    return isinstance(getattr(scene.state, "density", None), part)
 
 
 def _planned(lesson: Lesson, count: int) -> list[Family]:

@@ -85,7 +85,7 @@ class SlowFile:
                 raise Abandoned
             if not in_time:
                 raise WorkLimit(
-                    f"This file takes more than {LONGEST:g} s to make: choose a shorter or smaller film, or fewer values."
+                    f"This file takes more than {LONGEST:g} s: choose a shorter or smaller film, or fewer values."
                 )
             if not path.exists():
                 raise InvalidParameter(last_line.removeprefix("hess-explorer: ") or "The file could not be made.")

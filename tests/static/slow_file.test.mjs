@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import { filmOf } from "../../static/controls/film.js"
+import { slowFileOf } from "../../static/controls/slow_file.js"
 
 // The film in an answer whose bytes come in pieces of `size`, and the counts that were told.
 async function read(text, size) {
@@ -13,7 +13,7 @@ async function read(text, size) {
     },
   })
   const counts = []
-  const { file, why } = await filmOf(new Response(body), (count) => counts.push(count))
+  const { file, why } = await slowFileOf(new Response(body), (count) => counts.push(count))
   return { counts, why, text: file && await file.text() }
 }
 

@@ -1,0 +1,74 @@
+"""The states that a file will hold."""
+
+import numpy as np
+import pytest
+
+from hess_explorer.offline.pages import planned
+from hess_explorer.offline.plan import MOST_STATES, across, family, read_slider, slider_of
+from hess_explorer.scenes import scenes
+from hess_mechanics.errors import InvalidParameter
+
+SCENE = scenes()["suslov-hess"]
+BASE = {**SCENE.defaults(), "h": 1.2, "f": 0.3}
+
+
+def test_a_slider_has_readable_values_and_that_of_the_state():
+    slider = read_slider("h=0.2:3.5:12", SCENE, BASE)
+    assert slider.name == "h"
+    assert {0.2, 0.5, 1.2, 3.5} <= {*slider.values}
+    assert list(slider.values) == sorted(slider.values)
+    assert all(len(f"{value:g}") <= 5 for value in slider.values)
+    assert len(read_slider("h=0.2:3.5", SCENE, BASE).values) in (40, 41)
+    # Steps that are small beside the values keep their digits.
+    assert len({*across(1.0, 1.0001, 11, 1.0)}) == 11
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("h", "is no slider: write NAME=LOW:HIGH:COUNT"),
+        ("h=1", "is no slider"),
+        ("h=a:b:3", "are no numbers"),
+        ("h=2:1:3", "must increase"),
+        ("h=1:nan:3", "must increase"),
+        ("h=-1e9:1:3", "within"),
+        ("h=1:2:1", "2 to 400 values"),
+        ("h=1:2:9999", "2 to 400 values"),
+        ("cells=0:1:3", "has no number 'cells' to vary: choose one of I22, "),
+        ("x=0:1:3", "has no number 'x'"),
+    ],
+)
+def test_a_slider_that_cannot_be_is_refused(text, why):
+    with pytest.raises(InvalidParameter, match=why):
+        read_slider(text, SCENE, BASE)
+
+
+def test_lines_go_through_the_state_and_a_grid_has_all_combinations():
+    h, f = read_slider("h=1:2:3", SCENE, BASE), read_slider("f=0:0.4:3", SCENE, BASE)
+    lines = family(SCENE, BASE, [h, f])
+    assert lines.points[0] == (1.2, 0.3)
+    assert {*lines.points} == {(1.0, 0.3), (1.2, 0.3), (1.5, 0.3), (2.0, 0.3), (1.2, 0.0), (1.2, 0.2), (1.2, 0.4)}
+    grid = family(SCENE, BASE, [h, f], grid=True)
+    assert len(grid.points) == len({*grid.points}) == len(h.values) * len(f.values)
+    # Consecutive states are neighbours, so that their differences are small.
+    steps = np.abs(np.diff(np.array(grid.points[1:]), axis=0)).max(axis=1)
+    assert steps.max() <= 0.5
+    assert grid.values((2.0, 0.4)) == {**BASE, "h": 2.0, "f": 0.4}
+    moving = family(SCENE, BASE, [h], moving={"accuracy": "draft"})
+    assert moving.values(moving.points[0])["accuracy"] == "standard"
+    assert moving.values((2.0,))["accuracy"] == "draft"
+
+
+def test_the_number_of_states_is_bounded():
+    with pytest.raises(InvalidParameter, match=f"at most {MOST_STATES}"):
+        planned("h=1.2&f=0.3", ["h=0:3:400", "f=0:1:100"], grid=True)
+    with pytest.raises(InvalidParameter, match="once"):
+        planned("h=1.2&f=0.3", ["h=0:3", "h=1:2"])
+
+
+def test_a_choice_has_no_slider():
+    assert slider_of(SCENE, "cells", BASE, 10) is None
+    slider = slider_of(SCENE, "f", BASE, 10)
+    assert slider is not None
+    low, high, _ = SCENE.limits(BASE)["f"]
+    assert (slider.values[0], slider.values[-1]) == pytest.approx((low, high), abs=1e-3 * (high - low))
