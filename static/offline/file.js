@@ -12,6 +12,9 @@ import { createShelf } from "./strip.js"
 // Numbers of decoded strips that are kept, 4 bytes each.
 const MOST = 12_000_000
 
+// Colours of text and of secondary text, those of the served page.
+const INKS = { light: ["rgba(0, 0, 0, 0.87)", "rgba(0, 0, 0, 0.6)"], dark: ["rgb(255, 255, 255)", "rgba(255, 255, 255, 0.7)"] }
+
 /** @typedef {{client: ClientKeys, lesson: string, sheets: Record<string, string>, contents: string,
  *   recording: import("./recorded.js").Recording}} FileModel
  */
@@ -28,6 +31,9 @@ function createPage() {
     isDark: () => isDark,
     setDark(value) {
       isDark = value
+      const [text, muted] = INKS[value ? "dark" : "light"]
+      document.body.style.color = text
+      document.documentElement.style.setProperty("--mui-palette-text-secondary", muted)
       for (const hear of hearers) hear()
     },
     standing: () => Promise.resolve(),

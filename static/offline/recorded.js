@@ -17,6 +17,9 @@
 const ABSENT = "This file does not hold that state: the link at the top opens the explorer, where it can be reached."
 const NEAREST = "This file holds some states only: the nearest one is shown."
 
+// A slider whose steps reach a little beyond its end could not reach the end.
+const BELOW = 1 - 1e-9
+
 /** @param {number} value */
 const shown = (value) => String(Number(value.toPrecision(6))).replace("-", "−")
 
@@ -145,14 +148,19 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
     change(values)
   }
 
-  /** Return the controls of the sliders, at the values on show. @returns {Record<string, ControlValue>} */
-  function controlsHere() {
+  /**
+   * Return the controls of the sliders: the values of the state, which may be limited, over the range of the file.
+   * @param {Tree["controls"]} own the controls of the state
+   * @returns {Record<string, ControlValue>}
+   */
+  function controlsHere(own) {
     const { names, points, example } = families[here]
     /** @type {[string, ControlValue][]} */
     const sliders = names.map((name, i) => {
       const values = distinct(points.map((point) => point[i]))
       const [low, high] = [values[0], values.at(-1)]
-      return [name, [points[at][i], low, high, (high - low) / Math.max(1, values.length - 1)]]
+      const [value = points[at][i], , , , idle = false] = /** @type {number[] & [any, any, any, any, boolean?]} */ (own[name] ?? [])
+      return [name, [value, low, high, BELOW * (high - low) / Math.max(1, values.length - 1), idle]]
     })
     return { ...Object.fromEntries(sliders), preset: at === 0 ? example : "" }
   }
@@ -194,9 +202,10 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
     if (request !== null) apply(request)
     const { scene, states, queries } = families[here]
     const [number, index] = states[at]
-    const [place, said, controls] = [queries[at], note, controlsHere()]
+    const [place, said] = [queries[at], note]
     const strip = await stripAt(number)
     const tree = strip.trees[index]
+    const controls = controlsHere(tree.controls)
     ranges = tree.ranges
     const [filledSources, block] = strip.block(changed(scene, tree, number))
     // The strips of the neighbours, for the next move.

@@ -101,7 +101,7 @@ export function buildPage(model, host, { mount, bar, lessons, introduction }, el
   /** @param {string} key @param {string} [tag] */
   const text = (key, tag) => mount("text", renderText, { key, tag })
   const controls = element("section.controls.column", { id: "controls" },
-    mount("controls", renderControls), text("derived", "div"), text("fixed", "div"))
+    mount("controls", renderControls), element("div", text("derived", "div"), text("fixed", "div")))
   const reader = element("section.reader.column", { id: "text" },
     element("div.reading", mount("lessons", renderLessons, lessons), mount("prose", renderProse, { part: "words" })),
     element("div.signs", mount("prose", renderProse, { part: "legend" })))

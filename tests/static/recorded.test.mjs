@@ -25,7 +25,7 @@ test("a place in a picture takes the computed state that is nearest in the pictu
 const query = (h, f) => `v=1&scene=hess&h=${h}&f=${f}`
 const tree = (h) => ({
   sources: { curve: { x: { of: h } }, ...(h === 2 ? { label: { x: [2] } } : {}) }, ranges: { plane: [0, 10, 0, 1] },
-  texts: { notes: "" }, captions: { plane: { title: `h = ${h}` } }, controls: {},
+  texts: { notes: "" }, captions: { plane: { title: `h = ${h}` } }, controls: { f: [0.4, -1, 1, 0.01, true] },
 })
 const recording = {
   families: [
@@ -50,7 +50,11 @@ test("answers are those of a server: state, description once, controls, only the
   const ask = answers()
   const first = await ask(null)
   assert.equal(first.scene.name, "hess")
-  assert.deepEqual(first.state.tree.controls, { h: [1, 0, 2, 1], f: [0.5, 0, 1, 0.5], preset: "" })
+  const { h, f, preset } = first.state.tree.controls
+  assert.deepEqual([h, f].map(([value, low, high, step, idle]) => [value, low, high, Math.round(100 * step), idle]),
+    // The state has its own values, and controls without effect.
+    [[1, 0, 2, 100, false], [0.4, 0, 1, 50, true]])
+  assert.equal(preset, "")
   assert.deepEqual(first.state.tree.sources, { curve: { x: { of: 1 } }, label: { x: [] } })
   const second = await ask({ values: { h: 1.9 } })
   assert.equal("scene" in second, false)

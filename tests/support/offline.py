@@ -20,7 +20,7 @@ def opened(browser, address, size=WIDE, **options):
     context.on("request", lambda request: asked.append(request.url))
     try:
         page = context.new_page()
-        page.set_default_timeout(60_000)
+        page.set_default_timeout(30_000)
         page.goto(address)
         page.wait_for_selector(READY, state="attached")
         yield page
@@ -45,7 +45,8 @@ def change(page, action, *arguments):
 
 
 def settled(page, before):
-    """Wait until a state after that number is painted.  Without `wait_for_function`, which the file's policy forbids."""
+    """Wait until a state after that number is painted."""
+    # The file's policy forbids `wait_for_function`.
     for _ in range(6000):
         if state(page) > before and page.locator(READY).count():
             return
@@ -55,4 +56,4 @@ def settled(page, before):
 
 def captions(page):
     """Title, verdict and numbers of all pictures."""
-    return page.locator(".picture .caption").all_inner_texts()
+    return [text for text in page.locator(".picture .caption").all_inner_texts() if text.strip()]
