@@ -21,7 +21,7 @@ def site(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("site") / "pages"
     done = run("site", str(folder), "--values", "3", *(["--pages", *request.param] if request.param else []))
     assert done.returncode == 0, done.stderr
-    return folder, pages(request.param), done.stdout
+    return folder, pages(request.param), done.stdout.decode()
 
 
 def test_the_index_leads_to_every_page_and_nowhere_else(site):
@@ -41,7 +41,7 @@ def test_the_index_leads_to_every_page_and_nowhere_else(site):
 
 def test_every_page_opens_and_its_sliders_move(site, browser):
     folder, wanted, _ = site
-    with opened(browser, (folder / "index.html").as_uri()) as page:
+    with opened(browser, (folder / "index.html").as_uri(), ready="#keep") as page:
         assert page.locator("#keep").is_hidden()
         titles = page.locator("a.page strong").all_inner_texts()
     for name, path in wanted.items():

@@ -8,8 +8,8 @@ READY = "html[data-ready=true]"
 
 
 @contextmanager
-def opened(browser, address, size=WIDE, **options):
-    """The page of a file; no error, and no request but for the file itself."""
+def opened(browser, address, size=WIDE, ready=READY, **options):
+    """The page of a file; no error, and no request but for the file itself.  `ready` is there once it can be used."""
     width, height = size
     context = browser.new_context(
         viewport={"width": width, "height": height}, offline=True, reduced_motion="reduce", **options
@@ -22,7 +22,7 @@ def opened(browser, address, size=WIDE, **options):
         page = context.new_page()
         page.set_default_timeout(30_000)
         page.goto(address)
-        page.wait_for_selector(READY, state="attached")
+        page.wait_for_selector(ready, state="attached")
         yield page
         assert errors == []
         assert {url.partition("#")[0] for url in asked if not url.startswith(("data:", "blob:"))} == {
