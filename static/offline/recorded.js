@@ -15,6 +15,7 @@
  */
 
 const ABSENT = "This file does not hold that state: the link at the top opens the explorer, where it can be reached."
+const PLAIN = "Type a plain number: expressions need the explorer."
 const NEAREST = "This file holds some states only: the nearest one is shown."
 
 // A slider whose steps reach a little beyond its end could not reach the end.
@@ -74,10 +75,16 @@ const distinct = (values) => [...new Set(values)].sort((one, other) => one - oth
 export function createRecorded({ families, picks, sources, steps, scenes, lessons }, stripAt, query) {
   /** @type {Map<string, [family: number, at: number]>} */
   const known = new Map()
+  // A state belongs to the family that begins with it, if there is one.
+  families.forEach(({ queries: [first] }, i) => { if (!known.has(first)) known.set(first, [i, 0]) })
   families.forEach(({ queries }, i) => queries.forEach((one, k) => { if (!known.has(one)) known.set(one, [i, k]) }))
   let [here, at] = find(query) ?? [0, 0]
+  const symbolOf = (/** @type {string} */ name) => (
+    scenes[families[here].scene].controls.find((one) => one.name === name)?.symbol ?? name)
   let count = 0
   let note = ""
+  /** @type {Texts} */
+  let refused = {}
   const described = new Set()
   /** @type {Tree["ranges"]} */
   let ranges = {}
@@ -110,7 +117,6 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
     const before = family.points[at]
     at = nearestPoint(family, at, changes)
     const back = family.names.filter((name, i) => !(name in changes) && family.points[at][i] !== before[i])
-    const symbolOf = (/** @type {string} */ name) => scenes[family.scene].controls.find((one) => one.name === name)?.symbol ?? name
     if (back.length > 0) {
       const values = back.map((name) => `${symbolOf(name)} is ${shown(family.points[at][family.names.indexOf(name)])} again`)
       note = `${values.join(", ")}: this file moves one slider at a time.`
@@ -131,9 +137,12 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
   }
 
   /** @param {StateRequest} request */
-  function apply({ values, picked, step, restore, reset, scene, preset }) {
+  function apply({ values, expressions = {}, picked, step, restore, reset, scene, preset }) {
     note = ""
-    if (restore !== undefined) go(find(restore))
+    if (restore !== undefined) {
+      const inside = families[here].queries.indexOf(restore)
+      go(inside < 0 ? find(restore) : [here, inside])
+    }
     if (reset) go([here, 0])
     if (preset !== undefined) {
       const { scene: name } = families[here]
@@ -146,6 +155,7 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
     }
     if (picked !== undefined) pick(picked)
     change(values)
+    refused = Object.fromEntries(Object.keys(expressions).map((name) => [`error-${name}`, PLAIN]))
   }
 
   /**
@@ -202,7 +212,7 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
     if (request !== null) apply(request)
     const { scene, states, queries } = families[here]
     const [number, index] = states[at]
-    const [place, said] = [queries[at], note]
+    const [place, said, errors] = [queries[at], note, refused]
     const strip = await stripAt(number)
     const tree = strip.trees[index]
     const controls = controlsHere(tree.controls)
@@ -221,7 +231,7 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
       number: count, answers: request?.requested ?? 0, query: place, scene, progress: null,
       tree: {
         ...tree, sources: filledSources, controls, ranges: request?.held ? {} : tree.ranges,
-        texts: { ...tree.texts, fixed, notes: [said, notes].filter(Boolean).join("\n") },
+        texts: { ...tree.texts, ...errors, fixed, notes: [said, notes].filter(Boolean).join("\n") },
       },
     }
     return { head: { state, ...(isNew && { scene: scenes[scene] }), ...(lesson && { lesson }) }, block }

@@ -32,6 +32,9 @@ const recording = {
     { ...LINES, scene: "hess", fixed: "b = 1", example: "", queries: LINES.points.map(([h, f]) => query(h, f)),
       states: LINES.points.map((_, at) => [0, at]) },
     { scene: "hess", names: [], points: [[]], fixed: "", example: "Two cycles", queries: [query(7, 7)], states: [[1, 0]] },
+    // A state of the first line, with a slider of its own.
+    { ...LINES, scene: "hess", names: ["b"], points: [[1], [2]], fixed: "", example: "", queries: [query(2, 0.5), query(8, 8)],
+      states: [[0, 2], [1, 0]] },
   ],
   picks: { hess: { plane: ["h", "f"] } }, sources: { hess: { curve: ["x"], label: ["x"] } },
   steps: { "first/0/false": 0, "first/0/true": 1 },
@@ -70,8 +73,8 @@ test("answers are those of a server: state, description once, controls, only the
 })
 
 test("notes say what the file cannot do", async () => {
-  const ask = answers(query(2, 0.5))
-  assert.equal((await ask(null)).state.query, query(2, 0.5))
+  const ask = answers(query(0, 0.5))
+  assert.equal((await ask(null)).state.query, query(0, 0.5))
   assert.match((await ask({ values: { f: 1 } })).state.tree.texts.notes, /^h is 1 again: this file moves one slider/)
   assert.match((await ask({ values: { h: 2 } })).state.tree.texts.notes, /^f₀ is 0\.5 again/)
   assert.equal((await ask({ values: { x: 2 } })).state.tree.texts.notes, "")
@@ -79,6 +82,8 @@ test("notes say what the file cannot do", async () => {
   assert.equal(picked.state.query, query(1, 1))
   assert.match(picked.state.tree.texts.notes, /nearest/)
   assert.equal((await ask({ picked: ["sphere", 0, 0] })).state.query, query(1, 1))
+  assert.match((await ask({ expressions: { h: "pi/3" } })).state.tree.texts["error-h"], /plain number/)
+  assert.equal("error-h" in (await ask({})).state.tree.texts, false)
   assert.match((await ask({ restore: "v=1&scene=hess&h=5&f=5" })).state.tree.texts.notes, /does not hold/)
   // Undo, a link with further keys, examples, steps, reset.
   assert.equal((await ask({ restore: query(0, 0.5) })).state.query, query(0, 0.5))
@@ -86,8 +91,12 @@ test("notes say what the file cannot do", async () => {
   assert.equal((await ask({ preset: "Two cycles" })).state.tree.controls.preset, "Two cycles")
   assert.equal((await ask({ step: ["first", 0, false] })).state.query, query(1, 0.5))
   assert.equal((await ask({ step: ["first", 0, true] })).state.query, query(7, 7))
+  // A state of two families: from elsewhere the one that begins with it, otherwise the one on show.
+  assert.deepEqual(Object.keys((await ask({ restore: query(2, 0.5) })).state.tree.controls), ["b", "preset"])
+  await ask({ step: ["first", 0, false] })
+  assert.deepEqual(Object.keys((await ask({ restore: query(2, 0.5) })).state.tree.controls), ["h", "f", "preset"])
   assert.match((await ask({ step: ["first", 1, true] })).state.tree.texts.notes, /does not hold/)
   assert.equal((await ask({ lesson: "first" })).lesson.name, "first")
-  assert.equal((await ask({ reset: true })).state.query, query(7, 7))
+  assert.equal((await ask({ reset: true })).state.query, query(1, 0.5))
   assert.equal((await answers("example=Two+cycles")(null)).state.query, query(7, 7))
 })
