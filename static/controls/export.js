@@ -13,8 +13,8 @@ import { slowFileOf } from "./slow_file.js"
 // [least, most, first] number of values of a slider.
 /** @type {[number, number, number]} */
 const VALUES = [2, 400, 40]
-// Megabytes of a state, at most, in scenes without density.
-const A_STATE = 0.05
+// The size of a state in a file, by scene, without and with a density.
+const A_STATE = "10 to 250 kB each, depending on the scene"
 const FLAGS = new Set(["black", "grid"])
 
 /** @typedef {Record<string, string> & {picture: string, format: string}} Wanted */
@@ -103,7 +103,7 @@ export function exportDialog(files) {
     page.hidden = !isAll()
     const count = sliders().length
     const all = grid.checked ? values.valueAsNumber ** count : count * values.valueAsNumber
-    states.textContent = count === 0 ? "The file holds this state." : `About ${all} states, ${Math.ceil(all * A_STATE)} MB or less for most scenes.`
+    states.textContent = count === 0 ? "The file holds this state." : `About ${all} states of ${A_STATE}.`
     const options = Object.entries(wanted()).filter(([, value]) => value !== "").flatMap(([name, value]) => {
       if (FLAGS.has(name)) return ` --${name}`
       return (name === "vary" ? value.split(",") : [value]).map((one) => ` --${name} ${one}`)

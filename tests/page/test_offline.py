@@ -3,6 +3,7 @@
 import io
 import json
 import re
+from urllib.parse import parse_qsl
 
 import numpy as np
 import pytest
@@ -92,7 +93,6 @@ def test_a_state_plays_and_turns_from_the_disk(browser, tmp_path):
         expect(page.locator(".fixed")).to_contain_text("This file holds one computed state. Fixed: I₂₂ = 0.96, ")
         page.locator(".param-theme").click()
         expect(page.locator("html")).to_have_attribute("style", re.compile("^color-scheme: dark"))
-        # The link follows the state when it is about to be used.
         page.locator("a.home").dispatch_event("focus")
         assert (
             page.locator("a.home").get_attribute("href").startswith("https://explorer.example/?v=1&scene=suslov-hess")
@@ -102,6 +102,12 @@ def test_a_state_plays_and_turns_from_the_disk(browser, tmp_path):
         assert facts["program"] == found.facts["program"]
         assert facts["link"] in page.locator("meta[name=description]").get_attribute("content")
         assert_accessible(page)
+
+
+def address_of(page):
+    """The query of the state on show, in the link to the explorer, which follows it when it is about to be used."""
+    page.locator("a.home").dispatch_event("focus")
+    return page.locator("a.home").get_attribute("href").partition("?")[2]
 
 
 def pixels(page):
@@ -122,8 +128,7 @@ def test_sliders_show_what_the_served_page_shows(browser, explorer, tmp_path, na
         for step in range(10):
             slider = page.locator(f".param-{names[step // 5]} .hand").first
             change(page, slider.press, "Home" if step % 5 == 0 else "ArrowRight")
-            page.locator("a.home").dispatch_event("focus")
-            address = page.locator("a.home").get_attribute("href").partition("?")[2]
+            address = address_of(page)
             explorer.change(explorer.page.evaluate, "query => hess.tell('restore', query)", address)
             assert captions(page) == captions(explorer.page)
             for one in (page, explorer.page):
@@ -198,6 +203,11 @@ def assert_given(page, lesson):
                 page.mouse.click(plot["x"] + share * plot["width"], plot["y"] + 0.4 * plot["height"])
             change(page, page.keyboard.press, "PageDown")
             expect(page.locator(".said")).not_to_be_empty()
+            # The state in which the truth is shown.
+            there = dict(parse_qsl(address_of(page)))
+            assert [there[name] for name in step.prediction.then.values] == [
+                str(value) for value in step.prediction.then.values.values()
+            ]
         for name in step.controls:
             slider = page.locator(f".step-controls .param-{name} .hand")
             if slider.count():

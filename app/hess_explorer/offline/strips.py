@@ -32,7 +32,7 @@ _SPAN = 2**17
 _SHADES = 2**11
 """Steps across the extent of an image, which has 256 colours."""
 _SMALL = 8
-"""Arrays of so few numbers are stored with 22 bits, like constant ones."""
+"""Arrays of so few numbers are stored with 22 bits."""
 _LARGEST = 2.0**31
 _ORDERS = (0, 1, 2)
 
@@ -72,10 +72,10 @@ def _step(values: Array, column: str, known: float | None) -> float:
         return EXACT
     if extent < _SPAN and np.array_equal(finite, np.rint(finite)):
         return 1.0
-    if extent == 0 or values.size <= _SMALL:
+    if values.size <= _SMALL:
         return max(abs(low), abs(high)) / 2**22
     step = known or extent / (_SHADES if column == "image" else _SPAN)
-    # A curve may leave its plot by very far.
+    # A curve may leave its plot by very far; a constant array has no extent.
     return step if extent < _LARGEST * step else EXACT
 
 
