@@ -101,6 +101,7 @@ def test_there_are_commands():
         "basins",
         "cloud",
         "export",
+        "site",
         "code",
         "sweep",
     }
@@ -109,7 +110,7 @@ def test_there_are_commands():
 @pytest.mark.parametrize("words", COMMANDS, ids=lambda words: words[0])
 def test_the_commands_of_the_readme_work(words, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    if words[0] in ("shot", "bench", "serve"):
+    if words[0] in ("shot", "bench", "serve", "site") or "--lesson" in words:
         # They take long, and have tests of their own: here, that they are understood.
         _parser().parse_args(_with_negative_values(_with_command(words)))
         return

@@ -36,7 +36,7 @@ def _states_printer(lines: bool) -> Callable[[int, int, int], None]:
     report = _progress_printer(lines, "state")
 
     def tell(done: int, of: int, size: int) -> None:
-        if done == 1 and of > 1 and not lines:
+        if done == 1 and of > 1 and sys.stderr.isatty():
             print(f"{of} states, at most {max(0.1, size / 1e6):.1f} MB.", file=sys.stderr, flush=True)
         report(done, of)
 
