@@ -56,3 +56,6 @@ def test_without_a_constraint_its_vector_has_no_effect_and_a_drive_does_work(exp
     assert not explorer.box("frequency").is_disabled()
     error = explorer.caption("energy").partition("≤ ")[2].rstrip(".").replace("−", "-")
     assert float(error) < 1e-5
+    # Its rotor is along the axis about which the constraint lets nothing turn.
+    explorer.change(explorer.choose, "constraint", "(a, ω) = 0")
+    explorer.picture("energy").get_by_text("The drive does no work.").wait_for()

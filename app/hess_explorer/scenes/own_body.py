@@ -42,6 +42,8 @@ from hess_mechanics.rigid_body.own_body import OwnBody, Polynomial
 __all__ = ["SCENE", "OwnBodyState"]
 
 _MOST_CROSSINGS = 2000
+_NO_WORK = 1e-10
+"""Work that is only rounding."""
 _CONSTRAINED, _FREE = "(a, ω) = 0", "none"
 
 
@@ -249,7 +251,9 @@ def _energy_caption(s: OwnBodyState) -> Caption:
     _, change, work = s.energies
     if s.body.is_driven:
         off = float(np.abs(change - work).max())
-        return Caption("The drive does work.", f"|E − E₀ − W| ≤ {digits(off, 1)}.")
+        # A rotor along the axis of the constraint is driven without effect: W is zero up to rounding.
+        verb = "does" if np.abs(work).max() > _NO_WORK * max(1.0, np.abs(change).max()) else "does no"
+        return Caption(f"The drive {verb} work.", f"|E − E₀ − W| ≤ {digits(off, 1)}.")
     return Caption("The energy is conserved.", f"|E − E₀| ≤ {digits(float(np.abs(change).max()), 1)}.")
 
 
