@@ -7,7 +7,7 @@ const keep = /** @type {HTMLButtonElement} */ (document.getElementById("keep"))
 async function keepAll() {
   keep.disabled = true
   const pages = /** @type {HTMLAnchorElement[]} */ ([...document.querySelectorAll("a.page")])
-  const addresses = [...new Set(pages.map(({ href }) => href.split("#")[0]))]
+  const addresses = [...new Set([location.href, ...pages.map(({ href }) => href)].map((href) => href.split("#")[0]))]
   let done = 0
   try {
     for (const address of addresses) {
@@ -24,8 +24,9 @@ async function keepAll() {
 
 // From a disk everything is there already.
 if (/^https?:$/.test(location.protocol) && "serviceWorker" in navigator) {
-  navigator.serviceWorker.register("service_worker.js").then(() => navigator.serviceWorker.ready).then(() => {
-    keep.hidden = false
-    keep.addEventListener("click", keepAll)
-  }).catch(() => {})
+  const { serviceWorker: workers } = navigator
+  keep.addEventListener("click", keepAll)
+  const show = () => { keep.hidden = workers.controller === null }
+  workers.addEventListener("controllerchange", show)
+  workers.register("service_worker.js").then(show).catch(() => {})
 }

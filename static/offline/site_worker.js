@@ -5,8 +5,12 @@
 const site = /** @type {any} */ (self)
 const KEPT = "hess-explorer-site-VERSION"
 
+// At once, so that the page that registers it can keep the others.
+site.addEventListener("install", () => site.skipWaiting())
+
 site.addEventListener("activate", (/** @type {any} */ event) => {
   event.waitUntil((async () => {
+    await site.clients.claim()
     for (const name of await caches.keys()) if (name.startsWith("hess-explorer-site-") && name !== KEPT) await caches.delete(name)
   })())
 })

@@ -1,6 +1,10 @@
 """The site: built by one command, read from the disk with the network off."""
 
 import re
+import threading
+from contextlib import contextmanager
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import pytest
@@ -11,9 +15,27 @@ from hess_explorer.page.showcase import EXHIBITS
 from hess_explorer.scenes import scenes
 from hess_mechanics.errors import InvalidParameter
 from support.command_line import run
-from support.offline import change, opened
+from support.offline import READY, change, opened
 
 SOME = ("suslov-hess", "kharlamova", "scattering-by-a-nonholonomic-top")
+
+
+class _Quiet(SimpleHTTPRequestHandler):
+    def log_message(self, *args):
+        pass
+
+
+@contextmanager
+def served(folder):
+    """A folder on a plain web server of this machine; the address."""
+    with ThreadingHTTPServer(("127.0.0.1", 0), partial(_Quiet, directory=str(folder))) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        try:
+            yield f"http://127.0.0.1:{server.server_address[1]}"
+        finally:
+            server.shutdown()
+            thread.join()
 
 
 @pytest.fixture(scope="module", params=[SOME, pytest.param((), marks=pytest.mark.thorough)], ids=["some", "all"])
@@ -68,6 +90,29 @@ def test_a_picture_of_the_gallery_opens_its_example(site, browser):
     with opened(browser, f"{(folder / 'scenes').as_uri()}/{address.removeprefix('scenes/')}") as page:
         chosen = page.locator(".param-preset select").input_value()
         assert chosen in {one.preset.name for one in EXHIBITS if one.scene == "suslov-hess"}
+
+
+def test_any_web_server_shows_it_in_a_frame_and_it_is_read_without_one(site, browser):
+    folder, _, _ = site
+    frame = '<!DOCTYPE html><iframe src="pages/scenes/suslov-hess.html" width="800" height="500"></iframe>'
+    (folder.parent / "course.html").write_text(frame, encoding="utf-8")
+    context = browser.new_context(reduced_motion="reduce")
+    errors = []
+    context.on("weberror", lambda error: errors.append(str(error.error)))
+    with served(folder.parent) as base:
+        page = context.new_page()
+        page.goto(f"{base}/course.html")
+        page.frame_locator("iframe").locator(READY).wait_for(state="attached")
+        page.goto(f"{base}/pages/index.html")
+        page.get_by_role("button", name="Keep all pages").click()
+        page.get_by_role("button", name="All pages can be read offline").wait_for()
+    # The server has ended.
+    page.goto(f"{base}/pages/scenes/suslov-hess.html")
+    page.locator(READY).wait_for(state="attached")
+    page.locator("a.contents").click()
+    page.get_by_role("heading", name="Lessons").wait_for()
+    context.close()
+    assert errors == []
 
 
 def test_a_folder_with_other_files_and_an_unknown_page_are_refused(tmp_path):
