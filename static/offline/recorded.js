@@ -146,12 +146,13 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
     if (reset) go([here, 0])
     if (preset !== undefined) {
       const { scene: name } = families[here]
-      go([families.findIndex((family) => family.scene === name && family.example === preset), 0])
+      const found = families.findIndex((family) => family.scene === name && family.example === preset)
+      go(found < 0 ? null : [found, 0])
     }
     if (step !== undefined) go(step.join("/") in steps ? [steps[step.join("/")], 0] : null)
     else if (scene !== null && scene !== families[here].scene) {
-      const first = families.findIndex((family) => family.scene === scene)
-      go(first < 0 ? null : [first, 0])
+      const found = families.findIndex((family) => family.scene === scene)
+      go(found < 0 ? null : [found, 0])
     }
     if (picked !== undefined) pick(picked)
     change(values)

@@ -35,6 +35,7 @@ MEASURED = {
     "app/hess_explorer/scenes/speed_accuracy_of_maps.md": "tests/benchmarks/benchmark_trade.py",
     "tests/benchmarks/integrators/README.md": "tests/benchmarks/benchmark_peers.py",
     "app/hess_explorer/sweep/README.md": "tests/benchmarks/benchmark_sweep.py",
+    "app/hess_explorer/offline/README.md": "tests/benchmarks/benchmark_offline.py",
 }
 
 

@@ -142,7 +142,6 @@ class Recording:
         tree, block = wire.pack()
         # In an order that does not depend on the process.
         tree["sources"] = dict(sorted(tree["sources"].items()))
-        tree["controls"] = {name: shown for name, shown in tree["controls"].items() if name in self._varied[scene.name]}
         self._note_columns(scene, tree["sources"])
         strip.add(tree, block, steps_of_plots(axes))
 

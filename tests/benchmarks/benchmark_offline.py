@@ -1,0 +1,109 @@
+"""`python tests/benchmarks/benchmark_offline.py`: pages without a server, their bytes, opening and dragging, and the site.
+
+It rewrites the tables of app/hess_explorer/offline/README.md; `--quick` prints a trial with few states and no site.
+"""
+
+import contextlib
+import statistics
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+if __name__ == "__main__":
+    sys.path[:0] = [str(Path(__file__).parents[1])]
+
+from benchmarks.integrators.machine import conditions
+from hess_explorer.headless.browser import launched
+from hess_explorer.lessons import shipped
+from hess_explorer.offline.pages import lesson_page, state_page
+from support.command_line import run
+from support.measured import table, write_measured
+
+README = Path(__file__).resolve().parents[2] / "app" / "hess_explorer" / "offline" / "README.md"
+QUICK = "--quick" in sys.argv
+COUNT = 6 if QUICK else 40
+ROUNDS = 1 if QUICK else 5
+# Moves the slider of h there and back as fast as states are painted.
+DRAG = """async ([low, high, count]) => {
+    const { tell } = await import("page/bus.js")
+    let painted = null
+    new MutationObserver(() => painted?.()).observe(document.documentElement, { attributeFilter: ["data-state"] })
+    const times = []
+    tell("animated", true)
+    for (let i = 0; i < count; i++) {
+        const begun = performance.now()
+        const next = new Promise((resolve) => { painted = resolve })
+        tell("change", { h: low + (high - low) * (i + 1) / count })
+        await next
+        await new Promise(requestAnimationFrame)
+        times.push(performance.now() - begun)
+    }
+    tell("animated", false)
+    return times
+}"""
+
+
+def opened(browser, path):
+    """Seconds until the first picture, and those of each state of a drag; None if the page has no slider of h."""
+    context = browser.new_context(viewport={"width": 1600, "height": 950}, offline=True)
+    page = context.new_page()
+    begun = time.perf_counter()
+    page.goto(path.as_uri())
+    page.wait_for_selector("html[data-ready=true]", state="attached")
+    first = time.perf_counter() - begun
+    slider = page.locator(".controls .param-h .hand")
+    drag = None
+    if slider.count():
+        page.wait_for_timeout(500)
+        ends = slider.evaluate("({ min, max }) => [Number(min), Number(max)]")
+        drag = [one / 1000 for one in page.evaluate(DRAG, [*ends, COUNT])]
+    context.close()
+    return first, drag
+
+
+def pages():
+    """Yield name and contents of the measured pages."""
+    count = 2 * COUNT
+    yield f"*Suslov–Hess*, h with {count} values", state_page("h=1.2&f=0.3", sliders=[f"h=0.2:3.5:{count}"])[1]
+    lesson = shipped()["limit-cycles-and-locking"]
+    yield f"lesson *{lesson.title}*, {COUNT} values", lesson_page(lesson, COUNT)
+
+
+def measured(folder):
+    rows = []
+    with launched() as browser:
+        for i, (name, content) in enumerate(pages()):
+            path = Path(folder) / f"{i}.html"
+            path.write_bytes(content)
+            found = [opened(browser, path) for _ in range(ROUNDS)]
+            first = statistics.median(one for one, _ in found)
+            drags = [time for _, drag in found for time in drag or ()]
+            rate = f"{1 / statistics.median(drags):.0f}" if drags else "–"
+            rows.append([name, f"{len(content) / 1e6:.1f}", f"{first:.1f}", rate])
+    return table(["page", "MB", "s to the first picture", "states a second in a drag"], rows)
+
+
+def site(folder):
+    """The table of the site's pages."""
+    begun = time.perf_counter()
+    done = run("site", str(Path(folder) / "site"), "--values", str(COUNT))
+    seconds = time.perf_counter() - begun
+    lines = [line.split() for line in done.stdout.decode().splitlines()]
+    rows = [[f"`{words[2]}`", f"{int(words[0].replace(',', '')) / 1e6:.1f}"] for words in lines[:-1]]
+    total = int(lines[-1][0].replace(",", "")) / 1e6
+    return f"`hess-explorer site OUT`: {total:.0f} MB in {seconds:.0f} s.\n\n{table(['page', 'MB'], rows)}"
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        parts = [conditions(), measured(folder), *([] if QUICK else [site(folder)])]
+    text = "\n\n".join(parts)
+    print(text)
+    if not QUICK:
+        write_measured(README, text)
+
+
+if __name__ == "__main__":
+    with contextlib.suppress(KeyboardInterrupt):
+        main()
