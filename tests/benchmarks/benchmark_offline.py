@@ -1,4 +1,4 @@
-"""`python tests/benchmarks/benchmark_offline.py`: pages without a server, their bytes, opening and dragging, and the site.
+"""`python tests/benchmarks/benchmark_offline.py`: bytes, opening and dragging of pages without a server, and the site.
 
 It rewrites the tables of app/hess_explorer/offline/README.md; `--quick` prints a trial with few states and no site.
 """
