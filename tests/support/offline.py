@@ -55,5 +55,8 @@ def settled(page, before):
 
 
 def captions(page):
-    """Title, verdict and numbers of all pictures."""
-    return [text for text in page.locator(".picture .caption").all_inner_texts() if text.strip()]
+    """Title, verdict and numbers of the pictures by name."""
+    cells = page.locator(".gallery:not(.away) .picture")
+    return dict(
+        cells.evaluate_all("all => all.map((cell) => [cell.dataset.name, cell.querySelector('.caption').innerText])")
+    )
