@@ -56,7 +56,5 @@ def settled(page, before):
 
 def captions(page):
     """Title, verdict and numbers of the pictures by name."""
-    cells = page.locator(".gallery:not(.away) .picture")
-    return dict(
-        cells.evaluate_all("all => all.map((cell) => [cell.dataset.name, cell.querySelector('.caption').innerText])")
-    )
+    read = "all => all.map((cell) => [cell.dataset.name, cell.querySelector('.caption').innerText])"
+    return dict(page.locator(".gallery:not(.away) .picture").evaluate_all(read))
