@@ -101,14 +101,15 @@ export function exportDialog(files) {
     one.hidden = isAll()
     film.hidden = !isFilm(format.value)
     page.hidden = !isAll()
+    const what = wanted()
     const count = sliders().length
     const all = grid.checked ? values.valueAsNumber ** count : count * values.valueAsNumber
     states.textContent = count === 0 ? "The file holds this state." : `About ${all} states of ${A_STATE}.`
-    const options = Object.entries(wanted()).filter(([, value]) => value !== "").flatMap(([name, value]) => {
+    const options = Object.entries(what).filter(([, value]) => value !== "").flatMap(([name, value]) => {
       if (FLAGS.has(name)) return ` --${name}`
       return (name === "vary" ? value.split(",") : [value]).map((one) => ` --${name} ${one}`)
     }).join("")
-    command.value = `hess-explorer export --state '${state().replaceAll("'", "%27")}'${options} --out ${fileName(wanted())}`
+    command.value = `hess-explorer export --state '${state().replaceAll("'", "%27")}'${options} --out ${fileName(what)}`
   }
 
   // Answers may come in any order: keep the one for the picture that is chosen.

@@ -13,12 +13,12 @@ BASE = {**SCENE.defaults(), "h": 1.2, "f": 0.3}
 
 
 def test_a_slider_has_readable_values_and_that_of_the_state():
-    slider = read_slider("h=0.2:3.5:12", SCENE, BASE)
+    slider = read_slider("h=0.2:3.5:12", SCENE, BASE, 40)
     assert slider.name == "h"
     assert {0.2, 0.5, 1.2, 3.5} <= {*slider.values}
     assert list(slider.values) == sorted(slider.values)
     assert all(len(f"{value:g}") <= 5 for value in slider.values)
-    assert len(read_slider("h=0.2:3.5", SCENE, BASE).values) in (40, 41)
+    assert len(read_slider("h=0.2:3.5", SCENE, BASE, 40).values) in (40, 41)
     # Steps that are small beside the values keep their digits.
     assert len({*across(1.0, 1.0001, 11, 1.0)}) == 11
 
@@ -40,11 +40,11 @@ def test_a_slider_has_readable_values_and_that_of_the_state():
 )
 def test_a_slider_that_cannot_be_is_refused(text, why):
     with pytest.raises(InvalidParameter, match=why):
-        read_slider(text, SCENE, BASE)
+        read_slider(text, SCENE, BASE, 40)
 
 
 def test_lines_go_through_the_state_and_a_grid_has_all_combinations():
-    h, f = read_slider("h=1:2:3", SCENE, BASE), read_slider("f=0:0.4:3", SCENE, BASE)
+    h, f = read_slider("h=1:2:3", SCENE, BASE, 40), read_slider("f=0:0.4:3", SCENE, BASE, 40)
     lines = family(SCENE, BASE, [h, f])
     assert lines.points[0] == (1.2, 0.3)
     assert {*lines.points} == {(1.0, 0.3), (1.2, 0.3), (1.5, 0.3), (2.0, 0.3), (1.2, 0.0), (1.2, 0.2), (1.2, 0.4)}

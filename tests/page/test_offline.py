@@ -89,7 +89,7 @@ def test_a_state_plays_and_turns_from_the_disk(browser, tmp_path):
         expect(page.locator(".player output")).not_to_have_text("t = 2.00")
         page.keyboard.press("Space")
         assert_point(time_of(page))
-        # What moves in the file and what does not.
+        # The page says which parameters are fixed.
         assert page.locator("input.hand").count() == 0
         expect(page.locator(".fixed")).to_contain_text("This file holds one computed state. Fixed: I₂₂ = 0.96, ")
         page.locator(".param-theme").click()

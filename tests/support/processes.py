@@ -17,7 +17,7 @@ serving.warm = lambda first_is_ready: first_is_ready()
 main()
 """,
 )
-"""What Python is told to run as a server, for `server_process`."""
+"""Arguments of Python that start a server for `server_process`."""
 
 
 @contextmanager

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from hess_explorer.export.picture_data import address, picture_of
+from hess_explorer.export.picture_data import Address, address, picture_of
 from hess_explorer.lessons.lesson import TIME, Lesson
 from hess_explorer.offline.html import HOME, document
 from hess_explorer.offline.plan import Family, Slider, across, family, read_slider, slider_of
@@ -29,9 +29,12 @@ _WINDOW = ("first", "last")
 
 def planned(query: str, sliders: Sequence[str], *, grid: bool = False, lenient: bool = False) -> Family:
     """Return the states of a page before they are computed; the parameters and errors are those of `state_page`."""
-    found = address(query, lenient=lenient)
-    varied = [read_slider(text, found.scene, found.values, COUNT) for text in sliders]
-    return family(found.scene, found.values, varied, grid=grid)
+    return _varied(address(query, lenient=lenient), sliders, grid)
+
+
+def _varied(at: Address, sliders: Sequence[str], grid: bool) -> Family:
+    """Return the states of sliders through a state."""
+    return family(at.scene, at.values, [read_slider(text, at.scene, at.values, COUNT) for text in sliders], grid=grid)
 
 
 def state_page(
@@ -82,9 +85,8 @@ def state_page(
     scene = found.scene
     wanted = [picture_of(scene, name).name for name in pictures] or scene.open_pictures
     chosen = [name for name in scene.pictures if name in wanted]
-    states = planned(query, sliders, grid=grid, lenient=lenient)
     recording = Recording({scene.name: chosen}, report)
-    recording.record([states])
+    recording.record([_varied(found, sliders, grid)])
     parameters = ", ".join(f"{name} = {value}" for name, value in found.values.items())
     facts = {
         "link": found.link,
@@ -166,7 +168,7 @@ def _accumulates(scene: Scene[Any]) -> bool:
     return isinstance(getattr(scene.state, "density", None), part)
 
 
-def _planned(lesson: Lesson, count: int) -> list[Family]:
+def _families(lesson: Lesson, count: int) -> list[Family]:
     """Return the states of the steps, each once, with the sliders that its steps name or animate."""
     found: dict[str, tuple[Scene[Any], Values, dict[str, set[float]]]] = {}
     for step in lesson.steps:
@@ -241,7 +243,7 @@ def lesson_page(
         If the state of a step cannot be computed.
     """
     recording = Recording(_pictures(lesson), report)
-    recording.record(_planned(lesson, count))
+    recording.record(_families(lesson, count))
     steps: dict[str, int] = {}
     for number, step in enumerate(lesson.steps):
         scene = scenes()[step.at.scene]

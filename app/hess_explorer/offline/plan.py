@@ -65,7 +65,7 @@ def across(low: float, high: float, count: int, own: float) -> tuple[float, ...]
     return tuple(sorted({own, *(float(one) for one in np.round(np.linspace(low, high, count), decimals))}))
 
 
-def read_slider(text: str, scene: Scene[Any], base: Values, count: int = 40) -> Slider:
+def read_slider(text: str, scene: Scene[Any], base: Values, count: int) -> Slider:
     """Return the slider that a text describes.
 
     Parameters

@@ -125,7 +125,7 @@ def build(
         raise InvalidParameter(f"The folder {str(folder)!r} holds other files: choose an empty one.")
     for path in {Path(file).parent for file in wanted.values()}:
         (folder / path).mkdir(parents=True, exist_ok=True)
-    sizes: dict[str, int] = {}
+    sizes, digests = dict[str, int](), dict[str, str]()
     # New processes, because a fork of one that has compiled kernels and started threads can hang.
     pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
     with pool:
@@ -133,23 +133,29 @@ def build(
         try:
             for done, one in enumerate(as_completed(running), 1):
                 name = running[one]
-                sizes[wanted[name]] = one.result()
+                sizes[wanted[name]], digests[wanted[name]] = one.result()
                 if report is not None:
                     report(name, done, len(wanted))
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise
-    digest = hashlib.sha256("".join(f"{path}{size}" for path, size in sorted(sizes.items())).encode()).hexdigest()[:16]
+    index = _index(wanted, sum(sizes.values()))
+    # The name of the cache changes with the contents, so that browsers drop pages of an earlier site.
+    digest = _digest("".join([index, *(digests[path] for path in sorted(digests))]).encode())
     worker = (STATIC / "offline/site_worker.js").read_text(encoding="utf-8").replace("VERSION", digest)
-    for file, text in ((_WORKER, worker), (_INDEX, _index(wanted, sum(sizes.values())))):
+    for file, text in ((_WORKER, worker), (_INDEX, index)):
         content = text.encode()
         (folder / file).write_bytes(content)
         sizes[file] = len(content)
     return sizes
 
 
-def _write(path: Path, name: str, count: int, home: str) -> int:
-    """Write a page and return its size in bytes."""
+def _digest(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()[:16]
+
+
+def _write(path: Path, name: str, count: int, home: str) -> tuple[int, str]:
+    """Write a page; return its size in bytes and a digest of its contents."""
     contents = f"../{_INDEX}"
     lesson = shipped().get(name)
     if lesson is not None:
@@ -158,7 +164,7 @@ def _write(path: Path, name: str, count: int, home: str) -> int:
         examples = [one.preset for one in EXHIBITS if one.scene == name]
         content = scene_page(scenes()[name], examples, count, home=home, contents=contents)
     path.write_bytes(content)
-    return len(content)
+    return len(content), _digest(content)
 
 
 def _index(wanted: Mapping[str, str], size: int) -> str:
