@@ -282,7 +282,7 @@ SPHERES = [name for name, scene in SCENES.items() if scene.origin is None and "s
 
 
 def test_the_spheres_of_all_scenes_are_seen_from_the_same_side_as_the_link_says(explorer):
-    sphere = explorer.picture("sphere").locator("canvas")
+    sphere = explorer.picture("sphere").locator("canvas.sphere")
 
     def turn():
         return tuple(map(float, sphere.get_attribute("data-turn").split()))
