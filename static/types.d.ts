@@ -59,6 +59,7 @@ interface RendererView {
   model: BokehModel
   all_indices: object
   ready: Promise<void>
+  el: Element
 }
 
 /** Bokeh's view of a plot. */

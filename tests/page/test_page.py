@@ -285,7 +285,11 @@ MISSING = """async (modules) => {
   UIGestures.press_threshold = undefined
   found.push(missing(plot))
   UIGestures.press_threshold = threshold
-  const { glyph } = plot.computed_renderer_views[0]
+  const [view] = plot.computed_renderer_views
+  const { el, glyph } = view
+  view.el = undefined
+  found.push(missing(plot))
+  view.el = el
   glyph.set_visuals = undefined
   found.push(missing(plot))
   delete glyph.set_visuals
@@ -298,6 +302,7 @@ def test_each_private_member_of_bokeh_that_is_not_there_is_named(explorer):
     assert explorer.page.evaluate(MISSING, modules_path()) == [
         [],
         ["UIGestures.press_threshold"],
+        ["RendererView.el"],
         ["GlyphRendererView.all_indices, GlyphView.set_visuals and after_visuals"],
         [],
     ]
