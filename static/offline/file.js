@@ -65,7 +65,7 @@ function start() {
   // The lesson of the file is open from the start.
   const { lesson, step } = client
   const query = lesson === "" ? location.hash.slice(1) : recording.families[recording.steps[`${lesson}/${Number(step) - 1}/false`] ?? 0].queries[0]
-  const stripAt = createShelf((number) => Uint8Array.from(atob(read(`strip-${number}`)), (letter) => letter.charCodeAt(0)), MOST)
+  const stripAt = createShelf(async (number) => (await fetch(`data:;base64,${read(`strip-${number}`)}`)).body, MOST)
   const root = document.getElementById("page").attachShadow({ mode: "open" })
   const el = element("div")
   root.append(...["page/base.css", "page/shell.css"].map((path) => element("style", sheets[path])), el)

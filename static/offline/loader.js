@@ -6,9 +6,9 @@
 const run = (text, type) => { document.head.append(Object.assign(document.createElement("script"), { type, textContent: text })) }
 
 async function load() {
-  const packed = Uint8Array.from(atob(document.getElementById("code").textContent), (letter) => letter.charCodeAt(0))
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"))
-  const { bokeh, modules, entry } = JSON.parse(await new Response(stream).text())
+  const { body } = await fetch(`data:;base64,${document.getElementById("code").textContent}`)
+  const code = body.pipeThrough(new DecompressionStream("deflate"))
+  const { bokeh, modules, entry } = await new Response(code).json()
   run(bokeh, "text/javascript")
   // Modules name each other by their paths, which the map resolves.
   run(JSON.stringify({ imports: modules }), "importmap")

@@ -9,9 +9,6 @@
  * @typedef {Omit<Tree, "sources"> & {sources: Record<string, Record<string, any>>}} StoredTree a tree whose arrays are {of, shape}
  */
 
-/** @param {BufferSource} data @returns {Promise<ArrayBuffer>} */
-const inflate = (data) => new Response(new Blob([data]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer()
-
 /**
  * Return the whole numbers of all arrays, one after the other.
  * @param {Coding[]} arrays
@@ -53,10 +50,10 @@ function restore(target, whole, [length, step, low]) {
 
 /**
  * Decode a strip.
- * @param {Uint8Array<ArrayBuffer>} packed
+ * @param {ReadableStream<Uint8Array<ArrayBuffer>>} packed
  */
 export async function decodeStrip(packed) {
-  const data = await inflate(packed)
+  const data = await new Response(packed.pipeThrough(new DecompressionStream("deflate"))).arrayBuffer()
   const length = new DataView(data).getUint32(0, true)
   /** @type {Head} */
   const { trees, arrays, planes } = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length)))
@@ -101,7 +98,7 @@ export async function decodeStrip(packed) {
 
 /**
  * Return the function that gets a strip: decoded once, and dropped when others took the room of `most` numbers.
- * @param {(number: number) => Uint8Array<ArrayBuffer>} packed returns the bytes of a strip
+ * @param {(number: number) => Promise<Parameters<typeof decodeStrip>[0]>} packed reads a strip
  * @param {number} most
  */
 export function createShelf(packed, most) {
@@ -121,7 +118,7 @@ export function createShelf(packed, most) {
   }
   /** @param {number} number */
   return (number) => {
-    const known = strips.get(number) ?? decodeStrip(packed(number)).then((strip) => {
+    const known = strips.get(number) ?? packed(number).then(decodeStrip).then((strip) => {
       sizes.set(number, strip.size)
       drop()
       return strip

@@ -8,10 +8,13 @@
  * @typedef {{width: number, height: number, count: number, gap: number, share: number,
  *   caption: ((width: number) => number) & {title: (width: number) => number, wide: number}}} Place
  * @typedef {{x: number, y: number, width: number, edge: number, caption: number, small: boolean}} Box
- * @typedef {{boxes: Box[], smallest: number}} Arrangement
+ * Many arrangements are compared, by their smallest edge and the area of all pictures; boxes are made for one.
+ * @typedef {{smallest: number, area: number, boxes: () => Box[]}} Arrangement
  */
 
 const STEP = 2
+// Square pixels that count as more.
+const LARGER = 1000
 // Edge of a picture beside enlarged ones, as a share of the height.
 const SMALLEST = 0.09
 // Error of the width that the text may take.
@@ -39,18 +42,20 @@ function grid({ width, height, count, gap, caption }, columns) {
   const high = (height - gap * (rows - 1)) / rows
   const above = captionIn(caption, wide, high)
   const edge = Math.floor(Math.min(wide, high - above))
-  const cell = Math.min(wide, Math.max(edge, caption.wide))
-  const left = (width - columns * cell - gap * (columns - 1)) / 2
-  const row = edge + above + gap
-  const top = (height - rows * row + gap) / 2
-  // A last row that is not full is centred.
-  /** @param {number} i */
-  const aside = (i) => (i < columns * (rows - 1) ? 0 : (rows * columns - count) / 2)
-  const boxes = Array.from({ length: count }, (_, i) => ({
-    x: left + ((i % columns) + aside(i)) * (cell + gap), y: top + Math.floor(i / columns) * row,
-    width: cell, edge, caption: above, small: false,
-  }))
-  return { boxes, smallest: edge }
+  const boxes = () => {
+    const cell = Math.min(wide, Math.max(edge, caption.wide))
+    const left = (width - columns * cell - gap * (columns - 1)) / 2
+    const row = edge + above + gap
+    const top = (height - rows * row + gap) / 2
+    // A last row that is not full is centred.
+    /** @param {number} i */
+    const aside = (i) => (i < columns * (rows - 1) ? 0 : (rows * columns - count) / 2)
+    return Array.from({ length: count }, (_, i) => ({
+      x: left + ((i % columns) + aside(i)) * (cell + gap), y: top + Math.floor(i / columns) * row,
+      width: cell, edge, caption: above, small: false,
+    }))
+  }
+  return { smallest: edge, area: count * edge * edge, boxes }
 }
 
 /** @param {Place} place */
@@ -77,13 +82,15 @@ function leadAndRest({ width, height, count, gap, share, caption }, leading, lea
     width: width - across, height: height - down, count: count - leading, gap, share,
     caption: titlesOnly ? Object.assign(title.bind(null), { title, wide }) : caption,
   }))
-  const leads = Array.from({ length: leading }, (_, i) => ({
-    x: left + i * (lead + gap), y: top, width: lead, edge: lead, caption: over, small: false,
-  }))
-  const others = rest.boxes.map((box) => ({
-    ...box, x: box.x + across, y: box.y + down, edge: Math.min(box.edge, lead), small: titlesOnly,
-  }))
-  return { boxes: [...leads, ...others], smallest: Math.min(rest.smallest, lead) }
+  const edge = Math.min(rest.smallest, lead)
+  const boxes = () => {
+    const leads = Array.from({ length: leading }, (_, i) => ({
+      x: left + i * (lead + gap), y: top, width: lead, edge: lead, caption: over, small: false,
+    }))
+    const others = rest.boxes().map((box) => ({ ...box, x: box.x + across, y: box.y + down, edge, small: titlesOnly }))
+    return [...leads, ...others]
+  }
+  return { smallest: edge, area: leading * lead * lead + (count - leading) * edge * edge, boxes }
 }
 
 /**
@@ -99,9 +106,6 @@ function largest({ width, height, gap, caption }, leading) {
   return edge
 }
 
-/** @param {Arrangement} arrangement */
-const area = ({ boxes }) => boxes.reduce((sum, { edge }) => sum + edge * edge, 0) / 1000
-
 /**
  * Return the arrangement with the largest smallest picture; among equals, the one that fills most of the viewport.
  * @param {Arrangement[]} arrangements
@@ -109,7 +113,7 @@ const area = ({ boxes }) => boxes.reduce((sum, { edge }) => sum + edge * edge, 0
 function best(arrangements) {
   return arrangements.reduce((found, one) => {
     const larger = one.smallest - found.smallest
-    return larger >= 1 || (larger > -1 && area(one) - area(found) >= 1) ? one : found
+    return larger >= 1 || (larger > -1 && one.area - found.area >= LARGER) ? one : found
   })
 }
 
@@ -161,8 +165,8 @@ export function spareWidth(place, most) {
   let [spare, beyond] = [0, Math.min(most, place.width)]
   while (beyond - spare > COARSE) {
     const middle = (spare + beyond) / 2
-    const { boxes, smallest } = even({ ...place, width: place.width - middle })
-    if (smallest >= full.smallest && area({ boxes, smallest }) >= area(full)) spare = middle
+    const { area, smallest } = even({ ...place, width: place.width - middle })
+    if (smallest >= full.smallest && area >= full.area) spare = middle
     else beyond = middle
   }
   return Math.floor(spare)
@@ -177,7 +181,7 @@ export function spareWidth(place, most) {
 export function arrange(place, large = []) {
   if (place.count === 0) return []
   const order = [...large, ...Array.from({ length: place.count }, (_, i) => i).filter((i) => !large.includes(i))]
-  const { boxes } = large.length > 0 ? enlarged(place, large.length) : even(place)
+  const boxes = (large.length > 0 ? enlarged(place, large.length) : even(place)).boxes()
   /** @type {Box[]} */
   const placed = []
   order.forEach((picture, i) => { placed[picture] = boxes[i] })

@@ -52,8 +52,8 @@ const BREAK = 4
 // The text beside the pictures takes at most this width from them, in units of the font size.
 const MOST_SPARE = 14
 
-/** @param {number} width @param {number} type */
-const isNarrow = (width, type) => width / type < NARROW_CELL && !isPresenting() && !PHONE.matches
+/** Return the width below which a cell is narrow, 0 if none is. @param {number} type */
+const narrowestOf = (type) => (isPresenting() || PHONE.matches ? 0 : NARROW_CELL * type)
 
 /**
  * Return what a caption shows in present mode, where only a few words are read from afar, and in how many lines.
@@ -71,23 +71,26 @@ function inTheHall(width, type) {
 
 /** Return the heights of captions for a font size, see `Place` in "arrange.js". @param {number} type */
 function captions(type) {
+  // Asked once, because captions are measured for thousands of arrangements.
+  const isHall = isPresenting()
+  const narrowest = narrowestOf(type)
   /** @param {number} width */
-  const own = (width) => (isNarrow(width, type) ? SMALLER * type : type)
+  const own = (width) => (width < narrowest ? SMALLER * type : type)
   /** @param {number} length @param {number} width */
   const linesOf = (length, width) => Math.ceil(length / Math.max(1, width / own(width) - SIDES))
   /** @param {number} width */
   const lines = (width) => {
-    if (isPresenting()) return inTheHall(width, type).lines
+    if (isHall) return inTheHall(width, type).lines
     const together = linesOf(LONGEST, width)
     // In a narrow cell the numbers follow the verdict on the same line; elsewhere they begin a new one.
-    if (isNarrow(width, type)) return Math.min(MOST_LINES, Math.max(2, together))
+    if (width < narrowest) return Math.min(MOST_LINES, Math.max(2, together))
     return Math.min(MOST_LINES, together + 1, linesOf(HEAD, width) + linesOf(NUMBERS, width))
   }
   /** @param {number} count @param {number} size */
   const high = (count, size) => Math.ceil((count * LINE + AIR) * size)
   /** @param {number} width */
   const title = (width) => {
-    if (!isPresenting()) return high(TITLE > width / own(width) - SIDE ? 2 : 1, own(width))
+    if (!isHall) return high(TITLE > width / own(width) - SIDE ? 2 : 1, own(width))
     const size = Math.min(ASIDE * type, width / WORD)
     return size < LEAST * type ? Infinity : high(Math.ceil((TITLE + BREAK) / (width / size - MARGINS)), size)
   }
@@ -122,7 +125,7 @@ export function createStage(shelf, gallery) {
     cell.classList.toggle("aside", small)
     cell.classList.toggle("brief", shows === "head")
     cell.classList.toggle("thumbnail", scale < 1)
-    cell.classList.toggle("narrow", isNarrow(width, type))
+    cell.classList.toggle("narrow", width < narrowestOf(type))
     const place = [x, y, width, edge, caption, 1000 * scale].map(Math.round).join(" ")
     if (cell.dataset.place === place) return
     cell.dataset.place = place

@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs"
 import { decodeStrip } from "../../static/offline/strip.js"
 import { unpack } from "../../static/page/unpack.js"
 
-const strip = await decodeStrip(new Uint8Array(readFileSync(process.argv[2])))
+const strip = await decodeStrip(new Blob([readFileSync(process.argv[2])]).stream())
 const list = (item) => {
   if (item instanceof Float32Array) return [...item].map((one) => (Number.isFinite(one) ? one : String(one)))
   if (Array.isArray(item)) return item.map(list)

@@ -2,11 +2,9 @@
 
 import asyncio
 import time
-from contextlib import suppress
 
 import pytest
 from tornado.httpclient import HTTPClientError
-from tornado.websocket import WebSocketClosedError
 
 from hess_explorer.headless.screenshot import server_process
 from hess_explorer.lessons import shipped

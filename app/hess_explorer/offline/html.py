@@ -27,7 +27,10 @@ HOME = "http://localhost:5006/"
 _ENTRY = "offline/file.js"
 _IMPORT = re.compile(r'(?<=from )"(\.{1,2}/[\w./]+\.js)"')
 _SHEET = re.compile(r'new URL\("([\w.]+\.css)", import\.meta\.url\)\.href')
-_POLICY = "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline' data:; img-src data: blob:"
+_POLICY = (
+    "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline' data:; img-src data: blob:; "
+    "connect-src data:"
+)
 """Content-Security-Policy that blocks all requests to other hosts."""
 _EMPTY = ("az", "el", "large", "present", "theme", "lesson", "step")
 _CLIENT = {"t": "0", "speed": "1", **dict.fromkeys(_EMPTY, "")}
