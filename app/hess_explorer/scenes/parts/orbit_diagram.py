@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import product
 from typing import Protocol, TypeVar
 
 import numpy as np
 
+from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import Values, places, written
 from hess_explorer.scenes.framework.families import Begin, Family
 from hess_explorer.scenes.framework.parameters import TURN, specs_of
@@ -27,7 +29,7 @@ from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, doubling_see
 from hess_mechanics.dynamics.parameter_diagram import diagram, doublings, nearest_place
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.errors import OutsideRegion
-from hess_mechanics.numerics.accuracy import Computation, plan
+from hess_mechanics.numerics.accuracy import Accuracy, Computation, plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["ANEW", "BOUNDS", "FARTHEST", "FOLLOWED", "FORWARD", "WAYS", "OrbitDiagram", "diagram_picture", "edges"]
@@ -222,42 +224,28 @@ class OrbitDiagram(Part[_Host]):
         return np.linspace(self.frame[0][0], self.frame[1][0], steps)
 
     @cached_property
+    def _courses(self) -> dict[str, _Course]:
+        """The course of each requested way."""
+        level = self.work.plan(Computation.SECTION).level
+        left, shown = (40, 20) if self.work.dragging else (int(self.host.transient), int(self.host.count))
+        values, follow = tuple(self.along_values.tolist()), self.host.begins == FOLLOWED
+        rising = _Course(self.family, self.name, values, self.place, left, shown, follow, False, level)
+        courses = {
+            _RISING: rising,
+            _FALLING: replace(rising, values=values[::-1], before=rising),
+            _BACKWARD: replace(rising, backward=True),
+        }
+        return {way: courses[way] for way in WAYS[self.host.ways]}
+
+    @cached_property
     def branches(self) -> dict[str, list[Diagram]]:
         """The known pieces of each way, in order."""
-        rising = self._followed(self.along_values, self.place, False)
-        found = {_RISING: rising}
-        asked = WAYS[self.host.ways]
-        if _BACKWARD in asked:
-            found[_BACKWARD] = self._followed(self.along_values, self.place, True)
-        # The way back starts at the end of the way there.
-        if _FALLING in asked and sum(len(one.values) for one in rising) == self.along_values.size:
-            found[_FALLING] = self._followed(self.along_values[::-1], _end(rising) or self.place, False)
-        elif _FALLING in asked:
-            found[_FALLING] = []
-        return found
-
-    def _followed(self, values: Array, place: tuple[float, ...], backward: bool) -> list[Diagram]:
-        level, followed = self.work.plan(Computation.SECTION).level, self.host.begins == FOLLOWED
-        left, shown = (40, 20) if self.work.dragging else (int(self.host.transient), int(self.host.count))
-        found: list[Diagram] = []
-        for i in range(0, len(values), _TOGETHER):
-            one = self.work.soon(
-                diagram,
-                self.family,
-                self.name,
-                tuple(values[i : i + _TOGETHER].tolist()),
-                _end(found) or place,
-                self.place,
-                left,
-                shown,
-                followed,
-                backward,
-                level,
-            )
-            if one is None:
-                break
-            found.append(one)
-        return found
+        found: dict[str, list[Diagram | None]] = {way: [] for way in self._courses}
+        pieces = product(self._courses, range(self._courses[_RISING].pieces))
+        # The way back comes last, because it starts where the way there ends.
+        for way, number in sorted(pieces, key=lambda one: (one[0] == _FALLING, one[1])):
+            found[way].append(self.work.soon(_piece, self._courses[way], number))
+        return {way: [one for one in parts if one is not None] for way, parts in found.items()}
 
     def points(self, way: str) -> Array | None:
         """Return the drawn points (2, n) of a way."""
@@ -279,12 +267,9 @@ class OrbitDiagram(Part[_Host]):
     @cached_property
     def cascade(self) -> Cascade | str | None:
         """The period doublings from the first one seen, or why none was located; None if unknown or none is seen."""
-        if self._doubling is None:
+        if self.work.dragging or self.work.level.name == "draft":
             return None
-        value, places, end = self._doubling
-        return self.work.later(
-            doublings, self.family, self.name, value, tuple(map(tuple, places.tolist())), end, _DOUBLINGS
-        )
+        return self.work.later(_cascade, self._courses[_RISING]) or None
 
     @property
     def flips(self) -> Array:
@@ -335,6 +320,64 @@ class OrbitDiagram(Part[_Host]):
             yield f"The doubling that is seen was not located: {self.cascade}"
 
 
+@dataclass(frozen=True)
+class _Course:
+    """An orbit followed through the values of the parameter, in pieces.
+
+    before : the course at whose end this one starts; without it, it starts at `place`.
+    """
+
+    family: Family
+    name: str
+    values: tuple[float, ...]
+    place: tuple[float, ...]
+    transient: int
+    kept: int
+    follow: bool
+    backward: bool
+    level: Accuracy
+    before: _Course | None = None
+
+    @property
+    def pieces(self) -> int:
+        """The number of pieces."""
+        return -(-len(self.values) // _TOGETHER)
+
+
+def _piece(course: _Course, number: int) -> Diagram:
+    """Return a piece of a course, which needs the pieces before it."""
+    return diagram(
+        course.family,
+        course.name,
+        course.values[number * _TOGETHER : (number + 1) * _TOGETHER],
+        _reached(course, number),
+        course.place,
+        course.transient,
+        course.kept,
+        course.follow,
+        course.backward,
+        course.level,
+    )
+
+
+def _reached(course: _Course, number: int) -> tuple[float, ...]:
+    """Return the last place of the orbit on the section before a piece."""
+    if number == 0:
+        return course.place if course.before is None else _reached(course.before, course.before.pieces)
+    before: Diagram = CACHE.get(_piece, course, number - 1)[0]
+    ends = before.ends[np.isfinite(before.ends).all(axis=1)]
+    return tuple(ends[-1].tolist()) if len(ends) else _reached(course, number - 1)
+
+
+def _cascade(course: _Course) -> Cascade | str:
+    """Return the doublings from the first one seen on a course, or why none was located; "" if none is seen."""
+    seen = doubling_seen([CACHE.get(_piece, course, number)[0] for number in range(course.pieces)])
+    if seen is None:
+        return ""
+    value, places, end = seen
+    return doublings(course.family, course.name, value, tuple(map(tuple, places.tolist())), end, _DOUBLINGS)
+
+
 def _cropped(
     family: Family, name: str, ends: Range, place: tuple[float, float], side: int, whole: Range
 ) -> tuple[float, float]:
@@ -356,12 +399,6 @@ def _range(parts: Sequence[Array]) -> tuple[float, float]:
     """Return the range of the points at most values: at a few of them a motion may go far away for a moment."""
     lows, highs = zip(*((one.min(), one.max()) for one in parts if len(one)), strict=True)
     return float(np.quantile(lows, _FEW_FAR)), float(np.quantile(highs, 1.0 - _FEW_FAR))
-
-
-def _end(parts: list[Diagram]) -> tuple[float, ...] | None:
-    """Return the last known place of the orbit; None if it never returned to the section."""
-    ends = [end for one in parts for end in one.ends if np.isfinite(end).all()]
-    return tuple(ends[-1].tolist()) if ends else None
 
 
 S = TypeVar("S", bound=State)
