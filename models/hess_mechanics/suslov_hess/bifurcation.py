@@ -15,7 +15,7 @@ import numpy as np
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, Separatrix
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
-from hess_mechanics.suslov_hess.bifurcation_kernels import f_max_and_roots, largest_f, largest_f_into
+from hess_mechanics.suslov_hess.bifurcation_kernels import f_max_and_roots, largest_f_into
 
 __all__ = [
     "SPECIAL_POINTS",
@@ -144,7 +144,7 @@ def f_max(h: float) -> float:
     True
     """
     _check_h(h)
-    return float(largest_f(float(h)))
+    return float(f_max_each(np.array([h], float))[0])
 
 
 def f_max_each(h: Array) -> Array:

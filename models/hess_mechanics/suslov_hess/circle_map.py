@@ -31,8 +31,7 @@ from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
-from hess_mechanics.suslov_hess.bifurcation import turning_points
-from hess_mechanics.suslov_hess.bifurcation_kernels import largest_f
+from hess_mechanics.suslov_hess.bifurcation import f_max_each, turning_points
 from hess_mechanics.suslov_hess.circle_map_kernels import matrices_into, theta_of
 
 __all__ = [
@@ -361,7 +360,7 @@ def circle_map(a: float, h: float, f: float, level: Accuracy) -> CircleMap:
     check_a(a)
     turning = turning_points(h, f)
     here = np.array([h]), np.array([f])
-    tori = here, neighbours(*here, np.array([largest_f(h)]))
+    tori = here, neighbours(*here, f_max_each(np.array([h])))
 
     def run(at: Level, _: int) -> tuple[Array, int]:
         energies, fs = tori[at.aside]

@@ -19,7 +19,6 @@ from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import f_max_each, turning_points
-from hess_mechanics.suslov_hess.bifurcation_kernels import largest_f
 from hess_mechanics.suslov_hess.circle_map import check_a, matrices, rotation_numbers_of
 
 __all__ = [
@@ -234,7 +233,7 @@ def lock_boundary(a: float, level: Accuracy, points: int = 48) -> Array:
     ends = (end + 1.0, 2.0)
     e = _rising_roots(locked, np.full(s.size, 0.5 * min(ends)), np.full(s.size, 2.0 * max(ends)))
     inside = np.column_stack([e - 1.0, s * f_max_each(e - 1.0)])
-    return frozen(np.vstack([[end, largest_f(end)], inside, [1.0, 0.0]]))
+    return frozen(np.vstack([[end, f_max_each(np.array([end]))[0]], inside, [1.0, 0.0]]))
 
 
 def _locked_at(h: float, f: float, a: float, level: Level) -> float:
