@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -146,8 +146,6 @@ class OwnBodyState(State):
     long: float = exponent_time(500.0, 5000.0, 2e4, "the exponent is")
     accuracy: str = accuracy_level()
 
-    periodic_orbit: ClassVar[NotPeriodic] = NotPeriodic()
-
     @cached_property
     def body(self) -> OwnBody:
         """The body.  Raises `ModelError`."""
@@ -180,6 +178,11 @@ class OwnBodyState(State):
     def is_compiled(self) -> bool:
         """True once the equations of this form are compiled."""
         return self.work.later(_compiled, self.body.system) is not None
+
+    @property
+    def periodic_orbit(self) -> NotPeriodic:
+        """None; the exponent, which needs another kernel, waits for the orbit's."""
+        return NotPeriodic(looking=not self.is_compiled)
 
     @part
     def orbit(self) -> Orbit:

@@ -19,6 +19,7 @@ from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled, mark_all_compiled
 from hess_explorer.sweep.chart import at_first
 from hess_mechanics.errors import ModelError
+from hess_mechanics.numerics.taylor_kernels import compile_shared
 
 __all__ = ["compile_all", "compile_beside", "warm"]
 
@@ -119,6 +120,9 @@ def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
         compute(scene)
         _wait_until_quiet()
         describe(scene.name)
+    _wait_until_quiet()
+    # For formulas typed on the page.
+    compile_shared()
     gc.freeze()
 
 

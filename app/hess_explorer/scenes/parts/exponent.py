@@ -42,11 +42,15 @@ class _Periodic(Protocol):
         """True while a requested periodic orbit is not known yet."""
 
 
+@dataclass(frozen=True)
 class NotPeriodic:
-    """For scenes without a search for periodic orbits."""
+    """For scenes without a search for periodic orbits.
 
+    looking : True while the exponent has to wait for something else.
+    """
+
+    looking: bool = False
     growth: tuple[float, float] | None = None
-    looking = False
 
 
 class _Host(Host, Protocol):
