@@ -15,7 +15,7 @@ from hess_explorer.page.showcase import EXHIBITS
 from hess_explorer.scenes import scenes
 from hess_mechanics.errors import InvalidParameter
 from support.command_line import run
-from support.offline import READY, change, opened
+from support.offline import READY, change, move, opened
 
 SOME = ("suslov-hess", "kharlamova", "scattering-by-a-nonholonomic-top")
 
@@ -78,7 +78,7 @@ def test_every_page_opens_and_its_sliders_move(site, browser):
             assert sliders.count() == 2, name
             for i in range(2):
                 if sliders.nth(i).is_enabled():
-                    change(page, sliders.nth(i).press, "End")
+                    move(page, sliders.nth(i))
             for preset in [one.preset.name for one in EXHIBITS if one.scene == name]:
                 change(page, page.locator(".param-preset select").select_option, preset)
 

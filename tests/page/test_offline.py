@@ -17,7 +17,7 @@ from hess_explorer.offline.pages import lesson_page, state_page
 from hess_explorer.scenes import scenes
 from hess_mechanics.errors import ModelError
 from support.accessible import assert_accessible
-from support.offline import captions, change, opened
+from support.offline import captions, change, move, opened
 
 DRAFT = "scene=suslov-hess&h=1.2&f=0.3&accuracy=draft"
 FIRST = "limit-cycles-and-locking"
@@ -201,21 +201,20 @@ def assert_given(page, lesson):
         expect(page.locator(".lesson .count")).to_have_text(f"{number + 1} / {len(lesson.steps)}")
         expect(page.locator("html")).to_have_attribute("data-scene", step.at.scene)
         if step.prediction is not None:
-            plot = page.locator(f".picture[data-name={step.prediction.picture}] .host").bounding_box()
+            plot = page.locator(f".gallery:not(.away) .picture-{step.prediction.picture} > .host").bounding_box()
             for share in (0.45, 0.6):
                 page.mouse.click(plot["x"] + share * plot["width"], plot["y"] + 0.4 * plot["height"])
             change(page, page.keyboard.press, "PageDown")
             expect(page.locator(".said")).not_to_be_empty()
             # The state in which the truth is shown.
             there = dict(parse_qsl(address_of(page)))
-            assert [there[name] for name in step.prediction.then.values] == [
+            assert [there.get(name, "") for name in step.prediction.then.values] == [
                 str(value) for value in step.prediction.then.values.values()
             ]
         for name in step.controls:
             slider = page.locator(f".step-controls .param-{name} .hand")
             if slider.count():
-                change(page, slider.press, "End")
-                change(page, slider.press, "Home")
+                move(page, slider)
         if step.question:
             page.keyboard.press("PageDown")
             expect(page.locator(".answer")).to_have_attribute("open", "")

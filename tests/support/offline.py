@@ -44,6 +44,13 @@ def change(page, action, *arguments):
     settled(page, before)
 
 
+def move(page, slider):
+    """Move a slider to both ends, first to the one where it is not."""
+    is_last = slider.evaluate("({ value, max, step }) => max - value < step / 2")
+    for key in ("Home", "End") if is_last else ("End", "Home"):
+        change(page, slider.press, key)
+
+
 def settled(page, before):
     """Wait until a state after that number is painted."""
     # The file's policy forbids `wait_for_function`.
