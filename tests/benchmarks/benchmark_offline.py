@@ -87,7 +87,7 @@ def measured(folder):
 def site(folder):
     """The table of the site's pages."""
     begun = time.perf_counter()
-    done = run("site", str(Path(folder) / "site"), "--values", str(COUNT))
+    done = run("site", str(Path(folder) / "site"), "--values", str(COUNT), timeout=1200)
     seconds = time.perf_counter() - begun
     lines = [line.split() for line in done.stdout.decode().splitlines()]
     rows = [[f"`{words[2]}`", f"{int(words[0].replace(',', '')) / 1e6:.1f}"] for words in lines[:-1]]

@@ -23,9 +23,9 @@ def typed(line):
     return shlex.split(line)
 
 
-def run(*words):
+def run(*words, timeout=120):
     command = [sys.executable, "-m", "hess_explorer", *words]
-    return subprocess.run(command, cwd=ROOT, capture_output=True, timeout=120, check=False)
+    return subprocess.run(command, cwd=ROOT, capture_output=True, timeout=timeout, check=False)
 
 
 def without_patience(said):
