@@ -51,7 +51,7 @@ export function waitLongForPress() {
 
 /**
  * Remove the elements of layers and axes, which are empty: they exist to be styled.  Bokeh rewrites a style sheet of each in
- * every painting, and the next plot that sets a font then waits for all styles of the page: a quarter of a state's time.
+ * every painting, and the next plot that sets a font then waits for all styles of the page: a fifth of a state's time.
  * Without `el` they stay, and painting is slower.
  * @param {PlotView} plot
  */
