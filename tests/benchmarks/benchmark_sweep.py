@@ -22,7 +22,7 @@ from distributed import Client
 from benchmarks.integrators.machine import conditions
 from hess_explorer.sweep import QUANTITIES, sweep, work, workers
 from hess_explorer.sweep.grid import SweepGrid
-from hess_explorer.sweep.result import Store
+from hess_explorer.sweep.store import Store
 from hess_mechanics import level, systems
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.numerics.accuracy import PLANS, Computation

@@ -1,5 +1,6 @@
 """The benchmark: its references, its choice of settings, its formats and its command.  Times are not asserted."""
 
+import importlib
 import json
 import re
 import signal
@@ -8,6 +9,7 @@ import sys
 import time
 from dataclasses import replace
 from math import inf, pi
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -386,3 +388,13 @@ def test_ctrl_c_ends_it_cleanly():
     assert process.returncode == 130
     assert out == b""
     assert err.decode().splitlines()[-1] == "hess-explorer: interrupted."
+
+
+@pytest.mark.parametrize("name", sorted(one.stem for one in Path(bench_command.__file__).parent.glob("*.py")))
+def test_each_script_finds_what_it_measures(name):
+    """They run by hand only, so that a name that has moved would not be noticed."""
+    try:
+        importlib.import_module(f"benchmarks.{name}")
+    except ModuleNotFoundError as error:
+        # A peer, which only the extra "bench" installs.
+        assert error.name == "heyoka"
