@@ -10,7 +10,7 @@ The state must be in units in which it is O(1); tolerances are absolute.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Container
+from collections.abc import Callable
 from functools import cache
 from typing import Any
 
@@ -65,7 +65,7 @@ def expansion_source(recursion: Recursion) -> str:
     """Return the Python source of `expand`, which calls the functions of `recursion.source` and `convolve`."""
     pairs, known = recursion.pairs, recursion.known
     variables, moving = range(recursion.variables), range(recursion.moving)
-    observed, every = range(recursion.observed), range(len(pairs))
+    observed = range(recursion.observed)
 
     def keep(order: str, y: str, since: int, count: int) -> str:
         """Store the factors that became known: `count` series are known now, `since` were known before."""
@@ -78,22 +78,19 @@ def expansion_source(recursion: Recursion) -> str:
             or "pass"
         )
 
-    # A function gets 0 in place of the products that it does not use: Numba is slow with every expression.
-    def first_products(count: int, used: Container[int]) -> str:
-        return items(
-            f"y0[{a}] * y0[{b}]" if j in used and max(a, b) < count else "0.0" for j, (a, b) in enumerate(pairs)
-        )
+    def first_products(count: int) -> str:
+        return items(f"y0[{a}] * y0[{b}]" if max(a, b) < count else "0.0" for a, b in pairs)
 
-    def products(count: int, used: Container[int]) -> str:
+    def products(count: int) -> str:
         def ends(a: int, b: int) -> str:
             return (f" + y0[{a}] * y[{b}]" if b < count else "") + (f" + y[{a}] * y0[{b}]" if a < count else "")
 
-        return items(f"s[{j}]{ends(a, b)}" if j in used else "0.0" for j, (a, b) in enumerate(pairs))
+        return items(f"s[{j}]{ends(a, b)}" for j, (a, b) in enumerate(pairs))
 
-    def stages(order: str, y: str, one: str, products: Callable[[int, Container[int]], str]) -> str:
+    def stages(order: str, y: str, one: str, products: Callable[[int], str]) -> str:
         return "".join(
             f"""
-        q = ({products(known[i], recursion.products_of(f"stage{i}"))})
+        q = ({products(known[i])})
         {y} = {y} + stage{i}({y}, q, p, {one})
         {keep(order, y, known[i], known[i + 1])}"""
             for i in range(len(recursion.stages))
@@ -110,14 +107,14 @@ def expand(c, left, right, inverses, parameters{", seen" if observed else ""}):
     {"p = p + constants(y0, p)" if recursion.constants else "pass"}
     {keep("0", "y0", 0, recursion.moving)}
     if True:{stages("0", "y0", "1.0", first_products) or " pass"}
-    found = rates(y0, ({first_products(known[-1], every)}), p, 1.0)
+    found = rates(y0, ({first_products(known[-1])}), p, 1.0)
     {"; ".join(f"c[1, {i}] = found[{i}]" for i in variables)}
     {seen("0")}
     y = ({items(f"found[{i}]" for i in moving)})
     for k in range(1, inverses.size):
         {keep("k", "y", 0, recursion.moving)}
         s = convolve(left, right, k){stages("k", "y", "0.0", products)}
-        q = ({products(known[-1], every)})
+        q = ({products(known[-1])})
         found = rates(y, q, p, 0.0)
         {seen("k")}
         y = ({items(f"found[{i}] * inverses[k]" for i in moving)})

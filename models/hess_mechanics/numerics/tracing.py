@@ -26,7 +26,6 @@ motion.
 from __future__ import annotations
 
 import math
-import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -126,11 +125,6 @@ class Recursion:
     def known(self) -> list[int]:
         """Number of series known before the first stage and after each stage; those with a rate come first."""
         return [self.moving + sum(self.stages[:i]) for i in range(len(self.stages) + 1)]
-
-    def products_of(self, function: str) -> set[int]:
-        """Return the products that a function of `source` uses."""
-        body = self.source.split(f"def {function}(")[1].split("\n\n")[0]
-        return set(map(int, re.findall(r"q\[(\d+)\]", body)))
 
     @property
     def is_quadratic(self) -> bool:

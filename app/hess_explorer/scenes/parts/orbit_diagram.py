@@ -257,19 +257,22 @@ class OrbitDiagram(Part[_Host]):
         ]
         return joined(parts).T
 
+    @property
+    def _locates(self) -> bool:
+        """True if doublings are located: not while a slider is held, and not at `draft`."""
+        return not self.work.dragging and self.work.level.name != "draft"
+
     @cached_property
     def _doubling(self) -> tuple[float, Array, float] | None:
         """The first doubling seen, see `doubling_seen`; None if unknown or none is seen."""
         known = self.branches[_RISING]
         missing = sum(len(one.values) for one in known) < self.along_values.size
-        return None if missing or self.work.dragging or self.work.level.name == "draft" else doubling_seen(known)
+        return doubling_seen(known) if self._locates and not missing else None
 
     @cached_property
     def cascade(self) -> Cascade | str | None:
         """The period doublings from the first one seen, or why none was located; None if unknown or none is seen."""
-        if self.work.dragging or self.work.level.name == "draft":
-            return None
-        return self.work.later(_cascade, self._courses[_RISING]) or None
+        return (self.work.later(_cascade, self._courses[_RISING]) or None) if self._locates else None
 
     @property
     def flips(self) -> Array:
