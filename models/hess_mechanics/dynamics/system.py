@@ -22,7 +22,7 @@ import numpy as np
 from hess_mechanics.errors import InvalidParameter, ModelError, WrongScaling
 from hess_mechanics.numerics.batch_kernels import ensemble_integrator, one_by_one
 from hess_mechanics.numerics.doubled_kernels import doubled_integrator
-from hess_mechanics.numerics.events_kernels import ANGLE, PLANE, SurfaceKernels, crossing_finder
+from hess_mechanics.numerics.events_kernels import ANGLE, SurfaceKernels, crossing_finder, plane
 from hess_mechanics.numerics.jit import derived_kernel, inner
 from hess_mechanics.numerics.measured import nearby
 from hess_mechanics.numerics.results import Array
@@ -340,7 +340,7 @@ class System:
     @cached_property
     def cross(self) -> Callable[..., tuple[int, int]]:
         """Kernel that finds the crossings of a plane by one orbit, see `events_kernels.crossing_finder`."""
-        return self.crosses("cross", PLANE)
+        return self.crosses("cross", plane(len(self.variables)))
 
     @cached_property
     def cross_angle(self) -> Callable[..., tuple[int, int]]:

@@ -1,32 +1,27 @@
 # mypy: allow-untyped-defs
-"""Ensembles of orbits of one system: eight orbits at a time with their own step sizes, on any number of threads.
+"""Ensembles of orbits of one system: several orbits at a time with their own step sizes, on any number of threads.
 
-The recursion is that of `taylor_kernels`, with eight lanes in place of each number, which become vector instructions.
+The recursion is that of `taylor_kernels`, with lanes in place of each number, which become vector instructions.
 A lane takes the next orbit as soon as its orbit is complete, so that no lane waits for another.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from llvmlite.binding import get_host_cpu_features
 
-from hess_mechanics.numerics.jit import inner, part
-from hess_mechanics.numerics.taylor_kernels import FALL, STEP_LIMIT_REACHED, compensated, parts
+from hess_mechanics.numerics.jit import part
+from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, compensated, parts, step_size
 from hess_mechanics.numerics.tracing import Recursion
 from hess_mechanics.numerics.unrolled import compiled, items
 
 __all__ = ["LANES", "ensemble_integrator", "one_by_one"]
 
-LANES = 8
-
-_ONE = int(np.float64(1.0).view(np.int64))
-"""Bits of 1.0, which stand for the logarithm 0."""
-_FALL = math.log2(FALL) * 2.0**52
-_TINY = 1e-280
-"""Lower bound of the coefficients, which replaces the zeros of a motion at rest."""
+LANES = 8 if get_host_cpu_features().get("avx512f") else 4
+"""Orbits at a time: the sums of eight need the 32 vector registers of AVX-512."""
 
 
 def expansion_of_lanes(recursion: Recursion) -> Callable[..., Any]:
@@ -104,25 +99,6 @@ def convolve(c, q, k):
 """)["convolve"]
 
 
-@inner
-def steps_of_lanes(last, previous, middle, order, tolerance, ratios, bits, h, h_bits):
-    """Write `step_of` of every lane to h, within 3 %, using only operations that exist as vector instructions.
-
-    The bits of a double, read as an integer, are 2^52 times its binary logarithm to within 0.09.  Taking the N-th root
-    divides them by N.  bits, h_bits : integer views of the ratios (3, lanes) and of h (lanes,).
-    """
-    for lane in range(LANES):
-        ratios[0, lane] = tolerance / max(last[lane], _TINY)
-        ratios[1, lane] = tolerance / max(previous[lane], _TINY)
-        ratios[2, lane] = middle[lane] / max(last[lane], _TINY) if middle[lane] > 0.0 else math.inf
-    for lane in range(LANES):
-        logarithm = min((bits[0, lane] - _ONE) / order, (bits[1, lane] - _ONE) / (order - 1.0))
-        falling = (bits[2, lane] - _ONE) / (order - order // 2) + _FALL
-        h_bits[lane] = int(min(logarithm, falling)) + _ONE
-    for lane in range(LANES):
-        h[lane] = math.inf if last[lane] + previous[lane] == 0.0 else 0.97 * h[lane]
-
-
 def ensemble_integrator(recursion: Recursion) -> Callable[..., Any]:
     """Return the compiled solver of many orbits.
 
@@ -142,8 +118,8 @@ def largest(c, k, out):
 def values(c, i, s):
     {_for_lanes(lambda lane: f"a{lane} = 0.0")}
     for k in range(c.shape[0] - 1, 0, -1):
-        {_for_lanes(lambda lane: f"a{lane} = (a{lane} + c[k, i, {lane}]) * s[{lane}]")}
-    return ({", ".join(f"a{lane}" for lane in range(LANES))},)
+        {_for_lanes(lambda lane: f"a{lane} = a{lane} * s[{lane}] + c[k, i, {lane}]")}
+    return ({", ".join(f"a{lane} * s[{lane}]" for lane in range(LANES))},)
 
 def add(y, low, s, compensated):
     {_for_lanes(lambda lane: f"a{lane}, b{lane} = compensated(y[{lane}], low[{lane}], s[{lane}])")}
@@ -166,10 +142,7 @@ def add(y, low, s, compensated):
         last = np.zeros(LANES)
         previous = np.zeros(LANES)
         middle = np.zeros(LANES)
-        ratios = np.zeros((3, LANES))
-        bits = ratios.view(np.int64)
         h = np.zeros(LANES)
-        h_bits = h.view(np.int64)
         step = np.zeros(LANES)
         t = np.zeros(LANES)
         t_low = np.zeros(LANES)
@@ -200,7 +173,8 @@ def add(y, low, s, compensated):
             largest(c, order, last)
             largest(c, order - 1, previous)
             largest(c, order // 2, middle)
-            steps_of_lanes(last, previous, middle, order, tolerance, ratios, bits, h, h_bits)
+            for lane in range(LANES):
+                h[lane] = step_size(last[lane], previous[lane], middle[lane], order, tolerance)
             for lane in range(LANES):
                 step[lane] = 0.0
                 if orbit[lane] < 0:

@@ -155,7 +155,7 @@ def packed(parameters):
             for i in range(n):
                 last = max(last, abs(c[ORDER, i].real) / scale[i])
                 previous = max(previous, abs(c[ORDER - 1, i].real) / scale[i])
-            h = step_size(last, previous, ORDER, TOLERANCE)
+            h = step_size(last, previous, 0.0, ORDER, TOLERANCE)
             taken += 1
             while j < times.size:
                 left = add(complex(times[j], 0.0), -t)

@@ -27,9 +27,9 @@ from hess_mechanics.numerics.taylor_kernels import (
     workspace,
 )
 from hess_mechanics.numerics.tracing import Recursion
-from hess_mechanics.numerics.unrolled import evaluation
+from hess_mechanics.numerics.unrolled import compiled, evaluation
 
-__all__ = ["ANGLE", "PLANE", "SurfaceKernels", "crossing_finder"]
+__all__ = ["ANGLE", "SurfaceKernels", "crossing_finder", "plane"]
 
 _DEPTH = 45
 """Number of bisections after which a piece is a point in double precision."""
@@ -51,11 +51,15 @@ def largest_bend(e, h):
     """Return the bound D = Σ k(k−1)|e_k| h^(k−2) of |e″| on [0, h]."""
     even = 0.0
     odd = 0.0
+    # Finite, so that 0 times it is 0.
+    square = min(h * h, 1e300)
     last = e.size - 1
-    for k in range(last - last % 2, 1, -2):
-        even = even * h * h + k * (k - 1.0) * abs(e[k])
-        if k < last:
-            odd = odd * h * h + k * (k + 1.0) * abs(e[k + 1])
+    if last % 2 == 0:
+        even = last * (last - 1.0) * abs(e[last])
+        last -= 1
+    for k in range(last, 1, -2):
+        odd = odd * square + k * (k - 1.0) * abs(e[k])
+        even = even * square + (k - 1.0) * (k - 2.0) * abs(e[k - 1])
     return even + odd * h
 
 
@@ -84,17 +88,19 @@ def root_between(e, low, high, s, below, bend):
 
 
 @inner
-def roots_on_step(e, h, below, end, below_at_end, roots, pieces):
+def roots_on_step(e, h, below, end, below_at_end, sense, roots, pieces):
     """Write the roots of e on [0, h], in increasing order, to `roots` and return their number.
+
+    sense : 1 for roots where e increases, −1 where it decreases, 0 for both.
 
     below, below_at_end : True if the orbit is below the plane at the two ends; end : e(h).
     pieces : scratch (`_DEPTH` + 2, 2) for the right ends of the remaining pieces, and e there.
     """
-    bend = largest_bend(e, h)
-    if below == below_at_end and min(abs(e[0]), abs(end)) > 0.125 * bend * h * h:
+    whole = largest_bend(e, h)
+    if below == below_at_end and min(abs(e[0]), abs(end)) > 0.125 * whole * h * h:
         return 0
     # With coefficients beyond double range no piece could be decided, and all 2^_DEPTH pieces would be visited.
-    if not bend * h * h < np.inf:
+    if not whole * h * h < np.inf:
         return 0
     # A smaller |e| may be round-off: the orbit counts as still on its previous side.
     noise = 0.0
@@ -116,14 +122,14 @@ def roots_on_step(e, h, below, end, below_at_end, roots, pieces):
         width = right - left
         rise = at_right - at_left
         # The bound holds on [0, right] only, so that curvature near the end does not force bisections at the start.
-        bend = largest_bend(e, right)
+        bend = whole if right == h else largest_bend(e, right)
         same_side = below == below_right
         if same_side:
             clear = min(abs(at_left), abs(at_right)) > 0.125 * bend * width * width
         else:
             clear = abs(rise) > 0.5 * bend * width * width
         if clear or 0.125 * bend * width * width <= noise or waiting > _DEPTH:
-            if not same_side:
+            if not same_side and (sense == 0 or (sense > 0) == below):
                 guess = left - at_left * width / rise if rise != 0.0 else left
                 roots[found] = root_between(e, left, right, guess, below, bend)
                 found += 1
@@ -161,29 +167,26 @@ class SurfaceKernels:
     shorter: Callable[..., Any] = _as_it_is
 
 
-@part
-def _along_plane(c, normal, e, scratch):
+def plane(n: int) -> SurfaceKernels:
+    """Return the kernels of a plane in a space of n variables; normal (n,) is its normal vector."""
+
+    def height(row: str) -> str:
+        return " + ".join(f"{row}{i}] * normal[{i}]" for i in range(n))
+
+    return SurfaceKernels(
+        **compiled(f"""
+def along(c, normal, e, scratch):
     for k in range(e.size):
-        height = 0.0
-        for i in range(normal.size):
-            height += c[k, i] * normal[i]
-        e[k] = height
+        e[k] = {height("c[k, ")}
 
+def height(y, normal):
+    return {height("y[")}
 
-@part
-def _height_over_plane(y, normal):
-    height = 0.0
-    for i in range(normal.size):
-        height += y[i] * normal[i]
-    return height
-
-
-@part
-def _always(y, normal):
+def counted(y, normal):
     return True
-
-
-PLANE = SurfaceKernels(_along_plane, _height_over_plane, _always, curved=False)
+"""),
+        curved=False,
+    )
 
 
 @inner
@@ -225,7 +228,7 @@ ANGLE = SurfaceKernels(_along_angle, _height_of_angle, _at_the_value, False, _le
 """A variable equals a value up to full turns; normal is the index of the variable, its scale and the value."""
 
 
-def crossing_finder(recursion: Recursion, surface: SurfaceKernels = PLANE) -> Callable[..., Any]:
+def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None) -> Callable[..., Any]:
     """Return the compiled search for crossings of a plane, or of another surface, by an orbit.
 
     cross(state, parameters, normal, offset, sense, end, order, tolerance, max_steps, times, states) writes the
@@ -236,6 +239,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels = PLANE) -> Ca
     """
     n, columns = recursion.variables, columns_of(recursion)
     expand, evaluate = expansion(recursion), evaluation(n)
+    surface = surface or plane(n)
     along, height, counted, curved = surface.along, surface.height, surface.counted, surface.curved
     shorter = surface.shorter
 
@@ -253,6 +257,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels = PLANE) -> Ca
         t = 0.0
         t_low = 0.0
         direction = 1.0 if end >= 0.0 else -1.0
+        sense_of_steps = sense if end >= 0.0 else -sense
         below = False
         crossings = 0
         steps = 0
@@ -287,27 +292,25 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels = PLANE) -> Ca
                 y[i], low[i] = compensated(y[i], low[i], increments[i])
             at_end = height(y, normal) - offset
             below_at_end = at_end < 0.0
-            for root in range(roots_on_step(e, h, below, at_end, below_at_end, roots, pieces)):
-                if sense == 0 or (sense * direction > 0.0) == below:
-                    s = direction * roots[root]
-                    evaluate(c, s, increments)
-                    if curved:
-                        # One Newton step removes the truncation error of the series of e.
-                        for i in range(n):
-                            found[i] = c[0, i] + increments[i]
-                        slope = value_and_slope(e, roots[root])[1]
-                        if slope != 0.0:
-                            s -= direction * (height(found, normal) - offset) / slope
-                            evaluate(c, s, increments)
+            for root in range(roots_on_step(e, h, below, at_end, below_at_end, sense_of_steps, roots, pieces)):
+                s = direction * roots[root]
+                evaluate(c, s, increments)
+                if curved:
+                    # One Newton step removes the truncation error of the series of e.
                     for i in range(n):
                         found[i] = c[0, i] + increments[i]
-                    if counted(found, normal):
-                        times[crossings] = t + (t_low + s)
-                        states[crossings] = found
-                        crossings += 1
-                        if crossings == times.size:
-                            return crossings, steps
-                below = not below
+                    slope = value_and_slope(e, roots[root])[1]
+                    if slope != 0.0:
+                        s -= direction * (height(found, normal) - offset) / slope
+                        evaluate(c, s, increments)
+                for i in range(n):
+                    found[i] = c[0, i] + increments[i]
+                if counted(found, normal):
+                    times[crossings] = t + (t_low + s)
+                    states[crossings] = found
+                    crossings += 1
+                    if crossings == times.size:
+                        return crossings, steps
             below = below_at_end
             if last:
                 return crossings, steps

@@ -248,7 +248,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
             for i in range(n):
                 last = max(last, abs(c[order, i]))
                 previous = max(previous, abs(c[order - 1, i]))
-            h = step_size(last, previous, order, tolerance)
+            h = step_size(last, previous, 0.0, order, tolerance)
             while sample < count:
                 s = (times[sample] - t) - t_low
                 if direction * s > h:

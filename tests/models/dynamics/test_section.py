@@ -324,7 +324,7 @@ def test_a_run_that_finds_other_crossings_than_the_more_exact_one_is_replaced_by
     for component, turning in turnings(system):
         normal = np.array(axis(system, component))
         height = nu if component < system.angular_velocities else 1.0
-        for depth in (1e-3, -1e-3, 1e-4, -1e-4, 1e-5, -1e-5):
+        for depth in (1e-4, -1e-4, 1e-5, -1e-5, 1e-6, -1e-6):
             offset = turning + depth
             (count, steps), (other_count, other_steps) = (
                 system.cross(

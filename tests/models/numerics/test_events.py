@@ -35,7 +35,7 @@ def found_roots(e, h, below=None, end=None, enough=50_000):
     roots = np.full(e.size, np.nan)
     pieces = np.zeros((crossings._DEPTH + 2, 2)).view(Pieces)
     pieces.enough = enough
-    found = crossings.roots_on_step.py_func(e, h, below, end, bool(end < 0.0), roots, pieces)
+    found = crossings.roots_on_step.py_func(e, h, below, end, bool(end < 0.0), 0, roots, pieces)
     return roots[:found]
 
 
