@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from math import acos, atan2, copysign, cos, exp, hypot, pi, sin, sqrt
+from math import copysign, cos, exp, hypot, pi, sin, sqrt
 from pathlib import Path
 
 import mpmath
@@ -23,7 +23,6 @@ import oracle
 from hess_mechanics import (
     HessBody,
     SuslovBody,
-    check_body,
     circle_map,
     curve_point,
     ensemble,
@@ -34,11 +33,10 @@ from hess_mechanics import (
 )
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.numerics.accuracy import Status
-from hess_mechanics.suslov.additional_integral import I11_of, additional_integral
-from hess_mechanics.suslov.free import equilibria, free_motion
+from hess_mechanics.suslov.free import free_motion
 from hess_mechanics.suslov.proved_forms import proved_cos_chi
 from hess_mechanics.suslov.scattering import scattering
-from hess_mechanics.suslov_hess.torus import cycles, track
+from hess_mechanics.suslov_hess.torus import track
 from support.extremes import ball as extremes_ball
 from support.extremes import euler_poisson as extremes_euler_poisson
 from support.extremes import special_motions
@@ -46,7 +44,7 @@ from support.extremes import suslov as extremes_suslov
 from support.extremes.unstable import unstable_starts
 from support.measured import write_measured
 from support.mechanics import PROMISE, apart
-from support.thorough import examples
+from support.thorough import examples, sample
 
 HESS, SUSLOV = systems()["hess"], systems()["suslov"]
 ANY = ("any",)
@@ -230,12 +228,6 @@ def on_a_torus(name, body, h, phi, span, **options):
     return Row(f"track: {name}", "closed form, loxodromic pendulum", error, **options)
 
 
-def free_rate(body, omega):
-    """ω0 of the paper."""
-    I11, I22, I13, I23, *_ = body.parameters
-    return sqrt((I22 * I13**2 + I11 * I23**2) * (I11 * omega[0] ** 2 + I22 * omega[1] ** 2)) / (I11 * I22)
-
-
 def free(name, tensor, omega, times, truth=None, against="Taylor series of `Biz131`, 30 digits", **options):
     """A motion without a field, from γ = UP."""
     body = SuslovBody(*tensor)
@@ -249,21 +241,6 @@ def free(name, tensor, omega, times, truth=None, against="Taylor series of `Biz1
     return Row(f"free Suslov: {name}", against, error, **options)
 
 
-def free_F2(name, k, omega, **options):
-    """F2, in units of its value where |Γ| = 1."""
-    body = SuslovBody(I11_of(k, 1.0, 0.5), 1.0, 0.0, 0.5)
-    integral = additional_integral(k, body)
-
-    def error(grade):
-        rate = free_rate(body, omega)
-        found = free_motion(body, omega, UP, np.linspace(0.0, 60.0 / rate, 200), grade)
-        h = 0.5 * (body.I11 * omega[0] ** 2 + body.I22 * omega[1] ** 2)
-        top, _ = integral.at_fixed_points(h)
-        return float(np.max(np.abs(integral(found.omega, found.gamma) - integral(omega, UP)))) / abs(top)
-
-    return Row(f"free Suslov, drift of F2: {name}", "its start", error, **options)
-
-
 def the_angle(name, tensor, **options):
     """cos χ on both arcs, against an enclosure of its closed form."""
 
@@ -272,22 +249,6 @@ def the_angle(name, tensor, **options):
         return max(abs(scattering(SuslovBody(*tensor), grade, arc).cos_chi - exact) for arc in (1, -1))
 
     return Row(f"scattering, cos χ: {name}", "closed form", error, **options)
-
-
-def the_cycles(name, body, h, **options):
-    """Both cycles of the torus f = 0: great circles φ = ∓π/2, the stable one first (a > 0)."""
-
-    def error(grade):
-        stable = circle_map(body.a, h, 0.0, grade).fixed_points[0]
-        start = -mpmath.ellipk(2 / (mpmath.mpf(h) + 1)) * mpmath.sqrt(2 / (mpmath.mpf(h) + 1))
-        errors = []
-        pair = cycles(body, h, 0.0, stable, grade, 4.0)
-        for found, phi in zip(pair, (-pi / 2, pi / 2), strict=True):
-            exact = in_the_body(body, oracle.pendulum(body.a, h, phi, found.orbit.times[::40], since=start))
-            errors.append(orbit_error(np.hstack([found.omega, found.gamma])[::40], exact))
-        return max(errors)
-
-    return Row(f"cycles: {name}", "closed form, great circle", error, **options)
 
 
 def on_the_lock_boundary(name, a, **options):
@@ -302,49 +263,6 @@ def on_the_lock_boundary(name, a, **options):
     return Row(f"lock boundary: {name}", "three orbits, 40 digits", error, levels=("draft", "reference"), **options)
 
 
-def a_check(name, tensor, **options):
-    """With I11 = I22 = 1: I33 = 1 ± √(1 − 4(I13² + I23²))."""
-
-    def error(_):
-        with mpmath.workdps(40):
-            I13, I23 = map(mpmath.mpf, tensor[2:])
-            root = mpmath.sqrt(1 - 4 * (I13**2 + I23**2))
-            interval = [float(1 - root), float(1 + root)]
-        return float(np.max(np.abs(np.array(check_body(*tensor).I33) - interval)))
-
-    return Row(f"check_body: {name}", "closed form", error, levels=ANY, **options)
-
-
-def settled_turning(body, omega, times, digits=30):
-    """The motion without a field long after (before) its passage: then γ turns about ω^(±), which has energy E(ω)."""
-    near = copysign(80.0, times[0]) / free_rate(body, omega)
-    state = oracle.orbit_in_decimals(SUSLOV, [*omega, *UP], body.parameters, [near], digits)[0]
-    with mpmath.workdps(40):
-        I11, I22, I13, I23, w1, w2 = map(mpmath.mpf, (*body.parameters[:4], *omega))
-        # biz138, its denominator corrected.
-        size = mpmath.sqrt((I11 * w1**2 + I22 * w2**2) / (I11 * I23**2 + I22 * I13**2)) * (-1 if times[0] > 0 else 1)
-        point = mpmath.matrix([size * I23, -size * I13, 0])
-        gamma = mpmath.matrix([mpmath.mpf(str(x)) for x in state[2:]])
-        rows = [[*point[:2], *oracle.turned(gamma, point, mpmath.mpf(t) - mpmath.mpf(near))] for t in times]
-        return np.array(rows, dtype=float)
-
-
-def circle_joined(name, tensor, omega, times, **options):
-    """Γ⁺ of the orbit that starts next to the unstable point, with its δ, θ⁻ and φ; it has settled at the last time."""
-    body = SuslovBody(*tensor)
-    line = equilibria(body, 0.5 * (body.I11 * omega[0] ** 2 + body.I22 * omega[1] ** 2))
-    xi, eta = line.xi, np.array([body.I13, body.I23]) / hypot(body.I13, body.I23)
-    across = float(np.dot(omega, eta))
-    theta, phi = acos(np.dot(UP, xi)), atan2(UP[2], np.dot(UP[:2], eta))
-
-    def error(grade):
-        found = scattering(body, grade, 1 if across > 0 else -1, abs(across) / line.speed)
-        end = oracle.orbit_in_decimals(SUSLOV, [*omega, *UP], body.parameters, times, 30)[-1].astype(float)
-        return abs(float(found.Gamma_plus(theta, phi)) - float(end[2:] @ xi))
-
-    return Row(f"scattering, Γ⁺: {name}", "Taylor series of `Biz131`, 30 digits", error, **options)
-
-
 # ---- the rows ---------------------------------------------------------------------------------------------------
 
 GENERIC = (2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0)
@@ -354,19 +272,11 @@ FIGURE_3, SLANTING = (2.44, 1.0, 0.0, 0.5), (2.0, 1.0, 0.3, 0.5)
 HESS_START = (0.3, 0.9, 0.6, 0.0, 0.8)
 GRAZING = (2.0, 0.0, 5e-7, 0.0, 1.0)  # h = 1, f = 1e-6
 BOTTOM = -1 + 1e-12
-# With I11 = I22 = 1 a tensor is a body's for I13² + I23² < 1/4.
-FLAT, NO_BODY = ((1.0, 1.0, 0.3 * x, 0.4 * x) for x in (1 - 1e-9, 1 + 1e-9))
 HEAVY, LIGHT = (1e6, 1.0, 0.3, 200.0), (1.0, 1e-6, 3e-7, 5e-4)  # bodies, within a factor 2 of not being one
 
 DEPTH = "f_max − f = 1e-12 f: its last place moves the turning points by 5e-11"
 SADDLE = "the saddle amplifies the rounding of the start by e^t"
 CLOSE = "of h − 1 = 2e-9 a double keeps 7 digits, and with it of the time that the passage takes"
-
-
-def swapped(tensor):
-    """The same body with e1 and e2 exchanged."""
-    I11, I22, I13, I23 = tensor
-    return I22, I11, I23, I13
 
 
 def with_field(tensor, b=1.0):
@@ -376,7 +286,6 @@ def with_field(tensor, b=1.0):
 ROWS = [
     # f
     vanishing("f = 1e-300, h = 1.5", 0.5, 1.5, 1e-300),
-    vanishing("f = 1e-300, h = 0.3", 0.5, 0.3, 1e-300),
     vanishing(
         "f = 1e-100, h = 1",
         0.5,
@@ -386,9 +295,7 @@ ROWS = [
         because="the last place of h is f times 1e84",
     ),
     by_orbits("f = 1e-12, h = 1.5", 0.5, 1.5, 1e-12, digits=60),
-    by_orbits("f = 1e-12, h = 0.3", 0.5, 0.3, 1e-12, digits=60),
     by_orbits("f = f_max (1 − 1e-12), h = 0.3", 0.5, 0.3, f_max(0.3) * (1 - 1e-12), floor=1e-10, because=DEPTH),
-    by_orbits("f = f_max (1 − 1e-12), h = −0.99", 0.5, -0.99, f_max(-0.99) * (1 - 1e-12), floor=1e-10, because=DEPTH),
     a_map(
         "f = f_max, n3 = 0.4",
         0.5,
@@ -403,18 +310,12 @@ ROWS = [
     vanishing("h = −1 + 1e-12, f = 0", 0.5, BOTTOM, 0.0),
     by_orbits("h = −1 + 1e-12, f = f_max/2", 0.5, BOTTOM, 0.5 * f_max(BOTTOM)),
     vanishing("h = 1 + 1e-12, f = 0", 0.5, 1 + 1e-12, 0.0),
-    vanishing("h = 1 − 1e-12, f = 0", 0.5, 1 - 1e-12, 0.0),
-    by_orbits("h = 1 − 1e-12, f = 0.5", 0.5, 1 - 1e-12, 0.5),
     by_orbits("h = 1 + 1e-12, f = 1e-12", 0.5, 1 + 1e-12, 1e-12, digits=60),
-    by_orbits("h = 1 − 1e-12, f = 1e-12", 0.5, 1 - 1e-12, 1e-12, digits=60),
     by_orbits("h = 1 − 1e-9, f = −1e-3", 0.5, 1 - 1e-9, -1e-3),
-    vanishing("h = 1e8, f = 0", 0.5, 1e8, 0.0),
     by_orbits("h = 1e8, f = 0.9 f_max", 0.5, 1e8, 0.9 * f_max(1e8)),
     # a
     without_a("a = 0", 1.5, 0.6),
     without_a("a = 0, h = 1 + 1e-9, f = 1e-9", 1 + 1e-9, 1e-9),
-    by_orbits("a = 1e-8, h = 0.3", 1e-8, 0.3, 0.6),
-    vanishing("a = 10, h = 0.3, f = 0", 10.0, 0.3, 0.0, floor=1e-7, because="|α| = 7e7 cancels to a trace of 0"),
     by_orbits(
         "a = 10, h = 0.3, f = 1e-12",
         10.0,
@@ -443,12 +344,9 @@ ROWS = [
         because="|α| = 1e40 cancels to a trace of 0",
     ),
     by_cycle("a = 50, h = 1e8, f = 1e4", 50.0, 1e8, 1e4),
-    vanishing("a = 1e4, h = 1.5, f = 0", 1e4, 1.5, 0.0),
     by_cycle("a = 1e4, h = 1.5, f = 0.6", 1e4, 1.5, 0.6),
-    by_cycle("a = 1e4, h = 0.2, f = 0.5", 1e4, 0.2, 0.5),
     # orbits of eq01
     a_pendulum("f = 0, h = 0.3", 0.5, 0.3, 0.4, [1.0, 5.0, 20.0]),
-    a_pendulum("f = 0, h = 1.7, backward", 0.5, 1.7, 0.4, [-1.0, -5.0, -20.0]),
     a_pendulum("separatrix, h = 1 exactly", 0.5, 1.0, pi / 2, [1.0, 5.0, 10.0]),
     an_orbit(
         "separatrix, h = 1, φ = 0.4",
@@ -469,21 +367,11 @@ ROWS = [
         because=CLOSE,
     ),
     an_orbit(
-        "separatrix grazed, h = 1 − 2e-9",
-        HESS,
-        (2 - 1e-9, 0.0, 0.0, 0.0, 1.0),
-        (0.5, 1.0),
-        [1.0, 12.0, 24.0],
-        floor=1e-6,
-        because=CLOSE,
-    ),
-    an_orbit(
         "separatrix grazed, h = 1, f = 1e-6", HESS, GRAZING, (0.5, 1.0), [1.0, 8.0, 16.0], floor=1e-9, because=SADDLE
     ),
     a_pendulum("h = −1 + 1e-12", 0.5, BOTTOM, 0.4, [1.0, 10.0, 100.0], speed=1.0),  # the unit of ω is √b, not 1e-6
     a_pendulum("h = 1e8", 0.5, 1e8, 0.4, [1e-5, 1e-4, 1e-2]),
     a_pendulum("b = 1e6", 0.5, 1.7, 0.4, [1.0, 5.0, 20.0], b=1e6),
-    a_pendulum("b = 1e-6", 0.5, 1.7, 0.4, [1.0, 5.0, 20.0], b=1e-6),
     a_pendulum(
         "b = 1e-6, t = 1e6",
         0.5,
@@ -496,12 +384,8 @@ ROWS = [
     ),
     a_pendulum("a = 1e4", 1e4, 1.5, 0.4, [0.001, 0.01, 0.1]),
     an_orbit("a = 0", HESS, HESS_START, (0.0, 1.0), [1.0, 5.0, 20.0]),
-    an_orbit("b = 0", HESS, HESS_START, (0.75, 0.0), [1.0, 5.0, 20.0]),
     an_orbit("n = (0, 0, −1)", HESS, (0.6, 1.2, 0.0, 0.0, -1.0), (0.75, 1.0), [1.0, 5.0, 10.0]),
-    an_orbit("n3 = 0", HESS, (0.6, 1.2, 0.6, -0.8, 0.0), (0.75, 1.0), [1.0, 5.0, 10.0]),
-    an_orbit("t = 1e-6", HESS, HESS_START, (0.75, 1.0), [1e-6]),
     at_rest("at rest, n3 = 1, t = 1e6", HESS, 1.0, (0.75, 1.0)),
-    at_rest("at rest, n3 = −1, t = −1e6", HESS, -1.0, (0.75, 1.0)),
     # orbits of Biz131
     an_orbit("I11/I22 = 1e6", SUSLOV, (1e-3, 1.0, 0.6, 0.0, 0.8), with_field(HEAVY), [1.0, 10.0]),
     # ω2 may come to √(2E/I22) = 1000: that is the unit in which the state is O(1).
@@ -513,7 +397,6 @@ ROWS = [
         [0.1, 1.0],
         speed=1000.0,
     ),
-    an_orbit("I11/I22 = 1e-6", SUSLOV, (1.0, 1e-3, 0.6, 0.0, 0.8), with_field(swapped(HEAVY)), [1.0, 10.0]),
     an_orbit("I22 = 1e-6", SUSLOV, (0.1, 10.0, 0.6, 0.0, 0.8), with_field(LIGHT), [0.001, 0.02]),
     an_orbit(
         "I13 = I23 = 0, b = 0, t = 1e4",
@@ -524,64 +407,26 @@ ROWS = [
         truth=lambda: oracle.steady_rotation(START[:2], START[2:], [1.0, 100.0, 1e4]),
         against="closed form, rotation",
     ),
-    an_orbit("b = 0", SUSLOV, START, (*GENERIC[:4], 0, 0, 0), [1.0, 10.0, 100.0]),
     an_orbit("b = 1e6", SUSLOV, (800.0, -400.0, 0.6, 0.0, 0.8), with_field(GENERIC[:4], 1e6), [0.001, 0.02]),
-    an_orbit("b = 1e-6", SUSLOV, (8e-4, -4e-4, 0.6, 0.0, 0.8), with_field(GENERIC[:4], 1e-6), [1e3, 2e4]),
-    an_orbit("γ = (0, 0, 1)", SUSLOV, (0.8, -0.4, 0.0, 0.0, 1.0), GENERIC, [1.0, 5.0, 20.0]),
-    an_orbit("γ3 = 0", SUSLOV, (0.8, -0.4, 0.6, -0.8, 0.0), GENERIC, [1.0, 5.0, 20.0]),
     an_orbit("ω = 0", SUSLOV, (0.0, 0.0, 0.6, -0.8, 0.0), GENERIC, [1.0, 5.0, 20.0]),
     an_orbit("backward", SUSLOV, START, GENERIC, [-1.0, -5.0, -20.0]),
-    an_orbit("t = 1e-6", SUSLOV, START, GENERIC, [1e-6]),
-    at_rest("at rest, γ3 = 1, t = 1e6", SUSLOV, 1.0, (*GENERIC[:4], 0, 0, 1)),
     # bodies of the Hess case on their tori
     on_a_torus("b3 = −1e6", HessBody(1.0, 0.5, -1e6), 1.7, 0.4, 20.0),
     on_a_torus("h = 1, f = 0, from the top", HessBody(1.0, 0.5, -1.0), 1.0, 0.4, 10.0, floor=1e-11, because=SADDLE),
-    on_a_torus("a = 1e4", HessBody(1e-4, 1.0, -1.0), 1.7, 0.4, 1.0),
     # integrals after a long time
     drift("t = 1e5", HESS, HESS_START, (0.75, 1.0), 1e5, floor=1e-11),
     drift("t = 1e5", SUSLOV, START, GENERIC, 1e5, floor=1e-11),
     # motions without a field
     free("1e-300 off the line", FIGURE_3, (2.0, 1e-300), [1.0, 690.0, 692.0, 740.0]),
-    free("5e-324 off the line", FIGURE_3, (2.0, 5e-324), [700.0, 746.0, 760.0]),
-    free("1e-300 off the stable half, backward", FIGURE_3, (-2.0, 1e-300), [-1.0, -690.0, -692.0, -720.0]),
     free("1e-16 off a slanting line", SLANTING, (0.5, -0.3 + 1e-16), [1.0, 100.0, 130.0, 160.0]),
-    free("k = 50", (626.0, 1.0, 0.0, 0.5), (2.0, 1e-3), [1.0, 10.0, 30.0]),
     free("I11/I22 = 1e6", (1e6, 1.0, 0.3, 0.5), (1e-3, 1.0), [1.0, 10.0]),
-    free("I11/I22 = 1e-6", (1e-6, 1.0, 0.3, 0.5), (0.1, 10.0), [0.001, 0.002]),
     free("ω = 1e6", SLANTING, (0.8e6, -0.2e6), [1e-6, 1e-5, 2e-5]),
     free("I13, I23 = 0.01", (1.0, 1.0, 0.006, 0.008), (0.7, 0.7), [1.0, 100.0, 300.0]),
-    free_F2("k = 15, 1e-300 off the line", 15, (2.0, 1e-300)),
-    free_F2("k = 15, ω = 1e6", 15, (1e6, 0.3e6)),
     the_angle("I11/I22 = 1e6", (1e6, 1.0, 0.0, 1.0)),
-    the_angle("I11/I22 = 1e-6", (1e-6, 1.0, 0.0, 1.0)),
-    the_angle("I11/I22 = 1e6, slanting", (1e6, 1.0, 300.0, 0.5)),
-    the_angle("I23 = 1e-3", (2.0, 1.0, 0.0, 1e-3)),
     the_angle("I23 = 3e-4, slanting", (2.0, 1.0, 2e-4, 3e-4)),
     the_angle("I13, I23 = 1e6", (1.0, 2.0, 1e6, -1e6)),
     on_the_lock_boundary("a = 1e-3", 1e-3),
     on_the_lock_boundary("a = 1e4", 1e4, floor=3e-8, because="h + 1 = 1e-8: of that the double h keeps 8 digits"),
-    the_cycles("a = 0.5, b3 = 1e6", HessBody(1.0, 0.5, 1e6), 1.7),
-    the_cycles("a = 50", HessBody(1.0, 50.0, -1.0), 1.7),
-    a_check(
-        "all but flat by 1e-9", FLAT, floor=1e-11, because="a square root of 1e-9, of which a double keeps 7 digits"
-    ),
-    a_check(
-        "I13 = 0, all but flat by 1e-12",
-        (1.0, 1.0, 0.0, 0.5 - 5e-13),
-        floor=1e-9,
-        because="a square root of 1e-12, of which a double keeps 4 digits",
-    ),
-    circle_joined("δ = 5e-301", FIGURE_3, (2.0, 1e-300), [1.0, 690.0, 692.0, 740.0]),
-    free(
-        "t = 1e8",
-        SLANTING,
-        (0.8, -0.2),
-        [1e8],
-        settled_turning,
-        "closed form, after the passage",
-        floor=1e-7,
-        because="the last place of ω times 1e8 radians",
-    ),
     *extremes_ball.rows(Row, an_orbit, drift),
     *extremes_euler_poisson.rows(Row, drift),
     *extremes_suslov.rows(Row),
@@ -625,6 +470,7 @@ def test_next_to_an_unstable_equilibrium_no_error_is_more_than_its_estimate_says
     assert np.median(said / np.maximum(true, 1e-16)) < 100.0
 
 
+@pytest.mark.parametrize("unstable", sample(systems(), 2), indirect=True)
 def test_of_many_orbits_each_estimate_next_to_an_equilibrium_is_that_of_one(unstable):
     system, starts = unstable
     for state, parameters, times, exact in starts[:6]:
@@ -640,7 +486,7 @@ def much_slower(ratio):
 
 
 @pytest.mark.parametrize("name", PROMISE)
-@pytest.mark.parametrize("ratio", [1e12, 1e16, 0.99e20])
+@pytest.mark.parametrize("ratio", [1e12, 0.99e20])
 def test_a_motion_much_slower_than_its_energy_allows_is_right(ratio, name):
     state, parameters = much_slower(ratio)
     found = solve(SUSLOV.at(parameters), state, [1.0, 5.0], name)
@@ -648,15 +494,14 @@ def test_a_motion_much_slower_than_its_energy_allows_is_right(ratio, name):
     assert orbit_error(found.states, exact) <= PROMISE[name]
 
 
-@pytest.mark.parametrize("name", PROMISE)
-@pytest.mark.parametrize("ratio", [1.01e20, 1e60, 1e300])
-def test_moments_so_different_that_the_unit_of_time_says_nothing_are_refused(ratio, name):
+@pytest.mark.parametrize("ratio", [1.01e20, 1e300])
+def test_moments_so_different_that_the_unit_of_time_says_nothing_are_refused(ratio):
     state, parameters = much_slower(ratio)
     with pytest.raises(InvalidParameter, match=re.escape("choose a ratio below 1e+20.")):
-        solve(SUSLOV.at(parameters), state, [1.0, 5.0], name)
+        solve(SUSLOV.at(parameters), state, [1.0, 5.0])
 
 
-@pytest.mark.parametrize("h", [-0.999, -0.5, 0.3, 0.5, 1.5, 2.0, 30.0])
+@pytest.mark.parametrize("h", [-0.999, 0.3, 30.0])
 def test_the_largest_f_that_a_refusal_names_is_accepted(h):
     with pytest.raises(OutsideRegion) as refused:
         circle_map(0.5, h, 1.5 * f_max(h), "draft")
@@ -670,41 +515,6 @@ def test_a_refusal_next_to_the_edge_shows_that_f_is_beyond_it():
         circle_map(0.5, 0.3, f_max(0.3) * (1 + 1e-12), "draft")
     asked, allowed = (float(x) for x in re.search(r"f = ([.\d]+): .* ≤ ([.\d]+),", str(refused.value)).groups())
     assert asked > allowed
-
-
-def best_second_moment(I11, I22, I13, I23):
-    """The least eigenvalue of ½ tr I − I = Σ m x xᵀ for the I33 that makes it largest; it is concave in I33."""
-    with mpmath.workdps(50):
-
-        def least(I33):
-            inertia = mpmath.matrix([[I11, 0, I13], [0, I22, I23], [I13, I23, I33]])
-            half_trace = (inertia[0, 0] + inertia[1, 1] + inertia[2, 2]) / 2
-            return min(mpmath.eigsy(half_trace * mpmath.eye(3) - inertia, eigvals_only=True))
-
-        low, high = abs(mpmath.mpf(I11) - I22), mpmath.mpf(I11) + I22
-        for _ in range(80):
-            left, right = (2 * low + high) / 3, (low + 2 * high) / 3
-            low, high = (left, high) if least(left) < least(right) else (low, right)
-        return least(low)
-
-
-@pytest.mark.parametrize(
-    "tensor",
-    [
-        FLAT,
-        NO_BODY,
-        HEAVY,
-        swapped(HEAVY),
-        LIGHT,
-        swapped(LIGHT),
-        (1e6, 1.0, 0.3, 1000.0),
-        (1e6, 1.0, 0.6, 0.0),
-        (1.0, 1e-6, 0.0, 0.0),
-    ],
-    ids=str,
-)
-def test_next_to_its_limit_the_triangle_inequality_is_decided_right(tensor):
-    assert check_body(*tensor).is_body == (best_second_moment(*tensor) > 0)
 
 
 def main():

@@ -1,7 +1,5 @@
 """The rows of `test_extremes` for the Chaplygin ball."""
 
-import math
-
 import mpmath
 import numpy as np
 
@@ -65,31 +63,18 @@ def rows(Row, an_orbit, drift):
         )
 
     return [
-        ball("𝒟 = 0", START, with_field(0.0), [1.0, 5.0, 20.0]),
         ball("𝒟 = 1e-6", START, with_field(1e-6), [1.0, 5.0, 20.0]),
         ball("𝒟 = 1e6", START, with_field(1e6), [1.0, 5.0, 20.0]),
         ball("𝒟 = 1e6, no field", START, free(1e6), [1.0, 5.0, 20.0]),
-        ball("𝒟 = 1e6, γ along ω", (*OMEGA, 2 / math.sqrt(5.0), -1 / math.sqrt(5.0), 0.0), free(1e6), [1.0, 5.0]),
         # The energy allows ω = √(2E/I22) = 880 for γ along ω: that is the unit in which the state is O(1).
         ball("𝒟 = 1e6, γ3 = 0", (*OMEGA, 0.6, 0.8, 0.0), with_field(1e6), [1.0, 5.0], speed=880.0),
         near("1e-300 off the line", 1.0, 1e-300, [1.0, 1085.0, 1100.0]),
-        near("1e-12 off the line", 1.0, 1e-12, [1.0, 43.0, 60.0]),
         ball("on the line", (1.0, 0.0, *GAMMA), (2.0, 1.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0), [1.0, 20.0]),
         ball("I11/I22 = 1e6", (1e-3, 1.0, *GAMMA), with_field(2.0, tensor=(1e6, 1.0, 0.3, 0.5)), [1.0, 5.0]),
-        ball("I11/I22 = 1e-6", (0.1, 1.0, *GAMMA), with_field(2.0, tensor=(1e-6, 1.0, 1e-3, 0.5)), [0.01, 0.2]),
         ball("I22 = 1e-6, 𝒟 = 1e-6", (0.1, 1.0, *GAMMA), with_field(1e-6, 1.0, (1.0, 1e-6, 0.5, 1e-3)), [1e-3, 0.02]),
-        ball("I13 = I23 = 0", START, with_field(2.0, tensor=(2.0, 1.0, 0.0, 0.0)), [1.0, 5.0, 20.0]),
-        ball("backward", START, with_field(2.0), [-1.0, -5.0, -20.0]),
-        ball("γ = (0, 0, 1)", (*OMEGA, 0.0, 0.0, 1.0), with_field(2.0), [1.0, 5.0, 20.0]),
-        ball("γ3 = 0", (*OMEGA, 0.6, -0.8, 0.0), with_field(2.0), [1.0, 5.0, 20.0]),
         ball("ω = 0", (0.0, 0.0, *GAMMA), with_field(2.0), [1.0, 5.0, 20.0]),
         ball("ω = 1e-300", (1e-300, 1e-300, *GAMMA), with_field(2.0), [1.0, 5.0]),
         ball("b = 1e6", (800.0, -400.0, *GAMMA), with_field(2.0, 1e6), [0.001, 0.02]),
-        ball("b = 1e-6", (8e-4, -4e-4, *GAMMA), with_field(2.0, 1e-6), [1e3, 2e4]),
         ball("ω = 1e6", (0.8e6, -0.4e6, *GAMMA), free(2.0), [1e-6, 1e-4]),
-        ball("ω = 1e-6", (0.8e-6, -0.4e-6, *GAMMA), free(2.0), [1e6, 1e8]),
-        ball("t = 1e-6", START, with_field(2.0), [1e-6]),
-        ball("t = 300, no field", START, free(2.0), [300.0]),
         drift("t = 3e4", SYSTEM, START, with_field(2.0), 3e4, floor=1e-11),
-        drift("t = −1e3, 𝒟 = 1e6", SYSTEM, START, with_field(1e6), -1e3, floor=1e-11),
     ]
