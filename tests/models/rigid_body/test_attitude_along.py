@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 from hess_mechanics.chaplygin_ball import equations as ball
 from hess_mechanics.dynamics.sampling import sampled_orbit
 from hess_mechanics.euler_poisson import equations as heavy
-from hess_mechanics.rigid_body.attitude import TURN, attitude_along, travelled
+from hess_mechanics.rigid_body.attitude import TURN, attitude_along
 from hess_mechanics.suslov import equations as suslov
 
 A = (1.0, 1.6, 8 / 3)
@@ -33,27 +33,15 @@ def test_it_is_right_to_a_quarter_of_a_pixel_for_as_long_as_an_orbit_is_shown(mo
     found = along(*motion, span=40.0)
     n = len(start)
 
-    at = np.array([0.6, 0.8, 0.0])
-
     def rates(_, y):
-        speed = np.linalg.norm(np.cross(omega(y), at))
-        return [*system.field(y[:n], parameters), *np.cross(y[n : n + 3], omega(y)), speed]
+        return [*system.field(y[:n], parameters), *np.cross(y[n:], omega(y))]
 
-    exact = solve_ivp(
-        rates, (0.0, 40.0), [*start, *found.axes[0, 1], 0.0], "DOP853", found.times, rtol=1e-11, atol=1e-12
-    )
+    exact = solve_ivp(rates, (0.0, 40.0), [*start, *found.axes[0, 1]], "DOP853", found.times, rtol=1e-11, atol=1e-12)
     assert found.times[0] == 0.0
     assert found.times[-1] == approx(40.0, abs=1e-12)
     # Half of the largest picture, in radii of the sphere, is some 250 pixels.
     assert np.max(np.abs(found.axes[:, 0] - exact.y[n - 3 : n].T)) < 1e-3
-    assert np.max(np.abs(found.axes[:, 1] - exact.y[n : n + 3].T)) < 1e-3
-    arc = travelled(found.axes, at, (0.0, 0.0, 1.0))
-    if omega(start)[2] == 0.0:
-        # With ω3 = 0 the contact point moves only along e: the arc is its path, forwards and backwards.
-        assert np.sum(np.abs(np.diff(arc))) == approx(exact.y[-1, -1], rel=2e-3)
-        assert np.gradient(arc, found.times)[0] == approx(0.8 * start[0] - 0.6 * start[1], rel=0.1)
-    else:
-        assert np.sum(np.abs(np.diff(arc))) < 0.9 * exact.y[-1, -1]
+    assert np.max(np.abs(found.axes[:, 1] - exact.y[n:].T)) < 1e-3
     products = np.einsum("nij,nkj->nik", found.axes, found.axes)
     assert np.max(np.abs(products - np.eye(3))) < 1e-14
     assert np.linalg.det(found.axes) == approx(1.0, abs=1e-14)
@@ -77,12 +65,6 @@ def test_a_steady_spin_about_the_vertical_is_followed_though_nothing_else_moves(
     assert found.axes[:, 1, :2] == approx(np.einsum("jin,j->ni", turn, found.axes[0, 1, :2]), abs=1e-12)
     assert abs(len(found.times) - 241) <= 1
     assert found.defect < 1e-15
-
-
-def test_a_body_at_rest_stays_as_it_lies():
-    found = attitude_along(np.array([0.0, 5.0, 10.0]), np.zeros((3, 3)), np.tile(GAMMA, (3, 1)))
-    assert found.times[[0, -1]] == approx([0.0, 10.0])
-    assert found.axes == approx(np.broadcast_to(found.axes[0], found.axes.shape), abs=1e-15)
 
 
 def test_samples_too_far_apart_are_told_by_their_defect():

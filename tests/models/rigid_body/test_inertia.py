@@ -1,6 +1,6 @@
 """Tensors that belong to rigid bodies: against point masses, and against a scan over I33."""
 
-from math import inf, nan, sqrt
+from math import inf, sqrt
 
 import numpy as np
 from hypothesis import assume, given
@@ -63,17 +63,10 @@ def test_the_answer_knows_no_axis_no_sign_and_no_unit(I11, I22, share13, share23
         assert other.is_body == found.is_body
         if found.is_body:
             assert np.array(other.I33) == approx(found.I33, rel=1e-11, abs=1e-13 * (I11 + I22))
-    scaled = check_body(I11 * unit, I22 * unit, I13 * unit, I23 * unit)
+    scaled = check_body(*(unit * one for one in (I11, I22, I13, I23)))
     assert scaled.is_body == found.is_body
     if found.is_body:
         assert np.array(scaled.I33) / unit == approx(found.I33, rel=1e-12)
-
-
-@given(st.floats(1e-3, 1e3), st.one_of(st.floats(-3.0, 3.0), st.floats(-1e6, 1e6)))
-def test_under_bizi1_a_body_exists_exactly_for_a_below_one(I22, a):
-    # At |a| = 1 the interval shrinks like (1 − |a|)²: nearer than 1e-6 it is lost in round-off.
-    assume(abs(abs(a) - 1.0) > 1e-6)
-    assert HessBody(I22, a * I22, 1.0).check.is_body == (abs(a) < 1.0)
 
 
 @given(st.floats(1e-3, 1e3), st.floats(-0.999, 0.999))
@@ -117,7 +110,6 @@ def test_the_sentence_names_the_interval():
     [
         ("I11", -1.0, NotPositiveDefinite, "choose I11 > 0"),
         ("I22", -0.0, NotPositiveDefinite, "choose I22 > 0"),
-        *((name, nan, InvalidParameter, "is not a finite number") for name in ("I11", "I22", "I13", "I23")),
         ("I23", -inf, InvalidParameter, "is not a finite number"),
     ],
 )
