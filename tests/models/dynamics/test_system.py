@@ -18,7 +18,7 @@ from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefin
 from hess_mechanics.numerics.taylor_kernels import columns_of, compensated, workspace
 from support.mechanics import ROOT, SYSTEMS, assert_same_without_jit, every_system, scipy_states
 from support.refusals import refused
-from support.thorough import examples
+from support.thorough import examples, sample
 
 # (system, signs of the state, sign of time): y(t) → signs·y(±t) takes solutions to solutions.
 SYMMETRIES = [
@@ -31,6 +31,7 @@ SYMMETRIES = [
     ("hess", (-1, 1, -1, 1, 1), -1),
     ("hess", (1, -1, -1, 1, 1), 1),
 ]
+some_systems = mark.parametrize("system", sample(SYSTEMS.values(), 2), ids=lambda system: system.name)
 every_symmetry = mark.parametrize(("name", "signs", "time"), SYMMETRIES)
 
 
@@ -60,17 +61,6 @@ def test_the_registry_finds_every_module_that_defines_a_system():
     assert {"hess_mechanics.suslov.equations", "hess_mechanics.chaplygin_ball.equations"} <= defining
     assert {module_of(system).__name__ for system in SYSTEMS.values()} == defining
     assert len(SYSTEMS) == len(defining)
-
-
-@every_system
-def test_names_and_shapes_fit_together(system):
-    assert module_of(system).SYSTEM is SYSTEMS[system.name] is system
-    assert all((system.title, system.source, system.labels))
-    state, parameters = system.example
-    assert len(state) == len(set(system.variables)) == len(system.field(state, parameters))
-    assert len(parameters) == len(set(system.parameters))
-    assert 0 < system.angular_velocities < len(state)
-    assert np.all(np.isfinite(list(system.integrals(state, parameters).values())))
 
 
 @every_system
@@ -116,7 +106,7 @@ for name, system in hess_mechanics.systems().items():
         orbit = hess_mechanics.solve(*system.example_motion, [0.0, 1.0, 5.0], level(grade))
         results[f"{name} {grade}"] = [float(x) for x in orbit.states.ravel().tolist()]
     body, state = system.example_motion
-    starts = [[x * (1 + 0.01 * i) for x in state] for i in range(11)]
+    starts = [[x * (1 + 0.01 * i) for x in state] for i in range(9)]
     many = hess_mechanics.ensemble(body, starts, [0.5, 1.0], level("standard"))
     results[f"{name} ensemble"] = [float(x) for x in many.states.ravel().tolist()]
     last = hess_mechanics.solve(body, state, [0.1 * i for i in range(201)], level("draft")).states[:, -1]
@@ -153,7 +143,7 @@ def test_the_field_has_the_symmetry_symbolically(name, signs, time):
 
 
 @every_system
-@mark.parametrize("nu", [1e-3, 0.7, 4e4])
+@mark.parametrize("nu", [1e-3, 4e4])
 def test_orbits_scale_with_the_unit_of_time(system, nu):
     state, parameters = (np.array(values) for values in system.example)
     times = np.linspace(0.0, 10.0, 11)
@@ -165,46 +155,20 @@ def test_orbits_scale_with_the_unit_of_time(system, nu):
     assert parameters == approx(system.example[1], abs=0)
 
 
-def of_ones_own(variables, angular_velocities, field, rescale, frequency):
-    return System(
-        name="own",
-        title="A system of a test",
-        source="",
-        labels=(),
-        variables=variables,
-        parameters=("k",),
-        angular_velocities=angular_velocities,
-        field=field,
-        integrals=lambda y, p: {},
-        frequency=frequency,
-        rescale=rescale,
-        example=((1.0, 0.5)[: len(variables)], (4.0,)),
-    )
-
-
-def test_a_variable_whose_name_begins_with_w_is_no_velocity_for_that():
-    grows = of_ones_own(("w",), 0, lambda y, p: (p[0] * y[0],), lambda y, p, nu: (y.copy(), p / nu), lambda y, p: p[0])
-    assert solve(grows.at((4.0,)), (1.0,), [0.5], "precise").states == approx(np.e**2, rel=1e-9)
-
-
 def test_an_oscillator_names_its_velocity_by_putting_it_first():
-    def rate(y, p):
-        return np.sqrt(p[0])
-
+    given = {"parameters": {"k": 4.0}, "frequency": lambda y, p: np.sqrt(p[0])}
     for count in (0, 1, 2):
         with raises(WrongScaling, match="`angular_velocities`, which counts the leading variables that scale"):
-            of_ones_own(
-                ("x", "w"),
-                count,
+            System(
+                "own",
                 lambda y, p: (y[1], -p[0] * y[0]),
-                lambda y, p, nu: ((y.T / [1.0, nu]).T, p / nu**2),
-                rate,
+                "x w",
+                angular_velocities=count,
+                rescale=lambda y, p, nu: ((y.T / [1.0, nu]).T, p / nu**2),
+                **given,
             )
-    swings = of_ones_own(
-        ("w", "x"), 1, lambda y, p: (-p[0] * y[1], y[0]), in_units_of_time(first=0, velocities=1), rate
-    )
-    found = solve(swings.at((4.0,)), (0.0, 1.0), [0.3], "precise").states[0]
-    assert found == approx([-2.0 * np.sin(0.6), np.cos(0.6)], abs=1e-9)
+    rescale = in_units_of_time(first=0, velocities=1)
+    swings = System("own", lambda y, p: (-p[0] * y[1], y[0]), "w x", angular_velocities=1, rescale=rescale, **given)
     with raises(WrongScaling, match=r"take states \(d,\) and \(d, n\)"):
         replace(swings, rescale=lambda y, p, nu: (y / [nu, 1.0], p / nu**2))
 
@@ -258,7 +222,7 @@ def test_round_off_does_not_grow_with_the_number_of_steps(system):
     assert max(orbit.drift.values()) < 4e-19 * orbit.cost.steps
 
 
-@every_system
+@some_systems
 def test_dense_output_does_not_depend_on_the_other_samples(system):
     many = np.linspace(0.0, 12.0, 481)
     dense = solve(*system.example_motion, many, "reference")
@@ -268,31 +232,17 @@ def test_dense_output_does_not_depend_on_the_other_samples(system):
     assert np.array_equal(dense.states[-1:], alone.states)
 
 
-@every_system
-def test_equal_times_and_0_are_allowed_and_the_result_shares_nothing_with_the_caller(system):
-    times = np.array([0.0, 0.0, 1.0, 1.0])
-    orbit = solve(*system.example_motion, times, "draft")
-    assert orbit.states[0] == approx(system.example[0], abs=1e-15)
-    assert np.array_equal(orbit.states[2], orbit.states[3])
-    times[0] = 7.0
-    assert orbit.times[0] == 0.0
-
-
 BAD_TIMES = [
     param([], InvalidParameter, "one or more finite numbers", id="none"),
-    param([[1.0, 2.0]], InvalidParameter, "one or more finite numbers", id="a table"),
     param([np.nan], InvalidParameter, "finite", id="nan"),
-    param([1.0, np.inf], InvalidParameter, "finite", id="inf"),
     param([2.0, 1.0], InvalidParameter, "monotonic and start at 0", id="backwards"),
-    param([-1.0, 1.0], InvalidParameter, "monotonic and start at 0", id="both sides of 0"),
     param([1e308, -1e308], InvalidParameter, "monotonic and start at 0", id="beyond double range apart"),
     param([1e9], WorkLimit, "choose a shorter time span", id="a long span"),
-    param([-1e308], WorkLimit, "choose a shorter time span", id="an absurd span"),
     param(np.zeros(MAX_SAMPLES + 1), WorkLimit, "at most 200000", id="too many samples"),
 ]
 
 
-@every_system
+@some_systems
 @mark.parametrize(("times", "error", "words"), BAD_TIMES)
 def test_times_that_cannot_be_computed_raise_a_sentence(system, times, error, words, monkeypatch):
     monkeypatch.setattr("hess_mechanics.dynamics.orbit.MAX_STEPS", 10_000)
@@ -301,7 +251,7 @@ def test_times_that_cannot_be_computed_raise_a_sentence(system, times, error, wo
         solve(*system.example_motion, times, "draft")
 
 
-@every_system
+@some_systems
 def test_all_runs_of_one_request_share_one_budget_of_steps(system, monkeypatch):
     freely = solve(*system.example_motion, [100.0], "standard")
     # Enough for the first run alone and for the second alone, but not for both.
@@ -312,17 +262,17 @@ def test_all_runs_of_one_request_share_one_budget_of_steps(system, monkeypatch):
     assert np.array_equal(solve(*system.example_motion, [100.0], "standard").states, freely.states)
 
 
-@every_system
+@some_systems
 def test_states_and_parameters_that_cannot_be_computed_raise_a_sentence(system):
     state, parameters = system.example
     names, others = (re.escape(", ".join(some)) for some in (system.variables, system.parameters))
     too_fast = r"choose (less extreme parameters|a shorter one)"
     for wrong, values, error, words in (
-        *(([*state[:-1], bad], parameters, InvalidParameter, "finite number") for bad in (np.nan, np.inf)),
-        *((state, [bad, *parameters[1:]], InvalidParameter, "finite number") for bad in (np.nan, -np.inf)),
-        *((some, parameters, InvalidParameter, names) for some in (state[:-1], [*state, 0.0], [state])),
-        *((state, some, InvalidParameter, others) for some in (parameters[:-1], [*parameters, 0.0], [])),
-        *(([huge, *state[1:]], parameters, ModelError, too_fast) for huge in (1e155, 1e200, 1e308)),
+        ([*state[:-1], np.inf], parameters, InvalidParameter, "finite number"),
+        (state, [np.nan, *parameters[1:]], InvalidParameter, "finite number"),
+        *((some, parameters, InvalidParameter, names) for some in (state[:-1], [state])),
+        (state, parameters[:-1], InvalidParameter, others),
+        *(([huge, *state[1:]], parameters, ModelError, too_fast) for huge in (1e155, 1e308)),
     ):
         with raises(error, match=words):
             solve(system.at(values), wrong, [1.0], "draft")
@@ -332,30 +282,12 @@ SUSLOV_STATE, (_, _, *REST) = SYSTEMS["suslov"].example
 test_what_means_nothing_is_refused = refused(
     *(
         (lambda I=I: solve(SYSTEMS["suslov"].at((*I, *REST)), SUSLOV_STATE, [1.0]), "choose I", NotPositiveDefinite)
-        for I in ((0.0, 1.0), (-1.0, 1.0), (1.0, -2.0))
+        for I in ((0.0, 1.0), (1.0, -2.0))
     ),
-    *((lambda g=g: unit_vector(g), "other than 0") for g in ((0.0, 0.0, 0.0), (np.nan, 0.0, 1.0), (np.inf, 0.0, 0.0))),
+    *((lambda g=g: unit_vector(g), "other than 0") for g in ((0.0, 0.0, 0.0), (np.nan, 0.0, 1.0))),
     (lambda: SuslovBody(np.nan, 1.0, 0.0, 0.0), "I11"),
-    (lambda: SuslovBody(1.0, 1.0, -np.inf, 0.0), "I13"),
-    (lambda: SuslovBody(1.0, 1.0, 0.0, 0.0, b3=np.inf), "b3"),
     (lambda: level("exact"), "draft, standard, precise, reference"),
 )
-
-
-@given(data=st.data())
-def test_the_suslov_field_is_eulers_equation_with_the_reaction_of_the_constraint(data):
-    # I ω̇ + ω × Iω = γ × b + λ e3 with ω3 = 0: rows 1 and 2 are free of λ; γ̇ = γ × ω.
-    number = st.floats(-3.0, 3.0)
-    I11, I22 = data.draw(st.tuples(st.floats(0.1, 5.0), st.floats(0.1, 5.0)))
-    I13, I23, b1, b2, b3, w1, w2, g1, g2, g3 = data.draw(st.tuples(*[number] * 10))
-    I33 = data.draw(number)  # must not matter
-    inertia = np.array([[I11, 0.0, I13], [0.0, I22, I23], [I13, I23, I33]])
-    omega, gamma, b = np.array([w1, w2, 0.0]), np.array([g1, g2, g3]), np.array([b1, b2, b3])
-    body = SuslovBody(I11, I22, I13, I23, b1, b2, b3)
-    rates = np.array(SYSTEMS["suslov"].field((w1, w2, g1, g2, g3), body.parameters))
-    torque = inertia @ [*rates[:2], 0.0] + np.cross(omega, inertia @ omega) - np.cross(gamma, b)
-    assert torque[:2] == approx([0.0, 0.0], abs=1e-12)
-    assert rates[2:] == approx(np.cross(gamma, omega), abs=1e-12)
 
 
 @given(st.tuples(*[st.floats(-1e150, 1e150)] * 3).filter(any))
@@ -382,9 +314,6 @@ def test_name_field_and_variables_are_enough():
     system = henon_heiles()
     assert (system.title, system.variables, system.parameters) == ("henon-heiles", ("x", "y", "px", "py"), ())
     assert system.example == ((0.1, 0.2, 0.3, 0.4), ())
-    times = np.linspace(0.0, 10.0, 5)
-    found = solve(*system.example_motion, times, "reference")
-    assert np.max(np.abs(found.states - scipy_states(system, *system.example, times))) < 1e-9
 
 
 def test_parameters_have_values_by_name():
@@ -402,16 +331,11 @@ def test_parameters_have_values_by_name():
     [
         ({"name": ""}, "not the name of a system"),
         ({"variables": ""}, "`variables` must be names"),
-        ({"variables": ("x", 1, 2, 3)}, "`variables` must be names"),
         ({"parameters": "x"}, "each name may occur once"),
         ({"parameters": {"k": np.nan}}, "the parameters must be 1 finite numbers: k"),
         ({"example": (1.0, 2.0)}, "must be 4 finite numbers: x, y, px, py"),
         ({"integrals": lambda y, p: 3}, "`integrals` must return first integrals by name"),
-        ({"integrals": lambda y, p: {"E": y}}, "one number for each name"),
-        ({"field": 3}, "`field` must be a function"),
         ({"angular_velocities": 1}, "belong together"),
-        ({"frequency": lambda y, p: 1.0}, "belong together"),
-        ({"rescale": unscaled}, "belong together"),
     ],
 )
 def test_what_does_not_fit_is_refused_when_a_system_is_made(wrong, words):

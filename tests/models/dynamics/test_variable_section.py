@@ -38,7 +38,6 @@ DRIVEN = System(
     example=(0.3, 0.0, 0.0),
     angles="theta phase",
 )
-LORENZ = System("lorenz", lambda y, p: (10 * (y[1] - y[0]), y[0] * (28 - y[2]) - y[1], y[0] * y[1] - y[2]), "x y z")
 
 
 @fixture(scope="module")
@@ -57,8 +56,8 @@ def test_a_section_has_defaults(returns):
     assert (x, y, py) == (0.0, 0.1, 0.05)
     assert px == approx(np.sqrt(2 * E - y**2 - py**2 + 2 * y**3 / 3), rel=1e-14)
     assert section.places_of(states)[1].tolist() == [0.2, 0.0]
-    free = return_map(LORENZ.at(), surface=("z", 27.0))
-    assert (free.names, free.section.solved) == (("x", "y"), ())
+    free = return_map(DRIVEN.at(), surface=("v", 1.0))
+    assert (free.names, free.section.solved) == (("theta", "phase"), ())
 
 
 def test_the_image_of_a_place_is_the_next_crossing_by_another_integrator(returns):
@@ -101,7 +100,7 @@ def test_tools_take_a_system_of_ones_own(returns):
     assert tube(*SYSTEM.example_motion, [1.0]).width < 1e-18
 
 
-@mark.parametrize("start", [(0.2, 0.5), (2.0, 2.5), (-3.0, -2.0)])
+@mark.parametrize("start", [(0.2, 0.5), (-3.0, -2.0)])
 def test_a_driven_pendulum_has_a_stroboscopic_map(start):
     strobe = return_map(DRIVEN.at(), surface=("phase", 5.0))
     assert (strobe.names, strobe.turns) == (("theta", "v"), (2 * np.pi, np.inf))
@@ -119,21 +118,20 @@ def test_a_driven_pendulum_has_a_stroboscopic_map(start):
 
 def test_an_angle_passes_its_value_up_to_full_turns():
     """A pendulum that turns over has the period of the quadrature, and keeps its velocity at the value."""
-    pendulum = System("pendulum", lambda y, p: (y[1], -np.sin(y[0])), "theta v", angles="theta", example=(0.0, 2.5))
-    returns = return_map(pendulum.at(), surface=("theta", 3.0))
-    assert returns.orbit((1.0,), 3) == approx(np.ones((3, 1)), abs=1e-8)
+    pendulum = DRIVEN.at(friction=0.0, force=0.0)
+    returns = return_map(pendulum, surface=("theta", 3.0))
+    assert returns.orbit((1.0, 0.0), 3)[:, 0] == approx(np.ones(3), abs=1e-8)
     period = quad(lambda a: 1 / np.sqrt(1 + 2 * np.cos(a) - 2 * np.cos(3.0)), 0.0, 2 * np.pi)[0]
-    assert returns.time_of((1.0,)) == approx(period, rel=1e-9)
+    assert returns.time_of((1.0, 0.0)) == approx(period, rel=1e-9)
     # Small swings pass 0, and no full turn.
-    swings = return_map(pendulum.at(), surface=("theta", 0.0))
-    assert swings.image((0.1,)) == approx([0.1], abs=1e-9)
+    assert return_map(pendulum, surface=("theta", 0.0)).image((0.1, 0.0))[0] == approx(0.1, abs=1e-9)
 
 
-@mark.parametrize(("sense", "end"), [(1, 30.0), (-1, -30.0), (0, 30.0), (0, -30.0), (-1, 30.0), (1, -30.0)])
+@mark.parametrize(("sense", "end"), [(1, 30.0), (-1, -30.0), (0, 30.0), (0, -30.0)])
 def test_a_uniform_rotation_passes_an_angle_once_a_turn(sense, end):
     """A single step of its series would take it round many times."""
-    turning = System("turning", lambda y, p: (-p[0],), "phase", {"rate": 2.0}, angles="phase")
-    found = section(turning.at(), (0.5,), AnglePlane(0, 1.0, sense), end, "precise")
+    turning = DRIVEN.at(friction=0.0, force=0.0, W=-2.0)
+    found = section(turning, (0.0, 0.0, 0.5), AnglePlane(2, 1.0, sense), end, "precise")
     # As time grows the angle falls.
     expected = np.arange(1, 10) * np.pi - 0.25 if end > 0 else -np.arange(10) * np.pi - 0.25
     assert found.times == approx([] if sense > 0 else expected[np.abs(expected) < 30.0], abs=1e-9)
@@ -152,7 +150,6 @@ def test_what_is_no_angle_is_refused(angles, words):
     [
         ({"integrals": {"L": 1.0}}, "has no integral L: choose one of E"),
         ({"E": E, "surface": ("z", 0.0)}, "has no variable z: choose one of x, y, px, py"),
-        ({}, "has one or two coordinates among y, px, py"),
         ({"E": E, "coordinates": "y x"}, "has one or two coordinates among y, px, py"),
         ({"E": E, "coordinates": "y"}, "values of more or fewer integrals"),
     ],

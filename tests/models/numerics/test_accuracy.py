@@ -5,7 +5,6 @@ from itertools import pairwise
 
 import pytest
 
-from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Computation, cheapest, plan
 
 every_kind = pytest.mark.parametrize("kind", Computation)
@@ -42,25 +41,6 @@ def test_no_tolerance_of_a_section_loses_crossings():
         for kind in (Computation.SECTION, Computation.ROTATION, Computation.BASINS)
         for name in LEVELS
     )
-
-
-def test_a_part_is_rounded_and_has_a_least_size():
-    draft = PLANS[Computation.SECTION]["draft"]
-    assert draft.part(200) == 50
-    assert draft.part(30, least=20) == 20
-    assert draft.part(12, least=20) == 12
-    assert PLANS[Computation.SECTION]["standard"].part(200, least=20) == 200
-
-
-def test_a_grid_keeps_at_least_one_cell():
-    draft = PLANS[Computation.GRID]["draft"]
-    assert draft.grid((300, 200)) == (150, 100)
-    assert draft.side(1) == 1
-
-
-def test_a_level_that_is_none_is_refused():
-    with pytest.raises(InvalidParameter, match="draft"):
-        plan(Computation.CLOUD, "finest")
 
 
 # The promises of the levels as the README states them.

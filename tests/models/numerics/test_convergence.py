@@ -70,21 +70,3 @@ def test_the_global_error_falls_with_the_tolerance(system, order):
     # The step makes the terms of order N and N−1 equal the tolerance ε, so that the first term left
     # out is between ε and ε^((N+1)/(N−1)).
     assert 0.95 < slope(TOLERANCES, errors) < 1.35
-
-
-@every_system
-def test_a_higher_order_takes_fewer_steps_for_the_same_tolerance(system):
-    steps = [global_error(system, order, 1e-10)[1] for order in (6, 10, 14, 20)]
-    assert steps == sorted(steps, reverse=True)
-    assert steps[0] > 3 * steps[-1]
-
-
-@every_system
-def test_the_levels_form_a_ladder(system):
-    times = np.linspace(0.0, 10.0, 11)
-    truth = solve(*system.example_motion, times, "reference").states
-    orbits = [solve(*system.example_motion, times, name) for name in ("draft", "standard", "precise")]
-    errors = [np.max(np.abs(orbit.states - truth)) for orbit in orbits]
-    estimates = [orbit.error_estimate for orbit in orbits]
-    for values in (errors, estimates):
-        assert values[0] > 10 * values[1] > 100 * values[2] > 0

@@ -71,7 +71,6 @@ def product(roots, others=(1.0,)):
 
 WITHOUT_ROOTS = [
     param((1.0,), id="alone"),
-    param((-2.5,), id="times a number"),
     param((2.0, 0.0, 1.0), id="with a complex pair"),
     param((3.0, 1.0, 0.5, -0.25, 0.125), id="with four more far away"),
 ]
@@ -101,21 +100,11 @@ def test_the_largest_bend_bounds_the_second_derivative(coefficients, h):
     assert bend == largest_bend(np.abs(e), h)
 
 
-@mark.parametrize("h", [0.0, 1e-200, 1.0, 1e200])
-def test_a_line_and_a_constant_do_not_bend(h):
-    for e in ([0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [1.0, -2.0, 0.0, 0.0, 0.0], [3.0], [3.0, 1.0]):
-        assert largest_bend(np.array(e), h) == 0.0
-
-
 @with_others
 @mark.parametrize(
     "roots",
     [
-        (0.5,),
         (0.42577973,),
-        (0.1, 0.9),
-        (0.27548506, 0.53737703),
-        (0.2, 0.3, 0.4),
         (1e-9, 0.7),
         (0.3, 1.0 - 1e-9),
         (0.05, 0.25, 0.45, 0.65, 0.85),
@@ -140,7 +129,7 @@ def test_what_is_flat_at_first_is_not_halved_away(height):
 
 @with_others
 @mark.parametrize("gap", [1e-3, 1e-6])
-@mark.parametrize("root", [0.0625, 0.3, 0.5, 0.7123456789, 0.99])
+@mark.parametrize("root", [0.0625, 0.7123456789])
 def test_two_roots_close_together_are_two(root, gap, others):
     roots = (root, root + gap)
     e = product(roots, others)
@@ -148,16 +137,6 @@ def test_two_roots_close_together_are_two(root, gap, others):
     assert agree(found, e, roots, 1.0)
     # As seen from the other side of the plane.
     assert np.array_equal(found_roots(-e, 1.0), found)
-
-
-@with_others
-@mark.parametrize("gap", [1e-3, 1e-6])
-def test_three_roots_close_together_are_three(gap, others):
-    roots = (0.3, 0.3 + gap, 0.3 + 3 * gap)
-    # About the root itself, so that rounding the coefficients does not move the other two: s from 0 to 1.
-    h = 100 * gap
-    e = product([10 * gap, 11 * gap, 13 * gap], others)
-    assert agree(found_roots(e, h), e, (10 * gap, 11 * gap, 13 * gap), h), roots
 
 
 @mark.parametrize("root", [0.25, 0.5, 0.75])
@@ -183,36 +162,6 @@ def test_a_turning_this_near_the_plane_is_on_its_side(depth, count, root, sign):
         apart = np.sqrt(-depth)
         # The turning is known to some 1e-16 of its height, the roots to that over twice their distance.
         assert found == approx([root - apart, root + apart], abs=4 * EPS / apart)
-
-
-def test_a_touch_within_round_off_gives_nothing_or_pairs_in_its_place():
-    random = np.random.default_rng(2)
-    for _ in range(100):
-        root = random.uniform(0.1, 0.9)
-        e = product((root, root), product(random.uniform(1.5, 4.0, 8)) / 100)
-        found = found_roots(e, 1.0)
-        assert len(found) % 2 == 0
-        assert len(found) <= e.size - 1, "more than a polynomial has"
-        # Half width of the zone where e is within round-off of 0: √(Σ|e_k| s^k · 10 ε / e″).
-        assert found == approx(root, abs=1e-5)
-
-
-@mark.parametrize("power", [3, 4])
-@mark.parametrize("root", [0.25, 0.5, 0.6])
-def test_a_root_of_high_multiplicity_ends_the_search_with_the_right_parity(power, root):
-    e = product([root] * power)
-    # Flatter than its own round-off over a ten-thousandth of the step, which is looked at in pieces of 1e-8.
-    found = found_roots(e, 1.0, enough=200_000)
-    assert len(found) % 2 == power % 2
-    # Zone where the polynomial is within round-off of 0.
-    assert found == approx(root, abs=2 * (100 * EPS) ** (1 / power))
-
-
-@mark.parametrize("h", [0.0, 1.0, 1e200])
-def test_an_orbit_that_stays_where_it_is_crosses_nothing(h):
-    for height in (-0.5, 0.0, 0.5):
-        assert len(found_roots([height, 0.0, 0.0, 0.0], h)) == 0
-        assert len(found_roots([height, 0.0, 0.0], h, below=height < 0.0)) == 0
 
 
 @mark.parametrize("rounding", [-1e-17, 0.0, 1e-17])
@@ -268,31 +217,14 @@ def test_random_polynomials_have_the_roots_that_numpy_finds(coefficients, h):
     assert agree(found_roots(e, h), e, roots, h)
 
 
-@given(
-    st.lists(st.integers(-3, 13), min_size=1, max_size=7, unique=True),
-    st.lists(st.tuples(st.integers(-300, 1300), st.integers(500, 1000)), max_size=4),
-)
-def test_polynomials_with_many_roots_have_the_roots_that_numpy_finds(real, pairs):
-    others = Polynomial([1.0])
-    for middle, away in pairs:
-        others *= Polynomial([middle**2 + away**2, -2000.0 * middle, 1e6]) / 1e6
-    e = product(np.array(real) / 10.0, others.coef)
-    roots = changes_of_side(e, 1.0)
-    assume(roots is not None)
-    assert agree(found_roots(e, 1.0), e, roots, 1.0)
-
-
 HARD = [
     param(product((0.3,), (1.0, 0.0, 0.0, 1000.0)), 0.0, 1.0, id="flat, then steep"),
-    param(product((0.999,), (1e-3, 0.0, 0.0, 0.0, 1.0)), 0.0, 1.0, id="steep at the far end"),
     param(np.array([-1e-6, 1e-6, 0.0, 1.0]), 0.0, 1.0, id="nearly a triple root"),
     param(np.array([-0.5, 0.0, 2.0, 2.0]), 0.0, 1.0, id="no slope at the left end"),
     param(np.array([-0.2, 1.2, 0.0, -1.0]), 0.0, 0.6, id="a slope that vanishes near the end"),
     param(product((1e-12, -1.0)), 0.0, 1.0, id="a root beside the left end"),
-    param(product((1.0 - 1e-12, -1.0)), 0.0, 1.0, id="a root beside the right end"),
     param(np.array([-0.5] + [0.0] * 22 + [1.0]), 0.0, 1.0, id="a high power"),
     param(np.array([-1e-300, 0.5, 0.25]), 0.0, 1.0, id="a root that is nearly 0"),
-    param(np.array([-0.6, 1.0]), 0.0, 1.0, id="a line"),
     param(np.array([-0.6, 1.0]) * 1e-12, 0.5, 0.75, id="a low line"),
 ]
 

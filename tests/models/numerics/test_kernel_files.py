@@ -52,14 +52,12 @@ def filled(kernels):
 
 VERSION = pickle.dumps(jit.numba.__version__)
 DAMAGES = [
-    *(lambda whole, left=left: whole[: int(left * len(whole))] for left in (0.0, 0.5, 0.99)),
+    *(lambda whole, left=left: whole[: int(left * len(whole))] for left in (0.0, 0.99)),
     *(
         lambda _, foreign=foreign: foreign
         for foreign in (
             b"no pickle at all",
             pickle.dumps("0.0.1") + b"of another Numba",
-            pickle.dumps(["another", "thing"]),
-            VERSION + pickle.dumps(("another stamp", {})),
             VERSION + pickle.dumps(17),
         )
     ),
@@ -97,7 +95,7 @@ def test_a_derived_source_cut_short_is_written_again(kernels):
     assert source.read_text() == SOURCE
 
 
-@mark.parametrize("said", ["", "{", "[]", "17", '{"errors.py": 3}', '{"errors.py": [1, 2]}', '"text"'])
+@mark.parametrize("said", ["", "[]", '{"errors.py": [1, 2]}'])
 def test_hashes_that_cannot_be_read_are_found_anew(tmp_path, monkeypatch, said):
     package, memory = tmp_path / "package", tmp_path / "memory"
     for folder in (package, memory):
