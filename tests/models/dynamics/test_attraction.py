@@ -8,16 +8,10 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from hess_mechanics import SuslovBody
 from hess_mechanics.dynamics.attraction import CROSSINGS, LOST, NOWHERE, Arrivals, arrivals, recurrent_sets
 from hess_mechanics.dynamics.basin_boundary import arrivals_of_cells, divided, joined
 from hess_mechanics.dynamics.edge import saddle_between
-from hess_mechanics.dynamics.manifolds import grown
-from hess_mechanics.dynamics.periodic import apart
-from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import NotConverged
-from hess_mechanics.numerics.accuracy import PRECISE, STANDARD
-from hess_mechanics.suslov.section import SuslovSection
 from support.maps import three_wells
 
 WELLS = three_wells()
@@ -110,31 +104,3 @@ def test_the_saddle_between_two_wells_is_the_one_on_their_boundary(sets):
     assert saddle.multipliers.real == approx([1.75, 0.5], abs=1e-9)
     with pytest.raises(NotConverged, match="No saddle up to period 12"):
         saddle_between(WELLS, np.array([0.1, 0.1]), np.array([0.2, 0.1]), number_of)
-
-
-def test_the_stable_manifold_of_the_example_parts_its_two_basins():
-    section = SuslovSection(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842, 3)
-    map_ = ReturnMap(section, PRECISE)
-
-    def rotates_forward(place):
-        """By the mean of ω₁ late on the orbit, which tells both attractors apart."""
-        (orbit,) = section.points([section.state_at(*place)], 200, True, STANDARD, threads=1).states
-        mean = orbit[150:, 0].mean()
-        assert min(abs(mean + 1.365), abs(mean - 0.88)) < 0.05
-        return int(mean > 0.0)
-
-    saddle = saddle_between(map_, np.array([-1.0, 1.5]), np.array([-1.0, 2.4]), rotates_forward)
-    assert (saddle.period, saddle.kind) == (1, "saddle")
-    for side in (1, -1):
-        branch = grown(map_, saddle, 1.5, True, side)
-        # Its images lie on it, to its sagitta.
-        for i in range(5, len(branch.points), len(branch.points) // 6):
-            offsets = apart(map_.turns, branch.points, map_.image(branch.points[i]))
-            ends = np.argsort(np.hypot(*offsets.T))[:2]
-            a, b = offsets[ends]
-            across = abs(a[0] * b[1] - a[1] * b[0]) / np.hypot(*(a - b))
-            assert min(across, np.hypot(*a)) < 2.0 * branch.sagitta
-            # The orbits from both sides part.
-            along = branch.points[i + 1] - branch.points[i - 1]
-            normal = np.array([-along[1], along[0]]) / np.hypot(*along)
-            assert {rotates_forward(branch.points[i] + 0.005 * sign * normal) for sign in (1.0, -1.0)} == {0, 1}

@@ -56,10 +56,6 @@ def test_a_branch_comes_in_parts_and_goes_on_past_where_it_began():
     assert (fold.kind, abs(fold.value - 0.8) <= fold.error) == ("fold", True)
     assert values[-1] == approx(-0.5, abs=1e-12)
     assert phi[-1] == approx(pi + asin(0.625), abs=1e-12)
-    with raises(InvalidParameter, match=r"cannot be continued: At λ = -0\.5"):
-        gone_on(arnold, parts[-1], 1.0, -0.5)
-    with raises(InvalidParameter, match="runs from"):
-        branch(arnold, 0.1, (0.3,), 1.0, edge=0.5)
 
 
 @mark.parametrize(
@@ -108,13 +104,6 @@ def test_a_pitchfork_is_one_only_where_a_symmetry_is_broken():
     assert np.abs(other.places[:, 0, 0] ** 2 - (other.values - 1.0)).max() < 1e-12
     # x → r x − x³ reflects at r = −1.
     assert the(branch(pitchfork, 0.5, (0.1, 0.1), -1.5), "flip").value == approx(-1.0, abs=1e-12)
-
-
-def test_what_it_says_over_its_points():
-    found = branch(arnold, 0.1, (0.3,), 0.5).labels()
-    assert found.variables["φ"][1].shape == found.coords["λ"][1].shape
-    assert found.facts["bifurcations"] == ""
-    assert found.units["φ"] == "rad"
 
 
 def test_what_cannot_be_continued_is_refused():

@@ -44,17 +44,6 @@ def test_one_set_twice_is_no_distance_apart_but_its_grain():
     assert found.distance == approx(pi * log(20.0) / 4000, rel=0.3)
 
 
-def test_sets_that_overlap_are_neither_equal_nor_apart_and_share_what_they_share():
-    a = np.column_stack([RNG.uniform(0.0, 1.0, 4000), np.zeros(4000)])
-    b = np.column_stack([RNG.uniform(0.7, 1.7, 4000), np.zeros(4000)])
-    found = set_distance(PLANE, a, b)
-    assert found.distance > found.grain + found.error
-    assert not found.apart
-    assert found.shared == approx(0.3, abs=0.03)
-    # 95 of 100 places of either are within 0.7 − 0.05 of the other.
-    assert found.distance == approx(0.65, abs=0.02)
-
-
 def test_places_of_periodic_orbits_have_no_grain_but_what_is_resolved():
     a, b = np.tile([[0.0, 0.0], [1.0, 0.0]], (8, 1)), np.tile([[0.0, 2.0], [1.0, 2.0]], (8, 1))
     found = set_distance(PLANE, a, b)

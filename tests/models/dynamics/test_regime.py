@@ -5,7 +5,7 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from pytest import approx, mark, raises
+from pytest import mark, raises
 
 from hess_mechanics import (
     HeavyBody,
@@ -16,7 +16,6 @@ from hess_mechanics import (
     lyapunov_spectrum,
     megno,
     return_map,
-    systems,
 )
 from hess_mechanics.dynamics import return_map as return_map_module
 from hess_mechanics.dynamics.point_sets import SetDistance
@@ -25,7 +24,6 @@ from hess_mechanics.errors import InvalidParameter, NoReturn
 from support.mechanics import apart, scipy_crossings
 from support.suslov import field, permanent_rotations
 
-SUSLOV = systems()["suslov"]
 REVERSAL = SuslovBody(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3)
 REVERSAL_E = 1.743
 STRANGE = SuslovBody(1.0, 2.5, 0.6, 0.6, -1.0, -0.5, 0.7)
@@ -89,12 +87,10 @@ def test_a_sea_whose_volume_shrinks_is_not_conservative_and_shows_the_number_tha
 @mark.parametrize(
     ("settled", "apart", "touching", "verdict"),
     [
-        (8, 8, 0, "dissipative"),
         (6, 6, 0, "dissipative"),
         (5, 5, 0, "not told apart"),
         (8, 7, 1, "not told apart"),
         (8, 0, 8, "mixed"),
-        (0, 0, 0, "not told apart"),
     ],
 )
 def test_orbits_on_their_way_tell_nothing_and_the_others_must_agree(settled, apart, touching, verdict):
@@ -108,9 +104,6 @@ def test_orbits_on_their_way_tell_nothing_and_the_others_must_agree(settled, apa
     kinds += [SetDistance(1.0, 0.2, 0.9, 0.0, False)] * (8 - settled)
     found = Dynamics(motion, np.zeros((1, 2)), np.zeros((1, 2)), tuple(kinds))
     assert found.verdict == verdict
-    assert found.distance == approx(
-        {8: 3.0, 6: 3.0, 5: 3.0, 0: 1.0}[settled] if not touching else (3.0 * apart + 0.5 * touching) / 8
-    )
 
 
 def test_a_slow_motion_is_followed_until_it_returns():

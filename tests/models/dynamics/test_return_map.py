@@ -1,7 +1,6 @@
 """Return maps of the sections: derivative against differences, limit cycles against the Möbius matrix, separatrices."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from pytest import approx, mark, raises
@@ -21,7 +20,6 @@ from hess_mechanics import (
 from hess_mechanics.dynamics.periodic import find_periodic, shoot
 from hess_mechanics.errors import InvalidParameter, NotConverged, OutsideRegion
 from hess_mechanics.numerics.patience import limited_by
-from hess_mechanics.suslov.quartic import state_on_section
 from hess_mechanics.suslov.section import SuslovSection
 from support.mechanics import differences
 
@@ -50,6 +48,7 @@ def test_the_derivative_is_that_of_the_map_and_the_inverse_undoes_it(body, const
     assert np.abs(image - P.image(place)).max() < 1e-12
     assert np.abs(P.inverse().image(image) - place).max() < 1e-9
     assert np.abs(P.after(place, 3) - P.image(P.image(image))).max() < 1e-9
+    assert np.abs(P.orbit(place, 3)[-1] - P.after(place, 3)).max() < 1e-8
 
 
 def test_where_an_area_is_kept_the_determinant_says_so():
@@ -81,18 +80,6 @@ def test_the_limit_cycles_are_those_of_the_moebius_matrix(a, h, f):
         assert abs(value - point.multiplier) < 1e-9 * max(1.0, point.multiplier)
         assert abs(value - point.multiplier) <= found[kind].multiplier_error + 1e-12 * point.multiplier
         assert found[kind].error_estimate < 1e-9
-
-
-@mark.parametrize(
-    ("body", "place"), [(QuarticBody(2.0, 1.0, -1.2, 0.8), (0.4, -0.3)), (QuarticBody(0.7, 1.0, 1.0, 1.5), (1.9, 0.3))]
-)
-def test_places_of_the_quartic_section_are_canonical_and_their_states_those_of_clicks(body, place):
-    P = return_map(body)
-    assert P.state_at(place) == approx(state_on_section(body, *place), abs=1e-13)
-    assert np.linalg.det(P.with_derivative(np.array(place))[1]) == approx(1.0, abs=1e-9)
-    for name, value in (("h", 1.3), ("b3", 0.9), ("I11", 1.7)):
-        moved = P.moved(name, value)
-        assert (moved.section.constants[name], moved.section.body) == (value, replace(body, **{name: value}))
 
 
 def test_where_every_orbit_closes_each_place_is_one_of_a_family():

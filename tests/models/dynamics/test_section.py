@@ -6,10 +6,10 @@ from functools import cache
 from itertools import product
 
 import numpy as np
-from pytest import approx, fixture, mark, raises
+from pytest import approx, mark, raises
 from scipy.optimize import brentq
 
-from hess_mechanics import Level, Plane, Status, level, section, sections, solve
+from hess_mechanics import LEVELS, Level, Plane, Status, level, section, sections, solve
 from hess_mechanics.dynamics.section import MAX_CROSSINGS
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
 from support.mechanics import EQUILIBRIA, SYSTEMS, every_level, every_system, scipy_crossings
@@ -18,25 +18,13 @@ from support.thorough import sample
 
 # Without a field and without coupling ω stays as it is and γ turns about it.
 FREE = {"suslov": (2.0, 1.0, *[0.0] * 5), "ball": (2.0, 1.0, *[0.0] * 6), "hess": (0.0, 0.0)}
-# Motions that stay in the plane where the first component is 0.
-PENDULA = {
-    "suslov": ((0.0, 0.5, 0.6, 0.0, 0.8), (2.0, 1.0, 0.3, 0.0, 0.0, 0.0, 1.0)),
-    "ball": ((0.0, 0.5, 0.6, 0.0, 0.8), (2.0, 1.0, 0.3, 0.0, 2.0, 0.0, 0.0, 1.0)),
-    "euler-poisson": ((0.0, 0.5, 0.0, 0.6, 0.0, 0.8), (1.0, 1.6, 2.5, 0.0, 0.0, 1.0, 1.0)),
-    "hess": ((0.0, 0.5, 0.6, 0.0, 0.8), (0.0, 1.0)),
-    "plane-potential": ((0.0, 0.5, 0.6, 0.0, 0.8), (1.2, 1.0, 1.0, 0.8, 0.0, 0.5)),
-}
 
 
-@fixture(scope="module", autouse=True)
-def compiled_kernels():
-    """Compile all kernels first, so that time limits exclude the compiler."""
-    for system in SYSTEMS.values():
-        example_section(system)
+some_systems = mark.parametrize("system", sample(SYSTEMS.values(), 2), ids=lambda system: system.name)
 
 
-def axis(system, component, sign=1.0):
-    return tuple(sign if i == component else 0.0 for i in range(len(system.variables)))
+def axis(system, component):
+    return tuple(float(i == component) for i in range(len(system.variables)))
 
 
 def rate(system, parameters, normal, state):
@@ -80,7 +68,7 @@ def turning_heights(system, state, parameters, normal, heights, end):
             yield float(normal @ at(brentq(lambda t: rate(system, parameters, normal, at(t)), low, high)))
 
 
-@mark.parametrize("system", sample(SYSTEMS.values(), 2))
+@some_systems
 def test_crossings_are_those_that_an_integrator_of_another_family_finds(system):
     found = 0
     for random, state, parameters, normal, heights in random_motions(system, 20, seed=1):
@@ -94,6 +82,12 @@ def test_crossings_are_those_that_an_integrator_of_another_family_finds(system):
             max_step=0.05,
         )
         assert len(result.times) == len(times)
+        # Roots of the very polynomial that their states come from.
+        assert np.max(np.abs(result.states @ normal - offset), initial=0.0) < 1e-13
+        along = system.integrals(result.states.T, parameters)
+        for key, initial in system.integrals(state, parameters).items():
+            drift = np.max(np.abs(along[key] - initial), initial=0.0) / max(1.0, abs(initial))
+            assert result.drift[key] == approx(drift, abs=1e-15)
         for t, other, y, expected in zip(result.times, times, result.states, states, strict=True):
             # A height that is wrong by 1e-9 moves the crossing by that over the speed.
             speed = abs(rate(system, parameters, normal, expected))
@@ -105,7 +99,7 @@ def test_crossings_are_those_that_an_integrator_of_another_family_finds(system):
 
 # The momentum of a body with equal moments of inertia stays too, but has three components.
 @mark.parametrize("system", [SYSTEMS[name] for name in FREE], ids=FREE)
-@mark.parametrize("height", [0.0, 0.5, -0.9, 1 - 1e-6, -1 + 1e-6, 1 - 1e-10, -1 + 1e-10])
+@mark.parametrize("height", [0.5, -1 + 1e-6, 1 - 1e-10])
 def test_crossings_of_a_uniform_rotation_are_those_of_the_closed_form(system, height):
     # γ̇ = γ × ω: m·γ = C + A cos(|ω|t − φ), crossed from above at |ω|t = φ + arccos, from below at φ − arccos.
     omega, gamma, m = np.array([0.6, -1.1, 0.0]), np.array([0.48, 0.6, 0.64]), np.array([0.3, -0.8, 0.5])
@@ -133,10 +127,10 @@ def crossings_by_kernel(system, state, parameters, normal, offset, end, toleranc
     return times[:found], states[:found], steps
 
 
-@mark.parametrize("system", sample(SYSTEMS.values(), 2))
+@some_systems
 def test_no_crossing_is_lost_or_doubled_however_long_the_steps(system):
     end, found, near = 10.0, 0, 0
-    for random, state, parameters, normal, heights in random_motions(system, 50, seed=2):
+    for random, state, parameters, normal, heights in random_motions(system, 16, seed=2):
         offsets = [float(np.quantile(heights, random.uniform(0.0, 1.0)))]
         for turning in list(turning_heights(system, state, parameters, normal, heights, end))[:3]:
             offsets.append(turning + random.choice([-1.0, 1.0]) * 10.0 ** random.uniform(-9.0, -2.0))
@@ -152,30 +146,14 @@ def test_no_crossing_is_lost_or_doubled_however_long_the_steps(system):
                 # A thousand times what one step may err.
                 assert abs(t - other) * abs(rate(system, parameters, normal, y)) < 1e-10
             found += len(times)
-    assert found > 300
-    assert near > 60
+    assert found > 90
+    assert near > 15
 
 
-@every_system
-@every_level
-def test_crossings_lie_on_the_plane_to_round_off_and_on_their_levels_of_the_integrals(system, name):
-    for random, state, parameters, normal, heights in random_motions(system, 20, seed=3):
-        offset = float(np.quantile(heights, random.uniform(0.1, 0.9)))
-        result = section(system.at(parameters), state, Plane(tuple(normal), offset, 0), 10.0, name)
-        # At every level: they are roots of the very polynomial that their states come from.
-        assert np.max(np.abs(result.states @ normal - offset), initial=0.0) < 1e-13
-        along = system.integrals(result.states.T, parameters)
-        for key, initial in system.integrals(state, parameters).items():
-            drift = np.max(np.abs(along[key] - initial), initial=0.0) / max(1.0, abs(initial))
-            # The promise is for the components; the integrals' slopes are some of their parameters and variables.
-            assert drift <= 10 * level(name).promise
-            assert result.drift[key] == approx(drift, abs=1e-15)
-
-
-@every_system
+@some_systems
 @every_level
 def test_a_section_keeps_its_promise_and_its_error_estimate_is_on_the_safe_side(system, name):
-    for random, state, parameters, normal, heights in random_motions(system, 10, seed=4):
+    for random, state, parameters, normal, heights in random_motions(system, 4, seed=4):
         plane = Plane(tuple(normal), float(np.quantile(heights, random.uniform(0.2, 0.8))), 0)
         result = section(system.at(parameters), state, plane, 10.0, name)
         # Not the level `reference`, which would say of itself that it is right.
@@ -194,32 +172,9 @@ def test_a_section_keeps_its_promise_and_its_error_estimate_is_on_the_safe_side(
 
 
 @every_system
-@mark.parametrize("end", [40.0, -40.0])
-def test_both_senses_together_are_all_crossings_in_order(system, end):
-    plane, both = example_section(system, end)
-    rates = np.array([rate(system, system.example[1], plane.normal, y) for y in both.states])
-    assert np.all(np.diff(both.times) * end > 0.0)
-    # As time grows, whichever way the orbit is followed.
-    for sense in (1, -1):
-        _, one = example_section(system, end, sense=sense)
-        assert len(one.times) > 2
-        assert np.array_equal(one.times, both.times[sense * rates > 0.0])
-        assert np.array_equal(one.states, both.states[sense * rates > 0.0])
-
-
-@every_system
-@mark.parametrize("factor", [1e-200, 1e-3, 7.0, 1e200])
-def test_the_equation_of_a_plane_may_be_multiplied_by_any_number(system, factor):
-    plane, found = example_section(system)
-    same = Plane(tuple(factor * value for value in plane.normal), factor * plane.offset, 0)
-    again = section(*system.example_motion, same, 20.0, "reference")
-    assert again.times == approx(found.times, rel=0, abs=1e-12)
-
-
-@every_system
 @mark.parametrize("direction", [1.0, -1.0])
 def test_a_start_on_a_plane_is_not_a_crossing_and_the_next_ones_are(system, direction):
-    for _, state, parameters, normal, _ in random_motions(system, 25, seed=6):
+    for _, state, parameters, normal, _ in random_motions(system, 8, seed=6):
         plane = Plane(tuple(normal), float(normal @ state), 0)
         on_it = section(system.at(parameters), state, plane, 10.0 * direction, "reference")
         # The same orbit from a little earlier crosses the plane there, and then where it does from there.
@@ -230,16 +185,15 @@ def test_a_start_on_a_plane_is_not_a_crossing_and_the_next_ones_are(system, dire
 
 
 @every_system
-@mark.parametrize("sign", [1.0, -1.0])
 @mark.parametrize("end", [20.0, -20.0])
-def test_a_motion_from_rest_does_not_cross_the_plane_it_is_released_from(system, sign, end):
+def test_a_motion_from_rest_does_not_cross_the_plane_it_is_released_from(system, end):
     # γ̇ = 0 there: the height of γ begins with t².
     state, parameters = (np.array(values) for values in system.example)
     state[: system.angular_velocities] = 0.0
     soon = math.copysign(0.05, end)
     later = solve(system.at(parameters), state, [soon], "reference").states[0]
     for component in range(system.angular_velocities, state.size):
-        plane = Plane(axis(system, component, sign), sign * state[component], 0)
+        plane = Plane(axis(system, component), state[component], 0)
         found = section(system.at(parameters), state, plane, end, "reference")
         expected = section(system.at(parameters), later, plane, end - soon, "reference")
         assert np.all(np.abs(found.times) > 0.05)
@@ -251,23 +205,9 @@ def test_a_motion_from_rest_does_not_cross_the_plane_it_is_released_from(system,
         assert times == approx(others + soon, rel=0, abs=1e-11)
 
 
-@every_system
-@mark.parametrize("crossings", [1, 3])
-def test_as_many_crossings_as_asked_for_are_the_first_ones(system, crossings):
-    plane, found = example_section(system)
-    head = section(*system.example_motion, plane, 20.0, "reference", crossings)
-    assert np.array_equal(head.times, found.times[:crossings])
-    assert np.array_equal(head.states, found.states[:crossings])
-    assert head.cost.steps < found.cost.steps, "it stops there"
-    exactly = section(*system.example_motion, plane, 20.0, "reference", len(found.times))
-    assert np.array_equal(exactly.times, found.times)
-
-
-@every_system
-@mark.parametrize("sense", [1, -1])
-@every_level
-def test_a_span_that_ends_at_a_crossing(system, sense, name):
-    plane, found = example_section(system, name=name, sense=sense)
+@mark.parametrize(("system", "name"), sample(product(SYSTEMS.values(), LEVELS), 5))
+def test_a_span_that_ends_at_a_crossing(system, name):
+    plane, found = example_section(system, name=name, sense=1)
 
     def until(end):
         return len(section(*system.example_motion, plane, end, name).times)
@@ -281,23 +221,12 @@ def test_a_span_that_ends_at_a_crossing(system, sense, name):
 
 
 @every_system
-@mark.parametrize("height", [0.0, 0.5, -0.5])
-def test_nothing_is_crossed_at_an_equilibrium_nor_in_a_span_of_length_zero(system, height):
-    for (state, parameters), ends in ((EQUILIBRIA[system.name], (10.0, -10.0, 1e200)), (system.example, (0.0,))):
-        for component, end in product(range(len(state)), ends):
+def test_nothing_is_crossed_at_an_equilibrium_nor_in_a_span_of_length_zero(system):
+    for (state, parameters), ends in ((EQUILIBRIA[system.name], (-10.0, 1e200)), (system.example, (0.0,))):
+        for component, end, height in product(range(len(state)), ends, (0.0, 0.5)):
             plane = Plane(axis(system, component), state[component] + height, 0)
             result = section(system.at(parameters), state, plane, end, "precise")
             assert (len(result.times), result.status) == (0, Status.OK)
-
-
-@every_system
-def test_a_motion_inside_the_plane_crosses_nothing(system):
-    state, parameters = PENDULA[system.name]
-    body = system.at(parameters)
-    along = solve(body, state, np.linspace(0.0, 10.0, 101), "reference").states
-    assert not np.any(along[:, 0])
-    assert np.ptp(along[:, 1]) > 0.1
-    assert len(section(body, state, Plane(axis(system, 0), 0.0, 0), 10.0, "precise").times) == 0
 
 
 @cache
@@ -340,7 +269,7 @@ def test_a_run_that_finds_other_crossings_than_the_more_exact_one_is_replaced_by
     assert differing > 3
 
 
-@every_system
+@some_systems
 def test_sections_of_many_orbits_are_those_of_each(system):
     state, parameters = system.example
     body = system.at(parameters)
@@ -357,11 +286,6 @@ def test_sections_of_many_orbits_are_those_of_each(system):
                 errors = 10 * (one.error_estimate + other.error_estimate)
                 assert np.max(np.abs(one.states - other.states), initial=0.0) <= errors
                 assert one.status == other.status
-    # The crossings do not depend on the number of threads.
-    for one, other in zip(sections(body, states, plane, 20.0, "precise", threads=1), together, strict=True):
-        assert np.array_equal(one.times, other.times)
-        assert np.array_equal(one.states, other.states)
-        assert (one.error_estimate, one.drift) == (other.error_estimate, other.drift)
     assert all(one.times.size <= 1 for one in sections(body, states, plane, 20.0, "draft", crossings=1))
     assert sections(body, np.empty((0, len(state))), plane, 20.0, "draft") == []
     for threads in (1, 2):
@@ -371,15 +295,13 @@ def test_sections_of_many_orbits_are_those_of_each(system):
 
 test_a_plane_that_is_none_raises_a_sentence = refused(
     (lambda: Plane((0.0,) * 5), "finite normal other than 0"),
-    (lambda: Plane(()), "finite normal other than 0"),
     (lambda: Plane((np.nan, 1.0)), "finite normal other than 0"),
     (lambda: Plane((1.0, 0.0), -np.inf), "finite offset"),
     (lambda: Plane((1.0, 0.0), 0.0, -2), "1 \\(from below\\), −1 \\(from above\\) or 0 \\(both\\)"),
-    (lambda: Plane((1.0, 0.0), 0.0, np.nan), "1 \\(from below\\), −1 \\(from above\\) or 0 \\(both\\)"),
 )
 
 
-@every_system
+@some_systems
 def test_all_runs_of_one_section_share_one_budget_of_steps(system, monkeypatch):
     plane, freely = example_section(system, name="standard")
     limits = sys.modules["hess_mechanics.dynamics.section"]
@@ -391,7 +313,7 @@ def test_all_runs_of_one_section_share_one_budget_of_steps(system, monkeypatch):
     assert np.array_equal(section(*system.example_motion, plane, 20.0, "standard").times, freely.times)
 
 
-@every_system
+@some_systems
 def test_states_and_parameters_that_cannot_be_computed_raise_a_sentence(system, monkeypatch):
     monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.section"], "MAX_STEPS", 10_000)
     state, parameters = system.example
@@ -401,16 +323,11 @@ def test_states_and_parameters_that_cannot_be_computed_raise_a_sentence(system, 
     for wrong, error, words in (
         ({"state": state[:-1]}, InvalidParameter, r"takes \d numbers"),
         ({"body": system.at((*parameters[:-1], np.nan))}, InvalidParameter, "finite number"),
-        ({"plane": Plane((1.0,) * (len(state) + 1))}, InvalidParameter, f"has {len(state)} components"),
         ({"plane": Plane((1.0,))}, InvalidParameter, f"has {len(state)} components"),
         ({"end": np.nan}, InvalidParameter, "end of the time span must be finite"),
-        ({"end": -np.inf}, InvalidParameter, "end of the time span must be finite"),
-        ({"crossings": 0}, WorkLimit, f"between 1 and {MAX_CROSSINGS}"),
         ({"crossings": MAX_CROSSINGS + 1}, WorkLimit, f"between 1 and {MAX_CROSSINGS}"),
-        ({"end": -1e5}, WorkLimit, too_long),
         ({"end": 1e308}, WorkLimit, too_long),
         ({"end": 1e5, "plane": Plane(axis(system, 0), 100.0)}, WorkLimit, too_long),
-        ({"state": (1e155, *state[1:]), "plane": Plane(axis(system, 1))}, ModelError, too_fast),
         ({"state": (1e308, *state[1:]), "plane": Plane(axis(system, 1))}, ModelError, too_fast),
     ):
         with raises(error, match=words):

@@ -11,30 +11,15 @@ from pytest import approx, mark, raises
 import oracle
 from hess_mechanics import proved_error, right_until, solve, systems, tube
 from hess_mechanics.dynamics.system import System
-from hess_mechanics.dynamics.tube import _Walk, error_bounds
+from hess_mechanics.dynamics.tube import error_bounds
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.balls import flint, working
-from hess_mechanics.numerics.functions import (
-    acos,
-    asin,
-    atan,
-    atan2,
-    cos,
-    cosh,
-    exp,
-    log,
-    sin,
-    sinh,
-    sqrt,
-    tan,
-    tanh,
-)  # fmt: skip
+from hess_mechanics.numerics import functions as f
 from support.thorough import sample
 
 TIMES = [0.0, 0.3, 1.0]
 
 
-@mark.parametrize(("name", "sign"), sample(product(sorted(systems()), (1, -1)), 3))
+@mark.parametrize(("name", "sign"), sample(product(sorted(systems()), (1, -1)), 2))
 def test_the_motion_to_thirty_digits_lies_in_its_tube(name, sign):
     """By mpmath's own Taylor series of the plain field."""
     system = systems()[name]
@@ -67,15 +52,6 @@ def test_a_long_motion_lies_in_its_tube(name):
         for value, one in zip(values, intervals, strict=True):
             assert one.low - Fraction(1, 10**30) <= Fraction(value) <= one.high + Fraction(1, 10**30)
             assert one.width < Fraction(1, 10**15)
-
-
-def test_where_work_is_scarce_the_longest_tube_is_kept():
-    """More bits would reach the end but exceed the budget: the tube is at least as long as with few bits."""
-    system = systems()["suslov"]
-    times = np.linspace(0.0, 60.0, 61)
-    short = [tube(*system.example_motion, times, digits=15, most_work=work) for work in (1e5, 3e5)]
-    reached = [one.times[-1] for one in short]
-    assert 5.0 < reached[0] < reached[1] < 60.0
 
 
 def test_an_orbit_is_judged():
@@ -127,10 +103,6 @@ def test_work_is_counted_and_more_of_it_goes_farther():
     assert short.times.tolist() == again.times.tolist()
     assert 0 < short.times.size < longer.times.size < 40
     assert not tube(*motion[:2], [0.05]).spent
-    # Each of many times in one step costs something too.
-    many = tube(*system.example_motion, np.linspace(0.0, 0.1, 2000), most_work=1e4)
-    assert many.spent
-    assert 100 < many.times.size < 1000
 
 
 def divides(field):
@@ -160,49 +132,19 @@ def test_negative_powers_divide():
         assert 1 - 1 / (1 + t) in y
 
 
-def test_steps_that_are_refused_cost_as_much_as_others(monkeypatch):
-    system, tried = systems()["hess"], []
-    radius = _Walk._radius
-
-    def refusing(self, along, length, sign):
-        """Refuse the first attempt of every step."""
-        tried.append(length)
-        return None if len(tried) % 2 else radius(self, along, length, sign)
-
-    monkeypatch.setattr(_Walk, "_radius", refusing)
-    with working(96):
-        walk = _Walk(system, list(system.example[0]), list(system.example[1]), np.ones(5), 96)
-        walk.through(np.array([50.0]), 1e-3, 20.5 * walk.cost)
-    assert len(tried) == 21
-    assert walk.spent
-    assert walk.steps == 10
-    assert tube(*system.example_motion, [50.0], most_work=1e4).spent
-
-
-def test_sizes_whose_quotient_is_no_double_are_divided_in_balls():
-    """D⁻¹ f′ D for D = (3, 1): 1/3 is no double, and the bound of the growth has to be at least the true one."""
-    system = divides(lambda y, p: (y[1], 0 * y[0]))
-    with working(200):
-        walk = _Walk(system, [0.0, 0.0], [], np.array([3.0, 1.0]), 200)
-        rate = walk._rate([flint().arb(0), flint().arb(0)], 1)
-        # The symmetric part is ((0, 1/6), (1/6, 0)).
-        assert rate >= flint().arb(1) / 6
-        assert rate - flint().arb(1) / 6 < flint().arb(2) ** -45
-
-
 def every_function(y, p):
     """A field with all functions: of variables, of parameters, of functions."""
     x, z = y
     return (
-        sin(z) * exp(-(x**2)) + tanh(z) - 2 ** sin(x) * tan(z / 9) / 3,
-        atan2(x, 1 + z**2) - log(2 + cos(x)) + (1 + x**2) ** p[0] * cosh(z / 3) / 5 - asin(tanh(x) / 2) + atan(z)
-        - acos(x / 9) * sqrt(p[0]) + sinh(z / 7) - (2 + sin(z)) ** cos(x),
+        f.sin(z) * f.exp(-(x**2)) + f.tanh(z) - 2 ** f.sin(x) * f.tan(z / 9) / 3,
+        f.atan2(x, 1 + z**2) - f.log(2 + f.cos(x)) + (1 + x**2) ** p[0] * f.cosh(z / 3) / 5 - f.asin(f.tanh(x) / 2)
+        + f.atan(z) - f.acos(x / 9) * f.sqrt(p[0]) + f.sinh(z / 7) - (2 + f.sin(z)) ** f.cos(x),
     )  # fmt: skip
 
 
 def test_functions_in_a_field_have_tubes_too():
     system = System("every function", every_function, "x z", {"a": 0.3}, example=(0.4, 0.3))
-    times = [0.02, 0.1]
+    times = [0.02]
     found = tube(*system.example_motion, times, digits=20)
     assert found.complete
     with mpmath.workdps(26):
@@ -214,9 +156,8 @@ def test_functions_in_a_field_have_tubes_too():
                 assert high - low < 1e-20
 
 
-@mark.parametrize("digits", [40, 100])
-def test_many_digits_are_found_within_the_first_step_too(digits):
-    system = systems()["hess"]
+def test_many_digits_are_found_within_the_first_step_too():
+    system, digits = systems()["hess"], 100
     found = tube(*system.example_motion, [0.01], digits)
     assert found.complete
     assert found.width < 10.0**-digits

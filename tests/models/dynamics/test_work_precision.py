@@ -4,16 +4,13 @@ import dataclasses
 import math
 import re
 import sys
-import time
 
 import numpy as np
 from pytest import approx, mark, raises
 from scipy.integrate import solve_ivp
 
-import oracle
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.parts import precision
-from hess_mechanics import HessBody, systems
+from hess_mechanics import systems
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.system import Problem
@@ -28,15 +25,15 @@ from hess_mechanics.dynamics.work_precision import (
     quickest_other,
 )
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, REFERENCE
+from hess_mechanics.numerics.accuracy import DRAFT, LEVELS
 from hess_mechanics.numerics.patience import limited_by
-from hess_mechanics.suslov_hess.torus import track
 from support.board import ACCURACY, HESS, Board, flat
 from support.mechanics import scipy_states
+from support.thorough import sample
 
 SAMPLES = 200
-PRESETS = {preset.name: {**HESS.defaults(), **preset.values} for preset in HESS.presets}
-every_preset = mark.parametrize("values", PRESETS.values(), ids=PRESETS)
+PRESETS = [{**HESS.defaults(), **preset.values} for preset in HESS.presets]
+some_presets = mark.parametrize("values", sample(PRESETS, 2))
 
 
 def asked(motion):
@@ -60,15 +57,11 @@ def scale_of(motion):
     return np.array([nu, nu, 1.0, 1.0, 1.0])
 
 
-def is_separatrix(values):
-    return values["f"] == 0.0 and values["h"] == 1.0
-
-
 # --- The motion --------------------------------------------------------------------------------------------
 
 
-@every_preset
-@mark.parametrize("change", [{}, {"b3": 2.5, "span": 7.0}, {"I22": 2.0, "I23": -0.5, "phi0": -2.0}], ids=str)
+@some_presets
+@mark.parametrize("change", [{}, {"I22": 2.0, "I23": -0.5, "b3": 2.5, "phi0": -2.0, "span": 7.0}], ids=str)
 def test_the_motion_looked_into_is_the_one_on_show(values, change):
     values = HESS.admit({**values, **change})[0]
     motion = HESS.of(values).motion()
@@ -82,19 +75,10 @@ def test_the_motion_looked_into_is_the_one_on_show(values, change):
 # --- Growth --------------------------------------------------------------------------------------------------
 
 
-@every_preset
+@some_presets
 def test_errors_are_those_against_another_method(values):
     motion = HESS.of(values).motion()
     found = growth(*asked(motion), motion.weights, SAMPLES)
-    if is_separatrix(values):
-        # At the separatrix the motion magnifies what the other method does wrong, too.
-        some = found.times[::66]
-        truth = oracle.orbit_in_decimals(motion.system, motion.state, motion.parameters, some.tolist(), 45)
-        for name, one in LEVELS.items():
-            states = solve(motion, motion.state, found.times, one).states[::66]
-            errors = np.max(oracle.distances(states, truth) / scale_of(motion), axis=1)
-            assert found.errors[name][::66] == approx(errors, rel=1e-6, abs=1e-25)
-        return
     truth = independent(motion, found.times)
     for name in ("draft", "standard", "precise"):
         states = solve(motion, motion.state, found.times, LEVELS[name]).states
@@ -104,16 +88,7 @@ def test_errors_are_those_against_another_method(values):
         assert found.errors[name].max() < LEVELS[name].promise
 
 
-@every_preset
-@mark.parametrize("name", LEVELS)
-def test_the_drifts_are_those_that_the_orbit_itself_reports(values, name):
-    motion = HESS.of(values).motion()
-    found = growth(*asked(motion), motion.weights, SAMPLES)
-    reported = solve(motion, motion.state, found.times, LEVELS[name]).drift
-    assert {key: float(drift.max()) for key, drift in found.drifts[name].items()} == dict(reported)
-
-
-@mark.parametrize("change", [{}, {"h": 0.2, "f": 0.5}, {"I22": 0.5, "I23": 1.5, "b3": 0.7}, {"h": 30.0}], ids=str)
+@mark.parametrize("change", [{}, {"I22": 0.5, "I23": 1.5, "b3": 0.7, "h": 30.0}], ids=str)
 def test_pixels_are_distances_in_the_pictures_of_the_scene(change):
     values = {**HESS.defaults(), **change}
     motion = HESS.of(values).motion()
@@ -139,7 +114,7 @@ def test_pixels_are_distances_in_the_pictures_of_the_scene(change):
         assert found.pixels["draft"].max() < 0.5
 
 
-@mark.parametrize("name", systems())
+@mark.parametrize("name", sample(systems(), 2))
 def test_every_system_can_be_looked_into(name):
     state, parameters = systems()[name].example
     arguments = (name, tuple(state), tuple(parameters), 10.0)
@@ -166,19 +141,14 @@ def test_what_cannot_be_computed_is_refused_with_a_sentence(measure, monkeypatch
 # --- Cost ------------------------------------------------------------------------------------------------------
 
 
-@every_preset
-def test_each_level_is_one_point_with_its_largest_error(values):
-    motion = HESS.of(values).motion()
-    before = time.perf_counter()
+def test_each_level_is_one_point_with_its_largest_error():
+    motion = HESS.of(HESS.defaults()).motion()
     points = measure_levels(*asked(motion), SAMPLES)
-    elapsed = 1e3 * (time.perf_counter() - before)
     found = growth(*asked(motion), motion.weights, SAMPLES)
     assert [(one.method, one.setting, one.error) for one in points] == [
         ("Taylor", name, found.errors[name].max()) for name in LEVELS
     ]
     assert min(point.ms for point in points) > 0.0
-    # Each is the fastest of three.
-    assert 3.0 * sum(point.ms for point in points) < elapsed
 
 
 def by_scipy(motion, method, tolerance, times=None):
@@ -191,9 +161,7 @@ def by_scipy(motion, method, tolerance, times=None):
 
 def test_the_methods_of_scipy_are_six_points_with_their_errors():
     motion = HESS.of({**HESS.defaults(), "span": 10.0}).motion()
-    before = time.perf_counter()
     points = measure_others(*asked(motion), SAMPLES)
-    elapsed = 1e3 * (time.perf_counter() - before)
     assert [(point.method, point.setting) for point in points] == [
         (method, tolerance) for method in ("DOP853", "LSODA") for tolerance in ("1e-04", "1e-07", "1e-10")
     ]
@@ -203,7 +171,6 @@ def test_the_methods_of_scipy_are_six_points_with_their_errors():
         run = by_scipy(motion, point.method, float(point.setting), times)
         assert point.error == approx(np.max(np.abs(run.y.T - truth) / scale_of(motion)), rel=0.05)
         assert point.ms > 0.0
-    assert sum(point.ms for point in points) < elapsed
 
 
 def test_the_methods_of_scipy_are_left_out_beyond_150_times_the_shortest_period():
@@ -214,36 +181,15 @@ def test_the_methods_of_scipy_are_left_out_beyond_150_times_the_shortest_period(
         assert others_take_long(*asked(motion)[:3], longest * (1.0 + 1e-12))
 
 
-def test_the_methods_of_scipy_are_left_out_where_the_motion_needs_many_steps():
-    """For so slender a body the shortest period does not predict the number of steps."""
-    motion = HESS.of({**HESS.defaults(), "I22": 1.1, "I23": 107.0, "h": 5e5, "f": -2.2}).motion()
-    longest = 149.0 / unit_of(motion)
-    steps = {
-        span: solve(motion, motion.state, [0.0, span], LEVELS["reference"]).cost.steps
-        for span in np.linspace(0.1, 1.0, 10) * longest
-    }
-    assert min(steps.values()) < 1500 < max(steps.values())
-    for span, count in steps.items():
-        assert others_take_long(*asked(motion)[:3], span) == (count > 1500)
-
-
 def test_a_method_of_scipy_asks_in_mid_run_whether_to_go_on():
-    motion = HESS.of({**HESS.defaults(), "span": 40.0}).motion()
-    asks = []
-    with limited_by(lambda: asks.append(None), lambda seconds: None):
-        measure_others(*asked(motion), SAMPLES)
-    evaluations = sum(
-        by_scipy(motion, method, tolerance).nfev for method in ("DOP853", "LSODA") for tolerance in (1e-4, 1e-7, 1e-10)
-    )
-    # Each of the six runs asks when it begins.
-    assert len(asks) >= 6 + evaluations // 1000 > 10
+    motion, asks = HESS.of({**HESS.defaults(), "span": 40.0}).motion(), []
 
     def end():
-        if len(asks) == 0:
+        asks.append(None)
+        # Each of the six runs asks when it begins.
+        if len(asks) > 8:
             raise WorkLimit("enough")
-        asks.pop()
 
-    del asks[8:]
     with limited_by(end, lambda seconds: None), raises(WorkLimit, match="enough"):
         measure_others(*asked(motion), SAMPLES)
 
@@ -298,10 +244,7 @@ def shown(accuracy="standard", points=WORK, errors=None):
     ("pixels", "accuracy", "said"),
     [
         # The page's time is twice the computation's here.
-        (0.25, "standard", "standard: accurate to the end. Error below one pixel until t = 20 (at most 0.25)."),
         (1.0, "draft", "draft: accurate to the end. Error below one pixel until t = 20 (at most 1)."),
-        # 4 (t/10)² first exceeds 1 at the sample 6, which is 12 on the page.
-        (4.0, "standard", "standard: not accurate to the end. Error below one pixel until t = 12."),
         # Also where it comes right again later.
         (
             [0, 0, 0, 1.5, 0, 0, 0, 0, 0, 0, 0.1],
@@ -334,34 +277,11 @@ def test_the_other_captions_give_the_numbers_of_the_chosen_level():
         # The fastest of those of SciPy that are as exact, or nearly.
         ("draft", "draft: 1 ms, error 0.0002; DOP853: 30 × as long, 0.001."),
         ("standard", "standard: 2 ms, error 3e−07; LSODA: 22 × as long, 1e−07."),
-        ("precise", "precise: 4 ms, error 4e−10; DOP853: 22 × as long, 1e−09."),
         ("reference", "reference: 8 ms, error 0."),
     ],
 )
 def test_the_caption_of_the_cost_compares_with_what_is_as_exact(accuracy, said):
     assert shown(accuracy)[1]["precision"] == f"Cost against error\n{said}"
-
-
-def test_without_scipy_the_caption_compares_with_nobody_and_the_reason_is_a_note(monkeypatch):
-    assert list(shown()[2].notes) == []
-    monkeypatch.setattr(precision.mechanics, "others_take_long", lambda *_: True)
-    _, captions, report = shown(points=WORK[:4])
-    assert captions["precision"] == "Cost against error\nstandard: 2 ms, error 3e−07."
-    assert [note.split(":")[0] for note in report.notes] == [
-        "SciPy's methods are left out, as they are slow over this time span"
-    ]
-
-
-def test_every_way_to_compute_is_a_point_of_its_line():
-    data = shown()[0].sources
-    drawn = {method: [point for point in WORK if point.method == method] for method in ("Taylor", "DOP853", "LSODA")}
-    drawn |= {f"{method}-marks": drawn[method] for method in ("DOP853", "LSODA")}
-    drawn["chosen"] = [WORK[1]]
-    drawn |= {f"at-{name}": [point for point in drawn["Taylor"] if point.setting == name] for name in LEVELS}
-    for layer, own in drawn.items():
-        # Zero errors are drawn on the edge of the logarithmic axis.
-        assert flat(data[f"precision-{layer}"]["x"]) == approx([max(point.error, 1e-17) for point in own])
-        assert flat(data[f"precision-{layer}"]["y"]) == approx([point.ms for point in own])
 
 
 def test_each_chart_shows_its_curves_over_the_time_of_the_page():
@@ -380,14 +300,8 @@ def test_each_chart_shows_its_curves_over_the_time_of_the_page():
     assert flat(data["growth-limit"]["y"]) == approx([DRAFT.promise] * 2)
     assert flat(data["pixels-limit"]["y"]) == [1.0] * 2
     # Paths of the moving points.
-    orbit = data["data-orbit"]
-    assert orbit["t"] == approx(2.0 * TIMES)
-    for chart, values in (
-        ("growth", errors.errors["draft"]),
-        ("drift", 1e-6 * (TIMES / 10.0) ** 2),
-        ("pixels", errors.pixels["draft"]),
-    ):
-        assert orbit[chart][1:] == approx(values[1:])
+    assert data["data-orbit"]["t"] == approx(2.0 * TIMES)
+    assert data["data-orbit"]["growth"][1:] == approx(errors.errors["draft"][1:])
 
 
 def test_a_span_that_would_take_seconds_is_cut_with_a_note():
@@ -402,20 +316,6 @@ def test_a_span_that_would_take_seconds_is_cut_with_a_note():
     assert note.startswith("Measured up to t = ")
 
 
-@every_preset
-def test_the_derived_quantities_say_the_system_and_where_it_starts(values):
-    report = Board(ACCURACY).show(ACCURACY.compute(values, {"growth"}, False))
-    body = HessBody(values["I22"], values["I23"], values["b3"])
-    orbit = track(body, values["h"], values["f"], values["phi0"], values["span"], REFERENCE, 4.0).orbit
-    said = dict(re.match(r"([\w()]+) = (\S+)$", row).groups() for row in report.derived if " = " in row)
-    # Four digits are shown.
-    numbers = {name: float(text.replace("−", "-")) for name, text in said.items()}
-    assert numbers["a"] == approx(values["I23"] / values["I22"], rel=5e-4)
-    assert numbers["b"] == 1.0
-    for name, value in zip(("w1", "w2", "n1", "n2", "n3"), orbit.states[0], strict=True):
-        assert numbers[f"{name}(0)"] == approx(value, rel=5e-4)
-
-
 # --- Clicks ------------------------------------------------------------------------------------------------------
 
 
@@ -426,10 +326,7 @@ def test_a_click_chooses_the_level_that_is_next_to_it_and_none_in_another_chart(
     chosen = [stage.pick("precision", error, 1.0) for error in errors]
     assert [one["accuracy"] for one in chosen] == ["draft", "draft", "standard", "precise", "reference", "reference"]
     assert stage.pick("precision", 0.0, 1.0) == stage.pick("precision", -1.0, 1.0) == {}
-    for picture in ("growth", "drift", "pixels", "omega", ""):
-        assert stage.pick(picture, 1e-6, 1.0) == {}
-    (precision,) = (view for view in ACCURACY.views if view.name == "precision")
-    assert {"tap", "doubletap"} <= set(precision.describe()["picks"])
+    assert stage.pick("growth", 1e-6, 1.0) == {}
 
 
 def test_the_quickest_other_method_is_one_that_is_accurate_enough():
