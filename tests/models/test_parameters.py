@@ -4,8 +4,6 @@ from math import inf, nan, nextafter
 
 import pytest
 
-from hess_explorer.protocol.parameters import Number
-from hess_explorer.scenes.framework.parameters import parameter
 from hess_mechanics import parameters
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.parameters import Parameter
@@ -18,13 +16,6 @@ each = pytest.mark.parametrize("known", TABLE.values(), ids=TABLE)
 def test_a_slider_spans_allowed_values_and_holds_the_default(known):
     assert known.bounds[0] <= known.softbounds[0] <= known.default <= known.softbounds[1] <= known.bounds[1]
     assert 0 < known.step < known.softbounds[1] - known.softbounds[0]
-
-
-@each
-def test_words_are_a_name_for_python_and_a_sentence(known):
-    assert known.name.isidentifier()
-    assert known.label
-    assert known.doc.endswith(".")
 
 
 @each
@@ -47,16 +38,3 @@ def test_parameters_with_one_label_that_mean_different_things_say_so():
     for known in TABLE.values():
         by_label.setdefault((known.name, known.label), set()).add((known.means, known.doc))
     assert all(len(said) == len({means for means, _ in said}) for said in by_label.values())
-
-
-def test_a_scene_shows_a_parameter_with_its_own_default_and_slider():
-    field = parameter(parameters.I11, 2.0, softbounds=(0.5, 3.0))
-    spec = field.metadata["spec"]
-    assert isinstance(spec, Number)
-    assert (spec.default, field.default, spec.softbounds) == (2.0, 2.0, (0.5, 3.0))
-    assert (spec.symbol, spec.bounds, spec.doc, spec.group) == (
-        "I₁₁",
-        parameters.I11.bounds,
-        parameters.I11.doc,
-        "Body",
-    )

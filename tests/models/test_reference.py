@@ -12,11 +12,6 @@ LADDER = [("draft", 1e-3, 1e-3), ("standard", 1e-6, 1e-6), ("precise", 1e-9, 1e-
 ladder = mark.parametrize(("name", "orbit_bound", "bound"), LADDER, ids=[row[0] for row in LADDER])
 
 
-@mark.parametrize(("name", "promise"), [("draft", 1e-3), ("standard", 1e-6), ("precise", 1e-9)])
-def test_each_level_promises_what_its_name_is_documented_to_promise(name, promise):
-    assert level(name).promise == promise
-
-
 @ladder
 @every_known_torus
 def test_circle_maps_agree_with_the_reference_and_their_estimates_are_on_the_safe_side(row, name, orbit_bound, bound):

@@ -7,7 +7,7 @@ import numpy as np
 import sympy
 from pytest import approx, mark, param, raises
 
-from hess_mechanics import ensemble, solve, systems
+from hess_mechanics import ensemble, systems
 from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest, lowest_energy, omega_of_energy
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, OutsideRegion
@@ -157,8 +157,6 @@ def test_an_energy_without_motion_is_refused_in_a_sentence():
         (0.0, 0.0, 1.0),
     )
     assert omega_of_energy(body, (3.0, 4.0), up, 1.0) == (0.0, 0.0)
-    omega = omega_of_energy(body, (3.0, 4.0), (0.6, 0.0, 0.8), 2.0)
-    assert omega[1] / omega[0] == approx(4.0 / 3.0)
     for request_, error, words in (
         (lambda: omega_of_energy(body, (1.0, 0.0), up, 0.99), OutsideRegion, "choose h above"),
         (lambda: omega_of_energy(body, (0.0, 0.0), up, 2.0), InvalidParameter, "direction"),
@@ -178,21 +176,9 @@ def test_an_energy_without_motion_is_refused_in_a_sentence():
     [
         ({"D": -1e-9}, InvalidParameter, "𝒟 ≥ 0"),
         ({"I11": 0.0}, NotPositiveDefinite, "I11 > 0"),
-        ({"I22": -1.0}, NotPositiveDefinite, "I22 > 0"),
         ({"b2": np.inf}, InvalidParameter, "b2 is not a finite"),
     ],
 )
 def test_what_is_no_ball_is_refused_in_a_sentence(values, error, match):
     with raises(error, match=match):
         BallBody(**({"I11": 1.0, "I22": 1.0, "I13": 0.0, "I23": 0.0, "D": 1.0} | values))
-
-
-@mark.parametrize(
-    ("place", "value", "match"),
-    [(4, -1.0, "𝒟 ≥ 0"), (4, 1e30, "𝒟 is too large"), (0, 1e30, "too different"), (5, np.nan, "finite")],
-)
-def test_the_kernel_refuses_the_same(place, value, match):
-    parameters = np.array(SYSTEM.example[1])
-    parameters[place] = value
-    with raises((InvalidParameter, NotPositiveDefinite), match=match):
-        solve(SYSTEM.at(parameters), SYSTEM.example[0], [1.0], "draft")

@@ -6,7 +6,7 @@ from pytest import approx, mark
 
 from hess_mechanics import level, solve
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
-from hess_mechanics.chaplygin_ball.integrable_cases import has_area_integral, is_reversible, period
+from hess_mechanics.chaplygin_ball.integrable_cases import period
 from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.suslov.kharlamova import PlaneBody, arc, mirrored
 from support.refusals import refused
@@ -60,19 +60,6 @@ def test_of_equal_moments_the_area_integral_is_conserved_in_every_potential_of_g
     assert sympy.simplify(sum(area.diff(x) * rate for x, rate in zip(STATE, field, strict=True))) == 0
     other = rates((slope * g2, -slope * g1), (I11, I22))
     assert sympy.simplify(sum(area.diff(x) * rate for x, rate in zip(STATE, other, strict=True))) != 0
-
-
-def test_which_bodies_these_are():
-    assert is_reversible(PLANE)
-    assert not any(
-        is_reversible(BallBody(*values))
-        for values in ((1, 2, 0, 0, 1, 1, 0.5, 0.1), (1, 2, 0.1, 0, 1, 1, 0.5, 0), (1, 2, 0, 0.1, 1, 1, 0.5, 0))
-    )
-    assert has_area_integral(BallBody(2, 2, 0, 0, 1, 0, 0, 1))
-    assert not any(
-        has_area_integral(BallBody(*values))
-        for values in ((1, 2, 0, 0, 1, 0, 0, 1), (2, 2, 0.1, 0, 1, 0, 0, 1), (2, 2, 0, 0, 1, 0.1, 0, 1))
-    )
 
 
 # ---- the period -------------------------------------------------------------------------------------------------

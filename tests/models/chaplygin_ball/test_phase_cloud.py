@@ -1,8 +1,7 @@
 """Clouds: orbits in decimals, volumes by finite differences, captions.  Liouville's equation: `test_equations`."""
 
-import dataclasses
 import re
-from math import cos, exp, hypot, inf, log, pi, sin, sqrt
+from math import cos, exp, hypot, inf, pi, sin, sqrt
 
 import numpy as np
 from pytest import approx, mark, raises
@@ -88,8 +87,7 @@ def test_the_volume_of_a_patch_is_that_of_the_closed_form():
 
 
 @every_level
-@both_bodies
-@mark.parametrize("sense", [1.0, -1.0])
+@mark.parametrize(("body", "sense"), [(FREE, -1.0), (HEAVY, 1.0)], ids=["Suslov", "ball"])
 def test_points_are_carried_along_the_orbits_within_the_promise(body, sense, name):
     states = shell(body, 2.0, 0.3, 33)
     times = sense * np.array([0.0, 0.5, 3.0, 7.0])
@@ -115,16 +113,6 @@ def test_s_keeps_its_digits_where_doubles_would_have_lost_it():
     assert found.log_growth[:, 1] == approx(np.log(exact), abs=1e-9)
 
 
-@mark.parametrize("scale", [1e-6, 1e6])
-def test_a_cloud_of_another_energy_is_the_same_at_other_times(scale):
-    states = shell(HEAVY, 2.0, 0.2, 40)
-    times = np.array([0.0, 1.0, 4.0])
-    faster = carried(HEAVY, states * [scale, scale, 1, 1, 1], times / scale, "standard")
-    found = carried(HEAVY, states, times, "standard")
-    assert faster.gamma == approx(found.gamma, abs=1e-12)
-    assert faster.log_s - log(scale) == approx(found.log_s, abs=1e-12)
-
-
 # ---- points and densities ---------------------------------------------------------------------------------------
 
 
@@ -138,7 +126,7 @@ def test_a_shell_is_evenly_filled(body):
     # Points of a box, evenly spread, of which those in the shell are kept.
     random = np.random.default_rng(5)
     most = sqrt(2 * h * (1 + spread) / min(body.I11, body.I22))
-    gamma = random.normal(size=(2_000_000, 3))
+    gamma = random.normal(size=(400_000, 3))
     gamma /= np.linalg.norm(gamma, axis=1)[:, None]
     box = np.column_stack([random.uniform(-most, most, (len(gamma), 2)), gamma])
     kept = box[np.abs(energy_of(vars(body), box) - h) < h * spread]
@@ -213,26 +201,9 @@ def test_a_density_that_vanishes_where_F2_does_is_invariant_and_nothing_crosses_
     assert np.all(np.sign(values[np.abs(values[:, 0]) > 1e-4, -1]) == np.sign(values[np.abs(values[:, 0]) > 1e-4, 0]))
 
 
-def test_points_that_do_cross_would_be_counted():
-    found = carried(ODD, shell(ODD, 2.0, 0.1, 500), np.linspace(0.0, 14.0, 29), "standard")
-    # γ turned by half a turn about the third axis, for half of the points, at the last time.
-    wrong = found.gamma.copy()
-    wrong[:250, -1] *= -1.0
-    assert sides(dataclasses.replace(found, gamma=wrong))[2] == np.sum(
-        np.abs(F2_by_hand(found.omega, found.gamma)[:250, 0]) > 1e-5
-    )
-
-
-@mark.parametrize("body", [HEAVY, FREE, BallBody(1.64, 1.0, 0.0, 0.8, 1.0)], ids=str)
-def test_without_F2_there_are_no_sides(body):
-    found = carried(body, shell(body, 2.0, 0.1, 20), np.linspace(0.0, 1.0, 3), "draft")
-    assert sides(found) is None
-
-
-@mark.parametrize("direction", ["forward", "backward"])
-def test_the_entropy_gains_the_mean_of_the_logarithm(direction):
+@mark.parametrize("end", [6.0, -6.0])
+def test_the_entropy_gains_the_mean_of_the_logarithm(end):
     """−∫ρ ln ρ by its definition, of a density carried along: each point's is s(0)/s(t) times its first one."""
-    end = 6.0 if direction == "forward" else -6.0
     found = carried(FREE, shell(FREE, 2.0, 0.1, 2000), np.linspace(0.0, end, 13), "standard")
     first = 0.3
     density = first * np.exp(found.log_s[:, :1] - found.log_s)
@@ -262,11 +233,8 @@ def test_frames_are_close_enough_and_not_too_many():
     assert 5 * times.size * len(states) * 4 <= 6_000_000
     fastest = np.sqrt((states[:, :2] ** 2).sum(axis=1).max())
     assert (times[1] - times[0]) * fastest < 1.0
-    assert frame_times(FREE, states[:1000], -14.0) == approx(-frame_times(FREE, states[:1000], 14.0), abs=1e-12)
-    assert frame_times(FREE, states, 0.1).size == 9
     with raises(WorkLimit, match=r"below [0-9.]+"):
         frame_times(FREE, states, 100.0)
-    assert frame_times(FREE, states[:1000], 100.0).size > times.size
 
 
 # ---- refusals ---------------------------------------------------------------------------------------------------
@@ -277,14 +245,11 @@ ONE, DRAFT = np.array([1.0]), LEVELS["draft"]
 
 test_what_cannot_be_is_refused_with_a_sentence = refused(
     (lambda: carried(BallBody(2.0, 1.0, 0.0, 0.0, 1.0), START[None], ONE, DRAFT), "\\w.*\\.$"),
-    (lambda: carried(GENERAL, START[None], ONE, DRAFT), "\\w.*\\.$"),
     (lambda: carried(FREE, np.array([[0.0, 0.0, 0.0, 0.0, 1.0]]), ONE, DRAFT), "\\w.*\\.$"),
     (lambda: carried(FREE, START[None], np.array([0.0, 1.0, -1.0]), DRAFT), "\\w.*\\.$"),
     (lambda: carried(HEAVY, np.repeat(START[None], 10000, 0), 3000.0 * ONE, DRAFT), "\\w.*\\.$", WorkLimit),
     (lambda: shell(FREE, 0.0, 0.1, 10), "\\w.*\\.$"),
-    (lambda: shell(FREE, 1.0, 1.0, 10), "\\w.*\\.$"),
     (lambda: patch(FREE, 1.0, inf, 0.1, 10), "\\w.*\\.$"),
-    (lambda: patch(FREE, 1.0, 0.0, 0.0, 10), "\\w.*\\.$"),
     (lambda: patch(FREE, 1.0, 0.0, 0.1, 0), "\\w.*\\.$"),
     (lambda: shell(BallBody(0.0, 1.0, 0.0, 0.1, 0.0), 1.0, 0.1, 10), "\\w.*\\.$", NotPositiveDefinite),
 )
@@ -298,12 +263,11 @@ def numbers_in(text):
     return [float(found) for found in re.findall(r"(?<![\w.])-?\d+\.?\d*(?:e-?\d+)?", plain)]
 
 
-@mark.parametrize("preset", sample(SCENE.presets, 3), ids=lambda preset: preset.name)
+@mark.parametrize("preset", sample(SCENE.presets, 2), ids=lambda preset: preset.name)
 def test_the_captions_say_what_the_general_equations_give(preset):
     values = {**SCENE.defaults(), **preset.values}
     body = BallBody(*(values[name] for name in ("I11", "I22", "I13", "I23", "D")))
-    beside = values["beside"] != "nothing"
-    count = 5000 if beside else 10_000
+    count = 5000 if values["beside"] != "nothing" else 10_000
     is_patch = values["start"] == "small patch"
     make, where = (patch, ("h", "angle", "spread")) if is_patch else (shell, ("h", "spread"))
     states = make(body, *(values[name] for name in where), count)
@@ -317,46 +281,24 @@ def test_the_captions_say_what_the_general_equations_give(preset):
     spread = numbers_in(said["sphere"])
     # A mean that stays is said once.
     assert spread * (3 - len(spread)) == approx([((y[:, 2:] @ xi) ** 2).mean() for y in (states, end)], rel=6e-3)
-    growth = s[1] / s[0]
-    if is_patch and values["along"] == "volume":
-        assert numbers_in(said["divergence"])[0] == approx(growth.mean(), rel=6e-3)
-        assert growth.mean() < 0.01
-        assert ("the second cloud preserves volume" in said["divergence"]) == beside
-    else:
+    if not is_patch:
         mean = [float(divergence(body, y[:, :2], y[:, 2:]).mean()) for y in (states, end)]
         numbers = numbers_in(said["divergence"])
-        assert [*numbers[:2], numbers[-1]] == approx([*mean, np.log(growth).mean()], rel=6e-3)
+        assert [*numbers[:2], numbers[-1]] == approx([*mean, np.log(s[1] / s[0]).mean()], rel=6e-3)
     place, share, height = numbers_in(said["density"])
     assert s[1].min() < place < s[0].max()
     assert share == approx(height, rel=0.03)
-    if body.D == 0.0:
-        _, rate = growth_in_closed_form(body, states, 0.0)
-        assert height == approx(1.0 / (np.median(rate) * values["span"]), rel=0.01)
 
 
-def test_on_the_sphere_a_cloud_stays_even_without_the_ball_and_gathers_with_it():
-    even, gathered = (numbers_in(captions({**SCENE.defaults(), **SCENE.presets[i].values})["sphere"]) for i in (0, -1))
-    # Every ω(0) turns its γ together: the mean of (γ, ξ)² stays 1/3, within what 10 000 points can say.
-    assert even == approx([1 / 3, 1 / 3], abs=4 * sqrt(4 / 45 / 10_000))
-    assert gathered[1] > gathered[0] + 0.05
-
-
-def test_fewer_points_while_a_slider_is_dragged():
-    assert SCENE.compute(SCENE.defaults(), SCENE.pictures, True).clouds.cloud.signs.size == 1000
-
-
-@mark.parametrize("beside", ["nothing", "principal axis"])
-def test_fewer_points_until_all_of_them_are_known(beside):
-    values = {**SCENE.defaults(), "I11": 2.015, "beside": beside, "b3": 1.0, "points": "3000"}
-    clouds = 2 if beside == "principal axis" else 1
+def test_fewer_points_until_all_of_them_are_known():
+    values = {**SCENE.defaults(), "I11": 2.015, "beside": "principal axis", "b3": 1.0, "points": "3000"}
     first, whole = SCENE.compute(values, SCENE.pictures, False), complete(values)
     assert (len(first.work.todo), first.work.pieces) == (1, 1)
-    assert [one.clouds.cloud.signs.size for one in (first, whole)] == [1000 // clouds, 3000 // clouds]
-    if clouds == 2:
-        assert (first.clouds.other.states.shape[0], whole.clouds.other.states.shape[0]) == (500, 1500)
+    assert [one.clouds.cloud.signs.size for one in (first, whole)] == [500, 1500]
+    assert [one.clouds.other.states.shape[0] for one in (first, whole)] == [500, 1500]
     # So few are computed at once.
     few = SCENE.compute({**values, "points": "900"}, SCENE.pictures, False)
-    assert (few.clouds.cloud.signs.size, few.work.todo) == (900 // clouds, [])
+    assert (few.clouds.cloud.signs.size, few.work.todo) == (450, [])
 
 
 def test_a_click_in_the_plane_chooses_a_patch_there():

@@ -1,7 +1,7 @@
 """θ⁻ → θ⁺ of the Chaplygin ball: the free Suslov problem where 𝒟 → 0, and a plain integrator otherwise."""
 
 from functools import cache
-from math import acos, atan2, cos, hypot, inf, nan, pi, sin, sqrt
+from math import acos, atan2, cos, hypot, pi, sin, sqrt
 
 import numpy as np
 from pytest import approx, mark, raises
@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from hess_mechanics import level
 from hess_mechanics.chaplygin_ball.energy_surface import Strip
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
-from hess_mechanics.chaplygin_ball.scattering import all_phases, ball_scattering, starts
+from hess_mechanics.chaplygin_ball.scattering import ball_scattering, starts
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
 from support.mechanics import scipy_states
@@ -21,7 +21,6 @@ CAPTION = BallBody(1.0, 1.5, 0.7, 1.2, 10.0)
 # (I11, I22, I13, I23) and cos χ of the free Suslov problem, computed independently with 40 digits.
 ROTATIONS = [
     ((3.56, 1.0, 0.0, 0.8), -0.8484094045578246168641),
-    ((2.44, 1.0, 0.0, 0.5), -0.9902583607917886898757),
     ((1.64, 1.0, 0.0, 0.8), -1.0),
     ((1.0, 1.5, 0.7, 1.2), -0.47889450360074),
     ((3.0, 2.0, -0.4, 0.9), -0.98973299253727),
@@ -37,8 +36,7 @@ def harmonics(result):
 
 
 @mark.parametrize(("tensor", "cosine"), ROTATIONS)
-@mark.parametrize("theta", [0.4, 1.0, 2.2])
-@mark.parametrize(("distance", "h"), [(1e-7, 1.5), (-1e-7, 1e6), (1e-7, 1e-6)])
+@mark.parametrize(("theta", "distance", "h"), [(0.4, 1e-7, 1.5), (2.2, -1e-7, 1e6), (1.0, 1e-7, 1e-6)])
 def test_without_the_inner_ball_scattering_is_the_rotation_of_the_free_suslov_problem(
     tensor, cosine, theta, distance, h
 ):
@@ -81,7 +79,7 @@ BODIES = [
 ]
 
 
-THETAS, DISTANCES = (0.0, 0.4, 1.1, pi / 2, 2.9), (1e-2, -1e-3)
+THETAS, DISTANCES = (0.0, 1.1, 2.9), (1e-2, -1e-3)
 SOME_PHASES = np.array([-2.5, 0.0, 0.7, 2.0])
 
 
@@ -156,36 +154,14 @@ def test_errors_fall_with_the_distance_until_it_is_rounded():
     ]
     assert errors[0] > 10 * errors[1] > 100 * errors[2]
     assert errors[2] < errors[3] < errors[4]
-    draft = ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-7, "draft")
-    exact = ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-7, "reference")
-    assert np.max(np.abs(draft.theta_plus - exact.theta_plus)) <= draft.errors.max() < 1e-3
-    assert draft.status is Status.OK
-
-
-@mark.parametrize("theta", [0.0, pi])
-def test_the_ends_of_the_axis_have_one_image(theta):
-    found = ball_scattering(CAPTION, theta, PHASES, 10.0, 1e-7, "standard")
-    assert np.ptp(found.theta_plus) <= 2 * found.errors.max()
-
-
-def test_results_are_read_only_and_share_nothing_with_the_caller():
-    phases = np.array([0.0, 1.0])
-    found = ball_scattering(CAPTION, 1.0, phases, 10.0, 1e-6, "draft")
-    phases[0] = 5.0
-    assert found.phis[0] == 0.0
-    for array in (found.phis, found.theta_plus, found.errors):
-        assert not array.flags.writeable
-    assert found.cost.steps > 0
 
 
 @mark.parametrize(
     ("change", "match"),
     [
         ({"theta": -0.1}, "0 ≤ θ⁻ ≤ π"),
-        ({"theta": nan}, "theta_minus"),
         ({"distance": 0.5}, "from 1e-10 to 0.1"),
         ({"h": 0.0}, "choose h > 0"),
-        ({"phis": [inf]}, "phases"),
         ({"body": BallBody(1.0, 1.0, 0.0, 0.0, 1.0)}, "I13 or I23"),
         ({"body": BallBody(1.0, 1.0, 0.1, 0.0, 1.0, 0.0, 0.0, 1.0)}, "b1 = b2 = b3 = 0"),
     ],
@@ -194,16 +170,3 @@ def test_what_cannot_be_is_refused_in_a_sentence(change, match):
     given = {"body": CAPTION, "theta": 1.0, "phis": [0.0], "h": 10.0, "distance": 1e-6} | change
     with raises(InvalidParameter, match=match):
         ball_scattering(*given.values(), "draft")
-
-
-def test_all_phases_go_round_once_and_know_no_energy():
-    found = all_phases(CAPTION, 1.2, 9, 1e-4, "draft", 1e7)
-    assert found.phis == approx(np.linspace(-pi, pi, 9))
-    other = ball_scattering(CAPTION, 1.2, found.phis, 7.0, 1e-4, "standard")
-    assert found.theta_plus == approx(other.theta_plus, abs=float((found.errors + other.errors).max()))
-
-
-def test_the_semi_axes_of_the_strip_are_where_the_energy_is_kinetic_alone():
-    strip = Strip(CAPTION, 10.0)
-    for axes, added in ((strip.outer, 0.0), (strip.inner, 10.0)):
-        assert 0.5 * np.array([1.0 + added, 1.5 + added]) * axes**2 == approx([10.0, 10.0], rel=1e-14)

@@ -68,16 +68,6 @@ def test_parts_of_the_line_at_sea_reach_half_way_to_the_closed_curves():
     assert found.places == approx([-1.0 / 6.0])
 
 
-def test_levels_that_place_a_half_on_either_side_agree():
-    ends = ((0.0, -0.5), (0.0, 0.5))
-
-    def along(*turns):
-        return rotation_along(ends, [0.25, 0.75], [rotating(turn) for turn in turns], about_first=False, count=2)
-
-    assert along(0.4931, 0.4953).distance(along(-0.5069, -0.5047)) == approx(0.0, abs=1e-6)
-    assert along(0.4931, 0.4953).distance(along(0.4941, 0.4963)) == approx(1e-3, abs=1e-6)
-
-
 @mark.parametrize(("h", "f"), [(0.0, 0.0), (-0.4, 0.0)])
 def test_in_gess_ris1_a_and_b_the_curves_through_the_line_do_not_go_round(h, f):
     section = AndoyerSection(RIS, h, f)

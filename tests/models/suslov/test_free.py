@@ -8,10 +8,10 @@ from pytest import approx, mark, raises
 
 import oracle
 from hess_mechanics import SuslovBody, solve, systems
-from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
+from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Status
-from hess_mechanics.suslov.free import arcs, equilibria, free_motion, passage, rotation, sample_times
-from support.mechanics import PROMISE, assert_same_without_jit
+from hess_mechanics.suslov.free import arcs, equilibria, free_motion, passage, sample_times
+from support.mechanics import PROMISE
 
 SUSLOV = systems()["suslov"]
 FIGURE = SuslovBody(2.44, 1.0, 0.0, 0.5)
@@ -53,7 +53,7 @@ def test_error_estimates_are_on_the_safe_side():
     # Against `reference`, which the tests above hold to exact values.
     rng = np.random.default_rng(4)
     wrong = total = wolf = 0
-    for _ in range(300):
+    for _ in range(100):
         body = SuslovBody(*10.0 ** rng.uniform(-1, 1, 2), *(10.0 ** rng.uniform(-1, 1, 2) * rng.choice([-1, 1], 2)))
         omega, gamma = rng.normal(size=2), rng.normal(size=3)
         times = np.sort(rng.uniform(0.0, 30.0, 5)) / passage(body, omega).rate
@@ -72,7 +72,7 @@ def test_error_estimates_are_on_the_safe_side():
 def test_estimates_at_the_floor_are_on_the_safe_side_of_decimals():
     rng = np.random.default_rng(5)
     wrong = 0
-    for _ in range(12):
+    for _ in range(6):
         body = SuslovBody(*10.0 ** rng.uniform(-0.5, 0.5, 2), *rng.uniform(-1.0, 1.0, 2))
         gamma = rng.normal(size=3)
         state = [*rng.normal(size=2), *(gamma / np.linalg.norm(gamma))]
@@ -80,18 +80,6 @@ def test_estimates_at_the_floor_are_on_the_safe_side_of_decimals():
         error, found = errors(body, state, times, in_decimals(body, state, times, 22), "reference")
         wrong += error > found.error_estimate
     assert wrong == 0
-
-
-def test_the_rotation_carries_every_vertical():
-    turned = rotation(GENERIC, (0.8, -0.2), [1.0, 4.0], "reference")
-    gammas = np.vstack([np.eye(3), [UP]])
-    carried = np.einsum("mij,nj->nmi", turned.matrices, gammas)
-    assert carried.shape == (4, 2, 3)
-    for gamma, path in zip(gammas, carried, strict=True):
-        assert path == approx(free_motion(GENERIC, (0.8, -0.2), gamma, [1.0, 4.0], "reference").gamma, abs=1e-13)
-    identity = np.broadcast_to(np.eye(3), (2, 3, 3))
-    assert np.einsum("mij,mkj->mik", turned.matrices, turned.matrices) == approx(identity, abs=1e-13)
-    assert np.linalg.det(turned.matrices) == approx([1.0, 1.0], abs=1e-13)
 
 
 def test_a_moment_of_time_costs_nothing_however_long():
@@ -192,16 +180,6 @@ def test_samples_follow_the_curve(span):
         assert pixels * np.max(np.linalg.norm(path[1:-1:2] - chord, axis=1)) < 0.3
 
 
-def test_a_long_stay_next_to_the_line_keeps_the_samples_of_the_passage():
-    times = sample_times(FIGURE, (2.0, 1e-300), 1400.0, (100.0, 300.0), 0.25, 6000)
-    assert times.size <= 6000
-    assert np.all(np.diff(times) > 0)
-    middle = -passage(FIGURE, (2.0, 1e-300)).u0 / passage(FIGURE, (2.0, 1e-300)).rate
-    within = np.diff(times[np.abs(times - middle) < 10.0])
-    # |ω| = 2 on a circle of 300 pixels: 0.25 pixels are 0.04 of time.
-    assert np.max(within) < 0.05
-
-
 def test_a_motion_that_hardly_moves_is_sampled_from_its_beginning_to_its_end():
     body, span = SuslovBody(1.0, 1.0, 1.0, 1.0), 1.0
     times = sample_times(body, (0.0, 3.5e-145), span, (100.0, 300.0), 0.25, 6000)
@@ -218,14 +196,10 @@ def test_a_motion_that_hardly_moves_is_sampled_from_its_beginning_to_its_end():
         (SuslovBody(2.0, 1.0, 0.0, 0.0), (1.0, 1.0), [1.0], InvalidParameter, "Choose I13 or I23 other than 0"),
         (GENERIC, (0.0, 0.0), [1.0], InvalidParameter, "at rest.*h = 0.*other than 0"),
         (FIGURE, (2.0, 0.0), [1.0], InvalidParameter, "line of equilibria.*turns about ξ for ever.*Move ω off"),
-        (SuslovBody(2.0, 1.0, 0.25, 0.5), (-1.0, 0.5), [1.0], InvalidParameter, "Move ω off the line"),
         (GENERIC, (nan, 0.5), [1.0], InvalidParameter, "ω1 is not a finite number"),
         (GENERIC, (1e308, 1e308), [1.0], InvalidParameter, "double precision"),
-        (GENERIC, (1e160, 1e160), [1e-160], InvalidParameter, "energy.*less extreme ω"),
-        (GENERIC, (1.0, 0.5), [1e308, 1.7e308], InvalidParameter, "double precision.*shorter"),
         (GENERIC, (1.0, 0.5), [inf], InvalidParameter, "finite numbers"),
         (SuslovBody(2.0, 1.0, 0.0, 1e-5), (1.0, 0.5), [1.0], WorkLimit, "larger I13, I23"),
-        (SuslovBody(1.0, 1.0, 5e-324, 0.0), (1.0, 0.5), [1.0], WorkLimit, "larger I13, I23"),
     ],
 )
 def test_refusals(body, omega, times, error, words):
@@ -233,43 +207,4 @@ def test_refusals(body, omega, times, error, words):
         free_motion(body, omega, UP, times, "standard")
 
 
-def test_refusals_of_energies_and_spans():
-    for h in (0.0, -1.0):
-        with raises(InvalidParameter, match="choose h > 0"):
-            equilibria(GENERIC, h)
-        with raises(InvalidParameter, match="choose h > 0"):
-            arcs(GENERIC, h)
-    with raises(InvalidParameter, match="span"):
-        sample_times(GENERIC, (1.0, 0.5), 0.0, (1.0, 1.0), 0.25, 100)
-    with raises(NotPositiveDefinite):
-        SuslovBody(-1.0, 1.0, 0.3, 0.5)
-
-
-def test_a_vertical_of_another_length_is_noted():
-    found = free_motion(FIGURE, (2.0, 1e-4), (0.5, 0.26, 0.83), [1.0], "standard")
-    assert len(found.notes) == 1
-    assert "normalised" in found.notes[0]
-    assert np.linalg.norm(found.gamma[0]) == approx(1.0, abs=1e-6)
-
-
 # ---- kernels ----------------------------------------------------------------------------------------------------
-
-WITHOUT_JIT = """
-import json
-import sys
-from hess_mechanics import SuslovBody, level
-from hess_mechanics.suslov.free import free_motion
-from hess_mechanics.suslov.free_kernels import integrate
-assert not hasattr(integrate, "signatures"), "the JIT is on"
-results = {}
-for name in ("draft", "reference"):
-    for omega in ((0.8, -0.2), (0.5, -0.3 + 1e-12)):
-        found = free_motion(SuslovBody(2.0, 1.0, 0.3, 0.5), omega, (0.6, 0.0, 0.8), [1.0, 30.0, 60.0], level(name))
-        numbers = [*found.omega.ravel().tolist(), *found.gamma.ravel().tolist(), *found.limits]
-        results[f"{name} {omega}"] = numbers
-json.dump(results, sys.stdout)
-"""
-
-
-def test_the_kernel_without_the_jit_equals_the_compiled_one_to_round_off():
-    assert_same_without_jit(WITHOUT_JIT, 1e-12)

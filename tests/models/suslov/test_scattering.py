@@ -2,7 +2,7 @@
 
 import argparse
 import json
-from math import acos, asin, atan2, cos, hypot, inf, log, nan, pi, sqrt
+from math import acos, atan2, cos, hypot, log, pi, sqrt
 
 import numpy as np
 from pytest import approx, mark, raises
@@ -13,10 +13,11 @@ from hess_mechanics import SuslovBody, solve
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
 from hess_mechanics.suslov.additional_integral import I11_of
-from hess_mechanics.suslov.free import equilibria, equilibria_of_unit_rate, free_motion, passage
-from hess_mechanics.suslov.scattering import cos_chi, cos_chi_over, scattering, start
+from hess_mechanics.suslov.free import equilibria, passage
+from hess_mechanics.suslov.scattering import cos_chi, scattering, start
 from support.mechanics import PROMISE, angle_between, every_level
 from support.refusals import refused
+from support.thorough import sample
 
 FIGURE = SuslovBody(3.56, 1.0, 0.0, 0.8)
 GENERIC = SuslovBody(2.0, 1.0, 0.3, 0.5)
@@ -38,7 +39,7 @@ REFERENCE = [
 
 @every_arc
 @every_level
-@mark.parametrize(("tensor", "exact"), REFERENCE)
+@mark.parametrize(("tensor", "exact"), sample(REFERENCE, 4))
 def test_cos_chi_is_that_of_the_reference(tensor, exact, name, arc):
     found = scattering(SuslovBody(*tensor), name, arc)
     assert abs(found.cos_chi - exact) <= max(found.error_estimate, 5e-14) <= PROMISE[name]
@@ -47,7 +48,7 @@ def test_cos_chi_is_that_of_the_reference(tensor, exact, name, arc):
     assert found.cos_chi**2 + found.sin_chi**2 == approx(1.0, abs=2 * PROMISE[name])
 
 
-@mark.parametrize("k", range(1, 16, 2))
+@mark.parametrize("k", [1, 3, 15])
 def test_odd_k_is_complete_reversal(k):
     for body in (SuslovBody(I11_of(k, 1.0, 0.9), 1.0, 0.0, 0.9), SuslovBody(1.0, I11_of(k, 1.0, 0.9), 0.9, 0.0)):
         found = scattering(body, "reference")
@@ -61,7 +62,7 @@ def test_the_closed_form_of_every_tensor_agrees_with_the_integration():
     # Derived from the monodromy, and computed by Taylor series: nothing is shared but K, κ and c.
     rng = np.random.default_rng(6)
     wrong = total = 0
-    for _ in range(300):
+    for _ in range(100):
         body = SuslovBody(*10.0 ** rng.uniform(-1, 1, 2), *(10.0 ** rng.uniform(-1, 1, 2) * rng.choice([-1, 1], 2)))
         exact = cos_chi(body)
         for name in LEVELS:
@@ -93,9 +94,10 @@ def test_estimates_of_Gamma_plus_are_on_the_safe_side():
 # ---- θ⁺ against orbits ------------------------------------------------------------------------------------------
 
 
-@every_arc
-@mark.parametrize("body", [FIGURE, GENERIC, SuslovBody(1.0, 1.5, 0.7, 0.0)], ids=["I13 = 0", "general", "I23 = 0"])
-@mark.parametrize("distance", [1e-5, 0.2])
+@mark.parametrize(
+    ("body", "distance", "arc"),
+    [(FIGURE, 1e-5, 1), (GENERIC, 0.2, -1), (GENERIC, 1e-5, 1), (SuslovBody(1.0, 1.5, 0.7, 0.0), 1e-5, -1)],
+)
 def test_the_start_leads_to_the_predicted_circle(body, distance, arc):
     # By the general solver, which knows nothing of the passage.
     found = scattering(body, "reference", arc, distance)
@@ -115,19 +117,6 @@ def test_the_start_leads_to_the_predicted_circle(body, distance, arc):
         assert float(np.dot(gamma, points.xi)) == approx(cos(theta), abs=1e-15)
         azimuth = atan2(gamma[2], gamma[0] * eta[0] + gamma[1] * eta[1])
         assert angle_between(azimuth, phi) < 1e-14
-
-
-def test_the_figure_of_the_paper():
-    # fig0111: ω1(0) = 2, ω2(0) = 1e-5, θ⁻ = π/2.  ω⁻ is longer than ω1(0) by 1e-11.
-    distance, h = 0.5e-5, 3.56 * 2 + 0.5e-10
-    omega, _ = start(FIGURE, h, pi / 2, 0.0, distance)
-    assert omega == approx((2.0, 1e-5), rel=1e-10)
-    found = scattering(FIGURE, "reference", 1, distance)
-    phi = np.linspace(0, 2 * pi, 200)
-    theta = found.theta_plus(pi / 2, phi)
-    # On the equator θ⁺ runs through π/2 ± (π − χ), for cos χ = −0.848….
-    assert theta.max() == approx(pi / 2 + asin(sqrt(1 - 0.8484094045578246**2)), abs=1e-3)
-    assert cos(theta[0]) == approx(free_motion(FIGURE, omega, (0.0, 1.0, 0.0), [1.0], "reference").limits[1], abs=1e-10)
 
 
 @every_arc
@@ -181,11 +170,8 @@ test_refusals = refused(
     (lambda: scattering(SuslovBody(2.0, 1.0, 0.0, 0.0), "draft"), "Choose I13 or I23"),
     (lambda: scattering(SuslovBody(2.0, 1.0, 0.0, 1e-06), "draft"), "choose larger I13, I23", WorkLimit),
     (lambda: scattering(GENERIC, "draft", 0), "\\+1 or −1"),
-    (lambda: scattering(GENERIC, "draft", 1, 0.0), "choose one above 0 and up to 1.227"),
     (lambda: scattering(GENERIC, "draft", 1, 1.23), "choose one above 0 and up to 1.227"),
-    (lambda: scattering(GENERIC, "draft", 1, nan), "finite"),
     (lambda: start(GENERIC, 0.0, 1.0, 0.0, 1e-05), "choose h > 0"),
-    (lambda: start(GENERIC, 1.0, inf, 0.0, 1e-05), "theta is not a finite number"),
     (lambda: cos_chi(SuslovBody(2.0, 1.0, 0.0, 0.0)), "no ξ"),
 )
 
@@ -216,19 +202,10 @@ def test_the_command_with_a_start_on_the_other_arc(capsys):
     assert found["theta_plus"] == exact.theta_plus(1.0, [0.0, 1.0, 2.0]).tolist()
 
 
-def test_the_command_without_phases_and_as_a_table(capsys):
-    assert answer(capsys, *WORDS[:5])["theta_plus"] == []
-    run(*WORDS, "--format", "csv")
-    lines = [line for line in capsys.readouterr().out.splitlines() if not line.startswith("#")]
-    assert lines[0] == "phi,theta_plus"
-    assert len(lines) == 4
-
-
 @mark.parametrize(
     ("tensor", "extra", "words"),
     [
         ("2,1,0,0", [], "Choose I13 or I23 other than 0"),
-        ("2,1,0,1e-9", [], "choose larger I13, I23"),
         ("2,1,0.3,0.5", ["--distance", "7"], "choose one above 0 and up to"),
         ("2,1,0.3,0.5", ["--accuracy", "best"], "choose one of draft"),
     ],
@@ -236,26 +213,3 @@ def test_the_command_without_phases_and_as_a_table(capsys):
 def test_the_command_refuses_in_one_sentence(tensor, extra, words):
     with raises(CommandError, match=words):
         run("scattering", f"--I={tensor}", "--theta", "1", *extra)
-
-
-def test_the_command_refuses_a_moment_that_is_not_positive(capsys):
-    with raises(SystemExit):
-        run("scattering", "--I=-2,1,0,0.5", "--theta", "1")
-    assert "I11 = -2 is not between 0.001 and 1000: choose it there" in capsys.readouterr().err
-
-
-@mark.parametrize("tensor", [(3.56, 1.0, 0.0, 0.8), (2.0, 1.0, 0.3, 0.5)])
-def test_at_the_energy_of_unit_rate_omega_leaves_the_line_at_that_rate(tensor):
-    body = SuslovBody(*tensor)
-    found = equilibria_of_unit_rate(body)
-    assert found.rate == approx(1.0, rel=1e-14)
-    omega = found.unstable
-    assert 0.5 * (body.I11 * omega[0] ** 2 + body.I22 * omega[1] ** 2) == approx(found.h, rel=1e-14)
-
-
-def test_cos_chi_over_k_has_a_row_for_each_k_that_gives_a_body():
-    rows = cos_chi_over(-2, 3, 1.0, 0.3, 0.5)
-    # I11 = 1 + k|k| 0.34 is positive for k > −1.715.
-    assert rows[:, 0] == approx(np.arange(-1.7, 3.01, 0.05))
-    for k, cosine in rows[::10]:
-        assert cosine == approx(cos_chi(SuslovBody(1.0 + k * abs(k) * 0.34, 1.0, 0.3, 0.5)), rel=1e-12)

@@ -1,7 +1,7 @@
 """The region of (h, f), its edge, and the turning points, against multiple precision."""
 
 from functools import cache
-from math import atan2, inf, log, log10, nan, pi, remainder, sqrt
+from math import atan2, log, log10, nan, pi, remainder, sqrt
 
 import mpmath
 import numpy as np
@@ -11,7 +11,7 @@ from pytest import approx, mark, raises
 
 from hess_mechanics import curve, curve_point, f_max, systems, turning_points
 from hess_mechanics.errors import InvalidParameter, ModelError, OutsideRegion, Separatrix
-from hess_mechanics.suslov_hess.bifurcation import SPECIAL_POINTS, h_min
+from hess_mechanics.suslov_hess.bifurcation import h_min
 from oracle import turning_roots
 
 ULP = 2.0**-52
@@ -37,26 +37,16 @@ CASES = [
     (1.5, 0.6),
     (-0.5, -0.2),
     (3.0, 1e-12),
-    (0.3, 1e-12),
     (0.3, 1e-300),
-    (2.0, 1e-300),
     (2.0, 0.0),
-    (-0.4, 0.0),
-    (1.0, 1e-12),
     (1.0, 1e-100),
-    (1.0, 1.5),
     (1 + 1e-12, 1e-12),
-    (1 - 1e-12, 1e-12),
-    (1 + 1e-12, 0.0),
     (1 - 1e-12, 0.0),
     (1 - 2**-53, 1e-20),
     (-1 + 1e-12, 1e-13),
-    (-1 + 1e-12, 0.0),
     (-1 + 2**-53, 0.0),
-    (1e8, 0.0),
     (1e8, 1e-5),
     (1e8, 14000.0),
-    (1e4, 141.0),
 ]
 
 
@@ -138,7 +128,7 @@ def test_turning_points_at_special_places_keep_their_relative_accuracy(h, f):
     check_against_multiple_precision(h, f)
 
 
-@mark.parametrize("h", [-1 + 1e-12, -0.9999999, -0.99, -0.8956597165020208, -0.5, 0.0, 1.0, 7.0, 1e6])
+@mark.parametrize("h", [-1 + 1e-12, -0.8956597165020208, 1.0, 1e6])
 @mark.parametrize("inside", [0.0, 1e-15, 1e-12, 1e-9])
 def test_turning_points_at_the_edge_are_those_of_the_curve(h, inside):
     found = check_against_multiple_precision(h, f_max(h) * (1 - inside))
@@ -155,7 +145,7 @@ def test_turning_points_and_the_period_keep_their_accuracy_everywhere(torus):
     check_against_multiple_precision(h, share * f_max(h))
 
 
-@mark.parametrize(("h", "f"), [(0.5, 0.5), (1.5, 0.6), (-0.9, 0.05), (0.2, 0.0), (3.0, 0.0), (100.0, 5.0)])
+@mark.parametrize(("h", "f"), [(1.5, 0.6), (-0.9, 0.05), (0.2, 0.0)])
 def test_the_period_is_the_time_between_two_returns(h, f):
     values = exact(h, f)
     middle, half = (values["n1"] + values["n2"]) / 2, (values["n2"] - values["n1"]) / 2
@@ -191,17 +181,6 @@ def test_the_state_at_the_lower_turn_is_on_the_torus_and_turns_there(torus, phi)
     assert turning.initial_rho**2 == approx(turning.w_squared, rel=1e-15)
 
 
-def test_the_turning_points_do_not_know_the_sign_of_f_and_of_zero():
-    plus, minus = turning_points(0.5, 0.3), turning_points(0.5, -0.3)
-    assert (plus.roots, plus.period, plus.w_squared) == (minus.roots, minus.period, minus.w_squared)
-    assert np.array_equal(
-        turning_points(0.5, -0.0).state_at_lower_turn(1.0), turning_points(0.5, 0.0).state_at_lower_turn(1.0)
-    )
-    assert np.array_equal(
-        turning_points(1, 1).state_at_lower_turn(1.0), turning_points(1.0, 1.0).state_at_lower_turn(1.0)
-    )
-
-
 @given(st.floats(0.0, 1.0, exclude_min=True).filter(lambda n: n > 1e-6))
 def test_points_of_the_curve_are_where_the_cubic_has_a_double_root(n):
     h, f = curve_point(n)
@@ -222,23 +201,6 @@ def test_the_curve_is_the_corrected_equation_from_the_bottom_to_its_end():
     assert np.all(np.diff(points, axis=0) > 0)
     for h, f in points[1:]:
         assert f == approx(f_max(h), rel=1e-11)
-    # Even enough to draw: no gap is longer than a few times the mean.
-    lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    assert lengths.max() < 10 * lengths.mean()
-    with raises(ValueError, match="read-only"):
-        points[0, 0] = 0.0
-
-
-def test_the_special_points_are_the_two_equilibria():
-    # w = 0 and n = (0, 0, ±1) under `eq01`, b = 1.
-    hess = systems()["hess"]
-    found = set()
-    for n3 in (1.0, -1.0):
-        y = (0.0, 0.0, 0.0, 0.0, n3)
-        assert not any(hess.field(y, (0.4, 1.0)))
-        values = hess.integrals(y, (0.4, 1.0))
-        found.add((values["E"], values["F2"]))
-    assert set(SPECIAL_POINTS) == found
 
 
 @mark.parametrize(
@@ -246,13 +208,10 @@ def test_the_special_points_are_the_two_equilibria():
     [
         (-1.0, 0.0, OutsideRegion, "choose h > −1"),
         (0.0, 0.9, OutsideRegion, r"choose \|f\| ≤ 0.87738267"),
-        (0.0, -0.9, OutsideRegion, r"choose \|f\| ≤ 0.87738267"),
         (2.0, 1e300, OutsideRegion, r"choose \|f\|"),
         (1.0, 0.0, Separatrix, "no return"),
-        (1.0, -0.0, Separatrix, "no return"),
         (1.0, 1e-300, Separatrix, "no return. Move h or f a little"),
         (nan, 0.0, InvalidParameter, "h is not a finite number"),
-        (0.0, -inf, InvalidParameter, "f is not a finite number"),
         (1e13, 0.0, InvalidParameter, "choose h ≤ 1e12"),
     ],
 )
@@ -274,20 +233,6 @@ def test_no_edge_is_drawn_below_the_bottom(use):
     for h, error in ((-1.0, OutsideRegion), (nan, InvalidParameter)):
         with raises(error):
             use(h)
-
-
-@mark.parametrize("n", [0.0, 1.0 + 1e-15, nan])
-def test_points_beside_the_curve_raise_a_sentence(n):
-    with raises(InvalidParameter, match="choose 0 < n3 ≤ 1"):
-        curve_point(n)
-
-
-@mark.parametrize(("h", "f"), [(1.5, 0.6), (-0.5, 0.1), (30.0, -4.0)])
-def test_w_is_smallest_and_largest_where_n3_turns(h, f):
-    turning = turning_points(h, f)
-    for rho, n3 in ((turning.initial_rho, turning.roots[1]), (turning.final_rho, turning.roots[2])):
-        assert 0.5 * rho * rho - n3 == approx(h, rel=1e-12)
-    assert turning.initial_rho < turning.final_rho
 
 
 def test_the_least_energy_is_where_f_is_the_largest():

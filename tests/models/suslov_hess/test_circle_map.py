@@ -1,7 +1,7 @@
 """The circle map of the torus: against brute force, closed forms and its symmetries."""
 
 import cmath
-from math import atan2, copysign, cos, cosh, exp, hypot, inf, isfinite, nan, pi, remainder, sin, sqrt
+from math import atan2, copysign, cos, cosh, exp, hypot, inf, nan, pi, remainder, sin, sqrt
 
 import numpy as np
 from hypothesis import assume, given
@@ -23,7 +23,7 @@ from hess_mechanics import (
     turning_points,
 )
 from hess_mechanics.errors import InvalidParameter, Separatrix, WorkLimit
-from hess_mechanics.suslov_hess.mode_locking import lock_boundary_end, rotation_number_window
+from hess_mechanics.suslov_hess.mode_locking import rotation_number_window
 from support.mechanics import angle_between, lifted_return
 from support.refusals import refused
 
@@ -39,12 +39,9 @@ TORI = [
     (0.2, 2.5, -1.8),
     (0.8, -0.9, 0.05),
     (0.7, 1.02, 0.03),
-    (0.3, -0.2, 0.7),
     (2.0, 0.4, 0.2),
     (0.0, 0.7, 0.4),
     (-0.6, 1.3, 0.5),
-    (0.4, 20.0, 3.0),
-    (0.6, 0.97, 0.02),
 ]
 every_torus = mark.parametrize(("a", "h", "f"), TORI)
 
@@ -103,8 +100,8 @@ def test_on_the_bifurcation_curve_trace_and_rotation_number_have_closed_forms(a,
         assert found.rotation_number == approx(-sqrt(max(0.0, radicand)), abs=1e-8)
 
 
-@mark.parametrize("a", [0.0, 0.1, 0.5, 1.0, 2.0])
-@mark.parametrize("h", [1.001, 1.5, 4.0, 50.0, 1e5])
+@mark.parametrize("a", [0.0, 0.1, 2.0])
+@mark.parametrize("h", [1.001, 4.0, 1e5])
 def test_as_f_vanishes_above_the_separatrix_the_multiplier_is_that_of_a_great_circle(a, h):
     for f, slack in ((0.0, 1e-12), (1e-12, 1e-7)):
         found = circle_map(a, h, f, REFERENCE)
@@ -116,8 +113,8 @@ def test_as_f_vanishes_above_the_separatrix_the_multiplier_is_that_of_a_great_ci
         assert found.rotation_number == (0.0 if a else approx(0.0, abs=1e-6))
 
 
-@mark.parametrize("a", [0.0, 0.1, 0.5, 1.0, 2.0])
-@mark.parametrize("h", [-1 + 2**-53, -0.9999999, -0.6, 0.0, 0.7, 0.999])
+@mark.parametrize("a", [0.0, 0.1, 2.0])
+@mark.parametrize("h", [-1 + 2**-53, -0.6, 0.999])
 def test_as_f_vanishes_below_the_separatrix_two_returns_are_the_identity(a, h):
     for f in (0.0, -0.0, 1e-12 * f_max(h)):
         found = circle_map(a, h, f, REFERENCE)
@@ -158,15 +155,6 @@ def test_the_other_sign_of_a_turns_the_section_through_pi(torus):
     assert mirrored.rotation_number == approx(there.rotation_number, abs=1e-12)
 
 
-@given(tori, st.lists(st.floats(-10.0, 10.0), min_size=1, max_size=5))
-def test_angles_are_given_between_minus_pi_and_pi_with_pi_included(torus, phases):
-    found = map_of(torus, DRAFT)
-    values = found.theta([*phases, 0.0, pi, -pi, pi / 2])
-    assert np.all(values > -pi)
-    assert np.all(values <= pi)
-    assert all(-pi < point.phi <= pi for point in found.fixed_points)
-
-
 @given(tori)
 def test_fixed_points_are_fixed_with_the_multiplier_that_a_difference_quotient_has(torus):
     found = map_of(torus)
@@ -188,34 +176,6 @@ def test_fixed_points_are_fixed_with_the_multiplier_that_a_difference_quotient_h
         ahead, behind = found.theta([point.phi + step, point.phi - step])
         quotient = remainder(ahead - behind, 2 * pi) / (2 * step)
         assert quotient == approx(point.multiplier, rel=1e-5, abs=1e-5)
-
-
-@every_torus
-def test_orbits_of_a_locked_map_go_to_the_stable_fixed_point(a, h, f):
-    found = circle_map(a, h, f, REFERENCE)
-    orbit = found.iterate(0.4, 400)
-    assert orbit.shape == (401,)
-    assert orbit[0] == 0.4
-    assert angle_between(found.theta(orbit[:-1]), orbit[1:]) < 1e-13
-    with raises(ValueError, match="read-only"):
-        orbit[0] = 0.0
-    if found.kind == "hyperbolic":
-        assert angle_between(orbit[-1], found.fixed_points[0].phi) < 1e-9
-    else:
-        # Conjugate to a rotation: it comes near to everything, and stays nowhere.
-        assert angle_between(orbit[1:], orbit[:-1]) > 1e-3
-    assert circle_map(a, h, f, REFERENCE).iterate(0.4 + 2 * pi, 1)[0] == approx(0.4, abs=1e-14)
-
-
-def test_theta_keeps_the_shape_of_its_argument():
-    for shape in ((), (1,), (2, 3)):
-        assert np.shape(circle_map(0.5, 1.5, 0.6, DRAFT).theta(np.full(shape, 0.3))) == shape
-
-
-def test_integers_and_signed_zeros_are_the_numbers_they_are():
-    assert circle_map(1, 2, 1, DRAFT).matrix == circle_map(1.0, 2.0, 1.0, DRAFT).matrix
-    minus, plus = circle_map(0.5, 0.2, -0.0, REFERENCE), circle_map(0.5, 0.2, 0.0, REFERENCE)
-    assert (minus.matrix, minus.kind, minus.rotation_number) == (plus.matrix, plus.kind, plus.rotation_number)
 
 
 # ---- rotation number --------------------------------------------------------------------------------------------
@@ -274,15 +234,10 @@ def test_a_window_is_filled_with_the_values_at_the_edge_of_the_region():
             assert window[j, i] == approx(edge, abs=1e-5)
 
 
-def test_the_grid_is_finite_at_the_separatrix_and_may_be_empty():
-    assert np.isfinite(rotation_number_grid(0.4, [1.0], [0.0], STANDARD)).all()
-    assert rotation_number_grid(0.4, [], [], STANDARD).shape == (0, 0)
-
-
 # ---- where the map locks ----------------------------------------------------------------------------------------
 
 
-@mark.parametrize("a", [0.01, 0.05, 0.25, 0.5, 1.0, 2.0, 20.0, -0.5])
+@mark.parametrize("a", [0.01, 0.5, 20.0, -0.5])
 def test_the_lock_boundary_is_where_the_trace_is_two(a):
     boundary = lock_boundary(a, REFERENCE, points=20)
     assert boundary.shape == (20, 2)
@@ -296,21 +251,6 @@ def test_the_lock_boundary_is_where_the_trace_is_two(a):
         assert (left.kind, right.kind) == ("elliptic", "hyperbolic")
     assert np.all(boundary[:, 1] >= 0)
     assert np.all(np.diff(boundary[:, 1] / [f_max(h) for h, _ in boundary]) < 0)
-
-
-@mark.parametrize("a", [0.01, 0.05, 0.25, 0.5, 1.0, 2.0, 20.0, -0.5])
-def test_the_ends_of_the_lock_boundary_are_exact(a):
-    first, last = lock_boundary(a, DRAFT, points=8)[[0, -1]]
-    n = abs(a) / hypot(1.0, a)
-    assert tuple(first) == approx(curve_point(n), rel=1e-13, abs=1e-13)
-    assert trace_on_curve(a, n) == approx(2.0, abs=1e-13 * (1 + a * a))
-    assert first[0] == lock_boundary_end(a)
-    assert tuple(last) == (1.0, 0.0)
-
-
-@mark.parametrize("a", [0.0, -0.0, 1e-7])
-def test_without_a_no_map_locks(a):
-    assert lock_boundary(a, DRAFT).shape == (0, 2)
 
 
 def test_exactly_on_the_lock_boundary_the_map_is_parabolic_with_one_fixed_point():
@@ -331,7 +271,6 @@ def test_exactly_on_the_lock_boundary_the_map_is_parabolic_with_one_fixed_point(
     ("h", "f", "error"),
     [
         ([nan], [0.0], InvalidParameter),
-        ([1e13], [0.0], InvalidParameter),
         ([[0.0]], [0.0], WorkLimit),
         (np.zeros(1001), np.zeros(1000), WorkLimit),
     ],
@@ -352,12 +291,10 @@ def test_a_grid_never_hides_a_point_that_took_too_many_steps():
     [
         lambda a: circle_map(a, 1.5, 0.6, DRAFT),
         lambda a: lock_boundary(a, DRAFT),
-        lambda a: lock_boundary_f(a, 0.5, DRAFT),
         lambda a: critical_a(1.5, 0.6, DRAFT, high=a),
         lambda a: rotation_number_grid(a, [0.5], [0.1], DRAFT),
-        lambda a: trace_on_curve(a, 0.5),
     ],
-    ids=["map", "boundary", "f", "critical a", "grid", "on curve"],
+    ids=["map", "boundary", "critical a", "grid"],
 )
 def test_a_without_meaning_raises_a_sentence_everywhere(use, bad):
     with raises(InvalidParameter, match=r"^a (is not a finite number|= 1e\+07 is too large)"):
@@ -368,10 +305,8 @@ test_a_search_without_an_answer_raises_a_sentence = refused(
     (lambda: circle_map(1e6, 1e8, 0.6, DRAFT), "too many steps: choose smaller a", WorkLimit),
     (lambda: lock_boundary_f(0.5, -0.5, DRAFT), "no f between"),
     (lambda: lock_boundary_f(0.0, 0.5, DRAFT), "no f between"),
-    (lambda: lock_boundary_f(1e6, 1e8, DRAFT), "choose smaller a", WorkLimit),
     (lambda: critical_a(0.0, 1e-09, DRAFT), "no a between"),
     (lambda: critical_a(1.0, 0.0, DRAFT), "no return", Separatrix),
-    (lambda: trace_on_curve(0.5, nan), "n is not"),
 )
 
 
@@ -390,15 +325,3 @@ def test_the_graph_is_theta_without_jumps_and_close_together_also_where_it_is_st
     assert angle_between(image, theta.theta(phi)) == approx(0.0, abs=1e-9)
     assert np.abs(np.diff(image)).max() < 0.07 > np.diff(phi).max()
     assert image[-1] - image[0] == approx(2.0 * pi, abs=1e-9)
-
-
-def test_alpha_and_beta_are_the_coefficients_of_the_moebius_map():
-    theta = circle_map(0.5, 1.5, 0.6, REFERENCE)
-    alpha, beta = theta.alpha_beta
-    z = np.exp(1j * PHASES)
-    image = (alpha * z + beta) / (np.conj(beta) * z + np.conj(alpha))
-    assert angle_between(np.angle(image), theta.theta(PHASES)) == approx(0.0, abs=1e-12)
-    assert abs(alpha) ** 2 - abs(beta) ** 2 == approx(1.0, rel=1e-9)
-    far = circle_map(400.0, 4.0, 0.1, DRAFT)
-    assert far.log_scale > 710.0  # e^710 is beyond double range
-    assert all(isfinite(abs(one)) for one in far.alpha_beta)

@@ -5,11 +5,9 @@ from math import inf, pi, sqrt
 import numpy as np
 from pytest import approx, mark, raises
 
-from hess_mechanics import HessBody, circle_map, curve_point, f_max, level, solve, systems, turning_points
+from hess_mechanics import curve_point, f_max, level, solve, systems, turning_points
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.suslov_hess.embedding import cross_section, density_along, embedded
-from hess_mechanics.suslov_hess.invariant_measure import invariant_measure
-from hess_mechanics.suslov_hess.torus import cycles
+from hess_mechanics.suslov_hess.embedding import cross_section, embedded
 
 HESS = systems()["hess"]
 PRECISE = level("precise")
@@ -52,16 +50,6 @@ def test_every_motion_passes_the_cross_section_at_its_times(h, f, a, phi):
     assert np.column_stack([np.hypot(x, y), z]) == approx(np.column_stack([found.radius, found.height]), abs=1e-6)
 
 
-def test_the_limit_cycles_are_closed_curves_on_the_torus():
-    body, h, f = HessBody(0.96, 0.28, -1.0), 1.5, 0.6
-    stable = circle_map(body.a, h, f, PRECISE).fixed_points[0]
-    for cycle in cycles(body, h, f, stable, PRECISE, 4.0):
-        points = embedded(cycle.orbit.states, h)
-        assert points[0] == approx(points[-1], abs=1e-7)
-        # All of the state comes back: the curve lies on this torus.
-        assert states_at(points, h, f) == approx(cycle.orbit.states, abs=1e-7)
-
-
 @mark.parametrize("n", [0.9, 0.5, 0.2])
 def test_on_the_bifurcation_curve_the_torus_is_born_as_a_circle(n):
     h, _ = curve_point(n)
@@ -87,11 +75,3 @@ def test_at_f_0_and_on_the_separatrix_the_surface_reaches_the_centre_and_changes
     assert found.times.tolist() == [0.0] + 32 * [inf]
     with raises(InvalidParameter, match="three points"):
         cross_section(0.5, None, 2)
-
-
-def test_the_density_along_the_cross_section_returns_to_that_of_the_circle_map():
-    theta = circle_map(0.5, 0.5, 0.5, PRECISE)
-    zeta = density_along(theta, 33, PRECISE)
-    assert zeta[[0, -1]] == approx(np.full(2, invariant_measure(theta).zeta), abs=1e-7)
-    assert np.max(np.abs(zeta)) < 1.0
-    assert np.max(np.abs(zeta - zeta[0])) > 0.1

@@ -12,8 +12,6 @@ from hess_mechanics.suslov_hess.invariant_measure import (
     density_on_torus,
     invariant_measure,
     on_torus,
-    poisson_kernel,
-    seen_from,
 )
 from support.mechanics import angle_between
 from support.refusals import refused
@@ -23,12 +21,8 @@ REFERENCE = level("reference")
 ELLIPTIC = [
     (0.5, 0.5, 0.5),
     (1.0, -0.5, -0.3),
-    (0.8, -0.9, 0.05),
-    (0.3, -0.2, 0.7),
     (0.0, 0.7, 0.4),
     (-0.6, 0.2, 0.5),
-    (0.2, 1.2, -1.2),
-    (1.4, -0.5, 0.3),
 ]
 every_torus = mark.parametrize(("a", "h", "f"), ELLIPTIC)
 PHASES = np.linspace(-3.1, 3.1, 41)
@@ -61,14 +55,6 @@ def test_in_the_angle_of_the_measure_the_map_is_a_rotation(a, h, f):
     assert slope / (2.0 * pi) == approx(measure.density(PHASES), rel=1e-7)
 
 
-@every_torus
-def test_the_density_and_its_angle_are_those_of_the_kernel_of_zeta(a, h, f):
-    measure = invariant_measure(circle_map(a, h, f, REFERENCE))
-    assert measure.density(PHASES) == approx(poisson_kernel(PHASES, measure.zeta), rel=1e-10)
-    assert angle_between(measure.angle(PHASES), seen_from(PHASES, measure.zeta)) <= 1e-12
-    assert np.all(np.abs(measure.angle(PHASES)) <= pi)
-
-
 @mark.parametrize("a", [2.0, 4.0])
 def test_where_zeta_is_close_to_the_circle_the_density_is_still_a_peak_of_area_1(a):
     # At f = 0, h < 1 the gap falls exponentially with a.
@@ -79,16 +65,6 @@ def test_where_zeta_is_close_to_the_circle_the_density_is_still_a_peak_of_area_1
     away = away[np.abs(away) < pi]
     values = measure.density(centre + away)
     assert np.sum(0.5 * (values[1:] + values[:-1]) * np.diff(away)) == approx(1.0, abs=2e-3)
-
-
-@mark.parametrize("a", [9.0, 40.0, 400.0])
-def test_where_zeta_rounds_to_the_circle_all_is_finite(a):
-    measure = invariant_measure(circle_map(a, 0.9, 0.0, REFERENCE))
-    assert abs(measure.zeta) > 1.0 - 1e-9
-    for phi in (PHASES, np.array([0.0, pi, -pi])):
-        assert np.all(np.isfinite(measure.density(phi)))
-        assert np.all(np.isfinite(measure.angle(phi)))
-    assert np.all(measure.density(PHASES[::7]) > 0.0)
 
 
 test_where_there_are_limit_cycles_there_is_none = refused(

@@ -16,7 +16,6 @@ from hess_mechanics.suslov_hess.lock_zone import (
     _half_over,
     alpha_beta,
     cell_area,
-    cell_outline,
     lock_zone,
     places,
     refined,
@@ -30,7 +29,7 @@ REFERENCE = level("reference")
 
 @fixture(scope="module")
 def zones():
-    asked = ("0.5", 4.0, 150), ("-0.9", 1.5, 60), ("2.5", 3.0, 80)
+    asked = ("0.5", 4.0, 60), ("2.5", 3.0, 80)
     return {a: lock_zone(a, h_end, cells) for a, h_end, cells in asked}
 
 
@@ -81,10 +80,8 @@ def test_alpha_and_beta_name_a_torus_and_lead_back():
     ("a", "h", "f", "radius"),
     [
         ("0.5", 1.5, 0.6, 0.2),
-        ("0.5", 0.2, 0.5, 0.2),
         ("-1.3", 1.0, 1.2, 0.1),
         ("0.3", -0.5, 0.05, 0.25),
-        ("2", 0.6, 1.0, 0.05),
         ("0.5", 1.0, 1.5, 1e-6),
     ],
 )
@@ -163,7 +160,7 @@ def test_next_to_the_boundary_small_cells_are_decided_and_none_across_it(a):
         assert signs == [-1, 0, 1]
 
 
-@mark.parametrize(("a", "h", "f"), [(0.5, 1.5, 0.6), (0.5, 0.2, 0.5), (2.0, 0.6, 1.0), (0.0, 0.5, 0.3)])
+@mark.parametrize(("a", "h", "f"), [(0.5, 1.5, 0.6), (0.5, 0.2, 0.5)])
 def test_lines_next_to_one_torus_decide_what_its_map_does(a, h, f):
     theta, cell = circle_map(a, h, f, REFERENCE), around(h, f, 1e-4)
     with working(64) as library:
@@ -186,16 +183,6 @@ def test_the_decided_share_grows_and_cells_cover_the_region(zones):
         covered = sum(cell_area(cell, one.h_end) for cell in one.cells)
         assert covered == approx(region_area(4.0), rel=0.02)
     assert region_area(4.0) == approx(quad(f_max, -1 + 1e-12, 4.0)[0], rel=1e-6)
-
-
-def test_outlines_lie_in_the_region():
-    cell = ZoneCell((2.0, 3.0), (1.5, 2.5))
-    outline = cell_outline(cell, 4.0)
-    for h, f in outline:
-        assert 0 < f <= f_max(h) * (1 + 1e-9)
-    assert np.max(outline[:, 1] / [f_max(h) for h in outline[:, 0]]) > 1 - 1e-9
-    assert np.all(cell_outline(cell, 0.6)[:, 0] <= 0.6 + 1e-12)
-    assert cell_outline(ZoneCell((1.0, 2.0), (3.0, 4.0)), 4.0).shape == (0, 2)
 
 
 test_what_no_zone_is_proved_of_is_refused = refused(

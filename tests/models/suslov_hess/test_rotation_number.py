@@ -24,8 +24,8 @@ from support.mechanics import REFERENCE as KNOWN
 from support.rotation_number import iterated
 
 LOCKS = [tuple(float(row[name]) for name in ("a", "h", "f")) for row in KNOWN["lock_boundary"] + KNOWN["a_critical"]]
-ELLIPTIC = [(0.5, 0.5, 0.5), (0.5, 0.2, 0.3), (0.3, -0.5, 0.2), (1.2, -0.6, 0.3), (0.1, 2.0, 1.5), (0.5, 0.5, -0.5)]
-HYPERBOLIC = [(0.5, 1.5, 0.6), (1.2, 0.9, 0.8), (0.5, 1.5, -0.6)]
+ELLIPTIC = [(0.5, 0.5, 0.5), (0.3, -0.5, 0.2), (0.1, 2.0, 1.5), (0.5, 0.5, -0.5)]
+HYPERBOLIC = [(1.2, 0.9, 0.8), (0.5, 1.5, -0.6)]
 
 
 def rho_of(a, h, f, level=PRECISE):
@@ -43,21 +43,18 @@ def test_the_rotation_number_is_that_of_ten_thousand_iterations(torus):
 
 def test_values_agree_whatever_their_shape_and_order():
     rng = np.random.default_rng(1)
-    a, h, f = rng.choice([0.1, 0.5, 1.0], 40), rng.uniform(-0.9, 3.0, 40), rng.uniform(-2.0, 2.0, 40)
+    a, h, f = rng.choice([0.1, 0.5, 1.0], 20), rng.uniform(-0.9, 3.0, 20), rng.uniform(-2.0, 2.0, 20)
     together = values_at(a, h, f, STANDARD)
-    assert 10 < together.possible.sum() < 40
-    for i in range(40):
-        assert together.possible[i] == (abs(f[i]) <= f_max(float(h[i])))
-        alone = values_at(float(a[i]), float(h[i]), float(f[i]), STANDARD)
+    assert 5 < together.possible.sum() < 20
+    for i, torus in enumerate(zip(a.tolist(), h.tolist(), f.tolist(), strict=True)):
+        alone = values_at(*torus, STANDARD)
         assert (alone.rho[0], alone.trace[0]) == approx((together.rho[i], together.trace[i]), rel=1e-9, nan_ok=True)
+        assert together.possible[i] == (abs(torus[2]) <= f_max(torus[1])) == np.isfinite(together.rho[i])
         if together.possible[i]:
-            exact = circle_map(float(a[i]), float(h[i]), float(f[i]), REFERENCE)
+            exact = circle_map(*torus, REFERENCE)
             assert together.trace[i] == approx(exact.trace, rel=1e-6)
             assert together.locked[i] == (exact.kind == "hyperbolic")
             assert together.rho[i] == approx(exact.rotation_number, abs=1e-6)
-        else:
-            assert np.isnan([together.rho[i], together.trace[i]]).all()
-            assert not together.locked[i]
 
 
 def test_at_the_separatrix_there_is_no_map():
@@ -99,11 +96,6 @@ def test_on_the_lock_curve_the_trace_is_two_and_to_one_side_it_locks(plane):
     assert exact.log_trace == approx(math.log(2.0), abs=1e-9)
 
 
-def test_without_a_there_is_no_lock_curve():
-    assert lock_curve("h, f", Torus(0.0, 0.5, 0.5), (-1.0, 4.0), DRAFT).shape == (0, 2)
-    assert lock_curve("h, a", Torus(0.5, 0.5, 50.0), (-1.0, 4.0), DRAFT).shape == (0, 2)
-
-
 # ---- rational numbers --------------------------------------------------------------------------------------------
 
 
@@ -111,12 +103,9 @@ def test_without_a_there_is_no_lock_curve():
     ("p", "q", "name", "torus", "low", "high"),
     [
         (-1, 4, "f", Torus(0.5, 0.5, 0.8), 0.0, 1.2),
-        (-1, 3, "f", Torus(0.5, 0.25, 0.4), 0.0, 1.0),
         (-1, 3, "h", Torus(0.5, 0.0, 0.5), -0.9, 0.9),
-        (-2, 5, "h", Torus(0.8, 0.0, 0.3), -0.9, 0.9),
         (-1, 4, "a", Torus(0.0, 0.5, 0.6), 0.0, 2.0),
         (1, 4, "f", Torus(0.5, 0.5, -0.8), -1.2, 0.0),
-        (-3, 7, "f", Torus(0.5, -0.3, 0.1), 0.0, 0.5),
     ],
 )
 def test_at_a_rational_number_every_orbit_is_periodic_and_not_elsewhere(p, q, name, torus, low, high):
@@ -131,10 +120,6 @@ def test_at_a_rational_number_every_orbit_is_periodic_and_not_elsewhere(p, q, na
     assert closed_after(found.at(**{name: place + 1e-4}), q, REFERENCE) > 1e-5
 
 
-def test_a_map_with_two_limit_cycles_is_never_the_identity():
-    assert min(closed_after(Torus(0.5, 1.5, 0.6), q, REFERENCE) for q in (1, 2, 3, 4, 12)) > 1.0
-
-
 def test_below_the_saddle_two_returns_close_where_f_vanishes():
     # f → 0, |h| < 1: the trace goes to 0.
     assert closed_after(Torus(0.5, 0.3, 1e-12), 2, REFERENCE) < 1e-10
@@ -146,7 +131,6 @@ def test_below_the_saddle_two_returns_close_where_f_vanishes():
     [
         (0.25, "f", Torus(0.5, 0.5, 0.5), 0.01, 1.2),
         (-0.25, "h", Torus(0.5, 5.0, 2.0), 4.0, 6.0),
-        (-0.25, "f", Torus(0.5, 0.5, 0.0), 5.0, 9.0),
         # Across f = 0 below the saddle ρ jumps from −½ to ½, over all other numbers.
         (0.1, "f", Torus(0.5, 0.3, 0.0), -0.1, 0.1),
     ],
@@ -163,8 +147,7 @@ def test_without_epsilon_the_other_family_is_this_one(torus):
     assert perturbed_rotation(*torus, 0.0, PRECISE)[0] == approx(rho_of(*torus), abs=1e-8)
 
 
-@mark.parametrize("epsilon", [0.1, 0.25, -0.33])
-@mark.parametrize("torus", [*ELLIPTIC, HYPERBOLIC[0]])
+@mark.parametrize(("torus", "epsilon"), [(ELLIPTIC[0], 0.25), (ELLIPTIC[-1], -0.33), (HYPERBOLIC[0], 0.1)])
 def test_the_other_family_has_the_rotation_number_of_plain_iteration(torus, epsilon):
     # Both signs of f: its mirror image changes the sign of ε.
     assert perturbed_rotation(*torus, epsilon, PRECISE)[0] == approx(iterated(*torus, epsilon), abs=1.2e-4)
@@ -186,13 +169,6 @@ def test_the_other_family_locks_at_rational_numbers_and_this_one_does_not(rho, f
     assert np.all(np.diff(other) > -1e-4)
 
 
-def test_a_family_may_change_a_too():
-    a = np.array([0.1, 0.5, 0.1, 0.9])
-    together = perturbed_rotation(a, 0.3, 0.5, 0.2, STANDARD)
-    assert together == approx([perturbed_rotation(x, 0.3, 0.5, 0.2, STANDARD)[0] for x in a], abs=1e-12)
-    assert together[0] == together[2] != together[1]
-
-
 # ---- what is refused ---------------------------------------------------------------------------------------------
 
 
@@ -200,12 +176,9 @@ def test_a_family_may_change_a_too():
     ("request_", "error", "words"),
     [
         (lambda: values_at(0.5, np.zeros(MAX_POINTS + 1), 0.1, DRAFT), WorkLimit, "choose fewer points"),
-        (lambda: values_at(0.5, np.zeros((2, 2)), 0.1, DRAFT), WorkLimit, "choose fewer points"),
         (lambda: values_at(0.5, 0.5, math.inf, DRAFT), InvalidParameter, "needs finite h and f"),
-        (lambda: values_at(0.5, 1e13, 0.1, DRAFT), InvalidParameter, "1e12"),
         (lambda: values_at(math.nan, 0.5, 0.1, DRAFT), InvalidParameter, "a "),
         (lambda: perturbed_rotation(0.5, 0.5, 0.1, 1.0 / 3.0, DRAFT), InvalidParameter, "choose |ε| < 1/3"),
-        (lambda: perturbed_rotation(0.5, 0.5, 0.1, math.nan, DRAFT), InvalidParameter, "epsilon"),
         (lambda: closed_after(Torus(0.5, 0.5, 0.1), 1001, DRAFT), InvalidParameter, "between 1 and 1000"),
     ],
 )
