@@ -51,13 +51,6 @@ def test_points_lie_on_their_sections_at_their_energies():
     assert integrals["H"] == approx(np.full(40, 2.0), abs=1e-8)
 
 
-def test_a_system_with_values_of_its_parameters_moves_as_the_body_does():
-    system = SUSLOV.system.at(np.array(SUSLOV.parameters))
-    assert np.array_equal(hm.solve(SUSLOV, STATE, [1.0, 2.0]).states, hm.solve(system, STATE, [1.0, 2.0]).states)
-    assert hash(system) == hash(SUSLOV.system.at(SUSLOV.parameters))
-    assert SUSLOV.system.example_motion == (SUSLOV.system.at(SUSLOV.system.example[1]), SUSLOV.system.example[0])
-
-
 def test_basins_clouds_and_maps_have_coordinates():
     basins = hm.basins(SUSLOV, 1.842, cells=(6, 4), accuracy="draft").to_xarray()
     assert basins["attractor"].dims == ("δ", "ψ")

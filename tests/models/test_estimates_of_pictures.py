@@ -7,10 +7,10 @@ are known to be a thousand times as exact.
 """
 
 from functools import cache
-from math import hypot, inf, log, pi, remainder, sqrt
+from math import inf, log, pi, remainder
 
 import numpy as np
-from pytest import approx, fixture, mark
+from pytest import fixture, mark
 
 from hess_mechanics import circle_map, f_max
 from hess_mechanics.chaplygin_ball.equations import BallBody
@@ -254,13 +254,6 @@ def test_the_boundary_of_the_lock_zone_lies_within_the_promised_pixels(a, name):
     scale = 600.0 / np.array([max(4.0, exact[:, 0].max()) + 1.0, 2.0 * max(3.0, exact[:, 1].max())])
     line, curve = lock_boundary(a, plan.level, points) * scale, exact * scale
     assert away_from(curve, line).max() <= plan.promise
-
-
-def test_distances_from_a_broken_line_are_those_from_its_nearest_part():
-    corner = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0]])
-    places = np.array([[1.0, 0.5], [-3.0, 4.0], [2.5, 1.0], [3.0, 3.0], [2.0, 0.0]])
-    assert away_from(places, corner) == approx([0.5, 5.0, 0.5, sqrt(2.0), 0.0])
-    assert away_from(places[:1], corner[:1]) == approx([hypot(1.0, 0.5)])
 
 
 # ---- clouds -----------------------------------------------------------------------------------------------------

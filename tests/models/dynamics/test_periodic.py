@@ -81,12 +81,6 @@ def test_types():
     assert kind_of(np.array([-1.0, 0.5], complex), 1e-8) == "parabolic with reflection"
 
 
-def test_an_angle_is_met_again_after_a_turn():
-    # φ′ = φ + 0.1 − 0.8 sin φ: the same place, whichever turn Newton's method starts on.
-    found = [find_periodic(arnold(0.1), (start,), 1).places[0, 0] for start in (0.2, 0.2 + 2.0 * math.pi, -6.0)]
-    assert found == approx([math.asin(0.125)] * 3, abs=1e-14)
-
-
 def test_what_is_not_there_is_refused_with_what_to_do():
     with raises(NotConverged, match=r"period 2.*start closer"):
         find_periodic(henon(0.1), (0.6, 0.2), 2)

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from hess_mechanics.dynamics import trade
 from hess_mechanics.dynamics.trade import LevelCost, beyond, enough, measure, measure_until
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Computation
 
@@ -25,17 +24,6 @@ def test_the_error_of_each_level_is_that_against_the_truth():
         step = LEVELS[one.level].tolerance
         assert one.error == pytest.approx(abs(rounded(PLANS[Computation.ORBIT][one.level]) - 1.0 / 3.0), abs=1e-16)
         assert one.error <= 0.5 * step + 1e-16
-
-
-def test_the_time_is_that_of_the_fastest_run(monkeypatch):
-    now, pauses = [0.0], iter([0.0] + [0.03, 0.01, 0.02] * 4)
-    monkeypatch.setattr(trade.time, "perf_counter", lambda: now[0])
-
-    def run(plan):
-        now[0] += next(pauses)
-
-    samples = measure(Computation.ORBIT, run, lambda *_: 0.0, repeats=3)
-    assert [one.ms for one in samples] == [pytest.approx(10.0)] * 4
 
 
 def test_what_leaves_something_out_is_not_complete():

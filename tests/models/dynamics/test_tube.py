@@ -123,15 +123,6 @@ def test_a_divisor_that_vanishes_ahead_ends_a_tube_and_raises_nothing():
     assert tube(system.at(()), (0.0, 0.0), [0.5], digits=15).states == ()
 
 
-def test_negative_powers_divide():
-    """ẋ = 1, ẏ = x⁻²: y = 1 − 1/(1 + t)."""
-    system = divides(lambda y, p: (1 + 0 * y[0], y[0] ** -2 * y[1] ** 0))
-    found = tube(system.at(()), (1.0, 0.0), [0.5, 1.0], digits=15)
-    assert found.complete
-    for t, (_, y) in zip((Fraction(1, 2), Fraction(1)), found.states, strict=True):
-        assert 1 - 1 / (1 + t) in y
-
-
 def every_function(y, p):
     """A field with all functions: of variables, of parameters, of functions."""
     x, z = y

@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 from hess_mechanics import section, solve, systems
 from hess_mechanics.errors import WorkLimit
-from hess_mechanics.euler_poisson.andoyer import SHEETS, AndoyerPlane, AndoyerSection, coordinates, hess_curve, relation
+from hess_mechanics.euler_poisson.andoyer import SHEETS, AndoyerPlane, AndoyerSection, coordinates, relation
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.numerics.accuracy import PRECISE, STANDARD
 from support.andoyer import GESS1, RIS, angles, crossings_by_scipy, dense, energies_at, energy
@@ -100,14 +100,6 @@ def test_for_f_0_the_momentum_is_that_of_the_closed_form():
     G = AndoyerSection(RIS, 0.1, 0.0).roots(l, x)[:, 0]
     assert np.array_equal(np.isnan(G), square < 0.0)
     assert G[square >= 0.0] ** 2 == approx(square[square >= 0.0], rel=1e-12)
-
-
-def test_on_the_hess_curve_the_relation_holds():
-    l = np.linspace(-pi, pi, 41)
-    states, G, _ = states_at(GESS1, 50.0, 5.0, l, hess_curve(GESS1, l))
-    assert np.all(np.isfinite(G))
-    assert np.max(np.abs(3.0 * states[:, 0] + 4.0 * states[:, 2])) < 1e-12 * np.max(G)
-    assert np.max(np.abs(relation(GESS1, states))) < 1e-12 * np.max(G)
 
 
 def test_seeds_are_in_their_window_spread_evenly_and_on_the_section():

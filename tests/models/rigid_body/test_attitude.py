@@ -61,15 +61,6 @@ def test_the_axes_are_orthonormal_to_round_off_and_agree_with_a_quaternion(name)
     assert found.defect < 2.0 * max(found.orbit.error_estimate, 1e-15)
 
 
-def test_how_far_it_was_from_orthonormal_is_said():
-    draft, fine = followed(START, P, 50.0, "draft"), followed(START, P, 50.0, "reference")
-    assert fine.defect < 1e-14
-    assert 1e-9 < draft.defect < 1e-3
-    assert {"e²", "(e,γ)"} < set(draft.orbit.drift)
-    g, e = draft.orbit.states[:, 2:5], draft.orbit.states[:, 5:]
-    assert draft.orbit.drift["(e,γ)"] == approx(np.max(np.abs(np.sum(g * e, axis=1))), abs=1e-16)
-
-
 def test_a_steady_rotation_turns_by_its_angle():
     # a = b = 0: ω = (w1, w2, 0) stays.
     w = np.array([0.6, -0.8, 0.0]) * 1.7

@@ -109,14 +109,6 @@ def test_the_quadratic_potential_has_another_integral_on_both_sides_of_the_equat
     assert sympy.simplify(rate.subs(p[5], 0)) != 0
 
 
-@mark.parametrize("name", ["Hénon–Heiles", "quartic"])
-def test_the_others_have_not(name):
-    body = body_of(name)
-    assert not body.separates
-    states = solve(body, (0.1, -0.2, 0.2, 0.3, sqrt(0.87)), np.linspace(0.0, 60.0, 300), "precise").states
-    assert np.ptp(separable_integral(body, states)) > 1e-3
-
-
 @every_potential
 def test_below_the_least_potential_on_the_equator_motions_stay_on_one_side(name):
     body = body_of(name, 1.3, 0.8)

@@ -6,7 +6,6 @@ from itertools import product
 import mpmath
 import pytest
 
-import oracle
 from check_certificate import verify
 from hess_mechanics import certificate, prove, systems
 from hess_mechanics.suslov_hess.certificate import claim
@@ -81,21 +80,6 @@ def test_what_is_proved_of_the_circle_is_what_the_field_does(a, sign, where):
             slope = mpmath.diff(lambda x: speed(x)[0], phi)
             assert (slope < 0) == attracts
             assert abs(slope - number(rate.low)) < 1e-12
-
-
-@pytest.mark.parametrize(("n", "root"), PLACES)
-def test_both_statements_are_those_to_which_the_tori_next_to_the_edge_come(n, root):
-    """|t| comes to 2 cos(π√R/√(1 + 3n²)): more than 2 exactly where the circle has equilibria."""
-    h, f = place(n, root)
-    kinds = set()
-    for a in ("0.05", "0.5", "2"):
-        near, found = prove(a, h, f - Fraction(1, 10**12)), prove(a, h, f)
-        with mpmath.workdps(30):
-            limit = abs(2 * mpmath.re(oracle.circle_maps.map_on_the_curve(mpmath.mpf(a), number(n)).A))
-        assert float(near.trace.low) == pytest.approx(float(limit), abs=1e-5)
-        assert {"two equilibria": "two cycles", "periodic orbit": "no cycle"}[found.statement] == near.statement
-        kinds.add(found.statement)
-    assert len(kinds) == 2
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from math import inf, pi, sqrt
 import numpy as np
 from pytest import approx, mark, raises
 
-from hess_mechanics import curve_point, f_max, level, solve, systems, turning_points
+from hess_mechanics import level, solve, systems, turning_points
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.suslov_hess.embedding import cross_section, embedded
 
@@ -48,19 +48,6 @@ def test_every_motion_passes_the_cross_section_at_its_times(h, f, a, phi):
     orbit = solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(phi), found.times, PRECISE)
     x, y, z = embedded(orbit.states, h).T
     assert np.column_stack([np.hypot(x, y), z]) == approx(np.column_stack([found.radius, found.height]), abs=1e-6)
-
-
-@mark.parametrize("n", [0.9, 0.5, 0.2])
-def test_on_the_bifurcation_curve_the_torus_is_born_as_a_circle(n):
-    h, _ = curve_point(n)
-    widths = []
-    for share in (1e-2, 1e-4, 1e-6, 0.0):
-        found = cross_section(h, turning_points(h, f_max(h) * (1.0 - share)), 33)
-        widths.append(max(np.ptp(found.radius), np.ptp(found.height)))
-    assert found.radius == approx(np.full(33, sqrt((h + n) / (h + 1.0))), abs=1e-6)
-    assert widths[0] / widths[1] == approx(10.0, rel=0.1)
-    assert widths[1] / widths[2] == approx(10.0, rel=0.01)
-    assert widths[3] < 1e-6
 
 
 def test_at_f_0_and_on_the_separatrix_the_surface_reaches_the_centre_and_changes_continuously():
