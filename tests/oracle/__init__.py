@@ -18,12 +18,11 @@ from oracle.circle_maps import (
     stable_cycle,
     turning_roots,
 )
-from oracle.closed_forms import pendulum, steady_rotation, turned
-from oracle.kept import ANSWERED, FUNCTIONS, KEPT, found_anew, plain
+from oracle.closed_forms import pendulum, steady_rotation
+from oracle.kept import FUNCTIONS, KEPT, found_anew
 from oracle.orbits import (
     Along,
     as_decimals,
-    as_long_doubles,
     coefficients,
     distances,
     orbit_in_decimals,
@@ -33,13 +32,11 @@ from oracle.orbits import (
 )
 
 __all__ = [
-    "ANSWERED",
     "FUNCTIONS",
     "KEPT",
     "Along",
     "MoebiusMap",
     "as_decimals",
-    "as_long_doubles",
     "coefficients",
     "distances",
     "found_anew",
@@ -51,11 +48,9 @@ __all__ = [
     "orbit_in_decimals",
     "orbits_in_long_double",
     "pendulum",
-    "plain",
     "stable_cycle",
     "steady_rotation",
     "taylor",
-    "turned",
     "turning_roots",
     "uncompiled",
 ]
