@@ -46,12 +46,11 @@ def test_a_strange_attractor_is_chaotic_and_shrinks_as_its_exponents_say():
     P = return_map(STRANGE, E=STRANGE_E, accuracy="standard")
     found = regime(P, (1.0, 1.0), t=2000.0)
     assert (found.kind, found.volume) == (MotionKind.CHAOTIC, -1)
-    # The motion is now and then regular for long: after t = 2000 λ is 0 to three errors on every second one.
-    exponents = lyapunov_spectrum(STRANGE, P.state_at(found.places[-1]), 16_000.0)
-    assert exponents.signs[0] == "+"
-    assert abs(found.divergence - exponents.values.sum()) <= 3.0 * (
-        found.divergence_error + math.hypot(*exponents.errors)
-    )
+    # The motion is now and then regular for long: there λ is 0 to three errors.
+    several = [lyapunov_spectrum(STRANGE, P.state_at(place), 8000.0) for place in found.places[-40::10]]
+    assert "+" in [one.signs[0] for one in several]
+    for one in several:
+        assert abs(found.divergence - one.values.sum()) <= 3.0 * (found.divergence_error + math.hypot(*one.errors))
     assert "shrinks" in found.sentence
     # Backwards in time volume grows.
     assert regime(P.inverse(), (1.0, 1.0), t=300.0).kind is MotionKind.CHAOTIC

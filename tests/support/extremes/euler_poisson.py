@@ -113,7 +113,7 @@ def rows(Row, drift):
         orbit("μ|r| = 1e-6", HeavyBody.hess((1.0, 0.625, 0.375), 1e-6), START, [1.0, 10.0]),
         orbit("M = 1e6", GESS1, (1.3e6, -2e6, 0.7e6, *GAMMA), [1e-6, 3e-6]),
         orbit("G = |f|, M along the vertical", GESS1, (1.8, 2.4, 4.0, *GAMMA), [1.0, 4.0]),
-        crossings(Row, "1e-9 off the Hess curve", GESS1, 50.0, 5.0, (l, barrier + 1e-9), 4),
+        crossings(Row, "1e-9 off the Hess curve", GESS1, 50.0, 5.0, (l, barrier + 1e-9), 3),
         crossings(Row, "f = 1e-9", GESS1, 50.0, 1e-9, (0.3, 0.4), 5),
         crossings(Row, "x = 0.999999", GESS1, 50.0, 5.0, (-2.0, 0.999999), 3),
         crossings(Row, "h = 1e6", GESS1, 1e6, 5.0, (0.3, 0.4), 5),
