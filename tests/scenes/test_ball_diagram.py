@@ -1,7 +1,7 @@
 """The orbit diagrams of the ball in a field: the numbers of its examples by another integrator and other algorithms."""
 
 import re
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from math import cos, hypot, pi, sin, sqrt
 
 import numpy as np
@@ -13,8 +13,8 @@ from hess_mechanics import ReturnMap, level, lyapunov_exponent, lyapunov_spectru
 from hess_mechanics.chaplygin_ball.section import coordinates, state_at
 from hess_mechanics.dynamics.orbit_diagram import period_of
 from hess_mechanics.numerics.accuracy import PLANS, Computation
-from support.ball import energy_of, integrate, rates
-from support.diagrams import complete, crossings, distance_of_most, distances, multipliers
+from support.ball import divergence, energy_of, integrate, rates
+from support.diagrams import complete, crossings, distances, multipliers
 from support.view import View
 
 SCENE = scenes()["ball-diagram"]
@@ -38,30 +38,7 @@ def exact_multipliers(values, body, E, places):
     return multipliers(image, places, 2e-5)
 
 
-@pytest.mark.thorough
-def test_where_periods_double_along_the_ball_inside_another_integrator_finds_the_multiplier_minus_one():
-    state, captions = complete(SCENE, "Period doubling", ("diagram", "section"))
-    found = state.diagram.cascade
-    assert found.periods.tolist() == [2, 4, 8, 16]
-    assert "4 period doublings located." in captions["diagram"]
-    assert "points. The first of period 2 at 𝒟 = 1.587; ratio 4.676 ±" in captions["diagram"]
-    # The numbers of the words beside the pictures.
-    assert found.values == approx([1.5872085, 1.4256035, 1.3934895, 1.3866210], abs=6e-8)
-    assert found.ratios == approx([5.032, 4.676], abs=6e-4)
-    for value, places in zip(found.values[:2], found.places[:2], strict=True):
-        assert exact_multipliers(*at(state, "D", float(value)), places).real.min() == approx(-1.0, abs=1e-5)
-    drawn = state.diagram.points("rising")
-    for low, high, count in ((1.6, 1.75, 2), (1.44, 1.57, 4)):
-        values = np.unique(drawn[0][(drawn[0] > low) & (drawn[0] < high)])
-        assert len(values) > 30
-        for x in values:
-            assert 1 + np.count_nonzero(np.diff(np.sort(drawn[1][drawn[0] == x])) > 2e-3) == count
-    # With 𝒟 = 1.5 it is of period 4: a small drift of the energy does not hide that, not even a larger one.
-    for said in (captions, complete(SCENE, "Period doubling", ("section",), accuracy="draft", steps=2.0)[1]):
-        assert "Period 4. Looks dissipative. div = −0.07" in said["section"]
-
-
-@pytest.mark.parametrize("D, period", [(1.4, 8), (1.43, 4), (1.44, 4), (1.45, 4), (1.59, 2), (1.6, 2), (1.7, 2)])
+@pytest.mark.parametrize("D, period", [(1.4, 8), (1.43, 4), (1.59, 2)])
 def test_near_a_doubling_the_period_is_that_of_its_side(D, period):
     # A perturbation of the orbit decays slowly and alternates sides, which made its period look doubled, or infinite.
     state = SCENE.compute({**SCENE.defaults(), "D": D}, (), True)
@@ -85,8 +62,7 @@ def test_the_strange_attractor_is_what_its_example_says():
     said = re.search(r"Chaotic\. Looks dissipative\. div = −([\d.]+) ± ([\d.]+)", captions["section"])
     assert float(said[1]) == approx(0.0925, abs=1e-3)
     assert float(said[2]) < 1e-3
-    values, body, E = at(state, "D", state.D)
-    last = state_at(body, E, *state.regime.sets.attractor[-1])
+    _, body, E = at(state, "D", state.D)
     # Six orbits: the error of a single one, 0.004 to 0.015 here, may leave its sign open.
     starts = [state_at(body, E, *place) for place in state.regime.sets.attractor[::250]]
     found = [lyapunov_spectrum(body, start, 4000.0) for start in starts]
@@ -101,17 +77,9 @@ def test_the_strange_attractor_is_what_its_example_says():
     ]
     assert abs(np.mean(twins) - largest.mean()) < 4.0 * scatter + 0.01
     assert np.mean([one.dimension[0] for one in found]) == approx(2.28, abs=0.04)
-    # The mean divergence by a 2 × 2 system solved at every state: ω̇ is quadratic in ω, so differences are derivatives.
-    field = rates(values)
-    states = solve(body, last, np.linspace(0.0, 500.0, 2001), level("draft")).states
-    shrinks = [
-        sum(field(0.0, y + e)[i] - field(0.0, y - e)[i] for i, e in enumerate(np.eye(5)[:2])) / 2.0 for y in states
-    ]
-    assert np.mean(shrinks) == approx(-0.0925, abs=0.02)
-    a, b = state.regime.sets.attractor[::3], state.regime.sets.repeller[::3]
-    known = state.regime.kind.dynamics
-    assert abs(distance_of_most(a, b) - known.distance) <= known.distance_error + 0.05
-    assert distances(a, b).min() > 0.1
+    states = solve(body, starts[-1], np.linspace(0.0, 500.0, 2001), level("draft")).states
+    assert divergence(body, states.T).mean() == approx(-0.0925, abs=0.02)
+    assert distances(state.regime.sets.attractor[::3], state.regime.sets.repeller[::3]).min() > 0.1
 
 
 def test_a_ball_that_turns_the_wrong_way_turns_round_to_a_permanent_rotation():
@@ -135,18 +103,3 @@ def test_a_ball_that_turns_the_wrong_way_turns_round_to_a_permanent_rotation():
         assert np.abs(rates(values)(0.0, y)).max() < 1e-3
         assert energy_of(values, y) == approx(E, abs=1e-3)
         assert abs(places[-1, 1] - (pi if sense < 0.0 else 0.0)) < 1e-3
-
-
-def test_where_no_motion_crosses_at_the_chosen_place_another_one_is_taken_and_that_is_grey():
-    state = SCENE.compute({**SCENE.defaults(), "h": 0.3, "chosen": "-0.61,1"}, (), True)
-    body, E = state.body, state.poincare.h
-
-    def height(psi):
-        return body.b1 * np.cos(psi) + body.b2 * np.sin(psi)
-
-    assert height(-0.61) > E > height(state.diagram.place[0])
-    (grey,) = state.poincare.impossible(((-pi, 0.0), (pi, pi)))
-    middles = (np.arange(grey.size) + 0.5) * 2.0 * pi / grey.size - pi
-    assert np.array_equal(grey, height(middles) >= E)
-    assert 0 < grey.sum() < grey.size
-    assert replace(state.poincare, h=-2.0).somewhere() is None

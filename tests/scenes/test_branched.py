@@ -2,18 +2,18 @@
 
 import re
 from functools import cache
-from math import cos, inf, pi, sqrt
+from math import cos, pi, sqrt
 
 import numpy as np
 import pytest
 from pytest import approx
 from scipy.optimize import brentq
 
-from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes import scenes
 from hess_mechanics.dynamics.periodic import apart
 from support.ball import derivative, returned
 from support.mechanics import scipy_crossings
+from support.thorough import sample
 from support.view import View, values_of
 
 SCENES = scenes()
@@ -60,7 +60,7 @@ def half_trace(h, share):
         return [v, g3 * q, du, share * g3 * u, dw, share * g3 * w]
 
     start = [0.0, sqrt(1.0 - h * h), 1.0, 0.0, 0.0, 1.0]
-    _, states = scipy_crossings(motion, start, lambda y: y[0], 100.0, -1, atol=1e-14, first_step=1e-3)
+    _, states = scipy_crossings(motion, start, lambda y: y[0], 100.0, -1, 1, atol=1e-14, first_step=1e-3)
     return states[0, 2] + states[0, 5]
 
 
@@ -73,7 +73,7 @@ def test_the_orbit_through_the_middle_loses_its_stability_where_hills_equation_d
     assert value == approx(exact, abs=1e-8)
     assert error < 1e-9
     # Along the branch: the trace of the whole turn is T² − 2.
-    for h, there, multipliers in points_of(view)[::6]:
+    for h, there, multipliers in points_of(view)[::12]:
         assert np.abs(there).max() < 1e-10
         assert multipliers.sum() == approx(half_trace(h, 1.0 / ratio) ** 2 - 2.0, abs=1e-7)
     # At h = 0 the potential is homogeneous of degree 4, and the trace is known in closed form (Yoshida 1987).
@@ -113,16 +113,15 @@ def test_an_orbit_of_the_ball_doubles_where_another_integrator_finds_the_multipl
     assert returned(values, flip.places[0]) == approx(flip.places[0], abs=1e-8)
     assert np.linalg.eigvals(derivative(values, flip.places[0])).real.min() == approx(-1.0, abs=1e-5)
     # It attracts on one side, and is a saddle on the other: other colours.
-    found = points_of(view)
-    for h, there, multipliers in (found[len(found) // 3], found[-1]):
-        exact = max(np.linalg.eigvals(derivative({**view.values, "I13": h}, there[0])), key=abs)
-        off = min(np.abs(multipliers[0] - one) for one in (exact, np.conj(exact)))
-        assert off < 1e-4 * max(1.0, abs(exact))
+    h, there, multipliers = points_of(view)[-1]
+    exact = max(np.linalg.eigvals(derivative({**view.values, "I13": h}, there[0])), key=abs)
+    off = min(np.abs(multipliers[0] - one) for one in (exact, np.conj(exact)))
+    assert off < 1e-4 * max(1.0, abs(exact))
     attracts, repels = (view.curve(f"branch-branch-{sign}")[0] for sign in ("attracts", "repels"))
     assert attracts.max() == approx(value, abs=1e-5) == approx(repels.min(), abs=1e-5)
 
 
-@every
+@pytest.mark.parametrize("name", sample(EXAMPLES, 2))
 def test_a_click_on_the_branch_shows_that_orbit_and_away_from_it_nothing_happens(name):
     view = shown(name)
     state = view.result
@@ -141,17 +140,12 @@ def test_a_click_on_the_branch_shows_that_orbit_and_away_from_it_nothing_happens
     # The orbit is marked.
     assert after.data["branch-shown"]["x"][0] == approx(along, abs=1e-6)
     assert after.data["branch-shown"]["y"] == approx(orbit.places[:, side], abs=1e-6)
-    # A click keeps the other chosen orbits.
-    if "starts" in chosen:
-        assert len(places(chosen["starts"])) == len(places(view.values["starts"]))
     low, high = state.branch.upwards_range
     away = state, state.branch.ends[0], high + (high - low)
     assert (picture.on_click(*away), picture.on_hover(*away)) == ({}, "")
     assert picture.on_hover(state, value, place[side]).startswith(f"{state.over} = ")
-    kind, at, _ = marks(view)[0]
-    mark = view.data["branch-bifurcations"]
-    assert picture.on_hover(state, mark["x"][0], mark["y"][0]).startswith(f"{kind} of period 1 at {state.over} = ")
     # A box looks closer.
+    at = marks(view)[0][1]
     assert picture.on_box(state, (at + 0.1, 0.0, at - 0.1, 1.0)) == {"low": at - 0.1, "high": at + 0.1}
 
 
@@ -161,10 +155,7 @@ def test_without_a_periodic_orbit_the_picture_says_what_to_do(name):
     view = View(scene, {"orbits": 0.0} if name == "euler-poisson" else {}, seen=["branch"])
     assert view.text["branch"].split("\n")[1].startswith("No periodic orbit is chosen. Choose one")
     assert "Choose a Periodic orbit" in " ".join(view.data["branch-message"]["text"][0].split())
-    assert "branch-bifurcations" not in view.data or len(view.data["branch-bifurcations"]["x"]) == 0
     assert not any("branch" in line for line in (*view.report.derived, *view.report.notes, view.report.status))
-    assert {"low", "high"} <= set(scene.idle(view.values))
-    assert not {"low", "high"} & set(scene.idle({**view.values, "periodic": "period 1"}))
     # Out of sight it is not computed.
     few = {"count": 20.0, **({"orbits": 0.0} if name == "euler-poisson" else {})}
     hidden = View(scene, {**example(name), **few}, seen=["section"], whole=False)
@@ -182,17 +173,10 @@ def test_the_range_is_within_what_is_possible_and_about_the_value_where_none_is_
         # Ends in the wrong order, and beyond the bounds of the parameter.
         ends = scene.of({**defaults, "over": over, "low": 1e5, "high": -1e5}).branch.ends
         assert ends == (max(bounds[parameter][0], -1e5), min(bounds[parameter][1], 1e5))
-    values, notes = scene.admit({**defaults, "low": inf, "high": 1e9})
-    assert (values["low"], values["high"], len(notes)) == (0.0, 1e5, 2)
     # Over another parameter the range is about that one.
     chosen = {**defaults, "low": 1.0, "high": 2.0}
     assert scene.carried(chosen, {**defaults, "over": [*along][1]}) == {"low": 0.0, "high": 0.0}
     assert scene.carried(defaults, {**defaults, "low": 1.0}) == {}
-    # These values have no meaning in another scene.
-    for before in EXAMPLES.keys() - {name}:
-        left = {**SCENES[before].defaults(), "periodic": "period 1", "over": "h", "low": 1.0, "high": 2.0}
-        taken = scene.taken_over(defaults, SCENES[before], left)
-        assert (taken["over"], taken["low"], taken["high"]) == (defaults["over"], 0.0, 0.0)
 
 
 def test_while_a_slider_is_held_only_what_is_known_is_drawn():

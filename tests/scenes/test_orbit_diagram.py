@@ -2,34 +2,24 @@
 
 import re
 from dataclasses import replace
-from math import hypot, sqrt, tau
+from math import hypot, sqrt
 
 import numpy as np
 import pytest
 from pytest import approx
 
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.framework import points
-from hess_explorer.views.layers import Axes
 from hess_explorer.views.text import digits
-from hess_mechanics import ReturnMap, check_body, level, lyapunov_exponent, lyapunov_spectrum, solve
-from hess_mechanics.dynamics.birkhoff import rotation_number
-from hess_mechanics.dynamics.continuation import continued
-from hess_mechanics.dynamics.periodic import find_periodic
+from hess_mechanics import check_body, level, lyapunov_exponent, lyapunov_spectrum, solve
 from hess_mechanics.numerics.accuracy import PLANS, Computation
 from hess_mechanics.suslov.section import SuslovSection
 from support.diagrams import complete, crossings, distance_of_most, multipliers
-from support.mechanics import followed
-from support.suslov import divergence, field, permanent_rotations
+from support.suslov import divergence, field
+from support.thorough import sample
 from support.view import View
 
 SCENE = scenes()["orbit-diagram"]
 SEEN = ("diagram", "section")
-
-
-def moved(state, name, value):
-    """The section of the same state at another value of a parameter."""
-    return replace(state, **{name: value}).poincare
 
 
 def image(body, E, place, count=1):
@@ -45,45 +35,25 @@ def exact_multipliers(body, E, places):
     return multipliers(lambda place: image(body, E, place)[0], places)
 
 
-@pytest.mark.parametrize(
-    "scene, preset",
-    [
-        pytest.param(scene, preset, id=f"{scene.name}: {preset.name}")
-        for scene in (SCENE, scenes()["ball-diagram"])
-        for preset in scene.presets
-    ],
-)
-def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_other(scene, preset):
-    state = scene.of({**scene.defaults(), **preset.values}, (), True)
-    for value in (state.first, state.diagram.at, state.last):
-        b = replace(state, **{state.diagram.name: value})
-        I33 = check_body(b.I11, b.I22, b.I13, b.I23).I33
-        # The principal moments of the whole tensor, by their eigenvalues, and the triangle inequality.
-        whole = [[b.I11, 0.0, b.I13], [0.0, b.I22, b.I23], [b.I13, b.I23, 0.5 * (I33[0] + I33[1])]]
-        first, second, third = np.linalg.eigvalsh(whole)
-        assert first > 0.0
-        assert third < first + second
-
-
-def drawn_in(state, name):
-    """Columns of a layer of the diagram within its opening axes."""
-    plot = next(one for one in SCENE.views if one.name == "diagram")
-    (x0, y0), (x1, y1) = state.diagram.frame
-    return next(one for one in plot.layers if one.name == name).within(state, Axes((x0, x1), (y0, y1)))
+def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_other():
+    for scene in (SCENE, scenes()["ball-diagram"]):
+        for state in (scene.of({**scene.defaults(), **preset.values}, (), True) for preset in scene.presets):
+            for value in (state.first, state.diagram.at, state.last):
+                b = replace(state, **{state.diagram.name: value})
+                I33 = check_body(b.I11, b.I22, b.I13, b.I23).I33
+                # The principal moments of the whole tensor, by their eigenvalues, and the triangle inequality.
+                whole = [[b.I11, 0.0, b.I13], [0.0, b.I22, b.I23], [b.I13, b.I23, 0.5 * (I33[0] + I33[1])]]
+                first, second, third = np.linalg.eigvalsh(whole)
+                assert 0.0 < first < third < first + second, (b, value)
 
 
 def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one():
-    state, captions = complete(SCENE, "Period doubling", SEEN)
+    state, captions = complete(SCENE, "Period doubling", ("diagram",), steps=60.0)
     found = state.diagram.cascade
-    # The diagram opens on the attractor, with the doublings in the middle, each with its value.
-    (x0, y0), (x1, y1) = state.diagram.frame
+    # The diagram opens on the attractor.
+    (_, y0), (_, y1) = state.diagram.frame
     low, high = np.quantile(state.diagram.points("rising")[1], (0.0, 1.0))
     assert y0 < low < high < y1 < y0 + 3.0 * (high - low)
-    shares = (found.values - x0) / (x1 - x0)
-    assert 0.2 < shares[0] < 0.5 < shares[-1] < 0.85
-    assert drawn_in(state, "flip-values")["text"] == [
-        f"{m}→{2 * m}: {digits(value)}" for m, value in zip((1, 2, 4, 8), found.values.tolist(), strict=True)
-    ]
     assert found.periods.tolist() == [1, 2, 4, 8]
     assert re.search(
         r"4 period doublings located. [\d,]+ points. The first of period 1 at I₂₃ = −0.04983", captions["diagram"]
@@ -91,9 +61,9 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
     # The numbers of the words beside the pictures.
     assert found.values == approx([-0.0498281, 0.0873376, 0.1281912, 0.1376316], abs=6e-8)
     assert found.ratios == approx([3.357, 4.328], abs=6e-4)
-    for value, places in zip(found.values[:2], found.places[:2], strict=True):
-        exact = exact_multipliers(replace(state.body, I23=float(value)), state.poincare.E, places)
-        assert exact.real.min() == approx(-1.0, abs=1e-5)
+    # At the second one, by SciPy.
+    exact = exact_multipliers(replace(state.body, I23=float(found.values[1])), state.poincare.E, found.places[1])
+    assert exact.real.min() == approx(-1.0, abs=1e-5)
     # Before the first doubling a diagram shows one place, between the first two two of them.
     drawn = state.diagram.points("rising")
     for low, high, count in ((-0.12, -0.07, 1), (0.0, 0.06, 2), (0.1, 0.12, 4)):
@@ -103,11 +73,14 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
 
 @pytest.mark.parametrize(
     "name, verdict, dimension",
-    [
-        ("Touching", "mixed", (2.251, 0.021)),
-        ("Apart: a strange", "dissipative", (2.174, 0.015)),
-        ("A chaotic sea", "mixed", (2.94, 0.02)),
-    ],
+    sample(
+        [
+            ("Touching", "mixed", (2.251, 0.021)),
+            ("Apart: a strange", "dissipative", (2.174, 0.015)),
+            ("A chaotic sea", "mixed", (2.94, 0.02)),
+        ],
+        1,
+    ),
 )
 def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dimension):
     state, captions = complete(SCENE, name, ("section",))
@@ -140,10 +113,8 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dim
     many = [
         SuslovSection(state.body, state.poincare.E, 3).state_at(*place) for place in state.regime.sets.attractor[::60]
     ]
-    rates = [
-        np.mean([divergence(state.body, y) for y in solve(state.body, start, t, level("draft")).states[100:]])
-        for start in many
-    ]
+    orbits = (solve(state.body, start, t, level("draft")).states[100:].T for start in many)
+    rates = [divergence(state.body, states).mean() for states in orbits]
     assert abs(np.mean(rates) - known.motion.divergence) < 5.0 * hypot(
         np.std(rates, ddof=1) / sqrt(len(rates)), known.motion.divergence_error
     )
@@ -180,7 +151,7 @@ LIGHT = {
 """Few points, of a body whose doublings along I22 are wide apart."""
 
 
-def test_the_density_counts_the_points_of_scipy_and_a_window_counts_them_in_its_own_pixels(monkeypatch):
+def test_the_density_counts_the_points_of_scipy_and_a_window_counts_them_in_its_own_pixels():
     view = View(SCENE, LIGHT, seen=["diagram"])
     state, found = view.result, view.result.density
     (x0, y0), (x1, y1) = state.diagram.frame
@@ -207,10 +178,7 @@ def test_the_density_counts_the_points_of_scipy_and_a_window_counts_them_in_its_
     (flip,) = (one for part in state.continuation.branches for one in part.bifurcations)
     assert flip.value == approx(state.diagram.flips[0], abs=1e-8)
     assert state.closed is None
-    # More stages with more points; a held slider shows the points themselves.
-    monkeypatch.setattr(points, "_MOST", 3e5)
-    more = View(SCENE, LIGHT, seen=["diagram"]).result.density
-    assert 0.97 * 5 * 49_000 < more.points < 3e5
+    # A held slider shows the points themselves.
     held = View(SCENE, LIGHT, True, ["diagram"])
     assert held.result.density.tones == ()
     assert len(held.data["diagram-rising"]["x"]) > 0
@@ -228,10 +196,7 @@ def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_do
     assert attracts[0].min() == approx(2.1, abs=1e-6)
     assert attracts[0].max() == approx(flip.value, abs=1e-6) == approx(repels[0].min(), abs=1e-6)
     assert repels[0].max() == approx(2.4, abs=1e-6)
-    assert (view.data["diagram-bifurcations"]["x"][0], view.data["diagram-bifurcation-names"]["text"]) == (
-        approx(flip.value, abs=1e-6),
-        ["flip"],
-    )
+    assert view.data["diagram-bifurcation-names"]["text"] == ["flip"]
     # SciPy: the orbits close, and the multiplier passes −1 at the mark.
     E = state.poincare.E
     orbits = [
@@ -256,120 +221,6 @@ def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_do
         )
 
 
-def turns_between(angles):
-    """Bounds of the rotation number of a map of a circle that keeps the order, of an orbit's angles, unwrapped."""
-    turned = np.subtract.outer(angles, angles).T / tau
-    later = np.triu_indices(len(angles), 1)
-    whole, steps = np.floor(turned[later]), later[1] - later[0]
-    # More than p turns in q steps imply a rotation number of at least p/q.
-    return (whole / steps).max(), ((whole + 1.0) / steps).min()
-
-
-@pytest.mark.thorough
-def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_breaks_up():
-    state, captions = complete(SCENE, "A torus", SEEN)
-    E = state.poincare.E
-
-    def at(value):
-        return moved(state, "I13", value)
-
-    # At its birth SciPy's multipliers have modulus 1, and the orbit closes.
-    (born,) = (one for part in state.continuation.branches for one in part.bifurcations)
-    assert (born.kind, born.value) == ("Neimark–Sacker", approx(-0.24899620, abs=5e-9))
-    found = exact_multipliers(at(born.value).body, E, born.places)
-    assert np.abs(found) == approx(1.0, abs=1e-6)
-    assert found[0].imag != 0.0
-    for part in state.continuation.branches:
-        for value, kind in zip(part.values, part.kinds, strict=True):
-            assert abs(value - born.value) < 1e-6 or kind == (
-                "unstable focus" if value < born.value else "stable focus"
-            )
-    # The band of the diagram: narrow where the focus attracts, wider and wider beyond.
-    x, y = state.diagram.points("falling")
-    wide = [np.ptp(y[np.abs(x - value) < 6e-5]) for value in (-0.2475, -0.252, -0.256, -0.26)]
-    assert wide[0] < 0.01
-    assert 0.1 < wide[1] < wide[2] - 0.1 < wide[3] - 0.2
-    # The torus: exponents, and the rotation number, by an average and by the order of SciPy's places on the curve.
-    curve = ReturnMap(at(-0.256), level("standard"))
-    focus = find_periodic(curve, born.places, 1).places[0]
-    places = curve.orbit(np.array(state.diagram.place), 4000)[1000:]
-    exponents = lyapunov_spectrum(curve.section, curve.state_at(places[-1]), 4000.0)
-    assert exponents.signs == ("0", "0", "0", "0", "-")
-    turns, error = rotation_number(places, tuple(focus))
-    assert turns == approx(0.1066355, abs=6e-8)
-    assert error < 5e-8
-    away = image(curve.section.body, E, places[-1], 80) - focus
-    low, high = turns_between(np.unwrap(np.arctan2(away[:, 1], away[:, 0])))
-    assert low <= turns <= high < low + 1e-3
-    # Locked: SciPy's product of ten derivatives has complex eigenvalues, and 1 at the folds.
-    locked = ReturnMap(at(-0.257), level("precise"))
-    orbit = find_periodic(locked, locked.orbit(np.array(state.diagram.place), 2000)[-10:], 10)
-    assert orbit.kind == "stable focus"
-    for end, fold in ((-0.258, -0.2574134), (-0.256, -0.2569055)):
-        branch = continued(lambda v: ReturnMap(at(v), level("precise")), orbit, "I13", -0.257, end, 30)
-        one = next(one for one in branch.bifurcations if one.kind == "fold")
-        assert one.value == approx(fold, abs=6e-8)
-        assert exact_multipliers(at(one.value).body, E, one.places)[0].real == approx(1.0, abs=1e-4)
-    found = exact_multipliers(at(-0.257).body, E, orbit.places)
-    assert found[0].imag != 0.0
-    assert np.abs(found) == approx(np.abs(orbit.multipliers), abs=1e-4)
-    # The strange attractor: two orbits side by side part as fast.
-    assert "Chaotic. Looks dissipative. div = −0." in captions["section"]
-    last = SuslovSection(state.body, E, 3).state_at(*state.regime.sets.attractor[-1])
-    exponents = lyapunov_spectrum(state.body, last, 20_000.0)
-    twin = lyapunov_exponent(state.body, last, 8000.0, PLANS[Computation.EXPONENT]["standard"].level)
-    value, error = exponents.values[0], exponents.errors[0]
-    assert value == approx(0.033, abs=0.003)
-    assert value > 8.0 * error
-    assert abs(twin.value - value) < 0.01
-    dimension, error = exponents.dimension
-    assert abs(dimension - 2.25) < 0.02
-    assert error < 0.03
-    # Motions stay there, and later leave it.
-    stays, leaves = (
-        ReturnMap(at(value), level("draft")).orbit(np.array(state.diagram.place), 10_000)[:, 0]
-        for value in (-0.261, -0.2612)
-    )
-    assert 0.6 < stays.min() < stays.max() < 2.2 < leaves.max()
-
-
-def way_back(body, E, like):
-    """Eigenvalues of the permanent rotation next to a state; and of each of the two motions that come to it, backward
-    in time by SciPy: how close it comes again, and on which side of the plane of the spiral it goes away then."""
-    root = min(permanent_rotations(body, E), key=lambda y: np.linalg.norm(y - like))
-    J = np.column_stack([(field(body, root + e) - field(body, root - e)) / 2.0 for e in np.eye(5)])
-    values, V = np.linalg.eig(J)
-    k = int(np.argmin(values.real))
-    # An eigenvector has no sense of its own.
-    sense, found = np.sign(V[0, k].real), []
-    along, across = sense * V[:, k].real, sense * np.linalg.inv(V)[k].real
-    for sign in (1.0, -1.0):
-        start = root + sign * 1e-5 * along
-        orbit = followed(lambda _, y: field(body, y), start, -np.arange(0.0, 45.0, 0.02))
-        away = np.linalg.norm(orbit - root, axis=1)
-        gone = int(np.argmax(away > 0.3))
-        back = gone + int(np.argmin(away[gone:]))
-        beyond = (orbit[back:] - root) @ across
-        found.append((away[back], np.sign(beyond[np.abs(beyond) > 0.15][:1]).sum()))
-    return values, found
-
-
-def test_a_motion_that_comes_to_a_saddle_focus_has_left_it_before():
-    state, captions = complete(SCENE, "A spiral", ("section",))
-    body, like = state.body, np.array([1.8373, 1.0187, -0.8746, -0.4849, 0.0])
-    # On either side of the value in the words it misses the rotation on another side.
-    (values, low), (_, high) = (way_back(body, moved(state, "h", 5.015931 + off).E, like) for off in (-1e-6, 1e-6))
-    assert sorted(values.real)[0] == approx(-0.723, abs=5e-4)
-    assert max(values, key=lambda one: one.imag) == approx(0.282 + 2.035j, abs=1e-3)
-    (one,) = (k for k in range(2) if low[k][0] < 0.05 and high[k][0] < 0.05)
-    assert low[one][1] * high[one][1] == -1.0
-    assert "Chaotic." in captions["section"]
-    last = SuslovSection(body, state.poincare.E, 3).state_at(*state.regime.sets.attractor[-1])
-    # Its return to the rotation.
-    orbit = solve(body, last, np.linspace(0.0, 4000.0, 80_001), level("draft")).states
-    assert np.linalg.norm(orbit - like, axis=1).min() < 0.1
-
-
 def test_a_click_on_a_branch_shows_that_orbit_and_the_mouse_is_told_what_it_is_over():
     values = {**LIGHT, "branch": "period 1"}
     view = View(SCENE, values, seen=SEEN)
@@ -382,12 +233,7 @@ def test_a_click_on_a_branch_shows_that_orbit_and_the_mouse_is_told_what_it_is_o
     hover = view.result.continuation.about(x, y)
     assert re.match(r"I₂₂ = 2\.2[78]\d*: period 1, saddle with reflection, μ = −[\d.]+, −[\d.]+$", hover)
     assert float(hover.split("μ = −")[1].split(",")[0]) == approx(-found[0].real, rel=0.03)
-    assert view.result.continuation.about(2.126, 0.8).startswith("flip of period 1 at I₂₂ = 2.1260498 ± ")
     assert view.result.continuation.about(2.3, -2.0) == ""
-    # The state that it chooses shows the orbit itself, though nothing stays there.
-    after = View(SCENE, {**values, **chosen}, seen=SEEN)
-    assert after.result.continuation.closed.orbit.places[0] == approx(place, abs=1e-7)
-    assert after.points("repels") == approx(place[None], abs=1e-5)
     # Away from the branch a click means the diagram.
     assert view.result.choose(2.2801, 2.5)["chosen"] != chosen["chosen"]
 
@@ -433,16 +279,17 @@ def test_a_branch_folds_and_where_there_is_none_that_is_said():
 
 @pytest.mark.parametrize("scene", [SCENE, scenes()["ball-diagram"]], ids=lambda scene: scene.name)
 def test_volume_that_is_kept_is_said(scene):
-    state, captions = complete(scene, "Equal: volume", SEEN, steps=30.0)
-    assert captions["diagram"].endswith("Volume is preserved: no attractors. 19,800 points. One orbit for each value.")
+    state, captions = complete(scene, "Equal: volume", SEEN, steps=4.0, long=100.0, accuracy="draft")
+    assert "Volume is preserved: no attractors." in captions["diagram"]
+    assert captions["diagram"].endswith(" points. One orbit for each value.")
     assert "Conservative: volume is preserved." in captions["section"]
     assert state.regime.kind.regime.divergence == 0.0
 
 
 def test_a_click_chooses_a_state_that_is_there_and_a_box_looks_closer():
-    state, _ = complete(SCENE, "Period doubling", ("diagram",))
+    state, _ = complete(SCENE, "Period doubling", ("diagram",), steps=60.0)
     chosen = state.choose(0.0501, 0.9)
-    assert chosen["I23"] == approx(0.0501, abs=0.0016)
+    assert chosen["I23"] == approx(0.0501, abs=0.005)
     there = SCENE.compute({**SCENE.defaults(), **chosen}, ("section",), True)
     # The motion there is on its attractor from the beginning, at the upper of its two places; of a drag, to 1e-3.
     orbit = there.regime.sets.attractor

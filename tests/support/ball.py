@@ -66,14 +66,14 @@ def shown(value, digits=4):
     return float(f"{value:.{digits}g}")
 
 
-def upward_crossings(field, start, end, i=4):
+def upward_crossings(field, start, end, i=4, most=False):
     """Times (n,) and states (n, 5), by SciPy, where component i, or γ3, grows through 0; the start is no crossing."""
-    return scipy_crossings(lambda y: field(0.0, y), start, lambda y: y[i], end, 1)
+    return scipy_crossings(lambda y: field(0.0, y), start, lambda y: y[i], end, 1, most)
 
 
 def first_returns(values, start, count):
     """The first crossings (count, 5) of γ3 = 0 from below."""
-    return upward_crossings(rates(values), start, 40.0 * count)[1][:count]
+    return upward_crossings(rates(values), start, 40.0 * count, most=count + 1)[1][:count]
 
 
 def angles(states):

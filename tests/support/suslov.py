@@ -27,9 +27,10 @@ def field(body, y):
 
 
 def divergence(body, y):
-    """Return the divergence of that field: its components are quadratic, so central differences are exact."""
+    """Return the divergence of that field at states (5,) or (5, n): central differences of quadratics are exact."""
     y = np.asarray(y)
-    return sum(field(body, y + e)[i] - field(body, y - e)[i] for i, e in enumerate(np.eye(5))) / 2.0
+    steps = np.eye(5).reshape(5, 5, *(1 for _ in y.shape[1:]))
+    return sum(field(body, y + e)[i] - field(body, y - e)[i] for i, e in enumerate(steps)) / 2.0
 
 
 def energy(body, y):
