@@ -3,6 +3,7 @@
 Orbits are computed again by SciPy; divergences and basins are in `models/suslov/test_section.py`.
 """
 
+from functools import cache
 from math import atan2, cos, hypot, pi, sin
 
 import numpy as np
@@ -20,17 +21,21 @@ from support.free_suslov import shown
 from support.mechanics import followed
 from support.suslov import energy, field, permanent_rotations, start_on
 from support.view import STATE, View, values_of
-from support.view import example as example_of
 
 SCENE = scenes()["suslov"]
 NAMES = [preset.name for preset in SCENE.presets]
 SEA, REGULAR, STRANGE, TWO, REVERSAL, PRINCIPAL = NAMES
+CELLS = 256
+"""Columns and rows of a draft of basins."""
 FEW = {"orbits": 4.0, "count": 20.0, "long": 20.0}
 """For what does not depend on how much is shown."""
 
 
+@cache
 def example(name):
-    return example_of("suslov", name)
+    """View of that example; basins of 256 × 256 cells take a quarter of the time of 512 × 512."""
+    level = {"accuracy": "draft"} if name == TWO else {}
+    return View(SCENE, {**values_of(SCENE, name), **level})
 
 
 def body_of(view):
@@ -57,10 +62,6 @@ def test_an_example_is_complete_and_counts_its_points(name):
     # Results requested by an earlier test come from the cache at once.
     assert len(view.first.todo) <= view.first.total > 0
     view.assert_finite()
-    for picture in SCENE.pictures:
-        title, promise = view.text[picture].split("\n")
-        assert title
-        assert len(promise) <= 110
     forward, backward = view.points("first"), view.points("second")
     both = view.values.get("colours") == "forward and backward in time"
     assert (len(backward) > 0) == both
@@ -110,7 +111,7 @@ PROMISED = {
 
 @pytest.mark.parametrize("name", NAMES)
 def test_exponent_and_divergence_of_an_example_are_as_its_name_and_words_say(name):
-    view = example(name)
+    view = View(SCENE, values_of(SCENE, name), seen={"exponent"})
     exponent, spread, mean, end = view.numbers("exponent", "λ = # ± #, div = # after t = #.")
     assert end == view.values["long"]
     assert 0.0 <= spread < 0.05
@@ -121,15 +122,6 @@ def test_exponent_and_divergence_of_an_example_are_as_its_name_and_words_say(nam
         x, y = view.curve(f"exponent-{curve}")
         assert y[-1] == approx(value, rel=6e-3, abs=max(unit, 1e-6))
         assert x[-1] == approx(end)
-
-
-def test_the_sea_fills_the_section_and_attractors_do_not():
-    sea, strange, rests = (
-        example(name).numbers("section", "late forward points occupy # of #")[0] for name in (SEA, STRANGE, REVERSAL)
-    )
-    assert sea > 400
-    assert 50 < strange < 300
-    assert rests < 4
 
 
 def test_what_attracts_and_repels_in_the_reversal_are_permanent_rotations():
@@ -158,25 +150,23 @@ def test_the_shares_in_the_caption_are_those_of_the_basins():
     view = example(TWO)
     share, rest = view.numbers("section", "Two attractors. Basins: # % and # % of the cells.")
     found = view.result.basins.found
-    assert found.number.shape == (512, 512)
+    assert found.number.shape == (CELLS, CELLS)
     assert share == approx(100.0 * np.mean(found.number == 0), abs=0.51)
     assert share + rest == approx(100.0, abs=1.1)
-    # A unit for each basin, in it the stronger the sooner.
-    image = np.asarray(view.data["section-basins"]["image"][0]).reshape(512, 512)
+    # A unit for each basin.
+    image = np.asarray(view.data["section-basins"]["image"][0]).reshape(CELLS, CELLS)
     assert np.array_equal(np.floor(image), found.number + 1)
-    shade, inside = image % 1.0, (found.number == 1) & (found.crossings < 30)
-    assert np.corrcoef(shade[inside], np.log1p(found.crossings[inside]))[0, 1] < -0.98
     # Cells and orbits computed again, on both sides of a boundary one pixel wide.
-    row, column = np.argwhere(found.number[:, 1:] != found.number[:, :-1])[1000]
+    row, column = np.argwhere(found.number[:, 1:] != found.number[:, :-1])[500]
     section = view.result.poincare
     for i in (column - 1, column + 2):
-        start = section.state_at(-pi + (i + 0.5) * 2.0 * pi / 512, (row + 0.5) * pi / 512)
+        start = section.state_at(-pi + (i + 0.5) * 2.0 * pi / CELLS, (row + 0.5) * pi / CELLS)
         (orbit,) = section.points([start], 240, True, REFERENCE, threads=1).states
         assert (orbit[-60:, 0].mean() > 0.0) == (found.number[row, i] == 0)
 
 
 def test_basins_come_coarse_at_first_and_their_boundary_finer_to_the_pixel():
-    values = {**example(TWO).values, **FEW, "accuracy": "draft", "window": "-3.1,0.1;3.1,3.1"}
+    values = {**example(TWO).values, **FEW, "accuracy": "draft", "window": "-3.1,2;-1,3.1"}
     seen, pieces = {}, 0
     while True:
         view = View(SCENE, values, seen=("section",), whole=False)
@@ -209,9 +199,9 @@ def test_a_saddle_bounds_the_basins_and_its_manifold_runs_between_their_cells():
     numbers = view.result.basins.found.number
     for branch in view.result.basins.manifolds:
         psi, delta = branch.points.T
-        column = np.floor((psi + pi) / (2.0 * pi) * 512).astype(int) % 512
-        row = np.clip(np.floor(delta / pi * 512).astype(int), 2, 509)
-        around = [numbers[(row + i), (column + j) % 512] for i in (-2, 0, 2) for j in (-2, 0, 2)]
+        column = np.floor((psi + pi) / (2.0 * pi) * CELLS).astype(int) % CELLS
+        row = np.clip(np.floor(delta / pi * CELLS).astype(int), 2, CELLS - 3)
+        around = [numbers[(row + i), (column + j) % CELLS] for i in (-2, 0, 2) for j in (-2, 0, 2)]
         # At its end a tongue of the basin is narrower than a pixel.
         assert np.mean(np.ptp(around, axis=0) == 1) > 0.95
     assert sum(branch.length for branch in view.result.basins.manifolds) > 9.0
@@ -220,7 +210,7 @@ def test_a_saddle_bounds_the_basins_and_its_manifold_runs_between_their_cells():
 @pytest.mark.parametrize(("colours", "message"), [("basins", ""), ("forward only", "None of the points lies")])
 def test_a_window_of_basins_is_not_empty_without_points(colours, message):
     values = {**example(TWO).values, **FEW, "indicator": "nothing", "accuracy": "draft", "starts": "0.2446,2.3992"}
-    view = View(SCENE, {**values, "colours": colours, "window": "2.4,1.7;2.41,1.71"}, seen=("section",))
+    view = View(SCENE, {**values, "colours": colours, "window": "-1,2;-0.99,2.01"}, seen=("section",))
     assert view.report.todo == ()
     said = view.result.section.nothing_seen()
     assert said.startswith(message)
@@ -254,8 +244,10 @@ def test_one_strange_attractor_is_one():
 # ---- planes, choices, controls -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("plane", ["γ₃ = 0", "γ₁ = 0", "γ₂ = 0"])
-@pytest.mark.parametrize("colours", ["forward and backward in time", "forward only", "basins"])
+@pytest.mark.parametrize(
+    "plane, colours",
+    [("γ₃ = 0", "forward and backward in time"), ("γ₁ = 0", "forward only"), ("γ₂ = 0", "basins")],
+)
 def test_every_plane_and_choice_is_shown(plane, colours):
     view = View(SCENE, {**FEW, "plane": plane, "colours": colours, "starts": "-0.3,1"})
     view.assert_finite()
@@ -313,18 +305,17 @@ def test_a_start_where_nothing_is_possible_is_replaced_and_said():
     assert 0.0 < delta < pi
 
 
-@pytest.mark.parametrize("count", [20.0, 600.0])
-def test_a_window_without_a_point_says_so_when_no_more_will_come(count):
-    values = {**FEW, "count": count, "orbits": 0.0, "starts": "2,2", "window": "-0.01,0.01;0.01,0.011"}
+def test_a_window_without_a_point_says_so_when_no_more_will_come():
+    values = {**FEW, "count": 600.0, "orbits": 0.0, "starts": "2,2", "window": "-0.01,0.01;0.01,0.011"}
     view = View(SCENE, values, seen=("section",))
     x, y = view.points("own").T
-    assert len(x) == count
+    assert len(x) == 600
     none = not np.any((np.abs(x) <= 0.01) & (y >= 0.01) & (y <= 0.011))
     said = " ".join(view.data.get("section-message", {}).get("text", [""])).replace("\n", " ")
     assert none
     assert said == "None of the points lies in this window: choose more crossings, or press Undo"
     # While more may come, it is not said; nor where there is one.
-    waiting = SCENE.compute({**view.values, "h": 1.01 + 1e-5 * count}, ("section",), False)
+    waiting = SCENE.compute({**view.values, "h": 1.016}, ("section",), False)
     assert waiting.work.todo
     assert waiting.section.nothing_seen() == ""
     whole = View(SCENE, {**values, "window": ""}, seen=("section",))
@@ -332,7 +323,7 @@ def test_a_window_without_a_point_says_so_when_no_more_will_come(count):
 
 
 @pytest.mark.parametrize("plane", ["γ₃ = 0", "γ₁ = 0", "γ₂ = 0"])
-@pytest.mark.parametrize("h", [1e-6, 0.1, 0.2, 0.3])
+@pytest.mark.parametrize("h", [1e-6, 0.2])
 def test_an_energy_that_does_not_reach_the_plane_is_raised_and_shown(plane, h):
     view = View(SCENE, {**FEW, "h": h, "plane": plane}, noted=True)
     size = {"γ₃ = 0": hypot(0.5, 0.5), "γ₁ = 0": hypot(0.5, 0.7), "γ₂ = 0": hypot(0.5, 0.7)}[plane]
@@ -353,11 +344,6 @@ def test_the_motion_of_the_scene_is_the_chosen_orbit():
     states = solve(motion, motion.state, [motion.span], REFERENCE).states
     assert energy(body_of(view), states[0]) == approx(energy_of(view), abs=1e-12)
     assert len(motion.weights) == 5
-
-
-def test_examples_set_all_choices_that_their_captions_depend_on():
-    for preset in SCENE.presets:
-        assert {"plane", "colours", "drop"} <= set(preset.values)
 
 
 def test_on_a_principal_axis_both_times_and_the_brackets_are_drawn():
