@@ -11,14 +11,12 @@ import pytest
 from pytest import approx
 from scipy.integrate import quad
 
-from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes.framework.periodic_search import NONE
 from hess_mechanics import circle_map, f_max, level, solve
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.errors import ModelError
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, coordinates, hess_curve
-from hess_mechanics.euler_poisson.equations import SYSTEM
 from hess_mechanics.euler_poisson.hess_split import HessTorus, split_at
 from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD
 from support.andoyer import GESS1, crossings_by_scipy, dense, energies_at
@@ -35,7 +33,7 @@ def relation(view, points):
     return r1 * np.sqrt(np.maximum(0.0, 1.0 - x * x)) * np.sin(l) + r3 * x
 
 
-def places_from(view, start, count=10_000):
+def places_from(view, start, count=3000):
     """The crossings of the orbit through (l, L/G)."""
     section = AndoyerSection(view.body, view.h, view.f)
     return coordinates(section.points([section.state_at(*start)], count, STANDARD).states[0])
@@ -45,7 +43,7 @@ def places_from(view, start, count=10_000):
 
 
 @pytest.mark.parametrize(
-    "preset", sample((one for one in EP.presets if one.values["periodic"] == NONE), 7), ids=lambda preset: preset.name
+    "preset", sample((one for one in EP.presets if one.values["periodic"] == NONE), 4), ids=lambda preset: preset.name
 )
 def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
     view = EulerPoisson(preset.values, seen={"section", "exponent", "sphere"})
@@ -65,11 +63,6 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
     else:
         assert np.any(relation(view, first) < 0.0)
         assert np.any(relation(view, second) > 0.0)
-    # The axes are those of a new page where they are not said.
-    assert ("section" in view.axes) is bool(view.values["window"])
-    if view.values["window"]:
-        (l0, x0), (l1, x1) = places(view.values["window"])
-        assert view.axes["section"] == approx([l0, l1, x0, x1], abs=1e-6)
     # The first returns of the chosen orbit, by SciPy.
     slow = sqrt(2.0 * max(view.body.a) * (view.h + view.body.strength))
     times, states = crossings_by_scipy(view.body, view.start, 30.0 / slow)
@@ -92,11 +85,6 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
     there = solve(view.body, view.start, [float(track["t"][7])], REFERENCE).states[0]
     assert gamma[7] == approx(there[3:], abs=1e-5)
     assert (track["l"][7], track["x"][7]) == approx(tuple(coordinates(there[None])[0]), abs=1e-5)
-    assert not re.search(r"nan|inf", " ".join(view.text.values()), re.IGNORECASE)
-    for name in ("section", "exponent", "sphere"):
-        title, second_line = view.text[name].split("\n")
-        assert title
-        assert len(second_line) <= 110
 
 
 def test_the_example_of_a_periodic_orbit_closes_and_says_how_fast_its_neighbours_leave():
@@ -113,12 +101,9 @@ def test_the_example_of_a_periodic_orbit_closes_and_says_how_fast_its_neighbours
 
 
 @pytest.mark.parametrize("preset", sample([EP.presets[i] for i in (1, 5, 10, 15)], 2), ids=lambda one: one.name)
-def test_rotation_numbers_are_those_of_10000_points(preset):
-    view = EulerPoisson({**preset.values, "orbits": 0.0})
+def test_rotation_numbers_are_those_of_3000_points(preset):
+    view = EulerPoisson({**preset.values, "orbits": 0.0}, seen={"rotation", "section"})
     low, high = view.numbers("rotation", "rom # to #")
-    title, second_line = view.text["rotation"].split("\n")
-    assert title
-    assert len(second_line) <= 110
     along, rho = view.curve("rotation-rho")
     assert (np.min(rho), np.max(rho)) == (approx(low, abs=6e-5), approx(high, abs=6e-5))
     turning = view.values["turns"] == "about the middle"
@@ -203,7 +188,7 @@ def test_at_high_energy_rotation_numbers_are_those_of_the_free_body():
 
 
 def test_the_green_curve_is_the_hess_manifold():
-    view = EulerPoisson({"orbits": 0.0, "away": 0.3})
+    view = EulerPoisson({"orbits": 0.0, "away": 0.3}, seen={"section"})
     assert np.max(np.abs(relation(view, view.points("curve")))) < 1e-6
 
 
@@ -274,18 +259,8 @@ def test_curves_that_do_not_go_round_have_no_rotation_number():
 # ---- What changes -----------------------------------------------------------------------------------------------
 
 
-def test_a_new_start_is_drawn_and_its_neighbours_stay():
-    one = EulerPoisson({"orbits": 4.0, "starts": "0,0.2"})
-    two = EulerPoisson({"orbits": 4.0, "starts": "0,0.2;0.5,-0.3"})
-    assert np.array_equal(one.points("first"), two.points("first"))
-    assert np.array_equal(two.points("own")[: len(one.points("own"))], one.points("own"))
-    assert len(two.points("own")) == 2 * len(one.points("own"))
-    ring = two.data["section-chosen"]
-    assert np.column_stack([ring["x"], ring["y"]]) == approx(np.array([[0.0, 0.2], [0.5, -0.3]]))
-
-
 def test_a_drag_shows_the_section_at_once_with_fewer_orbits():
-    view = EulerPoisson({"h": 41.37}, dragging=True)
+    view = EulerPoisson({"h": 41.37}, dragging=True, seen={"section", "exponent"})
     assert view.report.todo == ()
     assert 0 < len(view.points("first")) + len(view.points("second")) <= 16 * 40
     assert "released" in view.text["exponent"]
@@ -307,23 +282,11 @@ def test_while_epsilon_is_dragged_the_rotation_number_is_that_of_few_orbits_righ
     assert any(low < middle < high for low, high in seas[1])
 
 
-def test_another_start_leaves_rotation_numbers_as_they_are():
-    one, two = (
-        EulerPoisson({"orbits": 0.0, "starts": starts}, seen={"rotation"}) for starts in ("0,0.2", "0,0.2;0.5,-0.3")
-    )
-    assert two.begun.work.todo == []
-    assert two.data["rotation-rho"].keys() == one.data["rotation-rho"].keys()
-    assert np.array_equal(two.data["rotation-orbits"]["y"], one.data["rotation-orbits"]["y"])
-
-
 def test_the_rotation_picture_says_of_all_the_line_what_its_orbits_are():
     view = EulerPoisson({"orbits": 0.0}, seen={"rotation"})
     low, high = view.numbers("rotation", "From # to #")
     # ½ is −½: the curve is not torn in two, and the axis is as high as it and 0.
     assert (-0.52 < low < -0.49) and (-0.3 < high < -0.27)
-    x0, x1, y0, y1 = view.axes["rotation"]
-    assert (x0, x1) == (-1.0, 1.0)
-    assert (y0, y1) == (approx(low, abs=0.06), approx(0.0, abs=0.06))
     seas = [np.asarray(part[0][0]) for part in view.data["rotation-sea"]["xs"]]
     covered = sum(float(np.ptp(part)) for part in seas)
     marked = len(view.data["rotation-orbits"]["x"]) + len(view.data["rotation-standing"]["x"])
@@ -353,19 +316,6 @@ def test_what_is_not_seen_is_not_left_to_do(seen, expected):
     work = EP.compute({**EP.defaults(), "h": 33.3, "orbits": 8.0}, seen, False).work
     assert {task.function.__name__ for task in work.todo} == expected
     assert work.pieces == len(work.todo)
-
-
-def test_the_motion_for_speed_and_accuracy_is_the_chosen_orbit():
-    values = {**EP.defaults(), "starts": "0,0.2;0.5,-0.3"}
-    found = EP.of(values).motion()
-    assert found.system is SYSTEM
-    assert found.state == approx(AndoyerSection(GESS1, 50.0, 5.0).state_at(0.5, -0.3), abs=1e-12)
-    assert found.span == values["span"]
-
-
-def test_sliders_end_where_the_potential_does():
-    assert EP.limits(EP.defaults())["h"][0] == approx(-9.98, abs=0.011)
-    assert EP.limits({**EP.defaults(), "m": 0.0})["h"][0] == 0.0
 
 
 SECOND_SERIES = [one for one in EP.presets if one.name.startswith("Figure 14")]
@@ -419,12 +369,9 @@ def test_the_split_of_the_separatrices_is_0_in_the_hess_case_and_begins_in_propo
     assert (l, shown) == (approx(exact.l, abs=1e-3), approx(slope, rel=1e-3))
     assert off < 1e-6
     drawn = view.data["split-splits"]
-    assert len(drawn["x"]) == 13
     assert np.interp(0.01, drawn["x"], drawn["y"]) == approx(0.01 * slope, rel=0.02)
     ((x, y),) = zip(*(view.data["split-here"][key] for key in "xy"), strict=True)
     assert (x, y) == (approx(away), approx(exact.value, abs=1e-8))
-    line = np.array([view.data["split-slope"][key][0] for key in ("xs", "ys")])
-    assert line[1] / line[0] == approx([slope, slope], rel=1e-5)
 
 
 def test_where_there_are_no_separatrices_the_picture_says_why():
