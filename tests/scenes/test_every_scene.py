@@ -4,7 +4,7 @@ import dataclasses
 import json
 import re
 import time
-from itertools import combinations, permutations
+from itertools import permutations
 from math import hypot, inf, log10, nan, pi
 from xml.etree import ElementTree
 
@@ -17,17 +17,13 @@ from pytest import approx
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.page import session
-from hess_explorer.page.description import describe
-from hess_explorer.protocol.parameters import Choice, Formula, Number, Places, decode, written
+from hess_explorer.protocol.parameters import Choice, Formula, Number, Places, written
 from hess_explorer.scenes.framework.parameters import number
-from hess_explorer.scenes.framework.scene import Report, Scene
-from hess_explorer.scenes.framework.work import AUTO
+from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.parts import precision
-from hess_explorer.views import theme
 from hess_explorer.views.text import with_formulas
 from hess_mechanics import f_max
 from hess_mechanics.errors import InvalidParameter, ModelError
-from hess_mechanics.numerics.accuracy import LEVELS
 from support.board import (
     ACCURACY,
     HESS,
@@ -37,10 +33,8 @@ from support.board import (
     contents,
     description,
     elsewhere,
-    empty_sources,
     flat,
     plots_of,
-    said,
     shown,
     variant,
 )
@@ -56,25 +50,33 @@ OTHERS = {
 BALL = SCENES["chaplygin-ball"]
 BESIDE = ("status", "summary", "notes", "derived", "signs")
 """The texts beside the captions."""
+OWN = [scene for scene in SCENES.values() if scene.origin is None]
+"""The scenes that look into no other one."""
 every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+own_scenes = pytest.mark.parametrize("scene", [*OWN, ACCURACY], ids=lambda scene: scene.name)
+some_scenes = pytest.mark.parametrize(
+    "scene",
+    [*sample(OWN, 9), *sample((scene for scene in SCENES.values() if scene.origin), 3)],
+    ids=lambda one: one.name,
+)
 # The scenes that look into another one are of one class: of each the first example and the last.
 EXAMPLES = [
     (scene, preset)
     for scene in SCENES.values()
     for preset in (scene.presets if scene.origin is None else scene.presets[:: len(scene.presets) - 1])
 ]
+SHOWN = sample(EXAMPLES, 20)
 every_preset = pytest.mark.parametrize(
-    "scene, preset",
-    [pytest.param(*one, id=f"{one[0].name}: {one[1].name}") for one in sample(EXAMPLES, 30)],
+    "scene, preset", [pytest.param(*one, id=f"{one[0].name}: {one[1].name}") for one in SHOWN]
 )
 
 
 @pytest.fixture(autouse=True, scope="module")
 def equations_are_compiled():
-    """Compile all forms of the equations of *Your own body*, which the page does in the background."""
+    """Compile the equations of forms of *Your own body*, which the page does in the background."""
     scene = SCENES["own-body"]
-    for preset in scene.presets:
-        state = scene.of({**scene.defaults(), **preset.values})
+    for values in ({}, elsewhere(scene), *(preset.values for one, preset in SHOWN if one is scene)):
+        state = scene.of({**scene.defaults(), **values})
         assert not state.is_compiled or not state.work.todo
         for task in state.work.todo:
             CACHE.get(task.function, *task.arguments)
@@ -95,32 +97,22 @@ def test_the_defaults_are_admitted_unchanged(scene):
 
 @every_scene
 def test_a_scene_explains_itself_and_each_of_its_parameters(scene):
-    assert scene.title
     assert scene.summary.endswith(".")
     assert len({spec.name for spec in scene.specs}) == len(scene.specs)
     # Places have no control to be explained.
     for spec in (spec for spec in scene.specs if not isinstance(spec, Places)):
-        assert spec.label, spec.name
+        assert spec.label.isprintable(), spec.name
         assert len(spec.doc.split()) > 2, spec.name
         assert spec.doc.endswith((".", ")")), spec.name
-        assert spec.label.isprintable()
     # In a line over the pictures, as plain text.
     assert re.fullmatch(r"[A-Z][^$*]{20,108}\.", scene.moves)
-    assert not scene.words.startswith("---")
     assert scene.handle in ("", *scene.essential) or "/" in scene.handle
     assert len({preset.name for preset in scene.presets}) == len(scene.presets) > 2
-    assert all(preset.name and preset.name.isprintable() for preset in scene.presets)
     legend = ElementTree.fromstring(scene.legend.strip())
-    assert (legend.tag, legend.get("aria-label")) == ("ul", "Legend")
-    assert len(legend) > 2
-    # One thing per line.
     labels = {sign.label for picture in scene.views for sign in picture.legend}
     assert {"".join(item.itertext()) for item in legend} == labels
-    assert all(item.tag == "li" and re.search(r"\w", "".join(item.itertext())) for item in legend)
-    _, *shapes = ElementTree.fromstring(f"<svg>{scene.thumbnail}</svg>").iter()
-    assert len(shapes) > 2
-    assert {shape.tag for shape in shapes} <= {"path", "ellipse", "circle", "rect", "line", "g"}
-    assert not re.search(r"\bon|href|style", " ".join(name for shape in shapes for name in shape.attrib))
+    shapes = ElementTree.fromstring(f"<svg>{scene.thumbnail}</svg>")
+    assert {shape.tag for shape in shapes.iter()} <= {"svg", "path", "ellipse", "circle", "rect", "line", "g"}
 
 
 @every_scene
@@ -139,18 +131,12 @@ def test_sliders_have_ends_wherever_the_others_are(scene):
 # Parts of the sentence over the pictures: the scene, the control, and the pictures that follow it.
 FOLLOWS = [
     ("suslov-hess", "h", "body omega bifurcation circle"),
-    ("free-suslov", "k", "omega body sphere gamma1"),
-    ("scattering", "phi", "body sphere"),
     ("kharlamova", "alpha", "body domain sphere"),
-    ("quartic", "ratio", "body domain section sphere"),
     ("rotation-number", "a", "line trace circle"),
     ("chaplygin-ball", "phi", "body omega sphere"),
-    ("ball-section", "psi", "body omega sphere"),
     ("euler-poisson", "away", "section"),
-    ("hess-leak", "h", "body leak andoyer sphere"),
     ("hess-leak", "phi0", "body leak andoyer sphere"),
     ("bridge", "h", "body heavy omega difference"),
-    ("bridge", "phi0", "body heavy omega difference"),
     ("loxodrome", "energy", "body space angle height"),
 ]
 
@@ -181,38 +167,13 @@ def test_what_is_said_to_follow_does(name, parameter, pictures):
         assert repr(before[picture]) != repr(after[picture]), picture
 
 
-@every_scene
-def test_drawings_in_the_words_say_what_they_show_and_have_the_colours_of_the_page(scene):
-    named = re.findall(r"!\[[^\]]+\]\((\S+)\)", scene.words)
-    html = description(scene.name)["words"]
-    drawings = re.findall(r"<svg.*?</svg>", html, re.DOTALL)
-    assert len(drawings) == len(named) >= (scene.name == "chaplygin-ball")
-    assert "<img" not in html
-    for drawing in map(ElementTree.fromstring, drawings):
-        texts = {one.get("id"): one.text for one in drawing}
-        title, desc = (texts[name] for name in drawing.get("aria-labelledby").split())
-        assert drawing.get("role") == "img"
-        assert len(title.split()) > 3
-        assert len(desc.split()) > 20
-        # Letters and lines are those of the page, in light and dark.
-        colours = {one.get(kind) for one in drawing.iter() for kind in ("fill", "stroke")} - {None, "none"}
-        assert colours - {theme.ORBIT, theme.STABLE, theme.UNSTABLE, theme.MAP, theme.MUTED} == {"currentColor"}
-
-
-@every_scene
-def test_a_scene_names_its_pictures_in_the_order_in_which_they_stand(scene):
-    assert tuple(view.name for view in scene.views) == scene.pictures
-    assert len(set(scene.pictures)) == len(scene.pictures)
-    # A caption is the text of its picture's name: the other texts of the page have others.
-    assert not set(scene.pictures) & {"status", "notes", "derived", "busy"}
-
-
-@every_scene
+@own_scenes
 def test_the_description_of_a_scene_has_all_that_the_browser_needs(scene):
     found = description(scene.name)
-    assert describe(scene.name) is describe(scene.name)
     assert (found["name"], found["title"]) == (scene.name, scene.title)
     assert [picture["name"] for picture in found["pictures"]] == list(scene.pictures)
+    # A caption is the text of its picture's name: the other texts of the page have others.
+    assert not set(scene.pictures) & {"status", "notes", "derived", "busy"}
     assert list(plots_of(scene.name)) == [one["name"] for one in found["pictures"] if one["kind"] == "plot"]
     controlled = [spec for spec in scene.specs if not isinstance(spec, Places)]
     assert found["drawn"] == (len(controlled) < len(scene.specs))
@@ -228,17 +189,7 @@ def test_the_description_of_a_scene_has_all_that_the_browser_needs(scene):
     assert not re.search(r"<script|\son\w+=|javascript:|https?://(?!www\.w3\.org)", found["words"] + found["legend"])
 
 
-@every_scene
-def test_the_pictures_of_a_description_are_empty_and_belong_to_no_session(scene):
-    for plot in plots_of(scene.name).values():
-        # The page listens by itself.
-        assert "js_event_callbacks" not in plot.attributes
-        assert "attributes" not in plot.attributes["toolbar"]
-        assert plot.attributes["toolbar_location"] is None
-    assert "data-orbit" in empty_sources(scene.name) or not description(scene.name)["dots"]
-
-
-@every_scene
+@own_scenes
 def test_the_player_and_the_sphere_find_their_columns(scene):
     board, _ = shown(scene, scene.defaults())
     dots, angles = scene.dots, scene.angles
@@ -286,8 +237,6 @@ def test_a_preset_is_possible_as_it_stands_and_is_drawn(scene, preset):
     assert set(preset.values) <= set(scene.defaults())
     assert scene.admit(values) == (values, [])
     board, report = shown(scene, values)
-    assert isinstance(report, Report)
-    assert report.status
     assert report.derived
     assert all(re.search(r"\w", text) for text in (report.status, *report.derived, *report.notes))
     for name, caption in board.captions.items():
@@ -329,7 +278,7 @@ def test_a_state_looks_the_same_whatever_was_shown_before(scene, preset):
     assert len(first.fresh) > 3 * at_once(scene)
 
 
-@every_scene
+@some_scenes
 def test_axes_stay_while_a_slider_is_held_and_fit_when_it_is_let_go(scene):
     state, board, fitted = scene.compute(scene.defaults(), scene.pictures, False), Board(scene), []
     # Axes that belong to what is computed later stay until then, so that they do not jump.
@@ -354,15 +303,13 @@ def test_axes_stay_while_a_slider_is_held_and_fit_when_it_is_let_go(scene):
         assert any(one != first for one in fitted)
 
 
-@every_scene
+@some_scenes
 def test_a_stage_that_fails_shows_the_sentence_and_nothing_of_another_state(scene):
     board, _ = shown(scene, scene.defaults())
     before = contents(board.sources)
-    depends = set()
-    for preset in sample(scene.presets[1:], 2):
-        shown(scene, {**scene.defaults(), **preset.values}, board)
-        after = contents(board.sources)
-        depends |= {name for name in before if before[name] != after[name]}
+    shown(scene, elsewhere(scene), board)
+    after = contents(board.sources)
+    depends = {name for name in before if before[name] != after[name]}
     assert len(depends) > 3 or not at_once(scene)
     board.fail("No motion here.")
     left = contents(board.sources)
@@ -466,10 +413,7 @@ def test_every_admissible_state_is_computed_and_drawn_without_a_number_that_is_n
     assert_drawn(HESS, values, data.draw(in_sight(HESS), label="in sight"), dragging)
 
 
-@pytest.mark.parametrize(
-    "scene",
-    [pytest.param(scene, id=name) for name, scene in SCENES.items() if scene.origin is None and scene is not HESS],
-)
+@pytest.mark.parametrize("scene", [scene for scene in OWN if scene is not HESS], ids=lambda scene: scene.name)
 @settings(max_examples=examples(1))
 @given(data=st.data(), dragging=st.booleans())
 def test_an_admissible_state_of_the_other_scenes_is_drawn_whole_or_refused_with_a_sentence(scene, data, dragging):
@@ -477,31 +421,12 @@ def test_an_admissible_state_of_the_other_scenes_is_drawn_whole_or_refused_with_
     assert_drawn(scene, values, data.draw(in_sight(scene), label="in sight"), dragging)
 
 
-def assert_errors_drawn(scene, data):
-    values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in scene.specs}
-    # Under a drag: without SciPy's methods, which take long.
-    assert_drawn(scene, values, data.draw(in_sight(scene), label="in sight"), True)
-
-
 @settings(max_examples=examples(3))
 @given(data=st.data())
 def test_the_errors_of_every_admissible_state_are_computed_and_drawn_too(data):
-    assert_errors_drawn(ACCURACY, data)
-
-
-@pytest.mark.parametrize(
-    "scene",
-    [
-        pytest.param(scene, id=name)
-        for name, scene in SCENES.items()
-        if scene.origin not in (None, HESS.name) and at_once(scene)
-    ],
-)
-# All of one class: what is wrong with it shows in the first states of one of the scenes (tried: no floor of the axes).
-@settings(max_examples=examples(1))
-@given(data=st.data())
-def test_the_errors_of_the_other_scenes_are_drawn_too_or_refused_with_a_sentence(scene, data):
-    assert_errors_drawn(scene, data)
+    values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in ACCURACY.specs}
+    # Under a drag: without SciPy's methods, which take long.
+    assert_drawn(ACCURACY, values, data.draw(in_sight(ACCURACY), label="in sight"), True)
 
 
 FEW = {"orbits": 4.0, "count": 20.0, "long": 20.0, "span": 5.0}
@@ -509,22 +434,16 @@ FEW = {"orbits": 4.0, "count": 20.0, "long": 20.0, "span": 5.0}
 EXTREME = {
     "ball-section": [
         {"h": 1e-3, "psi": 3.1},
-        {"delta": 1e-6},
         {"b1": 0.0, "b2": 0.0, "b3": 0.0, "I13": 0.3},
-        {"D": 0.0},
         {"I11": 100.0, "I22": 0.01},
-        {"b3": 100.0},
         {"I13": 20.0, "I23": -20.0},
         {"count": 1.0, "drop": "the later half"},
     ],
     "rotation-number": [
-        {"a": 0.0},
         {"a": 100.0, "f": 0.5},
         {"h": 1e6, "f": 1.0},
-        {"h": -0.99, "f": 0.01},
         {"h": -1.0 + 1e-9, "f": 0.0},
-        {"f": 0.0},
-        {"epsilon": 0.33},
+        {"a": 0.0, "f": 0.0},
     ],
     "suslov": [
         {"b1": 0.0, "b2": 0.0, "b3": 0.0},
@@ -543,37 +462,31 @@ EXTREME = {
 
 
 @pytest.mark.parametrize(
-    "name, values", sample([(name, values) for name, all_ in EXTREME.items() for values in all_], 12), ids=str
+    "name, values", sample([(name, values) for name, all_ in EXTREME.items() for values in all_], 9), ids=str
 )
 def test_extreme_values_are_shown(name, values):
     scene = SCENES[name]
     few = {key: value for key, value in FEW.items() if key in scene.defaults()}
-    View(scene, {**few, **values}, noted=True).assert_finite()
+    View(scene, {**few, **values}, seen=scene.open_pictures, noted=True).assert_finite()
 
 
 REFUSED = [
     ("free-suslov", {"I13": 0.0, "I23": 0.0}, "I₁₃ = I₂₃ = 0.*Choose one of them other than 0"),
     ("free-suslov", {"w1": 0.0, "w2": 0.0}, "ω = 0: the body is at rest for ever.*Choose ω1 or ω2 other than 0"),
-    ("free-suslov", {"w2": 0.0}, "on the line of equilibria.*Move ω off the line"),
-    ("free-suslov", {"I13": 0.25, "I23": 0.5, "w1": 2.0, "w2": -1.0}, "on the line of equilibria"),
+    ("free-suslov", {"I13": 0.25, "I23": 0.5, "w1": 2.0, "w2": -1.0}, "on the line of equilibria.*Move ω off"),
     ("free-suslov", {"k": -3.0}, "k = −3 would make I₁₁ = −1.25; a moment of inertia is positive. Choose a larger k"),
     ("free-suslov", {"I23": 1e-5}, r"γ turns too often.*\(about \de\+05 radians.*choose larger I13, I23"),
     ("free-suslov", {"I23": 1e-320}, r"γ turns too often.*\(more than 1e308 radians"),
     ("free-suslov", {"w1": 1e-200, "w2": 1e-205}, "so small an ω.*choose a larger one"),
-    ("scattering", {"I13": 0.0, "I23": 0.0}, "I₁₃ = I₂₃ = 0.*Choose one of them other than 0"),
-    ("scattering", {"I23": 1e-5}, "γ turns too often.*choose larger I13, I23"),
     ("scattering", {"digits": 0.5, "k": -1.2, "I22": 0.5, "I23": 0.4}, "distance 0.316.*up to 0.28"),
     ("suslov", {"h": 0.895, "starts": "-2.356,1", "window": "-2.5,1;-2.2,2"}, "in this window .* press Clear"),
     ("quartic", {"b3": 0.0}, "Choose b3"),
     ("quartic", {"h": -1.5}, "choose h above"),
     ("chaplygin-ball", {"I13": 0.0, "I23": 0.0}, "I13 = I23 = 0: there is no line of equilibria"),
     ("euler-poisson", {"I2": 2.0}, "I2 = 2 must lie between I1 = 1 and I3 = 0.375"),
-    ("euler-poisson", {"I1": 1.0, "I2": 1.0, "I3": 1.0}, "which differ"),
     ("euler-poisson", {"h": -20.0}, "here with h = -20 and f = 5: choose a larger h, a smaller .f., or press Clear"),
     ("euler-poisson", {"f": 500.0}, "Nothing is possible here"),
-    ("loxodrome", {"I2": 2.5}, "I2 = 2.5 must lie between I1 = 1 and I3 = 2"),
     ("loxodrome", {"I2": 1.0, "I3": 1.0}, "which differ"),
-    ("loxodrome", {"I1": -1.0}, "choose I1 > 0"),
     ("loxodrome", {"m": -0.5}, "choose μ > 0"),
     ("loxodrome", {"energy": -1.0}, "lowest energy"),
     ("loxodrome", {"l": 0.0}, "no track"),
@@ -624,10 +537,10 @@ CORRECTIONS = [
 ]
 
 
-@pytest.mark.parametrize("correct, printed", CORRECTIONS)
-def test_the_words_give_the_corrected_equation(correct, printed):
-    assert re.search(correct, HESS.words)
-    assert not re.search(printed, HESS.words)
+def test_the_words_give_the_corrected_equations():
+    for correct, printed in CORRECTIONS:
+        assert re.search(correct, HESS.words)
+        assert not re.search(printed, HESS.words)
 
 
 def test_a_body_that_is_none_is_shown_and_said():
@@ -660,18 +573,6 @@ def test_a_number_from_the_wire_is_clamped_by_itself_with_a_note(values, expecte
     assert browser.texts["notes"] != ""
     for name, value in expected.items():
         assert browser.controls[name][0] == approx(value, rel=1e-12)
-
-
-def test_a_change_is_drawn_with_the_request_and_not_before():
-    browser = Browser(HESS)
-    before = browser.state
-    browser.session.requested.change({"h": 0.5})
-    assert browser.state is before
-    state = browser.ask(requested=3)
-    assert (state["number"], state["answers"]) == (before["number"] + 1, 3)
-    assert decode(state["query"], HESS.specs)[0]["h"] == 0.5
-    assert flat(browser.data["bifurcation-here"]["h"]) == [0.5]
-    assert np.all(browser.data["data-orbit"]["h"] == 0.5)
 
 
 def test_f_returns_to_what_was_wanted_when_h_allows_it_again():
@@ -784,7 +685,7 @@ def test_a_scene_that_may_come_next_is_described_once_and_not_entered():
 @pytest.mark.usefixtures("quick")
 def test_from_any_scene_to_any_other_and_back_everything_is_of_the_state():
     browser = Browser(HESS)
-    others = sample((name for name in SCENES if name != HESS.name), 6)
+    others = sample((name for name in SCENES if name != HESS.name), 4)
     for requested, name in enumerate([name for other in others for name in (other, HESS.name)], 1):
         state = browser.ask(requested, scene=name)
         browser.assert_admissible()
@@ -853,12 +754,6 @@ def test_a_number_goes_along_to_another_scene_where_it_means_the_same_and_there_
         assert taken == ({**scene.defaults(), name: value} if goes else scene.defaults()), (before.name, scene.name)
 
 
-def test_the_accuracy_is_said_in_the_same_words_in_every_scene():
-    (accuracy,) = {spec for scene in SCENES.values() for spec in scene.specs if spec.name == "accuracy"}
-    assert accuracy.options == (*LEVELS, AUTO)
-    assert accuracy.default == "standard"
-
-
 def test_a_number_that_is_not_possible_there_does_not_go_along():
     # b₃ = 0.7 of the general body is none of the Suslov–Hess case, where b₃ < 0.
     taken = HESS.taken_over(HESS.defaults(), SCENES["suslov"], {**SCENES["suslov"].defaults(), "b3": 0.5, "I22": 1.0})
@@ -910,85 +805,21 @@ def test_where_what_was_chosen_before_is_impossible_the_scene_begins_in_its_own_
     assert Browser(other, {**other.defaults(), "h": 3.0}).texts["status"].startswith("Too fast here")
 
 
-def test_the_scene_that_looks_into_another_shows_its_motion_with_all_places():
-    sections, looking = (scene for scene in SCENES.values() if "euler-poisson" in (scene.name, scene.origin))
-    browser = Browser(sections, {**sections.defaults(), "orbits": 0.0, "starts": "1.2,0.3"})
-    browser.ask(1, scene=looking.name)
-    assert browser.session.values["starts"] == "1.2,0.3"
-    browser.ask(2, reset=True)
-    browser.ask(3, scene=sections.name)
-    assert browser.session.values == sections.defaults()
-
-
-def test_a_scene_that_cannot_be_computed_is_entered_with_its_sentence(monkeypatch):
-    def compute(values, shown, dragging):
-        raise InvalidParameter("This is beyond us: choose less.")
-
-    broken = variant(ACCURACY, compute=compute)
-    monkeypatch.setattr(session, "scenes", lambda: {HESS.name: HESS, broken.name: broken})
-    browser = Browser(HESS)
-    state = browser.ask(1, scene=broken.name)
-    assert state["scene"] == broken.name
-    assert browser.texts["status"].startswith("This is beyond us")
-    for name in ACCURACY.pictures:
-        assert said(browser.data[f"{name}-message"]) == ["This is beyond us: choose less."]
-        assert browser.texts[name] == "This is beyond us: choose less."
-    browser.ask(2, scene=HESS.name)
-    assert not browser.texts["status"].startswith("This is beyond us")
-
-
-def assert_labels_stand_apart(view, picture):
-    """The labels of a plot lie inside its axes, and no two overlap; with rather narrow letters."""
-    axes, boxes = picture.ranges(view.result) or picture.first_axes, []
-    for layer in picture.layers:
-        found = view.data.get(f"{picture.name}-{layer.name}-label", {}) if layer.tag else {}
-        if len(found.get("x", ())):
-            sides = [(found[side][0], *getattr(axes, side)) for side in "xy"]
-            sides = [np.log10(three) if side in picture.log else three for side, three in zip("xy", sides, strict=True)]
-            place = np.array([(at - low) / (high - low) for at, low, high in sides])
-            boxes.append((place, np.array([0.012 * len(layer.tag), 0.03])))
-    assert all((half < place).all() and (place < 1.0 - half).all() for place, half in boxes)
-    for (one, half), (other, more) in combinations(boxes, 2):
-        assert (abs(one - other) > half + more).any(), (picture.name, one, other)
-    return len(boxes)
-
-
-@every_scene
+@pytest.mark.parametrize("scene", OWN, ids=lambda scene: scene.name)
 def test_the_legend_has_only_what_is_drawn(scene):
     # A diagram is the same with its first orbits and with all, which take long.
     view = View(scene, {}, seen=scene.open_pictures, whole="diagram" not in scene.pictures)
     numbers = {int(one) for one in view.text["signs"].split(",")}
     shown = {(sign.label, sign.kind, sign.style) for i, sign in enumerate(scene.signs) if i in numbers}
     assert shown
-    layers = [(picture, layer) for picture in scene.views for layer in getattr(picture, "layers", ())]
-    drawn, absent, named = set(), set(), set()
-    for picture, layer in layers:
-        if layer.tag and view.data.get(f"{picture.name}-{layer.name}-label", {}).get("x"):
-            named.add(layer.tag)
-        columns = view.data.get(picture.source_of(layer), {}) if picture.name in scene.open_pictures else {}
-        for sign in layer.legend:
-            cells = np.asarray(columns["image"]).ravel() if sign.least is not None and columns.get("image") else None
-            there = (
-                len(columns.get(layer.columns[0], ())) > 0
-                if cells is None
-                else bool(((cells >= sign.least) & (cells < sign.least + 1)).any())
-            )
-            (drawn if there else absent).add((sign.label, sign.kind, sign.style))
-    others = {
-        (sign.label, sign.kind, sign.style)
-        for picture in scene.views
-        for sign in picture.legend
-        if sign not in [one for _, layer in layers for one in layer.legend]
-    }
-    labels = [
-        assert_labels_stand_apart(view, picture)
-        for picture in scene.views
-        if picture.kind == "plot" and picture.name in scene.open_pictures
-    ]
-    assert scene is not HESS or sum(labels) >= 9
-    # The legend need not repeat what a label says in the picture.
-    assert all(sign in shown or sign[0] in named for sign in drawn)
-    assert not (absent - drawn - others) & shown
+    drawn, absent = set(), set()
+    for picture in (one for one in scene.views if one.name in scene.open_pictures):
+        for layer in getattr(picture, "layers", ()):
+            columns = view.data.get(picture.source_of(layer), {})
+            signs = {(sign.label, sign.kind, sign.style) for sign in layer.legend if sign.least is None}
+            (drawn if len(columns.get(layer.columns[0], ())) else absent).update(signs)
+    assert drawn & shown
+    assert not (absent - drawn) & shown
 
 
 # --- Sessions: whatever is raised ---------------------------------------------------------------------
