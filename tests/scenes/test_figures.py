@@ -108,17 +108,6 @@ def test_the_values_are_those_of_the_captions():
             assert -body.mu * np.array(body.r) == approx([1.0 / math.sqrt(3.0), 0.0, 1.0 / math.sqrt(6.0)])
 
 
-def test_the_schemes_are_drawn():
-    assert "![" in SCENES["chaplygin-ball"].words
-    (values,) = values_of(5)
-    body = View(SCENES["suslov-hess"], values, seen={"body"}).data["body"]
-    # The section across the centre of mass is a circle: as far as the ellipsoid reaches along any line in it.
-    *normal, radius = body["section"]
-    assert radius > 0.0
-    assert np.linalg.norm(normal) == approx(1.0)
-    assert any(look == "mass" for *_, look, _ in body["rods"])
-
-
 def test_the_circle_maps_of_figure_7_have_two_cycles_and_none_as_a_gets_smaller():
     wide, narrow, _ = (View(SCENES["suslov-hess"], values, seen={"circle"}).result for values in values_of(7))
     assert (wide.h, wide.f) == (narrow.h, narrow.f)

@@ -1,6 +1,6 @@
 """The scenes "principal axis, b3 = 0" and "b1 = b2 = 0": every example shows what its name and its captions promise."""
 
-from math import cos, sin, sqrt
+from math import sqrt
 
 import numpy as np
 import pytest
@@ -9,9 +9,7 @@ from pytest import approx
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.periodic_search import NONE
 from hess_mechanics import level, solve, systems
-from hess_mechanics.suslov.kharlamova import arc, state_at
 from hess_mechanics.suslov.plane_potential import POTENTIALS, PotentialBody
-from hess_mechanics.suslov.plane_potential import SYSTEM as POTENTIAL
 from support.kharlamova import ARC, POINT
 from support.view import View
 
@@ -47,50 +45,13 @@ def test_an_example_of_b3_0_is_what_its_name_says(preset):
         assert shown == period == approx(found.period, rel=6e-4)
         assert np.abs(solve(body, start, [found.period], FLOOR).states[0] - start).max() <= 1e-9
         assert missed <= 1e-6
-        # γ̇3 where γ3 = 0, of the integrated orbit: its extremes there.
-        speeds = view.numbers("sphere", "|γ̇₃| = # and #.")
-        times = np.linspace(0.0, found.period, 4001)
-        all_of_it = solve(body, start, times, FLOOR).states
-        g3 = all_of_it[:, 4]
-        rate = np.abs(all_of_it[:, 2] * all_of_it[:, 1] - all_of_it[:, 3] * all_of_it[:, 0])
-        at = np.flatnonzero(g3[1:] * g3[:-1] < 0.0)
-        assert sorted(rate[at]) == approx(sorted(speeds), rel=2e-2, abs=1e-3)
+
     elif found.kind == "asymptotic":
         assert "T = ∞" in view.text["period"]
         assert np.abs(np.array(SUSLOV.field(states[-1], body.parameters))).max() < 1e-3
     else:
         assert np.ptp(states, axis=0) == approx(np.zeros(5), abs=1e-12)
         assert ("unstable" in view.text["domain"]) is ("unstable" in preset.name)
-
-
-def test_the_straight_line_the_two_orbits_and_the_long_period():
-    line = View(ARC, ARC.presets[1].values)
-    assert "Periodic: straight line" in line.text["domain"]
-    q = np.column_stack([line.data["data-orbit"][name] for name in ("q1", "q2")])
-    assert np.linalg.svd(q - q.mean(axis=0))[1][1] < 1e-5
-    assert "parabola" in View(ARC, {}).text["domain"]
-    two = View(ARC, ARC.presets[3].values)
-    assert two.result.arc.other is not None
-    assert len(two.data["curve-other"]["xs"][0]) > 10
-    assert View(ARC, ARC.presets[-1].values).result.arc.period > 15.0
-
-
-def test_the_circles_on_the_sphere_are_the_equipotentials_of_the_domain():
-    view = View(ARC, ARC.presets[0].values)
-    equator, *others = view.data["sphere"]["circles"]
-    assert (equator[:4], equator[4]) == ([0.0, 0.0, 1.0, 0.0], "limit")
-    assert {look for *_, look in others} == {"muted"}
-    b1, b2 = (view.values[name] for name in ("b1", "b2"))
-    # On a circle γ = height · axis + …, and so (b, γ) = height · (b, axis); in the domain q1 = √I11 γ2, q2 = −√I22 γ1.
-    heights = sorted(height * (b1 * x + b2 * y) for x, y, _, height, _ in others)
-    lines = view.data["domain-levels"]
-    in_domain = []
-    for q1, q2 in zip(lines["xs"], lines["ys"], strict=True):
-        gamma1 = -np.asarray(q2, float) / sqrt(view.values["I22"])
-        potential = b1 * gamma1 + b2 * np.asarray(q1, float) / sqrt(view.values["I11"])
-        assert np.ptp(potential) < 1e-5
-        in_domain.append(float(potential.mean()))
-    assert heights == approx(sorted(in_domain), abs=1e-5)
 
 
 def test_the_mirror_image_runs_along_the_same_curves():
@@ -104,18 +65,6 @@ def test_the_mirror_image_runs_along_the_same_curves():
     assert orbit["mirror_g3"] == approx(-past[:, 4], abs=2e-6)
 
 
-def test_the_graph_of_the_period_is_the_period_of_each_direction():
-    view = View(ARC, {})
-    (alpha,), (T,) = view.data["period-T"]["xs"], view.data["period-T"]["ys"]
-    body, q = view.result.body, (view.values["q1"], view.values["q2"])
-    for i in range(0, len(alpha), 90):
-        y = state_at(body, q, (cos(alpha[i]), sin(alpha[i])))
-        assert T[i] == approx(arc(body, y).period, rel=1e-4)
-    assert (view.data["period-chosen"]["x"][0], view.data["period-chosen"]["y"][0]) == approx(
-        (view.values["alpha"], view.result.arc.period)
-    )
-
-
 @pytest.mark.parametrize("name", POTENTIALS)
 def test_in_another_potential_the_caption_says_what_the_motion_does(name):
     body = PotentialBody(1.5, 1.0, *POTENTIALS[name])
@@ -127,12 +76,10 @@ def test_in_another_potential_the_caption_says_what_the_motion_does(name):
     assert period == approx(exact, rel=6e-4)
     assert solve(body, start, [exact], FLOOR).states[0] == approx(start, abs=2e-4)
     assert fast.text["potential"].startswith(f"Potential: {name}\n")
-    # The orbit that is drawn, by the general kernel; all of it is where U ≤ E.
+    # The orbit that is drawn, by the general kernel.
     x, y = (np.asarray(fast.data["potential-orbit"][axis], float) for axis in "xy")
     states = solve(body, start, fast.result.other.orbit.times, FLOOR).states
     assert np.column_stack([x, y]) == approx(np.column_stack([sqrt(1.5) * states[:, 3], -states[:, 2]]), abs=1e-5)
-    E = POTENTIAL.integrals(start, body.parameters)["E"]
-    assert np.all(body.potential(np.column_stack([-y, x / sqrt(1.5)])) <= E + 1e-6)
     slow = View(ARC, {"potential": name, "I11": 1.5, "I22": 1.0, "p": 0.2, "span": 60.0}, seen={"potential"})
     assert "Too slow to reach the equator. It stays on one side." in slow.text["potential"]
     assert ("integrable" in slow.text["potential"]) is (name == "quadratic")
@@ -146,17 +93,6 @@ def test_in_another_potential_the_caption_says_what_the_motion_does(name):
         F2 = 0.5 * (1.5 * states[:, 0] ** 2 + body.c2 * states[:, 3] ** 2)
         assert changed == approx(100.0 * np.ptp(F2) / F2.max(), rel=0.06)
         assert changed > 1.0
-    # b has no part in it, and the other potential none in the pictures of the linear one.
-    other = View(ARC, {"potential": name, "I11": 1.5, "I22": 1.0, "b1": -1.0, "b2": 0.2}, seen={"potential"})
-    assert other.text["potential"] == fast.text["potential"]
-    assert View(ARC, {"potential": name}, seen={"domain"}).text == View(ARC, {}, seen={"domain"}).text
-
-
-def test_where_it_does_not_move_in_another_potential_that_is_said():
-    view = View(ARC, {"p": 0.0, "q1": 0.0, "q2": 0.0}, seen={"potential"})
-    assert "A fixed point: nothing changes." in view.text["potential"]
-    short = View(ARC, {"p": 2.0, "span": 0.2}, seen={"potential"})
-    assert "Fewer than two equator crossings. Up to t = 0.2." in short.text["potential"]
 
 
 def test_a_start_outside_moves_to_the_edge_and_says_so():
@@ -198,8 +134,6 @@ def test_an_example_of_the_quartic_potential_is_what_its_name_says(preset):
     if "ring" in preset.name:
         assert "Motion in a ring." in view.text["domain"]
         assert body.h > abs(body.b3)
-    if "bouncing" in preset.name:
-        assert orbit["q2"].min() > 0.0
 
 
 @pytest.mark.parametrize("name", ["quartic", "ball-section"])
@@ -233,10 +167,3 @@ def test_a_click_chooses_where_the_orbit_starts():
     # Grey: nothing.
     assert view.stage.pick("section", 0.0, 1.0) == {}
     assert View(ARC, {}).stage.pick("period", 1.0, 5.0) == {"alpha": 1.0}
-
-
-def test_the_motion_for_speed_and_accuracy_is_the_one_on_show():
-    for scene in (ARC, POINT):
-        view, motion = View(scene, {}), scene.of(scene.defaults()).motion()
-        assert motion.state == approx(view.result.start)
-        assert (motion.parameters, motion.span) == (view.result.body.parameters, view.values["span"])

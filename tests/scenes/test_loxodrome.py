@@ -1,13 +1,12 @@
 """The scene "loxodromic pendulum", and the body on the Suslov–Hess page: pictures and captions are correct."""
 
 import re
-from math import acos, asin, atan, exp, hypot, pi, sqrt, tan
+from math import acos, asin, atan, exp, hypot, pi, tan
 
 import numpy as np
 import pytest
 from pytest import approx
 
-from hess_mechanics.numerics.accuracy import LEVELS
 from support.loxodrome import HESS, LOXODROME, clock, slope, swing_at
 from support.view import NUMBER, View
 
@@ -47,11 +46,10 @@ def test_a_preset_shows_what_its_captions_promise(preset):
         assert [low, high] == approx(ends, rel=6e-4)
         assert (orbit["l"].min(), orbit["l"].max()) == approx(tuple(ends), abs=2e-3)
     elif h == 1.0:
-        start, end = view.numbers("space", "l from # towards #.")
-        assert start == approx(l0)
-        assert end == approx(2.0 * atan(tan(l0 / 2) * exp(a * pi)), rel=6e-4)
+        assert view.numbers("space", "l from # towards #.")[1] == approx(
+            2.0 * atan(tan(l0 / 2) * exp(a * pi)), rel=6e-4
+        )
         assert orbit["height"][-1] == approx(1.0, abs=1e-5)
-        assert view.report.notes == [] or "visibly at rest" in view.report.notes[0]
     else:
         assert view.numbers("height", "The body rotates. # turns") == [approx(abs(alpha[-1]) / (2 * pi), rel=6e-4)]
         assert view.numbers("space", "l from # to #.") == [
@@ -83,63 +81,11 @@ def test_the_computed_track_lies_on_the_loxodrome_and_both_are_seen_from_below_u
     assert centre[:, 2] == approx(view.data["data-orbit"]["height"], abs=1e-6)
 
 
-def test_the_source_of_the_body_has_its_attitude_its_ellipsoid_and_its_centre_of_mass():
-    view = View(LOXODROME, {})
-    body = view.data["body"]
-    g, e = (np.stack([body[f"{name}{k}"] for k in (1, 2, 3)], axis=1) for name in "ge")
-    assert np.sum(g * g, axis=1) == approx(1.0, abs=1e-6)
-    assert np.sum(g * e, axis=1) == approx(0.0, abs=1e-6)
-    semi = np.array(body["semi"])
-    assert (semi / semi[0]) ** 2 == approx([1.0, 1.5, 2.0])
-    *normal, radius = body["section"]
-    # A circle of this radius across r lies on the ellipsoid.
-    u = np.cross(normal, [0.0, 1.0, 0.0])
-    assert radius == approx(semi[1])
-    assert np.sum((radius * u / semi) ** 2) == approx(1.0)
-    # The figure's potential γ1/√3 + γ3/√6: r along (√2, 0, 1).
-    assert body["rods"][1][:3] == approx([sqrt(2 / 3), 0.0, sqrt(1 / 3)])
-    # Position of the centre of mass in space: along (e, −γ × e, −γ).
-    r = np.array(normal)
-    place = np.stack([e @ r, -np.cross(g, e) @ r, -g @ r], axis=1)
-    assert place == approx(curve_of(view, "body", "stable"), abs=2e-6)
-    assert "t" not in view.data["space"]
-
-
-def test_a_body_that_cannot_be_has_no_ellipsoid_and_says_so():
-    view = View(LOXODROME, {"I3": 9.0})
-    assert "semi" not in view.data["body"]
-    assert "Not a rigid body" in view.text["body"]
-    assert view.report.notes[0].startswith("Not a rigid body")
-    assert View(LOXODROME, {}).report.notes == []
-
-
-def test_the_slider_of_the_middle_moment_lies_between_the_others():
-    assert LOXODROME.limits({**LOXODROME.defaults(), "I1": 3.0, "I3": 0.5}) == {
-        "I3": (0.1, 1.5, 0.005),
-        "I2": (0.5, 3.0, 0.005),
-        "I1": (1.5, 3.0, 0.005),
-    }
-    assert LOXODROME.limits({**LOXODROME.defaults(), "I1": 2.0, "I3": 2.0}) == {}
-
-
-@pytest.mark.parametrize("accuracy", LEVELS)
-def test_the_status_line_says_error_drift_and_how_orthonormal_it_was(accuracy):
-    status = View(LOXODROME, {"accuracy": accuracy}).report.status
-    assert status.startswith(f"{accuracy}: orbit ")
-    assert re.search(rf"error ≤ {NUMBER} \(ok\)|floor", status)
+def test_the_status_line_says_error_drift_and_how_orthonormal_it_was():
+    status = View(LOXODROME, {"accuracy": "precise"}).report.status
+    assert re.search(rf"^precise: orbit .*(error ≤ {NUMBER} \(ok\)|floor)", status)
     assert "(e,γ)" in status
     assert re.search(rf"γ, e orthonormalised, defect {NUMBER}", status)
-
-
-def test_the_motion_for_the_accuracy_scene_is_that_of_the_pictures():
-    values = {**LOXODROME.defaults(), "span": 10.0}
-    motion = LOXODROME.of(values).motion()
-    w1, w2, n1, n2, n3 = motion.state
-    assert (n1, n2, n3) == (0.0, 0.0, 1.0)
-    assert (w1**2 + w2**2) / 2 - n3 == approx(1.5, abs=1e-15)
-    assert motion.parameters[0] == approx(slope(values))
-    assert motion.span * motion.unit == approx(10.0)
-    assert motion.unit == approx(clock(values))
 
 
 # --- The body of the Suslov–Hess case ----------------------------------------------------------------
@@ -168,10 +114,3 @@ def test_where_there_is_no_body_nothing_is_drawn_and_that_is_said():
     view = View(HESS, {"I22": 0.5, "I23": 1.5})
     assert view.data.get("body", {}) == {}
     assert "Not drawn: no such rigid body. |a| ≥ 1" in view.text["body"]
-
-
-def test_out_of_sight_the_body_is_not_computed():
-    view = View(HESS, {}, seen={"omega", "sphere", "bifurcation", "circle"})
-    assert view.result.known("solid") is None
-    assert "body" not in view.data
-    assert "body" not in view.text

@@ -8,20 +8,18 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from benchmarks.integrators.trade import Row, as_json, as_text, costliest, names
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import decode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.scenes.framework.trial import Trial, bare, needed, section_error
-from hess_explorer.scenes.framework.work import AUTO, Work, kept_status
-from hess_mechanics.dynamics.trade import LevelCost
+from hess_explorer.scenes.framework.work import AUTO
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Computation
 from hess_mechanics.suslov_hess.rotation_number import values_at
 from support.board import Browser
+from support.thorough import sample
 
 SCENES = {name: scene for name, scene in scenes().items() if scene.origin is None}
 SUSLOV, QUARTIC = SCENES["suslov"], SCENES["quartic"]
@@ -43,15 +41,6 @@ def completed(scene, values, seen):
 # ---- what is declared -------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
-def test_every_scene_declares_what_it_computes(scene):
-    assert scene.name in names()
-    kinds = [trial.kind for trial in scene.trials]
-    assert len(set(kinds)) == len(kinds) > 0
-    for trial in scene.trials:
-        assert set(trial.pictures) <= set(scene.pictures)
-
-
 CHEAP = [
     (name, trial)
     for name, scene in SCENES.items()
@@ -60,7 +49,7 @@ CHEAP = [
 ]
 
 
-@pytest.mark.parametrize("name, trial", CHEAP, ids=[f"{name}-{trial.kind}" for name, trial in CHEAP])
+@pytest.mark.parametrize("name, trial", sample(CHEAP, 6), ids=lambda one: getattr(one, "kind", one))
 def test_a_finer_level_has_a_smaller_error(name, trial):
     state = bare(SCENES[name].of(SCENES[name].defaults()))
     truth = trial.run(state, dataclasses.replace(PLANS[trial.kind]["reference"], level=REFERENCE.tightened()))
@@ -76,16 +65,14 @@ def test_a_finer_level_has_a_smaller_error(name, trial):
 
 
 def test_a_draft_follows_orbits_for_a_quarter_of_the_crossings():
-    for scene, seen in ((SUSLOV, ("section",)), (QUARTIC, ("section",))):
-        counts = {}
-        for name in ("draft", "standard", "reference"):
-            state, _ = completed(scene, {**(SMALL if scene is SUSLOV else {}), "accuracy": name}, seen)
-            counts[name] = len(state.section.own)
-        asked = 120 if scene is SUSLOV else 200
-        assert counts == {"draft": asked // 4, "standard": asked, "reference": asked}
+    counts = {}
+    for name in ("draft", "standard", "reference"):
+        state, _ = completed(SUSLOV, {**SMALL, "accuracy": name}, ("section",))
+        counts[name] = len(state.section.own)
+    assert counts == {"draft": 30, "standard": 120, "reference": 120}
 
 
-@pytest.mark.parametrize("name", ["draft", "standard", "precise"])
+@pytest.mark.parametrize("name", ["draft", "precise"])
 def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_drawn(name):
     state, report = completed(SUSLOV, {**SMALL, "accuracy": name}, ("section",))
     said = re.search(
@@ -108,14 +95,6 @@ def test_a_regular_orbit_is_right_to_the_end():
     assert "right to ½ pixel: the chosen orbit to the end, others to the end (median)" in report.status
 
 
-def test_the_words_for_a_section():
-    assert [*kept_status(None, 200)] == []
-    assert [*kept_status((200, None), 200)] == ["right to ½ pixel: the chosen orbit to the end"]
-    assert [*kept_status((16, 200), 200)] == [
-        "right to ½ pixel: the chosen orbit up to crossing 16, others to the end (median)"
-    ]
-
-
 def test_orbits_that_chaos_takes_away_are_left_aside():
     regular = np.column_stack([np.linspace(0.0, 1.0, 50), np.zeros(50)])
     late = regular + np.column_stack([np.zeros(50), 1e-3 * np.arange(50)])
@@ -125,16 +104,6 @@ def test_orbits_that_chaos_takes_away_are_left_aside():
     assert section_error([lost], [regular], (1.0, 1.0)) == 0.0
     # From the first crossings on another one.
     assert section_error([regular + 40.0], [regular], (1.0, 1.0)) == 0.0
-
-
-def test_the_status_line_says_how_much_of_the_basins_hangs_on_their_cells():
-    preset = next(one for one in SUSLOV.presets if one.values.get("colours") == "basins")
-    values = {**SUSLOV.example(preset), **SMALL, "long": 1000.0, "accuracy": "draft"}
-    state, report = completed(SUSLOV, values, ("section",))
-    said = re.search(r"basins 256 × 256, twice as many cells would change ([\d.]+) % of it", report.status)
-    finer, _ = completed(SUSLOV, {**values, "accuracy": "standard"}, ("section",))
-    changed = 100.0 * np.mean(np.kron(state.basins.found.number, np.ones((2, 2))) != finer.basins.found.number)
-    assert changed / 3.0 < float(said[1]) < 3.0 * changed
 
 
 def test_the_status_line_says_how_exact_a_map_of_rotation_numbers_is():
@@ -172,13 +141,6 @@ def test_until_it_is_measured_auto_is_standard():
     assert state.level.name == "standard"
     assert "auto: standard until it is measured" in report.status
     assert len(report.todo) == 1
-
-
-def test_under_a_drag_auto_is_not_measured():
-    scene = SCENES["kharlamova"]
-    state = scene.compute({**scene.defaults(), "accuracy": AUTO}, scene.pictures, True)
-    assert state.work.todo == []
-    assert state.level.name == "draft"
 
 
 def test_what_cannot_be_computed_is_measured_as_standard():
@@ -259,10 +221,6 @@ def test_the_cells_that_change_are_those_of_the_finer_grid_with_another_colour()
         approx(share, rel=0.05)
     )
     assert "difference" in scenes()["rotation-number-accuracy"].open_pictures
-    # More digits do not change these cells.
-    state, _ = difference("rotation-number", "grid", "standard")
-    assert state.comparison.about().verdict == "No cell changes."
-    assert not state.comparison.found.cells.max()
 
 
 def test_of_a_regular_motion_nothing_moves():
@@ -316,41 +274,4 @@ def test_what_was_compared_is_remembered_when_one_comes_back():
     }
 
 
-def test_the_error_of_a_cloud_is_measured_on_the_same_points():
-    """Twice as far as another run says, at another tolerance and order; its own estimate is an independent bound."""
-    scene = SCENES["singular-measures"]
-    (trial,) = scene.trials
-    state = bare(scene.of({**scene.defaults(), "points": "1000", "span": 6.0}))
-    for name in ("draft", "standard"):
-        found = trial.run(state, PLANS[Computation.CLOUD][name])
-        cloud, exact = found.cloud, state.task(1000, LEVELS["reference"]).now().cloud
-        radius = 300.0
-        # 1.1 × the largest |ω| fits, in round steps, so a unit of ω is between 150 and 300 pixels over it.
-        off = max(
-            radius * np.linalg.norm(cloud.gamma - exact.gamma, axis=2).max(),
-            radius / (1.1 * found.fastest) * np.linalg.norm(cloud.omega - exact.omega, axis=2).max(),
-        )
-        assert 0.5 * off < trial.error(state, found, None) <= 1.01 * off
-        assert trial.error(state, found, None) < 20.0 * radius * cloud.error_estimate
-
-
 # ---- tables -----------------------------------------------------------------------------------------------------
-
-
-def test_a_row_is_a_line_of_the_table_and_an_entry_of_the_data_for_each_level_and_the_costliest_comes_first():
-    levels = zip(LEVELS, (10.0, 20.0, 40.0, 60.0), (0.2, 0.02, 0.002, 0.0), strict=True)
-    dear = Row("here", "section", "pixels", tuple(LevelCost(*one, one[0] != "draft") for one in levels), "standard")
-    cheap = dataclasses.replace(dear, samples=tuple(dataclasses.replace(one, ms=one.ms / 20) for one in dear.samples))
-    *_, line = as_text([cheap, dear]).splitlines()
-    assert line == "| here | section | 10 ms, 0.2 | 20 ms, 0.02 | 40 ms, 0.002 | 60 ms, 0 | 6 × | standard | pixels |"
-    entry = {"scene": "here", "kind": "section", "level": "draft", "ms": 10.0, "error": 0.2, "unit": "pixels"}
-    assert as_json([dear])[0] == {**entry, "complete": False, "enough": "standard"}
-    assert [costliest([cheap, dear], count) for count in (1, 5)] == [[dear], [dear, cheap]]
-
-
-def test_the_accuracy_auto_of_a_work_is_none_of_the_levels():
-    work = Work(AUTO)
-    assert (work.auto, work.chosen) == (True, "standard")
-    work.settle("precise")
-    assert (work.chosen, work.level.name) == ("precise", "precise")
-    assert isinstance(SUSLOV, Scene)
