@@ -1,6 +1,5 @@
 """Conformance of every registered scene, the words of the Suslov–Hess scene, and sessions without a browser."""
 
-import dataclasses
 import json
 import re
 import time
@@ -18,12 +17,10 @@ from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.page import session
 from hess_explorer.protocol.parameters import Choice, Formula, Number, Places, written
-from hess_explorer.scenes.framework.parameters import number
-from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.parts import precision
 from hess_explorer.views.text import with_formulas
 from hess_mechanics import f_max
-from hess_mechanics.errors import InvalidParameter, ModelError
+from hess_mechanics.errors import ModelError
 from support.board import (
     ACCURACY,
     HESS,
@@ -706,19 +703,6 @@ def test_from_any_scene_to_any_other_and_back_everything_is_of_the_state():
         }, name
 
 
-def with_extra(**defaults):
-    """A scene of the same parameters as the Hess case, some with other defaults, and one more."""
-    specs = {spec.name: dataclasses.replace(spec, default=defaults.get(spec.name, spec.default)) for spec in HESS.specs}
-    own = [
-        (name, type(spec.default), dataclasses.field(default=spec.default, metadata={"spec": spec}))
-        for name, spec in specs.items()
-        if name in defaults
-    ]
-    extra = number("x", 2.0, (1.0, 3.0), 0.1, bounds=(0.0, 4.0), label="Extra", doc="One more.")
-    state = dataclasses.make_dataclass("Other", [*own, ("extra", float, extra)], bases=(HESS.state,), frozen=True)
-    return variant(HESS, name="other", state=state)
-
-
 # Scenes in which a number of the same name is the same number, read off the equations in their words.
 SAME = {
     "h": [
@@ -758,51 +742,6 @@ def test_a_number_that_is_not_possible_there_does_not_go_along():
     # b₃ = 0.7 of the general body is none of the Suslov–Hess case, where b₃ < 0.
     taken = HESS.taken_over(HESS.defaults(), SCENES["suslov"], {**SCENES["suslov"].defaults(), "b3": 0.5, "I22": 1.0})
     assert taken == {**HESS.defaults(), "I22": 1.0}
-
-
-@pytest.fixture
-def other(monkeypatch):
-    """Another scene, of the same parameters with other defaults, and one more; impossible for h > 2."""
-    scene = with_extra(h=1.75, f=0.25)
-
-    def compute(values, *rest):
-        if values["h"] > 2.0:
-            raise InvalidParameter("Too fast here: choose h below 2.")
-        return Scene.compute(scene, values, *rest)
-
-    refusing = variant(scene, name="other", compute=compute)
-    monkeypatch.setitem(SCENES, refusing.name, refusing)
-    return refusing
-
-
-def test_a_scene_begins_in_its_own_first_state_and_what_was_changed_comes_along(other):
-    browser = Browser(HESS)
-    browser.ask(1, scene="other")
-    assert browser.session.values == other.defaults()
-    browser.ask(2, values={"h": 0.5, "accuracy": "precise", "extra": 2.5})
-    browser.ask(3, scene=HESS.name)
-    assert browser.session.values == {**HESS.defaults(), "h": 0.5, "accuracy": "precise"}
-    # What is reset here stays as it was left there.
-    browser.ask(4, reset=True)
-    browser.ask(5, scene="other", values={"b3": -2.0})
-    assert browser.session.values == {**other.defaults(), "h": 0.5, "accuracy": "precise", "extra": 2.5, "b3": -2.0}
-    assert browser.texts["notes"] == ""
-
-
-def test_where_what_was_chosen_before_is_impossible_the_scene_begins_in_its_own_first_state(other):
-    browser = Browser(HESS)
-    browser.ask(1, values={"h": 3.0, "I22": 1.25})
-    browser.ask(2, scene="other")
-    assert browser.session.values == other.defaults()
-    assert browser.texts["notes"] == "The previous values are not possible here: this is the scene's default state."
-    assert len(browser.data["data-orbit"]["omega1"]) > 100
-    # A choice in the scene itself is refused in its own words, and so is a link.
-    browser.ask(3, values={"h": 2.5})
-    assert browser.texts["status"].startswith("Too fast here")
-    assert browser.session.values["h"] == 2.5
-    browser.ask(4, scene=HESS.name)
-    assert browser.session.values["h"] == 2.5
-    assert Browser(other, {**other.defaults(), "h": 3.0}).texts["status"].startswith("Too fast here")
 
 
 @pytest.mark.parametrize("scene", OWN, ids=lambda scene: scene.name)

@@ -108,9 +108,3 @@ def test_the_body_of_the_hess_case_is_one_of_the_admissible_ones():
         g = np.array([body[name][at] for name in ("g1", "g2", "g3")])
         assert g == approx([orbit[name][at] for name in ("g1", "g2", "g3")], abs=5e-4)
     assert body["t"][-1] == orbit["t"][-1] == 40.0
-
-
-def test_where_there_is_no_body_nothing_is_drawn_and_that_is_said():
-    view = View(HESS, {"I22": 0.5, "I23": 1.5})
-    assert view.data.get("body", {}) == {}
-    assert "Not drawn: no such rigid body. |a| ≥ 1" in view.text["body"]
