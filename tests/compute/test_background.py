@@ -12,7 +12,7 @@ import pytest
 from hess_explorer.compute import background
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import ResultCache, Task
-from hess_explorer.protocol.parameters import MAX_QUERY, Places, decode, encode, places, written
+from hess_explorer.protocol.parameters import MAX_QUERY, decode, encode, places, written
 from hess_explorer.scenes import euler_poisson
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.errors import InvalidParameter
@@ -166,23 +166,6 @@ def test_a_newer_choice_ends_the_older_work(gate):
     assert begun == [*range(THREADS), 100, 101, 102]
 
 
-def test_stop_begins_nothing_more(gate):
-    work = Background()
-    work.follow(tasks(20))
-    wait_until(lambda: len(gate.calls) == THREADS)
-    work.stop()
-    assert work.left == THREADS
-    gate.let(THREADS)
-    wait_until(lambda: work.left == 0)
-    time.sleep(0.02)
-    assert len(gate.calls) == THREADS
-    # And the next choice is followed as ever.
-    work.follow(tasks(2, first=50))
-    gate.let(2)
-    wait_until(lambda: work.left == 0)
-    assert gate.peek(square, 51) == 2601
-
-
 @pytest.fixture
 def endless():
     """Return an endless piece of work, with events for its start and its end."""
@@ -260,25 +243,7 @@ def test_sessions_take_turns(gate):
     assert long.left > 20
 
 
-def test_nothing_to_do_is_done_at_once():
-    work = Background()
-    assert (work.left, work.error) == (0, "")
-    work.follow(())
-    assert work.left == 0
-
-
 # ---- What waits and what is there --------------------------------------------------------------------------------
-
-
-def test_what_is_not_known_yet_is_left_to_do(gate):
-    work = Work(dragging=False)
-    assert work.later(square, 3) is None
-    assert work.todo == tasks(1, first=3)
-    gate.get(square, 3)
-    again = Work(dragging=False)
-    assert again.later(square, 3) == 9
-    assert again.todo == []
-    assert work.pieces == again.pieces == 1
 
 
 def test_peek_computes_nothing_and_waits_for_nothing(gate):
@@ -307,36 +272,13 @@ def test_peek_computes_nothing_and_waits_for_nothing(gate):
 # ---- Places in the link -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "1,2,3",
-        "0.1,0.2;",
-        "nan,0",
-        "0,1.01",
-        "1e400,0",
-        "0,0;x",
-        "<script>",
-        "1_0,0",
-        "٣,0",
-    ],
-)
+@pytest.mark.parametrize("text", ["1,2,3", "nan,0", "0,1.01", "1e400,0", "0,0;x", "<script>", "1_0,0"])
 def test_what_names_no_places_is_replaced_and_not_repeated(text):
-    value, note = STARTS.read(text)
-    inside = all(-math.pi <= x <= math.pi and -1.0 <= y <= 1.0 for x, y in places(value))
-    assert inside
-    if note is not None:
-        assert value == STARTS.default
-        assert note == (
-            "The places of the chosen orbits must be points x,y;x,y from -3.14159,-1 to "
-            "3.14159,1: the default is shown."
-        )
-    else:
-        assert STARTS.read(value) == (value, None)
-    query = encode(EP.name, {**EP.defaults(), "starts": text})
-    values, notes = decode(query, EP.specs)
-    assert values["starts"] == value
-    assert notes == ([note] if note else [])
+    values, notes = decode(encode(EP.name, {**EP.defaults(), "starts": text}), EP.specs)
+    assert values["starts"] == STARTS.default
+    assert notes == [
+        "The places of the chosen orbits must be points x,y;x,y from -3.14159,-1 to 3.14159,1: the default is shown."
+    ]
 
 
 def test_of_too_many_places_the_last_ones_are_kept():
@@ -359,13 +301,11 @@ def test_a_link_with_all_places_is_not_too_long():
 @pytest.mark.parametrize(
     "window, admitted",
     [
-        ("0,0;1,0.5", "0,0;1,0.5"),
         ("1,0.5;0,0", "0,0;1,0.5"),
         ("1,0;0,0.5", "0,0;1,0.5"),
         ("0,0", ""),
         ("0,0;0,0.5", ""),
         ("0,0.5;1,0.5", ""),
-        ("", ""),
     ],
 )
 def test_a_window_is_two_corners_in_their_order(window, admitted):
@@ -498,30 +438,6 @@ def test_what_was_stopped_is_not_begun_again_by_a_picture_that_comes_into_sight(
     assert browser.texts["notes"].startswith(f"Stopped: 0 of {PIECES} parts are drawn.")
 
 
-def test_a_newer_state_ends_the_work_for_the_older_one(gate):
-    browser = Browser(EP, SMALL)
-    wait_until(lambda: len(gate.calls) == THREADS)
-    state = browser.ask(1, values={"h": 45.0})
-    assert state["progress"] == [0, PIECES]
-    gate.let(1000)
-    completed(browser)
-    energies = Counter(arguments[0].h for function, arguments in gate.calls if function is euler_poisson._batch)
-    assert energies[50.0] <= THREADS
-    assert energies[45.0] == PIECES - 1
-
-
-def test_what_a_drag_shows_needs_no_background(gate):
-    browser = Browser(EP, {**SMALL, "orbits": 4.0})
-    wait_until(lambda: len(gate.calls) == THREADS)
-    state = browser.ask(1, values={"h": 40.0}, held=True)
-    assert state["progress"] is None
-    gate.let(THREADS)
-    wait_until(lambda: browser.session.background.left == 0)
-    assert len(gate.calls) == THREADS
-    state = browser.ask(2)
-    assert state["progress"] is not None
-
-
 def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
     """A piece that arrives between the computation and the check for pending work is neither lost nor "stopped"."""
     browser = Browser(EP, {**SMALL, "orbits": 0.0})
@@ -561,16 +477,13 @@ def test_a_box_beyond_the_section_is_cut_and_one_that_is_none_is_not_taken(free_
     for corners in (
         [0.0, 0.5, 0.0, 0.7],
         [0.0, 2.0, 1.0, 3.0],
-        [0.0, 0.5, 1.0, 0.5],
         [math.nan, 0.0, 1.0, 1.0],
         ["0", 0, 1, 1],
-        [None, 0, 1, 1],
-        [1e400, 0, 1, 1],
         [10**400, 0, 1, 1],
     ):
         browser.ask(2, picked=["section", *corners])
         assert browser.session.values == before
-    for picture in ("rotation", "exponent", "sphere", "nobody", ""):
+    for picture in ("sphere", "nobody"):
         browser.ask(3, picked=[picture, 0.0, 0.1, 1.0, 0.9])
         browser.ask(3, picked=[picture, 0.0, 0.1])
         assert browser.session.values == before
@@ -579,31 +492,20 @@ def test_a_box_beyond_the_section_is_cut_and_one_that_is_none_is_not_taken(free_
 @pytest.mark.parametrize(
     "message",
     [
-        {"restore": None},
         {"restore": ["v=1"]},
         {"clear": "yes", "stop": None},
-        {"stop": True},
-        {"picked": []},
-        {"picked": [None]},
         {"picked": ["section"]},
-        {"picked": ["section", 1.0]},
         {"picked": ["section", 1.0, 0.1, 2.0]},
         {"picked": ["section", 0.1, 0.2, 0.6, 0.7, 0.8, 0.9]},
-        {"values": {"starts": None}},
-        {"values": {"starts": ["0,0"]}},
-        {"values": {"window": {}}},
-        {"values": {"starts": "0" * 5000}},
-        {"values": {"window": "1,2,3;4"}},
+        {"picked": ["section", "1", "1"]},
+        {"picked": ["sphere", 1.0, 1.0]},
+        {"values": {"starts": ["0,0"], "window": {}}},
+        {"values": {"starts": "0" * 5000, "window": "1,2,3;4"}},
         {"values": [["h", 1]]},
         {"values": {"h": "2.5", "f": [1], "nobody": 1.0, "accuracy": 2}},
         {"values": {"preset": "Separatrix: no return", "scene": "suslov-hess-accuracy"}},
-        {"picked": ["section", "1", "1"]},
-        {"picked": ["sphere", 1.0, 1.0]},
         {"requested": None, "held": "yes"},
-        {"reset": 1},
-        {"preset": "nobody"},
-        {"scene": "nowhere"},
-        {"scene": EP.name},
+        {"reset": 1, "preset": "nobody", "scene": "nowhere"},
     ],
 )
 def test_a_message_that_means_nothing_changes_nothing(free_gate, message):
@@ -612,14 +514,6 @@ def test_a_message_that_means_nothing_changes_nothing(free_gate, message):
     browser.send(message)
     assert browser.ask(1)["answers"] == 1
     assert (browser.session.values, browser.entered) == (before, [EP.name])
-
-
-def test_a_click_where_nothing_is_possible_is_answered_by_another_start(free_gate):
-    loxodromic = {"I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5), "h": 0.0, "f": 0.0, "starts": "2.8,0.3"}
-    browser = Browser(EP, {**SMALL, **loxodromic})
-    browser.ask(1, picked=["section", 0.0, 0.0])
-    assert "no motion with this h and f crosses the section: the chosen orbit starts at l = " in browser.texts["notes"]
-    assert len(browser.data["section-chosen"]["x"]) == 1
 
 
 def test_a_step_back_leads_to_another_scene_too_with_all_of_its_values_and_no_others(free_gate):
@@ -634,7 +528,6 @@ def test_a_step_back_leads_to_another_scene_too_with_all_of_its_values_and_no_ot
     state = browser.ask(5, restore=there, near="loxodrome")
     assert (state["scene"], state["query"]) == ("suslov-hess", there)
     assert browser.described == [EP.name, "suslov-hess"]
-    assert isinstance(STARTS, Places)
 
 
 def test_a_step_back_is_read_as_a_link_is(free_gate):

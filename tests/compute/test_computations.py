@@ -32,7 +32,7 @@ from support.board import (
 from support.thorough import sample
 
 every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
-some_scenes = pytest.mark.parametrize("scene", sample(SCENES.values(), 8), ids=lambda scene: scene.name)
+some_scenes = pytest.mark.parametrize("scene", sample(SCENES.values(), 5), ids=lambda scene: scene.name)
 
 # By the names of the functions.
 MAP, CYCLES, TRACK = "circle_map", "cycles", "track"
@@ -145,15 +145,11 @@ def test_the_first_view_computes_each_part_once_and_the_second_nothing(cache):
 
 CHANGES = [
     ({"h": 1.45}, MOTION),
-    ({"f": 0.61}, MOTION),
     ({"phi0": 0.51}, {TRACK}),
-    ({"span": 41.0}, {TRACK}),
     ({"accuracy": "draft"}, MOTION | {BOUNDARY, GRID}),
-    ({"accuracy": "precise"}, MOTION | {BOUNDARY, GRID}),
     # Grid and boundary depend on a alone, and the circle map does not know b.
     ({"b3": -1.01}, {CYCLES, TRACK}),
     ({"I22": 0.97}, MOTION | {BOUNDARY, GRID}),
-    ({"I23": 0.29}, MOTION | {BOUNDARY, GRID}),
     # The same a: another body, the same maps.
     ({"I22": 1.92, "I23": 0.56}, {CYCLES, TRACK}),
     # Beyond the slider the diagram shows more.
@@ -281,45 +277,7 @@ def test_what_a_change_leaves_as_it_was_is_not_sent_again(cache):
         assert ("bifurcation-here" in sent) == ("f" in values)
 
 
-def test_what_comes_into_sight_does_not_bring_the_others_with_it(cache):
-    browser = Browser(HESS)
-    browser.ask(1, hidden=["bifurcation"])
-    sent = browser.ask(2, hidden=[])["tree"]["sources"]
-    assert not {"data-orbit", "circle-map"} & set(sent)
-
-
-def test_a_picture_that_is_not_computed_claims_no_separatrix(cache):
-    board = Board(HESS)
-    board.show(compute(HESS, HESS.defaults()))
-    board.show(compute(HESS, {**HESS.defaults(), "h": 1.25}, set()))
-    assert list(board.sources["circle-message"]["text"]) == []
-
-
-def test_at_the_separatrix_too_what_is_hidden_is_not_computed(cache):
-    values = {**HESS.defaults(), "h": 1.0, "f": 0.0}
-    for seen, expected in ((set(), set()), ({"circle"}, {TRACK}), (set(HESS.pictures), ZONES)):
-        compute(HESS, values, seen)
-        assert cache.take() == expected
-
-
 # --- Pictures in sight look as if all were ---------------------------------------------------------------
-
-
-def own_sources(board, name):
-    """Return the data of one picture, including sources that other pictures hold for it."""
-    own = {name, *board.tracks.get(name, ())}
-    if name in plots_of(board.scene.name):
-        own |= set(plots_of(board.scene.name)[name].sources)
-    found = {key: data for key, data in board.sources.items() if key in own}
-    # In the orbit that all share: not what only the moving point of another picture needs.
-    dots = board.scene.dots.items()
-    others = {column for dot, columns in dots if not dot.startswith(f"{name}-") for column in columns}
-    needed = {column for dot, columns in dots if dot.startswith(f"{name}-") for column in columns}
-    alone = others - needed - {"t", "g1", "g2", "g3", "omega1", "omega2"}
-    return {
-        key: {column: values for column, values in data.items() if key != "data-orbit" or column not in alone}
-        for key, data in found.items()
-    }
 
 
 # Another state for each scene, and more of those of the scenes whose pictures are computed one by one.
@@ -328,18 +286,7 @@ STATES = [(scene, elsewhere(scene)) for scene in SCENES.values()] + [
     for scene in (HESS, ACCURACY)
     for change in ({"h": 1.25, "phi0": -1.0, "I23": 0.35}, {"h": 1.0, "f": 0.0}, {"h": 30.0})
 ]
-every_other = pytest.mark.parametrize("scene, values", sample(STATES, 9), ids=lambda one: getattr(one, "name", ""))
-
-
-@every_other
-def test_a_picture_alone_in_sight_is_drawn_as_among_the_others(scene, values):
-    whole, board = Board(scene), Board(scene)
-    whole.show(compute(scene, values))
-    for name in scene.pictures:
-        board.show(compute(scene, scene.defaults()))
-        board.show(compute(scene, values, {name}))
-        assert contents(own_sources(board, name)) == contents(own_sources(whole, name)), name
-        assert board.captions[name] == whole.captions[name]
+every_other = pytest.mark.parametrize("scene, values", sample(STATES, 5), ids=lambda one: getattr(one, "name", ""))
 
 
 @every_other
@@ -354,6 +301,13 @@ def test_what_was_hidden_is_of_the_present_state_when_it_is_seen_again(scene, va
         assert hidden.status
         # Results derived from unused results are not computed either.
         assert set(hidden.derived) <= set(report.derived)
+        # A picture alone in sight is drawn as among the others.
+        if len(seen) == 1:
+            (name,) = seen
+            alone = contents(board.sources)
+            own = plots_of(scene.name)[name].sources if name in plots_of(scene.name) else {name}
+            assert {one: alone[one] for one in own} == {one: expected[one] for one in own}
+            assert board.captions[name] == whole.captions[name]
         board.show(compute(scene, values))
         assert contents(board.sources) == expected, seen
         assert board.captions == whole.captions
@@ -362,24 +316,12 @@ def test_what_was_hidden_is_of_the_present_state_when_it_is_seen_again(scene, va
 # --- Speed and accuracy ------------------------------------------------------------------------------------
 
 
-def test_the_first_view_of_speed_and_accuracy_measures_everything_once(cache):
-    compute(ACCURACY, SHORT)
-    assert cache.take() == STUDY
-    compute(ACCURACY, SHORT)
-    assert cache.take() == set()
-
-
 STUDY_CHANGES = [
     ({"h": 1.45}, STUDY),
-    ({"f": 0.61}, STUDY),
     ({"phi0": 0.51}, STUDY),
     ({"span": 5.0}, STUDY),
-    ({"b3": -1.01}, STUDY),
-    ({"I22": 0.97}, STUDY),
-    ({"I23": 0.29}, STUDY),
     # All levels are measured in any case.
     ({"accuracy": "reference"}, set()),
-    ({"accuracy": "draft"}, set()),
     # So long that SciPy's methods are left out.
     ({"span": 90.0}, {LEVELS, GROWTH}),
 ]
@@ -393,15 +335,6 @@ def test_a_change_measures_the_motion_anew_where_it_is_another_one(cache, change
     assert cache.take() == expected
     browser.ask(2, values=SHORT)
     assert cache.take() == set()
-
-
-def test_another_unit_of_the_same_motion_changes_the_pixels_only(cache):
-    values = {**ACCURACY.defaults(), "span": 1e5}
-    compute(ACCURACY, values)
-    assert cache.take() == {LEVELS, GROWTH}
-    # Cut at as many returns, in units b = 1 it is the same motion.
-    compute(ACCURACY, {**values, "b3": -1.3})
-    assert cache.take() == {GROWTH}
 
 
 @every_subset_of_the_study
@@ -435,14 +368,6 @@ def test_while_dragging_scipy_never_runs_and_when_let_go_it_does(cache, monkeypa
     assert len(browser.data["precision-DOP853"]["x"]) == len(browser.data["precision-LSODA"]["x"]) == 3
 
 
-def test_levels_of_accuracy_do_not_follow_a_drag_here(cache):
-    """All levels are shown here, so a drag may not skip any."""
-    study = compute(ACCURACY, {**SHORT, "accuracy": "reference"}, dragging=True)
-    assert [point.setting for point in study.precision.measured] == ["draft", "standard", "precise", "reference"]
-    assert set(study.precision.growing.errors) == {"draft", "standard", "precise", "reference"}
-    assert study.work.chosen == "reference"
-
-
 # --- Through a session -------------------------------------------------------------------------------------
 
 
@@ -474,14 +399,9 @@ def test_a_new_scene_is_computed_whole_whatever_was_hidden_in_the_old_one(cache)
 @pytest.mark.parametrize(
     "hidden",
     [
-        ["point"],
-        ["", "nobody", "precision"],
-        [None, 2.5, True],
-        [["bifurcation"], {"bifurcation": 1}],
-        ["bifurcation ", "BIFURCATION"],
+        ["nobody", None, True, ["bifurcation"], {"bifurcation": 1}, "bifurcation ", "BIFURCATION"],
         "bifurcation",
         {"bifurcation": True},
-        None,
         10**400,
     ],
     ids=repr,
@@ -495,15 +415,6 @@ def test_what_names_no_picture_hides_none(cache, hidden):
     # A list says what is in sight, the body too; what is none leaves it folded.
     seen = HESS.pictures if isinstance(hidden, list) else HESS.open_pictures
     assert cache.take() == needed(set(seen)) - {CURVE}
-
-
-def test_a_message_without_hidden_leaves_it_as_it_was(cache):
-    browser = Browser(HESS)
-    browser.ask(1, hidden=["bifurcation"])
-    cache.take()
-    for requested, message in enumerate(({}, {"hidden": None}, {"hidden": "omega"}), 2):
-        browser.ask(requested, values={"I23": 0.3 + 0.01 * requested}, **message)
-        assert cache.take() == MOTION
 
 
 def test_all_hidden_the_state_still_follows_and_is_said(cache):
@@ -532,7 +443,7 @@ def test_a_state_asks_the_cache_for_each_of_its_parts_once(cache):
 
 
 def test_warming_up_computes_the_first_state_of_every_scene(cache, monkeypatch):
-    tasks, chosen = [], sample(SCENES.values(), 8)
+    tasks, chosen = [], sample(SCENES.values(), 3)
     monkeypatch.setattr(warm, "scenes", lambda: {scene.name: scene for scene in chosen})
     # One request of each kind that can wait; its duration does not matter here.
     later = types.SimpleNamespace(get=lambda function, *arguments: tasks.append((function, arguments)), asked=0)

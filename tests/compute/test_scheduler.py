@@ -207,8 +207,3 @@ def test_the_end_of_one_budget_is_not_that_of_others_who_wait_for_the_same():
     waiting.join(PATIENCE)
     assert found == [5]
     assert calls == [5, 5]
-
-
-def test_there_are_more_threads_than_cores():
-    """A slow request then does not block the requests of others."""
-    assert scheduler._pool._max_workers > scheduler.THREADS
