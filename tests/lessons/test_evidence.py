@@ -8,7 +8,7 @@ from hess_explorer.scenes import scenes
 from hess_mechanics import level, prove, regime, return_map, solve
 from hess_mechanics.dynamics.tube import error_bounds, tube
 from support.lesson_on_constraints import free_body
-from support.lesson_on_evidence import STEPS, growth, passage
+from support.lesson_on_evidence import STEPS, growth
 from support.suslov import field
 
 
@@ -40,17 +40,6 @@ def test_the_drift_of_the_energy_is_less_than_a_tenth_of_the_error():
     assert energy.max() < 0.1 * found.errors["draft"].max()
 
 
-def test_a_point_at_the_wrong_speed_keeps_the_energy_and_is_at_the_wrong_place():
-    values = STEPS["Nothing happens, for ever?"].prediction.then.values
-    body = free_body(values)
-    motion = passage(STEPS["Nothing happens, for ever?"])
-    times = np.linspace(-3.0, 3.0, 61)
-    right, slow = (motion.omega(factor * times) for factor in (1.0, 0.8))
-    energies = [0.5 * (body.I11 * w[..., 0] ** 2 + body.I22 * w[..., 1] ** 2) for w in (right, slow)]
-    np.testing.assert_allclose(energies[0], energies[1], rtol=1e-12)
-    assert np.abs(right - slow).max() > 0.3
-
-
 def test_in_chaos_the_error_grows_to_the_size_of_the_picture_and_in_a_shorter_time_it_does_not():
     step = STEPS["Chaos eats digits"]
     assert growth(step.at.values).pixels["standard"].max() < 1.0
@@ -65,16 +54,6 @@ def test_the_mean_divergence_of_the_chaotic_body_agrees_at_twice_the_time():
     one, twice = (regime(map_, state.diagram.place, t=t) for t in (state.long, 2.0 * state.long))
     assert abs(one.divergence - twice.divergence) < 3.0 * np.hypot(one.divergence_error, twice.divergence_error)
     assert one.kind.words == twice.kind.words == "chaotic"
-
-
-def test_the_slow_rotation_is_steady_up_to_half_the_time_and_gone_after_it():
-    step = STEPS["Nothing happens, for ever?"]
-    state = scenes()["free-suslov"].of(step.prediction.then.values)
-    times, Gamma = state.orbit.times, state.orbit.Gamma
-    assert np.ptp(Gamma[times <= 400.0]) < 1e-6
-    assert abs(Gamma[-1] - Gamma[0]) > 0.5
-    # Before: the stable rotation, for ever.
-    assert np.ptp(scenes()["free-suslov"].of(step.at.values).orbit.Gamma) < 1e-6
 
 
 def test_the_less_extreme_start_looks_steady_up_to_the_first_time_and_not_up_to_the_last():

@@ -66,7 +66,6 @@ def test_a_lesson_is_read_as_it_is_written():
 # Faulty text → the line of the mistake, and part of its message.
 MISTAKES = [
     ("title: Two cycles are born\n", "", 1, "no title"),
-    ("minutes: 10", "minutes: soon", 3, "like minutes: 20"),
     ("minutes: 10", "minutes: 1e9", 3, "up to 600"),
     ("minutes: 10", "author: me", 3, "choose from title, minutes"),
     ("---\ntitle", "title", 1, "front matter"),
@@ -79,22 +78,17 @@ MISTAKES = [
     ("look: circle", "look: circel", 10, "look must be one of body, omega"),
     ("look: circle", "glance: circle", 10, "choose from state, example, look, animate, controls, hide, predict"),
     ("look: circle", "controls: h", 10, "a list of at most 6 names"),
-    ("look: circle", "controls: [h, nothing]", 10, "a name in controls must be one of I22"),
-    ("look: circle", "controls: [[h]]", 10, "a name in controls must be one of"),
+    ("look: circle", "controls: [[h]]", 10, "a name in controls must be one of I22"),
     ("look: circle", "controls: [h, f, I22, I23, b3, phi0, span]", 10, "at most 6"),
-    ("look: circle", "hide: {picture: sphere, layer: stable}", 10, "picture of hide must be one of omega, bifurcation"),
-    ("look: circle", "hide: {picture: [circle], layer: stable}", 10, "picture of hide"),
+    ("look: circle", "hide: {picture: [circle], layer: stable}", 10, "picture of hide must be one of omega"),
     ("look: circle", "hide: {picture: bifurcation, layer: rotation}", 10, "layer of hide must be one of"),
-    ("look: circle", "example: U", 10, "Two limit cycles, No cycle"),
     ("look: circle", "example: S", 10, "exactly one example"),
     ("look: circle", "look: [circle", 11, "not YAML"),
     ("look: circle", "look: &a circle\nmore: *a", 9, "references"),
     ("name: h,", "name: k,", 11, "name of animate must be one of time, I22"),
-    ("to: 1.5", "to: 1e9", 11, "numbers from"),
     ("to: 1.5", "to: .nan", 11, "numbers from"),
     ("seconds: 8", "seconds: 0", 11, "up to 600"),
     (", seconds: 8", "", 11, "animate needs"),
-    ("{picture: circle", "{picture: sphere", 12, "picture of predict must be one of omega, bifurcation, circle"),
     ("layer: stable", "layer: truth", 12, "layer of predict must be one of diagonal"),
     ("scene=suslov-hess&h=1.5&f=0.6", "scene=scattering&k=1", 12, "the same scene"),
     ("### Question", "### Quiz", 16, "Question and Answer"),
@@ -102,7 +96,6 @@ MISTAKES = [
     ("## Next", "##", 20, "no title"),
     ("$a<b$", "$\\frac$", 14, "cannot be set"),
     ("It stays.", "It\nstays $5", 22, "a dollar stands alone"),
-    ("It stays.", "It *stays*[^1].", 21, "footnotes"),
     ("It stays.", "[^1]: a_note", 21, "footnotes"),
     ("It stays.", "- one\n- [x] two", 22, "boxes to tick"),
     ("It stays.", "It ~~stays~~.", 21, "~~ is not read"),
@@ -111,11 +104,9 @@ MISTAKES = [
     ("It stays.", "<!-- It stays. -->", 21, "is HTML"),
     ("It stays.", "| a |\n|---|\n| <i> |", 23, "is HTML"),
     ("It stays.", "[It](javascript:stays)", 21, "'javascript:stays' leads nowhere"),
-    ("It stays.", "[It](other.md)", 21, "write https://"),
     ("It stays.", "[It](https:///stays)", 21, "leads nowhere"),
     ("It stays.", "[It](?scene=suslov-hess&h=1e9)", 21, "h must lie between"),
     ("It stays.", "[It](?h=1)", 21, "needs a scene"),
-    ("Because.", "$$\n\\frac\n$$", 19, "cannot be set"),
     ("It stays.", "```step\nlook: omega\n```\n```step\n```", 24, "two fences named step"),
 ]
 
@@ -277,7 +268,8 @@ def test_every_step_is_admitted_unchanged_and_drawn(lesson, step):
             assert view.full_caption(state).title
     if step.prediction:
         # There is something to reveal, once all is computed.
-        drawn = View(scene, place.values, seen={step.prediction.picture}).data[step.prediction.source]
+        few = {"steps": 20.0} if "steps" in place.values else {}
+        drawn = View(scene, {**place.values, **few}, seen={step.prediction.picture}).data[step.prediction.source]
         assert all(len(drawn[column]) for column in step.prediction.columns)
     if step.animation and step.animation.name != "time":
         for value in (step.animation.start, step.animation.end):
@@ -289,10 +281,6 @@ def test_words_of_a_scene_are_whole_without_what_can_be_tried():
     words = "### What you see\na\n\n### Try this\n#### One\nb\n### The equations\nc"
     assert without_tries(words) == "### What you see\na\n\n### The equations\nc"
     assert without_tries("### What you see\na") == "### What you see\na"
-
-
-def test_the_longest_lesson_comes_first():
-    assert [lesson.minutes for lesson in shipped().values()] == [45.0] + 5 * [20.0]
 
 
 def test_a_displayed_formula_can_stand_in_a_line():
