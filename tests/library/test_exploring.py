@@ -1,4 +1,4 @@
-"""A scene in a notebook: its display, and the state it returns."""
+"""A scene in a notebook: its address and display, and the state it returns."""
 
 import asyncio
 import re
@@ -7,7 +7,7 @@ import threading
 import time
 import types
 from contextlib import contextmanager
-from html import escape, unescape
+from html import escape
 
 import pytest
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
@@ -21,7 +21,6 @@ from hess_explorer.library import exploring
 from hess_explorer.server.liveness import is_alive
 from hess_mechanics.errors import InvalidParameter
 from support.asynchronous import finished
-from support.visitor import Visitor
 
 
 def wait_reached(shown, h):
@@ -30,23 +29,6 @@ def wait_reached(shown, h):
     while shown.state.parameters["h"] != h:
         assert time.monotonic() < end, shown.state
         time.sleep(0.05)
-
-
-def test_a_scene_in_a_notebook_says_what_the_hand_has_reached():
-    with hess.explore("suslov-hess", h=1.2, accuracy="draft") as shown:
-        assert (shown.state.scene, shown.state.parameters["h"]) == ("suslov-hess", 1.2)
-        address = unescape(re.search(r'<iframe src="([^"]+)"', shown._repr_html_())[1])
-        port = int(re.search(r":(\d+)/", address)[1])
-
-        async def move():
-            visitor = await Visitor.open(*address.split("/?"))
-            await visitor.ask(values={"h": 0.5})
-            await visitor.leave()
-
-        finished(move())
-        wait_reached(shown, 0.5)
-        assert shown.state.parameters["accuracy"] == "draft"
-    assert not is_alive("127.0.0.1", port)
 
 
 FORWARDED = set()
@@ -134,7 +116,8 @@ def hub():
 def test_a_scene_is_reached_through_the_proxy_of_a_hub(browser, monkeypatch):
     monkeypatch.setenv("JUPYTERHUB_SERVICE_PREFIX", "/user/me/")
     with hub() as address, hess.explore("suslov-hess", h=1.2, accuracy="draft") as shown:
-        assert re.match(r"/user/me/proxy/\d+/\?", shown.url)
+        assert (shown.state.scene, shown.state.parameters["h"]) == ("suslov-hess", 1.2)
+        port = int(re.match(r"/user/me/proxy/(\d+)/\?", shown.url)[1])
         assert f'src="{escape(shown.url)}&amp;embed=1"' in shown._repr_html_()
         page = browser.new_page()
         page.goto(address + shown.url)
@@ -143,13 +126,16 @@ def test_a_scene_is_reached_through_the_proxy_of_a_hub(browser, monkeypatch):
         box.fill("0.5")
         box.press("Enter")
         wait_reached(shown, 0.5)
+        assert shown.state.parameters["accuracy"] == "draft"
         # The manifest of the app is beside the page.
         manifest = page.evaluate("fetch(document.querySelector('link[rel=manifest]').href).then((one) => one.json())")
         assert manifest["start_url"] == "./"
         page.close()
+    assert not is_alive("127.0.0.1", port)
 
 
-def test_a_scene_in_colab_is_reached_by_its_port(monkeypatch):
+def test_a_scene_is_reached_by_its_port_and_in_colab_by_another_address(monkeypatch):
+    assert exploring._reached(8123) == "http://127.0.0.1:8123/"
     asked = []
     colab = types.SimpleNamespace(eval_js=lambda code: asked.append(code) or "https://port.colab.example")
     monkeypatch.setitem(sys.modules, "google.colab.output", colab)

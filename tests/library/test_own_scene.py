@@ -1,4 +1,4 @@
-"""A scene for a system of one's own, here an oscillator whose motion is known."""
+"""A scene for a system of one's own: Hénon–Heiles, for λ = 0 two oscillators, whose motion is known."""
 
 import numpy as np
 from pytest import approx, mark, raises
@@ -9,59 +9,54 @@ from hess_explorer.scenes import add, scenes
 from hess_mechanics import System
 from hess_mechanics.errors import InvalidParameter
 
-OSCILLATOR = System(
-    "oscillator",
-    lambda y, p: (y[1], -p[0] * y[0], 0 * y[2]),
-    variables="x v c",
-    parameters={"k": 4.0},
-    example=(1.0, 0.0, 1.0),
-    title="An oscillator",
+# One system, so that its equations are compiled once.
+HENON = System(
+    "henon-heiles",
+    lambda y, p: (y[2], y[3], -y[0] - 2 * p[0] * y[0] * y[1], -y[1] - p[0] * (y[0] ** 2 - y[1] ** 2)),
+    "x y px py",
+    {"lam": 1.0},
+    example=(0.0, 0.1, 0.3, 0.2),
+    integrals=lambda y, p: {"E": sum(x**2 for x in y) / 2 + p[0] * (y[0] ** 2 * y[1] - y[1] ** 3 / 3)},
 )
 SCENE = hess.scene(
-    OSCILLATOR, ["x v", "t x", "x v c", "exponent"], sliders={"k": (1.0, 9.0)}, presets={"Slow": {"k": 1}}
+    HENON, ["x px", "t x", "x y px", "exponent"], sliders={"lam": (0.0, 2.0)}, presets={"Two oscillators": {"lam": 0}}
 )
 
 
 def test_its_pictures_show_the_motion_with_the_values_of_its_sliders():
-    state = hess.state(SCENE, p_k=9.0, y_x=0.5, span=2.0)
-    for picture, name in (("x-v", "orbit"), ("t-x", "orbit")):
+    state = hess.state(SCENE, p_lam=0.0, y_x=0.5, y_px=0.0, y_y=0.1, y_py=0.0, span=2.0)
+    for picture, name in (("x-px", "orbit"), ("t-x", "orbit")):
         layer = state.data(picture).layer(name)
         t = np.asarray(layer["t"])
         assert t[-1] == 2.0
-        assert np.asarray(layer["x"]) == approx(0.5 * np.cos(3.0 * t), abs=1e-6)
-    vector = np.column_stack([0.5 * np.cos(3.0 * t), -1.5 * np.sin(3.0 * t), np.ones(len(t))])
+        assert np.asarray(layer["x"]) == approx(0.5 * np.cos(t), abs=1e-6)
+    vector = np.column_stack([0.5 * np.cos(t), 0.1 * np.cos(t), -0.5 * np.sin(t)])
     sphere = state.data("sphere").layer("orbit")
     found = np.column_stack([np.asarray(sphere[name]) for name in ("g1", "g2", "g3")])
     assert found == approx(vector / np.linalg.norm(vector, axis=1, keepdims=True), abs=1e-6)
 
 
 def test_its_section_has_the_crossings_of_the_motion_and_a_click_chooses_one():
-    scene = hess.scene(OSCILLATOR, ["section v c at x = 0.5"])
-    crossings = hess.state(scene, y_x=1.0, y_c=0.7, count=50.0).data("section").layer("own")
-    # At x = 1/2 the velocity of cos 2t is √3, where it grows.
-    assert len(crossings["x"]) > 30
-    assert np.asarray(crossings["x"]) == approx(np.sqrt(3.0), abs=1e-6)
-    assert np.asarray(crossings["y"]) == approx(0.7, abs=1e-6)
+    scene = hess.scene(HENON, ["section px y at x = 0"])
+    given = {"p_lam": 0.0, "y_x": 1.0, "y_px": 0.0, "y_y": 0.0, "y_py": 0.7, "count": 20.0}
+    crossings = hess.state(scene, **given).data("section").layer("own")
+    # Where x = cos t grows through 0 its momentum is 1, and y = 0.7 sin t is lowest.
+    assert len(crossings["x"]) > 5
+    assert np.asarray(crossings["x"]) == approx(1.0, abs=1e-6)
+    assert np.asarray(crossings["y"]) == approx(-0.7, abs=1e-6)
     (view,) = scene.views
-    assert view.on_click(scene.of(scene.defaults()), 0.8, 0.3) == {"y_x": 0.5, "y_v": 0.8, "y_c": 0.3}
-    # Three words, but no direction on a sphere.
-    assert len(hess.state(hess.scene(OSCILLATOR, ["section v c"])).data("section").layer("own")["x"]) > 30
+    state = scene.of(scene.defaults())
+    # py by the energy of the example, 0.14/2 − 0.001/3.
+    expected = {"y_x": 0.0, "y_y": 0.1, "y_px": 0.2, "y_py": 0.3}
+    assert view.on_click(state, 0.2, 0.1) == approx(expected)
     # There the motion crosses the other way.
-    assert view.on_click(scene.of(scene.defaults()), -0.8, 0.3) == {}
+    assert view.on_click(state, -0.2, 0.1) == {}
 
 
 def test_a_section_at_a_level_has_periodic_orbits_and_their_branch():
-    """On the straight orbits y = ±x/√3 of Hénon–Heiles py² is a quarter of p²: py = √(E/2) at the origin."""
-    system = System(
-        "henon-heiles",
-        lambda y, p: (y[2], y[3], -y[0] - 2 * p[0] * y[0] * y[1], -y[1] - p[0] * (y[0] ** 2 - y[1] ** 2)),
-        "x y px py",
-        {"lam": 1.0},
-        example=(0.0, 0.1, 0.3, 0.2),
-        integrals=lambda y, p: {"E": sum(x**2 for x in y) / 2 + p[0] * (y[0] ** 2 * y[1] - y[1] ** 3 / 3)},
-    )
+    """On the straight orbits y = ±x/√3 py² is a quarter of p²: py = √(E/2) at the origin."""
     sliders = {"E": (0.01, 0.16), "y": (-0.5, 0.6)}
-    scene = hess.scene(system, ["section y py at x = 0 on E", "branch", "x y"], sliders=sliders)
+    scene = hess.scene(HENON, ["section y py at x = 0 on E", "branch", "x y"], sliders=sliders)
     assert {"i_E", "p_lam", "place", "over"} <= (names := {spec.name for spec in scene.specs})
     assert "y_x" not in names
     assert scene.defaults()["place"] == "0.1,0.2"
@@ -84,34 +79,35 @@ def test_a_section_at_a_level_has_periodic_orbits_and_their_branch():
 def test_it_has_a_slider_for_each_parameter_and_initial_value_and_the_presets_asked_for():
     ranges = {spec.name: (spec.default, spec.softbounds) for spec in SCENE.specs if spec.name[1] == "_"}
     assert ranges == {
-        "p_k": (4.0, (1.0, 9.0)),
-        "y_x": (1.0, (0.0, 2.0)),
-        "y_v": (0.0, (-1.0, 1.0)),
-        "y_c": (1.0, (0.0, 2.0)),
+        "p_lam": (1.0, (0.0, 2.0)),
+        "y_x": (0.0, (-1.0, 1.0)),
+        "y_y": (0.1, (-0.9, 1.1)),
+        "y_px": (0.3, (-0.7, 1.3)),
+        "y_py": (0.2, (-0.8, 1.2)),
     }
-    assert [(one.name, one.values) for one in SCENE.presets] == [("Slow", {"p_k": 1.0})]
-    assert hess.scene(OSCILLATOR).pictures == ("x-v",)
+    assert [(one.name, one.values) for one in SCENE.presets] == [("Two oscillators", {"p_lam": 0.0})]
+    assert hess.scene(HENON).pictures == ("x-y",)
 
 
 @mark.parametrize(
     ("given", "message"),
     [
-        ({"pictures": ["x q"]}, "has no 'q': choose among x, v, c"),
+        ({"pictures": ["x q"]}, "has no 'q': choose among x, y, px, py"),
         ({"pictures": ["x"]}, "'x' is no picture. Write two names"),
-        ({"pictures": ["x v", "x v"]}, "each picture may occur once"),
+        ({"pictures": ["x y", "x y"]}, "each picture may occur once"),
         ({"pictures": ["section at q = 1"]}, "has no 'q'"),
         ({"pictures": ["section at x = a"]}, "not a valid expression"),
-        ({"pictures": ["section v q"]}, "coordinates among v, c"),
-        ({"pictures": ["section on E"]}, "has no 'E': choose among none"),
+        ({"pictures": ["section y q"]}, "coordinates among y, px, py"),
+        ({"pictures": ["section on F"]}, "has no 'F': choose among E"),
         ({"pictures": ["branch"]}, "a branch needs a section"),
-        ({"sliders": {"q": (0, 1)}}, "has no 'q': choose among k, x, v, c"),
-        ({"sliders": {"k": (1, 1)}}, "two different ends"),
+        ({"sliders": {"q": (0, 1)}}, "has no 'q': choose among lam, x, y, px, py"),
+        ({"sliders": {"lam": (1, 1)}}, "two different ends"),
         ({"presets": {"A": {"q": 1}}}, "has no 'q'"),
     ],
 )
 def test_what_the_system_does_not_have_is_refused(given, message):
     with raises(InvalidParameter, match=message):
-        hess.scene(OSCILLATOR, **given)
+        hess.scene(HENON, **given)
 
 
 def test_a_name_that_cannot_stand_in_a_link_is_refused():

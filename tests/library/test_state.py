@@ -10,8 +10,6 @@ from html import escape
 import holoviews as hv
 import numpy as np
 import pytest
-from matplotlib.collections import PatchCollection
-from matplotlib.colors import to_hex
 from PIL import Image
 from pytest import approx
 
@@ -24,10 +22,8 @@ from hess_mechanics.euler_poisson import equations as euler_poisson
 
 DRAWN = [
     ("suslov-hess", "circle", "cobweb", ("phi", "theta")),
-    ("suslov-hess", "bifurcation", "here", ("h", "f")),
     ("free-suslov", "omega", "arrows", ("x", "y")),
     ("scattering", "map", "theta", ("value",)),
-    ("suslov", "section", "chosen", ("x", "y")),
 ]
 
 
@@ -61,7 +57,6 @@ def test_a_notebook_shows_a_state_by_its_parameters_and_link():
         ),
         ({"h": "high"}, "'high' is not a number: h (Energy h) must be a number between -1 and 1e+06."),
         ({"h": True}, "True is not a number"),
-        ({"h": None}, "None is not a number"),
         ({"h": math.nan}, "h (Energy h) must be a finite number."),
         ({"h": -2.0}, "h must lie between -1 and 1e+06."),
         ({"f": 50.0}, "At h = 1.5 the largest possible |f| is 1.812"),
@@ -98,15 +93,7 @@ def test_the_mechanics_behind_a_state_are_objects_of_the_library():
     state = hess.state("suslov-hess", I22=1.5, I23=0.3, h=1.2, f=0.3)
     assert state.body == HessBody(1.5, 0.3, -1.0)
     assert state.section is None
-    motion = state.motion
-    theta = circle_map(state.body.a, 1.2, 0.3, level("reference"))
-    # One period later n3 is at the lower turn again: the motion is the one whose map this is.
-    orbit = hess.state("suslov-hess", I22=1.5, I23=0.3, h=1.2, f=0.3, accuracy="reference").data("omega").layer("orbit")
-    n3 = np.column_stack([orbit[name] for name in ("g1", "g2", "g3")]) @ state.body.n3
-    at = np.interp(theta.period / state.body.frequency_unit, orbit["t"], n3)
-    # Between samples n3 is not straight: 0.03 apart at most, of a swing whose second derivative is about 1.
-    assert at == approx(n3[0], abs=1e-3)
-    assert motion.span == approx(40.0 * state.body.frequency_unit)
+    assert state.motion.span == approx(40.0 * state.body.frequency_unit)
     kinds = {"suslov": SuslovBody, "chaplygin-ball": BallBody, "euler-poisson": HeavyBody}
     assert {name: type(hess.state(name).body) for name in kinds} == kinds
     section = hess.state("euler-poisson", f=1.0, h=40.0).section
@@ -115,18 +102,6 @@ def test_the_mechanics_behind_a_state_are_objects_of_the_library():
     integrals = euler_poisson.integrals(states[0], section.body.parameters)
     assert possible.all()
     assert (integrals["H"], integrals["F1"]) == approx((40.0, 1.0))
-
-
-def test_columns_become_frames_of_pandas_and_xarray():
-    data = hess.state("suslov-hess", accuracy="draft").data("circle")
-    frame, layers = data.to_pandas(), data.to_xarray()
-    assert list(frame.columns) == list(data)
-    assert len(frame) == len(data) == sum(layer.sizes["point"] for layer in layers.values())
-    assert frame.attrs["link"] == layers["cobweb"].attrs["link"] == data.facts["link"]
-    cobweb = frame[frame.layer == "cobweb"]
-    assert np.array_equal(cobweb.phi, data.layer("cobweb")["phi"])
-    assert not data["phi"].flags.writeable
-    assert "<table>" in data._repr_html_()
 
 
 def test_a_layer_is_a_data_set_with_coordinates_and_units():
@@ -140,11 +115,6 @@ def test_a_layer_is_a_data_set_with_coordinates_and_units():
     assert (set(curve.coords), list(curve.data_vars)) == ({"part", "x"}, ["y"])
     assert (curve.attrs["x_axis"], curve.attrs["y_axis"]) == data.axes
     assert np.array_equal(curve.y, data.layer("map")["y"])
-    cells = hess.state("scattering", accuracy="draft").data("map")
-    rows, grid = cells.layer("theta"), cells.to_xarray()["theta"]
-    assert grid.value.dims == ("y", "x")
-    for i in (0, len(rows) // 3, len(rows) - 1):
-        assert grid.value.sel(x=rows["x"][i], y=rows["y"][i]).item() == rows["value"][i]
 
 
 def test_a_figure_is_that_of_the_file_and_can_be_changed():
@@ -181,28 +151,6 @@ def test_a_plot_draws_the_numbers_of_the_data_on_the_axes_of_the_page(scene, pic
     assert figure.title.text == data.facts["title"]
 
 
-def test_a_plot_is_drawn_restyled_and_combined_in_either_backend():
-    hv.extension("matplotlib")
-    try:
-        state = hess.state("suslov-hess", accuracy="draft")
-        plot = state.plot("bifurcation")
-        assert hv.Store.current_backend == "matplotlib"
-        axes = picture_data(state.link, "bifurcation").axes
-        frame = hv.render(plot).axes[0]
-        assert (frame.get_xlim(), frame.get_ylim()) == (axes.x, axes.y)
-        locked, forbidden = (one for one in frame.collections if isinstance(one, PatchCollection))
-        assert (to_hex(locked.get_facecolor()[0]), to_hex(forbidden.get_facecolor()[0])) == ("#b9a7d6", "#ececec")
-        restyled = plot.opts(hv.opts.Polygons(facecolor="red"), hv.opts.Overlay(title="Other words"), clone=True)
-        first, second = hv.render(restyled + plot * hv.HLine(0.0)).axes
-        assert first.get_title() == "Other words"
-        assert to_hex(first.collections[0].get_facecolor()[0]) == "#ff0000"
-        assert len(second.lines) == len(frame.lines) + 1
-    finally:
-        hv.Store.set_current_backend("bokeh")
-    # The same object in the other one.
-    assert hv.render(plot, "bokeh").title.text == state.data("bifurcation").facts["title"]
-
-
 def test_a_sphere_is_the_figure_for_paper_in_pixels():
     state = hess.state("suslov-hess", accuracy="draft", az=1.0, el=-0.4)
     pixels = state.plot("sphere").dimension_values(2, flat=False)
@@ -226,7 +174,7 @@ def test_pictures_and_results_are_drawn_with_either_extension(backend):
         hv.Store.set_current_backend("bokeh")
 
 
-def test_data_load_neither_panel_nor_anything_that_draws():
+def test_importing_it_and_data_load_neither_panel_nor_anything_that_draws():
     """As the page computes them; their times are in the change log."""
     program = (
         "import sys, hess_explorer as hess; hess.state('suslov-hess', accuracy='draft').data('circle'); "
@@ -236,10 +184,3 @@ def test_data_load_neither_panel_nor_anything_that_draws():
     assert not {"panel", "panel_material_ui", "param", "holoviews", "matplotlib", "tornado", "pandas", "xarray"} & set(
         names
     )
-
-
-def test_importing_it_loads_nothing_that_draws():
-    loaded = "import sys, hess_explorer, hess_mechanics; print(*{name.partition('.')[0] for name in sys.modules})"
-    names = subprocess.run([sys.executable, "-c", loaded], capture_output=True, check=True, text=True).stdout.split()
-    assert not {"panel", "holoviews", "bokeh", "pandas", "xarray", "matplotlib"} & set(names)
-    assert {"state", "from_link"} <= set(dir(hess))

@@ -9,21 +9,13 @@ import numpy as np
 import pytest
 
 from hess_explorer.scenes.framework import work
-from hess_explorer.views import circle_map, rotation_plane, section_plane
-from hess_explorer.views.graph import over_time
+from hess_explorer.views import circle_map, section_plane
 from hess_explorer.views.layers import Axes
-from hess_explorer.views.poisson_sphere import parallels
-from hess_explorer.views.text import ranging, vector, with_error
-from hess_explorer.views.velocity_plane import pixels_per_unit
+from hess_explorer.views.text import ranging, with_error
 from hess_mechanics import level
 from hess_mechanics.numerics.jit import seconds_compiling
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.circle_map import circle_map as computed
-
-
-def test_a_vector_has_its_components_in_brackets():
-    assert vector((0.123456, -2.0, 0.0)) == "(0.1235, −2, 0)"
-    assert vector([1.23456789], 6) == "(1.23457)"
 
 
 def test_a_range_that_is_one_number_is_said_to_be_that():
@@ -67,23 +59,6 @@ def test_the_clock_of_compiling_runs_for_the_thread_that_compiles():
     assert elsewhere == [0.0]
 
 
-def test_pixels_are_those_of_a_picture_600_wide():
-    assert pixels_per_unit(1.5) == (200.0, 200.0, 300.0, 300.0, 300.0)
-
-
-def test_a_graph_over_time_is_one_curve_or_none():
-    layer = over_time("x", lambda state: state, color="black")
-    times, values = np.array([0.0, 1.0, 2.0]), np.array([3.0, 1.0, 2.0])
-    found = layer.data((times, values))
-    assert [list(one) for one in (*found["xs"], *found["ys"])] == [[0.0, 1.0, 2.0], [3.0, 1.0, 2.0]]
-    assert not layer.data(None)
-
-
-def test_parallels_end_at_the_poles():
-    axis = (0.0, 0.0, 1.0)
-    assert [one.height for one in parallels(axis, [-1.0, -0.3, 0.9, 1.0, 1.5])] == [-0.3, 0.9]
-
-
 def inside(point, curve):
     """Return whether a point lies in a convex closed curve (n, 2)."""
     steps, to_it = np.roll(curve, -1, axis=0) - curve, np.asarray(point) - curve
@@ -100,13 +75,6 @@ def test_a_band_of_angles_is_grey_also_where_it_goes_round(middle):
         assert any(inside((angle, 0.5), part) for part in parts) == expected
 
 
-def test_outside_is_a_frame_with_holes():
-    hole = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
-    ((frame, found),) = section_plane.outside([hole], 3.0, 2.0)
-    assert found is hole
-    assert (frame.min(axis=0).tolist(), frame.max(axis=0).tolist()) == ([-3.0, -2.0], [3.0, 2.0])
-
-
 def test_the_circle_map_is_evaluated_once_for_all_states_that_show_it(monkeypatch):
     calls = []
     theta = CircleMap.theta
@@ -121,12 +89,3 @@ def test_the_circle_map_is_evaluated_once_for_all_states_that_show_it(monkeypatc
     assert not np.array_equal(first["circle-cobweb"]["phi"], second["circle-cobweb"]["phi"])
     # No more than 60 returns are drawn.
     assert len(first["circle-cobweb"]["phi"]) == 2 * 61 - 1
-
-
-def test_a_line_across_a_window_is_drawn_where_it_is_in_sight():
-    x, y = (0.0, 2.0), (-1.0, 1.0)
-    assert [one.tolist() for one in rotation_plane.across(x, y, x=1.5, y=None)] == [[[1.5, -1.0], [1.5, 1.0]]]
-    assert [one.tolist() for one in rotation_plane.across(x, y, x=None, y=0.5)] == [[[0.0, 0.5], [2.0, 0.5]]]
-    assert not rotation_plane.across(x, y, x=2.5, y=None)
-    assert not rotation_plane.across(x, y, x=None, y=1.5)
-    assert not rotation_plane.across(x, y, x=None, y=None)

@@ -42,14 +42,6 @@ def test_the_browser_gets_its_shades_from_here():
     assert not {colour for pair in theme.SHADES.values() for colour in pair} & set(re.findall(r"#[0-9A-F]{6}", script))
 
 
-def test_legends_follow_the_page():
-    assert theme.in_css("border: 3px solid #0072B2") == "border: 3px solid var(--orbit, #0072B2)"
-    assert theme.in_css("background: #009E7370") == (
-        "background: color-mix(in srgb, var(--stable, #009E73) 44%, transparent)"
-    )
-    assert theme.in_css("background: #123456") == "background: #123456"
-
-
 def test_the_scale_of_turns_ends_where_it_begins():
     scale = np.array([rgb(colour) for colour in theme.TURN_MAP])
     steps = np.linalg.norm(np.roll(scale, -1, axis=0) - scale, axis=1)
