@@ -1,12 +1,12 @@
 """A body of one's own against the paper's systems and against equations with the multiplier as an unknown."""
 
 import numpy as np
-from pytest import approx, fixture, mark, raises
+from pytest import approx, mark, raises
 from scipy.integrate import solve_ivp
 
-from hess_mechanics import ModelError, OwnBody, Polynomial, SuslovBody, solve
+import oracle
+from hess_mechanics import ModelError, OwnBody, Plane, Polynomial, SuslovBody, solve
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
-from support.mechanics import ROOT, without_jit
 
 TENSOR = (1.5, 1.0, 1.2, 0.1, 0.4, 0.2)
 FIELD = Polynomial(((1, 0, 0), (0, 1, 0), (0, 0, 1)), (0.3, -0.5, 1.0))
@@ -22,36 +22,12 @@ BODIES = {
     "bent": OwnBody(TENSOR, BENT, (1.0, 0.5, -0.3)),
     "free": OwnBody(TENSOR, BENT, None, (0.2, 0.1, 0.0)),
 }
-SLANTED = OwnBody((1.5, 1.0, 1.2, 0.0, 0.4, 0.1), FIELD, (0.0, 0.0, 2.0))
-TOP = OwnBody((3.0, 2.0, 1.0, 0.0, 0.0, 0.0))
-MOTIONS = {
-    **{name: (body, OMEGA, TIMES) for name, body in BODIES.items()},
-    "slanted": (SLANTED, (0.5, 0.4, 9.0), TIMES),
-    # On the separatrix: 2E I2 = M² for ω2 = 0.
-    "top": (TOP, (np.sqrt(0.75), 0.0, 1.5), np.linspace(0.0, 4.0, 9)),
-}
-SEEN = ("gyrostat", "shaped")
-WITHOUT_JIT = """
-import json, runpy, sys
-sys.path[:0] = [sys.argv[1]]
-test = runpy.run_path(sys.argv[2])
-from hess_mechanics import section, solve
-orbits, sections = {}, {}
-for name, (body, omega, times) in test["MOTIONS"].items():
-    found = solve(body, body.start(omega, test["VERTICAL"]), times, "precise")
-    orbits[name] = found.states.tolist(), max(found.drift.values())
-for name in test["SEEN"]:
-    body = test["BODIES"][name]
-    found = section(body, body.start(test["OMEGA"], test["VERTICAL"]), body.surface, 30.0, "precise")
-    sections[name] = found.times.tolist(), found.states.tolist()
-json.dump([orbits, sections], sys.stdout)
-"""
 
 
-@fixture(scope="module")
-def uncompiled():
-    """Orbits (states, drift) and sections (times, states) by name: compiled, each body would take ten seconds."""
-    return without_jit(WITHOUT_JIT, str(ROOT / "tests"), __file__)
+def motion(body, omega, times):
+    """States (n, d) by the oracle's Taylor series of the plain field: the compiler takes ten seconds for each body."""
+    start, p = (np.array(values)[:, None] for values in (body.start(omega, VERTICAL), body.parameters))
+    return oracle.taylor(body.system.field, start, p, np.array(times)[:, None], 20, 1e-14)[:, :, 0]
 
 
 def matrix(tensor):
@@ -87,47 +63,39 @@ def rates(body):
 
 
 @mark.parametrize("name", BODIES)
-def test_motions_are_those_of_the_equations_with_the_multiplier_and_keep_their_integrals(uncompiled, name):
-    body, (states, drift) = BODIES[name], uncompiled[0][name]
-    start = body.start(OMEGA, VERTICAL)
-    fine = np.linspace(0.0, 10.0, 4001)
-    along = solve_ivp(rates(body), (0.0, 10.0), start[:6], "DOP853", fine, rtol=1e-10, atol=1e-11).y
-    assert np.abs(np.array(states)[:, :6] - along.T[::200]).max() < 1e-7
-    assert drift < 1e-9
+def test_motions_are_those_of_the_equations_with_the_multiplier_and_keep_their_integrals(name):
+    body = BODIES[name]
+    states, fine = motion(body, OMEGA, TIMES), np.linspace(0.0, 10.0, 4001)
+    along = solve_ivp(rates(body), (0.0, 10.0), states[0, :6], "DOP853", fine, rtol=1e-10, atol=1e-11).y
+    assert np.abs(states[:, :6] - along.T[::200]).max() < 1e-7
+    for integral in body.system.integrals(states.T, body.parameters).values():
+        assert np.ptp(integral) < 1e-9
     if body.is_driven:
         # The work of the drive, by quadrature along the other solution.
         power = -np.gradient(shape(body, fine), fine, edge_order=2) * (np.array(body.drive) @ along[:3])
-        assert states[-1][8] == approx(np.trapezoid(power, fine), abs=1e-5)
+        assert states[-1, 8] == approx(np.trapezoid(power, fine), abs=1e-5)
 
 
-def test_with_the_constraint_along_the_third_axis_it_is_the_suslov_problem(uncompiled):
-    found = np.array(uncompiled[0]["slanted"][0])
+def test_with_the_constraint_along_the_third_axis_it_is_the_suslov_problem():
+    found = motion(OwnBody((1.5, 1.0, 1.2, 0.0, 0.4, 0.1), FIELD, (0.0, 0.0, 2.0)), (0.5, 0.4, 9.0), TIMES)
     suslov = solve(SuslovBody(1.5, 1.0, 0.4, 0.1, 0.3, -0.5, 1.0), (0.5, 0.4, *VERTICAL), TIMES, "precise").states
     assert found[:, [0, 1, 3, 4, 5]] == approx(suslov, abs=1e-9)
     assert np.abs(found[:, 2]).max() < 1e-14
 
 
-def test_the_euler_top_turns_about_the_middle_axis_as_its_closed_form_says(uncompiled):
-    # ω2 = w tanh(nt), w = 3/2, n = w √((3 − 2)(2 − 1)/(3·1)).
-    _, (first, _, _), t = MOTIONS["top"]
-    found, n = np.array(uncompiled[0]["top"][0]), np.sqrt(0.75)
+def test_the_euler_top_turns_about_the_middle_axis_as_its_closed_form_says():
+    # On the separatrix, 2E I2 = M²: ω2 = w tanh(nt), w = 3/2, n = w √((3 − 2)(2 − 1)/(3·1)).
+    first, n, t = np.sqrt(0.75), np.sqrt(0.75), np.linspace(0.0, 4.0, 9)
+    found = motion(OwnBody((3.0, 2.0, 1.0, 0.0, 0.0, 0.0)), (first, 0.0, 1.5), t)
     assert found[:, 1] == approx(np.sign(found[1, 1]) * 1.5 * np.tanh(n * t), abs=1e-8)
     assert found[:, 0] == approx(first / np.cosh(n * t), abs=1e-8)
 
 
-def test_a_driven_body_is_seen_once_in_each_period_and_another_one_where_the_third_component_passes_zero(uncompiled):
-    times, states = uncompiled[1]["shaped"]
-    assert times == approx(2 * np.pi / 1.3 * np.arange(1, 7), abs=1e-9)
-    body = BODIES["shaped"]
-    exact = solve_ivp(
-        rates(body), (0.0, 30.0), body.start(OMEGA, VERTICAL)[:6], "DOP853", times, rtol=1e-10, atol=1e-11
-    ).y.T
-    assert np.array(states)[:, :6] == approx(exact, abs=1e-6)
-    times, states = uncompiled[1]["gyrostat"]
-    assert len(times) > 1
-    (w1, w2, _), (g1, g2, g3) = np.array(states)[:, :3].T, np.array(states)[:, 3:].T
-    assert np.abs(g3).max() < 1e-9
-    assert np.all(g1 * w2 - g2 * w1 > 0.0)
+def test_a_driven_body_is_seen_once_in_each_period_and_another_one_where_the_third_component_passes_zero():
+    driven, period = BODIES["shaped"], 2 * np.pi / 1.3
+    before, after = motion(driven, OMEGA, [0.99 * period, 1.01 * period]) @ driven.surface.normal
+    assert before < 0.0 < after
+    assert BODIES["gyrostat"].surface == Plane((0.0, 0.0, 0.0, 0.0, 0.0, 1.0))
 
 
 def test_numbers_in_a_potential_do_not_change_the_equations_and_other_terms_do():
