@@ -227,8 +227,9 @@ def test_megno_tells_regular_motions_from_chaotic_ones_and_from_those_that_are_a
 
 
 def test_megno_of_uniform_growth_is_known():
-    # δ ∝ e^(λt): Y = λt, Ȳ = λt/2.
-    assert megno(ALONE.at((0.0, -0.3)), [(0.0,)], 100.0).values[0] == approx(0.3 * 100.0 / 2.0, rel=1e-2)
+    # δ ∝ e^(λt): Y = λt, Ȳ = λt/2.  The centre of mass above, at rest: λ² = a1 μ.
+    above = megno(HeavyBody((1.3, 1.3, 0.9), (0.0, 0.0, 1.0), 0.7), [(0.0, 0.0, 0.0, 0.0, 0.0, -1.0)], 100.0)
+    assert above.values[0] == approx(math.sqrt(1.3 * 0.7) * 100.0 / 2.0, rel=1e-2)
     # A rotation at a constant rate parts from a faster one in proportion to t: Y → 2.
     turning = SUSLOV.at((1.5, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
     assert megno(turning, [(0.5, 1.2, 0.6, 0.0, 0.8)], 4000.0).values[0] == approx(2.0, abs=0.1)
