@@ -118,9 +118,9 @@ def test_seeds_cover_what_the_energy_allows(h):
 
 @bodies
 def test_the_first_crossings_are_those_of_another_integrator(body):
-    for start in seeds(body, 1.5, 2):
-        points = ball_section(body, 1.5, [start], 4, "precise").states[0]
-        assert np.max(np.abs(points - first_returns(vars(body), start, 4))) <= 1e-7
+    (start,) = seeds(body, 1.5, 1)
+    points = ball_section(body, 1.5, [start], 4, "precise").states[0]
+    assert np.max(np.abs(points - first_returns(vars(body), start, 4))) <= 1e-7
 
 
 def test_cells_are_counted_as_those_of_a_histogram():

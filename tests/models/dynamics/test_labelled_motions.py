@@ -11,7 +11,7 @@ from hess_mechanics import BallBody, HeavyBody, HessBody, QuarticBody, SuslovBod
 from support.thorough import sample
 
 MOTIONS = json.loads((Path(__file__).parents[2] / "oracle" / "labelled_motions.json").read_text())
-TRIED = sample(MOTIONS, 12)
+TRIED = sample(MOTIONS, 8)
 
 UNDECIDED = {"UNDECIDED", "NO_RETURN", "SETTLING"}
 """Kinds that claim nothing, by their names."""
