@@ -7,7 +7,6 @@ import signal
 import socket
 import subprocess
 import sys
-import threading
 import time
 import types
 import webbrowser
@@ -21,21 +20,17 @@ from PIL import Image
 from pytest import approx
 
 import hess_explorer.headless.screenshot
-import oracle
 from hess_explorer.__main__ import main
 from hess_explorer.commands import CommandError, output
-from hess_explorer.headless.browser import BrowserError
 from hess_explorer.headless.screenshot import server_process
-from hess_mechanics import SuslovBody, basins, systems
+from hess_mechanics import SuslovBody, basins
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.suslov.equations import unit_vector
 from support.andoyer import GESS1, crossings_by_scipy, start_by_hand
 from support.ball import rates, upward_crossings
-from support.command_line import replaced, run, strict_json, table, typed, without_patience
-from support.kernels import copy_kernels
+from support.command_line import replaced, strict_json, table, typed, without_patience
 from support.mechanics import ROOT
-from support.processes import interruptible
+from support.processes import UNWARMED, interruptible
 
 CIRCLE_MAP = typed("circle-map --h 1.5 --f 0.6 --a 0.5 --phi 0,1,2 --accuracy reference")
 SUSLOV = typed(
@@ -117,12 +112,6 @@ def test_circle_map(answer):
     assert answer(*replaced(CIRCLE_MAP, "--phi", fixed))["theta"] == approx(found["fixed_points"], abs=1e-12)
 
 
-def test_circle_map_without_cycles(answer):
-    found = answer("circle-map", "--h", "0.5", "--f", "0.5", "--a", "0.5")
-    assert (found["kind"], found["level"]) == ("elliptic", "precise")
-    assert found["fixed_points"] == found["multipliers"] == found["theta"] == []
-
-
 def test_circle_map_beyond_double_range(answer):
     found = answer("circle-map", "--h", "1.5", "--f", "0.6", "--a", "500")
     assert found["trace"] is None
@@ -130,21 +119,6 @@ def test_circle_map_beyond_double_range(answer):
     assert found["multipliers"][1] is None
     assert found["log_multipliers"][1] == approx(2 * found["log_trace"], rel=1e-12)
     assert [note.partition(":")[0] for note in found["notes"]] == ["trace", "multipliers"]
-
-
-def test_an_orbit_that_rests_at_an_unstable_equilibrium_knows_how_wrong_it_is(answer):
-    """The output once read "error 1.1e-7, ok" for an error of 1.5e-2."""
-    gamma = (0.83, -0.97, 0.81)
-    text = ",".join(map(str, gamma))
-    found = answer(
-        "orbit", "suslov", "--I", "2,1,0.3,0.5", "--b", text, "--omega", "0,0", "--gamma", text, "--t", "33.18"
-    )
-    start, parameters = [0.0, 0.0, *unit_vector(gamma)[0]], [2.0, 1.0, 0.3, 0.5, *gamma]
-    exact = oracle.orbit_in_decimals(systems()["suslov"], start, parameters, [33.18], 30)
-    error = float(np.max(oracle.distances(np.array(found["y"]), exact)))
-    assert error > 1e-3
-    assert error <= found["error_estimate"]
-    assert found["status"] == "promise not met"
 
 
 def test_range_of_times(answer):
@@ -173,17 +147,11 @@ def test_orbit(answer, words, states, variables, integrals, notes):
     assert ["normalised" in note for note in found["notes"]] == [True] * notes
 
 
-@pytest.mark.parametrize("words", [replaced(HEAVY, "--A", "1,4,4"), replaced(HESS, "--a", "3")])
-def test_moments_of_no_body_are_reported_and_computed(answer, words):
-    found = answer(*words)
+def test_moments_of_no_body_are_reported_and_computed(answer):
+    found = answer(*replaced(HEAVY, "--A", "1,4,4"))
     assert found["is_body"] is False
     assert found["body"].startswith("Not a rigid body")
     assert len(found["y"]) == 2
-
-
-def test_the_field_of_the_suslov_problem_is_optional(answer):
-    free = [word for word in SUSLOV if word not in ("--b", "0.3,-0.5,1")]
-    assert answer(*free)["y"] == answer(*replaced(SUSLOV, "--b", "0,0,0"))["y"]
 
 
 def test_negative_values_need_no_equals_sign(answer):
@@ -213,47 +181,25 @@ def test_out_writes_a_file_and_prints_nothing(answer, capsys, tmp_path):
     "words, part",
     [
         (replaced(CIRCLE_MAP, "--h", "nan"), "--h: 'nan' is not a finite number"),
-        (replaced(CIRCLE_MAP, "--phi", "0,x"), "--phi: 'x' is not a number"),
-        (replaced(CIRCLE_MAP, "--h", "-1"), "choose h > −1"),
         (replaced(CIRCLE_MAP, "--f", "9"), "choose |f| ≤ 1.81"),
         (typed("circle-map --h 1 --f 0 --a 0.5"), "separatrix"),
-        (replaced(CIRCLE_MAP, "--accuracy", "best"), "draft, standard, precise, reference"),
         (replaced(CIRCLE_MAP, "--phi", f"0:1:{MAX_SAMPLES + 1}"), f"from 2 to {MAX_SAMPLES}"),
-        ([*CIRCLE_MAP, "--format", "xml"], "invalid choice: 'xml'"),
         (CIRCLE_MAP[:3], "required: --f, --a"),
         (replaced(SUSLOV, "--I", "0,1,0,0"), "--I: I11 = 0 is not between 0.001 and 1000"),
         (replaced(SUSLOV, "--I", "2,1,0"), "--I: '2,1,0' has length 3; write 4 numbers I11,I22,I13,I23"),
-        (replaced(SUSLOV, "--gamma", "0,0,0"), "γ must be"),
-        (replaced(SUSLOV, "--t", "0:1"), "lo:hi:n"),
         (replaced(SUSLOV, "--t", "0," * MAX_SAMPLES + "1"), f"at most {MAX_SAMPLES}"),
-        (replaced(SUSLOV, "--t", "-1,1"), "must be monotonic"),
         (replaced(SUSLOV, "--t", "1e9"), "shorter"),
         (replaced(SUSLOV, "--omega", "1e200,0"), "--omega: w1 = 1e+200 is not between -1000 and 1000"),
         (replaced(SUSLOV, "--omega", "x" * 5000), "x…'"),
-        (["serve", "--port", "0"], "from 1 to 65535"),
         (["serve", "--allow-origin", "*"], "not a host"),
         (["serve", "--embed-in", "example.org; script-src *"], "not a host"),
-        (["serve", "--workers", "0"], "not a whole number from 1 to 64"),
         (["serve", "--address", "203.0.113.7", "--no-browser"], "--address 127.0.0.1"),
         (["shot", "--size", "9000x300", "out.png"], "each side from 200 to 8000"),
-        (["shot", "--size", "big", "out.png"], "like 1600x950"),
-        (["shot", "--state", "h", "out.png"], "like 'h=1.2&f=0.3'"),
         (["shot", "--state", "h=" + "1" * 2000, "out.png"], "at most 2000"),
     ],
 )
 def test_refusals(refusal, words, part):
     assert part in refusal(*words)
-
-
-@pytest.mark.parametrize("seconds", [0.0, 1000.0])
-def test_a_command_that_takes_long_says_so_and_how_it_is_ended(monkeypatch, capsys, seconds):
-    monkeypatch.setattr(output, "LONG", seconds)
-    with output.computing():
-        # As something that is computed; the sentence comes meanwhile, or not at all.
-        time.sleep(0.2)
-    said = capsys.readouterr()
-    assert (said.out, said.err) == ("", "" if seconds else "Still computing; Ctrl-C ends it.\n")
-    assert "patience" not in [thread.name for thread in threading.enumerate()]
 
 
 def test_in_a_terminal_it_counts_and_leaves_nothing(monkeypatch):
@@ -271,17 +217,8 @@ def test_in_a_terminal_it_counts_and_leaves_nothing(monkeypatch):
     assert said.endswith("\r\x1b[K"), "the line is not cleared"
 
 
-@pytest.mark.parametrize("where", ["missing/orbit.json", "."])
-def test_unwritable_file(refusal, tmp_path, where):
-    assert "choose another file" in refusal(*HESS, "--out", str(tmp_path / where))
-
-
-def test_process_ends_with_code_2_and_one_sentence():
-    done = run(*replaced(CIRCLE_MAP, "--h", "-2"))
-    assert (done.returncode, done.stdout) == (2, b"")
-    said = without_patience(done.stderr)
-    assert said.decode().startswith("hess-explorer: h = -2 ")
-    assert said.count(b"\n") == 1
+def test_unwritable_file(refusal, tmp_path):
+    assert "choose another file" in refusal(*HESS, "--out", str(tmp_path))
 
 
 def test_a_reader_that_has_seen_enough_is_no_error():
@@ -341,15 +278,6 @@ def free_port():
     return hess_explorer.headless.screenshot.free_port()
 
 
-def test_a_lesson_that_cannot_be_read_is_no_lesson(served, free_port, capsys, tmp_path):
-    wrong = tmp_path / "wrong.md"
-    wrong.write_text("A lesson without a title.")
-    for path in (wrong, tmp_path / "nowhere.md"):
-        assert main(["serve", "--port", str(free_port), "--no-browser", "--lesson", str(path)]) != 0
-        assert path.name in capsys.readouterr().err
-    assert served == []
-
-
 def test_several_lessons_are_served_in_their_order(served, free_port, tmp_path):
     (tmp_path / "folder").mkdir()
     for name in ("b.md", "a.md", "folder/c.md"):
@@ -361,31 +289,17 @@ def test_several_lessons_are_served_in_their_order(served, free_port, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "compiled, words", [(False, "Compiling, ready in about 20 s."), (True, "Starting, ready in a few seconds.")]
-)
-def test_the_address_is_printed_only_when_the_server_is_ready(monkeypatch, free_port, capsys, compiled, words):
-    said = []
-
-    def serve(*, ready, **given):
-        said.append(capsys.readouterr().out)
-        ready()
-        said.append(capsys.readouterr().out)
-
-    monkeypatch.setitem(sys.modules, "hess_explorer.server.serving", types.SimpleNamespace(serve=serve))
-    monkeypatch.setattr("hess_explorer.server.compiled.all_compiled", lambda: compiled)
-    try:
-        assert main(["--port", str(free_port), "--no-browser"]) == 0
-    finally:
-        gc.enable()
-    assert said == [f"{words}\n", f"Hess Explorer is running at http://localhost:{free_port} (press Ctrl-C to stop).\n"]
-
-
-@pytest.mark.parametrize(
     "words, changed",
     [
-        ("--allow-origin a.org:80 b.org", {"origins": ["a.org:80", "b.org"]}),
-        ("--workers 2 --sessions 300", {"workers": 2, "sessions": 300}),
-        ("--embed-in example.org *.example.com", {"embedders": ["example.org", "*.example.com"]}),
+        (
+            "--allow-origin a.org:80 b.org --workers 2 --sessions 300 --embed-in example.org *.example.com",
+            {
+                "origins": ["a.org:80", "b.org"],
+                "workers": 2,
+                "sessions": 300,
+                "embedders": ["example.org", "*.example.com"],
+            },
+        ),
         ("--embed-in none", {"embedders": []}),
     ],
 )
@@ -396,37 +310,23 @@ def test_serve(served, free_port, capsys, words, changed):
     assert served == [{"port": free_port, "show": False, "origins": [], **usual, **changed}]
 
 
-def test_options_alone_mean_serve_with_a_browser(served, free_port, monkeypatch):
-    monkeypatch.setattr(webbrowser, "get", lambda: webbrowser.BackgroundBrowser("browser"))
-    assert main(["--port", str(free_port)]) == 0
-    assert [call["show"] for call in served] == [True]
-
-
-def no_browser():
-    raise webbrowser.Error
-
-
-@pytest.mark.parametrize("get", [no_browser, lambda: webbrowser.GenericBrowser("lynx")])
-def test_without_a_browser_the_server_goes_on(served, free_port, monkeypatch, capsys, get):
-    monkeypatch.setattr(webbrowser, "get", get)
+def test_without_a_browser_the_server_goes_on(served, free_port, monkeypatch, capsys):
+    found = [webbrowser.BackgroundBrowser("browser"), webbrowser.GenericBrowser("lynx")]
+    monkeypatch.setattr(webbrowser, "get", lambda: found.pop(0))
     monkeypatch.delenv("BROWSER", raising=False)
-    assert main(["--port", str(free_port)]) == 0
-    assert [call["show"] for call in served] == [False]
+    # Options alone mean `serve`.
+    for _ in range(2):
+        assert main(["--port", str(free_port)]) == 0
+    assert [call["show"] for call in served] == [True, False]
     assert (
         f"No browser was found on this machine: open http://localhost:{free_port} yourself" in capsys.readouterr().out
     )
 
 
-def test_basins_of_a_body_beyond_double_range_end(refusal):
+def test_basins_of_a_body_beyond_double_range_end():
     """No subinterval of a step was ever free of roots, so the search did not end."""
-    words = typed("--b=0.3,-0.5,1 --E 0.68 --k 2 --cells 8,6 --accuracy draft")
-    assert "I13 = 4.4e+90 is not between -1000 and 1000" in refusal("basins", "--I", "1.5,1.07,4.4e+90,0", *words)
-    assert (
-        basins(
-            SuslovBody(1.5, 1.07, 4.4e90, 0.0, 0.3, -0.5, 1.0), 0.68, plane=2, cells=(8, 6), accuracy="draft"
-        ).divergence
-        == ()
-    )
+    body = SuslovBody(1.5, 1.07, 4.4e90, 0.0, 0.3, -0.5, 1.0)
+    assert basins(body, 0.68, plane=2, cells=(8, 6), accuracy="draft").divergence == ()
 
 
 def test_taken_port(refusal, served):
@@ -436,31 +336,19 @@ def test_taken_port(refusal, served):
     assert not served
 
 
-def test_a_first_start_answers_at_the_address_it_prints_and_ends_silently(free_port, tmp_path):
-    # Kernels without the mark that all are there: as a first start, but soon over.
-    copy_kernels(tmp_path)
-    command = [sys.executable, "-m", "hess_explorer", "serve", "--port", str(free_port), "--no-browser"]
+def test_a_server_answers_at_the_address_it_prints_and_ends_silently(free_port):
+    command = [sys.executable, *UNWARMED, "serve", "--port", str(free_port), "--no-browser"]
     url = f"http://localhost:{free_port}"
     with (
         interruptible(),
         subprocess.Popen(
-            command,
-            cwd=ROOT,
-            env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)},
-            text=True,
-            start_new_session=True,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
+            command, cwd=ROOT, text=True, start_new_session=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
         ) as process,
     ):
-        assert process.stdout.readline() == "Compiling, ready in about 20 s.\n"
+        assert process.stdout.readline().startswith(("Compiling, ready in", "Starting, ready in"))
         assert process.stdout.readline() == f"Hess Explorer is running at {url} (press Ctrl-C to stop).\n"
-        # It ends when the answer is there; a minute is what a machine with much else to do may take.
         with urlopen(url, timeout=60) as answer:
             assert b"<title>Hess Explorer</title>" in answer.read()
-        with urlopen(f"{url}/metrics", timeout=60) as answer:
-            counters = dict(line.split() for line in answer.read().decode().splitlines())
-        assert int(counters["hess_explorer_cache_misses"]) > 0
         # As a terminal does: to the whole group.
         os.killpg(process.pid, signal.SIGINT)
         assert process.wait(60) == 0
@@ -485,14 +373,6 @@ def test_shot(tmp_path, browser, server, monkeypatch, capsys):
         assert sum(picture.convert("L").histogram()[:100]) > 900 * 700 / 2
 
 
-def test_shot_without_a_browser(refusal, monkeypatch, tmp_path):
-    def no_chromium(query, size, *, dark):
-        raise BrowserError("No Chromium was found.")
-
-    monkeypatch.setattr(hess_explorer.headless.screenshot, "screenshot", no_chromium)
-    assert "No Chromium was found." in refusal("shot", str(tmp_path / "out.png"))
-
-
 def test_export(capsys, refusal, tmp_path):
     state = typed("export --state h=1.2&f=0.3&accuracy=draft --picture circle")
     main(state)
@@ -501,10 +381,8 @@ def test_export(capsys, refusal, tmp_path):
     assert len(rows) > 100
     main([*state, "--format", "json"])
     assert strict_json(capsys.readouterr().out)["caption"] == facts["caption"]
-    for kind, begins in (("svg", b"<?xml"), ("pdf", b"%PDF"), ("png", b"\x89PNG")):
-        file = tmp_path / f"circle.{kind}"
-        main([*state, "--format", kind, "--width", "40", "--black", "--out", str(file)])
-        assert file.read_bytes().startswith(begins)
+    main([*state, "--format", "svg", "--width", "40", "--black", "--out", str(tmp_path / "circle.svg")])
+    assert (tmp_path / "circle.svg").read_bytes().startswith(b"<?xml")
     assert "name a file with --out FILE" in refusal(*state, "--format", "png")
     assert "20 to 400 mm wide" in refusal(*state, "--format", "svg", "--width", "nan")
     assert "choose one of body, omega" in refusal("export", "--picture", "../../etc")
@@ -560,9 +438,6 @@ def test_section_of_the_suslov_problem(answer):
     assert found["t"] == approx(times.tolist(), abs=1e-9)
     assert np.array(found["y"]) == approx(states, abs=1e-8)
     assert found["notes"] == [f"There are only {len(found['t'])} of 100 crossings up to t = 20."]
-    both, down = (answer(*SUSLOV_SECTION, "--sense", sense)["t"] for sense in ("0", "-1"))
-    assert both == approx(sorted(found["t"] + down), abs=1e-9)
-    assert len(down) >= 3
     moved = answer(*SUSLOV_SECTION, "--offset", "0.25")
     assert np.array(moved["y"])[:, 3] == approx(0.25, abs=1e-12)
 
@@ -571,7 +446,6 @@ def test_section_of_the_suslov_problem(answer):
     "words, part",
     [
         (replaced(HEAVY_SECTION, "--h", "-30"), "choose a larger h, or another point"),
-        (replaced(HEAVY_SECTION, "--f", "30"), "no real G ≥ |f|"),
         (replaced(HEAVY_SECTION, "--start", "0,1.5"), "--start: x = 1.5 is not between -1 and 1"),
         (replaced(HEAVY_SECTION, "--crossings", "0"), "from 1 to 100000"),
         (replaced(SUSLOV_SECTION, "--plane", "0,0,0,0,0"), "normal other than 0"),

@@ -69,10 +69,6 @@ def test_it_loads_nothing_from_another_host(site):
     assert {name: loaded.findall(text) for name, text in site.items() if loaded.search(text)} == {}
 
 
-def test_help_leads_there():
-    assert "hess-explorer docs" in hess_mechanics.__doc__ and "hess-explorer docs" in hess_explorer.__doc__
-
-
 def test_a_build_that_cannot_be_is_refused_with_a_sentence(tmp_path, capsys, monkeypatch):
     opened = []
     monkeypatch.setattr(webbrowser, "open", opened.append)

@@ -6,8 +6,6 @@ import re
 import pytest
 
 from hess_explorer.__main__ import main
-from hess_explorer.lessons.collection import read_paths
-from hess_explorer.lessons.lesson import LessonError
 from hess_explorer.lessons.reading import KEYS, read_file
 
 
@@ -62,12 +60,6 @@ def test_states_that_the_scene_corrects_are_mistakes_and_sliders_without_control
     largest = math.sqrt(2 * (0.5 - n) * (1 - n * n))
     found = re.fullmatch(rf"{path}:{lines[0]}: the state of predict is not possible: choose f = ([\d.]+). .*", guess)
     assert float(found[1]) == pytest.approx(largest, rel=1e-4)
-    path.write_text(text)
-    capsys.readouterr()
-    assert main(["lesson", "check", str(path)]) == 1
-    assert f"{path}:{lines[1]}: an end of animate is not possible: choose f = 0.0" in capsys.readouterr().out
-    with pytest.raises(LessonError, match="not possible"):
-        read_paths([path])
 
 
 def test_what_is_not_there_has_a_mistake(tmp_path, capsys):
@@ -75,11 +67,3 @@ def test_what_is_not_there_has_a_mistake(tmp_path, capsys):
     assert "none.md:1: the file cannot be read" in capsys.readouterr().out
     assert main(["lesson", "check", str(tmp_path)]) == 2
     assert "has no lesson" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize("words", [["lesson", "--help"], ["lesson", "new", "--help"]])
-def test_the_help_names_the_guide_which_is_installed_with_the_package(words, capsys):
-    with pytest.raises(SystemExit):
-        main(words)
-    said = "".join(capsys.readouterr().out.split())
-    assert "docs/guides/lesson.md" in said

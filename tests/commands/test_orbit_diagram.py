@@ -81,12 +81,8 @@ def test_on_a_torus_the_mean_divergence_is_that_of_the_multiplier_and_attractor_
     "words, said",
     [
         (replaced(DIAGRAM, "--over", "mass=1:2:3"), "There is no mass here to change: choose one of a, h, f"),
-        (replaced(DIAGRAM, "--over", "h"), "write it like E=1:2:50"),
-        (replaced(DIAGRAM, "--over", "h=1:2:3000"), "1 to 2000 finite values"),
         (replaced(DIAGRAM, "--crossings", "20000"), "At most 20000 crossings"),
         (replaced(replaced(DIAGRAM, "--over", "h=1:2:100"), "--crossings", "19000"), "at most 1000000 places"),
-        ([*DIAGRAM, "--doublings", "7"], "from 0 to 6"),
-        (replaced(DIAGRAM, "--at", "1,2"), "write 1 numbers phi"),
         (["regime", "suslov", *replaced(SUSLOV, "--E", "-9")], "choose E above"),
     ],
 )

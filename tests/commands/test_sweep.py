@@ -18,7 +18,6 @@ from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.numerics.accuracy import PLANS, Computation
 from support.command_line import replaced, table, typed
 from support.mechanics import ROOT
-from support.processes import interruptible
 
 SWEEP = typed("sweep rotation-number --over h=-0.5,1,1.5 --over f=0:0.6:2 --set a=0.5")
 
@@ -87,6 +86,7 @@ def test_parts_share_a_store_whose_status_says_what_is_missing(answer, refusal, 
 GUIDES = ROOT / "app/hess_explorer/docs/guides"
 
 
+@pytest.mark.thorough
 def test_the_script_for_slurm_computes_a_sweep_as_plain_processes(tmp_path):
     """Bash reads the lines for Slurm as comments; the variables are those of a job array."""
     script = (GUIDES / "array.sbatch").read_text()
@@ -96,34 +96,24 @@ def test_the_script_for_slurm_computes_a_sweep_as_plain_processes(tmp_path):
     command = tmp_path / "hess-explorer"
     command.write_text(f'#!/bin/sh\nexec {sys.executable} -m hess_explorer "$@"\n')
     command.chmod(0o755)
-    known = {**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}", "SLURM_ARRAY_TASK_MAX": "3"}
+    known = {**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}", "SLURM_ARRAY_TASK_MAX": "2"}
     known["PYTHONPATH"] = os.pathsep.join(filter(None, sys.path))
 
-    def jobs(*numbers, **more):
-        started = [
-            subprocess.Popen(
-                ["bash", "array.sbatch"],
-                cwd=tmp_path,
-                env={**known, "SLURM_ARRAY_TASK_ID": number, **more},
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.PIPE,
-            )
-            for number in numbers
-        ]
-        for one in started:
-            _, err = one.communicate(timeout=300)
-            assert one.returncode == 0, err
+    def job(number, **more):
+        environment = {**known, "SLURM_ARRAY_TASK_ID": number, **more}
+        subprocess.run(["bash", "array.sbatch"], cwd=tmp_path, env=environment, capture_output=True, check=True)
 
-    jobs("1", "3")
+    job("1")
     assert store_status(tmp_path / "rho.zarr").missing_parts == (2,)
     # Again by the numbers that the status names, as the guide says.
-    jobs("2", SLURM_ARRAY_TASK_MAX="2", PARTS="3")
+    job("2", SLURM_ARRAY_TASK_MAX="1", PARTS="2")
     assert store_status(tmp_path / "rho.zarr").missing == 0
     found = read(tmp_path / "rho.zarr")
     over = {"h": (-0.9, 2.0, 12), "f": (-1.5, 1.5, 12)}
     assert found.rotation_number.equals(sweep("rotation-number", over, a=0.5).rotation_number)
 
 
+@pytest.mark.thorough
 def test_the_script_for_dask_jobqueue_computes_a_sweep(tmp_path, monkeypatch, capsys):
     """In place of jobs, processes of this machine: dask-jobqueue needs a queue."""
 
@@ -176,40 +166,22 @@ def begun(store):
     return found.cells - found.missing
 
 
-def started(words, store, least):
-    """Start the command as a process and return when this many cells are done."""
-    with interruptible():
-        process = subprocess.Popen(
-            [sys.executable, "-m", "hess_explorer", *words, "--store", str(store)],
-            cwd=ROOT,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-        )
+def test_a_sweep_that_is_killed_goes_on_and_is_the_loop_by_hand(tmp_path, answer):
+    store = tmp_path / "lambda.zarr"
+    process = subprocess.Popen(
+        [sys.executable, "-m", "hess_explorer", *LAMBDA, "--store", str(store)],
+        cwd=ROOT,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
     deadline = time.monotonic() + 120
-    while begun(store) < least and process.poll() is None:
+    while begun(store) == 0 and process.poll() is None:
         assert time.monotonic() < deadline
         time.sleep(0.005)
-    return process
-
-
-def test_a_sweep_that_is_killed_and_then_interrupted_goes_on_and_is_the_loop_by_hand(tmp_path, answer):
-    store = tmp_path / "lambda.zarr"
-    first = started(LAMBDA, store, 1)
-    first.send_signal(signal.SIGKILL)
-    first.communicate(timeout=60)
-    assert first.returncode == -signal.SIGKILL
+    process.kill()
+    assert process.wait(60) == -signal.SIGKILL
     done = int((read(store).status.values > 0).sum())
     assert 0 < done == begun(store) < 64
-    second = started(LAMBDA, store, done + 1)
-    second.send_signal(signal.SIGINT)
-    out, err = second.communicate(timeout=60)
-    assert second.returncode == 130, err
-    assert out == b""
-    said = err.decode().splitlines()[-1]
-    assert said.startswith("hess-explorer: stopped after ")
-    assert said.endswith("run the same sweep again to continue.")
-    now = int((read(store).status.values > 0).sum())
-    assert done < now < 64
     found = answer(*LAMBDA, "--store", str(store), "--format", "json")
     assert found["status_counts"] == {"ok": 64}
     suslov, exact = systems()["suslov"], PLANS[Computation.EXPONENT]["draft"].level
@@ -246,16 +218,11 @@ def test_ctrl_c_without_a_store_writes_what_is_done(capsys, monkeypatch, tmp_pat
     [
         (["sweep"], "run hess-explorer sweep --list to see all of them"),
         (replaced(SWEEP, "--set", "a"), "is not a parameter; write it like h=1.5"),
-        (replaced(SWEEP, "--set", "store=1"), "no parameter 'store'"),
         ([*SWEEP, "--set", "a=0.6"], "--set names a parameter twice"),
-        ([*SWEEP, "--over", "h=1,2"], "--over names a parameter twice"),
         (replaced(SWEEP, "--over", "h=0:1"), "is not a range"),
         (replaced(SWEEP, "--over", "h=0:1:1000000"), "at most 1000000 rows: use --store FOLDER"),
-        ([*replaced(SWEEP, "--over", "h=0:1:9000000"), "--store", "x"], "at most 10000000 are allowed"),
         ([*SWEEP, "--part", "3"], "'3' is not a part; write it like 3/40"),
-        ([*SWEEP, "--workers", "many"], "is not a whole number from 1"),
         ([*SWEEP, "--store", "/proc/nowhere/at/all"], "cannot be written"),
-        (["sweep", "--list", "speed"], "There is no quantity"),
     ],
 )
 def test_what_is_wrong_is_one_sentence(refusal, words, said):

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import pytest
 
-from benchmarks.integrators import trade as trade_of_scenes
 from benchmarks.integrators.trade import Row, _draft_computes, _example, by_kind, names
 from hess_explorer.__main__ import main
 from hess_explorer.scenes import scenes
@@ -34,18 +33,6 @@ def test_a_computation_that_no_state_shows_is_said_and_the_others_stay(monkeypat
     assert lines[3].startswith("| kharlamova | orbit | ")
     assert lines[-1].startswith("| orbit | as much | ")
     assert said.err.splitlines()[-1].startswith("hess-explorer: kharlamova: section could not be measured (No example")
-
-
-def test_rows_are_printed_as_they_come(monkeypatch, capsys):
-    def broken(name, scene, trial, repeats):
-        if name == "quartic":
-            raise RuntimeError("a fault of the program")
-        return row(name, str(trial.kind))
-
-    monkeypatch.setattr(trade_of_scenes, "_row", broken)
-    with pytest.raises(RuntimeError, match="a fault of the program"):
-        main(["bench", "--trade", "--scenes", "kharlamova,quartic"])
-    assert "| kharlamova | orbit | 1 ms, 0.1 |" in capsys.readouterr().out
 
 
 def row(scene, kind, times=(1.0, 2.0, 3.0, 4.0), errors=(0.1, 0.01, 0.001, 0.0)):

@@ -9,16 +9,9 @@ from hess_explorer.__main__ import main
 from hess_explorer.export.picture_data import address
 from hess_explorer.page.opening import opening
 from hess_explorer.protocol.parameters import (
-    CLIENT,
     PAGE_KEYS,
-    Choice,
-    Formula,
     Link,
-    Names,
-    Number,
-    Places,
     encode,
-    refusal,
 )
 from hess_explorer.scenes import scenes
 from hess_mechanics.errors import InvalidParameter
@@ -119,28 +112,6 @@ def test_python_refuses_a_wrong_link_too_unless_it_reads_it_leniently(state):
     with pytest.raises(InvalidParameter, match="lenient=True"):
         hess.from_link(f"http://localhost:5006/?{state}")
     assert hess.from_link(state, lenient=True).notes or state in ("hh=1.2", "h=1&h=2", "scene=scattering&h=1")
-
-
-def test_every_note_says_what_was_wrong_before_a_colon_and_then_what_was_done():
-    specs = [
-        *CLIENT,
-        *(spec for scene in scenes().values() for spec in scene.specs),
-        Names("large", "Enlarged pictures", ("a", "b", "c"), 2),
-    ]
-    for spec in specs:
-        texts = {
-            Number: ("abc", "nan", "1e300"),
-            Choice: ("nothing like it",),
-            Formula: ("g4", "g1^7"),
-            Names: ("d", "a,b,c"),
-            Places: ("abc", ";".join(["0.1,0.1"] * (getattr(spec, "most", 0) + 1))),
-        }[type(spec)]
-        for text in texts:
-            note = spec.read(text)[1]
-            assert note is not None, (spec, text)
-            wrong = refusal(note)
-            assert wrong != note, note
-            assert wrong.endswith(".")
 
 
 def test_what_a_page_keeps_in_its_link_is_known(monkeypatch):

@@ -54,7 +54,6 @@ def test_a_wrong_variable_is_an_error_and_not_passed_over(machine, monkeypatch):
     [
         (True, True, ["apt-get", "install", "-y", "--no-install-recommends", "chromium-headless-shell"]),
         (False, True, ["-m", "playwright", "install", "--with-deps", "chromium"]),
-        (True, False, ["-m", "playwright", "install", "--with-deps", "chromium"]),
     ],
 )
 def test_installation(installations, monkeypatch, root, debian, last):
@@ -65,17 +64,9 @@ def test_installation(installations, monkeypatch, root, debian, last):
     assert (["apt-get", "update"] in installations) == (root and debian)
 
 
-@pytest.mark.parametrize(
-    "failure",
-    [
-        FileNotFoundError("apt-get"),
-        subprocess.CalledProcessError(100, "apt-get"),
-        subprocess.TimeoutExpired("apt-get", 9),
-    ],
-)
-def test_failed_installation_is_loud(monkeypatch, failure):
+def test_failed_installation_is_loud(monkeypatch):
     def fail(*_, **__):
-        raise failure
+        raise subprocess.CalledProcessError(100, "apt-get")
 
     monkeypatch.setattr(chromium.subprocess, "run", fail)
     with pytest.raises(BrowserError, match=f"No Chromium was found and .* failed .*{VARIABLE}"):

@@ -27,15 +27,11 @@ def test_a_slider_has_readable_values_and_that_of_the_state():
     ("text", "why"),
     [
         ("h", "is no slider: write NAME=LOW:HIGH:COUNT"),
-        ("h=1", "is no slider"),
         ("h=a:b:3", "are no numbers"),
-        ("h=2:1:3", "must increase"),
         ("h=1:nan:3", "must increase"),
         ("h=-1e9:1:3", "within"),
-        ("h=1:2:1", "2 to 400 values"),
         ("h=1:2:9999", "2 to 400 values"),
         ("cells=0:1:3", "has no number 'cells' to vary: choose one of I22, "),
-        ("x=0:1:3", "has no number 'x'"),
     ],
 )
 def test_a_slider_that_cannot_be_is_refused(text, why):

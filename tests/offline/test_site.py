@@ -17,7 +17,7 @@ from hess_mechanics.errors import InvalidParameter
 from support.command_line import run
 from support.offline import READY, change, move, opened
 
-SOME = ("suslov-hess", "kharlamova", "scattering-by-a-nonholonomic-top")
+SOME = ("suslov-hess", "scattering-by-a-nonholonomic-top")
 
 
 class _Quiet(SimpleHTTPRequestHandler):

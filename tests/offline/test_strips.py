@@ -5,7 +5,6 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from hess_explorer.offline.strips import EXACT, PIXELS, Strip, steps_of_plots
 from hess_explorer.protocol.wire import Wire
@@ -84,7 +83,7 @@ def test_gaps_whole_numbers_images_and_logarithmic_axes_are_exact(tmp_path):
             curve={"y": gaps + shift, "empty": np.empty(0)},
             picture={"image": [image + shift]},
             log={"x": decades * (1 + shift)},
-            single={"x": np.array([np.pi * 10**shift]), "text": ["γ"]},
+            single={"text": ["γ"]},
             far={"x": np.array([np.inf, -2.5, 0.0])},
         )
     for shift, one in zip((0.0, 1.0), decoded(strip, tmp_path), strict=True):
@@ -97,7 +96,6 @@ def test_gaps_whole_numbers_images_and_logarithmic_axes_are_exact(tmp_path):
         assert (grid["rows"], grid["columns"]) == (4, 256)
         assert np.array_equal(numbers(grid["numbers"]), (image + shift).ravel())
         assert np.array_equal(numbers(back["log"]["x"]), (decades * (1 + shift)).astype(np.float32))
-        assert numbers(back["single"]["x"]) == pytest.approx([np.pi * 10**shift], rel=3e-7)
         assert back["single"]["text"] == ["γ"]
         assert np.array_equal(numbers(back["far"]["x"]), [np.inf, -2.5, 0.0])
 

@@ -1,6 +1,6 @@
 """The faults of `tests/mutate.py` can be seeded: sources change, and a fault that cannot be seeded tests nothing."""
 
-from mutate import ROOT, Fault, faults, not_found_once
+from mutate import ROOT, faults, not_found_once
 
 
 def test_every_fault_can_be_seeded():
@@ -14,11 +14,3 @@ def test_every_fault_changes_something_and_names_tests_that_are_there():
         files = [word for word in fault.tests if word.startswith("tests/")]
         assert files, fault.name
         assert all((ROOT / file).exists() for file in files), fault.name
-
-
-def test_a_text_that_is_gone_or_stands_twice_or_whose_file_is_gone_is_told():
-    gone = Fault("gone", "pyproject.toml", "no such line", "", [])
-    twice = Fault("twice", "pyproject.toml", "pytest", "", [])
-    nowhere = Fault("nowhere", "no/such/file.py", "", "", [])
-    once = Fault("once", "pyproject.toml", 'name = "hess-explorer"', "", [])
-    assert not_found_once([gone, twice, nowhere, once]) == ["gone", "twice", "nowhere"]

@@ -87,27 +87,6 @@ def test_the_python_of_the_readme_runs(capsys, tmp_path, monkeypatch):
     assert (tmp_path / "circle.pdf").read_bytes().startswith(b"%PDF")
 
 
-def test_there_are_commands():
-    assert {words[0] for words in COMMANDS} == {
-        "circle-map",
-        "orbit",
-        "section",
-        "scattering",
-        "prove",
-        "lyapunov",
-        "shot",
-        "bench",
-        "serve",
-        "periodic",
-        "basins",
-        "cloud",
-        "export",
-        "site",
-        "code",
-        "sweep",
-    }
-
-
 @pytest.mark.parametrize("words", COMMANDS, ids=lambda words: words[0])
 def test_the_commands_of_the_readme_work(words, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

@@ -58,6 +58,7 @@ def test_its_scene_is_one_of_the_scenes_and_its_system_one_of_the_systems(enviro
     assert float(velocity) == pytest.approx(3.0, abs=1e-3)
 
 
+@pytest.mark.thorough
 def test_the_page_shows_it(environment, tmp_path):
     picture = tmp_path / "page.png"
     shot = [

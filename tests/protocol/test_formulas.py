@@ -45,16 +45,11 @@ def test_a_formula_is_its_coefficients(text, expected):
     [
         ("g1^7", "whole numbers"),
         ("g1^4*g1^3", "degree"),
-        ("(g1*g2)^4", "degree"),
         ("1/g1", "divides by something other than a number"),
-        ("g1/0", "divides by"),
         ("g1^0.5", "whole numbers from 0 to 6"),
-        ("g1^-1", "whole numbers"),
         ("2^g1", "whole numbers"),
         ("g4", "no polynomial: use numbers, g1, g2, g3"),
         ("sin(g1)", "no polynomial"),
-        ("g1.real", "no polynomial"),
-        ("(g1", "no polynomial"),
         ("1e9*g1", "larger than 1e"),
         ("9**9**9", "whole numbers"),
         ("g1+" * MOST, f"longer than {MOST}"),
@@ -83,14 +78,11 @@ def test_a_drive_has_the_values_of_its_formula(text):
     ("text", "message"),
     [
         ("cos(t)", "no drive: use numbers and cos"),
-        ("cos(W*t", "no drive"),
         ("W*t", "inside cos and sin only"),
-        ("cos(W*t + 1)", "n a whole number from 1 to 6"),
         ("cos(7*W*t)", "n a whole number from 1 to 6"),
         ("sin(cos(W*t))", "n a whole number"),
         ("1/cos(W*t)", "divides by something other than a number"),
         ("cos(4*W*t)*sin(3*W*t)", "degree"),
-        ("exp(W*t)", "no drive"),
     ],
 )
 def test_what_is_no_drive_is_refused(text, message):

@@ -139,10 +139,6 @@ def test_a_frame_holds_what_is_told_and_nothing_else(block, cells, has_state, ch
         assert told["state"] == {**dataclasses.asdict(state), "progress": [1, 3]}
 
 
-def test_where_there_is_nothing_to_tell_no_frame_is_sent():
-    assert Answer().encode() == b""
-
-
 @pytest.mark.parametrize("place", [(math.inf, 1.0), (1.0, math.nan), (0.0, 1.0, 2.0, -math.inf), (10**400, 0.0)])
 def test_a_click_or_box_with_a_number_that_is_not_finite_is_none(place):
     assert parse({"requested": 1, "picked": ["section", *place]}).picked is None

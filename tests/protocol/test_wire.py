@@ -68,47 +68,11 @@ def test_the_browser_reads_the_columns_that_were_put_and_each_array_is_sent_once
             assert same(column, found[source][name]), (source, name)
 
 
-def test_arrays_of_any_layout_arrive_in_order():
-    grid = np.arange(12.0).reshape(3, 4)
-    wire = Wire()
-    wire.put(
-        "grid",
-        {
-            "rows": grid,
-            "columns": grid.T,
-            "every-other": grid[:, ::2],
-            "back": grid[::-1, 1],
-            "integers": np.arange(3),
-            "big-endian": np.arange(3.0).astype(">f8"),
-        },
-    )
-    found, _, _, _ = unpack(wire)
-    assert found["grid"]["rows"].tolist() == grid.tolist()
-    assert found["grid"]["columns"].tolist() == [[0, 4, 8], [1, 5, 9], [2, 6, 10], [3, 7, 11]]
-    assert found["grid"]["every-other"].tolist() == [[0, 2], [4, 6], [8, 10]]
-    assert found["grid"]["back"].tolist() == [9, 5, 1]
-    assert found["grid"]["integers"].tolist() == [0, 1, 2]
-    assert found["grid"]["big-endian"].tolist() == [0, 1, 2]
-
-
 def test_a_grid_tells_its_shape_and_a_row_of_numbers_none():
     wire = Wire()
     wire.put("grid", {"image": [np.zeros((75, 100))], "x": np.zeros(3)})
     columns = wire.pack()[0]["sources"]["grid"]
     assert columns == {"image": [{"at": 0, "n": 7500, "shape": [75, 100]}], "x": {"at": 7500, "n": 3}}
-
-
-def test_polygons_with_holes_arrive_as_nested_lists():
-    outer, hole = np.array([0.0, 4.0, 4.0]), np.array([1.0, 2.0])
-    wire = Wire()
-    wire.put("region", {"xs": [[[outer, hole]], [[outer]]], "label": ["a", "b"]})
-    found, _, _, _ = unpack(wire)
-    xs = found["region"]["xs"]
-    assert [[[part.tolist() for part in polygon] for polygon in multi] for multi in xs] == [
-        [[[0, 4, 4], [1, 2]]],
-        [[[0, 4, 4]]],
-    ]
-    assert found["region"]["label"] == ["a", "b"]
 
 
 def test_of_two_columns_for_one_source_the_last_count():
@@ -118,20 +82,6 @@ def test_of_two_columns_for_one_source_the_last_count():
     found, _, _, block = unpack(wire)
     assert list(found["orbit"]) == ["x"]
     assert len(block) == 12
-
-
-def test_the_last_caption_of_a_picture_arrives_in_its_three_parts():
-    wire, caption = Wire(), {"title": "Circle map", "verdict": "No cycle.", "numbers": "ρ = 0.3."}
-    wire.caption("circle", {"title": "Circle map", "verdict": "", "numbers": ""})
-    wire.caption("circle", caption)
-    assert json.loads(json.dumps(wire.pack()[0]))["captions"] == {"circle": caption}
-
-
-@given(st.floats(allow_nan=False, allow_infinity=False), st.tuples(*[st.floats(-1e9, 1e9)] * 3))
-def test_the_numbers_of_controls_keep_double_precision(value, limits):
-    wire = Wire()
-    wire.show_number("h", value, limits)
-    assert unpack(wire)[2] == {"h": [value, *limits]}
 
 
 @given(st.tuples(*[st.floats(-1e300, 1e300)] * 4))
@@ -167,3 +117,26 @@ def test_what_is_put_after_packing_does_not_change_what_was_packed():
     # A disabled number is sent with the flag True.
     wire.show_number("h", 2.0, (0.0, 2.0, 0.1), idle=True)
     assert wire.pack()[0]["controls"] == {"h": [2.0, 0.0, 2.0, 0.1, True]}
+
+
+def test_arrays_of_any_layout_arrive_in_order():
+    grid = np.arange(12.0).reshape(3, 4)
+    wire = Wire()
+    wire.put(
+        "grid",
+        {
+            "rows": grid,
+            "columns": grid.T,
+            "every-other": grid[:, ::2],
+            "back": grid[::-1, 1],
+            "integers": np.arange(3),
+            "big-endian": np.arange(3.0).astype(">f8"),
+        },
+    )
+    found, _, _, _ = unpack(wire)
+    assert found["grid"]["rows"].tolist() == grid.tolist()
+    assert found["grid"]["columns"].tolist() == [[0, 4, 8], [1, 5, 9], [2, 6, 10], [3, 7, 11]]
+    assert found["grid"]["every-other"].tolist() == [[0, 2], [4, 6], [8, 10]]
+    assert found["grid"]["back"].tolist() == [9, 5, 1]
+    assert found["grid"]["integers"].tolist() == [0, 1, 2]
+    assert found["grid"]["big-endian"].tolist() == [0, 1, 2]

@@ -11,9 +11,26 @@ import pytest
 from hess_explorer.headless.screenshot import server_process
 from support.asynchronous import finished
 from support.processes import UNWARMED, assert_gone, below
+from support.room import Follower, Lecturer
 from support.visitor import Visitor
 
 WORKERS = ("--workers", "2")
+
+
+async def meet(base):
+    """All members of a room meet, of whichever worker they are; codes of both workers."""
+    for _ in range(3):
+        lecturer = await Lecturer.open(base)
+        followers = [await Follower.follow(base, lecturer.code) for _ in range(4)]
+        await lecturer.until(lambda one: one.followers == 4)
+        await lecturer.show("scene=loxodrome&accuracy=draft")
+        for one in followers:
+            await one.until(lambda one: "scene=loxodrome" in one.state["query"])
+        await followers[0].leave()
+        await lecturer.until(lambda one: one.followers == 3)
+        await lecturer.say({"end": True})
+        assert [await one.end() for one in followers[1:]] == ["4001: The lecture has ended."] * 3
+        await lecturer.leave()
 
 
 async def told(base, end, count):
@@ -32,6 +49,7 @@ def test_of_several_workers_all_tell_their_pages_and_end_with_the_process_that_b
     with server_process(log, UNWARMED, WORKERS) as (process, base):
         workers = below(process.pid)[1:]
         assert len(workers) == 2
+        finished(meet(base))
         # One that was killed is replaced.
         os.kill(workers[0], signal.SIGKILL)
         heard = finished(told(base, process.terminate, 4))
@@ -41,6 +59,15 @@ def test_of_several_workers_all_tell_their_pages_and_end_with_the_process_that_b
     said = log.read_text()
     assert "Traceback" not in said
     assert "ERROR" not in said
+
+
+@pytest.mark.thorough
+def test_no_worker_outlives_a_server_that_is_killed(tmp_path):
+    with server_process(tmp_path / "log", UNWARMED, WORKERS) as (process, _):
+        workers = below(process.pid)[1:]
+        process.kill()
+        process.wait()
+        assert_gone(workers)
 
 
 COMPILES = """

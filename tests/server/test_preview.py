@@ -44,7 +44,7 @@ def head(query, host="here:5006", **headers):
 
 @pytest.mark.parametrize("scene", scenes().values(), ids=scenes())
 def test_words_and_picture_are_those_of_the_state(scene):
-    for preset in scene.presets[:2]:
+    for preset in scene.presets[:1]:
         facts = head(urlencode({"scene": scene.name, **preset.values, "t": "3"})).facts
         assert facts["og:title"].startswith(scene.title)
         assert facts["og:description"].startswith(scene.summary)

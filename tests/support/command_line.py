@@ -23,9 +23,9 @@ def typed(line):
     return shlex.split(line)
 
 
-def run(*words, timeout=120):
+def run(*words, timeout=120, env=None):
     command = [sys.executable, "-m", "hess_explorer", *words]
-    return subprocess.run(command, cwd=ROOT, capture_output=True, timeout=timeout, check=False)
+    return subprocess.run(command, cwd=ROOT, env=env, capture_output=True, timeout=timeout, check=False)
 
 
 def without_patience(said):

@@ -21,11 +21,19 @@ def instructions(text):
     return [tuple(line.split(maxsplit=1)) for line in joined.splitlines() if line.strip()]
 
 
-class Image:
-    """Build the image of `project`/Dockerfile below the folder `root`; a subclass defines how commands run."""
+class ImageInVenv:
+    """The image of `project`/Dockerfile below the folder `root`, whose Python is a virtual environment.
+
+    Not covered: the base image, other users' rights, and the libraries the base image lacks.
+    """
 
     def __init__(self, project, root):
         self.project, self.root = project, root
+        (root / "root").mkdir(parents=True)
+        subprocess.run([sys.executable, "-m", "venv", root / "venv"], check=True)
+        # The libraries come from the environment of the tests; what the Dockerfile installs goes before them.
+        self.site = Path(sysconfig.get_path("purelib", vars={"base": str(root / "venv")}))
+        (self.site / "libraries.pth").write_text(f"{sysconfig.get_path('purelib')}\n{sysconfig.get_path('platlib')}\n")
         self.user, self.workdir, self.set = "root", "/", {}
         # Docker sends it unless another one is named.
         self.stopsignal = "SIGTERM"
@@ -36,8 +44,8 @@ class Image:
         return self.root / path.lstrip("/")
 
     def mapped(self, text):
-        """Return a command or value with local paths."""
-        return text
+        """Replace the image's absolute paths by the local ones."""
+        return re.sub(r"(?<![\w.:/])/(?=(src|home|root)\b)", lambda _: f"{self.root}/", text)
 
     @property
     def environment(self):
@@ -46,16 +54,16 @@ class Image:
         reached = {name: value for name, value in os.environ.items() if name.startswith(("PIP_", "SSL_"))}
         return {
             **reached,
-            "PATH": "/usr/local/bin:/usr/bin:/bin",
+            "PATH": f"{self.root / 'venv' / 'bin'}:/usr/local/bin:/usr/bin:/bin",
             "LANG": "C.UTF-8",
             "HOME": self.mapped(home),
             **self.set,
         }
 
-    def run(self, command, **options):
+    def run(self, command):
         """Run a command as the image would at this point.  Fails with all the output if the command does."""
         done = subprocess.run(
-            self.here(command),
+            command,
             cwd=self.at(self.workdir),
             env=self.environment,
             text=True,
@@ -63,14 +71,9 @@ class Image:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             check=False,
-            **options,
         )
         assert done.returncode == 0, f"{command}\n{done.stdout}"
         return done.stdout
-
-    def here(self, command):
-        """The words that run `command` as the image's user, from `workdir` and with `environment`."""
-        return command
 
     def carry_out(self, instruction, rest):
         """Execute one instruction.  Unknown instructions fail: add them to this class."""
@@ -99,7 +102,11 @@ class Image:
         return not any(source == rule[1:] or source.startswith(f"{rule[1:]}/") for rule in rules if rule[:1] == "!")
 
     def _run(self, rest):
-        self.run(["sh", "-c", self.mapped(rest)])
+        useradd = re.fullmatch(r"useradd --create-home (\w+)", rest)
+        if useradd:
+            self.at(f"/home/{useradd[1]}").mkdir(parents=True)
+        else:
+            self.run(["sh", "-c", self.mapped(rest)])
 
     def _user(self, rest):
         assert self.at(f"/home/{rest}").is_dir(), f"no such user: {rest}"
@@ -124,35 +131,3 @@ class Image:
 
     def _cmd(self, rest):
         self.cmd = json.loads(rest)
-
-
-class ImageInVenv(Image):
-    """Image whose Python is a virtual environment.
-
-    Not covered: the base image, other users' rights, and the libraries the base image lacks.
-    """
-
-    def __init__(self, project, root):
-        super().__init__(project, root)
-        (root / "root").mkdir(parents=True)
-        subprocess.run([sys.executable, "-m", "venv", root / "venv"], check=True)
-        # The libraries come from the environment of the tests; what the Dockerfile installs goes before them.
-        self.site = Path(sysconfig.get_path("purelib", vars={"base": str(root / "venv")}))
-        (self.site / "libraries.pth").write_text(f"{sysconfig.get_path('purelib')}\n{sysconfig.get_path('platlib')}\n")
-
-    def mapped(self, text):
-        """Replace the image's absolute paths by the local ones."""
-        return re.sub(r"(?<![\w.:/])/(?=(src|home|root)\b)", lambda _: f"{self.root}/", text)
-
-    @property
-    def environment(self):
-        """Return the image's environment, with the Python of the virtual environment."""
-        inherited = super().environment
-        return {**inherited, "PATH": f"{self.root / 'venv' / 'bin'}:{inherited['PATH']}"}
-
-    def _run(self, rest):
-        useradd = re.fullmatch(r"useradd --create-home (\w+)", rest)
-        if useradd:
-            self.at(f"/home/{useradd[1]}").mkdir(parents=True)
-        else:
-            super()._run(rest)

@@ -9,18 +9,12 @@ import time
 from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 
-__all__ = ["LETTERS", "Closed", "Follower", "Lecturer", "new_code"]
-
-LETTERS = "23456789ABCDEFGHJKMNPQRSTUVWXYZ"
-
-
-class Closed(Exception):
-    """Raised when the server has closed the websocket: "code: reason"."""
+from support.visitor import Closed
 
 
 def new_code():
     """Return a code that probably no room has."""
-    return "".join(random.choices(LETTERS, k=6))
+    return "".join(random.choices("23456789ABCDEFGHJKMNPQRSTUVWXYZ", k=6))
 
 
 class Member:

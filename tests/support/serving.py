@@ -13,10 +13,10 @@ from hess_explorer.server.liveness import is_alive
 
 
 @contextmanager
-def served(embedders=("*",), sessions=1000, **changed):
+def served(embedders=("*",), sessions=1000, lessons=(), **changed):
     """Yield the URL of a server in another thread, with the options of `serve` except those given."""
     port = free_port()
-    options = {**serving.options(port, "127.0.0.1", [], sessions=sessions), **changed}
+    options = {**serving.options(port, "127.0.0.1", [], lessons, sessions=sessions), **changed}
     pn.extension()
     replace_handlers(embedders)
     thread = pn.serve(show=False, threaded=True, **options)

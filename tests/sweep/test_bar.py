@@ -1,11 +1,13 @@
 """The progress bar of a sweep in a notebook, whose standard error is no terminal."""
 
 import nbformat
+import pytest
 from nbclient import NotebookClient
 
 CELL = "from hess_explorer.sweep import sweep\nsweep('cos-chi', {'I11': (1.0, 3.0, 5)}, progress=True).cos_chi.size"
 
 
+@pytest.mark.thorough
 def test_the_bar_is_shown_in_a_notebook():
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(CELL)])
     NotebookClient(notebook, timeout=300, kernel_name="python3").execute()

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from hess_explorer.sweep import Interrupted, OtherSweep, Outcome, WorkersLost, explain, read, sweep
+from hess_explorer.sweep import Interrupted, OtherSweep, Outcome, explain, read, sweep
 from hess_explorer.sweep import run as running
 from hess_mechanics import circle_map
 from hess_mechanics.errors import InvalidParameter, NoField, WorkLimit
@@ -62,8 +62,7 @@ def test_a_function_may_take_any_names_other_values_and_the_level():
     assert sweep(functools.partial(chosen, name="cos"), {"x": [0.5]}).chosen.item() == math.cos(0.5)
 
 
-@pytest.mark.parametrize("workers", [None, 2])
-def test_a_cell_without_a_number_has_a_status(workers):
+def test_a_cell_without_a_number_has_a_status():
     def partial(x):
         if x == 1.0:
             raise NoField("No field at x = 1.")
@@ -75,7 +74,7 @@ def test_a_cell_without_a_number_has_a_status(workers):
             return math.inf
         return 1.0 / x if x != 5.0 else x / 0.0
 
-    found = sweep(partial, {"x": (0.0, 6.0, 7)}, workers=workers)
+    found = sweep(partial, {"x": (0.0, 6.0, 7)})
     wanted = [
         Outcome.BEYOND_RANGE,
         Outcome.NO_FIELD,
@@ -162,20 +161,3 @@ def test_a_function_that_cannot_be_sent_is_said():
 
     assert sweep(locked, {"x": [1.0]}).locked.item() == 1.0
     refuses(locked, {"x": [1.0]}, "locked cannot be sent to other processes", workers=2)
-
-
-def test_other_results_than_at_first_are_a_failed_cell():
-    def changes(x):
-        return x if x < 1.5 else Both(x, x)
-
-    assert sweep(changes, {"x": [1.0, 2.0]}).status.values.tolist() == [Outcome.OK, Outcome.FAILED]
-
-
-def test_a_function_whose_module_the_workers_lack_is_said(monkeypatch, tmp_path):
-    (tmp_path / "only_here.py").write_text("def own(x):\n    return x\n")
-    monkeypatch.syspath_prepend(tmp_path)
-    from only_here import own
-
-    monkeypatch.undo()
-    with pytest.raises(WorkersLost, match="No module named 'only_here'"):
-        sweep(own, {"x": [1.0, 2.0]}, workers=2)

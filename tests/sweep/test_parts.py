@@ -5,7 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from hess_explorer.sweep import OtherSweep, StoreError, StoreStatus, read, store_status, sweep, work
+from hess_explorer.sweep import OtherSweep, StoreError, read, store_status, sweep, work
 from hess_explorer.sweep import run as running
 from hess_explorer.sweep import workers as working
 from hess_mechanics.errors import InvalidParameter
@@ -65,13 +65,6 @@ def test_parts_that_start_together_share_one_store(tmp_path):
     assert store_status(store).missing == 0
     assert np.array_equal(read(store).rotation_number, tori().rotation_number, equal_nan=True)
     assert [path.name for path in tmp_path.iterdir()] == ["rho.zarr"]
-
-
-def test_more_parts_than_files_leave_some_without_work(tmp_path):
-    store = tmp_path / "rho.zarr"
-    for k in (1, 2, 3):
-        sweep("cos-chi", {"I11": [1.0, 2.0]}, store=store, part=(k, 3))
-    assert store_status(store) == StoreStatus(2, 0, 3, ())
 
 
 def test_what_is_wrong_is_one_sentence(tmp_path):
