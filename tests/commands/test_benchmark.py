@@ -3,7 +3,6 @@
 import importlib
 import json
 import re
-from math import inf
 from pathlib import Path
 
 import numpy as np
@@ -14,16 +13,8 @@ from benchmarks import bench as bench_command
 from benchmarks import make_benchmark_references as maker
 from benchmarks.integrators import run as benchmark
 from benchmarks.integrators.explorer import METHOD as EXPLORER
-from benchmarks.integrators.measure import (
-    Chosen,
-    MeasuredWorkload,
-    MethodSample,
-    Timing,
-    cheapest,
-)
 from benchmarks.integrators.method import OURS
 from benchmarks.integrators.peers import PEERS
-from benchmarks.integrators.report import BenchmarkReport, as_json, as_text
 from benchmarks.integrators.works import works
 from hess_explorer.__main__ import main
 from hess_explorer.commands import bench as bench_of_the_wheel
@@ -57,23 +48,6 @@ def test_models_agree_with_the_stored_long_orbit(name, bound):
     assert work.error(orbit.states) < bound
 
 
-# Errors
-
-
-# Choice of settings, times
-
-
-def sample(error, seconds, setting=("a",)):
-    return MethodSample(setting, error, seconds, run=lambda: None)
-
-
-def test_the_cheapest_setting_is_the_fastest_that_keeps_the_error():
-    exact, quick, wrong = sample(1e-9, 3.0), sample(1e-7, 2.0), sample(1e-2, 1.0)
-    samples = [exact, quick, wrong, sample(inf, 0.5)]
-    for error, one in ((1e-2, wrong), (1e-3, quick), (1e-7, quick), (1e-8, exact), (1e-10, None)):
-        assert cheapest(samples, error) is one
-
-
 # What takes part
 
 
@@ -82,9 +56,6 @@ def test_a_peer_that_is_not_installed_is_named(monkeypatch):
     methods, missing = benchmark.participants()
     assert missing["no-such-peer"] == "not installed"
     assert {method.name for method in methods} | set(missing) == {OURS, *PEERS}
-    report = made_up(missing={"no-such-peer": "not installed"})
-    assert "- no-such-peer: not installed." in as_text(report)
-    assert as_json(report)["missing"] == {"no-such-peer": "not installed"}
 
 
 def installed_peers():
@@ -106,56 +77,6 @@ def test_every_method_does_every_work_it_says_it_does(method, name):
     if name not in method.without:
         for setting in middle(method, work):
             assert work.error(method.prepare(work, setting)()) < 1e-2, setting
-
-
-# Formats
-
-
-def chosen(error, minimum, setting):
-    return Chosen(sample(error, minimum, setting), Timing(minimum, 1.5 * minimum, 20))
-
-
-def made_up(missing=None):
-    work = works()["C"]
-    picked = {
-        OURS: {1e-3: chosen(2.5e-4, 1e-3, (10, 1e-5)), 1e-6: chosen(2.5e-7, 2e-3, (14, 1e-8))},
-        "peer": {1e-3: chosen(1e-4, 4e-3, ("fast", 1e-5))},
-    }
-    samples = {name: [one.sample for one in by_target.values()] for name, by_target in picked.items()}
-    samples["peer"].append(sample(inf, 7.0, ("fast", 1e-9)))
-    facts = {"date": "2026-01-02", "processor": "Made-up 1", "cores": 2, "python": "3.11"}
-    return BenchmarkReport(
-        facts,
-        {OURS: "0.1", "peer": "7"},
-        missing or {},
-        (1e-3, 1e-6),
-        [MeasuredWorkload(work, samples, picked, ["peer, work C: a sentence."])],
-        (),
-    )
-
-
-def test_table_and_json_have_times_errors_settings_and_ratios():
-    report = made_up()
-    text, data = as_text(report), json.loads(json.dumps(as_json(report), allow_nan=False))
-    for line in (
-        "2026-01-02, Made-up 1, 2 cores, Python 3.11, Hess Explorer 0.1, peer 7.",
-        "| work | error | Hess Explorer | peer |",
-        "| C | 1e-3 | 1.00 (2.5e-4; 10, 1e-5) | 4.00 (4.0 ×) |",
-        "| C | 1e-6 | 2.00 (2.5e-7; 14, 1e-8) | – |",
-        "- peer, work C: a sentence.",
-    ):
-        assert line in text
-    assert (data["processor"], data["targets"]) == ("Made-up 1", [1e-3, 1e-6])
-    (work,) = data["works"]
-    assert work["samples"]["peer"][-1] == {"setting": "fast, 1e-9", "seconds": 7.0, "error": None}
-    peer = {"method": "peer", "target": 1e-3, "setting": "fast, 1e-5", "error": 1e-4}
-    assert {**peer, "minimum": 4e-3, "median": 6e-3, "runs": 20, "ratio": 4.0} in work["chosen"]
-
-
-def test_the_picture_is_a_picture():
-    from benchmarks.integrators.picture import draw
-
-    assert draw(made_up(), ".svg").startswith(b"<?xml")
 
 
 # The command

@@ -15,7 +15,7 @@ DIAGRAM = ["orbit-diagram", "hess", *TORUS, "--over", "h=1.3:1.7:5", "--transien
 SUSLOV = typed("--I 1,2.11,0.6,0.6 --b=-1,-0.5,0.7 --E 0.681 --at 0.83,1.89")
 
 
-def test_over_tori_an_orbit_comes_to_the_stable_limit_cycle_and_backward_to_the_other(answer, as_table):
+def test_over_tori_an_orbit_comes_to_the_stable_limit_cycle_and_backward_to_the_other(answer):
     words = [*DIAGRAM, "--back", "--backward"]
     found = answer(*words)
     way, h, phi = (np.array(found[name]) for name in ("way", "h", "φ"))
@@ -25,19 +25,14 @@ def test_over_tori_an_orbit_comes_to_the_stable_limit_cycle_and_backward_to_the_
         assert all(len(some) == 16 and np.ptp(some) < 1e-8 for some in seen.values())
         assert abs(seen["there"][0] - seen["back"][0]) < 1e-8
         assert abs(seen["there"][0] - seen["backward"][0]) > 0.1
-    for name, of in (("there", min), ("backward", max)):
-        place = repr(float(phi[(way == name) & (h == 1.5)][-1]))
-        orbit = answer("periodic", "hess", *replaced(TORUS, "--at", place), "--period", "1")
-        assert abs(orbit["φ"][0] - float(place)) < 1e-7
-        exact = of(one.multiplier for one in circle_map(0.5, 1.5, 0.6, REFERENCE).fixed_points)
-        assert orbit["multipliers"][0][0] == approx(exact, rel=1e-9)
+    # The stable limit cycle, where the map contracts.
+    place = repr(float(phi[(way == "there") & (h == 1.5)][-1]))
+    orbit = answer("periodic", "hess", *replaced(TORUS, "--at", place), "--period", "1")
+    exact = min(one.multiplier for one in circle_map(0.5, 1.5, 0.6, REFERENCE).fixed_points)
+    assert orbit["multipliers"][0][0] == approx(exact, rel=1e-9)
     assert found["hysteresis"] == []
     assert found["gaps"] == {"there": [], "back": [], "backward": []}
     assert set(found["period"]) == {1}
-    # The same as a table.
-    _, header, rows = as_table(*words)
-    assert header == ["way", "h", "period", "settled", "φ"]
-    assert [float(row[4]) for row in rows] == found["φ"]
 
 
 def test_a_doubling_is_where_newtons_method_finds_the_multiplier_minus_one(answer):

@@ -12,7 +12,7 @@ from hess_mechanics import f_max, prove
 WORDS = ("prove-zone", "--a", "1/2", "--h-end", "2", "--cells", "25")
 
 
-def test_cells_in_json_csv_and_words_are_the_same(answer, capsys):
+def test_cells_in_json_and_words_are_the_same(answer, capsys):
     found = answer(*WORDS, "--format", "json")
     assert found["a"] == "1/2"
     assert found["progress"][-1]["cells"] == 25
@@ -29,12 +29,6 @@ def test_cells_in_json_csv_and_words_are_the_same(answer, capsys):
     h, f = (alpha + beta - 1) * s / 2, (2 * alpha * beta) ** 0.5 * s**1.5
     assert 0 < f <= f_max(h)
     assert prove("1/2", repr(h), repr(f)).statement == "two cycles"
-    assert main([*WORDS, "--format", "csv"]) == 0
-    names, *rows = capsys.readouterr().out.splitlines()
-    assert names == "alpha_low,alpha_high,beta_low,beta_high,statement"
-    assert rows == [
-        ",".join([*map(repr, (*cell["alpha"], *cell["beta"])), cell["statement"]]) for cell in found["cells"]
-    ]
     assert main([*WORDS]) == 0
     said = capsys.readouterr().out
     assert f"two limit cycles on {100 * found['areas']['two cycles'] / sum(found['areas'].values()):.2f} %" in said

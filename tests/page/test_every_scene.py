@@ -21,7 +21,7 @@ EXAMPLES = [
 ]
 
 
-@pytest.mark.parametrize("scene, preset", sample(EXAMPLES, 5))
+@pytest.mark.parametrize("scene, preset", sample(EXAMPLES, 2))
 def test_an_example_is_drawn_as_the_scene_computes_it(tab, scene, preset):
     explorer = brought(tab, scene)
     values = chosen(explorer, scene, preset)
@@ -39,8 +39,6 @@ def test_an_example_is_drawn_as_the_scene_computes_it(tab, scene, preset):
 @pytest.mark.parametrize(
     "name, typed, sentence",
     [
-        ("free-suslov", {"w2": "0"}, "ω(0) lies on the line of equilibria I13ω1 + I23ω2 = 0"),
-        ("scattering", {"k": "-2"}, "k = −2 would make I₁₁ = −1.56; a moment of inertia is positive."),
         ("quartic", {"b3": "0"}, "b3 = 0: without a field the energy does not determine γ₃."),
         ("chaplygin-ball", {"I13": "0", "I23": "0"}, "I13 = I23 = 0: there is no line of equilibria."),
     ],

@@ -1,6 +1,5 @@
 """Exports: the file of a picture from the dialog and from the server, and the matching command."""
 
-import re
 import time
 from pathlib import Path
 from urllib.error import HTTPError
@@ -14,7 +13,6 @@ from hess_explorer.export.code import code
 from hess_explorer.export.notebook import notebook
 from hess_explorer.export.picture_data import address, picture_data
 from hess_explorer.export.table import as_csv
-from hess_explorer.offline.pages import state_page
 from hess_explorer.protocol.parameters import MAX_QUERY
 from support.accessible import assert_accessible
 from support.command_line import typed
@@ -65,15 +63,6 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer):
     # All of the state in one file: what it does is for "test_offline".
     dialog.locator(".param-format").select_option("html")
     assert dialog.locator(".param-picture").is_hidden()
-    with page.expect_download() as download:
-        dialog.get_by_role("button", name="Save file").click()
-    assert download.value.suggested_filename == "suslov-hess.html"
-    origin = page.url.partition("?")[0]
-    saved = Path(download.value.path()).read_bytes()
-    # But for Bokeh's numbers of its models, the same as without a server.
-    pictures = ["body", "omega", "sphere", "bifurcation", "circle", "surface"]
-    here = state_page(state, pictures, home=origin)[1]
-    assert re.sub(rb'"p\d+"', b"", saved) == re.sub(rb'"p\d+"', b"", here)
     # With sliders that move it is made in a process of its own, with progress.
     dialog.get_by_label("Energy h").check()
     dialog.locator(".param-values").fill("3")
@@ -81,6 +70,7 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer):
     assert "--vary h=-0.99:4:3" in " ".join(command_of(dialog))
     with page.expect_download() as download:
         dialog.get_by_role("button", name="Save file").click()
+    assert download.value.suggested_filename == "suslov-hess.html"
     assert '"points": [[1.5], [-0.99], [1.505], [4.0]]' in Path(download.value.path()).read_text(encoding="utf-8")
     dialog.locator(".param-format").select_option("csv")
     # The dialog reports formats that cannot be made, and nothing is saved.
@@ -149,10 +139,6 @@ def test_a_film_is_made_with_progress_and_is_stopped(explorer):
     dialog.get_by_role("button", name="Stop").click()
     expect(dialog.locator(".why")).to_have_text("Stopped.")
     wait_for(lambda: not filming())
-    page.route("**/export?*", lambda route: route.fulfill(body="queued\n1/3\nwhy Nothing moves: so it is.\n"))
-    dialog.get_by_role("button", name="Save file").click()
-    expect(dialog.locator(".why")).to_have_text("Nothing moves: so it is.")
-    page.unroute("**/export?*")
     page.keyboard.press("Escape")
     explorer.assert_quiet()
 
@@ -170,9 +156,8 @@ def test_the_server_gives_files_and_sentences(server):
         assert answer.headers["Content-Type"].startswith("text/csv")
         assert answer.headers["Content-Disposition"] == 'attachment; filename="suslov-hess-circle.csv"'
         assert answer.read().decode() == as_csv(picture_data(DRAFT, "circle"))
-    for kind, begins in (("json", b"{"), ("svg", b"<?xml"), ("png", b"\x89PNG"), ("pdf", b"%PDF")):
-        with urlopen(f"{server}/export?{DRAFT}&picture=omega&format={kind}&width=40&black=1") as answer:
-            assert answer.read().startswith(begins)
+    with urlopen(f"{server}/export?{DRAFT}&picture=omega&format=svg&width=40&black=1") as answer:
+        assert answer.read().startswith(b"<?xml")
 
 
 @pytest.mark.parametrize(

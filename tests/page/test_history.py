@@ -36,10 +36,6 @@ def test_undo_and_redo_go_through_all_that_was_done_and_one_drag_is_one_step(exp
     explorer.change(page.mouse.up)
     seen.append(numbers(explorer, "h", "f"))
     done(explorer.choose, "preset", "No cycle: every orbit winds")
-    frame = explorer.picture("bifurcation").bounding_box()
-    done(page.mouse.click, frame["x"] + 0.6 * frame["width"], frame["y"] + 0.5 * frame["height"])
-    explorer.change(page.locator(".param-reset").click)
-    seen.append(numbers(explorer, "h", "f"))
     explorer.enter("loxodrome")
     assert redo.is_disabled()
     # With the keys, from wherever the focus is.
@@ -60,10 +56,8 @@ def test_undo_and_redo_go_through_all_that_was_done_and_one_drag_is_one_step(exp
     explorer.change(page.keyboard.press, "Control+y")
     assert page.evaluate("document.documentElement.dataset.scene") == "loxodrome"
     assert redo.is_disabled()
-    # Two at once, and a change of its own: from there on is nothing to redo.
-    explorer.change(lambda: [page.keyboard.press("Control+z") for _ in range(2)])
-    assert page.evaluate("document.documentElement.dataset.scene") == HESS
-    assert numbers(explorer, "h", "f") == seen[-2]
+    # From a change on is nothing to redo.
+    explorer.change(page.keyboard.press, "Control+z")
     explorer.change(lambda: explorer.slide(h=2.5))
     assert redo.is_disabled()
     # The browser undoes text that is still being typed.

@@ -18,16 +18,6 @@ HOLD = """([name, low, high]) => {
 """Width and height of a pixel, and the middle of the frame, in units of the axes."""
 
 
-def box(locator):
-    found = locator.bounding_box()
-    return found["x"], found["y"], found["x"] + found["width"], found["y"] + found["height"]
-
-
-def overlap(one, other):
-    """Return whether two boxes overlap."""
-    return min(one[2], other[2]) - max(one[0], other[0]) >= 1 and min(one[3], other[3]) - max(one[1], other[1]) >= 1
-
-
 def test_arrow_keys_move_the_ring_of_the_bifurcation_diagram_by_pixels(explorer):
     # Loaded anew: after some other tests the first key was not answered.
     page = explorer.open().page
@@ -84,48 +74,3 @@ def test_a_changed_verdict_is_announced_once_and_the_clock_never(explorer):
     explorer.change(lambda: explorer.slide(phi0=1.0))
     page.wait_for_timeout(1200)
     assert len(page.evaluate("heard")) == 1
-
-
-# The outer elements that Stop must not cover, and their places.
-AROUND = f"""([stop, around]) => {{
-  {ALL}
-  const place = (item) => {{
-    const {{ left, top, right, bottom }} = item.getBoundingClientRect()
-    return [item.className, [left, top, right, bottom]]
-  }}
-  const found = (selector) => all(document).filter(
-    (item) => item.matches(selector) && item.checkVisibility({{ visibilityProperty: true }}))
-  return [found(stop).map(place), found(around).map(place)]
-}}"""
-
-
-def test_stop_covers_neither_sentence_nor_caption_nor_tool(explorer):
-    page = explorer.page
-    for size, presents in (((390, 844), False), ((1280, 720), False), ((1600, 950), False), ((1600, 950), True)):
-        explorer.resize(*size)
-        if presents:
-            page.evaluate("hess.tell('present')")
-        page.evaluate("hess.tell('progress', [1, 3])")
-        page.wait_for_timeout(400)
-        page.evaluate("hess.tell('progress', [2, 3])")
-        expect(page.locator(".computing")).to_be_visible()
-        # With the drawer of Present closed the pictures fill the window: Stop stands in a corner of the last one.
-        pictures = "" if presents else ", .host"
-        around = f".moves, .picture .caption, .tools, .chips, .param-play, .param-t, .drawer{pictures}"
-        [[_, place]], others = page.evaluate(AROUND, [".computing", around])
-        assert place[0] >= 0 and place[2] <= size[0] and place[3] <= size[1]
-        assert len(others) > 3
-        for name, other in others:
-            assert not overlap(place, other), (size, presents, name)
-        page.evaluate("hess.tell('progress', null)")
-    page.evaluate("hess.tell('present')")
-
-
-@pytest.mark.parametrize("picture", ["bifurcation", "circle"])
-def test_the_chart_panel_leaves_the_picture_that_it_charts(explorer, picture):
-    page = explorer.page
-    explorer.picture(picture).hover()
-    page.get_by_role("button", name="Chart").click()
-    panel = page.get_by_role("dialog", name="Chart")
-    assert not overlap(box(panel), box(explorer.picture(picture)))
-    page.keyboard.press("Escape")

@@ -5,14 +5,13 @@ import io
 import re
 from itertools import combinations
 
-import numpy as np
 import pytest
 from PIL import Image, ImageStat
 from pytest import approx
 
 from hess_explorer.scenes import scenes
 from support.accessible import assert_accessible, contrast
-from support.page import HESS, SLIDERS, STUDY, Explorer, brought_on_phone, wait_frames
+from support.page import HESS, HOMEWARDS, SLIDERS, Explorer, brought_on_phone, wait_frames
 from support.thorough import sample
 
 SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844), "sideways": (844, 390)}
@@ -84,10 +83,6 @@ def corner(page, name, bottom):
 
 def brightness(shot):
     return ImageStat.Stat(shot.convert("L")).median[0]
-
-
-def seen(page):
-    return Image.open(io.BytesIO(page.screenshot()))
 
 
 # Where the drawings without their captions are; where the axes of planar pictures begin and end, and how high they are;
@@ -239,7 +234,7 @@ BY_COST = sorted(SCENES, key=lambda name: name.endswith("-diagram"))
 # a theme that turns paints all that was built.
 @pytest.mark.parametrize(
     "theme, scene",
-    [*(("light", scene) for scene in sample(BY_COST, 4)), *(("dark", scene) for scene in sample(SCENES[1:], 1))],
+    [*(("light", scene) for scene in sample(BY_COST, 2)), *(("dark", scene) for scene in sample(SCENES[1:], 1))],
 )
 def test_a_scene_has_its_columns_and_colours_and_nothing_is_covered_cut_off_or_hard_to_read(
     look_at, artefacts, theme, scene
@@ -258,17 +253,12 @@ def test_a_scene_has_its_columns_and_colours_and_nothing_is_covered_cut_off_or_h
     assert_looks(page, scene, "phone", theme, artefacts)
 
 
-# Where a phone is the first that a page has seen; one that is turned.
-@pytest.mark.parametrize(
-    "scene, size, theme",
-    [
-        *((scene, "phone", "light") for scene in sample((HESS, "ball-section", "scattering", "singular-measures"), 2)),
-        (HESS, "sideways", "dark"),
-        (HESS, "laptop", "dark"),
-    ],
-)
-def test_a_phone_and_a_small_window_have_all_of_it_too(look_at, artefacts, scene, size, theme):
-    assert_looks(look_at(scene, size, theme).page, scene, size, theme, artefacts)
+def test_a_phone_that_is_turned_has_all_of_it_too(look_at, artefacts):
+    tab = look_at(HESS, "sideways", "dark")
+    # The picture that a phone opens on.
+    tab.page.locator(".chips .chip").nth(scenes()[HESS].pictures.index("bifurcation")).click()
+    wait_frames(tab, 4)
+    assert_looks(tab.page, HESS, "sideways", "dark", artefacts)
 
 
 TARGETS = """items => items.filter((item) => item.checkVisibility()).map((item) => {
@@ -325,13 +315,6 @@ def test_a_picture_is_enlarged_by_its_key_or_its_corner_and_the_link_keeps_it(lo
     assert tab.wait_url(large=f"{third},{first}")
     two = edges(page)
     assert two[0] == two[2] > max(two[1], *two[3:])
-    # Keys typed into a box go to the box.
-    tab.box("h").fill("1.2")
-    tab.box("h").press("2")
-    assert edges(page) == two
-    tab.box("h").press("Escape")
-    assert edges(page) == two
-    page.evaluate("document.activeElement.blur()")
     keys.press("Escape")
     wait_frames(tab, 4)
     assert edges(page) == equal
@@ -358,13 +341,7 @@ def test_where_there_is_little_room_controls_and_text_are_tabs(look_at):
     assert_accessible(page, page.get_by_role("tablist"))
 
 
-def axis_colour(page, name="omega"):
-    return page.evaluate(
-        "name => hess.plots.find(({ model }) => model.name === name).model.below[0].major_label_text_color", name
-    )
-
-
-def test_the_page_is_dark_from_its_first_frame_as_its_system_is_until_a_theme_is_chosen(browser, server, look_at):
+def test_the_page_is_dark_from_its_first_frame_as_its_system_is_until_a_theme_is_chosen(browser, server):
     context = browser.new_context(
         viewport=dict(zip(("width", "height"), SIZES["wide"], strict=True)),
         color_scheme="dark",
@@ -381,9 +358,8 @@ def test_the_page_is_dark_from_its_first_frame_as_its_system_is_until_a_theme_is
 
     session.on("Page.screencastFrame", keep)
     session.send("Page.startScreencast", {"format": "png"})
-    opened = Explorer(page, server).goto(f"/?scene={STUDY}")
+    opened = Explorer(page, server).goto(f"/?scene={HESS}")
     session.send("Page.stopScreencast")
-    opened.fold_controls()
     means = [ImageStat.Stat(frame).mean[0] for frame in frames]
     assert len(means) > 2
     assert max(means) < 80, means
@@ -397,12 +373,6 @@ def test_the_page_is_dark_from_its_first_frame_as_its_system_is_until_a_theme_is
     turns("light", False)
     turns("dark", True)
     assert "theme=" not in page.url
-    # A scene that is entered is as dark as one that is opened.
-    look_at(HESS, theme="dark")
-    entered = look_at(STUDY, theme="dark").page
-    for name in planar(STUDY):
-        assert axis_colour(entered, name) == axis_colour(page, name), name
-    assert brightness(seen(entered)) == approx(brightness(seen(page)), abs=1)
     page.get_by_role("button", name="theme").click()
     page.wait_for_function("location.search.includes('theme=light')")
     turns("light", False)
@@ -411,10 +381,9 @@ def test_the_page_is_dark_from_its_first_frame_as_its_system_is_until_a_theme_is
     context.close()
 
 
-@pytest.mark.parametrize("theme", sample(["light", "dark"], 1))
-def test_no_rule_of_wcag_is_broken(look_at, theme):
+def test_no_rule_of_wcag_is_broken(look_at):
     # A state with a note, and a box that holds no number and says so to everyone: all there can be is there.
-    tab = look_at(HESS, theme=theme)
+    tab = look_at(HESS)
     tab.change(lambda: tab.slide(I22=0.5, I23=1.5))
     box = tab.page.locator(".param-h input[type=text]")
     box.fill("abc")
@@ -434,11 +403,6 @@ def test_no_rule_of_wcag_is_broken(look_at, theme):
     assert_accessible(tab.page, tab.page.locator(".comparison"))
     tab.page.locator(".param-unpin").click()
     tab.change(tell, tab.page, "reset")
-
-
-@pytest.mark.parametrize("size, theme", sample([("wide", "dark"), ("phone", "light")], 1))
-def test_no_rule_of_wcag_is_broken_in_the_accuracy_scene(look_at, size, theme):
-    assert_accessible(look_at(STUDY, size, theme).page)
 
 
 STOP = """() => {
@@ -482,9 +446,8 @@ def test_every_control_is_reached_by_the_tab_key_and_every_stop_has_a_name(look_
     tab.fold_controls()
 
 
-@pytest.mark.parametrize("size", ["phone", "sideways"])
-def test_on_a_phone_tools_without_room_in_the_bar_are_in_a_menu(look_at, size):
-    tab = look_at(HESS, size)
+def test_on_a_phone_tools_without_room_in_the_bar_are_in_a_menu(look_at):
+    tab, (width, height) = look_at(HESS, "phone"), SIZES["phone"]
     page = tab.page
     far = ("redo", "pin", "invite", "export", "print", "present", "fullscreen", "theme")
     assert not any(page.locator(f".param-{name}").is_visible() for name in far)
@@ -492,8 +455,8 @@ def test_on_a_phone_tools_without_room_in_the_bar_are_in_a_menu(look_at, size):
     for name in far:
         box = page.locator(f".param-{name}").bounding_box()
         assert min(box["width"], box["height"]) >= 44
-        assert 0 <= box["x"] < box["x"] + box["width"] <= SIZES[size][0]
-        assert 0 <= box["y"] < box["y"] + box["height"] <= SIZES[size][1]
+        assert 0 <= box["x"] < box["x"] + box["width"] <= width
+        assert 0 <= box["y"] < box["y"] + box["height"] <= height
     assert_accessible(page, page.get_by_role("group", name="More tools"))
     page.locator(".param-present").click()
     assert page.evaluate("document.documentElement.hasAttribute('data-present')")
@@ -510,22 +473,15 @@ def test_on_a_phone_tools_without_room_in_the_bar_are_in_a_menu(look_at, size):
     assert (
         labels == "Undo · Redo · Reset · Pin · Chart · Share · Invite · Export · Print · Present · Full screen · Theme"
     )
-    tab.resize(*SIZES[size])
+    tab.resize(width, height)
 
 
 # --- Ticks -------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    "scene, values",
-    [
-        ("free-suslov", {"w1": 1e-4, "w2": 2e-4}),
-        ("euler-poisson", {"window": "0.5,0.2;0.50004,0.20004", "orbits": 4, "count": 20}),
-    ],
-)
-def test_on_tiny_axes_no_label_touches_the_next(look_at, scene, values):
-    tab = look_at(scene, "laptop")
-    tab.change(tell, tab.page, "change", values)
+def test_no_label_touches_the_next_on_tiny_axes_and_on_a_sphere(look_at):
+    tab = look_at("free-suslov", "laptop")
+    tab.change(tell, tab.page, "change", {"w1": 1e-4, "w2": 2e-4})
     # Painted anew, as they stand: [text, left, top, right, bottom], of each plot.
     plots = tab.page.evaluate(
         WRITTEN,
@@ -540,6 +496,10 @@ def test_on_tiny_axes_no_label_touches_the_next(look_at, scene, values):
     # Bokeh keeps 4 pixels between what it measures; here a letter is as high as its type.
     assert min(gaps) >= 3.0
     assert max(len(text) for labels in ticks for text, *_ in labels) >= 5
+    canvases = tab.page.evaluate(WRITTEN, f"({HOMEWARDS})()")
+    # With I₁₃ = 0 the axis ξ is that of γ₁.
+    assert {"γ₁", "ξ"} <= {text for canvas in canvases for text, *_ in canvas}
+    assert min(gap for canvas in canvases if len(canvas) > 1 for gap in gaps_of(canvas)) >= 0.0
 
 
 WRITTEN = """async (change) => {
@@ -573,61 +533,3 @@ def gaps_of(labels):
         max(max(one[1], other[1]) - min(one[3], other[3]), max(one[2], other[2]) - min(one[4], other[4]))
         for one, other in combinations(labels, 2)
     ]
-
-
-@pytest.mark.parametrize("scene", sample(["free-suslov", "loxodrome", "scattering"], 2))
-def test_on_a_sphere_no_label_touches_the_next(look_at, scene):
-    page = look_at(scene, "laptop").page
-    touching = """const all = (root) => [...root.querySelectorAll("*")].flatMap((item) =>
-      [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
-    const turning = ".gallery:not(.away) :is(.sphere, .solid, .torus)"
-    for (const canvas of all(document).filter((item) => item.matches(turning)))
-      canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "Home", bubbles: true, composed: true }))"""
-    canvases = page.evaluate(WRITTEN, touching)
-    labels = [one for canvas in canvases for one in canvas]
-    # In the free Suslov problem with I₁₃ = 0 the axis ξ is that of γ₁.
-    assert {"loxodrome": {"2", "e"}}.get(scene, {"γ₁", "ξ"}) <= {text for text, *_ in labels}
-    assert min(gap for canvas in canvases if len(canvas) > 1 for gap in gaps_of(canvas)) >= 0.0
-
-
-def test_on_a_large_screen_lines_are_as_much_wider_as_the_type(look_at):
-    tab = look_at("free-suslov", "laptop")
-    page = tab.page
-    seen = []
-    for window in (SIZES["laptop"], (3840, 2160)):
-        tab.resize(*window)
-        seen.append(
-            page.locator(".gallery:not(.away) canvas.sphere").evaluate("""async (canvas) => {
-          const ctx = canvas.getContext("2d")
-          const widths = []
-          ctx.stroke = (...path) => {
-            widths.push(ctx.lineWidth * ctx.getTransform().a)
-            CanvasRenderingContext2D.prototype.stroke.apply(ctx, path)
-          }
-          canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "Home", bubbles: true }))
-          for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame)
-          delete ctx.stroke
-          const lines = hess.plots.flatMap(({ model }) => model.renderers)
-            .map(({ glyph }) => glyph?.line_width?.value ?? 0)
-          const type = parseFloat(getComputedStyle(canvas).fontSize)
-          return [Math.min(...widths), Math.max(...widths), Math.max(...lines), type]
-        }""")
-        )
-    tab.resize(*SIZES["laptop"])
-    small, large = np.array(seen)
-    assert large[3] / small[3] == approx(25.92 / 14.0, rel=1e-3)
-    assert large / small == approx(large[3] / small[3], rel=1e-3)
-    assert small[:2] == approx([1.0, 3.0])
-
-
-def test_what_is_said_of_a_place_under_the_mouse_covers_neither_picture_nor_axis(look_at):
-    page = look_at(HESS, "laptop").page
-    frame = page.locator(".gallery:not(.away) .picture-bifurcation")
-    host = frame.locator(".host").bounding_box()
-    page.mouse.move(host["x"] + 0.5 * host["width"], host["y"] + 0.5 * host["height"])
-    hover = frame.locator(".hover")
-    hover.wait_for(state="visible")
-    assert "ρ = " in hover.text_content()
-    box = hover.bounding_box()
-    assert box["y"] + box["height"] <= host["y"] + 0.5
-    page.mouse.move(5, 5)

@@ -2,7 +2,7 @@
 
 import io
 import json
-import re
+from dataclasses import replace
 from urllib.parse import parse_qsl
 
 import numpy as np
@@ -23,11 +23,11 @@ DRAFT = "scene=suslov-hess&h=1.2&f=0.3&accuracy=draft"
 FIRST = "limit-cycles-and-locking"
 # Five pages, with two sliders each.
 PAGES = {
-    "suslov-hess": (DRAFT, ("h=0.2:3.4:6", "f=0:1:5")),
-    "free-suslov": ("scene=free-suslov", ("k=0.2:0.9:6", "I23=-0.3:0.3:5")),
-    "chaplygin-ball": ("scene=chaplygin-ball", ("D=0.5:3:6", "h=0.5:2:5")),
-    "kharlamova": ("scene=kharlamova", ("q1=-0.5:0.5:6", "p=0.6:1.4:5")),
-    "loxodrome": ("scene=loxodrome", ("energy=0.5:2:6", "l=0.1:0.5:5")),
+    "suslov-hess": (DRAFT, ("h=0.2:3.4:3", "f=0:1:3")),
+    "free-suslov": ("scene=free-suslov", ("k=0.2:0.9:3", "I23=-0.3:0.3:3")),
+    "chaplygin-ball": ("scene=chaplygin-ball", ("D=0.5:3:3", "h=0.5:2:3")),
+    "kharlamova": ("scene=kharlamova", ("q1=-0.5:0.5:3", "p=0.6:1.4:3")),
+    "loxodrome": ("scene=loxodrome", ("energy=0.5:2:3", "l=0.1:0.5:3")),
 }
 
 
@@ -92,16 +92,12 @@ def test_a_state_plays_and_turns_from_the_disk(browser, tmp_path):
         # The page says which parameters are fixed.
         assert page.locator("input.hand").count() == 0
         expect(page.locator(".fixed")).to_contain_text("This file holds one computed state. Fixed: I₂₂ = 0.96, ")
-        page.locator(".param-theme").click()
-        expect(page.locator("html")).to_have_attribute("style", re.compile("^color-scheme: dark"))
         page.locator("a.home").dispatch_event("focus")
         assert (
             page.locator("a.home").get_attribute("href").startswith("https://explorer.example/?v=1&scene=suslov-hess")
         )
         facts = json.loads(page.locator("#facts").text_content())
         assert facts["parameters"] == dict(found.values)
-        assert facts["program"] == found.facts["program"]
-        assert facts["link"] in page.locator("meta[name=description]").get_attribute("content")
         assert_accessible(page)
 
 
@@ -126,9 +122,9 @@ def test_sliders_show_what_the_served_page_shows(browser, explorer, tmp_path, na
     names = [slider.partition("=")[0] for slider in sliders]
     explorer.fresh(name)
     with opened(browser, written(tmp_path, name, content)) as page:
-        for step in range(10):
-            slider = page.locator(f".param-{names[step // 5]} .hand").first
-            change(page, slider.press, "Home" if step % 5 == 0 else "ArrowRight")
+        for step in range(4):
+            slider = page.locator(f".param-{names[step // 2]} .hand").first
+            change(page, slider.press, "Home" if step % 2 == 0 else "ArrowRight")
             address = address_of(page)
             explorer.change(explorer.page.evaluate, "query => hess.tell('restore', query)", address)
             there = captions(explorer.page)
@@ -167,30 +163,26 @@ def test_the_file_says_what_it_cannot_show_and_keeps_its_place(browser, tmp_path
         assert page.locator(".param-f input.exact").input_value() == "0"
 
 
-def test_clouds_move_and_only_the_pictures_asked_for_are_there(browser, tmp_path):
-    content = state_page("scene=singular-measures&points=1000&accuracy=draft", ("omega", "density"))[1]
-    with opened(browser, written(tmp_path, "clouds", content)) as page:
-        assert [one.get_attribute("data-name") for one in page.locator(".picture").all()] == ["omega", "density"]
-        cloud = page.locator("canvas.cloud")
-        before = cloud.evaluate("canvas => canvas.toDataURL()")
-        page.keyboard.press("ArrowRight")
-        page.wait_for_timeout(100)
-        assert cloud.evaluate("canvas => canvas.toDataURL()") != before
+# Of the first lesson the steps with a guess, a question and a slider.
+PART = replace(shipped()[FIRST], steps=shipped()[FIRST].steps[4:7])
 
 
 @pytest.mark.parametrize(
-    "name", [FIRST, *(pytest.param(one, marks=pytest.mark.thorough) for one in shipped() if one != FIRST)]
+    "lesson",
+    [
+        pytest.param(PART, id="part"),
+        *(pytest.param(one, marks=pytest.mark.thorough, id=one.name) for one in shipped().values()),
+    ],
 )
-def test_a_lesson_is_given_from_its_file(browser, tmp_path, name):
-    lesson = shipped()[name]
-    uri = written(tmp_path, name, lesson_page(lesson, 3))
+def test_a_lesson_is_given_from_its_file(browser, tmp_path, lesson):
+    uri = written(tmp_path, lesson.name, lesson_page(lesson, 3))
     with opened(browser, uri, (1280, 720)) as page:
         assert_given(page, lesson)
         # Back to the beginning, as a lecturer does after a question.
         for _ in lesson.steps[1:]:
             change(page, page.keyboard.press, "PageUp")
         expect(page.locator(".lesson .count")).to_have_text(f"1 / {len(lesson.steps)}")
-    with opened(browser, f"{uri}#lesson={name}&step=3", (390, 844), has_touch=True, is_mobile=True) as page:
+    with opened(browser, f"{uri}#lesson={lesson.name}&step=3", (390, 844), has_touch=True, is_mobile=True) as page:
         expect(page.locator(".lesson .count")).to_have_text(f"3 / {len(lesson.steps)}")
         assert page.evaluate("document.documentElement.scrollWidth") <= 390
 

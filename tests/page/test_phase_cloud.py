@@ -20,7 +20,6 @@ from support.thorough import sample
 DEFAULTS = SCENE.defaults()
 HERE = ".gallery:not(.away) .picture-{} canvas"
 BLUE, PINK = (0, 114, 178), (204, 121, 167)
-DARK_BLUE = (77, 174, 235)
 WIDTH = 600
 """Pixels of a picture that interpolation is to be right for."""
 EVERY = 20
@@ -32,8 +31,6 @@ SOME = 1e-4
 CLOUDS = """slider => JSON.stringify(hess.clouds(hess.source("omega"), Number(slider.value))
   .map(({ w1, w2, g1, g2, g3 }) => [w1, w2, g1, g2, g3].map((one) => Array.from(one))))"""
 DENSITY = "() => { const { x, y } = hess.source('density-now').data; return [Array.from(x), Array.from(y)] }"
-FILLED = """canvas => innerWidth === document.documentElement.clientWidth
-  && Math.abs(canvas.width - canvas.getBoundingClientRect().width * devicePixelRatio) <= 2"""
 
 
 @pytest.fixture
@@ -82,15 +79,12 @@ def test_every_example_is_drawn_and_says_what_the_scene_says(cloud):
 
 INTERPOLATED = [
     {},
-    {"direction": "backward"},
-    {"start": "small patch", "beside": "principal axis"},
     {"start": "small patch", "beside": "principal axis", "D": 2.0, "b3": -2.0, "direction": "backward", "span": 8.0},
     {"I11": 1.0, "I22": 1.5, "I13": 0.7, "I23": 1.2, "D": 3.0, "h": 3.0, "span": 11.0},
-    {"I11": 1.0, "I22": 1.0, "I13": 1.0, "I23": 1.0, "h": 1.0, "span": 10.0},
 ]
 
 
-@pytest.mark.parametrize("changes", sample(INTERPOLATED, 2), ids=str)
+@pytest.mark.parametrize("changes", sample(INTERPOLATED, 1), ids=str)
 def test_between_frames_nearly_all_points_are_right_to_a_pixel(cloud, changes):
     values = {**DEFAULTS, **changes}
     body = BallBody(*(values[name] for name in ("I11", "I22", "I13", "I23", "D")))
@@ -123,21 +117,6 @@ def test_between_frames_nearly_all_points_are_right_to_a_pixel(cloud, changes):
                 assert error.max() < 3.0
 
 
-def test_playing_moves_the_points_and_their_density(cloud):
-    cloud.set_time(1.0)
-    before, density = clouds(cloud)[0], cloud.page.evaluate(DENSITY)
-    painted = share_of(cloud, "omega", BLUE)
-    cloud.play_until(2.2)
-    after = clouds(cloud)[0]
-    moved = np.linalg.norm(after[:2] - before[:2], axis=0)
-    assert np.median(moved) > 0.1
-    # Onto the stable half, where s = 0: |s| falls.
-    s = [np.median(np.abs(DEFAULTS["I13"] * one[0] + DEFAULTS["I23"] * one[1])) for one in (before, after)]
-    assert s[1] < 0.8 * s[0]
-    assert cloud.page.evaluate(DENSITY) != density
-    assert share_of(cloud, "omega", BLUE) < painted
-
-
 def test_a_click_in_the_plane_puts_a_patch_there(cloud):
     canvas = cloud.page.locator(HERE.format("omega"))
     box = canvas.bounding_box()
@@ -163,20 +142,3 @@ def test_a_state_without_a_manifold_is_refused_and_nothing_stale_is_drawn(cloud)
     # And the next state is drawn.
     cloud.change(cloud.type, "I23", "0.7")
     assert share_of(cloud, "omega", BLUE) > 0.001
-
-
-@pytest.mark.parametrize("theme, blue", [("light", BLUE), ("dark", DARK_BLUE)])
-def test_the_plane_is_drawn_in_every_window_and_theme(cloud, artefacts, theme, blue):
-    page = cloud.page
-    cloud.set_time(4.0)
-    cloud.turn_theme(is_dark=theme == "dark")
-    canvas = page.locator(HERE.format("omega"))
-    for width, height in ((1600, 950), (1280, 720), (390, 844)):
-        page.set_viewport_size({"width": width, "height": height})
-        # The canvas has as many pixels as its place again: it was painted anew.
-        page.wait_for_function(FILLED, arg=canvas.element_handle())
-        assert share_of(cloud, "omega", blue) > 0.002
-        box = canvas.bounding_box()
-        assert box["width"] == approx(box["height"], abs=1.0)
-        assert box["x"] + box["width"] <= width
-        page.screenshot(path=artefacts / f"cloud-{width}-{theme}.png")

@@ -11,7 +11,7 @@ from pytest import approx
 from hess_explorer.views import theme
 from hess_mechanics import turning_points
 from support.mechanics import angle_between, lifted_return
-from support.page import DEFAULTS, FIND, PICTURES
+from support.page import DEFAULTS, FIND, PICTURES, flat, wait_frames
 from support.pointer import HOME, STEP, assert_turned, at, click_on
 from support.suslov_hess import assert_orbit, body_of, exact_states
 
@@ -37,8 +37,8 @@ def like(pixels, colour, tolerance=24):
 # --- Choosing by hand --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("h, f", [(0.5, 0.4), (2.75, -1.5)])
-def test_a_click_in_the_bifurcation_diagram_chooses_the_torus_under_it(explorer, h, f):
+def test_a_click_in_the_bifurcation_diagram_chooses_the_torus_under_it(explorer):
+    h, f = 2.75, -1.5
     (x, y), (wide, high) = at(explorer, "bifurcation", h, f)
     x, y = round(x), round(y)
     explorer.change(explorer.page.mouse.click, x, y)
@@ -85,38 +85,6 @@ def test_a_click_in_the_circle_map_chooses_the_phase_under_it(explorer):
     assert_orbit(explorer, {**DEFAULTS, "phi0": chosen})
     cobweb = explorer.data("circle-cobweb")
     assert (cobweb["phi"][0], cobweb["theta"][0]) == approx((chosen, chosen), abs=1e-6)
-
-
-def test_a_hand_that_takes_its_time_still_clicks_and_drags(explorer):
-    mouse = explorer.page.mouse
-    (x, y), (wide, high) = at(explorer, "bifurcation", 1.8, 0.3)
-    mouse.move(x, y)
-    mouse.down()
-    explorer.page.wait_for_timeout(800)
-    explorer.change(mouse.up)
-    assert explorer.here() == (approx(1.8, abs=wide), approx(0.3, abs=high))
-    mouse.down()
-    explorer.page.wait_for_timeout(800)
-    (x, y), _ = at(explorer, "bifurcation", 2.6, -0.4)
-    explorer.change(mouse.move, x, y)
-    assert explorer.here() == (approx(2.6, abs=wide), approx(-0.4, abs=high))
-    mouse.up()
-
-
-def test_two_clicks_in_quick_succession_both_count(explorer):
-    (first, _), (second, (wide, _)) = at(explorer, "bifurcation", 1.8, 0.3), at(explorer, "bifurcation", 2.6, -0.4)
-    explorer.change(explorer.page.mouse.click, *first)
-    explorer.change(explorer.page.mouse.click, *second)
-    assert explorer.here()[0] == approx(2.6, abs=wide)
-
-
-def test_a_click_in_the_plane_of_angular_velocity_chooses_nothing(explorer):
-    before = explorer.state
-    (x, y), _ = at(explorer, "omega", 1.0, 1.0)
-    explorer.page.mouse.click(x, y)
-    explorer.change(lambda: explorer.slide(phi0=1.0))
-    assert explorer.state == before + 1
-    assert_orbit(explorer, {**DEFAULTS, "phi0": 1.0})
 
 
 # --- The sphere and the torus ------------------------------------------------------------------------
@@ -171,10 +139,8 @@ def test_the_sphere_turns_with_the_arrow_keys_up_to_the_pole_and_home_again(expl
         ("ArrowLeft", 2, (HOME[0] + 2 * STEP, HOME[1])),
         ("ArrowRight", 3, (HOME[0] - STEP, HOME[1])),
         ("ArrowUp", 1, (HOME[0] - STEP, HOME[1] + STEP)),
-        ("ArrowDown", 2, (HOME[0] - STEP, HOME[1] - STEP)),
         ("ArrowDown", 25, (HOME[0] - STEP, -pi / 2)),
         ("Home", 1, HOME),
-        ("ArrowLeft", 40, (HOME[0] + 40 * STEP, HOME[1])),
     ):
         for _ in range(times):
             explorer.sphere.press(key)
@@ -192,15 +158,15 @@ def projected(point, turn):
 
 
 @every_turnable
-@pytest.mark.parametrize("keys", [[], ["ArrowUp"] * 6 + ["ArrowRight"] * 4])
-def test_the_moving_point_is_at_the_state_seen_from_there(explorer, keys, kind, place):
+def test_the_moving_point_is_at_the_state_seen_from_there(explorer, kind, place):
+    keys = ["ArrowUp"] * 6 + ["ArrowRight"] * 4
     in_space(explorer, kind).focus()
     for key in keys:
         in_space(explorer, kind).press(key)
     turn = (HOME[0] - STEP * keys.count("ArrowRight"), HOME[1] + STEP * keys.count("ArrowUp"))
     assert_turned(in_space(explorer, kind), *turn)
     box = in_space(explorer, kind).bounding_box()
-    for t in (0.0, 1.7, 3.1, 6.6, 9.4):
+    for t in (0.0, 3.1, 9.4):
         explorer.set_time(t)
         right, up = projected(place(exact_states(DEFAULTS, [t])[0]), turn)
         explorer.page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
@@ -212,8 +178,8 @@ def test_the_moving_point_is_at_the_state_seen_from_there(explorer, keys, kind, 
         assert found == approx((right, up), abs=0.02)
 
 
-@pytest.mark.parametrize("t", [2.5, 33.3])
-def test_the_moving_point_is_at_the_state_of_its_time_in_every_plane(explorer, t):
+def test_the_moving_point_is_at_the_state_of_its_time_in_every_plane(explorer):
+    t = 33.3
     explorer.set_time(t)
     state = exact_states(DEFAULTS, [t])[0]
     w1, w2, n1, n2, n3 = body_of(DEFAULTS).in_units_of_b(body_of(DEFAULTS).to_reduced(state))
@@ -270,15 +236,6 @@ def test_every_picture_is_painted_in_its_colours(explorer):
         assert name == "sphere" or like(pixels[:6], "#FFFFFF").mean() > 0.95
 
 
-def test_fixed_points_are_filled_and_hollow(explorer):
-    for name, colour in (("stable", theme.STABLE), ("unstable", theme.UNSTABLE)):
-        phi = explorer.data(f"circle-{name}")["phi"][0]
-        (x, y), _ = at(explorer, "circle", phi, phi)
-        pixels = picture(explorer, (round(x) - 12, round(y) - 12, 24, 24))
-        assert like(pixels, colour).sum() > 30
-        assert like(pixels[10:14, 10:14], colour).all() == (name == "stable")
-
-
 # [before, [[at the moment at which the page says that a state is painted, two frames later], …], at last]: what is on
 # the canvases of plots while a slider goes to another place, of states that no other one follows so soon.
 ON_CANVASES = f"""async () => {{
@@ -321,3 +278,19 @@ def test_the_separatrix_is_said_in_the_middle_of_the_circle_map(explorer):
     pixels = canvas_of(explorer, "circle")
     assert not like(pixels, theme.MAP).any()
     assert like(pixels[int(0.35 * len(pixels)) : int(0.6 * len(pixels)), 100:280], theme.MUTED, 60).sum() > 150
+
+
+def test_a_picture_that_is_folded_is_not_computed(explorer):
+    explorer.change(lambda: explorer.slide(h=0.2))
+    assert flat(explorer.data("torus-density")) == []
+    assert not explorer.picture("torus").is_visible()
+    explorer.unfold("torus")
+    first = explorer.data("torus-density")
+    assert flat(first) != []
+    explorer.fold("torus")
+    # The browser tells what is in sight a moment after it has changed.
+    wait_frames(explorer)
+    explorer.change(lambda: explorer.slide(h=0.4))
+    assert explorer.data("torus-density") == first
+    explorer.unfold("torus")
+    assert explorer.data("torus-density") != first

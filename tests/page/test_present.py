@@ -4,8 +4,7 @@ import pytest
 
 from hess_explorer.scenes import scenes
 from support.accessible import assert_accessible
-from support.page import HESS, Explorer, wait_frames
-from support.thorough import sample
+from support.page import HESS, wait_frames
 
 # The size of every text in sight, those of the axes among them; the widths of Bokeh's lines by plot and model.
 SIZES = """() => {
@@ -52,10 +51,8 @@ def plain(tab):
     tab.assert_quiet()
 
 
-@pytest.mark.parametrize(("size", "theme"), sample([((1920, 1080), "light"), ((1280, 720), "dark")], 1))
-def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(plain, open_page, server, size, theme):
-    tab, page = plain, plain.page
-    tab.turn_theme(is_dark=theme == "dark")
+def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(plain):
+    tab, page, size = plain, plain.page, (1920, 1080)
     tab.resize(*size)
     usual, strokes = page.evaluate(SIZES), tab.sphere.evaluate(STROKES)
     page.evaluate("document.activeElement?.blur()")
@@ -94,106 +91,8 @@ def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(plain, open_p
     spot = page.locator(".spot").bounding_box()
     assert (spot["x"] + spot["width"] / 2, spot["y"] + spot["height"] / 2) == pytest.approx((500, 320), abs=1)
     assert_accessible(page)
-    # A link opens it; a picture that is large is reduced first, then Escape leaves; all is as it was.
-    if theme == "dark":
-        again = Explorer(open_page(tab.link().split("?")[1], size=size), server)
-        wait_frames(again, 4)
-        opened = again.page.evaluate(SIZES)
-        for what in ("lines", "ticks"):
-            one, other = (found[what].values() if what == "lines" else found[what] for found in (opened, large))
-            assert sorted(one) == sorted(other)
-    page.keyboard.press("1")
-    wait_frames(tab, 4)
-    page.keyboard.press("Escape")
-    assert page.evaluate("document.documentElement.hasAttribute('data-present')")
     page.keyboard.press("Escape")
     wait_frames(tab, 4)
     page.wait_for_function("!location.search.includes('present')")
     back = page.evaluate(SIZES)
     assert (back["lines"], back["ticks"]) == (usual["lines"], usual["ticks"])
-
-
-# The shelf; the pictures in sight with their edges and captions; the titles that are cut.
-HALL = """() => {
-  const all = (root) => [...root.querySelectorAll("*")].flatMap(
-    (item) => [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
-  const items = all(document).filter((item) => item.checkVisibility())
-  const cells = items.filter((item) => item.matches(".gallery:not(.away) .picture"))
-  const shelf = items.find((item) => item.matches(".shelf"))
-  return {
-    shelf: [shelf.clientWidth, shelf.clientHeight],
-    pictures: cells.map((cell) => {
-      const { right, bottom } = cell.getBoundingClientRect()
-      const caption = cell.querySelector("h2")
-      return [cell.dataset.name, cell.querySelector(".host").clientWidth, caption.clientHeight, right, bottom]
-    }),
-    cut: cells.map((cell) => cell.querySelector("h2"))
-      .filter((item) => item.scrollHeight > item.clientHeight + 1 || item.scrollWidth > item.clientWidth + 1)
-      .map((item) => item.textContent),
-  }
-}"""
-
-
-@pytest.mark.parametrize("size", sample([(1920, 1080), (1280, 720), (1600, 950)], 2))
-def test_pictures_fill_the_hall(tab, size):
-    page, (width, height) = tab.page, size
-    for scene in sample([name for name, one in scenes().items() if one.origin in (None, HESS)], 2):
-        tab.fresh(scene)
-        tab.resize(*size)
-        desk = page.evaluate(HALL)["pictures"]
-        page.keyboard.press("p")
-        wait_frames(tab, 4)
-        # With the keys 1, Shift 2, Shift 3 one, two, three pictures are chosen; the others are thumbnails.
-        for count in range(min(4, len(desk) + 1)):
-            if count > 0:
-                page.keyboard.press(f"{'Shift+' if count > 1 else ''}Digit{count}")
-                wait_frames(tab, 4)
-            hall = page.evaluate(HALL)
-            assert hall["shelf"][0] >= 0.98 * width
-            assert hall["shelf"][1] >= 0.98 * height
-            assert hall["cut"] == [], (scene, count)
-            pictures = hall["pictures"]
-            assert [name for name, *_ in pictures] == [name for name, *_ in desk]
-            for _, _, _, right, bottom in pictures:
-                assert right <= width
-                assert bottom <= height
-            # Together they take the whole width or the whole height.
-            across = max(right for *_, right, _ in pictures) - min(right - edge for _, edge, _, right, _ in pictures)
-            down = max(bottom for *_, bottom in pictures)
-            assert max(across / width, down / height) >= 0.95, (scene, count)
-            if count == 0:
-                assert min(edge for _, edge, *_ in pictures) >= min(edge for _, edge, *_ in desk), scene
-            else:
-                edge, caption = min((edge, caption) for _, edge, caption, *_ in pictures[:count])
-                assert min(edge for _, edge, *_ in pictures) >= 0.08 * height
-                assert max(count * edge / width, (edge + caption) / height) >= 0.9, (scene, count)
-        page.keyboard.press("Escape")
-        page.keyboard.press("Escape")
-        wait_frames(tab, 4)
-    tab.fresh()
-
-
-def test_a_thumbnail_is_drawn_whole_and_a_click_enlarges_it(plain):
-    tab, page = plain, plain.page
-    tab.resize(1600, 950)
-    page.keyboard.press("p")
-    for key in ("Digit2", "Shift+Digit4"):
-        page.keyboard.press(key)
-    wait_frames(tab, 4)
-    circle = tab.picture("circle")
-    assert circle.locator(".host").bounding_box()["width"] < 150
-    # Its labels are as much smaller as the picture is.
-    labels, edge = page.evaluate(
-        """() => {
-          const { model, el } = hess.plots.find(({ model }) => model.name === "circle")
-          return [Number.parseFloat(model.below[0].axis_label_text_font_size), el.getBoundingClientRect().width]
-        }"""
-    )
-    assert labels < edge / 10
-    circle.locator(".title").click()
-    wait_frames(tab, 4)
-    large = [name for name, edge, *_ in page.evaluate(HALL)["pictures"] if edge > 700]
-    assert large == ["circle"]
-    page.keyboard.press("Escape")
-    page.keyboard.press("Escape")
-    wait_frames(tab, 4)

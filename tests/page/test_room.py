@@ -142,9 +142,7 @@ def test_a_guess_of_the_audience_from_the_invitation_to_how_far_it_was_off(lectu
     found = re.fullmatch(
         r"3 guesses from the audience\. Median distance: (\d+) pixels, (\S+) in .*, (\S+) in .*\.", said
     )
-    pixels, x, y = np.median(off, axis=0)
-    assert float(found[1]) == pytest.approx(pixels, rel=0.1)
-    assert [float(found[2]), float(found[3])] == pytest.approx([x, y], rel=0.1)
+    assert [*map(float, found.groups())] == pytest.approx(np.median(off, axis=0), rel=0.1)
     # The next step takes the guesses away.
     while page.locator(".lesson .count").inner_text().startswith(f"{STEP} "):
         page.keyboard.press("PageDown")
@@ -177,21 +175,21 @@ def test_a_follower_plays_alone_and_comes_back_and_the_room_outlives_a_reload(le
     small.evaluate("hess.tell('scene', 'kharlamova')")
     wait_ready(small, after=before)
     # The lecturer does not notice, goes on, and reloads the page.
-    tab.change(lambda: page.evaluate("hess.tell('scene', 'quartic')"))
+    tab.change(lambda: page.evaluate("hess.tell('scene', 'free-suslov')"))
     page.reload()
     wait_ready(page)
     page.locator(".param-invite[aria-pressed=true]").wait_for()
-    assert page.evaluate("document.documentElement.dataset.scene") == "quartic"
+    assert page.evaluate("document.documentElement.dataset.scene") == "free-suslov"
     small.route_web_socket(re.compile("/rooms/"), connect)
     small.get_by_role("link", name="Back to the lecture").tap()
-    follows(small, "scene=quartic")
+    follows(small, "scene=free-suslov")
     tab.change(lambda: page.evaluate("hess.tell('scene', 'scattering')"))
     follows(small, "scene=scattering")
     # A phone that loses its connection finds the last state when it is back.
     sockets.pop().close(code=1001)
     small.get_by_text("Connection lost.").wait_for()
-    tab.change(lambda: page.evaluate("hess.tell('scene', 'bridge')"))
-    follows(small, "scene=bridge")
+    tab.change(lambda: page.evaluate("hess.tell('scene', 'loxodrome')"))
+    follows(small, "scene=loxodrome")
     assert len(sockets) == 1
     page.get_by_role("button", name="Invite").click()
     page.get_by_role("button", name="End the lecture").click()

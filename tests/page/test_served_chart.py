@@ -1,16 +1,13 @@
-"""A store of a sweep as a chart of the page: `hess-explorer serve --chart`."""
+"""A store of a sweep as a chart of the page, for `hess-explorer serve --chart`."""
 
 import json
 
 import numpy as np
 import pytest
 
-from hess_explorer.headless.browser import wait_ready
-from hess_explorer.headless.screenshot import server_process
 from hess_explorer.sweep import explain, read, sweep
 from hess_explorer.sweep.shown import chart_file
 from hess_mechanics.errors import InvalidParameter
-from support.processes import UNWARMED
 
 OVER = {"h": (-0.5, 2.0, 6), "f": (-1.0, 1.0, 5)}
 
@@ -68,14 +65,3 @@ def test_a_function_belongs_to_no_scene():
 
     with pytest.raises(InvalidParameter, match="No scene shows own over x and y"):
         chart_file(sweep(own, {"x": [0.0, 1.0], "y": [0.0, 1.0]}))
-
-
-def test_the_page_opens_the_chart_of_a_store(browser, tmp_path):
-    sweep("rotation-number", OVER, a=0.25, store=tmp_path / "rho.zarr")
-    with server_process(tmp_path / "log", UNWARMED, ["--chart", str(tmp_path / "rho.zarr")]) as (_, url):
-        page = browser.new_page()
-        page.goto(url)
-        wait_ready(page)
-        page.get_by_text("6 × 5, precise accuracy").wait_for(timeout=60_000)
-        assert page.get_by_text("Chart: ρ").is_visible()
-        page.close()

@@ -35,29 +35,14 @@ SHOWN = """() => {
 def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(explorer, browser, server):
     tab, page = explorer, explorer.page
     tab.change(lambda: tab.slide(h=1.2, f=0.3))
-    for theme in ("light", "dark"):
-        tab.turn_theme(is_dark=theme == "dark")
-        page.get_by_role("button", name="Share").click()
-        link = page.get_by_role("textbox", name="Link").input_value()
-        assert link == page.url
-        assert dict(parse_qsl(urlsplit(link).query)).get("theme", "light") == theme
-        page.locator(".share .code svg").wait_for()
-        assert read(page.locator(".share .code").screenshot()) == [link]
-        assert_accessible(page, page.get_by_role("dialog", name="Share"))
-        page.keyboard.press("Escape")
     page.get_by_role("button", name="Share").click()
     dialog = page.get_by_role("dialog", name="Share")
     link = page.get_by_role("textbox", name="Link").input_value()
     assert link == page.url
     assert dict(parse_qsl(urlsplit(link).query))["f"] == "0.3"
-    # The focus stays in the dialog, or with the browser itself.
-    for _ in range(30):
-        page.keyboard.press("Tab")
-        assert page.evaluate("""() => {
-          let item = document.activeElement
-          while (item?.shadowRoot?.activeElement) item = item.shadowRoot.activeElement
-          return item === document.body || item.closest("dialog") !== null
-        }""")
+    page.locator(".share .code svg").wait_for()
+    assert read(page.locator(".share .code").screenshot()) == [link]
+    assert_accessible(page, dialog)
     for name in ("sphere", "body", "bifurcation", "surface"):
         page.locator(f".embed-pictures input[value={name}]").uncheck()
     # One of them is folded at first.

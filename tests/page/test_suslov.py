@@ -67,18 +67,13 @@ def crossings(explorer):
     return int(re.search(r"([\d,]+) points;", explorer.caption("section"))[1].replace(",", ""))
 
 
-def test_a_density_fills_a_window_in_both_themes_and_a_click_starts_an_orbit_over_it(suslov):
+def test_a_density_fills_a_window_and_a_click_starts_an_orbit_over_it(suslov):
     whole = np.array(suslov.data("section-density-0")["image"][0])
     # Two stages of 128 orbits.
     assert crossings(suslov) == 12_288
     assert "x" not in suslov.data("section-first") or not len(suslov.data("section-first")["x"])
-    shades = []
-    for is_dark in (True, False):
-        suslov.turn_theme(is_dark=is_dark)
-        shades.append(colours_of_cells(suslov, "section", (40, 40)))
-        # The sea lies in the middle of the section: neither paper nor the grey of impossible places.
-        assert np.ptp(shades[-1][5:35, 22:32], axis=(0, 1)).max() > 60.0
-    assert shades[0].mean() < shades[1].mean() - 60.0
+    # The sea lies in the middle of the section: neither paper nor the grey of impossible places.
+    assert np.ptp(colours_of_cells(suslov, "section", (40, 40))[5:35, 22:32], axis=(0, 1)).max() > 60.0
     suslov.change(lambda: suslov.page.evaluate("hess.tell('change', { window: '0,1;1.5,2.5' })"))
     closer = np.array(suslov.data("section-density-0")["image"][0])
     assert 0 < crossings(suslov) < 12_288

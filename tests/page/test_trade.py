@@ -1,11 +1,13 @@
 """The cost of all that a scene computes, in "Speed and accuracy"; the accuracy "auto"."""
 
+import pytest
 from playwright.sync_api import expect
 
 from hess_explorer.scenes import scenes
 from support.page import brought
 
 
+@pytest.mark.thorough
 def test_the_cost_of_all_is_measured_when_its_button_is_pressed(tab):
     explorer = brought(tab, scenes()["scattering-accuracy"])
     assert not explorer.data("trade-map").get("x")

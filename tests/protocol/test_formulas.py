@@ -45,6 +45,7 @@ def test_a_formula_is_its_coefficients(text, expected):
     [
         ("g1^7", "whole numbers"),
         ("g1^4*g1^3", "degree"),
+        ("(g1*g2)^4", "degree"),
         ("1/g1", "divides by something other than a number"),
         ("g1^0.5", "whole numbers from 0 to 6"),
         ("2^g1", "whole numbers"),

@@ -323,13 +323,6 @@ class Explorer:
         self.menu(menu).evaluate(UNFOLD)
         self.menu(menu).select_option(label=option)
 
-    def play_until(self, t):
-        """Play until the time slider has passed t."""
-        self.page.locator(".param-play").click()
-        while self.time <= t:
-            self.page.wait_for_timeout(20)
-        self.page.locator(".param-play").click()
-
     def set_time(self, t):
         """Move the time slider."""
         self.page.locator("input.param-t").evaluate(
