@@ -253,12 +253,12 @@ def test_a_scene_has_its_columns_and_colours_and_nothing_is_covered_cut_off_or_h
     assert_looks(page, scene, "phone", theme, artefacts)
 
 
-def test_a_phone_that_is_turned_has_all_of_it_too(look_at, artefacts):
-    tab = look_at(HESS, "sideways", "dark")
-    # The picture that a phone opens on.
-    tab.page.locator(".chips .chip").nth(scenes()[HESS].pictures.index("bifurcation")).click()
-    wait_frames(tab, 4)
-    assert_looks(tab.page, HESS, "sideways", "dark", artefacts)
+# Where a phone is the first that a page has seen; one that is turned.
+@pytest.mark.parametrize(
+    "scene, size, theme", [(HESS, "phone", "light"), ("scattering", "phone", "light"), (HESS, "sideways", "dark")]
+)
+def test_a_phone_has_all_of_it_too(look_at, artefacts, scene, size, theme):
+    assert_looks(look_at(scene, size, theme).page, scene, size, theme, artefacts)
 
 
 TARGETS = """items => items.filter((item) => item.checkVisibility()).map((item) => {
