@@ -77,7 +77,9 @@ def test_a_handout_has_the_pictures_the_numbers_the_text_and_the_link_dark_on_wh
     assert found["pictures"][names.index("omega")]["blue"] > 500
     # 300 dots to an inch on 88 mm.
     assert min(picture["width"] for picture in found["pictures"]) >= 88 / 25.4 * 300
-    # The page is restored completely.
+    # Printing ends, and the page is restored completely.
+    printed = page.pdf(format="A4", prefer_css_page_size=True)
+    assert len(re.findall(rb"/Width (?:1[01]\d\d|[2-9]\d\d\d)\b", printed)) >= len(names)
     page.wait_for_function("document.querySelector('.handout') === null")
     wait_frames(explorer, 4)
     after = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
