@@ -18,17 +18,17 @@ from pathlib import Path
 SESSIONS, CHANGES = 42, 6
 
 
-class _Page:
+class Page:
     """Client side of a session."""
 
-    def __init__(self, scene):
+    def __init__(self, scene, seed=5):
         from hess_explorer.lessons import shipped
         from hess_explorer.page.session import Session
         from hess_explorer.protocol.parameters import Number
 
         self.size = 0
         self._spec = next(spec for spec in scene.specs if isinstance(spec, Number))
-        self._chance = random.Random(5)
+        self._chance = random.Random(seed)
         self.session = Session(scene, scene.defaults(), [], shipped())
         self._send(0, {})
 
@@ -50,7 +50,7 @@ class _Page:
 
 def alone(scene, changes):
     """Return the cost of one change: (ms of its answer, ms of all its work, KB sent)."""
-    page = _Page(scene)
+    page = Page(scene)
     for _ in range(2):
         page.change()
         page.rest()
@@ -69,7 +69,7 @@ def crowd(scenes):
     """Return the milliseconds per answer when all sessions send their next request as soon as they are answered."""
     from hess_explorer.compute.scheduler import RequestQueue
 
-    pages = [_Page(scenes[i % len(scenes)]) for i in range(SESSIONS)]
+    pages = [Page(scenes[i % len(scenes)]) for i in range(SESSIONS)]
     ended = threading.Semaphore(0)
 
     def ask(page, turns, left):
