@@ -9,8 +9,8 @@ from operator import mul
 
 import numpy as np
 
+from hess_mechanics.numerics.expressions import FUNCTIONS
 from hess_mechanics.numerics.taylor_kernels import columns_of, convolution_source, expansion_source
-from hess_mechanics.numerics.tracing import FUNCTIONS
 from oracle.kept import kept
 
 

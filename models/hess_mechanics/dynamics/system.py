@@ -25,9 +25,10 @@ from hess_mechanics.numerics.doubled_kernels import doubled_integrator
 from hess_mechanics.numerics.events_kernels import ANGLE, SurfaceKernels, crossing_finder, plane
 from hess_mechanics.numerics.jit import derived_kernel, inner
 from hess_mechanics.numerics.measured import nearby
+from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.numerics.taylor_kernels import orbit_integrator
-from hess_mechanics.numerics.tracing import Field, Recursion, check, trace
+from hess_mechanics.numerics.tracing import Field, check, trace
 from hess_mechanics.numerics.variation_kernels import Variation, variation, variation_integrator
 
 __all__ = ["Body", "ParametrizedSystem", "Problem", "System", "in_units_of_time", "systems"]

@@ -37,8 +37,8 @@ from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.balls import BALL_FUNCTIONS, ArbBall, Enclosure, enclosure, rational, working
 from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.results import Array, Orbit, frozen
-from hess_mechanics.numerics.tracing import Recursion
 
 __all__ = ["MOST_WORK", "WORK_PER_SECOND", "Tube", "error_bounds", "proved_error", "right_until", "tube"]
 

@@ -18,7 +18,7 @@ from fractions import Fraction
 from typing import Any
 
 from hess_mechanics.errors import InvalidParameter, MissingLibrary, WorkLimit
-from hess_mechanics.numerics.tracing import FUNCTIONS
+from hess_mechanics.numerics.expressions import FUNCTIONS
 
 __all__ = [
     "BALL_FUNCTIONS",

@@ -14,8 +14,8 @@ import numpy as np
 from llvmlite.binding import get_host_cpu_features
 
 from hess_mechanics.numerics.jit import part
+from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, compensated, parts, step_size
-from hess_mechanics.numerics.tracing import Recursion
 from hess_mechanics.numerics.unrolled import compiled, items
 
 __all__ = ["LANES", "ensemble_integrator", "one_by_one"]

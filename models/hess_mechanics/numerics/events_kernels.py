@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from hess_mechanics.numerics.jit import inner, part
+from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.taylor_kernels import (
     STEP_LIMIT_REACHED,
     columns_of,
@@ -26,7 +27,6 @@ from hess_mechanics.numerics.taylor_kernels import (
     step_of,
     workspace,
 )
-from hess_mechanics.numerics.tracing import Recursion
 from hess_mechanics.numerics.unrolled import compiled, evaluation
 
 __all__ = ["ANGLE", "SurfaceKernels", "crossing_finder", "plane"]

@@ -19,8 +19,10 @@ from llvmlite import ir
 from numba import float64, int64, types
 from numba.extending import intrinsic
 
+from hess_mechanics.numerics.expressions import FUNCTIONS
 from hess_mechanics.numerics.jit import inner, part
-from hess_mechanics.numerics.tracing import FUNCTIONS, Recursion, trace
+from hess_mechanics.numerics.recursions import Recursion
+from hess_mechanics.numerics.tracing import trace
 from hess_mechanics.numerics.unrolled import compiled, evaluation, items
 
 __all__ = [

@@ -17,7 +17,9 @@ from typing import Any
 
 import numpy as np
 
+from hess_mechanics.numerics.expressions import Symbol
 from hess_mechanics.numerics.jit import inner, part
+from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.taylor_kernels import (
     STEP_LIMIT_REACHED,
     columns_of,
@@ -26,7 +28,7 @@ from hess_mechanics.numerics.taylor_kernels import (
     step_size,
     workspace,
 )
-from hess_mechanics.numerics.tracing import Field, Recursion, Symbol, derivative, trace
+from hess_mechanics.numerics.tracing import Field, derivative, trace
 from hess_mechanics.numerics.unrolled import compiled, evaluation
 
 __all__ = ["Variation", "variation", "variation_integrator"]

@@ -11,8 +11,9 @@ from pytest import approx, mark, raises
 from hess_mechanics import System, solve, systems
 from hess_mechanics.chaplygin_ball import phase_cloud_kernels
 from hess_mechanics.numerics import functions
+from hess_mechanics.numerics.expressions import FUNCTIONS, NotTraceable
 from hess_mechanics.numerics.taylor_kernels import columns_of
-from hess_mechanics.numerics.tracing import FUNCTIONS, NotTraceable, constant, derivative, trace
+from hess_mechanics.numerics.tracing import constant, derivative, trace
 from hess_mechanics.numerics.variation_kernels import variation
 from hess_mechanics.suslov import free_kernels
 from hess_mechanics.suslov_hess import circle_map_kernels
