@@ -121,7 +121,7 @@ def test_as_f_vanishes_below_the_separatrix_two_returns_are_the_identity(a, h):
         assert found.trace < (1e-12 if f == 0 else 1e-6)
         assert found.kind == "elliptic"
         assert found.rotation_number == approx(-0.5, abs=1e-6)
-        assert angle_between(found.theta(found.theta(PHASES)), PHASES) < (1e-10 if f == 0 else 1e-3)
+        assert angle_between(found.theta(found.theta(PHASES)), PHASES) < (round_off(found) if f == 0 else 1e-3)
 
 
 # ---- structure --------------------------------------------------------------------------------------------------
