@@ -9,34 +9,7 @@ The package `hess_mechanics` holds the mechanics, `hess_explorer.sweep` the para
 builds and opens the documentation.
 """
 
-from __future__ import annotations
+import lazy_loader
 
-import importlib
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from hess_explorer.library.exploring import explore
-    from hess_explorer.library.own_scene import scene
-    from hess_explorer.library.state import SceneState, from_link, state
-
-__all__ = ["SceneState", "explore", "from_link", "scene", "state"]
-
-_PLACES = {
-    "SceneState": "state",
-    "explore": "exploring",
-    "from_link": "state",
-    "scene": "own_scene",
-    "state": "state",
-}
-
-
-def __getattr__(name: str) -> Any:
-    # Imported on first use, so that commands that only compute do not load the plotting libraries.
-    if name not in _PLACES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    found = globals()[name] = getattr(importlib.import_module(f"{__name__}.library.{_PLACES[name]}"), name)
-    return found
-
-
-def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+# The names of the stub beside this file, each imported on first use: who only computes loads no plotting library.
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

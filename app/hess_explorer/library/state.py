@@ -19,7 +19,7 @@ from hess_explorer.export.columns import Table, columns_of
 from hess_explorer.export.formats import FileRequest, holding
 from hess_explorer.export.picture_data import CLIENT_KEPT, Address, PictureData, address, compute, picture_of
 from hess_explorer.protocol.parameters import Number, Places, Spec, Value, query_in, refusal, written
-from hess_explorer.scenes import scenes
+from hess_explorer.scenes import scene_named, scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Level
@@ -373,7 +373,7 @@ def state(scene: str | Scene[Any] = "suslov-hess", /, **parameters: Any) -> Scen
     Traceback (most recent call last):
     hess_mechanics.errors.InvalidParameter: The scene suslov-hess has no parameter 'height': choose one of I22, ...
     """
-    found = scene if isinstance(scene, Scene) else scenes().get(scene)
+    found = scene if isinstance(scene, Scene) else scene_named(scene)
     if found is None:
         public = ", ".join(name for name, one in scenes().items() if one.origin is None)
         raise InvalidParameter(f"There is no scene {scene!r}: choose one of {public}.")

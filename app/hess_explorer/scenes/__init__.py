@@ -12,7 +12,7 @@ from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.speed_accuracy import speed_and_accuracy
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["PLUGINS", "add", "scenes"]
+__all__ = ["PLUGINS", "add", "scene_named", "scenes"]
 
 PLUGINS = "hess_explorer.scenes"
 """Group of the entry points by which other packages bring their scenes."""
@@ -31,6 +31,14 @@ def scenes() -> dict[str, Scene[Any]]:
     if len(found) < len(own) + sum(bool(scene.trials) for scene in own):
         raise InvalidParameter("Two scenes have the same name: rename the system or the file of yours.")
     return found
+
+
+def scene_named(name: str) -> Scene[Any] | None:
+    """Return a scene, or None if none has this name; a module of this package is imported without the others."""
+    own = {module.name for module in pkgutil.iter_modules(__path__)}
+    module = name.replace("-", "_")
+    found = getattr(importlib.import_module(f"{__name__}.{module}"), "SCENE", None) if module in own else None
+    return found if isinstance(found, Scene) and found.name == name else scenes().get(name)
 
 
 def add(scene: Any, source: str) -> None:
