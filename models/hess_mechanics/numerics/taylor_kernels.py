@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,7 @@ __all__ = [
     "columns_of",
     "compensated",
     "compile_shared",
+    "convolution",
     "convolution_source",
     "expansion",
     "expansion_source",
@@ -64,21 +66,30 @@ def expansion(recursion: Recursion) -> Callable[..., Any]:
     inverses : 1/(k+1) for k = 0 … order−1.  If the field returns more than its rates, the last argument
     seen[0 … order−1, i] receives these series.
     """
-    convolve = compiled(convolution_source(columns_of(recursion)))
-    return compiled(expansion_source(recursion), **parts(recursion), **convolve)["expand"]
+    convolve = convolution(columns_of(recursion))
+    return compiled(expansion_source(recursion), **parts(recursion), convolve=convolve)["expand"]
 
 
 def expansion_source(recursion: Recursion) -> str:
-    """Return the Python source of `expand`, which calls the functions of `recursion.source` and `convolve`."""
+    """Return the Python source of `expand`, which calls the functions of `recursion.source` and `convolve`.
+
+    Every coefficient has a name, z0, z1, … at order 0 and y0, y1, … at order k: Numba takes longer for items of tuples.
+    """
     pairs, known = recursion.pairs, recursion.known
     variables, moving = range(recursion.variables), range(recursion.moving)
     observed = range(recursion.observed)
 
-    def keep(order: str, y: str, since: int, count: int) -> str:
+    def names(letter: str, end: int, start: int = 0) -> str:
+        return "".join(f"{letter}{i}, " for i in range(start, end))
+
+    def all_of(letter: str, count: int) -> str:
+        return items(f"{letter}{i}" for i in range(count))
+
+    def keep(order: str, letter: str, since: int, count: int) -> str:
         """Store the factors that became known: `count` series are known now, `since` were known before."""
         return (
             "; ".join(
-                f"left[{order}, {j}] = {y}[{a}]; right[{order}, {j}] = {y}[{b}]"
+                f"left[{order}, {j}] = {letter}{a}; right[{order}, {j}] = {letter}{b}"
                 for j, (a, b) in enumerate(pairs)
                 if since <= max(a, b) < count
             )
@@ -86,47 +97,56 @@ def expansion_source(recursion: Recursion) -> str:
         )
 
     def first_products(count: int) -> str:
-        return items(f"y0[{a}] * y0[{b}]" if max(a, b) < count else "0.0" for a, b in pairs)
+        return items(f"z{a} * z{b}" if max(a, b) < count else "0.0" for a, b in pairs)
 
     def products(count: int) -> str:
         def ends(a: int, b: int) -> str:
-            return (f" + y0[{a}] * y[{b}]" if b < count else "") + (f" + y[{a}] * y0[{b}]" if a < count else "")
+            return (f" + z{a} * y{b}" if b < count else "") + (f" + y{a} * z{b}" if a < count else "")
 
-        return items(f"s[{j}]{ends(a, b)}" for j, (a, b) in enumerate(pairs))
+        return items(f"s{j}{ends(a, b)}" for j, (a, b) in enumerate(pairs))
 
-    def stages(order: str, y: str, one: str, products: Callable[[int], str]) -> str:
+    def stages(order: str, letter: str, one: str, products: Callable[[int], str]) -> str:
         return "".join(
             f"""
-        q = ({products(known[i])})
-        {y} = {y} + stage{i}({y}, q, p, {one})
-        {keep(order, y, known[i], known[i + 1])}"""
-            for i in range(len(recursion.stages))
+        {names(letter, end, start)}= stage{i}(({all_of(letter, start)}), ({products(start)}), p, {one})
+        {keep(order, letter, start, end)}"""
+            for i, (start, end) in enumerate(pairwise(known))
         )
 
-    def seen(order: str) -> str:
-        return "; ".join(f"seen[{order}, {i}] = found[{recursion.moving + i}]" for i in observed) or "pass"
+    def rates(letter: str, one: str, products: Callable[[int], str]) -> str:
+        found = names("rate", recursion.moving + recursion.observed)
+        return f"{found}= rates(({all_of(letter, known[-1])}), ({products(known[-1])}), p, {one})"
 
+    def seen(order: str) -> str:
+        return "; ".join(f"seen[{order}, {i}] = rate{recursion.moving + i}" for i in observed) or "pass"
+
+    start = all_of("z", recursion.variables)
     return f"""
 def expand(c, left, right, inverses, parameters{", seen" if observed else ""}):
     p = ({items(f"parameters[{i}]" for i in range(recursion.parameters))})
-    y0 = ({items(f"c[0, {i}]" for i in variables)})
-    {"y0 = y0 + started(y0, p)" if recursion.functions else "pass"}
-    {"p = p + constants(y0, p)" if recursion.constants else "pass"}
-    {keep("0", "y0", 0, recursion.moving)}
-    if True:{stages("0", "y0", "1.0", first_products) or " pass"}
-    found = rates(y0, ({first_products(known[-1])}), p, 1.0)
-    {"; ".join(f"c[1, {i}] = found[{i}]" for i in variables)}
+    {"; ".join(f"z{i} = c[0, {i}]" for i in variables)}
+    {f"{names('z', len(moving), len(variables))}= started(({start}), p)" if recursion.functions else "pass"}
+    {f"p = p + constants(({all_of('z', len(moving))}), p)" if recursion.constants else "pass"}
+    {keep("0", "z", 0, recursion.moving)}
+    if True:{stages("0", "z", "1.0", first_products) or " pass"}
+    {rates("z", "1.0", first_products)}
+    {"; ".join(f"c[1, {i}] = rate{i}" for i in variables)}
     {seen("0")}
-    y = ({items(f"found[{i}]" for i in moving)})
+    {"; ".join(f"y{i} = rate{i}" for i in moving)}
     for k in range(1, inverses.size):
         {keep("k", "y", 0, recursion.moving)}
-        s = convolve(left, right, k){stages("k", "y", "0.0", products)}
-        q = ({products(known[-1])})
-        found = rates(y, q, p, 0.0)
+        {names("s", columns_of(recursion))}= convolve(left, right, k){stages("k", "y", "0.0", products)}
+        {rates("y", "0.0", products)}
         {seen("k")}
-        y = ({items(f"found[{i}] * inverses[k]" for i in moving)})
-        {"; ".join(f"c[k + 1, {i}] = y[{i}]" for i in variables)}
+        {"; ".join(f"y{i} = rate{i} * inverses[k]" for i in moving)}
+        {"; ".join(f"c[k + 1, {i}] = y{i}" for i in variables)}
 """
+
+
+@cache
+def convolution(columns: int) -> Callable[..., Any]:
+    """Return the compiled `convolve` of `convolution_source`."""
+    return compiled(convolution_source(columns))["convolve"]
 
 
 def convolution_source(columns: int) -> str:
@@ -271,7 +291,11 @@ def orbit_integrator(recursion: Recursion) -> Callable[..., Any]:
 
 
 def compile_shared() -> None:
-    """Compile the functions that all kernels of orbits share, so that a new system compiles a fifth faster."""
+    """Compile the functions that kernels of orbits share, so that a new system compiles in half of the time."""
     vector: Any = float64[::1]
+    table: Any = float64[:, ::1]
     smallest: Any = orbit_integrator(trace(lambda y, p: (y[0],), 1, 0))
-    smallest.compile((vector, vector, vector, int64, float64, int64, float64[:, ::1]))
+    smallest.compile((vector, vector, vector, int64, float64, int64, table))
+    for columns in (12, 16, 20, 24):
+        convolve: Any = convolution(columns)
+        convolve.compile((table, table, int64))
