@@ -15,6 +15,7 @@ Expressions keep the form in which they were written, so that a common factor ha
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -32,6 +33,7 @@ class Recursion:
     variables, parameters : lengths of y and p.
     stages : number of auxiliary series of each stage; they follow the variables in y.
     pairs : indices into y of the two factors of each product.
+    read : indices of the products that each stage reads, and last those that `rates` reads.
     constants : number of values that are constant during a step; they follow the parameters in p.
     observed : number of series that the field returns after its rates.
     functions : number of functions of the state, which follow the variables in y and the rates of these.
@@ -45,6 +47,7 @@ class Recursion:
     parameters: int
     stages: tuple[int, ...]
     pairs: tuple[tuple[int, int], ...]
+    read: tuple[frozenset[int], ...]
     constants: int
     source: str
     observed: int = 0
@@ -206,7 +209,8 @@ class Series:
             functions.append(_function(f"stage{i}(y, q, p, one)", rule, names, late))
             # Later stages use these results instead of computing them again.
             names |= {self._rules[j]: f"y[{places[self._variables + j]}]" for j in stage}
-        functions.insert(0, _function("rates(y, q, p, one)", forms, names, late))
+        functions.append(_function("rates(y, q, p, one)", forms, names, late))
+        read = tuple(frozenset(map(int, re.findall(r"q\[(\d+)\]", function))) for function in functions)
         at_start = {node: f"y[{i}]" for node, i in self._functions.items()}
         if kept:
             functions.append(_function("constants(y, p)", kept, at_start, {}))
@@ -219,6 +223,7 @@ class Series:
             parameters,
             tuple(map(len, stages)),
             pairs,
+            read,
             len(kept),
             "\n\n".join(functions),
             len(rates) - self._variables,

@@ -96,26 +96,31 @@ def expansion_source(recursion: Recursion) -> str:
             or "pass"
         )
 
-    def first_products(count: int) -> str:
-        return items(f"z{a} * z{b}" if max(a, b) < count else "0.0" for a, b in pairs)
+    def first_products(stage: int) -> str:
+        return items(
+            f"z{a} * z{b}" if j in recursion.read[stage] and max(a, b) < known[stage] else "0.0"
+            for j, (a, b) in enumerate(pairs)
+        )
 
-    def products(count: int) -> str:
+    def products(stage: int) -> str:
+        """Return the products that a stage reads, without terms that it makes known."""
+
         def ends(a: int, b: int) -> str:
-            return (f" + z{a} * y{b}" if b < count else "") + (f" + y{a} * z{b}" if a < count else "")
+            return (f" + z{a} * y{b}" if b < known[stage] else "") + (f" + y{a} * z{b}" if a < known[stage] else "")
 
-        return items(f"s{j}{ends(a, b)}" for j, (a, b) in enumerate(pairs))
+        return items(f"s{j}{ends(a, b)}" if j in recursion.read[stage] else "0.0" for j, (a, b) in enumerate(pairs))
 
     def stages(order: str, letter: str, one: str, products: Callable[[int], str]) -> str:
         return "".join(
             f"""
-        {names(letter, end, start)}= stage{i}(({all_of(letter, start)}), ({products(start)}), p, {one})
+        {names(letter, end, start)}= stage{i}(({all_of(letter, start)}), ({products(i)}), p, {one})
         {keep(order, letter, start, end)}"""
             for i, (start, end) in enumerate(pairwise(known))
         )
 
     def rates(letter: str, one: str, products: Callable[[int], str]) -> str:
         found = names("rate", recursion.moving + recursion.observed)
-        return f"{found}= rates(({all_of(letter, known[-1])}), ({products(known[-1])}), p, {one})"
+        return f"{found}= rates(({all_of(letter, known[-1])}), ({products(len(recursion.stages))}), p, {one})"
 
     def seen(order: str) -> str:
         return "; ".join(f"seen[{order}, {i}] = rate{recursion.moving + i}" for i in observed) or "pass"
