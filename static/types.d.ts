@@ -54,8 +54,19 @@ interface PlotModel extends BokehModel {
 
 interface BokehLayer { el: HTMLCanvasElement }
 
+interface GlyphView {
+  set_data(): void
+  set_visuals(source: object, indices: object): void
+  after_visuals(): void
+  after_lazy_visuals(): void
+  map_data(): void
+}
+
 interface RendererView {
-  glyph?: { set_visuals?(source: object, indices: object): void, after_visuals?(): void }
+  glyph?: Partial<GlyphView>
+  selection_glyph?: GlyphView
+  nonselection_glyph?: GlyphView
+  muted_glyph?: GlyphView
   model: BokehModel
   all_indices: object
   ready: Promise<void>

@@ -5,6 +5,9 @@ const gestures = () => Bokeh.require?.("core/ui_gestures")?.UIGestures
 /** @param {unknown} value */
 const isMethod = (value) => typeof value === "function"
 
+const UNSEEN = /** @type {const} */ (["selection_glyph", "nonselection_glyph", "muted_glyph"])
+const FOLLOWING = /** @type {const} */ (["set_data", "set_visuals", "after_visuals", "after_lazy_visuals", "map_data"])
+
 // Name → test for its presence in a plot.
 /** @type {Record<string, (plot: PlotView) => boolean>} */
 const NEEDED = {
@@ -12,6 +15,8 @@ const NEEDED = {
   "GlyphRendererView.all_indices, GlyphView.set_visuals and after_visuals": (plot) => plot.computed_renderer_views
     .every(({ glyph, all_indices: indices }) => glyph === undefined
       || (indices !== undefined && isMethod(glyph.set_visuals) && isMethod(glyph.after_visuals))),
+  "GlyphRendererView.selection_glyph, nonselection_glyph and muted_glyph": (plot) => plot.computed_renderer_views
+    .every((view) => view.glyph === undefined || UNSEEN.every((name) => FOLLOWING.every((step) => isMethod(view[name]?.[step])))),
   "RendererView.el": (plot) => plot.computed_renderer_views.every(({ el }) => el instanceof Element),
   "window.devicePixelRatio that can be replaced": () => (
     Object.getOwnPropertyDescriptor(window, "devicePixelRatio")?.configurable === true),
@@ -57,6 +62,20 @@ export function waitLongForPress() {
  */
 export function removeStyled(plot) {
   for (const { el } of plot.computed_renderer_views) el?.remove()
+}
+
+/**
+ * Keep the glyphs for selected, other and muted points of each layer from following its data: nothing is selected or muted
+ * on this page, and each costs as much as the glyph that is painted, except for its painting.
+ * @param {PlotView} plot
+ */
+export function spareUnseen(plot) {
+  for (const view of plot.computed_renderer_views) {
+    for (const name of UNSEEN) {
+      const glyph = view[name]
+      if (glyph) for (const step of FOLLOWING) glyph[step] = () => {}
+    }
+  }
 }
 
 /**

@@ -256,6 +256,10 @@ MISSING = """async (modules) => {
   glyph.set_visuals = undefined
   found.push(missing(plot))
   delete glyph.set_visuals
+  const { muted_glyph: muted } = view
+  view.muted_glyph = undefined
+  found.push(missing(plot))
+  view.muted_glyph = muted
   found.push(missing(plot))
   return found
 }"""
@@ -267,6 +271,7 @@ def test_each_private_member_of_bokeh_that_is_not_there_is_named(explorer):
         ["UIGestures.press_threshold"],
         ["RendererView.el"],
         ["GlyphRendererView.all_indices, GlyphView.set_visuals and after_visuals"],
+        ["GlyphRendererView.selection_glyph, nonselection_glyph and muted_glyph"],
         [],
     ]
 
