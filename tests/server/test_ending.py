@@ -71,10 +71,11 @@ def test_no_worker_outlives_a_server_that_is_killed(tmp_path):
 
 
 COMPILES = """
-from hess_explorer.server.warm import compile_beside
+from hess_explorer.server.compiled import compiler
 
 print("begun", flush=True)
-compile_beside()
+with compiler("from hess_explorer.server.warm import compile_all; compile_all()") as process:
+    process.wait()
 """
 
 

@@ -12,7 +12,7 @@ import signal
 import socket
 import webbrowser
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -61,7 +61,7 @@ def _run(options: Options) -> None:
     # Imported objects live as long as the process, so garbage collection would only delay the start by 0.25 s.
     # `hess_explorer.server.warm` enables it again.
     gc.disable()
-    with suppress(KeyboardInterrupt):
+    with suppress(KeyboardInterrupt), _second_compiler():
         from hess_explorer.server.handlers import HandlerMissing
         from hess_explorer.server.serving import serve
 
@@ -135,6 +135,18 @@ def _first_words() -> str:
             "NUMBA_CACHE_DIR to one."
         )
     return "Starting, ready in a few seconds." if all_compiled() else "Compiling, ready in about 20 s."
+
+
+def _second_compiler() -> AbstractContextManager[object]:
+    """Start to compile the circle map of the first scene at a first start, while this process loads the page.
+
+    This process then compiles the orbit, which takes as long.
+    """
+    from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled, compiler
+
+    if not KEEPS_KERNELS or all_compiled():
+        return nullcontext()
+    return compiler("from hess_mechanics import circle_map\n\ncircle_map(0.5, 1.5, 0.6).theta([0.0])")
 
 
 def _require_free(address: str, port: int) -> None:

@@ -14,8 +14,8 @@ from typing import Any
 
 from hess_explorer.headless.screenshot import ServerError, free_port
 from hess_explorer.library.state import SceneState, from_link, state
+from hess_explorer.server.parent import end_with_stdin
 from hess_explorer.server.serving import serve
-from hess_explorer.server.shutdown import end_with_stdin
 
 __all__ = ["Exploration", "explore", "serve_alone"]
 

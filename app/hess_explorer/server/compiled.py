@@ -1,15 +1,17 @@
-"""Mark in the kernel cache when the kernels of all scenes are compiled.  This module imports only Numba."""
+"""Which kernels are compiled, and processes that compile others.  This module imports only Numba."""
 
 from __future__ import annotations
 
 import hashlib
+import subprocess
+import sys
 from contextlib import suppress
 from pathlib import Path
 
 import hess_mechanics
 from hess_mechanics.numerics.jit import CACHE_FOLDER, source_hash
 
-__all__ = ["KEEPS_KERNELS", "all_compiled", "mark_all_compiled"]
+__all__ = ["KEEPS_KERNELS", "all_compiled", "compiler", "mark_all_compiled"]
 
 KEEPS_KERNELS = CACHE_FOLDER is not None
 """False if no cache folder is writable; then every start compiles the kernels that it needs."""
@@ -30,3 +32,41 @@ def mark_all_compiled() -> None:
         # If the disk is full, the next start tries again.
         with suppress(OSError):
             _MARK.touch()
+
+
+_COMPILER = """
+import os
+import threading
+
+from hess_explorer.server.parent import end_with_stdin
+
+threading.Thread(target=end_with_stdin, daemon=True).start()
+if os.name == "posix":
+    os.nice({patience})
+
+{work}
+"""
+
+
+def compiler(work: str, patience: int = 0) -> subprocess.Popen[bytes]:
+    """Start a process that compiles kernels; it ends with this process, or when its standard input is closed.
+
+    Parameters
+    ----------
+    work : str
+        Python statements that call the kernels.
+    patience : int
+        By how much its priority is lowered.
+
+    Returns
+    -------
+    subprocess.Popen
+        The process.  It does not inherit the output pipes: a reader of this process's output would wait for it too.
+    """
+    # A new session, so that Ctrl-C reaches only the server, which then closes the compiler's standard input.
+    return subprocess.Popen(
+        [sys.executable, "-c", _COMPILER.format(work=work, patience=patience)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        start_new_session=True,
+    )

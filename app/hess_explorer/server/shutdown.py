@@ -15,7 +15,7 @@ from tornado.ioloop import IOLoop
 
 from hess_explorer.server.limits import say_goodbye
 
-__all__ = ["Workers", "end_on_signals", "end_with_stdin", "leave"]
+__all__ = ["Workers", "end_on_signals", "leave"]
 
 GOODBYE = 2.0
 """Timeout for closing the websockets, in seconds."""
@@ -62,17 +62,6 @@ def end_on_signals(loop: IOLoop) -> None:
 
     for one in _SIGNALS:
         signal.signal(one, stop)
-
-
-def end_with_stdin() -> None:
-    """End this process at the end of its standard input, which comes when the parent process exits.
-
-    Run it in a separate thread.
-    """
-    # Not `sys.stdin`: the interpreter would wait for its lock at exit.
-    while os.read(0, 4096):
-        pass
-    signal.raise_signal(signal.SIGTERM)
 
 
 def leave(server: Server) -> NoReturn:

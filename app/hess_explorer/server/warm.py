@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import gc
 import logging
-import subprocess
-import sys
 import time
 from collections.abc import Callable
 from typing import Any
@@ -16,30 +14,16 @@ from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.stage import Stage
-from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled, mark_all_compiled
+from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled, compiler, mark_all_compiled
 from hess_explorer.sweep.chart import at_first
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.taylor_kernels import compile_shared
 
-__all__ = ["compile_all", "compile_beside", "warm"]
+__all__ = ["compile_all", "warm"]
 
 logger = logging.getLogger("hess_explorer")
 
 QUIET_SECONDS = 0.3
-_COMPILER = """
-import os
-import threading
-
-from hess_explorer.server.shutdown import end_with_stdin
-
-threading.Thread(target=end_with_stdin, daemon=True).start()
-if os.name == "posix":
-    os.nice(10)
-
-from hess_explorer.server.warm import compile_all
-
-compile_all()
-"""
 
 
 def compute(scene: Scene[Any], folded: bool = True) -> None:
@@ -79,18 +63,6 @@ def compile_all(backwards: bool = False) -> None:
     mark_all_compiled()
 
 
-def compile_beside() -> None:
-    """Run `compile_all` in a separate process of low priority and wait for it; it ends with this process.
-
-    The process does not inherit the output pipes: a reader of this process's output would wait for the compiler too.
-    """
-    # A new session, so that Ctrl-C reaches only the server, which then closes the compiler's standard input.
-    with subprocess.Popen(
-        [sys.executable, "-c", _COMPILER], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, start_new_session=True
-    ) as compiler:
-        compiler.wait()
-
-
 def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
     """Prepare all scenes: the first one immediately, the others while the server is idle.
 
@@ -112,7 +84,8 @@ def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
         gc.enable()
         first_is_ready()
     if KEEPS_KERNELS and not all_compiled():
-        compile_beside()
+        with compiler("from hess_explorer.server.warm import compile_all; compile_all()", patience=10) as process:
+            process.wait()
     _wait_until_quiet()
     compute(first)
     for scene in others:
