@@ -146,7 +146,7 @@ def _second_compiler() -> AbstractContextManager[object]:
 
     if not KEEPS_KERNELS or all_compiled():
         return nullcontext()
-    return compiler("from hess_mechanics import circle_map\n\ncircle_map(0.5, 1.5, 0.6).theta([0.0])")
+    return compiler("from hess_mechanics import circle_map\n\ncircle_map(0.5, 1.5, 0.6, 'draft').theta([0.0])")
 
 
 def _require_free(address: str, port: int) -> None:
