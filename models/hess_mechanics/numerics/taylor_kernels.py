@@ -16,9 +16,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from llvmlite import ir
-from numba import float64, int64, types
-from numba.extending import intrinsic
+from numba import float64, int64
 
 from hess_mechanics.numerics.expressions import FUNCTIONS
 from hess_mechanics.numerics.jit import inner, part
@@ -190,16 +188,10 @@ def workspace(order, n, columns):
     return np.zeros((rows, n + -n % 4)), np.zeros((rows, columns)), np.zeros((rows, columns)), inverses
 
 
-@intrinsic
-def _bits(context, x):
-    """Return the bits of a double as an integer."""
-    return types.int64(types.float64), lambda context, builder, signature, x: builder.bitcast(x[0], ir.IntType(64))
-
-
-@intrinsic
-def _double(context, bits):
-    """Return the double with these bits."""
-    return types.float64(types.int64), lambda context, builder, signature, x: builder.bitcast(x[0], ir.DoubleType())
+@inner
+def _log2(x):
+    """Return log₂ x in units of 2^−52, to within 0.09."""
+    return np.float64(x).view(np.int64) - _ONE
 
 
 @inner
@@ -214,13 +206,15 @@ def step_size(last, previous, middle, order, tolerance):
     The step is right within 3 %: the bits of a double, read as an integer, are 2^52 times its binary logarithm to
     within 0.09.  Taking the N-th root divides them by N.  A library's logarithm would take a tenth of a step.
     """
-    exponent = min((_bits(tolerance / last) - _ONE) / order, (_bits(tolerance / previous) - _ONE) / (order - 1.0))
-    if middle > 0.0:
-        exponent = min(exponent, (_bits(middle / last) - _ONE) / (order - order // 2) + _FALL)
     sum_of_both = last + previous
     if sum_of_both == 0.0:
         return math.inf
-    return 0.97 * _double(int(exponent) + _ONE) if sum_of_both < math.inf else 0.0
+    if not sum_of_both < math.inf:
+        return 0.0
+    exponent = min(_log2(tolerance / last) / order, _log2(tolerance / previous) / (order - 1.0))
+    if middle > 0.0:
+        exponent = min(exponent, _log2(middle / last) / (order - order // 2) + _FALL)
+    return 0.97 * np.int64(int(exponent) + _ONE).view(np.float64)
 
 
 @inner
