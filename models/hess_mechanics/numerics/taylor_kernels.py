@@ -25,7 +25,6 @@ from hess_mechanics.numerics.tracing import trace
 from hess_mechanics.numerics.unrolled import compiled, evaluation, items
 
 __all__ = [
-    "FALL",
     "STEP_LIMIT_REACHED",
     "columns_of",
     "compensated",
@@ -42,9 +41,8 @@ __all__ = [
 ]
 
 STEP_LIMIT_REACHED = -1
-FALL = 0.64
-"""Ratio of successive terms of e^{λh}, from order 6 to 12, for λh = 6; there the error of order 12 is 1 %."""
-_FALL = math.log2(FALL) * 2.0**52
+_FALL = math.log2(0.64) * 2.0**52
+"""Logarithm of the ratio of successive terms of e^{λh}, from order 6 to 12, for λh = 6, where order 12 errs by 1 %."""
 _ONE = int(np.float64(1.0).view(np.int64))
 """Bits of 1.0, which stand for the logarithm 0."""
 
@@ -201,7 +199,7 @@ def step_size(last, previous, middle, order, tolerance):
     last, previous : largest coefficient of order N and N−1.
     middle : largest coefficient of order N//2.  If a motion is smaller than the tolerance, its last terms are too, even
         where the omitted terms grow and dominate the series.  Therefore the terms from the middle order to the last
-        must decrease by the factor `FALL` per order.  0 omits this condition.
+        must decrease by the factor 0.64 per order.  0 omits this condition.
 
     The step is right within 3 %: the bits of a double, read as an integer, are 2^52 times its binary logarithm to
     within 0.09.  Taking the N-th root divides them by N.  A library's logarithm would take a tenth of a step.
@@ -290,7 +288,7 @@ def orbit_integrator(recursion: Recursion) -> Callable[..., Any]:
 
 
 def compile_shared() -> None:
-    """Compile the functions that kernels of orbits share, so that a new system compiles in half of the time."""
+    """Compile the functions that kernels of orbits share, before a new system needs them."""
     vector: Any = float64[::1]
     table: Any = float64[:, ::1]
     smallest: Any = orbit_integrator(trace(lambda y, p: (y[0],), 1, 0))
