@@ -149,7 +149,7 @@ __all__ = [  # noqa: RUF022 (by subject)
     "Scattering",
     "additional_integral",
     "AdditionalIntegral",
-    # Suslov–Hess case
+    # Suslov-Hess case
     "circle_map",
     "CircleMap",
     "FixedPoint",
@@ -173,7 +173,7 @@ __all__ = [  # noqa: RUF022 (by subject)
     "Strip",
     "ball_scattering",
     "BallScattering",
-    # Euler–Poisson equations
+    # Euler-Poisson equations
     "AndoyerPlane",
     "Bridge",
     "LoxodromicPendulum",

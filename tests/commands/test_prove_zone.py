@@ -49,7 +49,7 @@ def test_bad_numbers_are_refused_with_a_sentence(refusal, words, said):
 
 def test_cells_hold_for_a_checker_that_shares_no_code_and_changed_ones_do_not(answer):
     """Cells on both sides of the boundary."""
-    zone = answer("prove-zone", "--a", "-1.3", "--h-end", "3", "--cells", "50", "--format", "json")
+    zone = answer("prove-zone", "--a", "0.5", "--h-end", "1.5", "--cells", "90", "--format", "json")
     proved = [cell for cell in zone["cells"] if cell["statement"] != "undecided"]
     assert verify(zone) == len(proved) > 5
     assert {cell["statement"] for cell in proved} == {"two cycles", "no cycle"}

@@ -135,7 +135,9 @@ def test_a_lesson_in_a_narrow_and_a_wide_window_keeps_text_slider_and_pictures_i
     # The control in the column and that beside the text.
     controls = page.locator(".param-h input").all()
     assert len(controls) == 4
-    assert min(float(one.input_value()) for one in controls) > steps[6].animation.start + 0.04
+    has_moved = "([item, least]) => Number(item.value) > least"
+    for control in controls:
+        page.wait_for_function(has_moved, arg=[control.element_handle(), steps[6].animation.start + 0.04])
     page.keyboard.press("Escape")
     page.mouse.click(5, 5)
     # Text and slider of a step are in sight together, and there is one value.
