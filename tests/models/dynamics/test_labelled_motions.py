@@ -1,36 +1,17 @@
 """Kinds found by `regime` for motions labelled by theorems or integrations; see `oracle/make_labelled_motions.py`."""
 
-import json
-import math
 from functools import cache
-from pathlib import Path
 
 import pytest
 
-from hess_mechanics import BallBody, HeavyBody, HessBody, QuarticBody, SuslovBody, regime, return_map
+from hess_mechanics import regime
+from oracle.labelled import MOTIONS, returns_of
 from support.thorough import sample
 
-MOTIONS = json.loads((Path(__file__).parents[2] / "oracle" / "labelled_motions.json").read_text())
 TRIED = sample(MOTIONS, 8)
 
 UNDECIDED = {"UNDECIDED", "NO_RETURN", "SETTLING"}
 """Kinds that claim nothing, by their names."""
-
-
-def section(system, parameters):
-    """Return the return map of a row, whose parameters are named like the options of the command `regime`."""
-    match system:
-        case "suslov":
-            return return_map(SuslovBody(*parameters["I"], *parameters["b"]), E=parameters["E"])
-        case "quartic":
-            return return_map(QuarticBody(*parameters["I"], parameters["b3"], parameters["h"]))
-        case "ball":
-            return return_map(BallBody(*parameters["I"], parameters["D"], *parameters["b"]), h=parameters["h"])
-        case "euler-poisson":
-            body = HeavyBody(tuple(parameters["A"]), tuple(parameters["r"]), parameters["mu"])
-            return return_map(body, h=parameters["h"], f=parameters["f"])
-    a = parameters["a"]
-    return return_map(HessBody(1.0, a, -math.hypot(1.0, a)), h=parameters["h"], f=parameters["f"])
 
 
 def verdict(motion, kind, period):
@@ -48,7 +29,7 @@ def verdict(motion, kind, period):
 @cache
 def found(name):
     (motion,) = (one for one in MOTIONS if one["name"] == name)
-    result = regime(section(motion["system"], motion["parameters"]), motion["place"])
+    result = regime(returns_of(motion), motion["place"])
     return result.kind.name, result.period
 
 
