@@ -31,7 +31,7 @@ from hess_mechanics import (
     solve,
     systems,
 )
-from hess_mechanics.errors import InvalidParameter, OutsideRegion
+from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.suslov.free import free_motion
 from hess_mechanics.suslov.proved_forms import proved_cos_chi
@@ -228,27 +228,26 @@ def on_a_torus(name, body, h, phi, span, **options):
     return Row(f"track: {name}", "closed form, loxodromic pendulum", error, **options)
 
 
-def free(name, tensor, omega, times, truth=None, against="Taylor series of `Biz131`, 30 digits", **options):
+def free(name, tensor, omega, times):
     """A motion without a field, from γ = UP."""
     body = SuslovBody(*tensor)
-    truth = truth or (lambda *_: oracle.orbit_in_decimals(SUSLOV, [*omega, *UP], body.parameters, times, 30))
-    once = cache(lambda: truth(body, omega, times))
+    once = cache(lambda: oracle.orbit_in_decimals(SUSLOV, [*omega, *UP], body.parameters, times, 30))
 
     def error(grade):
         found = free_motion(body, omega, UP, times, grade)
         return orbit_error(np.hstack([found.omega, found.gamma]), once())
 
-    return Row(f"free Suslov: {name}", against, error, **options)
+    return Row(f"free Suslov: {name}", "Taylor series of `Biz131`, 30 digits", error)
 
 
-def the_angle(name, tensor, **options):
+def the_angle(name, tensor):
     """cos χ on both arcs, against an enclosure of its closed form."""
 
     def error(grade):
         exact = float(proved_cos_chi(*map(Fraction, tensor)).low)
         return max(abs(scattering(SuslovBody(*tensor), grade, arc).cos_chi - exact) for arc in (1, -1))
 
-    return Row(f"scattering, cos χ: {name}", "closed form", error, **options)
+    return Row(f"scattering, cos χ: {name}", "closed form", error)
 
 
 def on_the_lock_boundary(name, a, **options):
@@ -279,8 +278,8 @@ SADDLE = "the saddle amplifies the rounding of the start by e^t"
 CLOSE = "of h − 1 = 2e-9 a double keeps 7 digits, and with it of the time that the passage takes"
 
 
-def with_field(tensor, b=1.0):
-    return (*tensor, 0.3 * b, -0.5 * b, b)
+def with_field(tensor):
+    return (*tensor, 0.3, -0.5, 1.0)
 
 
 ROWS = [
@@ -326,15 +325,6 @@ ROWS = [
         floor=1e-7,
         because="|α| = 7e7 cancels to a trace of 6e-4",
     ),
-    by_orbits(
-        "a = 20, h = 0.3, f = 1e-12",
-        20.0,
-        0.3,
-        1e-12,
-        digits=102,
-        admitted=says_so(20.0, 0.3, 1e-12, 1e-5),
-        because="|α| = 1e16 cancels to a trace of 1e5",
-    ),
     vanishing(
         "a = 50, h = 0.3, f = 0",
         50.0,
@@ -371,7 +361,6 @@ ROWS = [
     ),
     a_pendulum("h = −1 + 1e-12", 0.5, BOTTOM, 0.4, [1.0, 10.0, 100.0], speed=1.0),  # the unit of ω is √b, not 1e-6
     a_pendulum("h = 1e8", 0.5, 1e8, 0.4, [1e-5, 1e-4, 1e-2]),
-    a_pendulum("b = 1e6", 0.5, 1.7, 0.4, [1.0, 5.0, 20.0], b=1e6),
     a_pendulum(
         "b = 1e-6, t = 1e6",
         0.5,
@@ -407,7 +396,6 @@ ROWS = [
         truth=lambda: oracle.steady_rotation(START[:2], START[2:], [1.0, 100.0, 1e4]),
         against="closed form, rotation",
     ),
-    an_orbit("b = 1e6", SUSLOV, (800.0, -400.0, 0.6, 0.0, 0.8), with_field(GENERIC[:4], 1e6), [0.001, 0.02]),
     an_orbit("ω = 0", SUSLOV, (0.0, 0.0, 0.6, -0.8, 0.0), GENERIC, [1.0, 5.0, 20.0]),
     an_orbit("backward", SUSLOV, START, GENERIC, [-1.0, -5.0, -20.0]),
     # bodies of the Hess case on their tori
@@ -420,7 +408,6 @@ ROWS = [
     free("1e-300 off the line", FIGURE_3, (2.0, 1e-300), [1.0, 690.0, 692.0, 740.0]),
     free("1e-16 off a slanting line", SLANTING, (0.5, -0.3 + 1e-16), [1.0, 100.0, 130.0, 160.0]),
     free("I11/I22 = 1e6", (1e6, 1.0, 0.3, 0.5), (1e-3, 1.0), [1.0, 10.0]),
-    free("ω = 1e6", SLANTING, (0.8e6, -0.2e6), [1e-6, 1e-5, 2e-5]),
     free("I13, I23 = 0.01", (1.0, 1.0, 0.006, 0.008), (0.7, 0.7), [1.0, 100.0, 300.0]),
     the_angle("I11/I22 = 1e6", (1e6, 1.0, 0.0, 1.0)),
     the_angle("I23 = 3e-4, slanting", (2.0, 1.0, 2e-4, 3e-4)),
@@ -499,15 +486,6 @@ def test_moments_so_different_that_the_unit_of_time_says_nothing_are_refused(rat
     state, parameters = much_slower(ratio)
     with pytest.raises(InvalidParameter, match=re.escape("choose a ratio below 1e+20.")):
         solve(SUSLOV.at(parameters), state, [1.0, 5.0])
-
-
-@pytest.mark.parametrize("h", [-0.999, 0.3, 30.0])
-def test_the_largest_f_that_a_refusal_names_is_accepted(h):
-    with pytest.raises(OutsideRegion) as refused:
-        circle_map(0.5, h, 1.5 * f_max(h), "draft")
-    named = float(re.search(r"≤ ([-+.e\d]+),", str(refused.value)).group(1))
-    assert named == pytest.approx(f_max(h), rel=1e-4)
-    assert circle_map(0.5, h, named, "draft").f == named
 
 
 def main():

@@ -110,8 +110,6 @@ def rows(Row, drift):
         orbit("moments 1e6, 1, 1e-6", hess(1e6, 1.0, 1e-6), (1e3, 1.0, 1e-4, *GAMMA), [1e-5, 3e-4]),
         orbit("r = 0", HeavyBody((1.0, 1.6, 2.1), (0.0, 0.0, 0.0), 1.0), START, [1.0, 20.0]),
         orbit("μ|r| = 1e6", HeavyBody.hess((1.0, 0.625, 0.375), 1e6), START, [1e-3, 1e-2]),
-        orbit("μ|r| = 1e-6", HeavyBody.hess((1.0, 0.625, 0.375), 1e-6), START, [1.0, 10.0]),
-        orbit("M = 1e6", GESS1, (1.3e6, -2e6, 0.7e6, *GAMMA), [1e-6, 3e-6]),
         orbit("G = |f|, M along the vertical", GESS1, (1.8, 2.4, 4.0, *GAMMA), [1.0, 4.0]),
         crossings(Row, "1e-9 off the Hess curve", GESS1, 50.0, 5.0, (l, barrier + 1e-9), 3),
         crossings(Row, "f = 1e-9", GESS1, 50.0, 1e-9, (0.3, 0.4), 5),
