@@ -8,7 +8,6 @@ from pytest import approx, mark, raises
 from hess_explorer.scenes import scenes
 from hess_mechanics import section
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
-from hess_mechanics.chaplygin_ball.integrable_cases import area_integral
 from hess_mechanics.chaplygin_ball.section import (
     EQUATOR,
     ball_section,
@@ -36,7 +35,7 @@ bodies = mark.parametrize(
 SCENE = scenes()["ball-section"]
 EXAMPLES = {
     name: next(one for one in SCENE.presets if one.name.startswith(name))
-    for name in ("Mixed", "Regular", "Every orbit closes", "Strange attractor", "A wider one")
+    for name in ("Mixed", "Every orbit closes", "Strange attractor", "A wider one")
 }
 
 
@@ -181,18 +180,6 @@ def test_with_b3_and_I13_and_I23_zero_every_orbit_closes_after_one_turn(body):
     start = seeds(open_body, 1.7, 12)[5]
     found = section(open_body, start, EQUATOR, 1000.0, "precise", crossings=1)
     assert np.max(np.abs(found.states[0] - start)) > 1e-3
-
-
-def test_regular_the_product_of_omega_and_gamma_is_an_integral():
-    body, h = example("Regular")
-    points = ball_section(body, h, seeds(body, h, 24), 300, "precise")
-    for states in points.states:
-        assert np.ptp(area_integral(states)) <= 1e-8
-        assert np.ptp(coordinates(states)[:, 1]) <= 1e-7
-        # On a level of δ the return is a rotation.
-        turns = np.diff(np.unwrap(coordinates(states)[:, 0]))
-        assert np.ptp(np.exp(1j * turns).real) <= 1e-6
-    assert max(map(len, late_cells("Regular"))) <= 33
 
 
 def test_mixed_some_orbits_lie_on_curves_and_others_fill_a_sea():

@@ -15,7 +15,7 @@ from hess_mechanics.errors import WorkLimit
 from hess_mechanics.euler_poisson.andoyer import SHEETS, AndoyerPlane, AndoyerSection, coordinates, relation
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.numerics.accuracy import PRECISE, STANDARD
-from support.andoyer import GESS1, RIS, angles, crossings_by_scipy, dense, energies_at, energy
+from support.andoyer import GESS1, RIS, angles, crossings_by_scipy, energies_at, energy
 from support.mechanics import apart
 from support.refusals import refused
 from support.thorough import sample
@@ -74,32 +74,6 @@ def test_a_state_of_the_section_has_g_h_f_and_its_place(body, h, f):
     assert np.max(np.abs(energy(body, states) - h)) < 1e-11 * (1.0 + abs(h) + body.strength)
     assert np.max(np.abs(area(states) - f)) < 1e-12 * np.max(G)
     assert np.sum(states[:, 3:] ** 2, axis=1) == approx(1.0, abs=1e-13)
-
-
-@every_case
-def test_what_is_possible_agrees_with_a_dense_search(body, h, f):
-    l, x = scattered(150, seed=3)
-    top = sqrt(2.0 * (h + body.strength) / min(body.a))
-    least = np.array(
-        [np.min(dense(body, f, float(one), float(other), top)[1]) for one, other in zip(l, x, strict=True)]
-    )
-    found = AndoyerSection(body, h, f).possible(l, x)
-    size = abs(h) + body.strength
-    assert not np.any(found & (least > h + 1e-5 * size))
-    # A picture is coarser than that: a margin of 1 % of the energy.
-    assert not np.any(~found & (least < h - 0.01 * size))
-
-
-def test_for_f_0_the_momentum_is_that_of_the_closed_form():
-    l, x = scattered(100, seed=5)
-    s = np.sqrt(1.0 - x * x)
-    a1, a2, a3 = RIS.a
-    kinetic = s * s * (a1 * np.sin(l) ** 2 + a2 * np.cos(l) ** 2) + a3 * x * x
-    # μr = −(1/√3, 0, 1/√6), γ = (cos l, −sin l, 0).
-    square = 2.0 * (0.1 - np.cos(l) / sqrt(3.0)) / kinetic
-    G = AndoyerSection(RIS, 0.1, 0.0).roots(l, x)[:, 0]
-    assert np.array_equal(np.isnan(G), square < 0.0)
-    assert G[square >= 0.0] ** 2 == approx(square[square >= 0.0], rel=1e-12)
 
 
 def test_seeds_are_in_their_window_spread_evenly_and_on_the_section():
@@ -189,21 +163,6 @@ def test_a_state_is_on_the_sheet_that_it_was_asked_for_on(body, h, f):
         there = np.isfinite(G)
         assert there.any() or sheet
         assert np.array_equal(AndoyerSection(body, h, f).sheet_of(states[there]), np.full(there.sum(), sheet))
-
-
-def test_an_orbit_from_the_second_sheet_returns_as_scipy_says():
-    section_ = AndoyerSection(RIS, 0.5, 1.0, 1)
-    starts = np.array(section_.spread(WHOLE, 40))
-    assert len(starts) >= 5
-    assert np.all(section_.is_on(starts))
-    assert not np.any(AndoyerSection(RIS, 0.5, 1.0).is_on(starts))
-    times, _ = crossings_by_scipy(RIS, starts[0], 60.0)
-    result = section(RIS, starts[0], AndoyerPlane(1.0), 60.0, "precise")
-    assert len(times) >= 3
-    assert result.times == approx(times, abs=1e-6)
-    place = tuple(coordinates(starts[:1])[0])
-    assert section_.state_at(*place) == approx(tuple(starts[0]), abs=1e-9)
-    assert AndoyerSection(RIS, 0.5, 1.0).state_at(*place) != approx(tuple(starts[0]), abs=1e-3)
 
 
 # ---- Crossings --------------------------------------------------------------------------------------------------

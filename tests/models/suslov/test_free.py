@@ -6,7 +6,6 @@ import mpmath
 import numpy as np
 from pytest import approx, mark, raises
 
-import oracle
 from hess_mechanics import SuslovBody, solve, systems
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Status
@@ -22,15 +21,6 @@ UP = (0.6, 0.0, 0.8)
 def motion_of(body, state, times, name="reference"):
     found = free_motion(body, state[:2], state[2:], times, name)
     return np.hstack([found.omega, found.gamma]), found
-
-
-def in_decimals(body, state, times, digits=30):
-    return oracle.orbit_in_decimals(SUSLOV, state, body.parameters, times, digits)
-
-
-def errors(body, state, times, exact, name):
-    states, found = motion_of(body, state, times, name)
-    return float(np.max(oracle.distances(states, exact))), found
 
 
 # ---- right ------------------------------------------------------------------------------------------------------
@@ -67,19 +57,6 @@ def test_error_estimates_are_on_the_safe_side():
             assert error <= PROMISE[name] or found.status is not Status.OK
     assert wrong <= 0.01 * total
     assert wolf <= 0.5 * total
-
-
-def test_estimates_at_the_floor_are_on_the_safe_side_of_decimals():
-    rng = np.random.default_rng(5)
-    wrong = 0
-    for _ in range(6):
-        body = SuslovBody(*10.0 ** rng.uniform(-0.5, 0.5, 2), *rng.uniform(-1.0, 1.0, 2))
-        gamma = rng.normal(size=3)
-        state = [*rng.normal(size=2), *(gamma / np.linalg.norm(gamma))]
-        times = [5.0 / passage(body, state[:2]).rate]
-        error, found = errors(body, state, times, in_decimals(body, state, times, 22), "reference")
-        wrong += error > found.error_estimate
-    assert wrong == 0
 
 
 def test_a_moment_of_time_costs_nothing_however_long():
@@ -205,6 +182,3 @@ def test_a_motion_that_hardly_moves_is_sampled_from_its_beginning_to_its_end():
 def test_refusals(body, omega, times, error, words):
     with raises(error, match=words):
         free_motion(body, omega, UP, times, "standard")
-
-
-# ---- kernels ----------------------------------------------------------------------------------------------------

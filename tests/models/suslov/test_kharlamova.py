@@ -9,7 +9,6 @@ import numpy as np
 from pytest import approx, mark
 
 from hess_mechanics import level, solve, systems
-from hess_mechanics.dynamics.section import Plane, section
 from hess_mechanics.errors import NotPositiveDefinite
 from hess_mechanics.suslov.kharlamova import (
     PlaneBody,
@@ -21,7 +20,7 @@ from hess_mechanics.suslov.kharlamova import (
     state_at,
     to_plane,
 )
-from support.mechanics import REFERENCE, differences, numbers
+from support.mechanics import differences
 from support.refusals import refused
 
 SUSLOV = systems()["suslov"]
@@ -88,14 +87,6 @@ def test_every_orbit_with_b3_0_is_back_after_the_period_of_its_arc():
         assert back(body, y, found.period / 2) > 1e-3
 
 
-def test_the_period_is_that_between_crossings_of_the_equator():
-    for body, y in random_orbits(6, seed=5):
-        found = arc(body, y)
-        equator = Plane((0.0, 0.0, 0.0, 0.0, 1.0), sense=1)
-        times = section(body, y, equator, 3.5 * found.period, FLOOR, 3).times
-        assert np.diff(times) == approx(found.period, rel=1e-11)
-
-
 def test_periods_that_are_known():
     # Without a field (dτ/dt)² = 1 − |u0 + v0 τ|²: an oscillator of the frequency |ω|.
     free = PlaneBody(1.5, 0.7, 0.0, 0.0)
@@ -160,18 +151,7 @@ def test_fixed_points_stand_on_the_equator_and_their_stability_is_that_of_the_li
     assert set(kind) == {-1, 0, 1}
 
 
-# ---- Reference, refusals ----------------------------------------------------------------------------------------
-
-
-def test_the_arc_reaches_the_reference_value():
-    row = next(row for row in REFERENCE["trajectories"] if row["name"] == "suslov principal axis, b3=0")
-    I11, I22, _, _ = numbers(row["params"]["I"])
-    b1, b2, _ = numbers(row["params"]["b"])
-    found = arc(PlaneBody(I11, I22, b1, b2), numbers(row["y0"]))
-    states = np.array([numbers(state["y"]) for state in row["states"]])
-    tau = rescaled_time(found, states)
-    assert found.u(tau) == approx(states[:, 2:4], abs=1e-15)
-    assert found.height(tau) == approx(np.abs(states[:, 4]), abs=5e-15)
+# ---- Refusals ---------------------------------------------------------------------------------------------------
 
 
 test_what_is_no_start_is_refused = refused(

@@ -1,14 +1,10 @@
-"""The scattering of the free Suslov problem: values, closed forms, phases, orbits, refusals, its command."""
+"""The scattering of the free Suslov problem: values, closed forms, phases, orbits, refusals."""
 
-import argparse
-import json
 from math import acos, atan2, cos, hypot, log, pi, sqrt
 
 import numpy as np
-from pytest import approx, mark, raises
+from pytest import approx, mark
 
-from hess_explorer.commands import CommandError
-from hess_explorer.commands import scattering as command
 from hess_mechanics import SuslovBody, solve
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
@@ -174,42 +170,3 @@ test_refusals = refused(
     (lambda: start(GENERIC, 0.0, 1.0, 0.0, 1e-05), "choose h > 0"),
     (lambda: cos_chi(SuslovBody(2.0, 1.0, 0.0, 0.0)), "no ξ"),
 )
-
-
-# ---- the command ------------------------------------------------------------------------------------------------
-
-
-WORDS = ["scattering", "--I", "3.56,1,0,0.8", "--theta", "1.0", "--phi", "0,1,2", "--accuracy", "reference"]
-
-
-def run(*words):
-    parser = argparse.ArgumentParser()
-    command.COMMAND.declare(parser.add_subparsers(required=True).add_parser("scattering"))
-    options = parser.parse_args(list(words))
-    options.run(options)
-
-
-def answer(capsys, *words):
-    run(*words)
-    out, err = capsys.readouterr()
-    assert err == ""
-    return json.loads(out)
-
-
-def test_the_command_with_a_start_on_the_other_arc(capsys):
-    found = answer(capsys, *WORDS, "--arc=-1", "--distance", "5e-6")
-    exact = scattering(FIGURE, "reference", -1, 5e-6)
-    assert found["theta_plus"] == exact.theta_plus(1.0, [0.0, 1.0, 2.0]).tolist()
-
-
-@mark.parametrize(
-    ("tensor", "extra", "words"),
-    [
-        ("2,1,0,0", [], "Choose I13 or I23 other than 0"),
-        ("2,1,0.3,0.5", ["--distance", "7"], "choose one above 0 and up to"),
-        ("2,1,0.3,0.5", ["--accuracy", "best"], "choose one of draft"),
-    ],
-)
-def test_the_command_refuses_in_one_sentence(tensor, extra, words):
-    with raises(CommandError, match=words):
-        run("scattering", f"--I={tensor}", "--theta", "1", *extra)

@@ -3,16 +3,15 @@
 The equations are written out here and integrated by SciPy; nothing is compared with itself.
 """
 
-from math import hypot, log, pi, sqrt
+from math import hypot, pi, sqrt
 
 import numpy as np
 from pytest import approx, mark, raises
-from scipy.integrate import simpson
 
 from hess_mechanics import SuslovBody, solve
 from hess_mechanics.dynamics.attraction import arrivals
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import DRAFT, PRECISE, REFERENCE, STANDARD
+from hess_mechanics.numerics.accuracy import DRAFT, PRECISE, STANDARD
 from hess_mechanics.suslov.basins import SectionOrbits, attractors
 from hess_mechanics.suslov.section import SuslovSection, divergence
 from support.mechanics import differences, scipy_crossings
@@ -143,17 +142,6 @@ def test_the_divergence_is_that_of_the_field():
     states = np.random.default_rng(3).normal(size=(40, 5))
     assert divergence(BODY, states) == approx([divergence_of_field(BODY, y) for y in states], abs=1e-12)
     assert not divergence(SuslovBody(1.0, 2.0, 0.0, 0.0, 1.0), states).any()
-
-
-@mark.parametrize("span", [5.0, -5.0])
-def test_volume_grows_by_the_integral_of_the_divergence(span):
-    # Liouville: the determinant of five neighbours' differences against ∫ div dt.
-    start = SuslovSection(BODY, 0.6, 3).state_at(1.2, 0.9)
-    matrix = differences(lambda state: solve(BODY, state, [span], REFERENCE).states[0], start)
-    times = np.linspace(0.0, span, 2001)
-    integral = simpson(divergence(BODY, solve(BODY, start, times, REFERENCE).states), x=times)
-    assert abs(integral) > 0.01
-    assert log(np.linalg.det(matrix)) == approx(integral, abs=1e-7)
 
 
 # ---- exponents ---------------------------------------------------------------------------------------------------

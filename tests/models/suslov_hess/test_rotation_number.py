@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 from pytest import approx, mark, raises
-from scipy.interpolate import CubicSpline
 
 from hess_mechanics import circle_map, f_max
 from hess_mechanics.errors import InvalidParameter, WorkLimit
@@ -19,10 +18,8 @@ from hess_mechanics.suslov_hess.rotation_number import (
     place_of,
     values_at,
 )
-from support.mechanics import REFERENCE as KNOWN
 from support.rotation_number import iterated
 
-LOCKS = [tuple(float(row[name]) for name in ("a", "h", "f")) for row in KNOWN["lock_boundary"] + KNOWN["a_critical"]]
 ELLIPTIC = [(0.5, 0.5, 0.5), (0.3, -0.5, 0.2), (0.1, 2.0, 1.5), (0.5, 0.5, -0.5)]
 HYPERBOLIC = [(1.2, 0.9, 0.8), (0.5, 1.5, -0.6)]
 
@@ -59,20 +56,6 @@ def test_values_agree_whatever_their_shape_and_order():
 def test_at_the_separatrix_there_is_no_map():
     h, f = np.array([1.0, 1.0, 1.0 + 1e-6, -1.0, -5.0, 0.0]), np.array([0.0, 1e-12, 0.0, 0.0, 0.0, 3.0])
     assert values_at(0.5, h, f, DRAFT).possible.tolist() == [False, False, True, False, False, False]
-
-
-@mark.parametrize("row", LOCKS, ids=str)
-def test_the_lock_curve_passes_through_the_known_values_in_all_planes(row):
-    a, h, f = row
-    torus = Torus(a, h, f)
-    # Where the curve is computed at this abscissa.
-    for plane, x, y in (("h, a", h, a), ("f, a", f, a)):
-        first = lock_curve(plane, torus, (x, x + 0.01, 0.0, 2.0), REFERENCE, points=2)[0]
-        assert first == approx((x, y), abs=1e-9)
-    curve = lock_curve("h, f", torus, (-1.0, 4.0, -3.0, 3.0), REFERENCE)
-    # Between its points, along the line from the lowest h to (1, 0) or from there on.
-    order = np.argsort(curve[:, 1])
-    assert float(CubicSpline(curve[order, 1], curve[order, 0])(f)) == approx(h, abs=2e-4)
 
 
 @mark.parametrize("plane", PLANES)
