@@ -139,21 +139,6 @@ def test_the_spread_of_an_exponent_is_its_error(exponents):
     assert np.median(np.abs(value - later) / spread) > 0.1
 
 
-@mark.thorough
-def test_the_error_of_an_exponent_is_what_its_time_promises():
-    """In 99 of 100 motions (of 300 others 99.3 %): an exponent of a chaotic orbit is a mean over it, with no bound."""
-    random = np.random.default_rng(8)
-    errors = {name: [] for name in PLANS[Computation.EXPONENT]}
-    for _ in range(40):
-        state, parameters, nu = motion(random)
-        found = lyapunov_exponent(SYSTEM.at(parameters), state, 6000.0 / nu, PLANS[Computation.EXPONENT]["draft"].level)
-        for name, plan in PLANS[Computation.EXPONENT].items():
-            then = found.rates[np.searchsorted(found.times, 2000.0 * plan.share / nu)]
-            errors[name].append(abs(then - found.value) / nu)
-    for name, plan in PLANS[Computation.EXPONENT].items():
-        assert np.sum(np.array(errors[name]) <= plan.promise) >= 39
-
-
 # ---- basins -----------------------------------------------------------------------------------------------------
 
 

@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 
 import oracle
-from hess_mechanics import System, solve, systems
+from hess_mechanics import solve, systems
 from hess_mechanics.dynamics.doubled import doubled
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.functions import sin
 from hess_mechanics.numerics.pairs_kernels import DOUBLED_FUNCTIONS
 from support.thorough import sample
 
@@ -92,14 +91,3 @@ def test_functions_of_pairs_have_31_digits(name):
             exact = getattr(mpmath, name.replace("pow", "power"))(*(mpmath.mpf(z.real) + z.imag for z in pairs))
             off = abs(mpmath.mpf(found.real) + found.imag - exact) / max(1, abs(exact))
         assert off < 1e-28 if name == "tan" else off < 2e-31
-
-
-@pytest.mark.thorough
-def test_functions_in_a_field_have_31_digits_too():
-    pendulum = System("pendulum", lambda y, p: (y[1], -p[0] * sin(y[0]) / 3), "theta w", {"g": 9.81})
-    found = doubled(pendulum.at(), (2.0, 0.5), [1.0, 2.0]).pairs
-    with mpmath.workdps(33):
-        exact = mpmath.odefun(lambda _, y: pendulum.field(y, [mpmath.mpf(9.81)]), 0, [mpmath.mpf(2), mpmath.mpf(0.5)])
-        for t, row in zip((1.0, 2.0), found, strict=True):
-            for z, x in zip(row, exact(t), strict=True):
-                assert abs(mpmath.mpf(z.real) + z.imag - x) < 1e-29

@@ -60,17 +60,6 @@ def test_it_ends_after_so_many_returns():
     assert np.array_equal(cut.points, whole.points[: len(cut.points)])
 
 
-def test_a_curve_that_is_the_attractor_stays_on_it():
-    # W^u of the fixed point of the map of Hénon is invariant: the images of its points lie on it.
-    m = henon(1.4)
-    saddle = find_periodic(m, (0.6, 0.2), 1)
-    # Its multiplier is negative: the image of one branch is the other.
-    one, other = (grown(m, saddle, 8.0, side=side, sagitta=1e-5, longest=0.02) for side in (1, -1))
-    images = np.array([m.image(point) for point in one.points[50:300:25]])
-    assert len(images) == 10
-    assert max(float(np.linalg.norm(other.points - image, axis=1).min()) for image in images) < 0.02
-
-
 def test_homoclinic_points_of_henon_are_homoclinic():
     m = henon(1.4)
     saddle = find_periodic(m, (0.6, 0.2), 1)

@@ -16,10 +16,6 @@ from support.mechanics import EQUILIBRIA, SYSTEMS, every_level, every_system, sc
 from support.refusals import refused
 from support.thorough import sample
 
-# Without a field and without coupling ω stays as it is and γ turns about it.
-FREE = {"suslov": (2.0, 1.0, *[0.0] * 5), "ball": (2.0, 1.0, *[0.0] * 6), "hess": (0.0, 0.0)}
-
-
 some_systems = mark.parametrize("system", sample(SYSTEMS.values(), 2), ids=lambda system: system.name)
 
 
@@ -95,30 +91,6 @@ def test_crossings_are_those_that_an_integrator_of_another_family_finds(system):
             assert np.max(np.abs(y - expected)) * min(1.0, speed) < 1e-8
         found += len(times)
     assert found > 40
-
-
-# The momentum of a body with equal moments of inertia stays too, but has three components.
-@mark.parametrize("system", [SYSTEMS[name] for name in FREE], ids=FREE)
-@mark.parametrize("height", [0.5, -1 + 1e-6, 1 - 1e-10])
-def test_crossings_of_a_uniform_rotation_are_those_of_the_closed_form(system, height):
-    # γ̇ = γ × ω: m·γ = C + A cos(|ω|t − φ), crossed from above at |ω|t = φ + arccos, from below at φ − arccos.
-    omega, gamma, m = np.array([0.6, -1.1, 0.0]), np.array([0.48, 0.6, 0.64]), np.array([0.3, -0.8, 0.5])
-    speed = float(np.linalg.norm(omega))
-    u = omega / speed
-    middle, cosine, sine = (m @ u) * (gamma @ u), m @ gamma - (m @ u) * (gamma @ u), m @ np.cross(gamma, u)
-    size, phase = math.hypot(cosine, sine), math.atan2(sine, cosine)
-    normal = (0.7, 0.2, *m)
-    offset = float(0.7 * omega[0] + 0.2 * omega[1] + middle + size * height)
-    end = 200.0
-    turns = 2 * np.pi * np.arange(-2, 100)
-    for sense, angles in ((-1, phase + math.acos(height) + turns), (1, phase - math.acos(height) + turns)):
-        expected = angles[(angles > 0.0) & (angles <= speed * end)] / speed
-        result = section(
-            system.at(FREE[system.name]), (*omega[:2], *gamma), Plane(normal, offset, sense), end, "reference"
-        )
-        assert len(result.times) == len(expected) >= 39
-        # Heights are good to some 1e-15 and the phase after 200 to 1e-14; the slope makes a time of the former.
-        assert result.times == approx(expected, rel=0, abs=1e-13 + 1e-14 / math.sqrt(1 - height**2))
 
 
 def crossings_by_kernel(system, state, parameters, normal, offset, end, tolerance):

@@ -1,14 +1,12 @@
 """All exponents and MEGNO: known spectra, the divergence of a hundred bodies, exponents that are 0 or paired."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from pytest import approx, mark, raises
 
 from hess_mechanics import System, lyapunov_exponent, lyapunov_spectrum, megno, systems, transition_matrix
 from hess_mechanics.dynamics.spectrum import kaplan_yorke
-from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
@@ -198,13 +196,6 @@ def test_a_neighbour_that_falls_onto_the_motion_is_refused():
     # As e^(−1000 t): next to 1 nothing is left of it.
     with raises(InvalidParameter, match="take all exponents, which need no distance"):
         lyapunov_exponent(ALONE.at((1000.0, 1000.0)), (1.0,), 4.0, REFERENCE)
-
-
-def test_numbers_that_are_beyond_double_range_in_units_of_the_motion_are_refused():
-    # p/ν is infinite.
-    slow = replace(ALONE, rescale=lambda y, p, nu: (y, p / nu), frequency=lambda y, p: 1e-310)
-    with raises(InvalidParameter, match="exceed the range of double precision: choose less extreme"):
-        Problem.of(slow.at((0.0, -0.3)), [(0.0,)])
 
 
 # ---- MEGNO ------------------------------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ from hess_mechanics import SuslovBody, System, level, solve, unit_vector
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from hess_mechanics.dynamics.system import in_units_of_time
 from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit, WrongScaling
-from hess_mechanics.numerics.taylor_kernels import columns_of, compensated, workspace
+from hess_mechanics.numerics.taylor_kernels import columns_of, workspace
 from support.mechanics import ROOT, SYSTEMS, assert_same_without_jit, every_system, scipy_states
 from support.refusals import refused
 from support.thorough import examples, sample
@@ -201,16 +201,6 @@ def test_the_frequency_bounds_every_angular_velocity_of_the_motion(system):
     fastest = np.max(np.linalg.norm(orbit.states[:, : system.angular_velocities], axis=1))
     # A bound, and one that is not idle: within a factor of ten here.
     assert fastest <= system.frequency(state, parameters) <= 10 * fastest
-
-
-def test_a_compensated_sum_keeps_what_a_plain_one_loses():
-    total = plain = 1.0
-    low = 0.0
-    for _ in range(10_000):
-        total, low = compensated(total, low, 1e-17)
-        plain += 1e-17
-    assert plain == 1.0
-    assert total + low == approx(1.0 + 1e-13, abs=2e-16)
 
 
 @every_system

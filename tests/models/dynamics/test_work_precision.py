@@ -22,7 +22,6 @@ from hess_mechanics.dynamics.work_precision import (
     measure_levels,
     measure_others,
     others_take_long,
-    quickest_other,
 )
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, LEVELS
@@ -327,16 +326,3 @@ def test_a_click_chooses_the_level_that_is_next_to_it_and_none_in_another_chart(
     assert [one["accuracy"] for one in chosen] == ["draft", "draft", "standard", "precise", "reference", "reference"]
     assert stage.pick("precision", 0.0, 1.0) == stage.pick("precision", -1.0, 1.0) == {}
     assert stage.pick("growth", 1e-6, 1.0) == {}
-
-
-def test_the_quickest_other_method_is_one_that_is_accurate_enough():
-    points = (
-        WorkPoint("Taylor", "draft", 0.1, 1e-9),
-        WorkPoint("DOP853", "1e-04", 2.0, 1e-3),
-        WorkPoint("DOP853", "1e-07", 5.0, 1e-6),
-        WorkPoint("LSODA", "1e-07", 4.0, 2e-6),
-    )
-    assert quickest_other(points, 1e-5) is points[3]
-    assert quickest_other(points, 1e-6) is points[2]
-    assert quickest_other(points, 1.0) is points[1]
-    assert quickest_other(points, 1e-7) is None

@@ -100,22 +100,6 @@ def test_the_largest_bend_bounds_the_second_derivative(coefficients, h):
     assert bend == largest_bend(np.abs(e), h)
 
 
-@with_others
-@mark.parametrize(
-    "roots",
-    [
-        (0.42577973,),
-        (1e-9, 0.7),
-        (0.3, 1.0 - 1e-9),
-        (0.05, 0.25, 0.45, 0.65, 0.85),
-    ],
-)
-@mark.parametrize("h", [1.0, 0.01, 30.0])
-def test_simple_roots_are_found_to_round_off(roots, others, h):
-    e = product(np.multiply(roots, h), others)
-    assert agree(found_roots(e, h), e, np.multiply(roots, h), h)
-
-
 @mark.parametrize("height", [1e-6, 1e-10, 1e-14])
 def test_what_is_flat_at_first_is_not_halved_away(height):
     """s²⁰ bends by 380 at the end and hardly at the start: uniform pieces for the largest bend would be 2e5."""
