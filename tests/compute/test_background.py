@@ -18,6 +18,7 @@ from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.parallel import THREADS
 from hess_mechanics.numerics.patience import go_on
+from support.asynchronous import wait_until
 from support.board import SCENES, Browser, modules_of_scenes
 
 # With the exponent in sight, which is folded at first.
@@ -27,13 +28,6 @@ STARTS = next(spec for spec in EP.specs if spec.name == "starts")
 SMALL = {**EP.defaults(), "orbits": 12.0, "count": 20.0, "long": 5.0, "span": 1.0, "indicator": "nothing"}
 """1 piece for the start, 3 for the orbits, 12 for the line, 1 for the exponent; 4 that are computed twice."""
 PIECES = 21
-
-
-def wait_until(condition, seconds=60.0):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "it does not come about"
-        time.sleep(0.002)
 
 
 class Gate(ResultCache):
@@ -272,7 +266,7 @@ def test_peek_computes_nothing_and_waits_for_nothing(gate):
 # ---- Places in the link -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("text", ["1,2,3", "nan,0", "0,1.01", "1e400,0", "0,0;x", "<script>", "1_0,0"])
+@pytest.mark.parametrize("text", ["1,2,3", "nan,0", "0,1.01", "1e400,0", "<script>"])
 def test_what_names_no_places_is_replaced_and_not_repeated(text):
     values, notes = decode(encode(EP.name, {**EP.defaults(), "starts": text}), EP.specs)
     assert values["starts"] == STARTS.default
@@ -492,20 +486,13 @@ def test_a_box_beyond_the_section_is_cut_and_one_that_is_none_is_not_taken(free_
 @pytest.mark.parametrize(
     "message",
     [
-        {"restore": ["v=1"]},
-        {"clear": "yes", "stop": None},
         {"picked": ["section"]},
         {"picked": ["section", 1.0, 0.1, 2.0]},
         {"picked": ["section", 0.1, 0.2, 0.6, 0.7, 0.8, 0.9]},
-        {"picked": ["section", "1", "1"]},
-        {"picked": ["sphere", 1.0, 1.0]},
         {"values": {"starts": ["0,0"], "window": {}}},
         {"values": {"starts": "0" * 5000, "window": "1,2,3;4"}},
-        {"values": [["h", 1]]},
         {"values": {"h": "2.5", "f": [1], "nobody": 1.0, "accuracy": 2}},
-        {"values": {"preset": "Separatrix: no return", "scene": "suslov-hess-accuracy"}},
-        {"requested": None, "held": "yes"},
-        {"reset": 1, "preset": "nobody", "scene": "nowhere"},
+        {"reset": 1, "preset": "nobody", "scene": "nowhere", "restore": ["v=1"]},
     ],
 )
 def test_a_message_that_means_nothing_changes_nothing(free_gate, message):

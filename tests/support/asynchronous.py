@@ -1,6 +1,7 @@
-"""Coroutines in tests that share their process with a browser."""
+"""Coroutines in tests that share their process with a browser, and threads that are waited for."""
 
 import asyncio
+import time
 from concurrent.futures import ThreadPoolExecutor
 
 
@@ -8,3 +9,11 @@ def finished(coroutine):
     """The result of a coroutine, run in a thread of its own: in that of the tests Playwright's loop may be running."""
     with ThreadPoolExecutor(1) as pool:
         return pool.submit(asyncio.run, coroutine).result()
+
+
+def wait_until(condition, seconds=60.0):
+    """Wait for what another thread brings about."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "it does not come about"
+        time.sleep(0.002)

@@ -3,13 +3,13 @@
 import asyncio
 import json
 import random
-import struct
 import time
 
 from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 
 from support.visitor import Closed
+from support.wire import read_frame
 
 
 def new_code():
@@ -114,8 +114,7 @@ class Follower(Member):
         """Read the next frame."""
         frame = await self.read(timeout)
         self.bytes += len(frame)
-        head, _ = struct.unpack_from("<II", frame)
-        told = json.loads(frame[8 : 8 + head])
+        told, _, _ = read_frame(frame)
         self.scene = told.get("scene", self.scene)
         if "state" in told:
             self.state, self.told = told["state"], told["show"]

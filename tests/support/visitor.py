@@ -5,12 +5,13 @@ import html
 import itertools
 import json
 import re
-import struct
 
 from bokeh.protocol import Protocol
 from bokeh.protocol.receiver import Receiver
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import websocket_connect
+
+from support.wire import read_frame
 
 _numbers = itertools.count(1)
 
@@ -129,9 +130,7 @@ class Visitor:
 
     async def hear(self, timeout=60.0):
         """Return the next response, by name."""
-        frame = await self._read(self._states, timeout)
-        head, _ = struct.unpack_from("<II", frame)
-        told = json.loads(frame[8 : 8 + head])
+        told, _, _ = read_frame(await self._read(self._states, timeout))
         self.state = told.get("state", self.state)
         return told
 

@@ -18,9 +18,7 @@ from hess_explorer.protocol.messages import parse
 from hess_explorer.protocol.parameters import MAX_QUERY, Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.charted import Charted
-from hess_explorer.server import warm
 from hess_explorer.sweep import StoreError, explain, read
-from hess_explorer.sweep import chart as charts
 from hess_explorer.sweep import charting as running
 from hess_explorer.sweep.chart import MOST_SIDE, Chart, at_first, sides_of_places, swept
 from hess_explorer.sweep.charting import Charting
@@ -32,6 +30,7 @@ from hess_mechanics.numerics.accuracy import level
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.kharlamova import PlaneBody, arc, state_at
 from hess_mechanics.suslov.scattering import cos_chi
+from support.asynchronous import wait_until
 from support.wire import read_frame
 
 CHARTED = [(scene.name, one.quantity) for scene in scenes().values() for one in scene.charts]
@@ -46,13 +45,6 @@ def whole(chart):
     found = chart.compute(np.arange(chart.cells, dtype=np.int32))
     shape = chart.y.count, chart.x.count
     return found.values.reshape(shape), found.status.reshape(shape)
-
-
-def wait_until(condition, seconds=60.0):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "it does not come about"
-        time.sleep(0.002)
 
 
 class Page:
@@ -151,25 +143,12 @@ def test_the_place_of_a_start_on_a_section_is_a_place_of_a_chart():
     )
 
 
-def test_a_server_prepares_every_quantity_of_a_scene_for_a_chart(monkeypatch):
-    asked = []
-    plain = charts.evaluate
-    monkeypatch.setattr(charts, "evaluate", lambda what, *rest: asked.append(what.name) or plain(what, *rest))
+def test_every_quantity_of_a_scene_has_a_number_in_its_first_state():
     found = [one for scene in scenes().values() for one in at_first(scene)]
-    assert asked == [quantity for _, quantity in CHARTED]
-    # Each is computed, and a number but for a torus without limit cycles.
-    assert {int(one.status[0]) for one in found} <= {
-        Outcome.OK,
-        Outcome.FLOOR,
-        Outcome.PROMISE_NOT_MET,
-        Outcome.NO_VALUE,
-    }
-    prepared = []
-    monkeypatch.setattr(warm, "at_first", lambda scene: prepared.append(scene.name) or [])
-    warm.compute(scenes()["loxodrome"], folded=False)
-    assert prepared == []
-    warm.compute(scenes()["loxodrome"])
-    assert prepared == ["loxodrome"]
+    assert len(found) == len(CHARTED)
+    # A torus may be without limit cycles.
+    numbers = {Outcome.OK, Outcome.FLOOR, Outcome.PROMISE_NOT_MET, Outcome.NO_VALUE}
+    assert {int(one.status[0]) for one in found} <= numbers
 
 
 @pytest.mark.parametrize("sides", [(192, 192), (100, 7), (2, 2)])
@@ -216,11 +195,8 @@ def test_why_a_cell_has_no_number_is_said():
     [
         ({}, "needs the link of a state"),
         (wish(state="scene=suslov-hess&h=1" + "0" * MAX_QUERY), "needs the link of a state"),
-        (wish(state=7), "needs the link of a state"),
         (wish(quantity=["h"]), "can be charted"),
-        (wish(quantity="period"), "can be charted"),
         (wish(part=1), "has 1 numbers"),
-        (wish(part="0"), "has 1 numbers"),
         (wish(x=("h", 0.0, "1", 9)), "A side is one of"),
         (wish("scene=suslov", "megno-suslov", x=("starts:2", 0.0, 1.0, 9)), "A side is one of .*starts:0, starts:1"),
         (wish(x=("h", 0.0, 1.0, 9.5)), "A side is one of"),
@@ -394,7 +370,6 @@ def test_a_chart_that_was_saved_is_read_as_sweeps_are(tmp_path, capsys):
         {"quantity": "speed"},
         {"status": [1] * 62 + [300]},
         {"values": ["x"] * 63},
-        {"state": None},
         {"y": {"name": "f", "low": 0, "high": 1, "count": 10**9}},
         {"level": "sloppy"},
     ],
