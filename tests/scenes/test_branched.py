@@ -2,7 +2,7 @@
 
 import re
 from functools import cache
-from math import cos, pi, sqrt
+from math import sqrt
 
 import numpy as np
 import pytest
@@ -62,24 +62,6 @@ def half_trace(h, share):
     start = [0.0, sqrt(1.0 - h * h), 1.0, 0.0, 0.0, 1.0]
     _, states = scipy_crossings(motion, start, lambda y: y[0], 100.0, -1, 1, atol=1e-14, first_step=1e-3)
     return states[0, 2] + states[0, 5]
-
-
-def test_the_orbit_through_the_middle_loses_its_stability_where_hills_equation_does():
-    ratio = 2.0
-    view = shown("quartic", ("Q2", 0.0), ("low", 0.0), ("high", 0.9), ("ratio", ratio))
-    ((kind, value, error),) = marks(view)
-    exact = brentq(lambda h: half_trace(h, 1.0 / ratio) - 2.0, 0.6, 0.9, xtol=1e-13)
-    assert kind == "pitchfork"
-    assert value == approx(exact, abs=1e-8)
-    assert error < 1e-9
-    # Along the branch: the trace of the whole turn is T² − 2.
-    for h, there, multipliers in points_of(view)[::12]:
-        assert np.abs(there).max() < 1e-10
-        assert multipliers.sum() == approx(half_trace(h, 1.0 / ratio) ** 2 - 2.0, abs=1e-7)
-    # At h = 0 the potential is homogeneous of degree 4, and the trace is known in closed form (Yoshida 1987).
-    ((_, _, multipliers),) = (one for one in points_of(view) if one[0] == 0.0)
-    T = 2.0 * sqrt(2.0) * cos(0.25 * pi * sqrt(1.0 + 8.0 / ratio))
-    assert multipliers.sum() == approx(T * T - 2.0, abs=1e-8)
 
 
 def test_the_branch_of_an_orbit_born_there_turns_at_the_pitchfork():

@@ -11,7 +11,6 @@ from hess_explorer.scenes.parts import density
 from hess_explorer.views.density import tones
 from hess_mechanics import section
 from hess_mechanics.dynamics.section_density import visits
-from hess_mechanics.numerics.accuracy import PRECISE
 from support.view import View, values_of
 
 SCENES = scenes()
@@ -38,17 +37,6 @@ def test_visits_are_the_histogram_of_the_accurate_crossings_of_a_regular_orbit()
     more = visits(state.poincare, WHOLE, (32, 20), found.ends, 400, True, density._LEVEL)
     assert np.array_equal(more.after(found).counts, found.counts + more.counts)
     assert more.after(found).points == 800
-
-
-def test_a_finer_level_gives_the_same_density_of_a_sea():
-    state = SCENES["suslov"].compute({**SCENES["suslov"].defaults(), **SEA}, (), False)
-    starts = density._starts(state.poincare, WHOLE)
-    levels = density._LEVEL, PRECISE
-    draft, fine = (visits(state.poincare, WHOLE, (12, 12), starts, 200, True, one) for one in levels)
-    half = visits(state.poincare, WHOLE, (12, 12), starts[::2], 400, True, PRECISE)
-    apart, noise = (np.abs(fine.counts.astype(float) - other.counts).sum() for other in (draft, half))
-    assert apart < 1.5 * noise < 0.2 * fine.points
-    assert max(draft.drift.values()) < 2.0 * np.pi / 512
 
 
 @pytest.mark.parametrize("name", ["suslov", "ball-section", "quartic", "euler-poisson"])

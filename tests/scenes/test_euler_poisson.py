@@ -115,17 +115,6 @@ def test_rotation_numbers_are_those_of_3000_points(preset):
             assert remainder(rho[i] - exact, 1.0) == approx(0.0, abs=3e-4)
 
 
-def test_an_orbit_between_two_gaps_is_seen_too():
-    """A line of one point is none: every number that the caption speaks of is a point as well."""
-    view = EulerPoisson({**values_of(EP, "Figure 13 d"), "orbits": 0.0}, seen={"rotation"})
-    low, high = view.numbers("rotation", "From # to #")
-    lines, points = view.data["rotation-rho"], view.data["rotation-orbits"]
-    assert any(len(line) == 1 for line in lines["ys"])
-    for axis in "xy":
-        assert points[axis].tolist() == [value for line in lines[f"{axis}s"] for value in line]
-    assert (points["y"].min(), points["y"].max()) == approx((low, high), abs=1e-4)
-
-
 def test_at_the_meandering_torus_the_rotation_number_turns_round_at_an_eighth():
     view = EulerPoisson({**EP.presets[1].values, "orbits": 0.0}, seen={"rotation"})
     *_, rho, place = view.numbers("rotation", "No twist where ρ has an extremum. ρ from # to #, extremum # at #.")
@@ -300,22 +289,6 @@ def test_the_rotation_picture_says_of_all_the_line_what_its_orbits_are():
     ]
     assert exponents[0] > 0.2
     assert exponents[1] < 0.05
-
-
-@pytest.mark.parametrize(
-    "seen, expected",
-    [
-        (set(), set()),
-        ({"section"}, {"_batch", "_stage"}),
-        ({"rotation"}, {"_batch"}),
-        ({"exponent"}, {"lyapunov_exponent"}),
-        ({"sphere"}, set()),
-    ],
-)
-def test_what_is_not_seen_is_not_left_to_do(seen, expected):
-    work = EP.compute({**EP.defaults(), "h": 33.3, "orbits": 8.0}, seen, False).work
-    assert {task.function.__name__ for task in work.todo} == expected
-    assert work.pieces == len(work.todo)
 
 
 SECOND_SERIES = [one for one in EP.presets if one.name.startswith("Figure 14")]

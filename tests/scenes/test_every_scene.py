@@ -4,7 +4,7 @@ import json
 import re
 import time
 from itertools import permutations
-from math import hypot, inf, log10, nan, pi
+from math import inf, log10, nan, pi
 from xml.etree import ElementTree
 
 import numpy as np
@@ -200,20 +200,6 @@ def test_the_player_and_the_sphere_find_their_columns(scene):
     assert len({len(column) for column in orbit.values()}) == 1
     for track in (track for one in description(scene.name)["pictures"] for track in one.get("tracks", ())):
         assert {"g1", "g2", "g3"} <= set(board.sources[track])
-
-
-@every_scene
-def test_a_scene_that_looks_into_another_one_has_its_parameters(scene):
-    if scene.origin is None:
-        looking = [one for one in SCENES.values() if one.origin == scene.name]
-        assert len(looking) == bool(scene.trials)
-        return
-    origin = SCENES[scene.origin]
-    own = scene.specs[len(origin.specs) :]
-    assert (scene.specs[: len(origin.specs)], scene.presets) == (origin.specs, origin.presets)
-    kinds = tuple(trial.kind for trial in origin.trials)
-    assert [spec.options for spec in own] == ([kinds] if len(kinds) > 1 else [])
-    assert not scene.has_motion
 
 
 @every_scene
@@ -428,39 +414,20 @@ def test_the_errors_of_every_admissible_state_are_computed_and_drawn_too(data):
 
 FEW = {"orbits": 4.0, "count": 20.0, "long": 20.0, "span": 5.0}
 """For what does not depend on how much is shown."""
-EXTREME = {
-    "ball-section": [
-        {"h": 1e-3, "psi": 3.1},
-        {"b1": 0.0, "b2": 0.0, "b3": 0.0, "I13": 0.3},
-        {"I11": 100.0, "I22": 0.01},
-        {"I13": 20.0, "I23": -20.0},
-        {"count": 1.0, "drop": "the later half"},
-    ],
-    "rotation-number": [
-        {"a": 100.0, "f": 0.5},
-        {"h": 1e6, "f": 1.0},
-        {"h": -1.0 + 1e-9, "f": 0.0},
-        {"a": 0.0, "f": 0.0},
-    ],
-    "suslov": [
-        {"b1": 0.0, "b2": 0.0, "b3": 0.0},
-        {"b1": 1e3, "b2": 0.0, "b3": 0.0, "h": 1e3},
-        {"h": 1e6},
-        {"I11": 1e-3},
-        {"b1": 1e-6, "b2": 1e-6, "b3": 0.0, "h": 1e-6},
-    ],
-    "euler-poisson": [
-        {"m": 0.0, "f": 0.0},
-        {"h": 1e5},
-        {"away": pi},
-        {"orbits": 0.0, "count": 2.0, "long": 1.0, "span": 0.01},
-    ],
-}
+EXTREME = [
+    ("ball-section", {"h": 1e-3, "psi": 3.1}),
+    ("ball-section", {"I11": 100.0, "I22": 0.01}),
+    ("ball-section", {"count": 1.0, "drop": "the later half"}),
+    ("rotation-number", {"h": 1e6, "f": 1.0}),
+    ("rotation-number", {"a": 0.0, "f": 0.0}),
+    ("suslov", {"b1": 1e3, "b2": 0.0, "b3": 0.0, "h": 1e3}),
+    ("suslov", {"I11": 1e-3}),
+    ("euler-poisson", {"m": 0.0, "f": 0.0}),
+    ("euler-poisson", {"away": pi}),
+]
 
 
-@pytest.mark.parametrize(
-    "name, values", sample([(name, values) for name, all_ in EXTREME.items() for values in all_], 9), ids=str
-)
+@pytest.mark.parametrize("name, values", EXTREME, ids=str)
 def test_extreme_values_are_shown(name, values):
     scene = SCENES[name]
     few = {key: value for key, value in FEW.items() if key in scene.defaults()}
@@ -478,15 +445,11 @@ REFUSED = [
     ("scattering", {"digits": 0.5, "k": -1.2, "I22": 0.5, "I23": 0.4}, "distance 0.316.*up to 0.28"),
     ("suslov", {"h": 0.895, "starts": "-2.356,1", "window": "-2.5,1;-2.2,2"}, "in this window .* press Clear"),
     ("quartic", {"b3": 0.0}, "Choose b3"),
-    ("quartic", {"h": -1.5}, "choose h above"),
     ("chaplygin-ball", {"I13": 0.0, "I23": 0.0}, "I13 = I23 = 0: there is no line of equilibria"),
-    ("euler-poisson", {"I2": 2.0}, "I2 = 2 must lie between I1 = 1 and I3 = 0.375"),
     ("euler-poisson", {"h": -20.0}, "here with h = -20 and f = 5: choose a larger h, a smaller .f., or press Clear"),
     ("euler-poisson", {"f": 500.0}, "Nothing is possible here"),
     ("loxodrome", {"I2": 1.0, "I3": 1.0}, "which differ"),
     ("loxodrome", {"m": -0.5}, "choose μ > 0"),
-    ("loxodrome", {"energy": -1.0}, "lowest energy"),
-    ("loxodrome", {"l": 0.0}, "no track"),
 ]
 
 
@@ -508,36 +471,6 @@ def test_at_the_separatrix_and_far_from_it_the_slow_methods_run_without_a_warnin
     ):
         values = {**ACCURACY.defaults(), **change}
         assert_drawn(ACCURACY, values, ACCURACY.pictures, False)
-
-
-def test_on_the_separatrix_only_the_circle_map_is_silent():
-    board, report = shown(HESS, {**HESS.defaults(), **values_of(HESS, "Separatrix")})
-    data = board.sources
-    assert flat(data["circle-message"]["text"]) == ["Separatrix: no return"]
-    assert flat(list(data["circle-map"].values())) == []
-    assert "no return" in board.captions["circle"]
-    assert "no return" in report.status
-    # The others go on: an orbit that loses its speed on the way to the upper equilibrium n3 = −1, w = 0.
-    orbit = data["data-orbit"]
-    assert len(orbit["t"]) > 50
-    assert hypot(orbit["omega1"][0], orbit["omega2"][0]) > 1.9
-    assert hypot(orbit["omega1"][-1], orbit["omega2"][-1]) < 1e-3
-
-
-# Label of the paper, and the equation as it must be and as it was printed.
-CORRECTIONS = [
-    (r"h=\(1-3n_3\^2\)/\(2n_3\)", r"3n_3\^3"),
-    (r"b=-b_3\(I_\{22\}\^2\+I_\{23\}\^2\)\^\{-1/2\}", r"b=-m"),
-    (r"w_2=\\omega_2\(1\+a\^2\)\^\{-1/2\}", r"w_2=\\omega_1"),
-    (r"\$E\$ and \$F_2\$ are those of the Suslov problem divided by \$I_\{11\}\$", r"multiplied by"),
-    (r"\|a\|\\ge1", r"\|a\|\\ge2"),
-]
-
-
-def test_the_words_give_the_corrected_equations():
-    for correct, printed in CORRECTIONS:
-        assert re.search(correct, HESS.words)
-        assert not re.search(printed, HESS.words)
 
 
 def test_a_body_that_is_none_is_shown_and_said():
@@ -601,15 +534,6 @@ def test_controls_wait_while_a_slider_is_held_and_follow_when_it_is_let_go():
     browser.ask(2)
     assert browser.controls["h"][0] == 0.5
     assert browser.controls["f"][2] <= f_max(0.5)
-
-
-def test_two_sessions_share_nothing_but_results():
-    one, other = Browser(HESS), Browser(HESS)
-    one.ask(values={"h": 0.3})
-    other.ask()
-    assert other.session.values == HESS.defaults()
-    assert other.state["tree"]["sources"] == {}
-    assert flat(other.data["bifurcation-here"]["h"]) == [1.5]
 
 
 # --- Sessions: from one scene to another -------------------------------------------------------------
@@ -736,12 +660,6 @@ def test_a_number_goes_along_to_another_scene_where_it_means_the_same_and_there_
         taken = scene.taken_over(scene.defaults(), before, {**before.defaults(), name: value})
         goes = frozenset((before.name, scene.name)) in together
         assert taken == ({**scene.defaults(), name: value} if goes else scene.defaults()), (before.name, scene.name)
-
-
-def test_a_number_that_is_not_possible_there_does_not_go_along():
-    # b₃ = 0.7 of the general body is none of the Suslov–Hess case, where b₃ < 0.
-    taken = HESS.taken_over(HESS.defaults(), SCENES["suslov"], {**SCENES["suslov"].defaults(), "b3": 0.5, "I22": 1.0})
-    assert taken == {**HESS.defaults(), "I22": 1.0}
 
 
 @pytest.mark.parametrize("scene", OWN, ids=lambda scene: scene.name)

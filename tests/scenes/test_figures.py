@@ -88,6 +88,16 @@ def test_the_values_are_those_of_the_captions():
             gamma / np.linalg.norm(gamma), abs=5e-5
         )
     assert [(one["w1"], one["w2"]) for one in values_of(3)] == [(2.0, 1e-3)] * 3 + [(3.0, -2.001)] * 2
+    *upright, slanting, printed = (
+        [gamma_at(one, math.acos(one["Gamma"]), one[name]) for name in ("phi", "phi2")] for one in values_of(3)
+    )
+    for found in upright:
+        for start, given in zip(found, ((-0.44, 0.28, 0.85), (-0.44, 0.72, 0.53)), strict=True):
+            assert start == approx(given / np.linalg.norm(given), abs=3e-3)
+    # Both on one circle to all digits that are printed, one of them corrected, as −0.49 is off that circle.
+    assert slanting == [approx(given, abs=0.0051) for given in ((-0.88, -0.48, 0.0), (-0.39, 0.26, 0.88))]
+    given = (-0.49, 0.26, 0.88)
+    assert printed[0] == approx(given / np.linalg.norm(given), abs=1e-4)
     (fourth,) = values_of(4)
     assert (*tensor_of(fourth), fourth["theta"]) == approx((3.56, 1.0, 0.0, 0.8, 0.5 * math.pi))
     for number in (8, 9, 10):

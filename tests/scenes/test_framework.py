@@ -1,15 +1,13 @@
-"""Parts of a scene: shared parameters, required members, a scene that studies another one."""
+"""Parts of a scene: shared parameters, a scene that studies another one."""
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, get_args, get_origin
 
 import numpy as np
 import pytest
 
 from hess_explorer.scenes.framework.parameters import accuracy_level, like, number, specs_of
-from hess_explorer.scenes.framework.part import Part
 from hess_explorer.scenes.framework.scene import Motion, Scene, State
 from hess_explorer.scenes.speed_accuracy import speed_and_accuracy
 from hess_mechanics import systems
@@ -47,31 +45,6 @@ def test_a_parameter_that_is_declared_again_keeps_its_place_and_what_is_not_chan
     )
     assert Mixed().second == 2.5
     assert Base().second == specs_of(Base)[1].default == 2.0
-
-
-def protocol_of(part):
-    """The protocol that a part names for its host."""
-    base = next(base for base in type(part).__orig_bases__ if get_origin(base) is Part)
-    return get_args(base)[0]
-
-
-COMPOSED = [name for name, scene in SCENES.items() if scene.of(scene.defaults()).parts()]
-
-
-@pytest.mark.parametrize("name", COMPOSED)
-def test_each_host_has_all_that_its_parts_ask_of_it(name):
-    scene = SCENES[name]
-    for part in scene.of(scene.defaults()).parts():
-        needed = {
-            member
-            for base in protocol_of(part).__mro__
-            if Protocol in base.__bases__
-            for member in vars(base)
-            if not member.startswith("_")
-        }
-        assert "work" in needed
-        there = set(dir(type(part.host))) | {one.name for one in fields(part.host)}
-        assert needed <= there, (part, needed - there)
 
 
 @dataclass(frozen=True)

@@ -23,14 +23,13 @@ from support.free_suslov import (
     cos_chi_on_an_axis,
     ends,
     energy,
-    gamma_at,
     integrate,
     rate_of,
     shown,
     start_of,
     tensor_of,
 )
-from support.view import NUMBER, View, example
+from support.view import View, example
 
 every_free = pytest.mark.parametrize("preset", FREE.presets, ids=lambda preset: preset.name)
 every_scattering = pytest.mark.parametrize("preset", SCATTERING.presets, ids=lambda preset: preset.name)
@@ -161,24 +160,6 @@ def test_without_F2_two_phases_join_two_circles(name):
     assert (view.values["I13"] != 0.0) == ("I₁₃ ≠ 0" in name)
 
 
-@pytest.mark.parametrize("k", [1, 7, 15])
-def test_the_slider_of_k_meets_F2_at_every_odd_k_up_to_15(k):
-    view = View(FREE, {"k": float(k), "accuracy": "precise"})
-    assert f"F₂, degree {k} in ω" in " ".join(view.report.derived)
-    assert view.result.orbit.drift["F2"] < 1e-9
-    # Γ = ±f/f±: C⁺ and C⁻ are mirrored.
-    came, went = view.result.orbit.limits
-    assert went == approx(-came, abs=1e-9)
-    f, top = (
-        float(re.search(pattern, " ".join(view.report.derived))[1].replace("−", "-"))
-        for pattern in (rf"f = {NUMBER}", rf"fixed points: ±{NUMBER}")
-    )
-    assert abs(f) / top == approx(abs(came), rel=1e-3)
-    near = View(FREE, {"k": k + 0.05})
-    assert "none known" in " ".join(near.report.derived)
-    assert "F2" not in near.report.status
-
-
 PORTRAITS = [preset for preset in FREE.presets if preset.name.startswith("Portrait")]
 
 
@@ -210,30 +191,6 @@ def test_a_portrait_has_the_signs_of_its_name_and_arrows_along_the_flow(preset):
             energies.add(round(energy(view.values, (w1, w2)), 6))
         # One on each side of the line, for every ellipse.
         assert len(energies) == count // 2
-
-
-STARTS = {"I₁₃ = 0": ((-0.44, 0.28, 0.85), (-0.44, 0.72, 0.53)), "d": ((-0.88, -0.48, 0.0), (-0.49, 0.26, 0.88))}
-"""γ(0) of both orbits in the caption of figure 3, as printed."""
-READ = np.array([0.1, 0.0, 0.0])
-"""Correction of γ(0) of the second orbit of d."""
-
-
-@pytest.mark.parametrize(
-    "preset", [one for one in FREE.presets if one.name.endswith("(figure 3)")], ids=lambda preset: preset.name
-)
-def test_figure_3_has_the_starts_of_its_caption(preset):
-    values = {**FREE.defaults(), **preset.values}
-    slanting = values["I13"] != 0.0
-    assert (values["w1"], values["w2"]) == ((3.0, -2.001) if slanting else (2.0, 1e-3))
-    found = [gamma_at(values, acos(values["Gamma"]), values[name]) for name in ("phi", "phi2")]
-    first, second = map(np.array, STARTS["d" if slanting else "I₁₃ = 0"])
-    if not slanting:
-        assert found == [approx(one / np.linalg.norm(one), abs=3e-3) for one in (first, second)]
-    elif "as printed" in preset.name:
-        assert found[0] == approx(second / np.linalg.norm(second), abs=1e-4)
-    else:
-        # Both on one circle to all digits that are printed, one of them corrected.
-        assert found == [approx(one, abs=0.0051) for one in (first, second + READ)]
 
 
 def test_a_passage_beyond_the_time_span_is_announced_where_it_comes():

@@ -52,12 +52,6 @@ def test_cells_that_are_called_chaotic_have_that_exponent_and_the_regular_ones_n
             assert rate < 6.0 / t
 
 
-def test_integrable_examples_are_regular_all_over():
-    for name, beginning in (("quartic", "Integrable: "), ("ball-section", "Regular")):
-        kinds = shown(name, **values_of(SCENES[name], beginning)).result.megno.kinds
-        assert set(np.unique(kinds)) <= {-1.0, 0.0}
-
-
 def test_coarse_cells_come_first_and_a_slider_that_is_held_has_none():
     # Cells that nobody has asked for before.
     values = {**FEW, "count": 30.0, "h": 0.8123}

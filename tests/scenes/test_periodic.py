@@ -266,7 +266,3 @@ def test_a_curve_goes_round_an_angle():
         inner = part[1:-1, 0]
         assert np.all((inner >= -pi) & (inner <= pi))
     assert sum(map(len, parts)) >= len(curve)
-    # Lines in coordinates that are not angles are only clipped.
-    (part,) = within(curve, inf, axes)
-    assert part[-1, 0] > pi > part[-2, 0]
-    assert within(curve + np.array([100.0, 0.0]), inf, axes) == []

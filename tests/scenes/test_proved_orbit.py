@@ -11,7 +11,7 @@ import pytest
 import oracle
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.parts.proof import hull, judged
+from hess_explorer.scenes.parts.proof import judged
 from hess_mechanics import circle_map, level
 from hess_mechanics.suslov_hess.equations import SYSTEM
 from support.thorough import sample
@@ -142,12 +142,3 @@ def test_nothing_is_proved_in_a_drag_or_unasked(monkeypatch):
     view = shown(HESS, {"h": 1.43})
     assert "proofs need python-flint: pip install 'hess-explorer[prove]'" in view.report.status
     assert not tasks(view)
-
-
-def test_a_hull_is_convex_closed_and_holds_its_points():
-    rng = np.random.default_rng(1)
-    points = rng.normal(size=(50, 2))
-    found = hull(points)
-    assert found[0].tolist() == found[-1].tolist()
-    assert all(inside(point, found) for point in points)
-    assert {tuple(corner) for corner in found} <= {tuple(point) for point in points}

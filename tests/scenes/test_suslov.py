@@ -11,11 +11,10 @@ import pytest
 from pytest import approx
 from scipy.integrate import solve_ivp
 
-from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes import scenes
 from hess_explorer.views.section_plane import joined
-from hess_mechanics import SuslovBody, solve
+from hess_mechanics import SuslovBody
 from hess_mechanics.numerics.accuracy import REFERENCE
 from support.free_suslov import shown
 from support.mechanics import followed
@@ -165,26 +164,6 @@ def test_the_shares_in_the_caption_are_those_of_the_basins():
         assert (orbit[-60:, 0].mean() > 0.0) == (found.number[row, i] == 0)
 
 
-def test_basins_come_coarse_at_first_and_their_boundary_finer_to_the_pixel():
-    values = {**example(TWO).values, **FEW, "accuracy": "draft", "window": "-3.1,2;-1,3.1"}
-    seen, pieces = {}, 0
-    while True:
-        view = View(SCENE, values, seen=("section",), whole=False)
-        task = next((task for task in view.report.todo if task.function.__name__ == "_piece"), None)
-        if view.result.basins.found is not None:
-            seen[view.result.basins.stage] = view.result.basins.found.number
-        assert ("So far" in view.text["section"]) == (task is not None and len(seen) > 0)
-        if task is None:
-            break
-        assert "basins 256" not in view.report.status
-        CACHE.get(task.function, *task.arguments)
-        pieces += 1
-    assert pieces == 12
-    assert [len(cells) for cells in seen.values()] == [8, 16, 32, 64, 128, 256]
-    for coarse, fine in zip(seen.values(), [*seen.values()][1:], strict=False):
-        assert np.mean(np.kron(coarse, np.ones((2, 2))) != fine) < 4.0 / len(coarse)
-
-
 def test_a_saddle_bounds_the_basins_and_its_manifold_runs_between_their_cells():
     view = example(TWO)
     (saddle,) = view.result.basins.saddles
@@ -205,16 +184,6 @@ def test_a_saddle_bounds_the_basins_and_its_manifold_runs_between_their_cells():
         # At its end a tongue of the basin is narrower than a pixel.
         assert np.mean(np.ptp(around, axis=0) == 1) > 0.95
     assert sum(branch.length for branch in view.result.basins.manifolds) > 9.0
-
-
-@pytest.mark.parametrize(("colours", "message"), [("basins", ""), ("forward only", "None of the points lies")])
-def test_a_window_of_basins_is_not_empty_without_points(colours, message):
-    values = {**example(TWO).values, **FEW, "indicator": "nothing", "accuracy": "draft", "starts": "0.2446,2.3992"}
-    view = View(SCENE, {**values, "colours": colours, "window": "-1,2;-0.99,2.01"}, seen=("section",))
-    assert view.report.todo == ()
-    said = view.result.section.nothing_seen()
-    assert said.startswith(message)
-    assert bool(said) == bool(message)
 
 
 def test_where_volume_is_kept_no_attractor_is_claimed():
@@ -273,12 +242,6 @@ def test_the_later_half_are_the_later_points():
     assert np.array_equal(half, whole.reshape(4, 20, 2)[:, 10:].reshape(-1, 2))
 
 
-def test_without_orbits_only_the_chosen_one_is_shown():
-    view = View(SCENE, {**FEW, "orbits": 0.0}, seen=("section",))
-    assert len(view.points("first")) == 0
-    assert len(view.points("own")) == 20
-
-
 def test_a_click_adds_an_orbit_and_a_box_is_the_window():
     view = View(SCENE, FEW)
     assert places(view.stage.pick("section", 0.3, 2.0)["starts"]) == [(1.0, 1.0), (0.3, 2.0)]
@@ -335,15 +298,6 @@ def test_an_energy_that_does_not_reach_the_plane_is_raised_and_shown(plane, h):
         assert bottom < view.values["h"] < 1.02 * bottom
     view.assert_finite()
     assert len(view.points("first")) > 1
-
-
-def test_the_motion_of_the_scene_is_the_chosen_orbit():
-    view = example(STRANGE)
-    motion = SCENE.of(view.values).motion()
-    assert motion.state == approx(tuple(start_of(view)), abs=1e-12)
-    states = solve(motion, motion.state, [motion.span], REFERENCE).states
-    assert energy(body_of(view), states[0]) == approx(energy_of(view), abs=1e-12)
-    assert len(motion.weights) == 5
 
 
 def test_on_a_principal_axis_both_times_and_the_brackets_are_drawn():

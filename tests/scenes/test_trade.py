@@ -18,11 +18,10 @@ from hess_explorer.scenes.framework.work import AUTO
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Computation
 from hess_mechanics.suslov_hess.rotation_number import values_at
-from support.board import Browser
 from support.thorough import sample
 
 SCENES = {name: scene for name, scene in scenes().items() if scene.origin is None}
-SUSLOV, QUARTIC = SCENES["suslov"], SCENES["quartic"]
+SUSLOV = SCENES["suslov"]
 SMALL = {"orbits": 12.0, "count": 120.0, "long": 50.0}
 
 
@@ -64,14 +63,6 @@ def test_a_finer_level_has_a_smaller_error(name, trial):
 # ---- sections ---------------------------------------------------------------------------------------------------
 
 
-def test_a_draft_follows_orbits_for_a_quarter_of_the_crossings():
-    counts = {}
-    for name in ("draft", "standard", "reference"):
-        state, _ = completed(SUSLOV, {**SMALL, "accuracy": name}, ("section",))
-        counts[name] = len(state.section.own)
-    assert counts == {"draft": 30, "standard": 120, "reference": 120}
-
-
 @pytest.mark.parametrize("name", ["draft", "precise"])
 def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_drawn(name):
     state, report = completed(SUSLOV, {**SMALL, "accuracy": name}, ("section",))
@@ -88,11 +79,6 @@ def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_draw
     # The estimate of two runs: one crossing more or less.
     assert abs(int(np.flatnonzero(pixels > 0.5)[0]) - own) <= 1
     assert 3 < others < 60
-
-
-def test_a_regular_orbit_is_right_to_the_end():
-    _, report = completed(QUARTIC, {"ratio": 1.0, "h": 0.6}, ("section",))
-    assert "right to ½ pixel: the chosen orbit to the end, others to the end (median)" in report.status
 
 
 def test_orbits_that_chaos_takes_away_are_left_aside():
@@ -258,20 +244,3 @@ def test_what_is_compared_is_one_of_the_kinds_the_costliest_at_first():
     # A scene that computes only its motion has no such pictures.
     motion = scenes()["kharlamova-accuracy"]
     assert ("difference" in motion.defaults(), "trade" in motion.pictures) == (False, False)
-
-
-def test_what_was_compared_is_remembered_when_one_comes_back():
-    study = scenes()["rotation-number-accuracy"]
-    browser, hidden = Browser(study), list({*study.pictures, *study.other.pictures})
-    browser.ask(1, values={"difference": "line", "accuracy": "draft"}, hidden=hidden)
-    browser.ask(2, scene="rotation-number", hidden=hidden)
-    browser.ask(3, values={"h": 1.25}, hidden=hidden)
-    browser.ask(4, scene="rotation-number-accuracy", hidden=hidden)
-    assert {name: browser.session.values[name] for name in ("difference", "accuracy", "h")} == {
-        "difference": "line",
-        "accuracy": "draft",
-        "h": 1.25,
-    }
-
-
-# ---- tables -----------------------------------------------------------------------------------------------------
