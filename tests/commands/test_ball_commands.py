@@ -27,15 +27,6 @@ def test_section_of_the_ball(answer):
     assert np.array(found["y"]) == approx(states, abs=1e-7)
 
 
-def test_without_an_inner_ball_the_exponent_is_that_of_the_suslov_problem(answer):
-    rest = typed("--I 1.5,3,0.4,0.4 --b=-0.5,-0.5,0.7 --omega 0.4,0.6 --gamma 0.6,0,0.8 --t 20")
-    ball, suslov = answer("lyapunov", "ball", "--D", "0", *rest), answer("lyapunov", "suslov", *rest)
-    assert ball["exponent"] == approx(suslov["exponent"], abs=1e-6)
-
-
-# ---- the period -------------------------------------------------------------------------------------------------
-
-
 # ---- clouds -----------------------------------------------------------------------------------------------------
 
 

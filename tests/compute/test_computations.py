@@ -31,7 +31,6 @@ from support.board import (
 )
 from support.thorough import sample
 
-every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 some_scenes = pytest.mark.parametrize("scene", sample(SCENES.values(), 5), ids=lambda scene: scene.name)
 
 # By the names of the functions.
@@ -109,7 +108,6 @@ def ids(some):
 
 
 every_subset = pytest.mark.parametrize("seen", subsets(HESS.pictures), ids=ids)
-every_subset_of_the_study = pytest.mark.parametrize("seen", subsets(ACCURACY.pictures), ids=ids)
 
 
 def needed(seen):
@@ -120,13 +118,6 @@ def needed(seen):
         | ({CYCLES} if seen & {"omega", "sphere", "surface"} else set())
         | (ZONES if "bifurcation" in seen else set())
     )
-
-
-NOT_OVER_TIME = {"precision", "trade", "difference"}
-
-
-def needed_for_study(seen):
-    return ({LEVELS, OTHERS} if "precision" in seen else set()) | ({GROWTH} if seen - NOT_OVER_TIME else set())
 
 
 def compute(scene, values, seen=None, dragging=False):
@@ -256,16 +247,6 @@ def test_pictures_that_come_into_sight_compute_just_what_they_need(cache, seen):
     assert cache.take() == set()
 
 
-@every_subset
-def test_hiding_a_picture_computes_nothing_until_something_changes(cache, seen):
-    browser = Browser(HESS)
-    browser.ask(1, hidden=[])
-    before = cache.hits, cache.misses
-    state = browser.ask(2, hidden=[name for name in HESS.pictures if name not in seen])
-    assert (cache.hits, cache.misses) == before
-    assert state["tree"]["sources"] == {}
-
-
 def test_what_a_change_leaves_as_it_was_is_not_sent_again(cache):
     browser = Browser(HESS)
     browser.ask(1, values={"span": 41.0})
@@ -316,39 +297,6 @@ def test_what_was_hidden_is_of_the_present_state_when_it_is_seen_again(scene, va
 # --- Speed and accuracy ------------------------------------------------------------------------------------
 
 
-STUDY_CHANGES = [
-    ({"h": 1.45}, STUDY),
-    ({"phi0": 0.51}, STUDY),
-    ({"span": 5.0}, STUDY),
-    # All levels are measured in any case.
-    ({"accuracy": "reference"}, set()),
-    # So long that SciPy's methods are left out.
-    ({"span": 90.0}, {LEVELS, GROWTH}),
-]
-
-
-@pytest.mark.parametrize("change, expected", STUDY_CHANGES, ids=[str(change) for change, _ in STUDY_CHANGES])
-def test_a_change_measures_the_motion_anew_where_it_is_another_one(cache, change, expected):
-    browser = Browser(ACCURACY, SHORT)
-    cache.take()
-    browser.ask(1, values=change)
-    assert cache.take() == expected
-    browser.ask(2, values=SHORT)
-    assert cache.take() == set()
-
-
-@every_subset_of_the_study
-def test_charts_that_come_into_sight_measure_just_what_they_need(cache, seen):
-    browser = Browser(ACCURACY, SHORT)
-    hidden = [name for name in ACCURACY.pictures if name not in seen]
-    browser.ask(1, hidden=hidden)
-    cache.take()
-    browser.ask(2, hidden=hidden, values={"h": 1.25})
-    assert cache.take() == needed_for_study(seen)
-    browser.ask(3, hidden=[])
-    assert cache.take() == STUDY - needed_for_study(seen)
-
-
 def test_while_dragging_scipy_never_runs_and_when_let_go_it_does(cache, monkeypatch):
     def refuse(*_, **__):
         pytest.fail("SciPy ran under a drag")
@@ -396,27 +344,6 @@ def test_a_new_scene_is_computed_whole_whatever_was_hidden_in_the_old_one(cache)
     assert cache.take() == {LEVELS, OTHERS}
 
 
-@pytest.mark.parametrize(
-    "hidden",
-    [
-        ["nobody", None, True, ["bifurcation"], {"bifurcation": 1}, "bifurcation ", "BIFURCATION"],
-        "bifurcation",
-        {"bifurcation": True},
-        10**400,
-    ],
-    ids=repr,
-)
-def test_what_names_no_picture_hides_none(cache, hidden):
-    browser = Browser(HESS)
-    browser.ask(1, hidden=hidden)
-    cache.take()
-    state = browser.ask(2, hidden=hidden, values={"I23": 0.3})
-    assert state["answers"] == 2
-    # A list says what is in sight, the body too; what is none leaves it folded.
-    seen = HESS.pictures if isinstance(hidden, list) else HESS.open_pictures
-    assert cache.take() == needed(set(seen)) - {CURVE}
-
-
 def test_all_hidden_the_state_still_follows_and_is_said(cache):
     browser = Browser(HESS)
     browser.ask(1, hidden=list(HESS.pictures))
@@ -430,16 +357,6 @@ def test_all_hidden_the_state_still_follows_and_is_said(cache):
     assert cache.take() == {TRACK, CYCLES}
     assert "h = 1.25" in browser.texts["bifurcation"]
     assert np.all(browser.data["data-orbit"]["h"] == np.float32(1.25))
-
-
-def test_a_state_asks_the_cache_for_each_of_its_parts_once(cache):
-    browser = Browser(HESS)
-    for requested, values in enumerate(({}, {"h": 1.25}, {"h": 1.5}, {"I23": 0.3}), 1):
-        browser.ask(requested, values=values)
-    # First view, then h, back, I23: six questions each.
-    assert (cache.hits, cache.misses) == (3 + 6 + 1, 6 + 3 + 0 + 5)
-    counted = cache.metrics()
-    assert [counted[f"cache_{name}"] for name in ("hits", "misses", "entries")] == [10, 14, 14]
 
 
 def test_warming_up_computes_the_first_state_of_every_scene(cache, monkeypatch):

@@ -7,7 +7,6 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-import xarray as xr
 
 from hess_explorer.sweep import QUANTITIES, Interrupted, OtherSweep, StoreError, read, sweep, work
 from hess_explorer.sweep import run as running
@@ -104,16 +103,6 @@ def test_what_is_left_of_a_store_that_was_killed_when_it_was_made_does_no_harm(t
     found = tori(store=tmp_path / "rho.zarr")
     assert (found.status.values > 0).all()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["rho.zarr", "rho.zarr.begun-0"]
-
-
-def test_a_store_opens_with_xarray_without_a_warning_as_it_was_in_memory(tmp_path):
-    in_memory = sweep("limit-cycles", CYCLES, a=0.5)
-    sweep("limit-cycles", CYCLES, a=0.5, store=tmp_path / "found.zarr")
-    # A warning is an error here.
-    with xr.open_zarr(tmp_path / "found.zarr") as found:
-        assert found.identical(in_memory)
-        assert [*found.variables] == [*in_memory.variables]
-        assert [*found.attrs.items()] == [*in_memory.attrs.items()]
 
 
 def test_a_hundred_thousand_pieces_are_few_files():

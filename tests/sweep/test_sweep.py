@@ -129,9 +129,9 @@ def test_the_first_ctrl_c_lets_the_piece_end_and_the_handler_is_what_it_was(in_p
 
 WRONG = [
     (("speed", {"h": [1.0]}, {}), "There is no quantity 'speed'; choose from rotation-number"),
-    (("rotation-number", {}, {}), "one to 3 parameters, not 0"),
     (("rotation-number", {"h": [1.0], "f": [0.1]}, {"h": 1.0, "a": 0.5}), "h is both swept and fixed"),
     (("rotation-number", {"h": (0.0, 1.0, 1)}, {"a": 0.5, "f": 0.1}), "has 1 values: choose 2 or more"),
+    (("rotation-number", {}, {}), "one to 3 parameters, not 0"),
     (("rotation-number", {"h": ["x"]}, {"a": 0.5, "f": 0.1}), "must all be numbers"),
     (("rotation-number", {"h": [1.0, 1.0]}, {"a": 0.5, "f": 0.1}), "occurs twice"),
     (("rotation-number", {"h": [np.nan]}, {"a": 0.5, "f": 0.1}), "h = nan is not between"),

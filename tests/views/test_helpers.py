@@ -1,21 +1,15 @@
 """Layers and words that several scenes share."""
 
-import threading
 from math import pi, remainder
 from types import SimpleNamespace
 
-import numba
 import numpy as np
 import pytest
 
 from hess_explorer.scenes.framework import work
-from hess_explorer.views import circle_map, section_plane
+from hess_explorer.views import section_plane
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.text import ranging, with_error
-from hess_mechanics import level
-from hess_mechanics.numerics.jit import seconds_compiling
-from hess_mechanics.suslov_hess.circle_map import CircleMap
-from hess_mechanics.suslov_hess.circle_map import circle_map as computed
 
 
 def test_a_range_that_is_one_number_is_said_to_be_that():
@@ -48,17 +42,6 @@ def test_time_for_compiling_is_said_apart(monkeypatch):
     assert one.ended() == "10.5 s to compile, once · 6.0 ms, cached"
 
 
-def test_the_clock_of_compiling_runs_for_the_thread_that_compiles():
-    before = seconds_compiling()
-    numba.njit(lambda x: x + 1.25)(2.0)
-    assert 0.0 < seconds_compiling() - before < 30.0
-    elsewhere = []
-    thread = threading.Thread(target=lambda: elsewhere.append(seconds_compiling()))
-    thread.start()
-    thread.join()
-    assert elsewhere == [0.0]
-
-
 def inside(point, curve):
     """Return whether a point lies in a convex closed curve (n, 2)."""
     steps, to_it = np.roll(curve, -1, axis=0) - curve, np.asarray(point) - curve
@@ -73,19 +56,3 @@ def test_a_band_of_angles_is_grey_also_where_it_goes_round(middle):
     for angle in np.linspace(-pi, pi, 101):
         expected = abs(remainder(angle - middle, 2.0 * pi)) < 0.5
         assert any(inside((angle, 0.5), part) for part in parts) == expected
-
-
-def test_the_circle_map_is_evaluated_once_for_all_states_that_show_it(monkeypatch):
-    calls = []
-    theta = CircleMap.theta
-    monkeypatch.setattr(CircleMap, "theta", lambda self, phi: calls.append(len(phi)) or theta(self, phi))
-    found = computed(0.5, 1.5, 0.6, level("draft"))
-    plot = circle_map.picture(
-        map=lambda state: found, iterates=lambda state: found.iterate(state, 90), caption=lambda state: ""
-    )
-    first, second = plot.data(0.5), plot.data(0.7)
-    assert len(calls) == 2  # at even φ, and at these with those of even Θ
-    assert np.array_equal(first["circle-map"]["ys"][0], second["circle-map"]["ys"][0])
-    assert not np.array_equal(first["circle-cobweb"]["phi"], second["circle-cobweb"]["phi"])
-    # No more than 60 returns are drawn.
-    assert len(first["circle-cobweb"]["phi"]) == 2 * 61 - 1
