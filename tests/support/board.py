@@ -11,7 +11,7 @@ from hess_explorer.lessons import shipped
 from hess_explorer.page.description import describe
 from hess_explorer.page.session import Session
 from hess_explorer.protocol.messages import Request, parse
-from hess_explorer.protocol.parameters import Number, Places, decode
+from hess_explorer.protocol.parameters import Formula, Number, Places, decode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework import work
@@ -272,7 +272,7 @@ class Browser:
             if isinstance(spec, Number):
                 assert isinstance(value, float)
                 assert spec.bounds[0] <= value <= spec.bounds[1]
-            elif isinstance(spec, Places):
+            elif isinstance(spec, Places | Formula):
                 assert spec.read(value) == (value, None)
             else:
                 assert value in spec.options

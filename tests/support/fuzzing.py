@@ -25,7 +25,7 @@ from hess_explorer.compute.budget import limited
 from hess_explorer.page.charts import Charts
 from hess_explorer.page.requested import linked
 from hess_explorer.protocol.messages import Answer, parse
-from hess_explorer.protocol.parameters import CLIENT, Choice, Link, Number, Places, written
+from hess_explorer.protocol.parameters import CLIENT, Choice, Formula, Link, Number, Places, written
 from hess_explorer.scenes import scenes
 from hess_explorer.sweep.chart import swept
 from hess_explorer.sweep.charting import FAILED
@@ -172,6 +172,8 @@ def _value(random, spec, wild=False):
         return repr(_number(random, spec, wild))
     if isinstance(spec, Choice):
         return random.choice(spec.options)
+    if isinstance(spec, Formula):
+        return random.choice(["", "g1", "0.5*g1^2 - g3", "g1^9"])
     assert isinstance(spec, Places)
     return written(
         [
