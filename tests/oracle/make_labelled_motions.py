@@ -1,6 +1,6 @@
 """Check the labels of "labelled_motions.json".
 
-Usage: `pip install heyoka; python tests/oracle/make_labelled_motions.py` (15 minutes).  Each row of the table names a
+Usage: `pip install heyoka; python tests/oracle/make_labelled_motions.py` (7 minutes).  Each row of the table names a
 motion of a section and its kind.  Equations and sections are those of the package; orbits, crossings and variational
 equations are Taylor series of heyoka at machine precision, and no kernel enters.  A kind is known by a theorem (an
 integrable case, the trace of a Möbius map) or by computation.  In the second case these indicators agree after T and
