@@ -67,6 +67,7 @@ interface RendererView {
   selection_glyph?: GlyphView
   nonselection_glyph?: GlyphView
   muted_glyph?: GlyphView
+  decimated_glyph?: GlyphView
   model: BokehModel
   all_indices: object
   ready: Promise<void>

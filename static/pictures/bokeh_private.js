@@ -5,7 +5,7 @@ const gestures = () => Bokeh.require?.("core/ui_gestures")?.UIGestures
 /** @param {unknown} value */
 const isMethod = (value) => typeof value === "function"
 
-const UNSEEN = /** @type {const} */ (["selection_glyph", "nonselection_glyph", "muted_glyph"])
+const UNSEEN = /** @type {const} */ (["selection_glyph", "nonselection_glyph", "muted_glyph", "decimated_glyph"])
 const FOLLOWING = /** @type {const} */ (["set_data", "set_visuals", "after_visuals", "after_lazy_visuals", "map_data"])
 
 // Name → test for its presence in a plot.
@@ -15,7 +15,7 @@ const NEEDED = {
   "GlyphRendererView.all_indices, GlyphView.set_visuals and after_visuals": (plot) => plot.computed_renderer_views
     .every(({ glyph, all_indices: indices }) => glyph === undefined
       || (indices !== undefined && isMethod(glyph.set_visuals) && isMethod(glyph.after_visuals))),
-  "GlyphRendererView.selection_glyph, nonselection_glyph and muted_glyph": (plot) => plot.computed_renderer_views
+  "GlyphRendererView.selection_glyph, nonselection_glyph, muted_glyph and decimated_glyph": (plot) => plot.computed_renderer_views
     .every((view) => view.glyph === undefined || UNSEEN.every((name) => FOLLOWING.every((step) => isMethod(view[name]?.[step])))),
   "RendererView.el": (plot) => plot.computed_renderer_views.every(({ el }) => el instanceof Element),
   "window.devicePixelRatio that can be replaced": () => (
@@ -65,8 +65,8 @@ export function removeStyled(plot) {
 }
 
 /**
- * Keep the glyphs for selected, other and muted points of each layer from following its data: nothing is selected or muted
- * on this page, and each costs as much as the glyph that is painted, except for its painting.
+ * Keep the glyphs for selected, other, muted and decimated points of each layer from following its data: no tool of Bokeh is
+ * on this page, so nobody sees them, and each costs as much as the glyph that is painted, except for its painting.
  * @param {PlotView} plot
  */
 export function spareUnseen(plot) {

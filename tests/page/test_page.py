@@ -271,7 +271,7 @@ def test_each_private_member_of_bokeh_that_is_not_there_is_named(explorer):
         ["UIGestures.press_threshold"],
         ["RendererView.el"],
         ["GlyphRendererView.all_indices, GlyphView.set_visuals and after_visuals"],
-        ["GlyphRendererView.selection_glyph, nonselection_glyph and muted_glyph"],
+        ["GlyphRendererView.selection_glyph, nonselection_glyph, muted_glyph and decimated_glyph"],
         [],
     ]
 
