@@ -5,15 +5,13 @@ import sys
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
-import numpy as np
 import pytest
 from pytest import approx
 
-import hess_explorer as hess
-from hess_mechanics import System
+import hess_explorer
 from support.view import View
 
-PACKAGE = Path(hess.__file__).parent
+PACKAGE = Path(hess_explorer.__file__).parent
 GUIDE = (PACKAGE / "docs/guides/scene.md").read_text(encoding="utf-8")
 
 
@@ -22,13 +20,6 @@ def test_the_scene_of_one_call_has_the_pictures_asked_for():
     found = {}
     exec(source, found)
     assert found["SCENE"].pictures == ("x-z", "t-x", "exponent")
-
-
-def test_a_rate_of_ones_own_system_may_be_a_plain_number():
-    falling = System("falling", lambda y, p: (y[1], -1), "x v", example=(0.0, 1.0))
-    orbit = hess.state(hess.scene(falling, ["x v"]), span=1.0).data("x-v").layer("orbit")
-    t = np.asarray(orbit["t"])
-    assert np.asarray(orbit["x"]) == approx(t - t**2 / 2, abs=1e-6)
 
 
 @pytest.fixture(scope="module")

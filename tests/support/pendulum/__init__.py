@@ -1,0 +1,1 @@
+"""A system and a scene from outside the package: the spherical pendulum."""
