@@ -160,6 +160,16 @@ def test_what_is_held_is_what_is_counted_and_never_exceeds_the_capacity(capacity
     assert cache.bytes == sum(size_of(last[key]) for key in held)
 
 
+def test_a_result_larger_than_the_cache_is_given_but_not_kept():
+    cache, function = ResultCache(10 * KILOBYTE), Counted()
+    cache.get(function, "small")
+    function.size = 20 * KILOBYTE
+    result, _ = cache.get(function, "large")
+    assert result.array.nbytes == 20 * KILOBYTE
+    assert cache.bytes <= 10 * KILOBYTE
+    assert not cache.get(function, "large")[1]
+
+
 def test_the_size_counts_the_arrays_wherever_they_are():
     array = np.zeros((100, 3))
     assert size_of(array) - size_of(array[:0]) == 2400

@@ -536,6 +536,15 @@ def test_controls_wait_while_a_slider_is_held_and_follow_when_it_is_let_go():
     assert browser.controls["f"][2] <= f_max(0.5)
 
 
+def test_two_sessions_share_nothing_but_results():
+    one, other = Browser(HESS), Browser(HESS)
+    one.ask(values={"h": 0.3})
+    other.ask()
+    assert other.session.values == HESS.defaults()
+    assert other.state["tree"]["sources"] == {}
+    assert flat(other.data["bifurcation-here"]["h"]) == [1.5]
+
+
 # --- Sessions: from one scene to another -------------------------------------------------------------
 
 
@@ -660,6 +669,12 @@ def test_a_number_goes_along_to_another_scene_where_it_means_the_same_and_there_
         taken = scene.taken_over(scene.defaults(), before, {**before.defaults(), name: value})
         goes = frozenset((before.name, scene.name)) in together
         assert taken == ({**scene.defaults(), name: value} if goes else scene.defaults()), (before.name, scene.name)
+
+
+def test_a_number_that_is_not_possible_there_does_not_go_along():
+    # b₃ = 0.7 of the general body is none of the Suslov–Hess case, where b₃ < 0.
+    taken = HESS.taken_over(HESS.defaults(), SCENES["suslov"], {**SCENES["suslov"].defaults(), "b3": 0.5, "I22": 1.0})
+    assert taken == {**HESS.defaults(), "I22": 1.0}
 
 
 @pytest.mark.parametrize("scene", OWN, ids=lambda scene: scene.name)
