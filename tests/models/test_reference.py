@@ -2,7 +2,7 @@
 
 from pytest import approx, mark
 
-from hess_mechanics import circle_map, critical_a, level, lock_boundary_f
+from hess_mechanics import circle_map, critical_a, level, lock_boundary_f, turning_points
 from hess_mechanics.numerics.accuracy import Status
 from support.mechanics import REFERENCE, angle_between, every_known_torus, numbers
 
@@ -24,6 +24,15 @@ def test_circle_maps_agree_with_the_reference_and_their_estimates_are_on_the_saf
     assert error <= 10 * result.error_estimate + 1e-15
     # It says OK exactly where its estimate keeps the promise.
     assert (result.status is Status.OK) == (result.error_estimate <= level(name).promise)
+
+
+@every_known_torus
+def test_turning_points_and_period_agree_with_the_reference(row):
+    turning = turning_points(float(row["h"]), float(row["f"]))
+    assert turning.roots == approx(numbers(row["n3_roots"]), abs=1e-9)
+    assert turning.period == approx(float(row["period"]), abs=1e-9)
+    result = circle_map(0.5, float(row["h"]), float(row["f"]), "draft")
+    assert result.period == turning.period
 
 
 @ladder

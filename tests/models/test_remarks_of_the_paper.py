@@ -271,6 +271,38 @@ def test_with_I23_0_they_are_those_of_the_chaplygin_sleigh():
     assert sp.simplify(rho * rates[1] - c * OMEGA**2) == 0
 
 
+def test_the_body_is_a_sleigh_on_a_sphere_and_its_track_that_of_the_sleigh_as_the_sphere_grows():
+    m, c, J, omega, v = 1.3, 0.4, 0.7, 1.1, 0.2
+
+    def sleigh(t, y):
+        return [
+            -m * c * y[0] * y[1] / (J + m * c * c),
+            c * y[0] ** 2,
+            y[0],
+            y[1] * math.cos(y[2]),
+            y[1] * math.sin(y[2]),
+        ]
+
+    x, y = solve_ivp(sleigh, (0.0, 8.0), [omega, v, 0.0, 0.0, 0.0], "DOP853", rtol=1e-12, atol=1e-13).y[3:, -1]
+    off = []
+    for rho in (100.0, 1000.0):
+        p = (J + m * c * c, m * rho * rho, m * c * rho, 0.0, 0.0, 0.0, 0.0)
+
+        def body(t, z, p=p):
+            # Three directions fixed in space: each obeys the equation of γ.
+            turning = np.cross(z[2:].reshape(3, 3), [z[0], z[1], 0.0])
+            return [*SUSLOV.field([*z[:2], 0.0, 0.0, 1.0], p)[:2], *turning.ravel()]
+
+        end = solve_ivp(body, (0.0, 8.0), [omega, v / rho, *np.eye(3).ravel()], "DOP853", rtol=1e-13, atol=1e-15).y[
+            2:, -1
+        ]
+        # Direction of the body's first axis: on a sphere of this radius, seen from outside at its start.
+        place = rho * end.reshape(3, 3)[:, 0]
+        off.append(math.hypot(-place[2] - x, place[1] - y))
+    assert off[0] < 0.05
+    assert off[0] / off[1] == approx(100.0, rel=0.05)
+
+
 def test_the_motion_that_attracts_is_closed_on_some_groups_and_not_on_others():
     # ωR + vX generates a closed subgroup where ω² + κv² > 0, and the line of rest has ω : v = I23 : −I13.
     basis = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
