@@ -200,7 +200,7 @@ def test_a_sea_that_is_its_own_mirror_image_is_no_attractor():
 
 
 def test_one_strange_attractor_is_one():
-    view = View(SCENE, {**example(STRANGE).values, **FEW, "colours": "basins", "long": 1000.0, "accuracy": "draft"})
+    view = View(SCENE, {**example(STRANGE).values, **FEW, "colours": "basins", "long": 4000.0, "accuracy": "draft"})
     mean, error = view.numbers("section", "One attractor for all orbits. mean div = # ± #.")
     assert mean < -3.0 * error
     # Grey cells are those that the energy forbids.
