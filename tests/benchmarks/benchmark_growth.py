@@ -65,7 +65,7 @@ def of_order(order):
 
 def of_orbits(orbits):
     body, state = HESS.example_motion
-    # Of equal energy and momentum: n and w turn about the axis of the field.
+    # Copies of one orbit, so that all cost the same.
     states = np.array([state] * orbits, float)
     return lambda: ensemble(body, states, [0.0, 20.0], "standard", threads=1)
 

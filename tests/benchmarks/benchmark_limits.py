@@ -4,10 +4,8 @@ Operations are counted from the recursion that generates a kernel; a multiplicat
 limit is a loop of independent multiplications and additions, in as many vector registers as every processor has.
 """
 
-import math
 import re
 import sys
-import time
 from pathlib import Path
 
 if __name__ == "__main__":
@@ -16,6 +14,7 @@ if __name__ == "__main__":
 import numba
 import numpy as np
 
+from benchmarks.benchmark_growth import seconds as seconds_of
 from benchmarks.integrators.explorer import METHOD
 from benchmarks.integrators.machine import conditions
 from benchmarks.integrators.works import works
@@ -27,17 +26,6 @@ SETTINGS = {"A": (16, 3.2e-11), "A2": (22, 3.2e-13), "B2": (22, 1e-14), "D": (20
 NUMBERS = 56
 """Independent numbers of the loop: 14 vectors of four."""
 ROUNDS = 20_000
-
-
-def least(function):
-    """Return the least seconds of half a second of calls."""
-    function()
-    found, begun = math.inf, time.perf_counter()
-    while time.perf_counter() - begun < 0.5:
-        before = time.perf_counter()
-        function()
-        found = min(found, time.perf_counter() - before)
-    return found
 
 
 def limit():
@@ -55,7 +43,7 @@ def run(out, s, t):
         names,
     )
     run, out = numba.njit(fastmath={"contract"})(names["run"]), np.ones(NUMBERS)
-    return 2 * NUMBERS * ROUNDS / least(lambda: run(out, 0.5, 0.25))
+    return 2 * NUMBERS * ROUNDS / seconds_of(lambda: run(out, 0.5, 0.25))
 
 
 def operations(recursion, order, halved):
@@ -80,7 +68,7 @@ def main():
     peak, rows, recursion = limit(), [], systems()["suslov"].recursion
     for name, (order, tolerance) in SETTINGS.items():
         work = works()[name]
-        seconds = least(METHOD.prepare(work, (order, tolerance), 1))
+        seconds = seconds_of(METHOD.prepare(work, (order, tolerance), 1))
         steps = steps_of(work, order, tolerance)
         samples = work.times.size if name == "A" else 0
         count = steps * operations(recursion, order, name == "B2") + samples * 2 * order * recursion.variables

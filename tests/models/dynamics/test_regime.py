@@ -58,10 +58,9 @@ def test_a_strange_attractor_is_chaotic_and_shrinks_as_its_exponents_say():
 
 def test_where_volume_is_kept_dynamics_are_conservative_and_curves_stay_curves():
     P = return_map(PLAIN, E=1.5, accuracy="standard")
-    sea = dynamics_of(P, (1.0, 1.0), 100, 600, 300.0)
+    sea = dynamics_of(P, (1.0, 1.0), 100, 2400, 300.0)
     assert (sea.motion.kind, sea.motion.divergence, sea.verdict) == (MotionKind.CHAOTIC, 0.0, "conservative")
-    # Orbits of a sea stay near its islands now and then: not every one has settled by then.
-    assert sum(one.settled and one.shared > 0.8 for one in sea.comparisons) >= 0.75 * len(sea.comparisons)
+    assert all(one.settled and one.shared > 0.8 for one in sea.comparisons)
     assert all(one.distance <= one.grain + one.error for one in sea.comparisons)
     curve = regime(return_map(SuslovBody(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0), E=0.4), (0.3, 1.2), t=300.0)
     # I11 = I22 with b along e: integrable (`QuarticBody.integrable`).
