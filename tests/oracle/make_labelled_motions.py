@@ -52,7 +52,7 @@ class Crossed:
 
 
 def height(surface, y):
-    """Return the function that increases through 0 at a crossing; on g = ±π/2 it is G²γ3 − f M3."""
+    """Return the quantity that increases through 0 at a crossing; on g = ±π/2 it is G²γ3 − f M3."""
     if isinstance(surface, Plane):
         return surface.sense * (sum(n * x for n, x in zip(surface.normal, y, strict=True)) - surface.offset)
     return (y[0] ** 2 + y[1] ** 2 + y[2] ** 2) * y[5] - surface.f * y[2]
