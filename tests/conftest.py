@@ -39,9 +39,9 @@ def pytest_configure(config):
     if hasattr(os, "setpriority"):
         os.setpriority(os.PRIO_PROCESS, 0, 15)
     if config.getoption("numprocesses", None) and not config.option.collectonly:
-        compile_half = "from hess_explorer.server.warm import compile_all; compile_all(backwards={})"
-        halves = [subprocess.Popen([sys.executable, "-c", compile_half.format(end)]) for end in (False, True)]
-        assert [half.wait() for half in halves] == [0, 0], "the kernels could not be compiled"
+        # In a process of its own, for this one shall not import what is tested.
+        compile_kernels = "from hess_explorer.server.warm import compile_all; compile_all(processes=2)"
+        subprocess.run([sys.executable, "-c", compile_kernels], check=True)
         # Only the page needs it.
         if any(Path(one.partition("::")[0]).name in ("tests", "page") for one in config.args):
             shared = config.stash[SHARED] = ExitStack()

@@ -113,6 +113,7 @@ def hub():
         thread.join()
 
 
+@pytest.mark.thorough
 def test_a_scene_is_reached_through_the_proxy_of_a_hub(browser, monkeypatch):
     monkeypatch.setenv("JUPYTERHUB_SERVICE_PREFIX", "/user/me/")
     with hub() as address, hess.explore("suslov-hess", h=1.2, accuracy="draft") as shown:

@@ -92,6 +92,7 @@ def test_a_picture_of_the_gallery_opens_its_example(site, browser):
         assert chosen in {one.preset.name for one in EXHIBITS if one.scene == "suslov-hess"}
 
 
+@pytest.mark.thorough
 def test_any_web_server_shows_it_in_a_frame_and_it_is_read_without_one(site, browser):
     folder, _, _ = site
     frame = '<!DOCTYPE html><iframe src="pages/scenes/suslov-hess.html" width="800" height="500"></iframe>'

@@ -29,6 +29,7 @@ def points(explorer, source):
     return np.column_stack([data["x"], data["y"]])
 
 
+@pytest.mark.thorough
 def test_a_choice_finds_the_periodic_orbit_next_to_the_start_and_undo_leaves_it(field):
     page = field.page
 

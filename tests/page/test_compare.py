@@ -1,5 +1,7 @@
 """Two states in the same pictures: the ghost of the one before, the pinned one, and how they differ."""
 
+import pytest
+
 from support.accessible import assert_accessible
 from support.page import DEFAULTS, wait_frames
 from support.suslov_hess import assert_orbit
@@ -71,9 +73,11 @@ H_AXIS = """() => {
 READY = "() => document.documentElement.dataset.ready === 'true'"
 
 
-def assert_side_by_side(explorer):
-    """Both states in pages of their own, where time and rotation are the same."""
+@pytest.mark.thorough
+def test_both_states_are_seen_side_by_side_where_time_and_rotation_are_the_same(explorer):
     page = explorer.page
+    page.locator(".param-pin").click()
+    explorer.change(lambda: explorer.slide(h=1.8))
     page.locator(".param-beside").click()
     one, other = (page.locator("iframe.half").nth(i).element_handle().content_frame() for i in range(2))
     for half, h in ((one, 1.5), (other, 1.8)):
@@ -108,6 +112,7 @@ def assert_side_by_side(explorer):
     assert other.locator(".player[role=group]").get_attribute("data-playing") != "true"
     page.get_by_role("dialog", name="Side by side").get_by_role("button", name="Close").click()
     assert page.locator("iframe.half").first.is_hidden()
+    page.locator(".param-unpin").click()
 
 
 def test_a_pinned_state_is_seen_beside_others_named_in_numbers_and_gone_back_to(explorer):
@@ -127,7 +132,6 @@ def test_a_pinned_state_is_seen_beside_others_named_in_numbers_and_gone_back_to(
     one, two = (float(text.replace("−", "-")) for text in found["E = I₁₁ b h"])
     # Four digits are shown.
     assert abs(two / one - 1.8 / 1.5) < 1e-3
-    assert_side_by_side(explorer)
     # There and back, by the key and the button.
     explorer.change(page.keyboard.press, "c")
     assert_orbit(explorer, DEFAULTS)

@@ -5,6 +5,7 @@ from contextlib import closing
 import pytest
 
 from support.page import VISITOR, Explorer
+from support.thorough import sample
 
 SIZES = {
     "desk": {"viewport": {"width": 1600, "height": 950}},
@@ -17,7 +18,7 @@ def in_sight(page):
     return page.locator(IN_SIGHT).evaluate_all("cells => cells.map((cell) => cell.dataset.name)")
 
 
-@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("size", sample(SIZES, 1))
 def test_a_first_visitor_sees_one_dark_picture_then_one_more_at_a_time_then_the_page_and_never_again(
     browser, server, size
 ):

@@ -150,6 +150,7 @@ def test_a_guess_of_the_audience_from_the_invitation_to_how_far_it_was_off(lectu
     small.get_by_role("heading", name=LESSON.steps[STEP].title).wait_for()
 
 
+@pytest.mark.thorough
 def test_a_follower_plays_alone_and_comes_back_and_the_room_outlives_a_reload(lecture):
     tab, phone, _ = lecture
     page, small = tab.page, phone.page

@@ -3,6 +3,7 @@
 import io
 from urllib.request import urlopen
 
+import pytest
 from PIL import Image
 
 from hess_explorer.headless.browser import wait_ready
@@ -17,6 +18,7 @@ caches.keys().then((names) => Promise.all(names.map((name) => caches.open(name).
 """
 
 
+@pytest.mark.thorough
 def test_a_page_opens_the_chart_of_its_server_and_an_installed_app_says_what_to_do_when_that_has_stopped(
     browser, tmp_path
 ):

@@ -51,6 +51,7 @@ def alone():
     return motions()
 
 
+@pytest.mark.thorough
 def test_workers_find_the_same_and_one_that_is_killed_is_no_loss(cluster, client, pairs, alone, tmp_path):
     before = client.run(os.getpid)
     killed = []

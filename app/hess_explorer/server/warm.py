@@ -6,6 +6,8 @@ import gc
 import logging
 import time
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from typing import Any
 
 from hess_explorer.compute.cache import CACHE
@@ -48,19 +50,28 @@ def compute(scene: Scene[Any], folded: bool = True) -> None:
         logger.warning("%s: %s", scene.name, error)
 
 
-def compile_all(backwards: bool = False) -> None:
+def compile_all(processes: int = 1) -> None:
     """Compile the kernels of all scenes into the cache on disk.
 
     Parameters
     ----------
-    backwards : bool
-        True to start with the last scene.  Two processes that run in opposite order take half as long.
+    processes : int
+        Number of processes that share the scenes.
     """
     if all_compiled():
         return
-    for scene in [*scenes().values()][:: -1 if backwards else 1]:
-        compute(scene)
+    if processes == 1:
+        for name in scenes():
+            _compute_named(name)
+    else:
+        with ProcessPoolExecutor(processes, get_context("spawn")) as pool:
+            for _ in pool.map(_compute_named, scenes()):
+                pass
     mark_all_compiled()
+
+
+def _compute_named(name: str) -> None:
+    compute(scenes()[name])
 
 
 def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:

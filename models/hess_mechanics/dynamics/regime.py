@@ -528,10 +528,10 @@ def dynamics_of(
 
     Examples
     --------
-    >>> from hess_mechanics import HessBody, dynamics_of, return_map
-    >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
-    >>> dynamics_of(P, (0.3,), transient=60, kept=64, t=100.0).verdict  # a stable cycle, and an unstable one
-    'dissipative'
+    >>> from hess_mechanics import QuarticBody, dynamics_of, return_map
+    >>> P = return_map(QuarticBody(2.0, 1.0, 1.0, 0.8), accuracy="standard")
+    >>> dynamics_of(P, (0.3, 0.2), transient=60, kept=64, t=100.0).verdict  # I₁₃ = I₂₃ = 0: the volume is kept
+    'conservative'
     """
     kept = as_whole("kept", kept, 8, _MOST_CROSSINGS)
     return compared(map_, regime(map_, start, transient, min(kept, 400), t), start, transient, kept)

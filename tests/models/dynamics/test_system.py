@@ -105,10 +105,14 @@ for name, system in hess_mechanics.systems().items():
     for grade in ("draft", "reference"):
         orbit = hess_mechanics.solve(*system.example_motion, [0.0, 1.0, 5.0], level(grade))
         results[f"{name} {grade}"] = [float(x) for x in orbit.states.ravel().tolist()]
+    # Of the systems whose scenes have compiled these; all are derived by the same code.
+    if name not in ("suslov", "ball", "euler-poisson"):
+        continue
     body, state = system.example_motion
-    starts = [[x * (1 + 0.01 * i) for x in state] for i in range(9)]
-    many = hess_mechanics.ensemble(body, starts, [0.5, 1.0], level("standard"))
-    results[f"{name} ensemble"] = [float(x) for x in many.states.ravel().tolist()]
+    if name == "ball":
+        starts = [[x * (1 + 0.01 * i) for x in state] for i in range(9)]
+        many = hess_mechanics.ensemble(body, starts, [0.5, 1.0], level("standard"))
+        results[f"{name} ensemble"] = [float(x) for x in many.states.ravel().tolist()]
     last = hess_mechanics.solve(body, state, [0.1 * i for i in range(201)], level("draft")).states[:, -1]
     plane = hess_mechanics.Plane((0.0,) * (len(state) - 1) + (1.0,), offset=0.5 * (last.min() + last.max()), sense=0)
     found = hess_mechanics.section(body, state, plane, 20.0, level("standard"))
