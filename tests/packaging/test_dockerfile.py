@@ -41,13 +41,6 @@ def test_the_readme_builds_and_runs_it_at_the_port_and_address_that_it_serves():
 
 
 @thorough
-def test_what_runs_is_the_installed_package(image):
-    for name in ("hess_explorer", "hess_mechanics"):
-        where = image.run(["python", "-c", f"import {name}; print({name}.__file__)"])
-        assert Path(where.strip()).parent == image.site / name
-
-
-@thorough
 def test_neither_the_folder_nor_its_files_shadow_the_packages(image):
     for name in ("models", "app", "static"):
         (image.at(image.workdir) / f"{name}.py").write_text("raise SystemExit('the wrong module')\n")
@@ -142,29 +135,17 @@ def test_the_wheel_is_typed_and_holds_all_that_the_page_needs(wheel):
         assert places[folder] + name.removeprefix(folder) in wheel, f"{name} is not in the wheel"
 
 
-def test_the_wheel_has_the_documentation(wheel):
-    names = {
-        str(file.relative_to(ROOT / "app")) for file in (ROOT / "app/hess_explorer/docs").rglob("*") if file.is_file()
-    }
-    assert len(names) > 10
-    assert {name for name in wheel if name.startswith("hess_explorer/docs/")} == names
-    assert sum(wheel[name] for name in names) < 300_000
-
-
 # The lock file
 
 
-def test_the_lock_file_names_no_host_and_has_a_hash_for_everything():
-    blocks = (ROOT / "app" / "requirements.lock").read_text().replace("\\\n", " ").splitlines()
-    assert len(blocks) > 20
+def test_the_lock_file_has_every_dependency_with_a_hash_and_names_no_host():
+    """The image installs only locked packages, so a missing one would fail at start."""
+    lock = (ROOT / "app" / "requirements.lock").read_text()
+    blocks = lock.replace("\\\n", " ").splitlines()
     for block in blocks:
         assert "==" in block
         assert " --hash=sha256:" in block
         assert "://" not in block
-
-
-def test_every_dependency_is_in_the_lock_file():
-    """The image installs only locked packages, so a missing one would fail at start."""
-    locked = set(re.findall(r"^([a-z0-9-]+)==", (ROOT / "app" / "requirements.lock").read_text(), re.MULTILINE))
+    locked = {block.partition("==")[0] for block in blocks}
     asked = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["dependencies"]
     assert {re.match(r"[A-Za-z0-9-]+", one)[0].lower() for one in asked} <= locked

@@ -7,7 +7,6 @@ import re
 from math import pi
 from urllib.parse import quote, urlencode, urlsplit
 
-import numpy as np
 import pytest
 from pytest import approx
 
@@ -17,7 +16,6 @@ from support.page import (
     DEFAULTS,
     FIRST,
     PICTURES,
-    SLIDE,
     SLIDERS,
     Explorer,
     wait_frames,
@@ -67,33 +65,6 @@ def test_a_change_takes_the_flag_down_at_once_and_the_state_number_up(explorer):
         # Once more with each part that came later, such as what is proved.
         assert explorer.state - before in (1, 2, 3)
         assert explorer.here() == (approx(h), 0.6)
-
-
-def test_the_newest_of_fifty_changes_wins_and_none_arrives_later(explorer):
-    values = np.linspace(-0.5, 2.0, 50).round(2)
-    at_the_end = explorer.page.evaluate(
-        f"""async ([values, pause]) => {{
-          const slide = {SLIDE}
-          let state
-          for (const value of values) {{
-            slide([["h", value]])
-            state = Number(document.documentElement.dataset.state)
-            await new Promise((done) => setTimeout(done, pause))
-          }}
-          return state
-        }}""",
-        [values.tolist(), 4],
-    )
-    wait_ready(explorer.page, after=at_the_end)
-    painted = explorer.state
-    # Only the newest of the changes during a request is sent; later results arrive in pieces.
-    assert painted - at_the_end <= 6
-    assert_orbit(explorer, {**DEFAULTS, "h": 2.0})
-    assert explorer.shown("h") == (2.0, 2.0)
-    # Whatever were still under way would be painted before the answer to this.
-    explorer.change(lambda: explorer.slide(f=0.5))
-    # The answer, and with what is proved, which a busy machine sends in two parts.
-    assert painted < explorer.state <= painted + 3
 
 
 def test_an_answer_that_takes_long_is_said_to_be_under_way(with_websocket):

@@ -128,17 +128,3 @@ def test_a_click_in_the_plane_puts_a_patch_there(cloud):
     assert angle == approx(0.75 * math.pi, abs=0.01)
     (found,) = clouds(cloud)
     assert math.atan2(found[1].mean(), found[0].mean()) == approx(angle, abs=0.01)
-
-
-def test_a_state_without_a_manifold_is_refused_and_nothing_stale_is_drawn(cloud):
-    # Something is drawn before.
-    assert share_of(cloud, "omega", BLUE) > 0.001
-    cloud.give(I13=0.0, I23=0.0)
-    for name in SCENE.pictures:
-        assert "Choose I13 or I23 other than 0" in cloud.caption(name)
-    assert clouds(cloud) == []
-    assert cloud.page.evaluate(DENSITY) == [[], []]
-    assert share_of(cloud, "omega", BLUE) == share_of(cloud, "sphere", BLUE) == 0.0
-    # And the next state is drawn.
-    cloud.change(cloud.type, "I23", "0.7")
-    assert share_of(cloud, "omega", BLUE) > 0.001

@@ -7,8 +7,8 @@ import numpy as np
 from CyRK import cyjit, nbsolve2_ivp
 
 from ..method import Method, half_decades, version
-from ..moebius import half_period, start, theta_after
 from .compiled import rates
+from .states import ways
 
 
 def _ladders(work):
@@ -51,20 +51,7 @@ def _run(work, initial, times, setting, finish):
     return run
 
 
-def _dense(work, setting):
-    return _run(work, work.initial, work.times, setting, lambda out: out[0])
-
-
-def _ends(work, setting):
-    return _run(work, work.initial, work.times, setting, lambda out: out[:, -1])
-
-
-def _circle_map(work, setting):
-    theta = theta_after(work.phi)
-    return _run(work, start(work)[None], np.array([half_period(work)]), setting, lambda out: theta(out[0, -1]))
-
-
-_WAYS = {"A": _dense, "A2": _ends, "B": _ends, "B2": _ends, "C": _circle_map}
+_WAYS = ways(_run)
 
 
 def _prepare(work, setting, threads=1):

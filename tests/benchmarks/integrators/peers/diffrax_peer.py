@@ -10,8 +10,9 @@ import numpy as np
 from hess_mechanics import systems
 
 from ..method import Method, half_decades, version
-from ..moebius import field, half_period, start, theta_after
+from ..moebius import field
 from ..works import MapWorkload, MotionWorkload
+from .states import ways
 
 jax.config.update("jax_enable_x64", True)
 
@@ -66,20 +67,7 @@ def _run(work, initial, times, setting, finish):
     return run
 
 
-def _dense(work, setting):
-    return _run(work, work.initial, work.times, setting, lambda states: states[0])
-
-
-def _ends(work, setting):
-    return _run(work, work.initial, work.times, setting, lambda states: states[:, -1])
-
-
-def _circle_map(work, setting):
-    theta = theta_after(work.phi)
-    return _run(work, start(work)[None], np.array([half_period(work)]), setting, lambda states: theta(states[0, -1]))
-
-
-_WAYS = {"A": _dense, "A2": _ends, "B": _ends, "B2": _ends, "C": _circle_map}
+_WAYS = ways(_run)
 
 
 def _prepare(work, setting, threads=1):
