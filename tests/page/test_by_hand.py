@@ -106,10 +106,12 @@ def through_pictures(explorer):
             explorer.change(mouse.click, left + 0.45 * (right - left), top + 0.4 * (bottom - top))
 
 
-OWN = [name for name, scene in SCENES.items() if scene.origin is None]
+# First one that takes numbers, boxes and clicks, and is computed fast.
+OWN = sorted(
+    (name for name, scene in SCENES.items() if scene.origin is None), key=lambda name: name != "rotation-number"
+)
 
 
-# By default the first scene, whose pictures take numbers, boxes and clicks.
 @pytest.mark.parametrize("scene", sample(OWN, 1))
 def test_a_state_reached_by_hand_looks_as_the_one_its_link_opens(tab, artefacts, scene):
     tab.fresh(scene)

@@ -8,7 +8,7 @@ from CyRK import cyjit, nbsolve2_ivp
 
 from ..method import Method, half_decades, version
 from .compiled import rates
-from .states import ways
+from .states import preparing
 
 
 def _ladders(work):
@@ -48,16 +48,10 @@ def _run(work, initial, times, setting, finish):
         _solve(address, method, initial, times, tolerance, out)
         return finish(out)
 
-    return run
-
-
-_WAYS = ways(_run)
-
-
-def _prepare(work, setting, threads=1):
-    run = _WAYS[work.name](work, setting)
     run()
     return run
 
 
-METHOD = Method("CyRK", version("CyRK"), _ladders, _prepare, without={"D": "its functions for Numba have no events"})
+METHOD = Method(
+    "CyRK", version("CyRK"), _ladders, preparing(_run), without={"D": "its functions for Numba have no events"}
+)

@@ -12,7 +12,7 @@ from hess_mechanics import systems
 from ..method import Method, half_decades, version
 from ..moebius import field
 from ..works import MapWorkload, MotionWorkload
-from .states import ways
+from .states import preparing
 
 jax.config.update("jax_enable_x64", True)
 
@@ -67,17 +67,10 @@ def _run(work, initial, times, setting, finish):
     return run
 
 
-_WAYS = ways(_run)
-
-
-def _prepare(work, setting, threads=1):
-    return _WAYS[work.name](work, setting)
-
-
 METHOD = Method(
     "diffrax",
     version("diffrax"),
     _ladders,
-    _prepare,
+    preparing(_run),
     without={"D": "it can stop at one event, but not list all of them"},
 )

@@ -5,11 +5,11 @@ import numpy as np
 from ..moebius import half_period, start, theta_after
 
 
-def ways(run):
-    """The function of each workload.
+def preparing(run):
+    """The function that prepares a run of any workload, which is compiled when it returns.
 
-    run(work, initial, times, setting, finish) returns a function without arguments, which integrates and passes the
-    states (orbits, times, variables) to `finish`.
+    run(work, initial, times, setting, finish) returns a compiled function without arguments, which integrates and
+    passes the states (orbits, times, variables) to `finish`.
     """
 
     def dense(work, setting):
@@ -22,4 +22,5 @@ def ways(run):
         theta = theta_after(work.phi)
         return run(work, start(work)[None], np.array([half_period(work)]), setting, lambda out: theta(out[0, -1]))
 
-    return {"A": dense, "A2": ends, "B": ends, "B2": ends, "C": circle_map}
+    ways = {"A": dense, "A2": ends, "B": ends, "B2": ends, "C": circle_map}
+    return lambda work, setting, threads=1: ways[work.name](work, setting)
