@@ -60,6 +60,7 @@ interface GlyphView {
   after_visuals(): void
   after_lazy_visuals(): void
   map_data(): void
+  mask_data(): object
 }
 
 interface RendererView {
@@ -70,6 +71,7 @@ interface RendererView {
   decimated_glyph?: GlyphView
   model: BokehModel
   all_indices: object
+  update_position(): void
   ready: Promise<void>
   el: Element
 }

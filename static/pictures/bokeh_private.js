@@ -5,6 +5,8 @@ const gestures = () => Bokeh.require?.("core/ui_gestures")?.UIGestures
 /** @param {unknown} value */
 const isMethod = (value) => typeof value === "function"
 
+// Any font size: no size on this page is relative to it.
+const FONT = 13
 const UNSEEN = /** @type {const} */ (["selection_glyph", "nonselection_glyph", "muted_glyph", "decimated_glyph"])
 const FOLLOWING = /** @type {const} */ (["set_data", "set_visuals", "after_visuals", "after_lazy_visuals", "map_data"])
 
@@ -17,7 +19,10 @@ const NEEDED = {
       || (indices !== undefined && isMethod(glyph.set_visuals) && isMethod(glyph.after_visuals))),
   "GlyphRendererView.selection_glyph, nonselection_glyph, muted_glyph and decimated_glyph": (plot) => plot.computed_renderer_views
     .every((view) => view.glyph === undefined || UNSEEN.every((name) => FOLLOWING.every((step) => isMethod(view[name]?.[step])))),
-  "RendererView.el": (plot) => plot.computed_renderer_views.every(({ el }) => el instanceof Element),
+  "GlyphView.mask_data": (plot) => plot.computed_renderer_views.every(({ glyph }) => glyph === undefined || isMethod(glyph.mask_data)),
+  "RendererView.el and update_position": (plot) => plot.computed_renderer_views
+    .every(({ el, update_position: place }) => el instanceof Element && isMethod(place)),
+  "PlotView.base_font_size": (plot) => "base_font_size" in plot,
   "window.devicePixelRatio that can be replaced": () => (
     Object.getOwnPropertyDescriptor(window, "devicePixelRatio")?.configurable === true),
 }
@@ -55,18 +60,25 @@ export function waitLongForPress() {
 }
 
 /**
- * Remove the elements of layers and axes, which are empty: they exist to be styled.  Bokeh rewrites a style sheet of each in
- * every painting, and the next plot that sets a font then waits for all styles of the page: a fifth of a state's time.
- * Without `el` they stay, and painting is slower.
+ * Keep painting from waiting for the styles of the page, which takes a fifth of a state's time.
+ *
+ * The elements of layers and axes are empty: they exist to be styled, and Bokeh rewrites a style sheet of each in every painting.
+ * It also reads the font size of the plot's element, for sizes in em; all sizes on this page are in pixels.
+ * Without these members painting is slower.
  * @param {PlotView} plot
  */
-export function removeStyled(plot) {
-  for (const { el } of plot.computed_renderer_views) el?.remove()
+export function spareStyles(plot) {
+  for (const view of plot.computed_renderer_views) {
+    view.el?.remove()
+    view.update_position = () => {}
+  }
+  Object.defineProperty(plot, "base_font_size", { value: FONT })
 }
 
 /**
- * Keep the glyphs for selected, other, muted and decimated points of each layer from following its data: no tool of Bokeh is
- * on this page, so nobody sees them, and each costs as much as the glyph that is painted, except for its painting.
+ * Keep each layer from preparing what nobody sees, as no tool of Bokeh is on this page: the glyphs for selected, other, muted
+ * and decimated points, each of which costs as much as the glyph that is painted, except for its painting; and the spatial
+ * index of its points, by which Bokeh finds those in the frame.
  * @param {PlotView} plot
  */
 export function spareUnseen(plot) {
@@ -75,6 +87,7 @@ export function spareUnseen(plot) {
       const glyph = view[name]
       if (glyph) for (const step of FOLLOWING) glyph[step] = () => {}
     }
+    if (view.glyph) view.glyph.mask_data = () => view.all_indices
   }
 }
 

@@ -4,7 +4,7 @@
 import { listen } from "../page/bus.js"
 import { element } from "../page/elements.js"
 import { isPresenting } from "../page/presenting.js"
-import { checkBokeh, removeStyled, spareUnseen, waitLongForPress } from "./bokeh_private.js"
+import { checkBokeh, spareStyles, spareUnseen, waitLongForPress } from "./bokeh_private.js"
 import { frameCanvas } from "./canvas.js"
 import { cellsPainter } from "./cells.js"
 import { dotsPainter } from "./dots.js"
@@ -107,7 +107,7 @@ export async function buildPlot(host, picture, source) {
   addCanvases(plot, picture, source)
   inheritCursor(plot)
   leaveKeysToHost(plot)
-  removeStyled(plot)
+  spareStyles(plot)
   spareUnseen(plot)
   plot.repainted.connect(() => clipOverlays(plot))
   picture.letters.forEach((/** @type {number | null} */ letters, /** @type {number} */ i) => {

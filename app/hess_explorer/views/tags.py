@@ -1,6 +1,6 @@
 """Labels in a planar picture: a free place beside each curve or point, or inside each region, that carries a tag.
 
-Places are found on a coarse grid of the frame, so they cost about a millisecond and need no text metrics.  All
+Places are found on a coarse grid of the frame, so they cost little and need no text metrics.  All
 lengths are fractions of the frame, from its lower left corner.
 """
 
@@ -34,7 +34,7 @@ _DOTS = 0.25
 """Weight of a cell with dots: a label may stand in a section where few dots are."""
 _CLOSED = 2.0
 """Mark of cells under a label, where no other label goes."""
-_AROUND = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)])
+_AROUND = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)]).T
 _EDGE = 0.01
 
 
@@ -43,28 +43,33 @@ def placed(layers: Sequence[Layer[Any]], columns: Sequence[Columns], axes: Axes,
 
     columns : those of each layer; log : the logarithmic axes.
     """
-    drawn = [(layer, given) for layer, given in zip(layers, columns, strict=True) if _there(layer, given)]
     frame = _Frame(axes, log)
+    drawn = [
+        (layer, given, _curves(layer, given, frame))
+        for layer, given in zip(layers, columns, strict=True)
+        if _there(layer, given)
+    ]
     taken = np.zeros((_CELLS, _CELLS))
-    for layer, given in drawn:
-        for curve in _curves(layer, given, frame):
-            _mark(taken, curve, _DOTS if layer.glyph == "dots" else 1.0)
+    for layer, _, curves in drawn:
+        if curves:
+            _mark(taken, np.concatenate(curves, axis=1), _DOTS if layer.glyph == "dots" else 1.0)
     found: dict[str, Columns] = {layer.name: {} for layer in layers if layer.tag}
-    for layer, given in drawn:
+    for layer, given, curves in drawn:
         if not layer.tag:
             continue
         half = _half(layer.tag)
         inside = _inside(layer, given, frame)
-        places = _around(_curves(layer, given, frame), half) if inside is None else _middles(inside, half)
-        places = places[np.all(abs(places - 0.5) + half + _EDGE <= 0.5, axis=1)]
-        if len(places) == 0:
+        places = _around(curves, half) if inside is None else _middles(inside, half)
+        places = places[:, _within(abs(places - 0.5) + half <= 0.5 - _EDGE)]
+        if places.size == 0:
             continue
         covered = _mean(taken, places, half)
-        best = int(np.argmin(covered + _PULL * np.linalg.norm(1.0 - places, axis=1)))
+        best = np.argmin(covered + _PULL * np.hypot(*(1.0 - places)))
         if covered[best] > _FULL:
             continue
-        _mark(taken, _box(places[best], half), _CLOSED)
-        x, y = frame.back(places[best])
+        place = places[:, best]
+        _mark(taken, _box(place, half), _CLOSED)
+        x, y = frame.back(place)
         found[layer.name] = {"x": [x], "y": [y], "text": [layer.tag]}
     return found
 
@@ -74,21 +79,24 @@ class _Frame:
 
     def __init__(self, axes: Axes, log: str) -> None:
         self._log = [side in log for side in "xy"]
-        ends = np.array([axes.x, axes.y], float)
-        self._ends = np.array([np.log10(pair) if log else pair for pair, log in zip(ends, self._log, strict=True)])
+        ends = (np.log10(pair) if log else pair for pair, log in zip((axes.x, axes.y), self._log, strict=True))
+        self._low, high = np.array([*ends], float).T
+        self._extent = high - self._low
 
     def to(self, x: Any, y: Any) -> Array:
-        """Return at most `_SAMPLES` of the points (n, 2) in the frame, without those that have no logarithm."""
-        found = np.column_stack([np.asarray(side, float)[:: len(side) // _SAMPLES + 1] for side in (x, y)])
-        with np.errstate(divide="ignore", invalid="ignore"):
-            for i, log in enumerate(self._log):
-                found[:, i] = np.log10(found[:, i]) if log else found[:, i]
-        found = found[np.isfinite(found).all(axis=1)]
-        return np.asarray((found - self._ends[:, 0]) / (self._ends[:, 1] - self._ends[:, 0]))
+        """Return at most `_SAMPLES` of the points (2, n) in the frame, without those that have no logarithm."""
+        found = np.array([np.asarray(side)[:: len(side) // _SAMPLES + 1] for side in (x, y)], float)
+        for i in np.flatnonzero(self._log):
+            with np.errstate(divide="ignore", invalid="ignore"):
+                found[i] = np.log10(found[i])
+        finite = np.isfinite(found[0] + found[1])
+        if not finite.all():
+            found = found[:, finite]
+        return np.asarray((found - self._low[:, None]) / self._extent[:, None])
 
     def back(self, place: Array) -> list[float]:
         """Return the coordinates of a place (2,)."""
-        found = self._ends[:, 0] + place * (self._ends[:, 1] - self._ends[:, 0])
+        found = self._low + place * self._extent
         return [float(10.0**one if log else one) for one, log in zip(found, self._log, strict=True)]
 
 
@@ -96,8 +104,13 @@ def _there(layer: Layer[Any], columns: Columns) -> bool:
     return len(columns.get(layer.columns[0], ())) > 0
 
 
+def _within(there: Array) -> Array:
+    """Return where both rows are true."""
+    return np.asarray(there[0] & there[1])
+
+
 def _curves(layer: Layer[Any], columns: Columns, frame: _Frame) -> list[Array]:
-    """Return what a layer covers as points (n, 2), close to one another on curves; none for regions and cells."""
+    """Return what a layer covers as points (2, n), close to one another on curves; none for regions and cells."""
     given = [columns[name] for name in layer.columns]
     if layer.glyph in ("image", "multi_polygons"):
         return []
@@ -109,57 +122,60 @@ def _curves(layer: Layer[Any], columns: Columns, frame: _Frame) -> list[Array]:
     if layer.glyph == "line":
         return [_dense(points, _SAMPLES)]
     if layer.glyph == "text":
-        words = zip(points, given[2], strict=False)
+        words = zip(points.T, given[2], strict=False)
         return [_box(place, _half(word)) for place, word in words if word]
     return [points]
 
 
 def _dense(curve: Array, least: int) -> Array:
     """Return points evenly along the index of a curve, at least 50."""
-    if len(curve) < 2:
+    count = curve.shape[1]
+    if count < 2:
         return curve
-    at = np.linspace(0.0, len(curve) - 1.0, max(50, least))
-    return np.column_stack([np.interp(at, np.arange(len(curve)), side) for side in curve.T])
+    at, index = np.linspace(0.0, count - 1.0, max(50, least)), np.arange(count)
+    return np.array([np.interp(at, index, side) for side in curve])
 
 
 def _half(word: str) -> Array:
-    """Return half the width and height of a word."""
-    return 0.5 * np.array([_LETTER * len(word), _LINE])
+    """Return half the width and height of a word, (2, 1)."""
+    return np.array([[0.5 * _LETTER * len(word)], [0.5 * _LINE]])
 
 
 def _box(place: Array, half: Array) -> Array:
-    """Return points (n, 2) that cover the cells of a box."""
-    steps = [place[i] + np.arange(-half[i], half[i], 0.5 / _CELLS) for i in range(2)]
-    return np.array(np.meshgrid(*steps)).reshape(2, -1).T
+    """Return points (2, n) that cover the cells of a box."""
+    steps = [place[i] + np.arange(-half[i, 0], half[i, 0], 0.5 / _CELLS) for i in range(2)]
+    return np.array(np.meshgrid(*steps)).reshape(2, -1)
 
 
 def _mark(taken: Array, points: Array, how: float = 1.0) -> None:
     """Mark the cells [row, column] of some points."""
-    cells = np.floor(points[np.all((points >= 0.0) & (points < 1.0), axis=1)] * _CELLS).astype(int)
-    taken[cells[:, 1], cells[:, 0]] = how
+    column, row = (points[:, _within((points >= 0.0) & (points < 1.0))] * _CELLS).astype(int)
+    taken[row, column] = how
 
 
 def _mean(cells: Array, places: Array, half: Array) -> Array:
     """Return the mean of the cells in a box about each place (n,)."""
-    total = np.pad(cells, ((1, 0), (1, 0))).cumsum(0).cumsum(1)
-    low, high = (np.clip(np.round((places + sign * half) * _CELLS).astype(int), 0, _CELLS) for sign in (-1, 1))
-    (x0, y0), (x1, y1) = low.T, high.T
+    total = np.zeros((_CELLS + 1, _CELLS + 1))
+    cells.cumsum(0).cumsum(1, out=total[1:, 1:])
+    ends = np.rint(np.array([places - half, places + half]) * _CELLS).astype(int)
+    (x0, y0), (x1, y1) = np.maximum(0, np.minimum(_CELLS, ends))
     area = np.maximum(1, (x1 - x0) * (y1 - y0))
     return np.asarray((total[y1, x1] - total[y0, x1] - total[y1, x0] + total[y0, x0]) / area)
 
 
 def _around(curves: Sequence[Array], half: Array) -> Array:
-    """Return the middles of labels in eight directions from points of some curves (n, 2)."""
-    points = np.concatenate(curves)
-    points = points[np.all((points >= 0.0) & (points <= 1.0), axis=1)]
-    points = points[:: len(points) // _ANCHORS + 1]
-    return np.asarray((points[:, None] + _AROUND * (half + _GAP)).reshape(-1, 2))
+    """Return the middles of labels in eight directions from points of some curves (2, n)."""
+    points = np.concatenate(curves, axis=1)
+    points = points[:, _within((points >= 0.0) & (points <= 1.0))]
+    points = points[:, :: points.shape[1] // _ANCHORS + 1]
+    return (points[:, :, None] + (_AROUND * (half + _GAP))[:, None]).reshape(2, -1)
 
 
 def _middles(inside: Array, half: Array) -> Array:
     """Return the cells whose label lies inside a mask [row, column]."""
-    places = (np.argwhere(inside)[:, ::-1] + 0.5) / _CELLS
-    return places[_mean(inside.astype(float), places, half) > 0.999]
+    row, column = np.nonzero(inside)
+    places = (np.array([column, row]) + 0.5) / _CELLS
+    return places[:, _mean(inside.astype(float), places, half) > 0.999]
 
 
 def _inside(layer: Layer[Any], columns: Columns, frame: _Frame) -> Array | None:
@@ -167,10 +183,8 @@ def _inside(layer: Layer[Any], columns: Columns, frame: _Frame) -> Array | None:
     if layer.glyph == "image":
         (cells,), middles = columns["image"], (np.arange(_CELLS) + 0.5) / _CELLS
         x, y = (columns[name][0] for name in ("x", "y"))
-        low = frame.to([x, x + columns["dw"][0]], [y, y + columns["dh"][0]])
-        at = [
-            np.floor((middles - low[0, i]) / (low[1, i] - low[0, i]) * cells.shape[1 - i]).astype(int) for i in range(2)
-        ]
+        low, high = frame.to([x, x + columns["dw"][0]], [y, y + columns["dh"][0]]).T
+        at = [np.floor((middles - low[i]) / (high[i] - low[i]) * cells.shape[1 - i]).astype(int) for i in range(2)]
         there = [(one >= 0) & (one < cells.shape[1 - i]) for i, one in enumerate(at)]
         kinds = cells[np.ix_(*(np.clip(at[i], 0, cells.shape[1 - i] - 1) for i in (1, 0)))]
         least = layer.legend[0].least or 0.0
@@ -186,12 +200,11 @@ def _inside(layer: Layer[Any], columns: Columns, frame: _Frame) -> Array | None:
 
 
 def _even_odd(ring: Array) -> Array:
-    """Return which cells [row, column] have their middle inside a closed curve (n, 2): the crossings left of it."""
-    (x0, y0), (x1, y1) = ring.T, np.roll(ring, -1, axis=0).T
+    """Return which cells [row, column] have their middle inside a closed curve (2, n): the crossings left of it."""
+    (x0, y0), (x1, y1) = ring, np.concatenate([ring[:, 1:], ring[:, :1]], axis=1)
     heights = (np.arange(_CELLS)[:, None] + 0.5) / _CELLS
     row, edge = np.nonzero((y0 <= heights) != (y1 <= heights))
     x = x0[edge] + (heights[row, 0] - y0[edge]) / (y1[edge] - y0[edge]) * (x1[edge] - x0[edge])
     column = np.clip(np.ceil(x * _CELLS - 0.5), 0, _CELLS).astype(int)
-    crossings = np.zeros((_CELLS, _CELLS + 1), int)
-    np.add.at(crossings, (row, column), 1)
+    crossings = np.bincount(row * (_CELLS + 1) + column, minlength=_CELLS * (_CELLS + 1)).reshape(_CELLS, -1)
     return np.asarray(np.cumsum(crossings, axis=1)[:, :-1] % 2 == 1)
