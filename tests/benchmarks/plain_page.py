@@ -1,6 +1,6 @@
 """A plain page to compare with, as a first script has it: `python tests/benchmarks/plain_page.py PORT`.
 
-Four Bokeh plots and two sliders of Panel: the orbit, its track on the sphere, the bifurcation diagram and the circle map.
+Four Bokeh plots and two sliders of Panel: the orbit, its track on the sphere, the bifurcation diagram, the circle map.
 """
 
 import sys
