@@ -5,7 +5,7 @@
 import { tell } from "../page/bus.js"
 import { onDrag } from "../page/drag.js"
 import { arrowOf } from "../page/keys.js"
-import { element } from "../page/elements.js"
+import { element, update } from "../page/elements.js"
 import { animation } from "./animation.js"
 import { exactBox } from "./box.js"
 
@@ -122,7 +122,7 @@ export function number({ name, label, symbol, help, range }) {
     shown = value
     ;[low, high] = [Math.min(from, value), Math.max(to, value)]
     const [min, max] = scaleOf(range, from, to, value)
-    Object.assign(slider, { min, max, step, value })
+    update(slider, { min: String(min), max: String(max), step: String(step), value: String(value) })
     const parts = [low, high].map((edge) => `${(100 * (edge - min) / (max - min)).toFixed(2)}%`)
     if (track !== (track = parts.join())) {
       slider.style.setProperty("--from", parts[0])

@@ -32,6 +32,18 @@ export function button(name, onclick, ...parts) {
   return Object.assign(element(`button.${name}`, ...parts), { type: "button", onclick })
 }
 
+/**
+ * Set properties of an element that have changed: one that is set again costs the page styles or a layout.
+ * @template {object} Item
+ * @param {Item} item
+ * @param {Partial<Item>} properties
+ */
+export function update(item, properties) {
+  for (const [name, value] of Object.entries(properties)) {
+    if (item[/** @type {keyof Item} */ (name)] !== value) Object.assign(item, { [name]: value })
+  }
+}
+
 /** Return the HTML of an icon; the path is drawn in a box of 24 × 24 units. */
 export function icon(path = "", size = "1.4em") {
   return `<svg viewBox="0 0 24 24" width="${size}" height="${size}" aria-hidden="true"><path fill="currentColor" d="${path}"/></svg>`

@@ -3,7 +3,7 @@
 
 import { listen } from "./bus.js"
 import { depthMenu } from "./depth.js"
-import { element } from "./elements.js"
+import { element, update } from "./elements.js"
 
 /**
  * Show the entries of a legend whose numbers are listed.
@@ -14,7 +14,7 @@ export function showSigns(box, signs) {
   const there = new Set(signs.split(","))
   /** @type {NodeListOf<HTMLElement>} */
   const entries = box.querySelectorAll(".legend li")
-  entries.forEach((entry, i) => { entry.hidden = !there.has(String(i)) })
+  entries.forEach((entry, i) => update(entry, { hidden: !there.has(String(i)) }))
 }
 
 /**

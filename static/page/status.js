@@ -2,7 +2,7 @@
 // The status line: a summary that unfolds into its details.
 
 import { listen } from "./bus.js"
-import { element } from "./elements.js"
+import { element, update } from "./elements.js"
 
 /** Render the status line. @param {{el: HTMLElement}} part */
 export function render({ el }) {
@@ -11,8 +11,8 @@ export function render({ el }) {
   const item = element("details.text.status", element("summary", summary), details)
   /** @param {Texts} texts */
   const show = (texts) => {
-    if ("summary" in texts) summary.textContent = texts.summary
-    if ("status" in texts) details.textContent = texts.status
+    if ("summary" in texts) update(summary, { textContent: texts.summary })
+    if ("status" in texts) update(details, { textContent: texts.status })
   }
   listen({ texts: show })
   document.addEventListener("pointerdown", (event) => {

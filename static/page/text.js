@@ -2,7 +2,7 @@
 // A short text that changes often, set as text and never as HTML.  Screen readers announce a paragraph when it changes.
 
 import { listen } from "./bus.js"
-import { element } from "./elements.js"
+import { element, update } from "./elements.js"
 
 /**
  * Render the text of a key.
@@ -12,8 +12,7 @@ export function render({ key, tag = "p", el }) {
   const item = element(`${tag}.text.${key}`, tag === "p" ? { role: "status" } : {})
   /** @param {string} text */
   const show = (text) => {
-    item.textContent = text
-    item.hidden = text === ""
+    update(item, { textContent: text, hidden: text === "" })
   }
   listen({ texts(texts) { if (key in texts) show(texts[key]) } })
   show("")

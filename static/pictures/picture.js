@@ -72,7 +72,10 @@ const spans = (text) => unbroken(text).map((part, i) => i % 2 ? element("span.un
  */
 export function fillCaption(cell, { [nameOf(cell)]: caption }) {
   if (caption === undefined) return
-  for (const [part, text] of Object.entries(caption)) cell.querySelector(`.${part}`).replaceChildren(...spans(text))
+  for (const [part, text] of Object.entries(caption)) {
+    const item = cell.querySelector(`.${part}`)
+    if (item.textContent !== text) item.replaceChildren(...spans(text))
+  }
   /** @type {HTMLElement} */
   const host = cell.querySelector(".host")
   if (host.role !== null) host.ariaLabel = `${caption.title}: ${KEYS[host.dataset.hands]}`

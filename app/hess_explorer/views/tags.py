@@ -6,7 +6,8 @@ lengths are fractions of the frame, from its lower left corner.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -50,9 +51,11 @@ def placed(layers: Sequence[Layer[Any]], columns: Sequence[Columns], axes: Axes,
         if _there(layer, given)
     ]
     taken = np.zeros((_CELLS, _CELLS))
-    for layer, _, curves in drawn:
+    for layer, given, curves in drawn:
         if curves:
             _mark(taken, np.concatenate(curves, axis=1), _DOTS if layer.glyph == "dots" else 1.0)
+        for place, word in _words(layer, given, frame):
+            taken[_box(place, _half(word))] = 1.0
     found: dict[str, Columns] = {layer.name: {} for layer in layers if layer.tag}
     for layer, given, curves in drawn:
         if not layer.tag:
@@ -68,7 +71,7 @@ def placed(layers: Sequence[Layer[Any]], columns: Sequence[Columns], axes: Axes,
         if covered[best] > _FULL:
             continue
         place = places[:, best]
-        _mark(taken, _box(place, half), _CLOSED)
+        taken[_box(place, half)] = _CLOSED
         x, y = frame.back(place)
         found[layer.name] = {"x": [x], "y": [y], "text": [layer.tag]}
     return found
@@ -110,21 +113,24 @@ def _within(there: Array) -> Array:
 
 
 def _curves(layer: Layer[Any], columns: Columns, frame: _Frame) -> list[Array]:
-    """Return what a layer covers as points (2, n), close to one another on curves; none for regions and cells."""
+    """Return what a layer covers as points (2, n), close to one another on curves; none for regions, cells and words."""
     given = [columns[name] for name in layer.columns]
-    if layer.glyph in ("image", "multi_polygons"):
+    if layer.glyph in ("image", "multi_polygons", "text"):
         return []
     if layer.glyph == "multi_line":
         return [_dense(frame.to(x, y), _SAMPLES // len(given[0])) for x, y in zip(*given, strict=True)]
     if layer.glyph == "segment":
         return [_dense(frame.to(ends[::2], ends[1::2]), 100) for ends in zip(*given, strict=True)]
     points = frame.to(*given[:2])
-    if layer.glyph == "line":
-        return [_dense(points, _SAMPLES)]
-    if layer.glyph == "text":
-        words = zip(points.T, given[2], strict=False)
-        return [_box(place, _half(word)) for place, word in words if word]
-    return [points]
+    return [_dense(points, _SAMPLES) if layer.glyph == "line" else points]
+
+
+def _words(layer: Layer[Any], columns: Columns, frame: _Frame) -> Iterable[tuple[Array, str]]:
+    """Return the words of a layer, each with its place (2,)."""
+    if layer.glyph != "text":
+        return ()
+    x, y, words = (columns[name] for name in layer.columns)
+    return zip(frame.to(x, y).T, words, strict=False)
 
 
 def _dense(curve: Array, least: int) -> Array:
@@ -141,10 +147,13 @@ def _half(word: str) -> Array:
     return np.array([[0.5 * _LETTER * len(word)], [0.5 * _LINE]])
 
 
-def _box(place: Array, half: Array) -> Array:
-    """Return points (2, n) that cover the cells of a box."""
-    steps = [place[i] + np.arange(-half[i, 0], half[i, 0], 0.5 / _CELLS) for i in range(2)]
-    return np.array(np.meshgrid(*steps)).reshape(2, -1)
+def _box(place: Array, half: Array) -> tuple[slice, slice]:
+    """Return the cells [row, column] of a box."""
+    (x0, x1), (y0, y1) = (
+        (max(0, math.floor((at - side) * _CELLS)), max(0, math.ceil((at + side) * _CELLS)))
+        for at, side in zip(place, half[:, 0], strict=True)
+    )
+    return slice(y0, y1), slice(x0, x1)
 
 
 def _mark(taken: Array, points: Array, how: float = 1.0) -> None:
