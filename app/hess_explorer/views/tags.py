@@ -113,7 +113,7 @@ def _within(there: Array) -> Array:
 
 
 def _curves(layer: Layer[Any], columns: Columns, frame: _Frame) -> list[Array]:
-    """Return what a layer covers as points (2, n), close to one another on curves; none for regions, cells and words."""
+    """Return what a layer covers as points (2, n), close to another on curves; none for regions, cells and words."""
     given = [columns[name] for name in layer.columns]
     if layer.glyph in ("image", "multi_polygons", "text"):
         return []
