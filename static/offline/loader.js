@@ -2,14 +2,15 @@
 // Starts a page in a file: decompresses its code, which is Bokeh and the modules of the page, and runs it.  The only script of
 // the file that is not compressed.
 
-/** @param {string} text @param {string} type */
-const run = (text, type) => { document.head.append(Object.assign(document.createElement("script"), { type, textContent: text })) }
+/** @param {string} text @param {string} type @param {string} [id] */
+const run = (text, type, id = "") => { document.head.append(Object.assign(document.createElement("script"), { id, type, textContent: text })) }
 
 async function load() {
   const { body } = await fetch(`data:;base64,${document.getElementById("code").textContent}`)
   const code = body.pipeThrough(new DecompressionStream("deflate"))
   const { bokeh, modules, entry } = await new Response(code).json()
-  run(bokeh, "text/javascript")
+  // Not run yet, see "pictures/bokeh.js".
+  run(bokeh, "text/plain", "bokeh")
   // Modules name each other by their paths, which the map resolves.
   run(JSON.stringify({ imports: modules }), "importmap")
   run(`import ${JSON.stringify(entry)}`, "module")

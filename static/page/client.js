@@ -13,7 +13,7 @@ import { embed, embedded } from "./embedding.js"
 import { createHandout } from "./handout.js"
 import { createHistory } from "./history.js"
 import { joinOther } from "./side_by_side.js"
-import { fill, paint, shareAxes } from "./painting.js"
+import { fill, paint, setAxes, shareAxes } from "./painting.js"
 import { present } from "./presenting.js"
 import { createRequests } from "./requests.js"
 import { createVisibility } from "./visibility.js"
@@ -119,9 +119,15 @@ export function startClient(model, host) {
 
   /** @param {StateAnswer} next @param {ArrayBuffer} block */
   const show = async (next, block) => {
+    const isSketched = state === next
     state = next
     if (scene?.name !== state.scene) enter(state.scene)
-    await paint(touchedPlots(state.tree), () => fillAll(state, block))
+    await paint(touchedPlots(state.tree), () => {
+      if (!isSketched) return fillAll(state, block)
+      setAxes(scene, Object.keys(scene.ranges))
+      for (const source of scene.sources.values()) source.feed()
+    })
+    scene.painted = true
     address.write()
     root.dataset.state = String(state.number)
     requests.settled()
@@ -140,9 +146,24 @@ export function startClient(model, host) {
     }
   }
 
-  /** @param {SceneDescription} description */
-  const build = async (description) => {
-    if (!gallery.has(description.name)) await gallery.build(description)
+  /**
+   * Show the first state in those pictures of the page that are there before the plots.
+   * @param {StateAnswer} next
+   * @param {ArrayBuffer} block
+   */
+  const sketch = async (next, block) => {
+    if (scene !== null) return
+    state = next
+    enter(state.scene)
+    fillAll(state, block)
+    // The canvases get their sizes in one frame and are painted in the next one.
+    for (let i = 0; i < 2; i++) await new Promise((done) => requestAnimationFrame(() => setTimeout(done)))
+    performance.mark("first picture")
+  }
+
+  /** @param {SceneDescription} description @param {() => Promise<void>} [begun] */
+  const build = async (description, begun) => {
+    if (!gallery.has(description.name)) await gallery.build(description, begun)
   }
   // States are shown one after the other; the pictures of a scene that may come next are built after the state on show.
   let arriving = Promise.resolve()
@@ -156,7 +177,7 @@ export function startClient(model, host) {
     const description = described !== null && isPart ? embedded(described, own) : described
     if (description !== null) descriptions.set(description.name, description)
     arriving = arriving.then(async () => {
-      await build(descriptions.get(next.scene))
+      await build(descriptions.get(next.scene), () => sketch(next, block))
       await show(next, block)
       if (description !== null) await build(description)
     }).catch((error) => {

@@ -24,7 +24,7 @@ function within(promise, most) {
  * @param {Scene} scene
  * @param {Iterable<string>} names
  */
-function setAxes({ plots, ranges, beside }, names) {
+export function setAxes({ plots, ranges, beside }, names) {
   for (const name of names) {
     const plot = plots.find((one) => one.model.name === name)
     if (plot === undefined || ranges[name] === undefined) continue
@@ -58,7 +58,6 @@ export function fill(scene, { ranges, sources }, block) {
   Object.assign(scene.ranges, ranges)
   setAxes(scene, Object.keys(ranges))
   tell("axes", { name: scene.name, ranges: scene.ranges })
-  scene.painted = true
   for (const [name, columns] of unpack(sources, block)) scene.sources.get(name)?.put(columns)
 }
 

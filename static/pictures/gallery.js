@@ -18,16 +18,9 @@ import { torus } from "./torus.js"
 
 // Milliseconds until a theme has changed its last colour.
 const LATE = 2000
-// Functions that draw a picture, by its kind.
-/** @type {Record<PictureDescription["kind"], (host: HTMLElement, picture: PictureDescription, source: FindSource,
- *   isShown: () => boolean) => Drawn | Promise<Drawn>>} */
-const KINDS = {
-  sphere, torus, cloud: cloudPlane,
-  async plot(host, picture, source) {
-    const plot = await buildPlot(host, picture, source)
-    return { plot, shoot: (side) => shootPlot(plot, side), ...planeGhost(plot) }
-  },
-}
+// Functions that draw a picture on a canvas of its own, by its kind.
+/** @type {Record<string, (host: HTMLElement, picture: PictureDescription, source: FindSource, isShown: () => boolean) => Drawn>} */
+const CANVASES = { sphere, torus, cloud: cloudPlane }
 
 /** @type {Map<string, Scene>} */
 const built = new Map()
@@ -91,8 +84,18 @@ function followThemeForAWhile() {
   if (!isFollowing) step()
 }
 
-/** Build the pictures of a scene out of sight. @param {SceneDescription} description */
-async function build(description) {
+/** @param {HTMLElement} host @param {PictureDescription} picture @param {FindSource} source @returns {Promise<Drawn>} */
+async function drawPlot(host, picture, source) {
+  const plot = await buildPlot(host, picture, source)
+  return { plot, shoot: (side) => shootPlot(plot, side), ...planeGhost(plot) }
+}
+
+/**
+ * Build the pictures of a scene out of sight: first the canvases, then the plots, which take longer.
+ * @param {SceneDescription} description
+ * @param {() => Promise<void>} [begun] is called between them, if there are canvases
+ */
+async function build(description, begun = async () => {}) {
   setShades(description.shades)
   const grid = element("div.gallery")
   /** @type {Scene} */
@@ -115,8 +118,10 @@ async function build(description) {
   grid.classList.add("away")
   shelf.append(grid)
   stage.place(scene)
-  const drawn = await Promise.all(places.map(([host, picture]) => (
-    KINDS[picture.kind](host, picture, source, () => shown === scene))))
+  built.set(scene.name, scene)
+  const canvases = places.map(([host, picture]) => CANVASES[picture.kind]?.(host, picture, source, () => shown === scene))
+  if (canvases.some(Boolean)) await begun()
+  const drawn = await Promise.all(places.map(([host, picture], i) => canvases[i] ?? drawPlot(host, picture, source)))
   drawn.forEach((one, i) => {
     scene.shots.set(description.pictures[i].name, one.shoot)
     if (one.take) scene.ghosts.push(/** @type {Ghost} */ (one))
@@ -125,7 +130,6 @@ async function build(description) {
   colour(scene)
   stage.size(scene)
   while (!scene.plots.every((plot) => plot.has_finished())) await new Promise(requestAnimationFrame)
-  built.set(scene.name, scene)
   return scene
 }
 

@@ -4,6 +4,7 @@
 import { listen } from "../page/bus.js"
 import { element } from "../page/elements.js"
 import { isPresenting } from "../page/presenting.js"
+import { startBokeh } from "./bokeh.js"
 import { checkBokeh, spareStyles, spareUnseen, waitLongForPress } from "./bokeh_private.js"
 import { frameCanvas } from "./canvas.js"
 import { cellsPainter } from "./cells.js"
@@ -95,6 +96,7 @@ function placesOf({ frame: { x_scale: xScale, y_scale: yScale } }, handle, sourc
  * @returns {Promise<PlotView>}
  */
 export async function buildPlot(host, picture, source) {
+  startBokeh()
   waitLongForPress()
   const views = await Bokeh.embed.embed_item(picture.item, host)
   /** @type {PlotView} */

@@ -11,18 +11,25 @@ export class Source {
   #models = []
   /** @type {Set<() => void>} */
   #watchers = new Set()
+  #isFilled = false
 
   /** Feed a Bokeh data source too; each plot has its own. @param {BokehModel} model @param {PlotView} plot */
   add(model, plot) {
     this.#models.push(model)
     this.plots.add(plot)
-    this.data = model.data instanceof Map ? Object.fromEntries(model.data) : model.data
+    if (!this.#isFilled) this.data = model.data instanceof Map ? Object.fromEntries(model.data) : model.data
+  }
+
+  /** Give the data to the plots, which were built after it came. */
+  feed() {
+    for (const model of this.#models) model.setv({ data: this.data }, { sync: false })
   }
 
   /** @param {Data} data */
   put(data) {
     this.data = data
-    for (const model of this.#models) model.setv({ data }, { sync: false })
+    this.#isFilled = true
+    this.feed()
     for (const watcher of this.#watchers) watcher()
   }
 
