@@ -373,6 +373,8 @@ interface Scene {
   opening: string
   grid: HTMLElement
   sources: Map<string, Source>
+  /** Returns a source, a new one under a new name. */
+  source: FindSource
   cells: HTMLElement[]
   plots: PlotView[]
   /** Axes by picture: of the state, and of the other page if two states stand side by side. */
@@ -380,7 +382,8 @@ interface Scene {
   beside: Record<string, [number, number, number, number]>
   ghosts: Ghost[]
   shots: Map<string, Drawn["shoot"]>
-  /** Whether a state was painted. */
+  /** Whether its plots are built, and whether a state was painted in all its pictures. */
+  isComplete: boolean
   painted: boolean
   /** The colours that the plots have. */
   coloured?: string

@@ -126,6 +126,8 @@ export function startClient(model, host) {
       if (!isSketched) return fillAll(state, block)
       setAxes(scene, Object.keys(scene.ranges))
       for (const source of scene.sources.values()) source.feed()
+      // They name the plots too.
+      tell("captions", state.tree.captions)
     })
     scene.painted = true
     address.write()

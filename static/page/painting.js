@@ -58,7 +58,7 @@ export function fill(scene, { ranges, sources }, block) {
   Object.assign(scene.ranges, ranges)
   setAxes(scene, Object.keys(ranges))
   tell("axes", { name: scene.name, ranges: scene.ranges })
-  for (const [name, columns] of unpack(sources, block)) scene.sources.get(name)?.put(columns)
+  for (const [name, columns] of unpack(sources, block)) scene.source(name).put(columns)
 }
 
 /**

@@ -37,7 +37,7 @@ let stage = null
 export const gallery = {
   standing: /** @type {Promise<void>} */ (new Promise((resolve) => { stand = resolve })),
   /** @param {string} name */
-  has: (name) => built.has(name),
+  has: (name) => built.get(name)?.isComplete ?? false,
   /** @param {string} name */
   source: (name) => shown?.sources.get(name),
   /** @param {string} name */
@@ -98,8 +98,13 @@ async function drawPlot(host, picture, source) {
 async function build(description, begun = async () => {}) {
   setShades(description.shades)
   const grid = element("div.gallery")
+  /** @type {FindSource} */
+  const source = (name) => {
+    if (!scene.sources.has(name)) scene.sources.set(name, new Source())
+    return scene.sources.get(name)
+  }
   /** @type {Scene} */
-  const scene = { name: description.name, opening: description.opening, grid, sources: new Map(), cells: [], plots: [], ranges: {}, beside: {}, ghosts: [], shots: new Map(), sizes: new Map(), painted: false }
+  const scene = { name: description.name, opening: description.opening, grid, sources: new Map(), cells: [], plots: [], ranges: {}, beside: {}, ghosts: [], shots: new Map(), sizes: new Map(), painted: false, isComplete: false, source }
   const places = description.pictures.map((picture) => {
     const { name } = picture
     const [cell, host] = createCell(picture, stage.cornerFor(name), () => { gallery.pointed = name })
@@ -107,11 +112,6 @@ async function build(description, begun = async () => {}) {
     scene.cells.push(cell)
     return /** @type {[HTMLElement, PictureDescription]} */ ([host, picture])
   })
-  /** @type {FindSource} */
-  const source = (name) => {
-    if (!scene.sources.has(name)) scene.sources.set(name, new Source())
-    return scene.sources.get(name)
-  }
   // The player reads the orbit even if no picture draws it.
   for (const name of [...description.tracks, ...Object.keys(description.dots)]) source(name)
   // In place, to have its size, but hidden until it is filled.
@@ -130,6 +130,7 @@ async function build(description, begun = async () => {}) {
   colour(scene)
   stage.size(scene)
   while (!scene.plots.every((plot) => plot.has_finished())) await new Promise(requestAnimationFrame)
+  scene.isComplete = true
   return scene
 }
 

@@ -224,9 +224,11 @@ MISSING = """async (modules) => {
   view.el = undefined
   found.push(missing(plot))
   view.el = el
-  glyph.set_visuals = undefined
+  const { mask_data: mask } = glyph
+  glyph.set_visuals = glyph.mask_data = undefined
   found.push(missing(plot))
   delete glyph.set_visuals
+  glyph.mask_data = mask
   const { muted_glyph: muted } = view
   view.muted_glyph = undefined
   found.push(missing(plot))
@@ -240,8 +242,8 @@ def test_each_private_member_of_bokeh_that_is_not_there_is_named(explorer):
     assert explorer.page.evaluate(MISSING, modules_path()) == [
         [],
         ["UIGestures.press_threshold"],
-        ["RendererView.el"],
-        ["GlyphRendererView.all_indices, GlyphView.set_visuals and after_visuals"],
+        ["RendererView.el and update_position"],
+        ["GlyphRendererView.all_indices, GlyphView.set_visuals and after_visuals", "GlyphView.mask_data"],
         ["GlyphRendererView.selection_glyph, nonselection_glyph, muted_glyph and decimated_glyph"],
         [],
     ]
