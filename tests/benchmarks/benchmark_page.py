@@ -13,14 +13,13 @@ import tempfile
 import time
 from contextlib import contextmanager
 from importlib.metadata import version
-from math import ceil, pi, sin
+from math import ceil, sin
 from pathlib import Path
 from statistics import median
 
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parents[1])]
 
-import numpy as np
 from playwright.async_api import async_playwright
 
 from benchmarks.integrators.machine import conditions
@@ -28,10 +27,6 @@ from hess_explorer.headless.browser import find_browser
 from hess_explorer.headless.screenshot import free_port
 from hess_explorer.protocol.parameters import Number
 from hess_explorer.scenes import scenes
-from hess_mechanics import rotation_number_grid
-from hess_mechanics.euler_poisson.andoyer import AndoyerSection
-from hess_mechanics.euler_poisson.equations import HeavyBody
-from hess_mechanics.suslov_hess.rotation_number import values_at
 from support.measured import table, write_measured
 from support.processes import worked
 
@@ -42,19 +37,15 @@ SCENE = "suslov-hess"
 READY = "document.documentElement.dataset.ready === 'true'"
 STATE = "Number(document.documentElement.dataset.state)"
 
+# Milliseconds from a key to the first painted pictures.
 RECORD = """() => {
     let start = null
-    let first = null
-    document.addEventListener("keydown", () => { [start, first] = [performance.now(), null] }, true)
-    new MutationObserver((changes) => {
+    document.addEventListener("keydown", () => { start = performance.now() }, true)
+    new MutationObserver(() => {
         if (start === null) return
-        const now = performance.now() - start
-        if (changes.some(({ attributeName }) => attributeName === "data-state")) first ??= now
-        if (document.documentElement.dataset.ready === "true") {
-            window.times.push([first, now])
-            start = null
-        }
-    }).observe(document.documentElement, { attributes: true, attributeFilter: ["data-ready", "data-state"] })
+        window.times.push(performance.now() - start)
+        start = null
+    }).observe(document.documentElement, { attributeFilter: ["data-state"] })
 }"""
 
 
@@ -129,18 +120,22 @@ async def body_frame(browser, url):
     return f"{1e3 * spent / frames:.1f} ms a frame, {frames / PLAY_SECONDS:.0f} frames a second"
 
 
-async def moved(page, name):
-    """Milliseconds from each of `MOVES` key presses on a slider to the first painted pictures, and to all there is."""
+async def pressed(page, slider):
+    """Median and 95th percentile of the milliseconds from a key on a slider to painted pictures, for `MOVES` keys."""
     await page.evaluate("window.times = []")
-    await page.locator(f".param-{name} input[type=range]").focus()
+    await slider.focus()
     for i in range(MOVES):
         await page.keyboard.press("ArrowRight")
         await page.wait_for_function(f"window.times.length === {i + 1}", timeout=10_000)
         await asyncio.sleep(0.03)
-    firsts, times = map(sorted, zip(*(await page.evaluate("window.times")), strict=True))
-    middle, high, whole = median(firsts), firsts[ceil(0.95 * MOVES) - 1], median(times)
-    later = f"; complete after {whole:.0f} ms" if whole > 1.2 * middle else ""
-    return f"median {middle:.1f} ms, 95th percentile {high:.1f} ms{later}"
+    times = sorted(await page.evaluate("window.times"))
+    return median(times), times[ceil(0.95 * MOVES) - 1]
+
+
+async def moved(page, name):
+    """What `pressed` says of a slider of the page."""
+    middle, high = await pressed(page, page.locator(f".param-{name} input[type=range]"))
+    return f"median {middle:.1f} ms, 95th percentile {high:.1f} ms"
 
 
 async def drag(page, name):
@@ -190,59 +185,6 @@ async def entries(page, rested, name):
     return f"{first:.0f} ms, {prepared:.0f} ms, {median(again):.0f} ms"
 
 
-def timed(count, work):
-    """Median of so many calls work(i) in milliseconds, after one that loads the kernel."""
-    times = []
-    for i in range(count + 1):
-        start = time.perf_counter()
-        work(i)
-        times.append((time.perf_counter() - start) * 1e3)
-    return median(times[1:])
-
-
-def computations():
-    """Rows of what is computed without a page."""
-    scene = scenes()[SCENE]
-    values = scene.defaults()
-    new, moved_on, cached = (
-        timed(
-            20,
-            lambda i, key=key: scene.compute(
-                {**values, **({key: 0.1 + 0.01 * i} if key else {})}, scene.pictures, False
-            ),
-        )
-        for key in ("I23", "phi0", None)
-    )
-    yield (
-        "computing a state: new body, new phase, from the cache",
-        f"{new:.2f} ms, {moved_on:.2f} ms, {cached:.2f} ms",
-        "",
-    )
-    h, f = np.linspace(-0.99, 4.0, 100), np.linspace(-3.0, 3.0, 75)
-    grid = timed(20, lambda _: rotation_number_grid(0.75, h, f, "draft"))
-    yield "rotation number on 100 × 75 (h, f)", f"{grid:.1f} ms", "≤ 100 ms"
-    tori = [axis.ravel() for axis in np.meshgrid(np.linspace(-0.99, 4.0, 300), np.linspace(-3.0, 3.0, 200))]
-    plane = timed(5, lambda _: values_at(0.5, *tori, "standard"))
-    yield "rotation number on 300 × 200 (h, f), one core", f"{plane:.0f} ms", "≤ 1 s"
-    section = AndoyerSection(HeavyBody.hess((1.0, 0.625, 0.375), 9.975), 50.0, 5.0)
-    starts = section.spread(((-pi, -1.0), (pi, 1.0)), 117)
-    points = timed(5, lambda _: section.points(starts, 400, "standard"))
-    yield "section of figure 11, 117 orbits × 400 crossings", f"{points:.0f} ms", ""
-
-
-COMPILE = """
-import sys, time
-import hess_mechanics
-start = time.perf_counter()
-which, body, state = sys.argv[1], *hess_mechanics.systems()["hess"].example_motion
-if which == "orbit": hess_mechanics.solve(body, state, [1.0], "draft")
-if which == "ensemble": hess_mechanics.ensemble(body, [state], [1.0], "draft")
-if which == "section": hess_mechanics.section(
-    body, state, hess_mechanics.Plane((1.0, 0, 0, 0, 0)), 1.0, "draft")
-if which == "circle map": hess_mechanics.circle_map(0.5, 1.5, 0.6, "draft").theta([0.0])
-print(time.perf_counter() - start)
-"""
-
 # The first scene is compiled before any other, whatever page is opened.
 COMPILE_SCENE = """
 import gc, sys, time
@@ -257,11 +199,11 @@ print(time.perf_counter() - start)
 """
 
 
-def compiled(script, what):
-    """Seconds until a script has its first result: compiled from nothing, and loaded from the cache."""
+def compiled(scene):
+    """Seconds until the first state of a scene: compiled from nothing, and loaded from the cache."""
     with tempfile.TemporaryDirectory() as folder:
         environment = {**os.environ, "NUMBA_CACHE_DIR": folder, "PYTHONPATH": str(ROOT)}
-        command = [sys.executable, "-c", script, what]
+        command = [sys.executable, "-c", COMPILE_SCENE, scene]
         first, second = (
             float(subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout)
             for _ in range(2)
@@ -330,12 +272,9 @@ async def measure():
             with server(environment) as (url, pid):
                 rows += [row async for row in in_the_page(browser, url, pid)]
         await browser.close()
-    for kernel in ("orbit", "circle map", "ensemble", "section"):
-        rows.append((f"kernel of the {kernel}: compiled, loaded", compiled(COMPILE, kernel), ""))
     for scene in others():
         what = f"{scene.title}: first state compiled after that of the first scene, loaded"
-        rows.append((what, compiled(COMPILE_SCENE, scene.name), "≤ 6 s"))
-    rows += computations()
+        rows.append((what, compiled(scene.name), "≤ 6 s"))
     versions = ", ".join(f"{name} {version(name)}" for name in ("panel", "bokeh", "holoviews", "numba", "numpy"))
     text = f"{conditions()}, {versions}.\n\n{table(['what', 'measured', 'asked'], rows)}"
     write_measured(Path(__file__).with_name("README.md"), text)

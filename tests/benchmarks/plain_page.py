@@ -28,7 +28,7 @@ def computed(h, f):
 
 def page():
     """The page of one visitor."""
-    h = pn.widgets.FloatSlider(name="h", start=-0.9, end=4.0, step=0.01, value=1.2)
+    h = pn.widgets.FloatSlider(name="h", start=-0.9, end=4.0, step=0.002, value=1.2)
     f = pn.widgets.FloatSlider(name="f", start=-1.0, end=1.0, step=0.01, value=0.3)
     plots, sources = [], []
     for title, (x, y) in zip(("ω", "γ", "h, f", "θ"), computed(h.value, f.value), strict=True):
