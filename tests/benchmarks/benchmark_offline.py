@@ -50,7 +50,7 @@ DRAG = """async ([low, high, count]) => {
 
 def opened(browser, path):
     """Seconds until the first picture and until all, and those of each state of a drag; None without a slider of h."""
-    context = browser.new_context(viewport={"width": 1600, "height": 950}, offline=True)
+    context = browser.new_context(viewport={"width": 1600, "height": 950}, offline=True, reduced_motion="reduce")
     page = context.new_page()
     page.add_init_script(READY)
     page.goto(path.as_uri())

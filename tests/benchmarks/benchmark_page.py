@@ -86,8 +86,13 @@ async def opened(browser, url):
             await asyncio.sleep(0.02)
     await page.goto(f"{url}/?scene={SCENE}")
     await page.wait_for_function(READY, timeout=60_000)
-    await page.locator("details.group").evaluate_all("groups => groups.forEach((group) => { group.open = true })")
+    await unfold(page)
     return page
+
+
+async def unfold(page):
+    """Open all groups of controls of the scene on show."""
+    await page.locator("details.group").evaluate_all("groups => groups.forEach((group) => { group.open = true })")
 
 
 async def body_frame(browser, url):
@@ -165,7 +170,8 @@ async def enter(page, name):
     await page.locator(f".param-scene-{name}").dispatch_event("click")
     await page.wait_for_function(f"document.documentElement.dataset.scene === '{name}' && {STATE} > {before}")
     painted = (time.perf_counter() - start) * 1e3
-    await page.wait_for_function(READY)
+    await page.wait_for_function(READY, timeout=90_000)
+    await unfold(page)
     return painted
 
 

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hess_explorer.views.layers import Axes, Columns, Layer
 from hess_mechanics.numerics.results import Array
@@ -107,7 +108,7 @@ def _there(layer: Layer[Any], columns: Columns) -> bool:
     return len(columns.get(layer.columns[0], ())) > 0
 
 
-def _within(there: Array) -> Array:
+def _within(there: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Return where both rows are true."""
     return np.asarray(there[0] & there[1])
 
