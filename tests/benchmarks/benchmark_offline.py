@@ -1,6 +1,7 @@
 """`python tests/benchmarks/benchmark_offline.py`: bytes, opening and dragging of pages without a server, and the site.
 
-It rewrites the tables of app/hess_explorer/offline/README.md; `--quick` prints a trial with few states and no site.
+It rewrites the tables of app/hess_explorer/offline/README.md, with `--pages` all but the site's; `--quick` prints a
+trial with few states and no site.
 """
 
 import contextlib
@@ -22,6 +23,7 @@ from support.measured import table, write_measured
 
 README = Path(__file__).resolve().parents[2] / "app" / "hess_explorer" / "offline" / "README.md"
 QUICK = "--quick" in sys.argv
+SITE = "`hess-explorer site OUT`"
 COUNT = 6 if QUICK else 40
 ROUNDS = 1 if QUICK else 5
 # In the page's own time, which begins with its address.
@@ -97,12 +99,16 @@ def site(folder):
     lines = [line.split() for line in done.stdout.decode().splitlines()]
     rows = [[f"`{words[2]}`", f"{int(words[0].replace(',', '')) / 1e6:.1f}"] for words in lines[:-1]]
     total = int(lines[-1][0].replace(",", "")) / 1e6
-    return f"`hess-explorer site OUT`: {total:.0f} MB in {seconds:.0f} s.\n\n{table(['page', 'MB'], rows)}"
+    return f"{SITE}: {total:.0f} MB in {seconds:.0f} s.\n\n{table(['page', 'MB'], rows)}"
 
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        parts = [conditions(), measured(folder), *([] if QUICK else [site(folder)])]
+        parts = [conditions(), measured(folder)]
+        if "--pages" in sys.argv:
+            parts.append(SITE + README.read_text().split(SITE)[1].split("\n\n<!--")[0])
+        elif not QUICK:
+            parts.append(site(folder))
     text = "\n\n".join(parts)
     print(text)
     if not QUICK:

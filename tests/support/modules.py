@@ -28,5 +28,5 @@ if (location.protocol.startsWith("http")) begin()""".replace("MODULES", modules_
 
 
 def look_inside(page):
-    """From the next address on."""
-    page.add_init_script(_SCRIPT)
+    """From the next address on; with Playwright's asynchronous pages, to be awaited."""
+    return page.add_init_script(_SCRIPT)
