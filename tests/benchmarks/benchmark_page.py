@@ -32,7 +32,6 @@ from support.processes import worked
 
 ROOT = Path(__file__).resolve().parents[2]
 MOVES = 45
-PLAY_SECONDS = 5.0
 SCENE = "suslov-hess"
 READY = "document.documentElement.dataset.ready === 'true'"
 STATE = "Number(document.documentElement.dataset.state)"
@@ -93,36 +92,6 @@ async def opened(browser, url):
 async def unfold(page):
     """Open all groups of controls of the scene on show."""
     await page.locator("details.group").evaluate_all("groups => groups.forEach((group) => { group.open = true })")
-
-
-async def body_frame(browser, url):
-    """Milliseconds of the page's thread for a frame of the body alone that plays; the pace in frames a second."""
-    page = await tab(browser)
-    await page.goto(f"{url}/?scene={SCENE}&embed=1&pictures=body")
-    await page.wait_for_function(READY, timeout=60_000)
-    await page.locator(".param-play").click()
-    session = await page.context.new_cdp_session(page)
-    # CPU time of the thread, not wall time.
-    await session.send("Performance.enable", {"timeDomain": "threadTicks"})
-
-    async def busy():
-        found = (await session.send("Performance.getMetrics"))["metrics"]
-        return next(one["value"] for one in found if one["name"] == "TaskDuration")
-
-    await asyncio.sleep(1.0)
-    before = await busy()
-    frames = await page.evaluate(
-        """async (ms) => {
-        const end = performance.now() + ms
-        let count = 0
-        while (await new Promise(requestAnimationFrame) < end) count++
-        return count
-    }""",
-        1e3 * PLAY_SECONDS,
-    )
-    spent = await busy() - before
-    await page.close()
-    return f"{1e3 * spent / frames:.1f} ms a frame, {frames / PLAY_SECONDS:.0f} frames a second"
 
 
 async def pressed(page, slider):
@@ -249,7 +218,6 @@ async def in_the_page(browser, url, pid):
     await page.evaluate(RECORD)
     yield "slider h in the first seconds, other scenes not loaded yet", await moved(page, "h"), ""
     await idle(pid)
-    yield "the body alone, 1600×950, while it plays", await body_frame(browser, url), "≤ 4 ms"
     for name in ("h", "I23"):
         said = await moved(page, name)
         yield f"slider {name} to four painted pictures, {MOVES} moves", said, "≤ 33 ms, ≤ 66 ms"
