@@ -11,13 +11,13 @@ export class Source {
   #models = []
   /** @type {Set<() => void>} */
   #watchers = new Set()
-  #isFilled = false
 
   /** Feed a Bokeh data source too; each plot has its own. @param {BokehModel} model @param {PlotView} plot */
   add(model, plot) {
     this.#models.push(model)
     this.plots.add(plot)
-    if (!this.#isFilled) this.data = model.data instanceof Map ? Object.fromEntries(model.data) : model.data
+    // Data that came before the plot are kept.
+    if (Object.keys(this.data).length === 0) this.data = model.data instanceof Map ? Object.fromEntries(model.data) : model.data
   }
 
   /** Give the data to the plots, which were built after it came. */
@@ -28,7 +28,6 @@ export class Source {
   /** @param {Data} data */
   put(data) {
     this.data = data
-    this.#isFilled = true
     this.feed()
     for (const watcher of this.#watchers) watcher()
   }

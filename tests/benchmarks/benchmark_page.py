@@ -69,6 +69,14 @@ async def idle(pid):
         await asyncio.sleep(2.0)
 
 
+async def launched(playwright):
+    """The browser of all measurements."""
+    return await playwright.chromium.launch(
+        executable_path=find_browser(playwright.chromium.executable_path),
+        args=["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else [],
+    )
+
+
 async def tab(browser):
     """An empty page of the size of all measurements."""
     return await browser.new_page(viewport={"width": 1600, "height": 950}, reduced_motion="reduce")
@@ -94,6 +102,11 @@ async def unfold(page):
     await page.locator("details.group").evaluate_all("groups => groups.forEach((group) => { group.open = true })")
 
 
+def hand(page, name):
+    """The slider of a parameter."""
+    return page.locator(f".param-{name} input[type=range]")
+
+
 async def pressed(page, slider):
     """Median and 95th percentile of the milliseconds from a key on a slider to painted pictures, for `MOVES` keys."""
     await page.evaluate("window.times = []")
@@ -107,14 +120,14 @@ async def pressed(page, slider):
 
 
 async def moved(page, name):
-    """What `pressed` says of a slider of the page."""
-    middle, high = await pressed(page, page.locator(f".param-{name} input[type=range]"))
+    """The times of a slider of the page in words."""
+    middle, high = await pressed(page, hand(page, name))
     return f"median {middle:.1f} ms, 95th percentile {high:.1f} ms"
 
 
 async def drag(page, name):
     """States painted per second in a drag of 3 s, the time from its end to rest, states painted after its end."""
-    box = await page.locator(f".param-{name} input[type=range]").bounding_box()
+    box = await hand(page, name).bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     await page.mouse.move(x, y)
     await page.mouse.down()
@@ -236,10 +249,7 @@ async def in_the_page(browser, url, pid):
 async def measure():
     """Measure all, and write the table."""
     async with async_playwright() as playwright:
-        browser = await playwright.chromium.launch(
-            executable_path=find_browser(playwright.chromium.executable_path),
-            args=["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else [],
-        )
+        browser = await launched(playwright)
         with tempfile.TemporaryDirectory() as folder:
             environment = {**os.environ, "NUMBA_CACHE_DIR": folder}
             rows = [row async for row in starts(browser, environment)]

@@ -16,9 +16,22 @@ if __name__ == "__main__":
 
 from playwright.async_api import async_playwright
 
-from benchmarks.benchmark_page import MOVES, READY, RECORD, SCENE, enter, idle, opened, others, pressed, server, tab
+from benchmarks.benchmark_page import (
+    MOVES,
+    READY,
+    RECORD,
+    SCENE,
+    enter,
+    hand,
+    idle,
+    launched,
+    opened,
+    others,
+    pressed,
+    server,
+    tab,
+)
 from benchmarks.integrators.machine import conditions
-from hess_explorer.headless.browser import find_browser
 from hess_explorer.headless.screenshot import free_port
 from hess_explorer.protocol.parameters import Number
 from support.measured import table, write_measured
@@ -97,10 +110,6 @@ PLAY = """async (ms) => {
 }"""
 
 
-def hand(page, name):
-    return page.locator(f".param-{name} input[type=range]")
-
-
 async def beside(plain, page):
     """Rows of each scene beside the plain page."""
     for scene in [None, *others()]:
@@ -135,15 +144,16 @@ async def stages(browser, url):
         await asyncio.sleep(0.03)
     found = await page.evaluate("window.stages")
     await page.close()
-    names = {name: median(one.get(name, 0.0) for one in found) for state in found for name in state}
-    return [[name, f"{time:.1f} ms"] for name, time in sorted(names.items(), key=lambda pair: -pair[1])]
+    times = {name: median(one.get(name, 0.0) for one in found) for name in set().union(*found)}
+    return [[name, f"{time:.1f} ms"] for name, time in sorted(times.items(), key=lambda pair: -pair[1])]
 
 
 async def played(browser, url):
-    """A sentence on the frames of a minute of play."""
+    """A sentence on the frames while it plays."""
     page = await browser.new_page(viewport={"width": 1600, "height": 950})
     await page.goto(f"{url}/?scene={SCENE}")
     await page.wait_for_function(READY)
+    # The opening motion may play already: then the click has ended it.
     await page.locator(".param-play").click()
     if await page.locator(".player[data-playing=true]").count() == 0:
         await page.locator(".param-play").click()
@@ -159,10 +169,7 @@ async def played(browser, url):
 async def measure():
     """Measure all, and write it."""
     async with async_playwright() as playwright:
-        browser = await playwright.chromium.launch(
-            executable_path=find_browser(playwright.chromium.executable_path),
-            args=["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else [],
-        )
+        browser = await launched(playwright)
         port = free_port()
         nowhere = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
         with (

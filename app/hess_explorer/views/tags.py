@@ -114,7 +114,7 @@ def _within(there: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def _curves(layer: Layer[Any], columns: Columns, frame: _Frame) -> list[Array]:
-    """Return what a layer covers as points (2, n), close to another on curves; none for regions, cells and words."""
+    """Return the points (2, n) that a layer covers, close together on curves; none for regions, cells and words."""
     given = [columns[name] for name in layer.columns]
     if layer.glyph in ("image", "multi_polygons", "text"):
         return []
@@ -131,7 +131,7 @@ def _words(layer: Layer[Any], columns: Columns, frame: _Frame) -> Iterable[tuple
     if layer.glyph != "text":
         return ()
     x, y, words = (columns[name] for name in layer.columns)
-    return zip(frame.to(x, y).T, words, strict=False)
+    return ((place, word) for place, word in zip(frame.to(x, y).T, words, strict=False) if word)
 
 
 def _dense(curve: Array, least: int) -> Array:
