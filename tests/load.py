@@ -1,7 +1,8 @@
 """A class at once: `python tests/load.py 10 50 200` prints what so many sessions, over the websocket, take and cost.
 
 Each session opens a scene, the scenes in turn, and changes one of its numbers every 2 s.  Then the same with one more
-that asks for the dearest scene at `reference` without a pause.  `--leave 2000`: what is left of sessions that are gone.
+that asks for the dearest scene at `reference` without a pause.  `--drag 20`: all pages show one scene, and so many of them
+drag a slider without a pause, beside that dearest session.  `--leave 2000`: what is left of sessions that are gone.
 `--followers 300`: a lecturer drags a slider for 20 s, in an empty room and in one of so many followers.
 On a quiet machine: `python tests/load.py 10 50 200 500 --workers 1 2 --leave 2000 --write`.
 """
@@ -31,7 +32,7 @@ from support.processes import memory, worked
 from support.room import Follower, Lecturer
 from support.visitor import Visitor
 
-EVERY = 2.0
+EVERY, FRAME = 2.0, 0.016
 LOG = Path(os.devnull)
 README = Path(__file__).resolve().parents[1] / "app" / "hess_explorer" / "server" / "README.md"
 TURNS = 4
@@ -41,10 +42,10 @@ DEAREST = "scene=euler-poisson&accuracy=reference"
 class Crowd:
     """A number of visitors that open the scenes in turn."""
 
-    def __init__(self, base):
+    def __init__(self, base, names=()):
         self.base, self.visitors, self.errors = base, [], 0
-        self.opened, self.answered = [], []
-        self.names = [name for name, scene in scenes().items() if scene.origin is None]
+        self.opened, self.answered, self.dragged = [], [], []
+        self.names = names or [name for name, scene in scenes().items() if scene.origin is None]
 
     async def open(self, count):
         """Sixteen at a time, as browsers do that come within a few seconds."""
@@ -66,27 +67,29 @@ class Crowd:
         await asyncio.gather(*(one(i) for i in range(count)))
         return time.monotonic() - begun
 
-    async def use(self, seconds, seed):
-        """Change a value every 2 s; return the times to the answers."""
-        self.answered = []
+    async def use(self, seconds, seed, drag=0):
+        """Change a value every 2 s, the first `drag` pages every 16 ms; keep the times to the answers."""
+        self.answered, self.dragged = [], []
         ends = time.monotonic() + seconds
 
         async def one(i, name, visitor):
             chance = random.Random(1000 * seed + i)
+            every, answered = (FRAME, self.dragged) if i < drag else (EVERY, self.answered)
             spec = next(spec for spec in scenes()[name].specs if isinstance(spec, Number))
-            await asyncio.sleep(EVERY * chance.random())
+            await asyncio.sleep(every * chance.random())
             while time.monotonic() < ends:
                 begun = time.monotonic()
                 try:
                     low, high = spec.softbounds
                     value = spec.default + 0.05 * (high - low) * (chance.random() - 0.5)
-                    await visitor.ask(timeout=60.0, values={spec.name: round(min(max(value, low), high), 6)})
-                    self.answered.append(time.monotonic() - begun)
+                    values = {spec.name: round(min(max(value, low), high), 6)}
+                    await visitor.ask(timeout=60.0, values=values, held=i < drag)
+                    answered.append(time.monotonic() - begun)
                 except Exception as error:
                     self.errors += 1
                     print(f"{name}: {error!r}", file=sys.stderr)
                     return
-                await asyncio.sleep(max(0.0, EVERY - (time.monotonic() - begun)))
+                await asyncio.sleep(max(0.0, every - (time.monotonic() - begun)))
 
         await asyncio.gather(*(one(i, *pair) for i, pair in enumerate(self.visitors)))
 
@@ -115,15 +118,44 @@ def _row(times):
     return statistics.median(times), times[min(len(times) - 1, int(0.95 * len(times)))]
 
 
-async def measure(base, pid, counts, seconds):
-    """Yield one line of the table for each count."""
-    # Warm up: every process should first have computed each scene with its background work, which is loaded once and
-    # is not part of a session.
+async def _warm(base):
+    """Let every process compute each scene with its background work, which is loaded once and is not part of a session."""
     warm = Crowd(base)
     await warm.open(5 * len(warm.names))
     await warm.use(4.0 * EVERY, 99)
     await asyncio.sleep(5.0)
     await warm.leave()
+
+
+async def drags(base, pid, counts, drag, seconds):
+    """Yield one line for each count of pages in the first scene, some of which drag its slider."""
+    await _warm(base)
+    yield "| pages | dragging | states a second | p95 of those | p95 of the others | worst | cores | memory each | errors |"
+    yield "|---|---|---|---|---|---|---|---|---|"
+    for count, beside in itertools.product(counts, ("", ", beside one at reference")):
+        await _expired(base)
+        before, crowd, until = memory(pid), Crowd(base, [next(iter(scenes()))]), asyncio.Event()
+        await crowd.open(count)
+        other = asyncio.create_task(dear(base, until)) if beside else None
+        cpu, begun = worked(pid), time.monotonic()
+        await crowd.use(seconds, count, drag)
+        share = (worked(pid) - cpu) / (time.monotonic() - begun)
+        held = memory(pid)
+        until.set()
+        await crowd.leave()
+        if other:
+            other.cancel()
+        worst = max(crowd.answered + crowd.dragged)
+        yield (
+            f"| {count}{beside} | {drag} | {len(crowd.dragged) / seconds:.0f} | {1e3 * _row(crowd.dragged)[1]:.0f} ms | "
+            f"{1e3 * _row(crowd.answered)[1]:.0f} ms | {1e3 * worst:.0f} ms | {share:.2f} | "
+            f"{(held - before) / count / 2**20:.2f} MB | {crowd.errors} |"
+        )
+
+
+async def measure(base, pid, counts, seconds):
+    """Yield one line of the table for each count."""
+    await _warm(base)
     yield "| sessions | opened in | median | p95 | cores | memory each | beside one at reference | errors |"
     yield "|---|---|---|---|---|---|---|---|"
     for count in counts:
@@ -341,6 +373,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("counts", type=int, nargs="*")
     parser.add_argument("--seconds", type=float, default=20.0, help="of each of the two parts")
+    parser.add_argument("--drag", type=int, default=0, metavar="N", help="so many pages of one scene drag its slider")
     parser.add_argument("--leave", type=int, default=0, metavar="N", help="also open and leave so many sessions")
     parser.add_argument("--followers", type=int, default=0, metavar="N", help="also hold a lecture before so many")
     parser.add_argument("--workers", type=int, nargs="+", default=[1], help="processes that serve, one table for each")
@@ -361,7 +394,10 @@ def main():
 
     for workers in options.workers:
         served = f"served by {workers} process{'es' * (workers > 1)}"
-        if options.counts:
+        if options.drag:
+            dragged = f"All pages in one scene, some of them dragging, {served}:"
+            serve(dragged, lambda *server: drags(*server, options.counts, options.drag, options.seconds), workers)
+        elif options.counts:
             serve(f"A class, {served}:", lambda *server: measure(*server, options.counts, options.seconds), workers)
         if options.followers:
             lectured = f"A lecture, {served} (median, p95; cores of the server):"

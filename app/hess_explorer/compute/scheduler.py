@@ -11,9 +11,11 @@ import heapq
 import itertools
 import logging
 import threading
+import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 
 from hess_explorer.compute.budget import Abandoned, limited
 from hess_explorer.compute.cores import CORES, queue_again
@@ -25,6 +27,9 @@ logger = logging.getLogger("hess_explorer")
 
 MOST = 20
 """Maximum number of waiting requests of a session; a page sends one at a time."""
+
+TURN = 0.03
+"""Seconds after which a slow request no longer keeps others waiting."""
 
 # One thread more than cores, so that a slow request does not block the others.  Many more threads would delay the event
 # loop, which competes with them for the interpreter lock.
@@ -55,6 +60,41 @@ class _Scheduler:
 
 
 _scheduler = _Scheduler()
+
+
+class _Turns:
+    """Lets requests compute one after the other, in order of arrival.
+
+    Several at a time would each wait for the interpreter lock after every call of NumPy, which takes twice the CPU time.
+    """
+
+    def __init__(self) -> None:
+        self._changed = threading.Condition()
+        self._waiting: deque[object] = deque()
+        # The request whose turn it is, and when its turn ends.
+        self._owner: object = None
+        self._until = 0.0
+
+    @contextmanager
+    def take(self) -> Iterator[None]:
+        """Wait for a turn.  It lasts `TURN` seconds at most, even if the request takes longer."""
+        me = object()
+        with self._changed:
+            self._waiting.append(me)
+            while (left := self._until - time.monotonic()) > 0.0 or self._waiting[0] is not me:
+                self._changed.wait(max(left, 0.0) or TURN)
+            self._waiting.popleft()
+            self._owner, self._until = me, time.monotonic() + TURN
+        try:
+            yield
+        finally:
+            with self._changed:
+                if self._owner is me:
+                    self._until = 0.0
+                    self._changed.notify_all()
+
+
+_turns = _Turns()
 
 
 class RequestQueue:
@@ -93,7 +133,8 @@ class RequestQueue:
         with limited(self._left) as budget:
             try:
                 if work is not None:
-                    work()
+                    with _turns.take():
+                        work()
             except Abandoned:
                 pass
             # Log any error, and go on with the next request of the session.
