@@ -465,15 +465,6 @@ interface PageModel {
 interface Host {
   /** The part of the address that holds the state. */
   mark: "?" | "#"
-  page: {
-    isDark(): boolean
-    setDark(isDark: boolean): void
-    /** Wait until the page can be drawn. */
-    standing(): Promise<void>
-    /** Wait until the page has the colours of its theme. */
-    themed(): Promise<void>
-    onThemeChange(hear: () => void): void
-  }
   /** Connect, and return the function that sends messages; `lost` hears that there will be no more answers. */
   connect(
     receive: (head: Answer, block: ArrayBuffer, cells: ArrayBuffer) => void, lost: (why: string) => void,
@@ -481,9 +472,6 @@ interface Host {
   /** Wait until a lost host answers again. */
   answering(): Promise<void>
 }
-
-/** Panel's view of that component. */
-interface PanelView { model: { document: any } }
 
 /** The events of "page/bus.js", by name, with their details. */
 interface PageEvents {

@@ -12,35 +12,12 @@ import { createShelf } from "./strip.js"
 // Numbers of decoded strips that are kept, 4 bytes each.
 const MOST = 12_000_000
 
-// Colours of text and of secondary text, those of the served page.
-const INKS = { light: ["rgba(0, 0, 0, 0.87)", "rgba(0, 0, 0, 0.6)"], dark: ["rgb(255, 255, 255)", "rgba(255, 255, 255, 0.7)"] }
-
 /** @typedef {{client: ClientKeys, lesson: string, sheets: Record<string, string>, contents: string,
  *   recording: import("./recorded.js").Recording}} FileModel
  */
 
 /** @param {string} id */
 const read = (id) => document.getElementById(id).textContent
-
-/** The theme of the file: the page follows `color-scheme`. @returns {Host["page"]} */
-function createPage() {
-  let isDark = false
-  /** @type {(() => void)[]} */
-  const hearers = []
-  return {
-    isDark: () => isDark,
-    setDark(value) {
-      isDark = value
-      const [text, muted] = INKS[value ? "dark" : "light"]
-      document.body.style.color = text
-      document.documentElement.style.setProperty("--mui-palette-text-secondary", muted)
-      for (const hear of hearers) hear()
-    },
-    standing: () => Promise.resolve(),
-    themed: () => Promise.resolve(),
-    onThemeChange(hear) { hearers.push(hear) },
-  }
-}
 
 /** Answer from the file, one request after the other. @param {ReturnType<typeof createRecorded>} answer @returns {Host["connect"]} */
 const connectTo = (answer) => (receive) => {
@@ -74,7 +51,7 @@ function start() {
     ...(contents === "" ? [] : [element("a.tool.contents", { href: contents }, "Contents")]),
     opener("a.tool.home", "Explorer"),
   ]
-  buildPage(model, { mark: "#", page: createPage(), connect: connectTo(createRecorded(recording, stripAt, query)), answering: () => new Promise(() => {}) }, {
+  buildPage(model, { mark: "#", connect: connectTo(createRecorded(recording, stripAt, query)), answering: () => new Promise(() => {}) }, {
     mount, bar: [mount("bar", renderBar, { first, dialogs: {} })],
     lessons: { index: Object.values(recording.lessons).map(({ name, title, minutes }) => ({ name, title, minutes })) },
     introduction: element("div"),

@@ -16,6 +16,7 @@ import { joinOther } from "./side_by_side.js"
 import { fill, paint, setAxes, shareAxes } from "./painting.js"
 import { present } from "./presenting.js"
 import { createRequests } from "./requests.js"
+import { createTheme } from "./theme.js"
 import { createVisibility } from "./visibility.js"
 import { handleCommands } from "./commands.js"
 
@@ -51,7 +52,7 @@ export function startClient(model, host) {
 
   /** @type {ReturnType<Host["connect"]>} */
   let send = null
-  const { page } = host
+  const theme = createTheme()
   const address = createAddress({ query: () => state.query, own, mark: host.mark })
   const visibility = createVisibility(() => requests.request())
   const requests = createRequests({
@@ -69,7 +70,7 @@ export function startClient(model, host) {
     query: state.query, scene: latest.scene, derived: latest.texts.derived ?? "",
   }))
 
-  handleCommands({ address, page })
+  handleCommands({ address, theme })
   createHandout(() => latest)
   joinOther()
   shareAxes(() => scene)
@@ -209,14 +210,13 @@ export function startClient(model, host) {
   }
 
   const start = async () => {
-    await Promise.all([gallery.standing, page.standing()])
-    const followTheme = () => { root.style.colorScheme = page.isDark() ? "dark" : "light" }
-    followTheme()
-    page.onThemeChange(followTheme)
+    await gallery.standing
     // The preference of the system counts until the user chooses a theme.
     const preference = matchMedia("(prefers-color-scheme: dark)")
     let isIntroducing = false
-    const followPreference = () => { if (own.theme === "") page.setDark(isIntroducing || preference.matches) }
+    const followPreference = () => {
+      theme.setDark(own.theme === "" ? isIntroducing || preference.matches : own.theme === "dark")
+    }
     followPreference()
     preference.addEventListener("change", followPreference)
     listen({
@@ -225,7 +225,6 @@ export function startClient(model, host) {
         followPreference()
       },
     })
-    page.themed().then(() => { root.dataset.themed = "" })
     tell("client", own)
     // The lesson of a link begins when the page is ready.
     if (model.lesson !== "") tell("lesson-read", { lesson: JSON.parse(model.lesson), step: Number(own.step) - 1 })

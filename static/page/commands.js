@@ -21,9 +21,9 @@ async function copy(text, instead) {
 /**
  * Carry out the commands that the page tells.
  * @param {{address: ReturnType<typeof import("./address.js").createAddress>,
- *   page: Host["page"]}} parts
+ *   theme: ReturnType<typeof import("./theme.js").createTheme>}} parts
  */
-export function handleCommands({ address, page }) {
+export function handleCommands({ address, theme }) {
   listen({
     async link() {
       // The address bar may lag behind the screen.
@@ -33,8 +33,8 @@ export function handleCommands({ address, page }) {
     address: address.writeNow,
     copy: async (text) => tell("copied", { text, said: await copy(text, "Copy it by hand") }),
     theme() {
-      page.setDark(!page.isDark())
-      tell("url", { theme: page.isDark() ? "dark" : "light" })
+      theme.setDark(!theme.isDark())
+      tell("url", { theme: theme.isDark() ? "dark" : "light" })
     },
     present() {
       present(!isPresenting())

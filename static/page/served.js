@@ -10,7 +10,6 @@ import { shareDialog } from "../controls/share.js"
 import { button, element, icon } from "./elements.js"
 import { render as renderIntroduction } from "./introduction.js"
 import { createMount } from "./mount.js"
-import { createPage } from "./panel_page.js"
 import { recording } from "./recording.js"
 import { createRoom } from "./room.js"
 import { followed } from "./room_socket.js"
@@ -30,9 +29,9 @@ let built = null
 
 /**
  * Render the page.  Panel may call this again: the page is built once.
- * @param {{model: PageModel, view: PanelView, el: HTMLElement}} component
+ * @param {{model: PageModel, el: HTMLElement}} component
  */
-export function render({ model, view, el }) {
+export function render({ model, el }) {
   if (built !== null) return el.replaceWith(built)
   built = el
   const { client, lessons: index, scenes, showcase, files, palettes, sheets } = model
@@ -41,7 +40,7 @@ export function render({ model, view, el }) {
   const dialogs = { menu, share: shareDialog(), invite: inviteDialog(), export: exportDialog(files), chart: chartPanel(palettes) }
   const first = [button("tool.param-scenes", menu.open, { title: "Choose a scene", ariaHasPopup: "dialog", innerHTML: icon(MENU) },
     element("span", "Scenes"))]
-  const { query } = buildPage(model, { mark: "?", page: createPage(view), connect: openWebsocket, answering }, {
+  const { query } = buildPage(model, { mark: "?", connect: openWebsocket, answering }, {
     mount, bar: [mount("bar", renderBar, { first, dialogs }), ...rejoin(client)],
     lessons: { index, record: recording() }, introduction: mount("introduction", renderIntroduction),
   }, el)

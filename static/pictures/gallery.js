@@ -56,7 +56,7 @@ export const gallery = {
 /** Return the theme's colours of text and of secondary text. */
 function inks() {
   const style = getComputedStyle(shelf)
-  return [style.color, style.getPropertyValue("--mui-palette-text-secondary") || style.color]
+  return [style.color, style.getPropertyValue("--secondary-text") || style.color]
 }
 
 /** @param {Scene} scene */

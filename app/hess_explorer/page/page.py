@@ -1,4 +1,4 @@
-"""The page: a Panel page for document and theme, with one component that holds everything.
+"""The page: one component of Panel that holds everything.
 
 Panel does not handle states; they use a separate websocket ("server/websockets.py").
 """
@@ -10,9 +10,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import panel as pn
-import panel_material_ui as pmui
 from bokeh.palettes import Cividis256
-from panel.util import edit_readonly
 
 from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, FileRequest
 from hess_explorer.lessons.lesson import Lesson
@@ -36,25 +34,6 @@ _FILES = {
 # Colours of charts, the same as in other maps.
 _PALETTES = {"plain": [*Cividis256], "round": [*theme.TURN_MAP]}
 
-# The system font: a web font would load fourteen files before the first picture.
-FONT = "system-ui, sans-serif"
-
-BARE: dict[str, Any] = {
-    "height": "100dvh",
-    "& .MuiAppBar-root, & .main .MuiToolbar-root": {"display": "none"},
-}
-"""Styles that hide Panel's app bar and toolbar."""
-
-
-# Until the client has set the theme ("client.js"), Panel paints light.
-_DARK = """
-html:not([data-themed]), html:not([data-themed]) body { background-color: #121212 !important }
-html:not([data-themed]) body > * > * { opacity: 0 }
-"""
-_FIRST_PAINT = {"dark": _DARK, "system": f"@media (prefers-color-scheme: dark) {{{_DARK}}}"}
-"""Styles of the first frames by theme, so that a dark page does not begin with a light flash."""
-
-
 def page(own: Sequence[Lesson] = ()) -> Any:
     """Return a new page for the current request; own : lessons in addition to those of the package."""
     try:
@@ -71,10 +50,10 @@ def _query() -> str:
     return query_of(getattr(getattr(context, "request", None), "arguments", None) or {})
 
 
-def _page(query: str, own: Sequence[Lesson]) -> pmui.Page:
+def _page(query: str, own: Sequence[Lesson]) -> Explorer:
     opened = opening(query, own)
     reading = opened.reading
-    explorer = Explorer(
+    return Explorer(
         client=opened.client,
         lesson=describe_lesson(reading) if reading else "",
         lessons=[{"name": one.name, "title": one.title, "minutes": one.minutes} for one in opened.lessons.values()],
@@ -85,24 +64,6 @@ def _page(query: str, own: Sequence[Lesson]) -> pmui.Page:
         sheets=styles(),
         sizing_mode="stretch_both",
     )
-    result = pmui.Page(
-        title="Hess Explorer",
-        meta_name="Hess Explorer",
-        meta_description=opened.scene.summary,
-        dark_theme=opened.theme == "dark",
-        theme_config={"typography": {"fontFamily": FONT}},
-        main=[explorer],
-        busy_indicator=None,
-        sx=BARE,
-    )
-    result.config.raw_css = [_FIRST_PAINT.get(opened.theme, "")]
-    # Panel would send the busy flag with every event and traverse all models each time (100 ms); `data-ready` replaces
-    # it.  The flag watches Panel's global state, which would keep every page alive.  Setting a value does not remove
-    # that watcher, so first refer to a parameter that lives as long as the page.
-    with edit_readonly(result):
-        result.busy = explorer.param.loading
-        result.busy = False
-    return result
 
 
 def _entry(scene: Scene[Any]) -> dict[str, str | None]:

@@ -2,7 +2,7 @@
 
 Scripts must come from this server or have the nonce of the response, so injected text is never executed.  Bokeh needs
 two exceptions: its `CustomJS`, with which Panel signals that the document is ready, is compiled in the browser
-(`unsafe-eval`), and its styles, like those of Material UI, are inline (`unsafe-inline`).
+(`unsafe-eval`), and its styles are inline (`unsafe-inline`).
 """
 
 from __future__ import annotations
@@ -22,8 +22,11 @@ __all__ = ["GuardedDocument", "policy"]
 QUERY_LIMIT = 4 * MAX_QUERY
 """Maximum length of a query in characters; the websocket request repeats it in a header."""
 
-_VIEWPORT = '<meta name="viewport"'
-"""Beginning of the last meta element of Panel's template."""
+_BASE = """
+    <meta name="viewport" content="width=device-width, initial-scale=1">
+    <style>html, body { color: CanvasText; background: Canvas }</style>
+    """
+_END = "</head>"
 
 
 def policy(nonce: str, embedders: tuple[str, ...]) -> str:
@@ -89,8 +92,8 @@ class GuardedDocument(DocHandler):
         Tags in the data are escaped.
         """
         if isinstance(chunk, str):
-            chunk = chunk.replace(_VIEWPORT, self.head_elements + _VIEWPORT, 1)
+            if _END in chunk:
+                head = _BASE + tags(self.request, self.request.query) + self.head_elements
+                chunk = chunk.replace(_END, head + _END, 1)
             chunk = chunk.replace("<script", f'<script nonce="{self._nonce}"')
-            if _VIEWPORT in chunk:
-                chunk = chunk.replace(_VIEWPORT, tags(self.request, self.request.query) + _VIEWPORT, 1)
         super().write(chunk)

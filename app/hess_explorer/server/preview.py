@@ -16,7 +16,7 @@ from hess_explorer.assets import STATIC
 from hess_explorer.compute.budget import Abandoned, limited
 from hess_explorer.export.card import SIZE, card
 from hess_explorer.export.picture_data import CLIENT_KEPT, Address, compute
-from hess_explorer.page.opening import Opening, opening
+from hess_explorer.page.opening import THEME, Opening, opening
 from hess_explorer.protocol.parameters import MAX_QUERY, Number
 from hess_explorer.server.export import FILES
 from hess_explorer.server.home import home_of
@@ -63,6 +63,9 @@ def tags(request: HTTPServerRequest, query: str) -> str:
     opened = opening(query[:MAX_QUERY])
     title, description = _described(opened)
     shown, home = _shown(opened), home_of(request)
+    # The browser paints the first frame with it.
+    schemes = "light dark" if opened.theme == THEME.default else opened.theme
+    names = {"description": opened.scene.summary, "color-scheme": schemes}
     facts = {
         "og:type": "website",
         "og:site_name": "Hess Explorer",
@@ -75,7 +78,11 @@ def tags(request: HTTPServerRequest, query: str) -> str:
         "og:image:alt": description,
         "twitter:card": "summary_large_image",
     }
-    return "".join(f'<meta property="{name}" content="{escape(text)}">\n    ' for name, text in facts.items())
+    return "".join(
+        f'<meta {key}="{name}" content="{escape(text)}">\n    '
+        for key, pairs in (("name", names), ("property", facts))
+        for name, text in pairs.items()
+    )
 
 
 def _made(shown: Address) -> bytes:
