@@ -14,7 +14,7 @@ from pathlib import Path
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parent)]
 
-from hess_explorer.page.description import describe
+from hess_explorer.page.descriptions import describe
 from hess_explorer.scenes import scenes
 from hess_explorer.server.warm import compute
 from support.fuzzing import Findings, fuzz_commands, fuzz_links, fuzz_messages

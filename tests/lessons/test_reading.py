@@ -13,7 +13,7 @@ from hess_explorer.lessons.lesson import Animation, HiddenLayer, LessonError
 from hess_explorer.lessons.links import place_of
 from hess_explorer.lessons.markdown import BadFormula, to_html
 from hess_explorer.lessons.reading import MAX_BYTES, MAX_STEPS, examine, read, read_file, without_tries
-from hess_explorer.page.description import describe_lesson
+from hess_explorer.page.lesson_description import describe_lesson
 from support.board import SCENES
 from support.view import View
 

@@ -8,7 +8,7 @@ from urllib.parse import parse_qs
 import numpy as np
 
 from hess_explorer.lessons import shipped
-from hess_explorer.page.description import describe
+from hess_explorer.page.descriptions import describe
 from hess_explorer.page.session import Session
 from hess_explorer.protocol.messages import Request, parse
 from hess_explorer.protocol.parameters import Formula, Number, Places, decode

@@ -65,7 +65,7 @@ _scheduler = _Scheduler()
 class _Turns:
     """Lets requests compute one after the other, in order of arrival.
 
-    Several at a time would each wait for the interpreter lock after every call of NumPy, which takes twice the CPU time.
+    Several at a time would each wait for the interpreter lock after every call of NumPy, which doubles the CPU time.
     """
 
     def __init__(self) -> None:

@@ -7,7 +7,6 @@ import textwrap
 
 import numpy as np
 
-from hess_explorer.export.figure import STYLE, draw
 from hess_explorer.export.picture_data import PictureData
 from hess_explorer.views import theme
 from hess_mechanics.errors import InvalidParameter
@@ -27,6 +26,8 @@ def card(data: PictureData) -> bytes:
         import matplotlib as mpl
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
+
+        from hess_explorer.export.figure import STYLE, draw
     except ImportError as error:
         raise InvalidParameter("Cards need Matplotlib: pip install 'hess-explorer[export]'.") from error
     width, height = SIZE

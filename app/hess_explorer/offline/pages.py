@@ -10,7 +10,7 @@ from hess_explorer.lessons.lesson import TIME, Lesson
 from hess_explorer.offline.html import HOME, document
 from hess_explorer.offline.plan import Family, Slider, across, family, read_slider, slider_of
 from hess_explorer.offline.recording import Recording, Report
-from hess_explorer.page.description import describe_lesson
+from hess_explorer.page.lesson_description import describe_lesson
 from hess_explorer.protocol.parameters import Value, Values, encode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.part import part

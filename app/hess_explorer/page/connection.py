@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cached_property, partial
+from typing import TYPE_CHECKING
 
 from hess_explorer.compute.scheduler import RequestQueue
 from hess_explorer.lessons.lesson import Lesson
-from hess_explorer.page.charts import Charts
 from hess_explorer.page.opening import opening
 from hess_explorer.page.session import Session
 from hess_explorer.protocol.messages import Answer, ChartRequest, Request, parse
+
+if TYPE_CHECKING:
+    from hess_explorer.page.charts import Charts
 
 __all__ = ["Connection"]
 
@@ -39,7 +42,6 @@ class Connection:
     ) -> None:
         self._query, self._lessons = query, lessons
         self._send, self._follow = send, follow
-        self._charts = Charts()
         self._queue = RequestQueue()
         self._queue.put(partial(self._answer, Request(requested=0)))
 
@@ -52,12 +54,20 @@ class Connection:
     def end(self) -> None:
         """Drop the waiting requests and stop the running one, because the page has closed."""
         self._queue.end()
-        self._charts.end()
+        if "_charts" in self.__dict__:
+            self._charts.end()
 
     @cached_property
     def _session(self) -> Session:
         opened = opening(self._query, self._lessons)
         return Session(opened.scene, opened.values, opened.notes, opened.lessons, opened.pictures)
+
+    @cached_property
+    def _charts(self) -> Charts:
+        # Not at the start, because no first page needs the modules of charts.
+        from hess_explorer.page.charts import Charts
+
+        return Charts()
 
     def _answer(self, request: Request | ChartRequest) -> None:
         if isinstance(request, Request):

@@ -1,22 +1,18 @@
-"""Descriptions of scenes and lessons for the browser: empty pictures, controls and texts, sent once each."""
+"""The description of a scene for the browser: empty pictures, controls and texts.  See `descriptions`."""
 
 from __future__ import annotations
 
-import dataclasses
 import json
-import threading
-from collections.abc import Mapping, Sequence
-from functools import cache
+from collections.abc import Sequence
 from typing import Any
 
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
 from hess_explorer.lessons import tries
-from hess_explorer.lessons.lesson import Lesson, LessonStep
-from hess_explorer.lessons.markdown import to_html
 from hess_explorer.lessons.reading import without_tries
 from hess_explorer.page.glossary import explained
+from hess_explorer.page.lesson_description import steps
 from hess_explorer.protocol.parameters import Choice, Controlled, Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.charted import Charted
@@ -28,21 +24,11 @@ from hess_explorer.views.text import with_formulas
 from hess_explorer.views.theme import SHADES
 from hess_mechanics.parameters import GROUPS
 
-__all__ = ["describe", "describe_lesson", "without_gestures"]
+__all__ = ["description"]
 
 
-_one_at_a_time = threading.Lock()
-
-
-def describe(name: str) -> str:
-    """Return the description of a scene as JSON, which all sessions share."""
-    # The options of HoloViews are global.
-    with _one_at_a_time:
-        return _describe(name)
-
-
-@cache
-def _describe(name: str) -> str:
+def description(name: str) -> str:
+    """Return the description of a scene as JSON."""
     scene = scenes()[name]
     return json.dumps(
         {
@@ -61,30 +47,13 @@ def _describe(name: str) -> str:
             "presets": [preset.name for preset in scene.presets],
             "legend": scene.legend,
             "words": _html(scene),
-            "tries": _steps(tries().get(scene.name)),
+            "tries": steps(tries().get(scene.name)),
             "tracks": [f"data-{name}" for name in scene.tracks],
             "dots": {source: list(columns) for source, columns in scene.dots.items()},
             "angles": list(scene.angles),
             "shades": SHADES,
         }
     )
-
-
-def without_gestures(picture: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the description of an open picture without the gestures that change the state.
-
-    Parameters
-    ----------
-    picture : mapping
-        An element of "pictures" in the description of a scene.
-
-    Returns
-    -------
-    dict
-        The changed description.
-    """
-    picks: dict[str, Any] = {"picks": [], "handle": None} if "picks" in picture else {}
-    return {**picture, "folded": None, "hands": "", **picks}
 
 
 def _handle(scene: Scene[Any]) -> dict[str, Any] | None:
@@ -136,38 +105,3 @@ def _control(spec: Controlled) -> dict[str, Any]:
     if isinstance(spec, Choice):
         return {"kind": "choice", "options": list(spec.options), **common}
     return {"kind": "formula", **common}
-
-
-@cache
-def describe_lesson(lesson: Lesson) -> str:
-    """Return the description of a lesson as JSON, which all sessions share."""
-    return json.dumps({"name": lesson.name, "title": lesson.title, "minutes": lesson.minutes, "steps": _steps(lesson)})
-
-
-def _steps(lesson: Lesson | None) -> list[dict[str, Any]]:
-    return [_step(step, lesson.images) for step in lesson.steps] if lesson else []
-
-
-def _step(step: LessonStep, images: Mapping[str, str]) -> dict[str, Any]:
-    found: dict[str, Any] = {
-        "title": to_html(step.title, inline=True),
-        "text": to_html(step.text, images),
-        "scene": step.at.scene,
-        "look": step.look,
-        "question": to_html(step.question, images),
-        "answer": to_html(step.answer, images),
-        "controls": step.controls,
-    }
-    if step.animation:
-        found["animation"] = dataclasses.asdict(step.animation)
-    if step.hide:
-        found["hide"] = {"picture": step.hide.picture, "source": step.hide.source}
-    if step.prediction:
-        guess = step.prediction
-        found["prediction"] = {
-            "picture": guess.picture,
-            "source": guess.source,
-            "columns": guess.columns,
-            "what": guess.what,
-        }
-    return found

@@ -16,7 +16,7 @@ from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, FileRe
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page import showcase
 from hess_explorer.page.component import Explorer, styles
-from hess_explorer.page.description import describe_lesson
+from hess_explorer.page.lesson_description import describe_lesson
 from hess_explorer.page.opening import opening, query_of
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
@@ -33,6 +33,7 @@ _FILES = {
 }
 # Colours of charts, the same as in other maps.
 _PALETTES = {"plain": [*Cividis256], "round": [*theme.TURN_MAP]}
+
 
 def page(own: Sequence[Lesson] = ()) -> Any:
     """Return a new page for the current request; own : lessons in addition to those of the package."""

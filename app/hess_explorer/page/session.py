@@ -14,7 +14,8 @@ from hess_explorer.lessons import tries
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.background_tasks import BackgroundTasks
 from hess_explorer.page.controls import show_controls
-from hess_explorer.page.description import describe, describe_lesson
+from hess_explorer.page.descriptions import describe
+from hess_explorer.page.lesson_description import describe_lesson
 from hess_explorer.page.requested import RequestedState
 from hess_explorer.protocol.expressions import NotANumber, evaluate
 from hess_explorer.protocol.messages import Answer, PictureBox, PicturePoint, Request, StateAnswer, StepChoice

@@ -14,7 +14,6 @@ from tornado.iostream import StreamClosedError
 from tornado.web import RequestHandler
 
 from hess_explorer.compute.budget import Abandoned, limited
-from hess_explorer.export.file import content
 from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, FileRequest, holding
 from hess_explorer.export.notebook import PROGRAMS
 from hess_explorer.export.picture_data import address, compute
@@ -115,6 +114,9 @@ class Export(RequestHandler):
         name = f"{where.scene.name}-{where.picture.name}"
         if request.kind in PROGRAMS:
             return name, PROGRAMS[request.kind](where).encode()
+        # Not at the start, because no page needs HoloViews.
+        from hess_explorer.export.file import content
+
         with limited(self._left, _SECONDS), np.errstate(all="ignore"):
             return name, content(compute(where), request)
 

@@ -43,9 +43,6 @@ from hess_explorer.server.warm import warm
 from hess_explorer.server.web_app import web_app_routes
 from hess_explorer.server.websockets import StateSocket
 
-# The workers are forked and share it; a page describes its pictures with it.
-from hess_explorer.views import bokeh_figure  # noqa: F401
-
 __all__ = ["options", "serve"]
 
 BODY_LIMIT = 64 * 1024

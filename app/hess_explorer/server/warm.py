@@ -11,13 +11,12 @@ from multiprocessing import get_context
 from typing import Any
 
 from hess_explorer.compute.cache import CACHE
-from hess_explorer.page.description import describe
+from hess_explorer.page.descriptions import describe
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled, compiler, mark_all_compiled
-from hess_explorer.sweep.chart import at_first
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.taylor_kernels import compile_shared
 
@@ -25,7 +24,7 @@ __all__ = ["compile_all", "warm"]
 
 logger = logging.getLogger("hess_explorer")
 
-QUIET_SECONDS = 0.3
+QUIET_SECONDS, PAGE_SECONDS = 0.3, 8.0
 
 
 def compute(scene: Scene[Any], folded: bool = True) -> None:
@@ -44,6 +43,8 @@ def compute(scene: Scene[Any], folded: bool = True) -> None:
         for task in {task.function: task for task in todo}.values():
             CACHE.get(task.function, *task.arguments)
         if folded:
+            from hess_explorer.sweep.chart import at_first
+
             list(at_first(scene))
     except ModelError as error:
         # A scene that fails must not stop the others.
@@ -97,6 +98,7 @@ def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
     if KEEPS_KERNELS and not all_compiled():
         with compiler("from hess_explorer.server.warm import compile_all; compile_all()", patience=10) as process:
             process.wait()
+    _wait_for_a_page()
     _wait_until_quiet()
     compute(first)
     for scene in others:
@@ -108,6 +110,13 @@ def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
     # For formulas typed on the page.
     compile_shared()
     gc.freeze()
+
+
+def _wait_for_a_page() -> None:
+    """Wait until a page has requested a state: a browser may be loading it on the same cores."""
+    asked, ends = CACHE.asked, time.monotonic() + PAGE_SECONDS
+    while CACHE.asked == asked and time.monotonic() < ends:
+        time.sleep(0.05)
 
 
 def _wait_until_quiet() -> None:

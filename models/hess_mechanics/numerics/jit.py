@@ -24,7 +24,7 @@ from typing import Any
 import numba
 from numba.core import event
 
-from hess_mechanics.numerics.kernel_files import keep
+from hess_mechanics.numerics.kernel_files import keep, write_whole
 
 __all__ = [
     "CACHE_FOLDER",
@@ -159,23 +159,8 @@ def _sources() -> dict[str, tuple[str, list[str]]]:
             case _:
                 found[name] = [mark, *_read(path)]
     if memory is not None and found != known:
-        _write(memory, json.dumps(found))
+        write_whole(memory, json.dumps(found))
     return {name: (digest, imported) for name, (_, digest, imported) in found.items()}
-
-
-def _write(path: Path, text: str) -> None:
-    """Write a file of the cache folder atomically, so that no other process reads a part of it."""
-    half = None
-    try:
-        with tempfile.NamedTemporaryFile("w", dir=path.parent, encoding="utf-8", delete=False) as file:
-            half = Path(file.name)
-            file.write(text)
-        half.replace(path)
-    except OSError:
-        # The file only saves work.
-        if half is not None:
-            with suppress(OSError):
-                half.unlink()
 
 
 @cache
@@ -269,7 +254,7 @@ def derived_kernel(name: str, source: str, module: str, **names: Any) -> Callabl
         if not kept:
             with suppress(OSError):
                 folder.mkdir(mode=0o700, exist_ok=True)
-            _write(path, source)
+            write_whole(path, source)
             kept = _holds(path, source)
     namespace: dict[str, Any] = {"__name__": module, **names}
     exec(compile(source, file, "exec"), namespace)

@@ -6,6 +6,7 @@ takes none, and if two processes write at once, the index of one may name a file
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -14,7 +15,7 @@ from typing import Any
 from numba.core import sigutils
 from numba.core.caching import FunctionCache
 
-__all__ = ["KernelFiles", "keep"]
+__all__ = ["KernelFiles", "keep", "write_whole"]
 
 
 class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
@@ -65,3 +66,18 @@ def keep(dispatcher: Any, folder: Path) -> Callable[..., Any]:
     if Path(files.cache_path).is_relative_to(folder):
         dispatcher._cache = files
     return dispatcher  # type: ignore[no-any-return]
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Write a file of the cache folder, of which no other process reads a part; does nothing without room."""
+    half = None
+    try:
+        with tempfile.NamedTemporaryFile("w", dir=path.parent, encoding="utf-8", delete=False) as file:
+            half = Path(file.name)
+            file.write(text)
+        half.replace(path)
+    except OSError:
+        # The file only saves work.
+        if half is not None:
+            with suppress(OSError):
+                half.unlink()
