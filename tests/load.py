@@ -1,6 +1,6 @@
 """A class at once: `python tests/load.py 10 50 200` prints what so many sessions, over the websocket, take and cost.
 
-Each session opens a scene, the scenes in turn, and changes one of its numbers every 2 s.  Then the same with one more
+Each session opens a scene, the scenes in turn, and changes one of its sliders every 2 s.  Then the same with one more
 that asks for the dearest scene at `reference` without a pause.  `--drag 20`: all pages show the first scene, and so
 many drag a slider without a pause, alone and beside that session.  `--leave 2000`: what is left of closed sessions.
 `--followers 300`: a lecturer drags a slider for 20 s, in an empty room and in one of so many followers.
@@ -75,7 +75,8 @@ class Crowd:
         async def one(i, name, visitor):
             chance = random.Random(1000 * seed + i)
             every, answered = (FRAME, self.dragged) if i < drag else (EVERY, self.answered)
-            spec = next(spec for spec in scenes()[name].specs if isinstance(spec, Number))
+            specs, essential = scenes()[name].specs, scenes()[name].essential
+            spec = next(spec for spec in specs if isinstance(spec, Number) and spec.name in essential)
             await asyncio.sleep(every * chance.random())
             while time.monotonic() < ends:
                 begun = time.monotonic()

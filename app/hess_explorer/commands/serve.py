@@ -138,7 +138,7 @@ def _first_words() -> str:
 
 
 def _second_compiler() -> AbstractContextManager[object]:
-    """Start to compile the circle map of the first scene at a first start, while this process loads the page.
+    """Start to compile the circle map and the labels of the first scene at a first start, while this process starts.
 
     This process then compiles the orbit, which takes as long.
     """
@@ -146,7 +146,15 @@ def _second_compiler() -> AbstractContextManager[object]:
 
     if not KEEPS_KERNELS or all_compiled():
         return nullcontext()
-    return compiler("from hess_mechanics import circle_map\n\ncircle_map(0.5, 1.5, 0.6, 'draft').theta([0.0])")
+    return compiler("""
+from hess_mechanics import circle_map
+
+circle_map(0.5, 1.5, 0.6, "draft").theta([0.0])
+
+from hess_explorer.views.tag_kernels import compile_kernels
+
+compile_kernels()
+""")
 
 
 def _require_free(address: str, port: int) -> None:

@@ -1,0 +1,136 @@
+# mypy: allow-untyped-defs
+"""Kernels of `tags`: curves and regions on the grid of a frame, and the place where a label covers least.
+
+The grid is indexed [row, column]; lengths are fractions of the frame, from its lower left corner.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from hess_mechanics.numerics.jit import inner, kernel
+
+__all__ = ["along", "best_around", "best_inside", "compile_kernels", "fill", "mark"]
+
+
+@kernel
+def along(x, y, count):
+    """Return `count` points (2, count) evenly along the index of a curve of at least two points."""
+    found = np.empty((2, count))
+    for k in range(count):
+        at = k * (x.size - 1.0) / (count - 1.0)
+        i = min(int(at), x.size - 2)
+        found[0, k] = x[i] + (at - i) * (x[i + 1] - x[i])
+        found[1, k] = y[i] + (at - i) * (y[i + 1] - y[i])
+    return found
+
+
+@kernel
+def mark(grid, points, value):
+    """Set the cells of the points (2, n) that are in the frame."""
+    cells = grid.shape[0]
+    for k in range(points.shape[1]):
+        x, y = points[0, k], points[1, k]
+        if 0.0 <= x < 1.0 and 0.0 <= y < 1.0:
+            grid[int(y * cells), int(x * cells)] = value
+
+
+@kernel
+def fill(grid, ring):
+    """Negate the cells whose middle is inside a closed curve (2, n): those right of an odd number of its edges."""
+    cells, n = grid.shape[0], ring.shape[1]
+    for i in range(n):
+        j = i + 1 if i + 1 < n else 0
+        x0, y0, x1, y1 = ring[0, i], ring[1, i], ring[0, j], ring[1, j]
+        for row in range(cells):
+            height = (row + 0.5) / cells
+            if (y0 <= height) != (y1 <= height):
+                x = x0 + (height - y0) / (y1 - y0) * (x1 - x0)
+                first = min(max(math.ceil(x * cells - 0.5), 0.0), float(cells))
+                for column in range(int(first), cells):
+                    grid[row, column] = 1.0 - grid[row, column]
+
+
+@inner
+def sums(grid):
+    """Return the sums of the cells left of and below each corner of the grid."""
+    cells = grid.shape[0]
+    found = np.zeros((cells + 1, cells + 1))
+    for row in range(cells):
+        total = 0.0
+        for column in range(cells):
+            total += grid[row, column]
+            found[row + 1, column + 1] = found[row, column + 1] + total
+    return found
+
+
+@inner
+def mean(sums_of_grid, x, y, half_width, half_height):
+    """Return the mean of the cells in a box about a point."""
+    cells = sums_of_grid.shape[0] - 1
+    x0 = max(0, min(cells, int(np.rint((x - half_width) * cells))))
+    x1 = max(0, min(cells, int(np.rint((x + half_width) * cells))))
+    y0 = max(0, min(cells, int(np.rint((y - half_height) * cells))))
+    y1 = max(0, min(cells, int(np.rint((y + half_height) * cells))))
+    total = sums_of_grid[y1, x1] - sums_of_grid[y0, x1] - sums_of_grid[y1, x0] + sums_of_grid[y0, x0]
+    return total / max(1, (x1 - x0) * (y1 - y0))
+
+
+@inner
+def cost(covered, x, y, half_width, half_height, edge, pull):
+    """Return the cost of a label about a point; infinite outside the frame without its edge."""
+    if abs(x - 0.5) + half_width > 0.5 - edge or abs(y - 0.5) + half_height > 0.5 - edge:
+        return math.inf
+    return covered + pull * math.hypot(1.0 - x, 1.0 - y)
+
+
+@kernel
+def best_around(grid, points, half_width, half_height, gap, edge, pull, most):
+    """Return (cost, covered, x, y) of the best label in eight directions from at most `most` of the points (2, n)."""
+    total, found = sums(grid), (math.inf, 0.0, 0.0, 0.0)
+    inside = 0
+    for k in range(points.shape[1]):
+        inside += 0.0 <= points[0, k] <= 1.0 and 0.0 <= points[1, k] <= 1.0
+    stride, seen = inside // most + 1, 0
+    for k in range(points.shape[1]):
+        if not (0.0 <= points[0, k] <= 1.0 and 0.0 <= points[1, k] <= 1.0):
+            continue
+        seen += 1
+        if (seen - 1) % stride:
+            continue
+        for across, up in ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)):
+            x = points[0, k] + across * (half_width + gap)
+            y = points[1, k] + up * (half_height + gap)
+            covered = mean(total, x, y, half_width, half_height)
+            one = cost(covered, x, y, half_width, half_height, edge, pull)
+            if one < found[0]:
+                found = (one, covered, x, y)
+    return found
+
+
+@kernel
+def best_inside(grid, region, half_width, half_height, edge, pull):
+    """Return (cost, covered, x, y) of the best label that lies inside the cells of a region."""
+    total, of_region, found = sums(grid), sums(region), (math.inf, 0.0, 0.0, 0.0)
+    cells = grid.shape[0]
+    for row in range(cells):
+        for column in range(cells):
+            x, y = (column + 0.5) / cells, (row + 0.5) / cells
+            if not region[row, column] or mean(of_region, x, y, half_width, half_height) <= 0.999:
+                continue
+            covered = mean(total, x, y, half_width, half_height)
+            one = cost(covered, x, y, half_width, half_height, edge, pull)
+            if one < found[0]:
+                found = (one, covered, x, y)
+    return found
+
+
+def compile_kernels():
+    """Compile all kernels, or load them."""
+    grid, points = np.zeros((2, 2)), np.zeros((2, 2))
+    mark(grid, along(*points, 2), 0.0)
+    fill(grid, points)
+    best_around(grid, points, 0.1, 0.1, 0.0, 0.0, 0.0, 1)
+    best_inside(grid, grid, 0.1, 0.1, 0.0, 0.0)
