@@ -1,7 +1,8 @@
 """Kernel cache on disk that never fails: a file that cannot be read or written only costs a compilation.
 
 Numba assumes that its files are complete and that the disk has room.  A power failure truncates files, a full disk
-takes none, and if two processes write at once, the index of one may name a file of the other.
+takes none, and if two processes write at once, the index of one may name a file of the other.  It also lets two
+processes that start together compile each kernel twice.
 """
 
 from __future__ import annotations
@@ -12,17 +13,39 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from filelock import FileLock, Timeout
 from numba.core import sigutils
 from numba.core.caching import FunctionCache
 
 __all__ = ["KernelFiles", "keep", "write_whole"]
 
+PATIENCE = 60.0
+"""Seconds to wait for another process that compiles the same kernel."""
+
 
 class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
-    """Numba's cache of one kernel, without errors."""
+    """Numba's cache of one kernel, without errors; one process compiles it, and others wait for it."""
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        super().__init__(function)
+        self._lock = FileLock(Path(self.cache_path, f"{function.__name__}.lock"), timeout=PATIENCE)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """Return the kernel for these argument types; None if there is none that can be read."""
+        """Return the kernel for these argument types, if need be that which another process is compiling.
+
+        Returns None if there is none that can be read; then this process is the one that compiles it.
+        """
+        found = self._read(sig, target_context)
+        if found is None:
+            # Without a lock, each process compiles it.
+            with suppress(OSError, NotImplementedError, Timeout):
+                self._lock.acquire()
+            found = self._read(sig, target_context)
+            if found is not None:
+                self._lock.release()
+        return found
+
+    def _read(self, sig: Any, target_context: Any) -> Any:
         try:
             found = super().load_overload(sig, target_context)
         # Unpickling a truncated file may raise any error.
@@ -47,6 +70,8 @@ class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
             # The index of this kernel cannot be read.
             with suppress(OSError):
                 self.flush()
+        finally:
+            self._lock.release(force=True)
 
 
 def keep(dispatcher: Any, folder: Path) -> Callable[..., Any]:

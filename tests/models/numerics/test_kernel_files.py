@@ -128,7 +128,7 @@ from hess_mechanics.numerics import jit
 
 right = read = 0
 for n in range(int(sys.argv[2])):
-    kernel = jit.derived_kernel("plus", f"def plus(x):\\n    return {n} + x\\n", "many")
+    kernel = jit.derived_kernel("plus", f"def plus(x):\\n    return {n} + x\\n", "__main__")
     # Another order of types in each process: both write into the same index.
     for value in (1.5, 2)[:: int(sys.argv[3])]:
         right += kernel(value) == n + value
@@ -160,13 +160,21 @@ def test_one_of_two_that_compile_into_one_folder_is_killed_and_the_other_and_the
     killed, other = process(tmp_path, "", 2000, 1), process(tmp_path, "", 2, -1)
     with killed, other:
         # In the middle: it has written one kernel, and is about to write the next.
-        assert json.loads(killed.stdout.readline()) == [2, 0]
+        assert json.loads(killed.stdout.readline())[0] == 2
         killed.send_signal(signal.SIGKILL)
         killed.communicate()
         assert killed.returncode == -signal.SIGKILL
         assert ended(other)[0] == 4
     with process(tmp_path, "", 2, 1) as after:
         assert ended(after)[0] == 4
+
+
+def test_two_that_begin_together_compile_each_kernel_once(tmp_path):
+    with process(tmp_path, "", 4, 1) as one, process(tmp_path, "", 4, 1) as other:
+        found = [ended(one), ended(other)]
+    assert [right for right, _ in found] == [8, 8]
+    # Of two times eight, one compiled each and the other read it.
+    assert sum(read for _, read in found) == 8
 
 
 def test_on_a_full_disk_kernels_are_compiled_all_the_same_and_nothing_is_left_behind(tmp_path):
