@@ -1,8 +1,8 @@
 """A class at once: `python tests/load.py 10 50 200` prints what so many sessions, over the websocket, take and cost.
 
 Each session opens a scene, the scenes in turn, and changes one of its sliders every 2 s.  Then the same with one more
-that asks for the dearest scene at `reference` without a pause.  `--drag 20`: all pages show the first scene, and so
-many drag a slider without a pause, alone and beside that session.  `--leave 2000`: what is left of closed sessions.
+that asks for the dearest scene at `reference` without a pause.  `--drag 20`: all pages show the first scene, so many
+drag a slider without a pause, and the others change one every 20 s.  `--leave 2000`: what is left of closed sessions.
 `--followers 300`: a lecturer drags a slider for 20 s, in an empty room and in one of so many followers.
 On a quiet machine: `python tests/load.py 10 50 200 500 --workers 1 2 --leave 2000 --write`.
 """
@@ -32,7 +32,7 @@ from support.processes import memory, worked
 from support.room import Follower, Lecturer
 from support.visitor import Visitor
 
-EVERY, FRAME = 2.0, 0.016
+EVERY, RARELY, FRAME = 2.0, 20.0, 0.016
 LOG = Path(os.devnull)
 README = Path(__file__).resolve().parents[1] / "app" / "hess_explorer" / "server" / "README.md"
 TURNS = 4
@@ -67,16 +67,16 @@ class Crowd:
         await asyncio.gather(*(one(i) for i in range(count)))
         return time.monotonic() - begun
 
-    async def use(self, seconds, seed, drag=0):
-        """Change a value every 2 s, the first `drag` pages every 16 ms; keep the times to the answers."""
+    async def use(self, seconds, seed, pause=EVERY, drag=0):
+        """Change a value once in a pause, in the first `drag` pages every 16 ms; keep the times to the answers."""
         self.answered, self.dragged = [], []
         ends = time.monotonic() + seconds
 
         async def one(i, name, visitor):
             chance = random.Random(1000 * seed + i)
-            every, answered = (FRAME, self.dragged) if i < drag else (EVERY, self.answered)
-            specs, essential = scenes()[name].specs, scenes()[name].essential
-            spec = next(spec for spec in specs if isinstance(spec, Number) and spec.name in essential)
+            every, answered = (FRAME, self.dragged) if i < drag else (pause, self.answered)
+            specs = {spec.name: spec for spec in scenes()[name].specs}
+            spec = next(specs[one] for one in scenes()[name].essential if isinstance(specs[one], Number))
             await asyncio.sleep(every * chance.random())
             while time.monotonic() < ends:
                 begun = time.monotonic()
@@ -133,26 +133,28 @@ async def drags(base, pid, counts, drag, seconds):
     await _warm(base)
     yield "| pages | dragging | states a second | p95 of those | p95 of others | worst | cores | memory each | errors |"
     yield "|---|---|---|---|---|---|---|---|---|"
-    for count, beside in itertools.product(counts, ("", ", beside one at reference")):
+    for count in counts:
         await _expired(base)
-        before, crowd, until = memory(pid), Crowd(base, [next(iter(scenes()))]), asyncio.Event()
+        before, crowd = memory(pid), Crowd(base, [next(iter(scenes()))])
         await crowd.open(count)
-        other = asyncio.create_task(dear(base, until)) if beside else None
-        cpu, begun = worked(pid), time.monotonic()
-        await crowd.use(seconds, count, drag)
-        share = (worked(pid) - cpu) / (time.monotonic() - begun)
-        held = memory(pid)
-        until.set()
+        for beside in ("", ", beside one at reference"):
+            until = asyncio.Event()
+            other = asyncio.create_task(dear(base, until)) if beside else None
+            cpu, begun = worked(pid), time.monotonic()
+            await crowd.use(seconds, count, RARELY, drag)
+            share = (worked(pid) - cpu) / (time.monotonic() - begun)
+            held = memory(pid)
+            until.set()
+            if other:
+                other.cancel()
+            (_, dragged), (_, others) = _row(crowd.dragged), _row(crowd.answered)
+            worst = max(crowd.answered + crowd.dragged)
+            yield (
+                f"| {count}{beside} | {drag} | {len(crowd.dragged) / seconds:.0f} | {1e3 * dragged:.0f} ms | "
+                f"{1e3 * others:.0f} ms | {1e3 * worst:.0f} ms | {share:.2f} | "
+                f"{(held - before) / count / 2**20:.2f} MB | {crowd.errors} |"
+            )
         await crowd.leave()
-        if other:
-            other.cancel()
-        (_, dragged), (_, others) = _row(crowd.dragged), _row(crowd.answered)
-        worst = max(crowd.answered + crowd.dragged)
-        yield (
-            f"| {count}{beside} | {drag} | {len(crowd.dragged) / seconds:.0f} | {1e3 * dragged:.0f} ms | "
-            f"{1e3 * others:.0f} ms | {1e3 * worst:.0f} ms | {share:.2f} | "
-            f"{(held - before) / count / 2**20:.2f} MB | {crowd.errors} |"
-        )
 
 
 async def measure(base, pid, counts, seconds):

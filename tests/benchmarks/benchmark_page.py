@@ -1,7 +1,6 @@
 """Measure the speed of the page and write the results to its README: `python tests/benchmarks/benchmark_page.py`.
 
-Slider to four painted pictures: from the key's event to `data-ready`, in the page's own time, for moves
-one after the other.  Drag: the mouse moves every 16 ms whether or not the page follows.
+Drag: the mouse moves every 16 ms whether or not the page follows.  Sliders: "benchmark_plain.py".
 """
 
 import asyncio
@@ -25,7 +24,6 @@ from playwright.async_api import async_playwright
 from benchmarks.integrators.machine import conditions
 from hess_explorer.headless.browser import find_browser
 from hess_explorer.headless.screenshot import free_port
-from hess_explorer.protocol.parameters import Number
 from hess_explorer.scenes import scenes
 from support.measured import table, write_measured
 from support.processes import worked
@@ -119,12 +117,6 @@ async def pressed(page, slider):
     return median(times), times[ceil(0.95 * MOVES) - 1]
 
 
-async def moved(page, name):
-    """The times of a slider of the page in words."""
-    middle, high = await pressed(page, hand(page, name))
-    return f"median {middle:.1f} ms, 95th percentile {high:.1f} ms"
-
-
 async def drag(page, name):
     """States painted per second in a drag of 3 s, the time from its end to rest, states painted after its end."""
     box = await hand(page, name).bounding_box()
@@ -173,32 +165,6 @@ async def entries(page, rested, name):
     return f"{first:.0f} ms, {prepared:.0f} ms, {median(again):.0f} ms"
 
 
-# The first scene is compiled before any other, whatever page is opened.
-COMPILE_SCENE = """
-import gc, sys, time
-gc.disable()
-from hess_explorer.scenes import scenes
-from hess_explorer.server.warm import compute
-first, scene = next(iter(scenes().values())), scenes()[sys.argv[1]]
-compute(first, folded=False)
-start = time.perf_counter()
-compute(scene, folded=False)
-print(time.perf_counter() - start)
-"""
-
-
-def compiled(scene):
-    """Seconds until the first state of a scene: compiled from nothing, and loaded from the cache."""
-    with tempfile.TemporaryDirectory() as folder:
-        environment = {**os.environ, "NUMBA_CACHE_DIR": folder, "PYTHONPATH": str(ROOT)}
-        command = [sys.executable, "-c", COMPILE_SCENE, scene]
-        first, second = (
-            float(subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout)
-            for _ in range(2)
-        )
-    return f"{first:.1f} s, {second:.2f} s"
-
-
 def others():
     """Return the scenes other than the first that do not study another scene."""
     return [scene for scene in scenes().values() if scene.origin is None and scene.name != SCENE]
@@ -206,7 +172,7 @@ def others():
 
 async def starts(browser, environment):
     """Rows of the time from the command to painted pictures."""
-    for label, count, bar in (("first start, nothing compiled", 1, "≤ 10 s"), ("start afterwards", 3, "≤ 4 s")):
+    for label, count, bar in (("first start, nothing compiled", 1, "≤ 6 s"), ("start afterwards", 3, "≤ 2.5 s")):
         seconds = []
         for _ in range(count):
             start = time.perf_counter()
@@ -222,28 +188,15 @@ async def starts(browser, environment):
 async def in_the_page(browser, url, pid):
     """Rows of what is done in an open page."""
     page = await opened(browser, url)
-
-    async def reset():
-        await page.locator(".param-reset").click()
-        await page.wait_for_function(READY)
-
-    await asyncio.sleep(1.5)
-    await page.evaluate(RECORD)
-    yield "slider h in the first seconds, other scenes not loaded yet", await moved(page, "h"), ""
     await idle(pid)
     for name in ("h", "I23"):
-        said = await moved(page, name)
-        yield f"slider {name} to four painted pictures, {MOVES} moves", said, "≤ 33 ms, ≤ 66 ms"
-    for name in ("h", "I23"):
         yield f"drag of {name}, 3 s", await drag(page, name), "≥ 25 a second"
-    await reset()
+    await page.locator(".param-reset").click()
+    await page.wait_for_function(READY)
     rested = await opened(browser, url)
     for scene in others():
         entered = await entries(page, rested, scene.name)
-        yield f"{scene.title}: entered at once, after a rest on its picture, once more", entered, "≤ 300 ms"
-        number = next(spec for spec in scene.specs if isinstance(spec, Number))
-        yield f"{scene.title}: slider {number.symbol}, {MOVES} moves", await moved(page, number.name), "≤ 33 ms"
-        await reset()
+        yield f"{scene.title}: entered at once, after a rest on its picture, once more", entered, "≤ 1.5 s"
 
 
 async def measure():
@@ -256,9 +209,6 @@ async def measure():
             with server(environment) as (url, pid):
                 rows += [row async for row in in_the_page(browser, url, pid)]
         await browser.close()
-    for scene in others():
-        what = f"{scene.title}: first state compiled after that of the first scene, loaded"
-        rows.append((what, compiled(scene.name), "≤ 6 s"))
     versions = ", ".join(f"{name} {version(name)}" for name in ("panel", "bokeh", "holoviews", "numba", "numpy"))
     text = f"{conditions()}, {versions}.\n\n{table(['what', 'measured', 'asked'], rows)}"
     write_measured(Path(__file__).with_name("README.md"), text)

@@ -110,7 +110,7 @@ PLACES = """([names, essential, inside]) => {
     tools: items.filter((item) => item.matches(".player[role=group]") || essential.some(
       (name) => item.matches(`.param-${name} .hand`))).filter((item) => item.checkVisibility()).map(box),
     scrolled: items
-      .filter((item) => item.matches("html, body, .main, .main-content, .frame, .stage, .gallery:not(.away)"))
+      .filter((item) => item.matches("html, body, .frame, .stage, .gallery:not(.away)"))
       .map((item) => [item.className, item.scrollHeight - item.clientHeight, item.scrollWidth - item.clientWidth]),
   }
 }"""

@@ -24,7 +24,7 @@ from support.asynchronous import finished
 
 
 class Head(HTMLParser):
-    """The meta elements by property, and the names of all elements."""
+    """The meta elements by property or name, and the names of all elements."""
 
     def __init__(self, html):
         super().__init__()
@@ -34,7 +34,7 @@ class Head(HTMLParser):
     def handle_starttag(self, tag, attrs):
         found = dict(attrs)
         self.elements.add((tag, *sorted(found)))
-        self.facts[found.get("property")] = found.get("content")
+        self.facts[found.get("property", found.get("name"))] = found.get("content")
 
 
 def head(query, host="here:5006", **headers):
@@ -48,6 +48,7 @@ def test_words_and_picture_are_those_of_the_state(scene):
         facts = head(urlencode({"scene": scene.name, **preset.values, "t": "3"})).facts
         assert facts["og:title"].startswith(scene.title)
         assert facts["og:description"].startswith(scene.summary)
+        assert facts["description"] == scene.summary
         assert preset.name.rstrip(".") in facts["og:description"]
         image = urlsplit(facts["og:image"])
         assert (image.scheme, image.netloc, image.path) == ("http", "here:5006", "/preview")
@@ -69,11 +70,16 @@ def test_words_and_picture_are_those_of_the_state(scene):
 )
 def test_a_forged_link_adds_no_element_and_no_address(query, headers):
     found = head(query, **headers)
-    assert found.elements == {("meta", "content", "property")}
+    assert found.elements == {("meta", "content", "property"), ("meta", "content", "name")}
     for name in ("og:url", "og:image"):
         parts = urlsplit(found.facts[name])
         assert (parts.scheme, parts.netloc) in {("http", "here:5006"), ("http", "localhost")}
         assert not set('<>"') & set(found.facts[name])
+
+
+@pytest.mark.parametrize(("query", "schemes"), [("", "light dark"), ("theme=dark", "dark"), ("theme=light", "light")])
+def test_the_first_frame_has_the_theme_of_the_link(query, schemes):
+    assert head(query).facts["color-scheme"] == schemes
 
 
 def test_behind_a_proxy_the_addresses_are_those_of_the_proxy():

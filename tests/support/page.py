@@ -116,10 +116,10 @@ class Explorer:
 
     @property
     def dark(self):
-        return self.page.evaluate(f"{PANEL}.dark_theme")
+        return self.page.evaluate("document.documentElement.style.colorScheme") == "dark"
 
     def turn_theme(self, *, is_dark):
-        """Switch between dark and light, and wait for the plots' colours, which Panel sends later."""
+        """Switch between dark and light, and wait for the plots' colours, which follow some frames later."""
         if self.dark == is_dark:
             return
         before = self.page.evaluate(COLOURS)
@@ -380,9 +380,7 @@ AT_REST = f"""() => {{
   }}
   document.activeElement?.blur()
 }}"""
-# What Panel keeps of the page, and the colour of the axes of each plot in sight.
-PANEL = """Bokeh.documents.flatMap((document) => document.roots())
-  .find((top) => top.data?.attributes.dark_theme !== undefined).data"""
+# The colour of the axes of each plot in sight.
 COLOURS = "hess.plots.flatMap(({ model }) => model.below).map((axis) => axis.major_label_text_color)"
 ENTER = f"""pairs => {{
   for (const [name, value] of pairs) {{

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -30,7 +31,7 @@ __all__ = ["description"]
 def description(name: str) -> str:
     """Return the description of a scene as JSON."""
     scene = scenes()[name]
-    return json.dumps(
+    text = json.dumps(
         {
             "name": scene.name,
             "title": scene.title,
@@ -54,6 +55,8 @@ def description(name: str) -> str:
             "shades": SHADES,
         }
     )
+    # Bokeh counts its models in each process, and the page has descriptions of several.
+    return re.sub(r'"p(\d+)"', rf'"{name}-\1"', text)
 
 
 def _handle(scene: Scene[Any]) -> dict[str, Any] | None:

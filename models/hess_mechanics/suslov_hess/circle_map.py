@@ -55,8 +55,7 @@ def matrices(h: Array, f: Array, a: float, level: Accuracy) -> Array:
     """
     level = as_level(level)
     out = np.empty((h.size, 6))
-    matrices_into(h, f, float(a), level.order, level.tolerance, _MAX_STEPS, out)
-    if np.any(out[:, 5] < 0):
+    if not matrices_into(h, f, float(a), level.order, level.tolerance, _MAX_STEPS, out):
         raise WorkLimit("These tori need too many steps: choose smaller a, or (h, f) farther from (1, 0).")
     return out
 
@@ -214,7 +213,7 @@ class CircleMap(Result):
         orbit = np.empty(count + 1)
         orbit[0] = math.remainder(phi, 2 * math.pi)
         for i in range(count):
-            theta_of(*self.matrix, orbit[i : i + 1], orbit[i + 1 : i + 2])
+            orbit[i + 1 : i + 2] = self.theta(orbit[i : i + 1])
         return frozen(orbit)
 
     def labels(self) -> Labels:
@@ -260,8 +259,8 @@ class CircleMap(Result):
 
 
 def _theta(matrix: tuple[float, float, float], phi: Array) -> Array:
-    out = np.empty(phi.size)
-    theta_of(*matrix, phi.ravel(), out)
+    out, flat = np.empty(phi.size), phi.ravel()
+    theta_of(*matrix, flat, np.cos(flat), np.sin(flat), out)
     return out.reshape(phi.shape)
 
 

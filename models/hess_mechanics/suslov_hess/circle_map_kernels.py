@@ -98,19 +98,21 @@ def monodromy(h, f, a, order, tolerance, max_steps):
 
 @kernel
 def matrices_into(h, f, a, order, tolerance, max_steps, out):
-    """Store `monodromy` of each torus (h[i], f[i]) in out[i]."""
+    """Store `monodromy` of each torus (h[i], f[i]) in out[i]; return False if one reached the step limit."""
+    complete = True
     for i in range(h.size):
         row = monodromy(h[i], f[i], a, order, tolerance, max_steps)
         for j in range(6):
             out[i, j] = row[j]
+        complete &= row[5] >= 0.0
+    return complete
 
 
 @kernel
-def theta_of(re, im, im_beta, phi, out):
-    """Store Θ(φ) = 2 arg(αz + β) − φ, z = e^{iφ}, in (−π, π], in out."""
+def theta_of(re, im, im_beta, phi, cos, sin, out):
+    """Store Θ(φ) = 2 arg(αz + β) − φ, z = e^{iφ} = cos + i sin, in (−π, π], in out."""
     for i in range(phi.size):
-        c = math.cos(phi[i])
-        s = math.sin(phi[i])
+        c, s = cos[i], sin[i]
         angle = 2.0 * math.atan2(re * s + im * c + im_beta, re * c - im * s) - phi[i]
         angle -= 2.0 * math.pi * np.rint(angle / (2.0 * math.pi))
         out[i] = math.pi if angle <= -math.pi else min(angle, math.pi)

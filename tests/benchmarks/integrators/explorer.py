@@ -5,6 +5,7 @@ import numpy as np
 from hess_mechanics import systems
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.suslov_hess.circle_map import matrices
+from hess_mechanics.suslov_hess.circle_map_kernels import theta_of
 
 from .method import OURS, Method, half_decades, version
 from .threads import shared
@@ -74,10 +75,12 @@ def _circle_map(work, order, tolerance, threads):
     """C."""
     torus = np.array([work.h]), np.array([work.f])
     cos, sin, level = np.cos(work.phi), np.sin(work.phi), Level("benchmark", 0.0, tolerance, order)
+    theta = np.empty(work.phi.size)
 
     def run():
         re, im, im_beta = matrices(*torus, work.a, level)[0, :3]
-        return 2.0 * np.arctan2(re * sin + im * cos + im_beta, re * cos - im * sin) - work.phi
+        theta_of(re, im, im_beta, work.phi, cos, sin, theta)
+        return theta
 
     return run
 
