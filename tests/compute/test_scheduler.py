@@ -96,6 +96,33 @@ def test_turns_are_fair_in_seconds_and_not_in_number(monkeypatch):
     assert done.count("cheap") == 20
 
 
+def test_requests_do_not_compute_at_the_same_time(monkeypatch):
+    # Longer than any request on a slow machine.
+    monkeypatch.setattr(scheduler, "TURN", PATIENCE)
+    running, most, ended = [], [], threading.Semaphore(0)
+
+    def work():
+        running.append(None)
+        time.sleep(0.002)
+        most.append(len(running))
+        running.pop()
+        ended.release()
+
+    for session in [RequestQueue() for _ in range(6)]:
+        for _ in range(5):
+            session.put(work)
+    for _ in range(30):
+        assert ended.acquire(timeout=PATIENCE)
+    assert set(most) == {1}
+
+
+def test_a_long_request_keeps_others_waiting_for_one_turn_and_no_longer():
+    long, other, began, ended = RequestQueue(), RequestQueue(), threading.Event(), threading.Event()
+    long.put(lambda: (waited(began), ended.set()))
+    other.put(began.set)
+    waited(ended)
+
+
 def test_what_nobody_waits_for_is_not_begun_and_what_runs_ends_at_its_next_computation():
     session, go, started, found, ended = RequestQueue(), threading.Event(), threading.Event(), [], threading.Event()
     cache = ResultCache(2**20)
