@@ -90,7 +90,8 @@ class Crowd:
                     self.errors += 1
                     print(f"{name}: {error!r}", file=sys.stderr)
                     return
-                await asyncio.sleep(max(0.0, every - (time.monotonic() - begun)))
+                now = time.monotonic()
+                await asyncio.sleep(max(0.0, min(begun + every, ends) - now))
 
         await asyncio.gather(*(one(i, *pair) for i, pair in enumerate(self.visitors)))
 
@@ -131,6 +132,7 @@ async def _warm(base):
 async def drags(base, pid, counts, drag, seconds):
     """Yield one line for each count of pages in the first scene, some of which drag its slider."""
     await _warm(base)
+    await _prepared(pid)
     yield "| pages | dragging | states a second | p95 of those | p95 of others | worst | cores | memory each | errors |"
     yield "|---|---|---|---|---|---|---|---|---|"
     for count in counts:
