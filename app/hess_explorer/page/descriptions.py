@@ -31,21 +31,26 @@ _one_at_a_time = threading.Lock()
 @cache
 def describe(name: str) -> str:
     """Return the description of a scene as JSON, which all sessions share."""
-    file = CACHE_FOLDER / f"scene-{name}.json" if CACHE_FOLDER and is_shipped(name) else None
-    try:
-        made_from, found = json.loads(file.read_bytes()) if file else (None, "")
-    except (OSError, ValueError, TypeError):
-        made_from, found = None, ""
-    if made_from == _made_from():
-        return str(found)
-    from hess_explorer.page.description import description
-
-    # The options of HoloViews are global.
+    # The options of HoloViews are global, and two sessions may enter the scene at once.
     with _one_at_a_time:
-        text = description(name)
-    if file:
-        write_whole(file, json.dumps([_made_from(), text]))
-    return text
+        file = CACHE_FOLDER / f"scene-{name}.json" if CACHE_FOLDER and is_shipped(name) else None
+        kept = _read(file)
+        if kept is None:
+            from hess_explorer.page.description import description
+
+            kept = description(name)
+            if file:
+                write_whole(file, json.dumps([_made_from(), kept]))
+        return kept
+
+
+def _read(file: Path | None) -> str | None:
+    """Return the description in a file; None if there is none, or it was made from other sources."""
+    try:
+        made_from, kept = json.loads(file.read_bytes()) if file else (None, None)
+    except (OSError, ValueError, TypeError):
+        return None
+    return str(kept) if made_from == _made_from() else None
 
 
 @cache

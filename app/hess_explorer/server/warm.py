@@ -52,7 +52,7 @@ def compute(scene: Scene[Any], folded: bool = True) -> None:
 
 
 def compile_all(processes: int = 1) -> None:
-    """Compile the kernels of all scenes into the cache on disk.
+    """Compile the kernels of all scenes into the cache on disk, and draw their descriptions.
 
     Parameters
     ----------
@@ -73,6 +73,7 @@ def compile_all(processes: int = 1) -> None:
 
 def _compute_named(name: str) -> None:
     compute(scenes()[name])
+    describe(name)
 
 
 def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
