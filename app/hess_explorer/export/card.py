@@ -26,10 +26,11 @@ def card(data: PictureData) -> bytes:
         import matplotlib as mpl
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
-
-        from hess_explorer.export.figure import STYLE, draw
     except ImportError as error:
         raise InvalidParameter("Cards need Matplotlib: pip install 'hess-explorer[export]'.") from error
+    # Not at the start, because no page needs HoloViews.
+    from hess_explorer.export.figure import STYLE, draw
+
     width, height = SIZE
     with mpl.rc_context(dict(STYLE)):
         square = draw(data, _MM)
