@@ -207,7 +207,7 @@ def complete(scene: Scene[Any], values: Values, pictures: Collection[str], made:
 def _described(view: Picture[Any], state: Any) -> tuple[Any, ...]:
     """Return the columns, axes, caption, status and notes of a picture."""
     caption = view.full_caption(state)
-    axes = view.ranges(state) or view.first_axes
+    axes = view.ranges(state, view.first_axes)
     columns = dict(state.drawn)
     for source, more in view.framed(state, axes, columns).items():
         columns[source] = {**columns.get(source, {}), **more}

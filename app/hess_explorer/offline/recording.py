@@ -125,7 +125,7 @@ class Recording:
             axes = [(plot, plot.first_axes) for plot in plots]
             texts = {"summary": "Nothing could be computed", "status": str(error), "derived": "", "notes": ""}
         else:
-            axes = [(plot, plot.ranges(state) or plot.first_axes) for plot in plots]
+            axes = [(plot, plot.ranges(state, plot.first_axes)) for plot in plots]
             texts = {
                 "summary": f"accuracy: {state.work.chosen}",
                 # Without the run times, which say nothing here.

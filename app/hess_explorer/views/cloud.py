@@ -137,7 +137,7 @@ class CloudPlane(Picture[S]):
         """Return the description of the picture for the browser."""
         return {**super().describe(), "density": self.density}
 
-    def ranges(self, state: S) -> Axes:
+    def ranges(self, state: S, held: Axes | None) -> Axes:
         """Return the axes that fit a state."""
         axis = centred(self.half_width(state))
         return Axes(axis, axis)

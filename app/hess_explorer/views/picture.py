@@ -93,9 +93,9 @@ class Picture(ABC, Generic[S]):
         """Return the description of the picture, sent to the browser before the first data."""
         return {"name": self.name, "kind": self.kind, "hands": self.hands}
 
-    def ranges(self, state: S) -> Axes | None:
-        """Return the axes that fit a state."""
-        return None
+    def ranges(self, state: S, held: Axes | None) -> Axes | None:
+        """Return the axes that fit a state; those `held` where it has none."""
+        return held
 
     @abstractmethod
     def data(self, state: S) -> Sources:

@@ -27,8 +27,8 @@ class Plot(Picture[S]):
 
     Parameters
     ----------
-    axes : names of the axes; x, y : their ranges; each may be a function of the state.  Both ranges stay
-        unchanged if one is None.
+    axes : names of the axes; x, y : their ranges; each may be a function of the state.  A range that
+        is None stays unchanged.
     layers : the layers from the back to the front.  The moving point and a message come on top.
     message(state) : a sentence in the middle of an empty frame; "" for none.
     dot : columns of the track "orbit" that the moving point follows; dots : further layers that follow it.
@@ -134,10 +134,11 @@ class Plot(Picture[S]):
         """Return the name of the source of a layer."""
         return f"data-{layer.track}" if layer.track else f"{self.name}-{layer.name}"
 
-    def ranges(self, state: S) -> Axes | None:
-        """Return the axes that fit a state."""
+    def ranges(self, state: S, held: Axes | None) -> Axes:
+        """Return the axes that fit a state; those `held` where it has none."""
+        assert held is not None
         x, y = self.x(state) if callable(self.x) else self.x, self.y(state) if callable(self.y) else self.y
-        return None if x is None or y is None else Axes(x, y)
+        return Axes(x or held.x, y or held.y)
 
     def data(self, state: S) -> Sources:
         """Return the columns that are independent of the axes, by source."""

@@ -11,7 +11,7 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
-from hess_explorer.compute.cache import CACHE
+from hess_explorer.compute.cache import CACHE, Task
 from hess_explorer.protocol.parameters import Values, places, written
 from hess_explorer.scenes.framework.families import Begin, Family
 from hess_explorer.scenes.framework.parameters import TURN, specs_of
@@ -178,23 +178,34 @@ class OrbitDiagram(Part[_Host]):
         return Begin(self.family, at, place, period, (min(low, at), max(high, at)))
 
     @property
-    def seen(self) -> Window:
-        """The visible window, for the branch."""
-        return self.frame
+    def seen(self) -> Window | None:
+        """The visible window, for the branch; None while it is unknown."""
+        return self.frame if self.height else None
+
+    @cached_property
+    def _attractor(self) -> Range | None:
+        """The range of the attractor over the parameter; None while it is unknown."""
+        ends = self.host.first, self.host.last
+        cropped = Task(_cropped, (self.family, self.name, ends, self.place, self.side, self._whole))
+        found: Range | None = self.work.ask(cropped)
+        return found
 
     @property
-    def full(self) -> Window:
-        """The whole diagram, cropped to the attractor; while a slider is held, the axes stay as they are."""
-        low, high = self.host.poincare.window[self.side]
-        ends = self.host.first, self.host.last
-        if not self.work.dragging:
-            low, high = self.work.get(_cropped, self.family, self.name, ends, self.place, self.side, (low, high))
-        return (ends[0], low), (ends[1], high)
+    def _whole(self) -> Range:
+        """The range of the coordinate of the section."""
+        return self.host.poincare.window[self.side]
 
     @cached_property
     def frame(self) -> Window:
-        """The visible window."""
-        return window_of(self.host.window, self.full)
+        """The visible window: the whole diagram, cropped to the attractor as soon as that is known."""
+        low, high = self._attractor or self._whole
+        return window_of(self.host.window, ((self.host.first, low), (self.host.last, high)))
+
+    @property
+    def height(self) -> Range | None:
+        """The visible range of the coordinate; None while it is unknown, so that axes do not change twice."""
+        known = self.host.window or self._attractor
+        return (self.frame[0][1], self.frame[1][1]) if known else None
 
     @property
     def name(self) -> str:
@@ -450,7 +461,7 @@ def diagram_picture(
         axes=lambda s: (of(s).host.along, of(s).host.shown),
         first=Axes(first, (-math.pi, math.pi)),
         x=lambda s: (of(s).frame[0][0], of(s).frame[1][0]),
-        y=lambda s: (of(s).frame[0][1], of(s).frame[1][1]),
+        y=lambda s: of(s).height,
         on_box=lambda s, corners: boxed(corners, BOUNDS),
         layers=(
             *under,
