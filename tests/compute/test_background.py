@@ -14,6 +14,7 @@ from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import ResultCache, Task
 from hess_explorer.protocol.parameters import MAX_QUERY, decode, encode, places, written
 from hess_explorer.scenes import euler_poisson
+from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.parallel import THREADS
@@ -515,6 +516,18 @@ def test_a_step_back_leads_to_another_scene_too_with_all_of_its_values_and_no_ot
     state = browser.ask(5, restore=there, near="loxodrome")
     assert (state["scene"], state["query"]) == ("suslov-hess", there)
     assert browser.described == [EP.name, "suslov-hess"]
+
+
+def test_tasks_of_a_state_end_before_another_one_is_computed(free_gate, monkeypatch):
+    browser, order = Browser(EP, SMALL), []
+    stop, compute = browser.session.background.stop, Scene.compute
+    monkeypatch.setattr(browser.session.background, "stop", lambda: (order.append("stop"), stop()))
+    monkeypatch.setattr(Scene, "compute", lambda *state: (order.append("compute"), compute(*state))[1])
+    browser.ask(1, values={"h": 2.25})
+    assert order == ["stop", "compute"]
+    # A request for what has been found meanwhile ends nothing.
+    browser.ask(2, values={})
+    assert order.count("stop") == 1
 
 
 def test_a_step_back_is_read_as_a_link_is(free_gate):

@@ -38,9 +38,10 @@ class BackgroundTasks:
         self._next = None
         self.background.stop()
 
-    def resume(self) -> None:
-        """Allow tasks again, for another state."""
+    def make_way(self) -> None:
+        """End the running tasks for another state, which they would slow down, and allow tasks again."""
         self._stopped = False
+        self.background.stop()
 
     def ended(self, more: bool) -> bool:
         """Return True if no task is running any more; more : True if the state is unchanged.

@@ -173,7 +173,7 @@ class Session:
         if request.step is not None:
             self._go(request.step)
         if self._drawn is None or (self.scene.name, wanted.values) != self._drawn[:2]:
-            self._tasks.resume()
+            self._tasks.make_way()
         if request.stop:
             self._tasks.stop()
 
