@@ -395,7 +395,10 @@ interface Scene {
 interface CanvasLook { width: number, height: number, text: string, dark: boolean }
 interface SquareLook { edge: number, ratio: number, text: string, dark: boolean }
 type PaintSquare = (ctx: CanvasRenderingContext2D, look: SquareLook) => void
-type PaintFrame = (ctx: CanvasRenderingContext2D, xScale: BokehScale, yScale: BokehScale) => void
+/** `turn` is the azimuth and elevation of the eye. */
+type PaintTurned = (ctx: CanvasRenderingContext2D, look: SquareLook, turn: [number, number]) => void
+/** `larger` is the factor of the sizes of lines and dots. */
+type PaintFrame = (ctx: CanvasRenderingContext2D, xScale: BokehScale, yScale: BokehScale, larger: number) => void
 
 /** Line style; without a colour, that of text. */
 interface Look {

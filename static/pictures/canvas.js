@@ -6,6 +6,7 @@ import { listen } from "../page/bus.js"
 import { element } from "../page/elements.js"
 import { zoom } from "../page/presenting.js"
 import { INK, isDark, onDark, setDark, watchTheme } from "./looks.js"
+import { largerOf } from "./plot_looks.js"
 
 const pixelRatio = () => devicePixelRatio || 1
 
@@ -97,23 +98,24 @@ export function squareCanvas(el, className, properties, paint) {
 /**
  * Put a canvas over the frame of a plot; it is redrawn when the axes or the size of the plot change.
  * @param {PlotView} plot
- * @param {Element} before the element below which the canvas lies
+ * @param {Element} other an element of Bokeh
+ * @param {"before" | "after"} side whether the canvas lies below it or above it
  * @param {PaintFrame} paint draws in Bokeh's pixels, clipped to the frame; like Bokeh, offset by half a pixel
  */
-export function frameCanvas(plot, before, paint) {
+export function frameCanvas(plot, other, side, paint) {
   const canvas = element("canvas")
   canvas.style.cssText = "position: absolute; inset: 0; width: 100%; height: 100%; pointer-events: none"
-  before.before(canvas)
+  other[side](canvas)
   let stale = true
   let drawn = ""
 
   // Does nothing if data, axes, sizes and theme are unchanged.
   function draw() {
     const { frame: { bbox: { x0, y0, x1, y1 }, x_scale: xScale, y_scale: yScale }, bbox: { width, height } } = plot
-    // A plot out of sight has no size.
-    if (!(x1 > x0 && y1 > y0)) return
+    // A plot out of sight has no size, and one that takes a state is painted with it.
+    if (!(x1 > x0 && y1 > y0) || plot.is_paused) return
     const { x_range: x, y_range: y } = plot.model
-    const here = [x.start, x.end, y.start, y.end, x0, y0, x1, y1, width, height, devicePixelRatio, onDark(), zoom()].join()
+    const here = [x.start, x.end, y.start, y.end, x0, y0, x1, y1, width, height, devicePixelRatio, onDark(), largerOf(plot)].join()
     if (!stale && here === drawn) return
     stale = false
     drawn = here
@@ -122,7 +124,7 @@ export function frameCanvas(plot, before, paint) {
     ctx.beginPath()
     ctx.rect(x0, y0, x1 - x0, y1 - y0)
     ctx.clip()
-    paint(ctx, xScale, yScale)
+    paint(ctx, xScale, yScale, largerOf(plot))
   }
 
   plot.repainted.connect(draw)

@@ -1,7 +1,6 @@
 // @ts-check
 // Draws thousands of dots of one colour as squares; Bokeh would draw each as a circle with its own colours.
 
-import { zoom } from "../page/presenting.js"
 import { shade } from "./looks.js"
 
 // Side of a square with the area of Bokeh's marker "dot", whose diameter is a quarter of `size`.
@@ -15,10 +14,10 @@ const sideOf = (size) => (size / 8) * Math.sqrt(Math.PI)
  * @returns {PaintFrame}
  */
 export function dotsPainter(layers, source) {
-  return (ctx, xScale, yScale) => {
+  return (ctx, xScale, yScale, larger) => {
     for (const { source: name, x, y, size, color, alpha } of layers) {
       const { [x]: xs = [], [y]: ys = [] } = source(name).data
-      const side = zoom() * sideOf(size)
+      const side = larger * sideOf(size)
       const [left, top] = [xScale.v_compute(xs), yScale.v_compute(ys)]
       ctx.globalAlpha = alpha
       ctx.fillStyle = shade(color)

@@ -8,15 +8,14 @@ import { createSheet } from "./projection.js"
 export const FAINT = 0.4
 
 /**
- * Return the canvases of a plot from back to front, Bokeh's and ours, without the ghost.
+ * Return the canvases of a plot from back to front, Bokeh's and ours, without the ghost and guesses.
  * @param {PlotView} plot
  * @returns {HTMLCanvasElement[]}
  */
 export function layersOf(plot) {
-  const { primary, overlays } = plot.canvas_view
-  const layers = /** @type {HTMLCanvasElement[]} */ ([...primary.el.parentNode.children])
-  return layers.slice(0, layers.indexOf(overlays.el) + 1).filter((layer) => (
-    layer instanceof HTMLCanvasElement && layer.width > 0 && !layer.classList.contains("ghost")))
+  const layers = /** @type {HTMLCanvasElement[]} */ ([...plot.canvas_view.primary.el.parentNode.children])
+  return layers.filter((layer) => (
+    layer instanceof HTMLCanvasElement && layer.width > 0 && !layer.matches(".ghost, .guess, .audience")))
 }
 
 /**
@@ -62,7 +61,7 @@ export function planeGhost(plot) {
       kept = what
       if (canvas === null) {
         // Above filled areas and below the moving layers.
-        canvas = frameCanvas(plot, plot.canvas_view.overlays.el, paint)
+        canvas = frameCanvas(plot, plot.canvas_view.overlays.el, "before", paint)
         canvas.element.classList.add("ghost")
       }
       canvas.request()

@@ -9,6 +9,7 @@ import { checkBokeh, spareStyles, spareUnseen, waitLongForPress } from "./bokeh_
 import { frameCanvas } from "./canvas.js"
 import { cellsPainter } from "./cells.js"
 import { dotsPainter } from "./dots.js"
+import { movingPointsPainter } from "./moving_points.js"
 import { connectPicks } from "./picks.js"
 import { connectKeys } from "./plot_keys.js"
 import { tickFormatter } from "./ticks.js"
@@ -43,24 +44,26 @@ function inheritCursor(plot) {
   plot.canvas_view.overlays.el.parentNode.append(element("style", "div { cursor: inherit !important }"))
 }
 
-// Canvases for layers that Bokeh would draw slowly: cells below everything else, dots below the moving layers.
+// Canvases for layers that Bokeh would draw slowly: cells below everything else, dots below the moving layers, and above them
+// the points that move in time.
 /** @param {PlotView} plot @param {PictureDescription} picture @param {FindSource} source */
-function addCanvases(plot, { cells, dots }, source) {
+function addCanvases(plot, { cells, dots, points }, source) {
   const { primary, overlays } = plot.canvas_view
   /**
    * @template {{source: string}} Layer
    * @param {Layer[]} layers
-   * @param {Element} before
+   * @param {[Element, "before" | "after"]} where
    * @param {(layers: Layer[], source: FindSource) => PaintFrame} painter
    */
-  const add = (layers, before, painter) => {
+  const add = (layers, where, painter) => {
     if (layers.length === 0) return
-    const canvas = frameCanvas(plot, before, painter(layers, source))
+    const canvas = frameCanvas(plot, ...where, painter(layers, source))
     for (const layer of layers) source(layer.source).watch(canvas.request)
-    listen({ paint: canvas.draw })
+    listen({ paint: canvas.draw, time: canvas.draw })
   }
-  add(cells, primary.el, cellsPainter)
-  add(dots, overlays.el, dotsPainter)
+  add(cells, [primary.el, "before"], cellsPainter)
+  add(dots, [overlays.el, "before"], dotsPainter)
+  add(points, [overlays.el, "after"], movingPointsPainter)
 }
 
 // Names of axes that depend on the state.

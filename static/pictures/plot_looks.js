@@ -37,6 +37,12 @@ const sizesOf = atFirst((part) => SIZES.filter((name) => part[name] != null)
 const times = (factor, value) => (typeof value === "number" ? factor * value
   : typeof value === "string" ? `${factor * Number.parseFloat(value)}px` : value)
 
+/** @type {WeakMap<PlotView, number>} */
+const factors = new WeakMap()
+
+/** Return the factor of the sizes of lines and dots in a plot. @param {PlotView} plot */
+export const largerOf = (plot) => factors.get(plot) ?? 1
+
 /**
  * Set the font sizes of a plot, and the sizes of lines and dots for the current mode.
  * @param {PlotView} plot
@@ -46,6 +52,7 @@ const times = (factor, value) => (typeof value === "number" ? factor * value
  */
 export function sizePlot(plot, type, scale, edge) {
   const larger = scale * zoom()
+  factors.set(plot, larger)
   const labelled = edge < UNLABELLED ? 0 : Math.min(larger, Math.max(LEAST, edge / LABELLED))
   for (const part of plot.model.references()) {
     const isLabel = (part.text_font_style?.value ?? part.text_font_style) === "bold"

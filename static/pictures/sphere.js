@@ -39,7 +39,7 @@ export function sphere(el, options, source, isShown) {
   const inSpace = options.attitude !== undefined
   const turned = turnable(el, inSpace ? "solid" : "sphere", {
     name: options.name, title: options.title ?? "Poisson sphere", what: "sphere", isShown,
-  }, paint)
+  }, paint, options.attitude === undefined && options.clouds === undefined ? paintPoint : null)
   const { request } = turned
   const lines = options.bare ? [circle([0, 0, 1], 0)] : graticule()
   /** @type {Vector | null} */
@@ -103,6 +103,12 @@ export function sphere(el, options, source, isShown) {
     guest?.middle?.(on)
     drawHalf(on, true)
     ctx.globalAlpha = 1
+    if (guest !== null) paintPoint(ctx, look, view)
+  }
+
+  /** @type {PaintTurned} */
+  function paintPoint(ctx, look, view) {
+    const on = createSheet(ctx, look, view)
     if (point !== null) drawPoint(on, point, on.isNear(point))
   }
 
@@ -111,7 +117,7 @@ export function sphere(el, options, source, isShown) {
       if (!isShown()) return
       point = inSpace || state?.g1 === undefined ? null : [state.g1, state.g2, state.g3]
       if (guest !== null) guest.t = t
-      request()
+      turned.requestMoving()
     },
   })
   const watched = [options.name, ...Object.keys(options.tracks), options.clouds, options.attitude]

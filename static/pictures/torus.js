@@ -57,7 +57,7 @@ export function torus(el, options, source, isShown) {
   let turning = null
   const turned = turnable(el, "torus", {
     name: options.name, title: "The torus in space", what: "torus", isShown,
-  }, paint)
+  }, paint, paintMoving)
   const { request } = turned
   turned.onTurn(() => {
     clearTimeout(turning)
@@ -79,20 +79,33 @@ export function torus(el, options, source, isShown) {
     if (!(radius?.length > 2)) return
     const sheet = createSheet(ctx, look, turn)
     const image = surface.shade(sheet, radius, height, turn, densityOf(own.data), turning !== null)
-    const on = {
-      ...sheet,
-      /** @type {Sheet["stroke"]} */
-      stroke(curve, near) { strokeAll(sheet, [curve], near, ON_IT) },
-    }
+    const on = onSurface(sheet)
     const edge = outline(radius, height, ...turn)
     const ring = circle([0, 0, 1], 0).map((column, k) => (k < 2 ? scaled(column, radius[0]) : column))
     drawLines(on, edge, ring, false)
     ctx.globalAlpha = 1
     ctx.drawImage(image, 0, 0, sheet.edge, sheet.edge)
     drawLines(on, edge, ring, true)
-    ctx.globalAlpha = 1
-    const place = pointNow()
-    if (place !== null) drawPoint(sheet, place, surface.shows(...sheet.at(place), sheet.depth(...place), ON_IT))
+  }
+
+  /** @param {CanvasRenderingContext2D} ctx @param {SquareLook} look @param {[number, number]} turn */
+  function paintMoving(ctx, look, turn) {
+    if (!(own.data.radius?.length > 2)) return
+    const sheet = createSheet(ctx, look, turn)
+    for (const [name, curve, times] of curves()) {
+      if (times === undefined) continue
+      const path = until(curve, times)
+      for (const near of [false, true]) drawTrail(onSurface(sheet), path, LOOKS[name], near)
+      ctx.globalAlpha = 1
+      /** @type {Vector} */
+      const place = path.map((column) => column[column.length - 1])
+      drawPoint(sheet, place, surface.shows(...sheet.at(place), sheet.depth(...place), ON_IT))
+    }
+  }
+
+  /** Return a sheet on which the surface hides the curves behind it. @param {Sheet} sheet @returns {Sheet} */
+  function onSurface(sheet) {
+    return { ...sheet, stroke(curve, near) { strokeAll(sheet, [curve], near, ON_IT) } }
   }
 
   /**
@@ -134,7 +147,6 @@ export function torus(el, options, source, isShown) {
       use(times === undefined ? LOOKS[look] : { ...LOOKS[look], weight: THIN })
       ctx.globalAlpha = near ? 1 : HIDDEN
       stroke(curve, near)
-      if (times !== undefined) drawTrail(on, until(curve, times), LOOKS[look], near)
     }
   }
 
@@ -147,17 +159,11 @@ export function torus(el, options, source, isShown) {
     })
   }
 
-  /** Return the place of the moving point, null without an orbit. @returns {Vector | null} */
-  function pointNow() {
-    const [, curve, times] = curves().find(([,, one]) => one !== undefined) ?? []
-    return curve === undefined ? null : until(curve, times).map((column) => column[column.length - 1])
-  }
-
   listen({
     time({ t: now }) {
       if (!isShown()) return
       t = now
-      request()
+      turned.requestMoving()
     },
   })
   for (const name of [options.name, ...Object.keys(options.curves)]) source(name).watch(request)

@@ -17,10 +17,10 @@ const HOME = [0.6, 0.35]
  * @param {string} className
  * @param {{name: string, title: string, what: string, isShown: () => boolean}} picture its name and title, what turns ("sphere"),
  *   and whether its scene is on show
- * @param {(ctx: CanvasRenderingContext2D, look: SquareLook, turn: [number, number]) => void} paint gets azimuth and elevation
- *   of the eye
+ * @param {PaintTurned} paint
+ * @param {PaintTurned | null} paintMoving what moves in time, on a canvas above: the rest is not painted again for it
  */
-export function turnable(el, className, { name, title, what, isShown }, paint) {
+export function turnable(el, className, { name, title, what, isShown }, paint, paintMoving = null) {
   let turn = HOME
   /** @type {Set<() => void>} */
   const watchers = new Set()
@@ -41,6 +41,12 @@ export function turnable(el, className, { name, title, what, isShown }, paint) {
     paint(ctx, look, turn)
     own.canvas.dataset.turn = turn.map((x) => x.toFixed(4)).join(" ")
   })
+  const above = paintMoving && squareCanvas(el, "moving", { ariaHidden: true }, (ctx, look) => paintMoving(ctx, look, turn))
+  const requestMoving = above === null ? own.request : above.request
+  const request = () => {
+    own.request()
+    above?.request()
+  }
 
   const askForTurn = () => tell("ask-client", (keys) => { turn = [Number(keys.az), Number(keys.el)] })
   askForTurn()
@@ -52,7 +58,7 @@ export function turnable(el, className, { name, title, what, isShown }, paint) {
     turn = [wrapped, Math.max(-limit, Math.min(limit, elevation))]
     tell("url", { az: turn[0].toFixed(4), el: turn[1].toFixed(4) })
     tell("turned", [name, ...turn])
-    own.request()
+    request()
     for (const watcher of watchers) watcher()
   }
 
@@ -66,9 +72,15 @@ export function turnable(el, className, { name, title, what, isShown }, paint) {
     enter() { if (isShown()) askForTurn() },
     turn([turned, ...angles]) { if (isShown() && turned === name && angles.every(Number.isFinite)) rotate(...angles) },
   })
-  return Object.assign(own, {
-    turn: () => turn,
+  return {
+    request, requestMoving, turn: () => turn,
+    /** Return the picture for print. @param {number} side */
+    shoot(side) {
+      const sheet = own.shoot(side)
+      if (above !== null) sheet.getContext("2d").drawImage(above.shoot(side), 0, 0)
+      return sheet
+    },
     /** @param {() => void} watcher is called when the picture turns */
     onTurn(watcher) { watchers.add(watcher) },
-  })
+  }
 }

@@ -1,8 +1,8 @@
 """A plot as a Bokeh figure: axes by HoloViews, lines and markers as Bokeh's glyphs with empty sources.
 
 Each figure is built once per process; the browser gets it as JSON and fills its sources with data.  The page itself
-draws cells and thousands of dots, which are not Bokeh glyphs.  HoloViews makes the axes only: glyphs would take four
-times as long, and as many again would serve selections that nobody makes.
+draws cells, thousands of dots and the points that move in time, which are not Bokeh glyphs.  HoloViews makes the axes
+only: glyphs would take four times as long, and as many again would serve selections that nobody makes.
 """
 
 from __future__ import annotations
@@ -88,8 +88,9 @@ def build(plot: Plot[Any]) -> figure:
         ticker.desired_num_ticks = plot.y_tick_count
     sources: dict[str, ColumnDataSource] = {}
     for layer in (*plot.painted, *([_BOX] if plot.on_box is not None else [])):
-        if layer.glyph in _GLYPHS:
-            name, (glyph, positions) = plot.source_of(layer), _GLYPHS[layer.glyph]
+        name = plot.source_of(layer)
+        if layer.glyph in _GLYPHS and name not in plot.followers:
+            glyph, positions = _GLYPHS[layer.glyph]
             source = sources.setdefault(name, ColumnDataSource(name=name))
             for column in layer.columns:
                 source.data.setdefault(column, [])
@@ -126,5 +127,10 @@ def describe(plot: Plot[Any]) -> dict[str, Any]:
             {"source": plot.source_of(layer), "x": layer.columns[0], "y": layer.columns[1], **layer.style}
             for layer in plot.layers
             if layer.glyph == "dots"
+        ],
+        "points": [
+            {"source": plot.source_of(layer), **layer.style}
+            for layer in plot.painted
+            if plot.source_of(layer) in plot.followers
         ],
     }
