@@ -83,4 +83,5 @@ def test_a_handout_has_the_pictures_the_numbers_the_text_and_the_link_dark_on_wh
     page.wait_for_function("document.querySelector('.handout') === null")
     wait_frames(explorer, 4)
     after = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
-    assert ImageChops.difference(before, after).getbbox() is None
+    # The browser paints everything anew: rounded corners differ by a level of grey now and then.
+    assert all(most <= 2 for _, most in ImageChops.difference(before, after).getextrema())
