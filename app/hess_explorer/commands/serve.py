@@ -138,9 +138,9 @@ def _first_words() -> str:
 
 
 def _second_compiler() -> AbstractContextManager[object]:
-    """Start to compile the circle map and the labels of the first scene at a first start, while this process starts.
+    """Start to compile the circle map of the first scene at a first start, while this process starts.
 
-    This process then compiles the orbit, which takes as long.
+    This process then compiles labels and the orbit, which takes as long.
     """
     from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled, compiler
 
@@ -150,10 +150,6 @@ def _second_compiler() -> AbstractContextManager[object]:
 from hess_mechanics import circle_map
 
 circle_map(0.5, 1.5, 0.6, "draft").theta([0.0])
-
-from hess_explorer.views.tag_kernels import compile_kernels
-
-compile_kernels()
 """)
 
 

@@ -17,6 +17,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled, compiler, mark_all_compiled
+from hess_explorer.views.tag_kernels import compile_kernels as compile_labels
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.taylor_kernels import compile_shared
 
@@ -90,8 +91,10 @@ def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
     """
     first, *others = scenes().values()
     try:
-        compute(first, folded=False)
         describe(first.name)
+        # At a first start another process compiles the circle map meanwhile, so that comes last.
+        compile_labels()
+        compute(first, folded=False)
     finally:
         gc.freeze()
         gc.enable()
