@@ -211,7 +211,7 @@ def test_whatever_a_text_of_the_page_is_told_to_say_it_shows_as_text(explorer):
 # --- What the page needs of Bokeh beyond its documentation ---------------------------------------------
 
 MISSING = """async (modules) => {
-  const { missing } = await importShim(new URL(`${modules}/pictures/bokeh_private.js`, document.baseURI).href)
+  const { missing } = await import(new URL(`${modules}/pictures/bokeh_private.js`, document.baseURI).href)
   const { UIGestures } = Bokeh.require("core/ui_gestures")
   const [plot] = hess.plots
   const found = [missing(plot)]

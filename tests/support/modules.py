@@ -6,10 +6,8 @@ the bus's; hess.plotted() names the sources of the planar pictures on show; hess
 
 from hess_explorer.assets import modules_path
 
-# By Panel's loader, as the page does: the browser's own `import` would make a second instance of each module.
 _SCRIPT = """const begin = () => {
-  if (window.importShim === undefined) return void setTimeout(begin, 5)
-  const load = (path) => importShim(new URL(`MODULES/${path}`, document.baseURI).href)
+  const load = (path) => import(new URL(`MODULES/${path}`, document.baseURI).href)
   Promise.all([
     load("page/bus.js"), load("pictures/gallery.js"), load("pictures/cloud.js"),
   ]).then(([bus, { gallery }, { cloudsOf }]) => {
@@ -24,7 +22,7 @@ _SCRIPT = """const begin = () => {
     }
   })
 }
-if (location.protocol.startsWith("http")) begin()""".replace("MODULES", modules_path())
+if (location.protocol.startsWith("http")) addEventListener("DOMContentLoaded", begin)""".replace("MODULES", modules_path())
 
 
 def look_inside(page):

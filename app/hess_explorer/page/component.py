@@ -9,7 +9,7 @@ from __future__ import annotations
 import param
 from panel.custom import JSComponent
 
-from hess_explorer.assets import STATIC, modules_path
+from hess_explorer.assets import STATIC
 
 __all__ = ["Explorer", "styles"]
 
@@ -42,11 +42,10 @@ class Explorer(JSComponent):
     )
     sheets = param.Dict(default={}, doc="The result of `styles()`.")
 
-    # A relative URL, which also works behind a proxy that serves the page under a prefix.
-    _esm = f"""
-export const render = async (component) => {{
-  const module = await import(new URL("{modules_path()}/page/served.js", document.baseURI).href)
-  return module.render(component)
-}}
+    # "page/start.js" renders it.
+    _esm = """
+export function render(detail) {
+  document.dispatchEvent(new CustomEvent("component", { detail }))
+}
 """
     _stylesheets = [(STATIC / name).read_text(encoding="utf-8") for name in ("page/base.css", "page/shell.css")]

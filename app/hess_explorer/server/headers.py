@@ -12,6 +12,7 @@ from typing import ClassVar
 
 from panel.io.server import DocHandler
 
+from hess_explorer.assets import modules_path
 from hess_explorer.protocol.parameters import MAX_QUERY
 from hess_explorer.server.preview import tags
 from hess_explorer.server.refusal import refuse
@@ -22,9 +23,11 @@ __all__ = ["GuardedDocument", "policy"]
 QUERY_LIMIT = 4 * MAX_QUERY
 """Maximum length of a query in characters; the websocket request repeats it in a header."""
 
-_BASE = """
+# A relative URL, which also works behind a proxy that serves the page under a prefix.
+_BASE = f"""
     <meta name="viewport" content="width=device-width, initial-scale=1">
-    <style>html, body { color: CanvasText; background: Canvas }</style>
+    <style>html, body {{ color: CanvasText; background: Canvas }}</style>
+    <script type="module" src="{modules_path()}/page/start.js"></script>
     """
 _END = "</head>"
 

@@ -127,7 +127,7 @@ def best_inside(grid, region, half_width, half_height, edge, pull):
     return found
 
 
-def compile_kernels():
+def compile_kernels() -> None:
     """Compile all kernels, or load them."""
     grid, points = np.zeros((2, 2)), np.zeros((2, 2))
     mark(grid, along(*points, 2), 0.0)
