@@ -39,7 +39,7 @@ def policy(nonce: str, embedders: tuple[str, ...]) -> str:
     return "; ".join(
         [
             "default-src 'none'",
-            # Panel loads modules from blobs, which import modules of this server.
+            # Panel loads its component from a blob.
             f"script-src 'self' blob: 'nonce-{nonce}' 'unsafe-eval'",
             "style-src 'self' 'unsafe-inline'",
             "img-src 'self' data: blob:",
@@ -47,7 +47,7 @@ def policy(nonce: str, embedders: tuple[str, ...]) -> str:
             "media-src 'self' blob:",
             "worker-src 'self' blob:",
             "manifest-src 'self'",
-            # The websocket and those modules.  The comparison of two states embeds the page itself twice.
+            # The websocket and that component.  The comparison of two states embeds the page itself twice.
             "connect-src 'self' blob:",
             "frame-src 'self'",
             "base-uri 'self'",
