@@ -106,10 +106,11 @@ def empty_sources(name):
     cells = {one["source"]: {} for picture in pictures for one in picture.get("cells", ())}
     axes = {f"{picture['name']}-axes": {"text": []} for picture in pictures if picture.get("renamed")}
     dots = {one["source"]: {one["x"]: [], one["y"]: []} for picture in pictures for one in picture.get("dots", ())}
+    points = {one["source"]: {"x": [], "y": []} for picture in pictures for one in picture.get("points", ())}
     empty = dict(found)
     assert not any(column for columns in empty.values() for column in columns.values())
     assert not set(empty) & set(canvases)
-    return {**{track: {} for track in tracks_of(name)}, **curves, **cells, **axes, **dots, **empty, **canvases}
+    return {**{track: {} for track in tracks_of(name)}, **curves, **cells, **axes, **dots, **points, **empty, **canvases}
 
 
 def tracks_of(name):

@@ -13,9 +13,10 @@ from support.view import View
 
 
 def yellow(explorer):
-    """The middle of the moving point on the sphere, in shares of the canvas."""
+    """The middle of the moving point on the sphere, which has a canvas of its own, in shares of that."""
     return explorer.sphere.evaluate(
-        """canvas => {
+        """sphere => {
+          const canvas = sphere.parentElement.querySelector(".moving")
           const { width, height } = canvas
           const pixels = canvas.getContext("2d").getImageData(0, 0, width, height).data
           let [n, x, y] = [0, 0, 0]
