@@ -110,7 +110,8 @@ def empty_sources(name):
     empty = dict(found)
     assert not any(column for columns in empty.values() for column in columns.values())
     assert not set(empty) & set(canvases)
-    return {**{track: {} for track in tracks_of(name)}, **curves, **cells, **axes, **dots, **points, **empty, **canvases}
+    tracks = {track: {} for track in tracks_of(name)}
+    return {**tracks, **curves, **cells, **axes, **dots, **points, **empty, **canvases}
 
 
 def tracks_of(name):

@@ -22,7 +22,8 @@ _SCRIPT = """const begin = () => {
     }
   })
 }
-if (location.protocol.startsWith("http")) addEventListener("DOMContentLoaded", begin)""".replace("MODULES", modules_path())
+const isServed = location.protocol.startsWith("http")
+if (isServed) addEventListener("DOMContentLoaded", begin)""".replace("MODULES", modules_path())
 
 
 def look_inside(page):
