@@ -17,6 +17,7 @@ import random
 import statistics
 import sys
 import time
+from contextlib import asynccontextmanager, nullcontext
 from pathlib import Path
 
 if __name__ == "__main__":
@@ -100,6 +101,20 @@ class Crowd:
         await asyncio.gather(*(visitor.leave() for _, visitor in self.visitors), return_exceptions=True)
 
 
+@asynccontextmanager
+async def beside_dearest(base):
+    """While the most expensive scene is in use."""
+    until = asyncio.Event()
+    other = asyncio.create_task(dear(base, until))
+    try:
+        yield
+    finally:
+        until.set()
+        # It closes its page unless an answer takes long.
+        await asyncio.wait({other}, timeout=1.0)
+        other.cancel()
+
+
 async def dear(base, until):
     """Send the most expensive request without a pause."""
     visitor = await Visitor.open(base, DEAREST, timeout=120.0)
@@ -140,15 +155,11 @@ async def drags(base, pid, counts, drag, seconds):
         before, crowd = memory(pid), Crowd(base, [next(iter(scenes()))])
         await crowd.open(count)
         for beside in ("", ", beside one at reference"):
-            until = asyncio.Event()
-            other = asyncio.create_task(dear(base, until)) if beside else None
-            cpu, begun = worked(pid), time.monotonic()
-            await crowd.use(seconds, count, RARELY, drag)
-            share = (worked(pid) - cpu) / (time.monotonic() - begun)
-            held = memory(pid)
-            until.set()
-            if other:
-                other.cancel()
+            async with beside_dearest(base) if beside else nullcontext():
+                cpu, begun = worked(pid), time.monotonic()
+                await crowd.use(seconds, count, RARELY, drag)
+                share = (worked(pid) - cpu) / (time.monotonic() - begun)
+                held = memory(pid)
             (_, dragged), (_, others) = _row(crowd.dragged), _row(crowd.answered)
             worst = max(crowd.answered + crowd.dragged)
             yield (
@@ -173,13 +184,10 @@ async def measure(base, pid, counts, seconds):
         await crowd.use(seconds, count)
         share = (worked(pid) - cpu) / (time.monotonic() - begun)
         median, late = _row(crowd.answered)
-        until = asyncio.Event()
-        other = asyncio.create_task(dear(base, until))
-        await crowd.use(seconds, count + 1)
-        until.set()
+        async with beside_dearest(base):
+            await crowd.use(seconds, count + 1)
         both = _row(crowd.answered)
         await crowd.leave()
-        other.cancel()
         yield (
             f"| {count} | {opening:.1f} s | {1e3 * median:.0f} ms | {1e3 * late:.0f} ms | {share:.2f} | "
             f"{(held - before) / max(1, count) / 2**20:.2f} MB | {1e3 * both[0]:.0f}, {1e3 * both[1]:.0f} ms | "

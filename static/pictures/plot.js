@@ -55,15 +55,19 @@ function addCanvases(plot, { cells, dots, points }, source) {
    * @param {[Element, "before" | "after"]} where
    * @param {(layers: Layer[], source: FindSource) => PaintFrame} painter
    */
-  const add = (layers, where, painter) => {
+  const add = (layers, where, painter, isMoving = false) => {
     if (layers.length === 0) return
     const canvas = frameCanvas(plot, ...where, painter(layers, source))
-    for (const layer of layers) source(layer.source).watch(canvas.request)
-    listen({ paint: canvas.draw, time: canvas.draw })
+    for (const layer of layers) {
+      source(layer.source).watch(canvas.request)
+      // Nothing else is painted then.
+      if (isMoving) source(layer.source).watch(canvas.draw)
+    }
+    listen({ paint: canvas.draw })
   }
   add(cells, [primary.el, "before"], cellsPainter)
   add(dots, [overlays.el, "before"], dotsPainter)
-  add(points, [overlays.el, "after"], movingPointsPainter)
+  add(points, [overlays.el, "after"], movingPointsPainter, true)
 }
 
 // Names of axes that depend on the state.

@@ -37,19 +37,18 @@ function drawAxis({ isNear, at, line, write }, axis, label, near) {
  */
 export function sphere(el, options, source, isShown) {
   const inSpace = options.attitude !== undefined
-  const turned = turnable(el, inSpace ? "solid" : "sphere", {
-    name: options.name, title: options.title ?? "Poisson sphere", what: "sphere", isShown,
-  }, paint, options.attitude === undefined && options.clouds === undefined ? paintPoint : null)
-  const { request } = turned
-  const lines = options.bare ? [circle([0, 0, 1], 0)] : graticule()
-  /** @type {Vector | null} */
-  let point = null
-
   const own = source(options.name)
   // Additional layers.
   /** @type {SphereGuest | null} */
   const guest = options.clouds !== undefined ? sphereClouds(source(options.clouds))
     : inSpace ? bodyIn(own, source(options.attitude)) : null
+  const turned = turnable(el, inSpace ? "solid" : "sphere", {
+    name: options.name, title: options.title ?? "Poisson sphere", what: "sphere", isShown,
+  }, paint, guest === null ? paintPoint : null)
+  const { request } = turned
+  const lines = options.bare ? [circle([0, 0, 1], 0)] : graticule()
+  /** @type {Vector | null} */
+  let point = null
 
   /** Return [look, columns] of each track. @returns {[string, Columns][]} */
   const tracks = () => Object.entries(options.tracks).map(([name, look]) => {

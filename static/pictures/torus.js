@@ -92,10 +92,11 @@ export function torus(el, options, source, isShown) {
   function paintMoving(ctx, look, turn) {
     if (!(own.data.radius?.length > 2)) return
     const sheet = createSheet(ctx, look, turn)
+    const on = onSurface(sheet)
     for (const [name, curve, times] of curves()) {
       if (times === undefined) continue
       const path = until(curve, times)
-      for (const near of [false, true]) drawTrail(onSurface(sheet), path, LOOKS[name], near)
+      for (const near of [false, true]) drawTrail(on, path, LOOKS[name], near)
       ctx.globalAlpha = 1
       /** @type {Vector} */
       const place = path.map((column) => column[column.length - 1])

@@ -42,7 +42,7 @@ export function turnable(el, className, { name, title, what, isShown }, paint, p
     own.canvas.dataset.turn = turn.map((x) => x.toFixed(4)).join(" ")
   })
   const above = paintMoving && squareCanvas(el, "moving", { ariaHidden: true }, (ctx, look) => paintMoving(ctx, look, turn))
-  const requestMoving = above === null ? own.request : above.request
+  const requestMoving = (above ?? own).request
   const request = () => {
     own.request()
     above?.request()

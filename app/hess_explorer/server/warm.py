@@ -17,7 +17,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled, compiler, mark_all_compiled
-from hess_explorer.views.tag_kernels import compile_kernels as compile_labels
+from hess_explorer.views.tag_kernels import compile_labels
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.taylor_kernels import compile_shared
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from hess_mechanics.numerics.jit import inner, kernel
 
-__all__ = ["along", "best_around", "best_inside", "compile_kernels", "fill", "mark"]
+__all__ = ["along", "best_around", "best_inside", "compile_labels", "fill", "mark"]
 
 
 @kernel
@@ -127,8 +127,8 @@ def best_inside(grid, region, half_width, half_height, edge, pull):
     return found
 
 
-def compile_kernels() -> None:
-    """Compile all kernels, or load them."""
+def compile_labels() -> None:
+    """Compile the kernels that place labels, or load them."""
     grid, points = np.zeros((2, 2)), np.zeros((2, 2))
     mark(grid, along(*points, 2), 0.0)
     fill(grid, points)

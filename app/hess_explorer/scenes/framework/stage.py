@@ -36,9 +36,8 @@ class Stage(Generic[S]):
         # Everything that can fail comes first, so that a refused state is not drawn in part.
         views = [view for view in self.scene.views if view.name in state.seen]
         captions = {view.name: view.full_caption(state) for view in views}
-        axes = {view.name: self._axes[view.name] for view in views}
-        if not hold_axes:
-            axes = {view.name: view.ranges(state, axes[view.name]) for view in views}
+        held = {view.name: self._axes[view.name] for view in views}
+        axes = held if hold_axes else {view.name: view.ranges(state, held[view.name]) for view in views}
         drawn = dict(state.drawn)
         for view in views:
             for source, columns in view.framed(state, axes[view.name], drawn).items():

@@ -183,29 +183,27 @@ class OrbitDiagram(Part[_Host]):
         return self.frame if self.height else None
 
     @cached_property
-    def _attractor(self) -> Range | None:
-        """The range of the attractor over the parameter; None while it is unknown."""
-        ends = self.host.first, self.host.last
-        cropped = Task(_cropped, (self.family, self.name, ends, self.place, self.side, self._whole))
+    def _window(self) -> Window:
+        """The chosen window, or the whole diagram."""
+        low, high = self.host.poincare.window[self.side]
+        return window_of(self.host.window, ((self.host.first, low), (self.host.last, high)))
+
+    @cached_property
+    def height(self) -> Range | None:
+        """The visible range of the coordinate: that of the attractor, unless a window is chosen; None while unknown."""
+        (left, low), (right, high) = self._window
+        if self.host.window:
+            return low, high
+        cropped = Task(_cropped, (self.family, self.name, (left, right), self.place, self.side, (low, high)))
         found: Range | None = self.work.ask(cropped)
         return found
 
-    @property
-    def _whole(self) -> Range:
-        """The range of the coordinate of the section."""
-        return self.host.poincare.window[self.side]
-
     @cached_property
     def frame(self) -> Window:
-        """The visible window: the whole diagram, cropped to the attractor as soon as that is known."""
-        low, high = self._attractor or self._whole
-        return window_of(self.host.window, ((self.host.first, low), (self.host.last, high)))
-
-    @property
-    def height(self) -> Range | None:
-        """The visible range of the coordinate; None while it is unknown, so that axes do not change twice."""
-        known = self.host.window or self._attractor
-        return (self.frame[0][1], self.frame[1][1]) if known else None
+        """The visible window; as high as the whole diagram while its height is unknown."""
+        (left, low), (right, high) = self._window
+        low, high = self.height or (low, high)
+        return (left, low), (right, high)
 
     @property
     def name(self) -> str:
