@@ -73,12 +73,15 @@ function addCanvases(plot, { cells, dots, points }, source) {
 // Names of axes that depend on the state.
 /** @param {PlotModel} model @param {Source} names */
 function nameAxes({ below: [x], left: [y] }, names) {
-  names.watch(() => {
+  const rename = () => {
     for (const [i, axis] of [x, y].entries()) {
       const name = names.data.text?.[i]
       if (name !== undefined && axis.axis_label !== name) axis.axis_label = name
     }
-  })
+  }
+  names.watch(rename)
+  // The first state may come before the plot is built.
+  rename()
 }
 
 /**

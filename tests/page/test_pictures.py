@@ -294,3 +294,10 @@ def test_a_picture_that_is_folded_is_not_computed(explorer):
     assert explorer.data("torus-density") == first
     explorer.unfold("torus")
     assert explorer.data("torus-density") != first
+
+
+def test_axes_that_depend_on_the_state_have_their_names_from_the_first_one_on(open_page):
+    page = open_page("scene=orbit-diagram&accuracy=draft")
+    names = """() => hess.plots.filter(({ model }) => model.name === "diagram")
+      .map(({ model }) => [model.below[0].axis_label, model.left[0].axis_label])"""
+    assert page.evaluate(names) == [["I₂₃", "ψ"]]
