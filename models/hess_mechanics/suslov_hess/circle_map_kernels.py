@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from hess_mechanics.numerics.angle_kernels import angle_of
 from hess_mechanics.numerics.jit import kernel, part
 from hess_mechanics.numerics.taylor_kernels import columns_of, expansion, step_of, workspace
 from hess_mechanics.numerics.tracing import trace
@@ -113,6 +114,6 @@ def theta_of(re, im, im_beta, phi, cos, sin, out):
     """Store Θ(φ) = 2 arg(αz + β) − φ, z = e^{iφ} = cos + i sin, in (−π, π], in out."""
     for i in range(phi.size):
         c, s = cos[i], sin[i]
-        angle = 2.0 * math.atan2(re * s + im * c + im_beta, re * c - im * s) - phi[i]
+        angle = 2.0 * angle_of(re * s + im * c + im_beta, re * c - im * s) - phi[i]
         angle -= 2.0 * math.pi * np.rint(angle / (2.0 * math.pi))
         out[i] = math.pi if angle <= -math.pi else min(angle, math.pi)

@@ -78,7 +78,8 @@ def _circle_map(work, order, tolerance, threads):
     theta = np.empty(work.phi.size)
 
     def run():
-        re, im, im_beta = matrices(*torus, work.a, level)[0, :3]
+        # As `circle_map` does: numbers of Python, which a kernel takes faster than those of NumPy.
+        re, im, im_beta = matrices(*torus, work.a, level)[0, :3].tolist()
         theta_of(re, im, im_beta, work.phi, cos, sin, theta)
         return theta
 
