@@ -131,8 +131,8 @@ def add(y, low, s, compensated):
     def value(c, i, lane, s):
         total = 0.0
         for k in range(c.shape[0] - 1, 0, -1):
-            total = (total + c[k, i, lane]) * s
-        return total
+            total = total * s + c[k, i, lane]
+        return total * s
 
     @part
     def integrate(states, parameters, times, order, tolerance, max_steps, out):

@@ -45,6 +45,6 @@ def evaluation(count: int) -> Callable[..., Any]:
 def evaluate(c, s, increments):
     {" = ".join(f"a{i}" for i in each)} = 0.0
     for k in range(c.shape[0] - 1, 0, -1):
-        {"; ".join(f"a{i} = (a{i} + c[k, {i}]) * s" for i in each)}
-    {"; ".join(f"increments[{i}] = a{i}" for i in each)}
+        {"; ".join(f"a{i} = a{i} * s + c[k, {i}]" for i in each)}
+    {"; ".join(f"increments[{i}] = a{i} * s" for i in each)}
 """)["evaluate"]
