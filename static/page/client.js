@@ -23,6 +23,8 @@ import { handleCommands } from "./commands.js"
 // The next part of a state is requested after a pause as long as the last part took: half of the time is left to the user,
 // and a slow server is asked less often.
 const PAUSE_BETWEEN_PIECES = 80
+// A new state is computed further only if nothing else is asked for in the meantime: its pictures are on the screen then.
+const PAUSE_BEFORE_PIECES = 40
 const LOST = "Connection to the server lost. This page continues as soon as the server answers."
 
 /**
@@ -121,6 +123,7 @@ export function startClient(model, host) {
   /** @param {StateAnswer} next @param {ArrayBuffer} block */
   const show = async (next, block) => {
     const isSketched = state === next
+    const isNew = state === null || isSketched || state.answers !== next.answers
     state = next
     if (scene?.name !== state.scene) enter(state.scene)
     await paint(touchedPlots(state.tree), () => {
@@ -145,7 +148,7 @@ export function startClient(model, host) {
       // A listener may have requested another state.
       if (requests.isBehind(state.answers)) return
       if (state.progress === null) root.dataset.ready = "true"
-      else more = setTimeout(requests.ask, Math.max(PAUSE_BETWEEN_PIECES, requests.took))
+      else more = setTimeout(requests.ask, isNew ? PAUSE_BEFORE_PIECES : Math.max(PAUSE_BETWEEN_PIECES, requests.took))
     }
   }
 

@@ -30,6 +30,7 @@ class BackgroundTasks:
         """Stop the tasks and keep what is drawn, until another state is requested."""
         if self.progress is not None:
             self._stopped = True
+            self._next = None
             self.background.stop()
 
     def drop(self) -> None:
@@ -53,8 +54,8 @@ class BackgroundTasks:
 
     @property
     def news(self) -> bool:
-        """True if a task has ended since the state was computed, or no task is running."""
-        return not 0 < self.background.left == self._left
+        """True if a task has ended since the state was computed, or none is running or about to start."""
+        return self._next is None and not 0 < self.background.left == self._left
 
     def follow(self, report: Report, more: bool, ended: bool) -> list[str]:
         """Plan the tasks that the report lists; return a note if they ended early.  `start` starts them."""
@@ -81,7 +82,7 @@ class BackgroundTasks:
         ]
 
     def start(self) -> None:
-        """Start the tasks after the response has been sent; they would delay it by holding the interpreter lock."""
+        """Start the planned tasks, if any."""
         if self._next is not None:
             (self.background.add if self._adds else self.background.follow)(self._next)
             self._next = None

@@ -72,7 +72,9 @@ class Connection:
     def _answer(self, request: Request | ChartRequest) -> None:
         if isinstance(request, Request):
             self._tell(self._session.answer(request))
-            self._session.start_tasks()
+            # A page needs the cores to paint a new state, and asks again when it has.
+            if not self._session.is_new:
+                self._session.start_tasks()
         else:
             self._tell(self._charts.answer(request))
 

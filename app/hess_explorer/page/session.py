@@ -71,6 +71,8 @@ class Session:
         self._in_sight = scene.open_pictures if pictures is None else pictures
         self._held = False
         self._number = 0
+        # True if the last request asked for another state, False if it asked again for the one on show.
+        self.is_new = False
         self.values: Values = {}
         # Scene, requested values and notes of the drawn state, and its pictures; None if nothing valid is drawn.
         self._drawn: tuple[str, Values, list[str]] | None = None
@@ -228,12 +230,13 @@ class Session:
         released = self._held and not held
         self._held = held
         wanted = self.requested
-        if (
+        self.is_new = (
             released
             or self._mistaken
             or self._drawn != (self.scene.name, wanted.values, wanted.notes)
             or not set(self._in_sight) <= set(self._drawn_pictures)
-        ):
+        )
+        if self.is_new:
             self._draw()
         elif self._tasks.progress is not None and self._tasks.news:
             self._draw(more=True)

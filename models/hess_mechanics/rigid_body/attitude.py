@@ -129,7 +129,7 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Lying:
     v += step**2 / 12.0 * (slope[:, :-1] - slope[:, 1:] + _cross(w[:, :-1], w[:, 1:]))
     length = np.sqrt(np.einsum("kn,kn->n", v, v))
     g, e, f = _frames(gamma)
-    moved_g, moved_e = _turned(g[:, :-1], v, length), _turned(e[:, :-1], v, length)
+    moved_g, moved_e = _turned((g[:, :-1], e[:, :-1]), v, length)
     defect = float(np.max(np.abs(moved_g - g[:, 1:]), initial=0.0))
     turn = np.arctan2(np.einsum("kn,kn->n", moved_e, f[:, 1:]), np.einsum("kn,kn->n", moved_e, e[:, 1:]))
     angle = np.concatenate([[0.0], np.cumsum(turn)])
@@ -140,7 +140,7 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Lying:
     i = np.clip(np.searchsorted(turned, at, side="right") - 1, 0, len(step) - 1)
     share = (at - turned[i]) / (turned[i + 1] - turned[i])
     v, length = share * v[:, i], share * length[i]
-    g, e = _turned(g[:, i], v, length), _turned(e[:, i], v, length)
+    g, e = _turned((g[:, i], e[:, i]), v, length)
     axes = np.stack([g.T, e.T, _cross(g, e).T], axis=1)
     return Lying(frozen(times[i] + share * step[i]), frozen(axes), defect)
 
@@ -163,7 +163,11 @@ def travelled(axes: Array, at: Sequence[float] | Array, e: Sequence[float] | Arr
 
 def _cross(u: Array, v: Array) -> Array:
     """Return u × v of columns (3, n); `np.cross` takes several times as long."""
-    return np.stack([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
+    found = np.empty(u.shape)
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        np.subtract(u[i] * v[j], u[j] * v[i], out=found[k])
+    return found
 
 
 def _frames(gamma: Array) -> tuple[Array, Array, Array]:
@@ -177,10 +181,11 @@ def _frames(gamma: Array) -> tuple[Array, Array, Array]:
     return g, e, _cross(g, e)
 
 
-def _turned(u: Array, v: Array, length: Array) -> Array:
-    """Return exp(−v×) u of columns (3, n), |v| = length (n,)."""
-    first = _cross(u, v)
-    return np.asarray(u + np.sinc(length / np.pi) * first + 0.5 * np.sinc(0.5 * length / np.pi) ** 2 * _cross(first, v))
+def _turned(several: tuple[Array, ...], v: Array, length: Array) -> tuple[Array, ...]:
+    """Return exp(−v×) u of each of several columns u (3, n), |v| = length (n,)."""
+    sine, cosine = np.sinc(length / np.pi), 0.5 * np.sinc(0.5 * length / np.pi) ** 2
+    crossed = [(u, _cross(u, v)) for u in several]
+    return tuple(u + sine * first + cosine * _cross(first, v) for u, first in crossed)
 
 
 def attitude(
