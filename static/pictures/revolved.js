@@ -7,7 +7,8 @@
 import { element } from "../page/elements.js"
 import { LIGHT, HALFWAY } from "./solid.js"
 
-// Facets around the axis, and the largest number of pixels on a side, at rest and while it turns.
+// Facets around the axis of a large surface, and the largest number of pixels on a side, at rest and while it turns.  A small
+// surface has every second facet: their sides are then some ten pixels long too, and a quarter of a pixel inside a circle.
 const AROUND = 96
 const MOST = 640
 const QUICK = 420
@@ -91,6 +92,8 @@ export function createRevolved() {
   const canvas = element("canvas")
   const paper = canvas.getContext("2d")
   let side = 0
+  // Each so-manyth corner is used, around the axis and along the cross-section.
+  let stride = 1
   /** @type {ImageData} */
   let image
   // Premultiplied colours, and the depth of what is in front.
@@ -186,11 +189,11 @@ export function createRevolved() {
     const { outside, inside, dense, ambient } = TONES[dark ? "dark" : "light"]
     const [ce, se] = [Math.cos(elevation), Math.sin(elevation)]
     let k = 0
-    for (let j = 0; j <= AROUND; j++) {
+    for (let j = 0; j <= AROUND; j += stride) {
       // The first and the last are one, to the last bit.
       const psi = 2 * Math.PI * (j % AROUND) / AROUND
       const [c, s] = [Math.cos(psi), Math.sin(psi)]
-      for (let i = 0; i < radius.length; i++) {
+      for (let i = 0; i < radius.length; i += stride) {
         const [ahead, z] = [radius[i] * c, height[i]]
         let nx = across[i] * s
         let ny = ce * along[i] - se * across[i] * c
@@ -221,7 +224,8 @@ export function createRevolved() {
   /** Fill `order` with the facets from back to front, each by its first corner. @param {number} count points of the cross-section */
   function sort(count) {
     const opposite = WIDE * (count + 1)
-    const facets = AROUND * (count - 1)
+    const around = AROUND / stride
+    const facets = around * (count - 1)
     if (order.length !== facets) order = new Uint32Array(facets)
     starts.fill(0)
     /** @param {number} first */
@@ -231,7 +235,7 @@ export function createRevolved() {
     }
     /** @param {(first: number) => void} act */
     const each = (act) => {
-      for (let j = 0; j < AROUND; j++) for (let i = 0; i < count - 1; i++) act(WIDE * (j * count + i))
+      for (let j = 0; j < around; j++) for (let i = 0; i < count - 1; i++) act(WIDE * (j * count + i))
     }
     each((first) => { starts[bucket(first) + 1]++ })
     for (let b = 0; b < BUCKETS; b++) starts[b + 1] += starts[b]
@@ -248,7 +252,7 @@ export function createRevolved() {
     }
     colours.fill(0)
     depths.fill(-Infinity)
-    const length = WIDE * count * (AROUND + 1)
+    const length = WIDE * count * (AROUND / stride + 1)
     if (corners.length !== length) corners = new Float64Array(length)
   }
 
@@ -289,10 +293,12 @@ export function createRevolved() {
       if (now === key && radius === last) return canvas
       key = now
       last = radius
-      begin(pixels, radius.length)
+      stride = pixels <= QUICK && radius.length % 2 === 1 ? 2 : 1
+      const count = (radius.length - 1) / stride + 1
+      begin(pixels, count)
       place(radius, height, turn, dark, scale * perEdge, density)
-      sort(radius.length)
-      const [next, beside] = [WIDE, WIDE * radius.length]
+      sort(count)
+      const [next, beside] = [WIDE, WIDE * count]
       for (const first of order) {
         fill(first, first + next, first + beside)
         fill(first + next, first + beside, first + next + beside)
