@@ -33,7 +33,7 @@ from support.processes import memory, worked
 from support.room import Follower, Lecturer
 from support.visitor import Visitor
 
-EVERY, RARELY, FRAME = 2.0, 20.0, 0.016
+EVERY, RARELY, FRAME, PIECES = 2.0, 20.0, 0.016, 0.08
 LOG = Path(os.devnull)
 README = Path(__file__).resolve().parents[1] / "app" / "hess_explorer" / "server" / "README.md"
 TURNS = 4
@@ -87,6 +87,10 @@ class Crowd:
                     values = {spec.name: round(min(max(value, low), high), 6)}
                     await visitor.ask(timeout=60.0, values=values, held=i < drag)
                     answered.append(time.monotonic() - begun)
+                    # As a page does at rest, after which the server computes further.
+                    while i >= drag and visitor.state["progress"] is not None and time.monotonic() < ends:
+                        await asyncio.sleep(PIECES)
+                        await visitor.ask(timeout=60.0)
                 except Exception as error:
                     self.errors += 1
                     print(f"{name}: {error!r}", file=sys.stderr)
@@ -157,7 +161,8 @@ async def drags(base, pid, counts, drag, seconds):
         for beside in ("", ", beside one at reference"):
             async with beside_dearest(base) if beside else nullcontext():
                 cpu, begun = worked(pid), time.monotonic()
-                await crowd.use(seconds, count, RARELY, drag)
+                # Other values each time, which no cache holds.
+                await crowd.use(seconds, count + bool(beside), RARELY, drag)
                 share = (worked(pid) - cpu) / (time.monotonic() - begun)
                 held = memory(pid)
             (_, dragged), (_, others) = _row(crowd.dragged), _row(crowd.answered)
