@@ -12,6 +12,9 @@ import pytest
 from hess_explorer.compute import background
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import ResultCache, Task
+from hess_explorer.page.connection import Connection
+from hess_explorer.page.session import Session
+from hess_explorer.protocol.messages import Request
 from hess_explorer.protocol.parameters import MAX_QUERY, decode, encode, places, written
 from hess_explorer.scenes import euler_poisson
 from hess_explorer.scenes.framework.scene import Scene
@@ -21,6 +24,7 @@ from hess_mechanics.numerics.parallel import THREADS
 from hess_mechanics.numerics.patience import go_on
 from support.asynchronous import wait_until
 from support.board import SCENES, Browser, modules_of_scenes
+from support.wire import read_frame
 
 # With the exponent in sight, which is folded at first.
 EP = SCENES["euler-poisson"]
@@ -407,6 +411,40 @@ def test_stop_leaves_what_is_drawn_and_says_how_much(gate):
     browser.ask(2, values={"orbits": 8.0})
     completed(browser, 2)
     assert browser.texts["notes"] == ""
+
+
+def test_a_new_state_is_computed_further_only_when_its_page_asks_again(monkeypatch):
+    states, started = [], []
+    start = Session.start_tasks
+    monkeypatch.setattr(Session, "start_tasks", lambda session: (started.append(len(states)), start(session)))
+
+    def tell(frame):
+        states.append(read_frame(frame)[0]["state"])
+
+    connection = Connection("scene=rotation-number&v=1", (), tell, None)
+    for asked, a in enumerate((0.7, 0.8), start=1):
+        connection.receive({"requested": asked, "values": {"a": a}})
+        wait_until(lambda count=asked + 1: len(states) == count)
+    assert states[-1]["progress"] is not None
+    # A page at rest asks for the same state once more.
+    while states[-1]["progress"] is not None:
+        count = len(states)
+        connection.receive({"requested": 2, "values": {}})
+        wait_until(lambda count=count: len(states) > count)
+    wait_until(lambda: len(started) == len(states) - 3)
+    assert started[0] == 4
+    connection.end()
+
+
+def test_tasks_that_have_not_begun_can_be_stopped():
+    session = Session(EP, SMALL, [], {})
+    first = session.answer(Request(requested=0)).state
+    assert first.progress is not None
+    stopped = session.answer(Request(requested=1, stop=True)).state
+    assert stopped.progress is None
+    assert stopped.tree["texts"]["notes"].startswith("Stopped: 0 of ")
+    session.start_tasks()
+    assert session.background.left == 0
 
 
 def test_what_was_stopped_is_not_begun_again_by_a_picture_that_comes_into_sight(gate):
