@@ -23,7 +23,8 @@ import { handleCommands } from "./commands.js"
 // The next part of a state is requested after a pause as long as the last part took: half of the time is left to the user,
 // and a slow server is asked less often.
 const PAUSE_BETWEEN_PIECES = 80
-// A new state is computed further only if nothing else is asked for in the meantime: its pictures are on the screen then.
+// The server computes a new state further once it is asked again.  This leaves the browser time to bring the pictures to the
+// screen, and the user time to move on.
 const PAUSE_BEFORE_PIECES = 40
 const LOST = "Connection to the server lost. This page continues as soon as the server answers."
 
