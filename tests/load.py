@@ -87,10 +87,8 @@ class Crowd:
                     values = {spec.name: round(min(max(value, low), high), 6)}
                     await visitor.ask(timeout=60.0, values=values, held=i < drag)
                     answered.append(time.monotonic() - begun)
-                    # As a page does at rest, after which the server computes further.
-                    while i >= drag and visitor.state["progress"] is not None and time.monotonic() < ends:
-                        await asyncio.sleep(PIECES)
-                        await visitor.ask(timeout=60.0)
+                    if i >= drag:
+                        await rest(visitor, lambda: time.monotonic() > ends)
                 except Exception as error:
                     self.errors += 1
                     print(f"{name}: {error!r}", file=sys.stderr)
@@ -103,6 +101,13 @@ class Crowd:
     async def leave(self):
         """Close all pages."""
         await asyncio.gather(*(visitor.leave() for _, visitor in self.visitors), return_exceptions=True)
+
+
+async def rest(visitor, over):
+    """Ask again as a page does at rest, upon which the server computes further, until all is known or it is over."""
+    while visitor.state["progress"] is not None and not over():
+        await asyncio.sleep(PIECES)
+        await visitor.ask(timeout=300.0)
 
 
 @asynccontextmanager
@@ -126,9 +131,7 @@ async def dear(base, until):
     while not until.is_set():
         try:
             await visitor.ask(timeout=300.0, values={"h": round(chance.uniform(40.0, 60.0), 6)})
-            while visitor.state["progress"] is not None and not until.is_set():
-                await visitor.ask(timeout=300.0)
-                await asyncio.sleep(0.08)
+            await rest(visitor, until.is_set)
         except TimeoutError:
             continue
     await visitor.leave()
