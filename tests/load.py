@@ -104,10 +104,18 @@ class Crowd:
 
 
 async def rest(visitor, over):
-    """Ask again as a page does at rest, upon which the server computes further, until all is known or it is over."""
-    while visitor.state["progress"] is not None and not over():
-        await asyncio.sleep(PIECES)
-        await visitor.ask(timeout=300.0)
+    """Ask again as a page does at rest, upon which the server computes further, until all is known or it is over.
+
+    The pauses are those of "page/client.js".
+    """
+    progress, news, took = visitor.state["progress"], time.monotonic(), 0.0
+    while progress is not None and not over():
+        await asyncio.sleep(max(PIECES, took, 0.25 * (time.monotonic() - news)))
+        begun = time.monotonic()
+        state = await visitor.ask(timeout=300.0)
+        took = time.monotonic() - begun
+        if state["progress"] != progress:
+            progress, news = state["progress"], time.monotonic()
 
 
 @asynccontextmanager

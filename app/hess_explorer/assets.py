@@ -6,13 +6,10 @@ import hashlib
 from functools import cache
 from pathlib import Path
 
-__all__ = ["MODULES", "STATIC", "modules_path"]
+__all__ = ["STATIC", "modules_path"]
 
 _HERE = Path(__file__).resolve().parent
 STATIC = next(folder for folder in (_HERE / "static", _HERE.parents[1] / "static") if folder.is_dir())
-
-MODULES = r"(?:page|controls|pictures)/[a-z_]+\.js|page/handout\.css|thumbnails/[a-z-]+\.jpg"
-"""Regular expression for the files in `STATIC` that are served: modules, style sheet for printing, and the gallery."""
 
 
 @cache

@@ -8,12 +8,11 @@ const run = (text, type, id = "") => { document.head.append(Object.assign(docume
 async function load() {
   const { body } = await fetch(`data:;base64,${document.getElementById("code").textContent}`)
   const code = body.pipeThrough(new DecompressionStream("deflate"))
-  const { bokeh, modules, entry } = await new Response(code).json()
+  const { bokeh, page } = await new Response(code).json()
   // Not run yet, see "pictures/bokeh.js".
   run(bokeh, "text/plain", "bokeh")
-  // Modules name each other by their paths, which the map resolves.
-  run(JSON.stringify({ imports: modules }), "importmap")
-  run(`import ${JSON.stringify(entry)}`, "module")
+  run(JSON.stringify({ imports: { page } }), "importmap")
+  run('import "page"', "module")
 }
 
 load()

@@ -21,8 +21,10 @@ import { createVisibility } from "./visibility.js"
 import { handleCommands } from "./commands.js"
 
 // The next part of a state is requested after a pause as long as the last part took: half of the time is left to the user,
-// and a slow server is asked less often.
+// and a slow server is asked less often.  While nothing new arrives, pauses grow to a quarter of the time since then, so that
+// a class that waits for long work does not keep the server busy with questions.
 const PAUSE_BETWEEN_PIECES = 80
+const SHARE_OF_WAIT = 0.25
 // The server computes a new state further once it is asked again.  This leaves the browser time to bring the pictures to the
 // screen, and the user time to move on.
 const PAUSE_BEFORE_PIECES = 40
@@ -44,6 +46,8 @@ export function startClient(model, host) {
   let state = null
   /** @type {ReturnType<typeof setTimeout>} */
   let more = null
+  // When the last new part of the state was painted.
+  let news = 0
   // Everything the server has sent about the scene on show.
   /** @type {{scene: SceneDescription | null, texts: Texts, controls: Record<string, ControlValue>}} */
   let latest = { scene: null, texts: {}, controls: {} }
@@ -125,6 +129,7 @@ export function startClient(model, host) {
   const show = async (next, block) => {
     const isSketched = state === next
     const isNew = state === null || isSketched || state.answers !== next.answers
+    const hasNews = isNew || String(state.progress) !== String(next.progress)
     state = next
     if (scene?.name !== state.scene) enter(state.scene)
     await paint(touchedPlots(state.tree), () => {
@@ -149,7 +154,12 @@ export function startClient(model, host) {
       // A listener may have requested another state.
       if (requests.isBehind(state.answers)) return
       if (state.progress === null) root.dataset.ready = "true"
-      else more = setTimeout(requests.ask, isNew ? PAUSE_BEFORE_PIECES : Math.max(PAUSE_BETWEEN_PIECES, requests.took))
+      else {
+        const now = performance.now()
+        if (hasNews) news = now
+        const pause = Math.max(PAUSE_BETWEEN_PIECES, requests.took, SHARE_OF_WAIT * (now - news))
+        more = setTimeout(requests.ask, isNew ? PAUSE_BEFORE_PIECES : pause)
+      }
     }
   }
 

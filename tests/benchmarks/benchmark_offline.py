@@ -32,7 +32,7 @@ READY = """new MutationObserver(() => {
 }).observe(document, { subtree: true, attributeFilter: ["data-ready"] })"""
 # Moves the slider of h there and back as fast as states are painted.
 DRAG = """async ([low, high, count]) => {
-    const { tell } = await import("page/bus.js")
+    const { "page/bus.js": { tell } } = await import("page")
     let painted = null
     new MutationObserver(() => painted?.()).observe(document.documentElement, { attributeFilter: ["data-state"] })
     const times = []

@@ -12,7 +12,6 @@ from playwright.sync_api import expect
 
 from hess_explorer.export.picture_data import picture_data
 from hess_explorer.lessons import shipped
-from hess_explorer.offline.html import bundled
 from hess_explorer.offline.pages import lesson_page, state_page
 from hess_explorer.scenes import scenes
 from hess_mechanics.errors import ModelError
@@ -221,21 +220,6 @@ def assert_given(page, lesson):
             expect(page.locator(".answer")).to_have_attribute("open", "")
         if number + 1 < len(lesson.steps):
             change(page, page.keyboard.press, "PageDown")
-
-
-def test_the_modules_in_the_file_name_each_other_and_nothing_else():
-    modules = bundled("offline/file.js")
-    assert {
-        "offline/file.js",
-        "page/shell.js",
-        "page/bus.js",
-        "pictures/sphere.js",
-        "controls/player.js",
-    } <= modules.keys()
-    # The modules that talk to the server are not included.
-    assert not {"page/served.js", "page/websocket.js", "page/room.js", "controls/export.js", "controls/chart.js"} & {
-        *modules
-    }
 
 
 def test_a_picture_that_is_not_there_is_refused():

@@ -10,8 +10,8 @@ from urllib.parse import quote, urlencode, urlsplit
 import pytest
 from pytest import approx
 
-from hess_explorer.assets import modules_path
 from hess_explorer.headless.browser import wait_ready
+from support.modules import SERVED
 from support.page import (
     DEFAULTS,
     FIRST,
@@ -211,8 +211,8 @@ def test_whatever_a_text_of_the_page_is_told_to_say_it_shows_as_text(explorer):
 
 # --- What the page needs of Bokeh beyond its documentation ---------------------------------------------
 
-MISSING = """async (modules) => {
-  const { missing } = await import(new URL(`${modules}/pictures/bokeh_private.js`, document.baseURI).href)
+MISSING = """async (served) => {
+  const { "pictures/bokeh_private.js": { missing } } = await import(new URL(served, document.baseURI).href)
   const { UIGestures } = Bokeh.require("core/ui_gestures")
   const [plot] = hess.plots
   const found = [missing(plot)]
@@ -240,7 +240,7 @@ MISSING = """async (modules) => {
 
 
 def test_each_private_member_of_bokeh_that_is_not_there_is_named(explorer):
-    assert explorer.page.evaluate(MISSING, modules_path()) == [
+    assert explorer.page.evaluate(MISSING, SERVED) == [
         [],
         ["UIGestures.press_threshold"],
         ["RendererView.el and update_position"],

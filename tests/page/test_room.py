@@ -24,10 +24,10 @@ ASKED = LESSON.steps[STEP - 1].prediction
 OTHERS = [(0.2, 0.3), (0.7, 0.8)]
 
 
-# The columns of the sources that a picture draws, by the modules of the page itself.
+# The columns of the sources that a picture draws, by the modules of the page itself, which it exports.
 COLUMNS = """async ([path, picture]) => {
   const lengthOf = (part) => typeof part === "string" ? 1 : part?.length ?? 1
-  const { gallery } = await import(path)
+  const { "pictures/gallery.js": { gallery } } = await import(path)
   const names = new Set(gallery.plot(picture).model.renderers.map((one) => one.data_source?.name).filter(Boolean))
   return Object.fromEntries([...names].filter((name) => gallery.source(name)).map((name) => (
     [name, Object.values(gallery.source(name).data).map((column) => Array.from(column, lengthOf))])))
@@ -117,7 +117,7 @@ def test_a_guess_of_the_audience_from_the_invitation_to_how_far_it_was_off(lectu
     small.get_by_text(re.compile(r"pixels away")).wait_for()
     small.screenshot(path=artefacts / "room-revealed-phone.png")
     # The phone draws what the projector draws, and nothing of the state before; no player moves a point there.
-    drawn = small.evaluate(COLUMNS, [f"{tab.base}/{modules_path()}/pictures/gallery.js", ASKED.picture])
+    drawn = small.evaluate(COLUMNS, [f"{tab.base}/{modules_path()}/page/follow.js", ASKED.picture])
     assert drawn
     for name, columns in drawn.items():
         if name not in POINTS:

@@ -1,4 +1,4 @@
-"""Access from tests to the page's own modules, imported once more as `window.hess`.
+"""Access from tests to the page's own modules, as `window.hess`.
 
 hess.plots, hess.source(name), hess.has(scene) are the gallery's; hess.tell(name, detail) and hess.listen(name, hear)
 the bus's; hess.plotted() names the sources of the planar pictures on show; hess.clouds(source, t).
@@ -6,11 +6,12 @@ the bus's; hess.plotted() names the sources of the planar pictures on show; hess
 
 from hess_explorer.assets import modules_path
 
+SERVED = f"{modules_path()}/page/served.js"
+"""The file of all modules of a page beside its server, which exports each by its path."""
+
 _SCRIPT = """const begin = () => {
-  const load = (path) => import(new URL(`MODULES/${path}`, document.baseURI).href)
-  Promise.all([
-    load("page/bus.js"), load("pictures/gallery.js"), load("pictures/cloud.js"),
-  ]).then(([bus, { gallery }, { cloudsOf }]) => {
+  import(new URL("BUNDLE", document.baseURI).href).then((modules) => {
+    const { "page/bus.js": bus, "pictures/gallery.js": { gallery }, "pictures/cloud.js": { cloudsOf } } = modules
     window.hess = {
       get plots() { return gallery.shown.plots }, source: gallery.source, has: gallery.has, tell: bus.tell,
       listen: (name, hear) => bus.listen({ [name]: hear }), clouds: (source, t) => cloudsOf(source).at(t),
@@ -23,7 +24,7 @@ _SCRIPT = """const begin = () => {
   })
 }
 const isServed = location.protocol.startsWith("http")
-if (isServed) addEventListener("DOMContentLoaded", begin)""".replace("MODULES", modules_path())
+if (isServed) addEventListener("DOMContentLoaded", begin)""".replace("BUNDLE", SERVED)
 
 
 def look_inside(page):

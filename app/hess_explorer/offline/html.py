@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import base64
 import json
-import posixpath
-import re
 import zlib
 from collections.abc import Mapping
 from functools import cache
@@ -16,17 +14,17 @@ from typing import Any
 from bokeh.resources import Resources
 
 from hess_explorer.assets import STATIC
+from hess_explorer.bundle import bundle
 from hess_explorer.offline.recording import Recording
 from hess_explorer.page.component import styles
 
-__all__ = ["HOME", "bundled", "document"]
+__all__ = ["HOME", "document"]
 
 HOME = "http://localhost:5006/"
 """Default address of the explorer."""
 
-_ENTRY = "offline/file.js"
-_IMPORT = re.compile(r'(?<=from )"(\.{1,2}/[\w./]+\.js)"')
-_SHEET = re.compile(r'new URL\("([\w.]+\.css)", import\.meta\.url\)\.href')
+# How "page/handout.js" names its style sheet, which a file contains.
+_SHEET = 'new URL("handout.css", import.meta.url).href'
 _POLICY = (
     "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline' data:; img-src data: blob:; "
     "connect-src data:"
@@ -128,40 +126,13 @@ def document(
     return page.encode()
 
 
-def bundled(entry: str) -> dict[str, str]:
-    """Return a module and all that it imports, by path, as data URLs for an import map.
-
-    Relative imports are rewritten to paths, because they cannot be resolved from a data URL.
-    """
-    found: dict[str, str] = {}
-
-    def add(path: str) -> None:
-        if path in found:
-            return
-        found[path] = ""
-        folder = posixpath.dirname(path)
-        code = (STATIC / path).read_text(encoding="utf-8")
-
-        def named(match: re.Match[str]) -> str:
-            other = posixpath.normpath(posixpath.join(folder, match[1]))
-            add(other)
-            return f'"{other}"'
-
-        def inlined(match: re.Match[str]) -> str:
-            return f'"{_data_url("text/css", (STATIC / folder / match[1]).read_bytes())}"'
-
-        code = _SHEET.sub(inlined, _IMPORT.sub(named, code))
-        found[path] = _data_url("text/javascript", code.encode())
-
-    add(entry)
-    return found
-
-
 @cache
 def _code() -> str:
     """Return Bokeh and the modules of the page, compressed, in base 64."""
     bokeh = "\n".join(Resources(mode="inline", components=["bokeh"]).js_raw)
-    code = json.dumps({"bokeh": bokeh, "modules": bundled(_ENTRY), "entry": _ENTRY})
+    sheet = _data_url("text/css", (STATIC / "page/handout.css").read_bytes())
+    page = bundle("offline/file.js").replace(_SHEET, json.dumps(sheet))
+    code = json.dumps({"bokeh": bokeh, "page": _data_url("text/javascript", page.encode())})
     return base64.b64encode(zlib.compress(code.encode(), 9)).decode()
 
 

@@ -1,30 +1,49 @@
-"""Serve the JavaScript modules and the style sheet for printing, under a URL that changes with their contents."""
+"""Serve the JavaScript modules, the style sheet for printing and the gallery, under a URL that changes with them."""
 
 from __future__ import annotations
 
 import datetime
 from typing import Any
 
-from tornado.web import StaticFileHandler
+from tornado.web import RequestHandler, StaticFileHandler
 
-from hess_explorer.assets import MODULES, STATIC, modules_path
+from hess_explorer.assets import STATIC, modules_path
+from hess_explorer.bundle import bundle
 
 __all__ = ["module_routes"]
 
+_FILES = r"page/(?:start|web_app)\.js|page/handout\.css|thumbnails/[a-z-]+\.jpg"
+_BUNDLES = r"page/(?:served|follow)\.js"
 _YEAR = 365 * 24 * 3600
 
 
-class _Module(StaticFileHandler):
+class _File(StaticFileHandler):
     """Handler of an immutable file, which a browser requests only once."""
 
     def get_cache_time(self, path: str, modified: datetime.datetime | None, mime_type: str) -> int:
         return _YEAR
 
     def set_extra_headers(self, path: str) -> None:
-        self.set_header("Cache-Control", f"public, max-age={_YEAR}, immutable")
-        self.set_header("X-Content-Type-Options", "nosniff")
+        _set_headers(self)
 
 
-def module_routes() -> list[tuple[str, type[_Module], dict[str, Any]]]:
-    """Return the Tornado routes of the modules; no other file of the folder is served."""
-    return [(rf"/{modules_path()}/({MODULES})", _Module, {"path": str(STATIC)})]
+class _Bundle(RequestHandler):
+    """Handler of a module that contains those that it imports."""
+
+    def get(self, path: str) -> None:
+        self.set_header("Content-Type", "text/javascript; charset=utf-8")
+        _set_headers(self)
+        self.finish(bundle(path))
+
+
+def _set_headers(handler: RequestHandler) -> None:
+    handler.set_header("Cache-Control", f"public, max-age={_YEAR}, immutable")
+    handler.set_header("X-Content-Type-Options", "nosniff")
+
+
+def module_routes() -> list[tuple[Any, ...]]:
+    """Return the Tornado routes; no other file of the folder is served."""
+    return [
+        (rf"/{modules_path()}/({_BUNDLES})", _Bundle),
+        (rf"/{modules_path()}/({_FILES})", _File, {"path": str(STATIC)}),
+    ]

@@ -208,7 +208,7 @@ class Scene(Generic[S]):
     handle: str = ""
     opening: str = ""
 
-    @property
+    @cached_property
     def name(self) -> str:
         """The name in links."""
         return Path(self.module).stem.replace("_", "-")

@@ -1,0 +1,67 @@
+"""Modules of the page in one file: a browser needs half a second to load a hundred files."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from functools import cache
+
+from hess_explorer.assets import STATIC
+
+__all__ = ["bundle"]
+
+# All forms that the modules use; "tests/offline/test_bundle.py" checks that.
+_IMPORT = re.compile(r'^import \{([^}]*)\} from "(\.{1,2}/[\w./]+\.js)"$', re.MULTILINE)
+_EXPORT = re.compile(r"^export ((?:async )?(?:function|const|class)) (\w+)", re.MULTILINE)
+
+
+@cache
+def bundle(entry: str) -> str:
+    """Return a module that contains the module `entry` and all that it imports.
+
+    Each becomes a function that is called once, after those of the modules that it imports, and returns its exports.
+
+    Parameters
+    ----------
+    entry : str
+        Path of a module in `STATIC`.
+
+    Returns
+    -------
+    str
+        The code.  It exports what `entry` exports, and the exports of each module under its path.
+    """
+    parts: dict[str, str] = {}
+
+    def add(path: str) -> str:
+        name = _name(path)
+        if path not in parts:
+            # Its place is after the modules that it imports.
+            code = _IMPORT.sub(lambda found: _constants(found[1], add(_resolved(path, found[2]))), _read(path))
+            body = _EXPORT.sub(r"\1 \2", code)
+            parts[path] = f"// {path}\nconst {name} = (() => {{\n{body}\nreturn {{ {_exports(path)} }}\n}})()\n"
+        return name
+
+    last = add(entry)
+    names = ", ".join(f'{_name(path)} as "{path}"' for path in parts)
+    return "".join(parts.values()) + f"export const {{ {_exports(entry)} }} = {last}\nexport {{ {names} }}\n"
+
+
+def _name(path: str) -> str:
+    return re.sub(r"\W", "_", path.removesuffix(".js"))
+
+
+def _constants(names: str, module: str) -> str:
+    return f"const {{{names.replace(' as ', ': ')}}} = {module}"
+
+
+def _resolved(path: str, other: str) -> str:
+    return posixpath.normpath(posixpath.join(posixpath.dirname(path), other))
+
+
+def _read(path: str) -> str:
+    return (STATIC / path).read_text(encoding="utf-8")
+
+
+def _exports(path: str) -> str:
+    return ", ".join(name for _, name in _EXPORT.findall(_read(path)))
