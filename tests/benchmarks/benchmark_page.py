@@ -5,6 +5,7 @@ Drag: the mouse moves every 16 ms whether or not the page follows.  Sliders: "be
 
 import asyncio
 import os
+import re
 import socket
 import subprocess
 import sys
@@ -29,8 +30,11 @@ from support.measured import table, write_measured
 from support.processes import worked
 
 ROOT = Path(__file__).resolve().parents[2]
+PLAIN = Path(__file__).with_name("plain_page.py")
+SERVE = ("-m", "hess_explorer", "serve", "--no-browser", "--port")
 MOVES = 45
 SCENE = "suslov-hess"
+PLAIN_READY = "window.Bokeh?.documents[0]?.is_idle"
 READY = "document.documentElement.dataset.ready === 'true'"
 STATE = "Number(document.documentElement.dataset.state)"
 
@@ -47,10 +51,10 @@ RECORD = """() => {
 
 
 @contextmanager
-def server(environment):
-    """The command of the README in a process of its own: its URL and number."""
+def server(environment, command=SERVE):
+    """The command of the README in a process of its own, or another one: its URL and number."""
     port = free_port()
-    command = [sys.executable, "-m", "hess_explorer", "serve", "--port", str(port), "--no-browser"]
+    command = [sys.executable, *command, str(port)]
     nowhere = subprocess.DEVNULL
     with subprocess.Popen(command, cwd=ROOT, env=environment, stdout=nowhere, stderr=nowhere) as process:
         try:
@@ -80,17 +84,23 @@ async def tab(browser):
     return await browser.new_page(viewport={"width": 1600, "height": 950}, reduced_motion="reduce")
 
 
-async def opened(browser, url):
+async def painted(browser, url, ready=READY):
     """The page, as soon as the server listens and its pictures are painted."""
-    page, port = await tab(browser), int(url.rsplit(":", 1)[1])
+    page, port = await tab(browser), int(re.search(r":(\d+)", url)[1])
     while True:
         try:
             socket.create_connection(("127.0.0.1", port), 0.2).close()
             break
         except OSError:
             await asyncio.sleep(0.02)
-    await page.goto(f"{url}/?scene={SCENE}")
-    await page.wait_for_function(READY, timeout=60_000)
+    await page.goto(url)
+    await page.wait_for_function(ready, timeout=60_000)
+    return page
+
+
+async def opened(browser, url):
+    """The page of the first scene, painted and with all its controls."""
+    page = await painted(browser, f"{url}/?scene={SCENE}")
     await unfold(page)
     return page
 
@@ -171,18 +181,25 @@ def others():
 
 
 async def starts(browser, environment):
-    """Rows of the time from the command to painted pictures."""
-    for label, count, bar in (("first start, nothing compiled", 1, "≤ 6 s"), ("start afterwards", 3, "≤ 2.5 s")):
-        seconds = []
-        for _ in range(count):
-            start = time.perf_counter()
-            with server(environment) as (url, _):
-                page = await opened(browser, url)
-                seconds.append(time.perf_counter() - start)
-                await page.close()
-        compile_everything = "from hess_explorer.server.warm import compile_all; compile_all()"
-        subprocess.run([sys.executable, "-c", compile_everything], env=environment, check=True)
-        yield f"command to painted pictures, {label}", f"{median(seconds):.2f} s", bar
+    """Rows of the time from the command to painted pictures, in the end beside a plain page."""
+
+    async def start(command=SERVE, ready=READY):
+        begun = time.perf_counter()
+        with server(environment, command) as (url, _):
+            page = await painted(browser, url, ready)
+            seconds = time.perf_counter() - begun
+            await page.close()
+        return seconds
+
+    yield "command to painted pictures, first start, nothing compiled", f"{await start():.2f} s", "≤ 6 s"
+    compile_everything = "from hess_explorer.server.warm import compile_all; compile_all()"
+    subprocess.run([sys.executable, "-c", compile_everything], env=environment, check=True)
+    await start((PLAIN,), PLAIN_READY)
+    # In turns, since the machine's speed varies.
+    pairs = [(await start(), await start((PLAIN,), PLAIN_READY)) for _ in range(5)]
+    ours, plain = (median(times) for times in zip(*pairs, strict=True))
+    yield "start afterwards", f"{ours:.2f} s", "≤ 2.5 s"
+    yield "the same, a plain Panel page with four plots", f"{plain:.2f} s; ratio {ours / plain:.2f}", ""
 
 
 async def in_the_page(browser, url, pid):

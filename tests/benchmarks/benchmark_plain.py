@@ -5,7 +5,6 @@ Slider to painted pictures in the pages' own time, in turns; where the time of a
 
 import asyncio
 import os
-import subprocess
 import sys
 from math import ceil
 from pathlib import Path
@@ -18,6 +17,8 @@ from playwright.async_api import async_playwright
 
 from benchmarks.benchmark_page import (
     MOVES,
+    PLAIN,
+    PLAIN_READY,
     READY,
     RECORD,
     SCENE,
@@ -27,17 +28,16 @@ from benchmarks.benchmark_page import (
     launched,
     opened,
     others,
+    painted,
     pressed,
     server,
     tab,
 )
 from benchmarks.integrators.machine import conditions
-from hess_explorer.headless.screenshot import free_port
 from hess_explorer.protocol.parameters import Number
 from support.measured import table, write_measured
 from support.modules import look_inside
 
-PLAIN = Path(__file__).with_name("plain_page.py")
 SECONDS = 20
 
 # From a key until all four plots are painted.
@@ -170,27 +170,17 @@ async def measure():
     """Measure all, and write it."""
     async with async_playwright() as playwright:
         browser = await launched(playwright)
-        port = free_port()
-        nowhere = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-        with (
-            server(dict(os.environ)) as (url, pid),
-            subprocess.Popen([sys.executable, PLAIN, str(port)], **nowhere) as other,
-        ):
-            try:
-                page = await opened(browser, url)
-                await page.evaluate(RECORD)
-                await idle(pid)
-                plain = await tab(browser)
-                await plain.goto(f"http://127.0.0.1:{port}")
-                await plain.get_by_role("slider").first.wait_for()
-                await asyncio.sleep(2.0)
-                assert await plain.evaluate(RECORD_PLAIN) == 4
-                rows = [row async for row in beside(plain, page)]
-                await plain.close()
-                await page.close()
-                parts = [await stages(browser, url), await played(browser, url)]
-            finally:
-                other.terminate()
+        environment = dict(os.environ)
+        with server(environment) as (url, pid), server(environment, (PLAIN,)) as (other, _):
+            page = await opened(browser, url)
+            await page.evaluate(RECORD)
+            await idle(pid)
+            plain = await painted(browser, other, PLAIN_READY)
+            assert await plain.evaluate(RECORD_PLAIN) == 4
+            rows = [row async for row in beside(plain, page)]
+            await plain.close()
+            await page.close()
+            parts = [await stages(browser, url), await played(browser, url)]
         await browser.close()
     head = ["scene", "slider", "median", "95 %", "plain: median", "95 %", "ratio", "of the 95 %"]
     text = [conditions(), table(head, rows), table(["stage of a state of *Suslov–Hess*", "median"], parts[0]), parts[1]]
