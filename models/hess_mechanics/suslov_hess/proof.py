@@ -46,6 +46,7 @@ from hess_mechanics.numerics.balls import (
     series_coefficients,
     working,
 )
+from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.circle_map import MAX_A
 from hess_mechanics.suslov_hess.edge import EdgeProof, prove_edge
@@ -383,6 +384,7 @@ def _proof(
     theta = arb(0)
     steps = []
     for i, (start, radius, terms) in enumerate(plan):
+        go_on()
         s = arb(rational(start))
         delta = (arb(rational(plan[i + 1][0])) if i + 1 < len(plan) else arb.pi()) - s
         K, matrix = _step(a, f, turns, s, arb(rational(radius)), delta, terms)

@@ -17,6 +17,7 @@ from check_certificate import Refused, verify
 from hess_mechanics import EdgeProof, certificate, circle_map, curve_point, f_max, prove
 from hess_mechanics.errors import InvalidParameter, MissingLibrary, OutsideRegion, Separatrix, WorkLimit
 from hess_mechanics.numerics.balls import Enclosure, exact
+from hess_mechanics.numerics.patience import limited_by
 from hess_mechanics.suslov_hess.certificate import claim
 from oracle.kept import KEPT
 from support.mechanics import REFERENCE, ROOT, every_known_torus
@@ -299,3 +300,16 @@ def test_the_precision_of_a_check_does_not_depend_on_checks_before_it():
         verify(found)
         assert iv.prec == 8
     iv.prec = before
+
+
+def test_a_proof_asks_before_each_step_whether_to_go_on():
+    asks = []
+
+    def end():
+        asks.append(None)
+        if len(asks) > 3:
+            raise WorkLimit("enough")
+
+    with limited_by(end, lambda seconds: None), raises(WorkLimit, match="enough"):
+        prove("0.5", "1.5", "0.6")
+    assert len(asks) == 4
