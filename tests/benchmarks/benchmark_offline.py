@@ -32,7 +32,9 @@ READY = """new MutationObserver(() => {
 }).observe(document, { subtree: true, attributeFilter: ["data-ready"] })"""
 # Moves the slider of h there and back as fast as states are painted.
 DRAG = """async ([low, high, count]) => {
-    const { "page/bus.js": { tell } } = await import("page")
+    const { body } = await fetch(`data:;base64,${document.getElementById("code").textContent}`)
+    const { page } = await new Response(body.pipeThrough(new DecompressionStream("deflate"))).json()
+    const { "page/bus.js": { tell } } = await import(page)
     let painted = null
     new MutationObserver(() => painted?.()).observe(document.documentElement, { attributeFilter: ["data-state"] })
     const times = []
