@@ -106,7 +106,7 @@ class Crowd:
 async def rest(visitor, over):
     """Ask again as a page does at rest, upon which the server computes further, until all is known or it is over.
 
-    The pauses are those of "page/client.js".
+    The pauses are those of "page/client.js", but for the first one, which is shorter there.
     """
     progress, news, took = visitor.state["progress"], time.monotonic(), 0.0
     while progress is not None and not over():

@@ -31,20 +31,23 @@ def bundle(entry: str) -> str:
     str
         The code.  It exports what `entry` exports, and the exports of each module under its path.
     """
+    exports: dict[str, str] = {}
     parts: dict[str, str] = {}
 
     def add(path: str) -> str:
         name = _name(path)
-        if path not in parts:
+        if path not in exports:
+            source = (STATIC / path).read_text(encoding="utf-8")
+            exports[path] = ", ".join(found[1] for found in _EXPORT.findall(source))
             # Its place is after the modules that it imports.
-            code = _IMPORT.sub(lambda found: _constants(found[1], add(_resolved(path, found[2]))), _read(path))
+            code = _IMPORT.sub(lambda found: _constants(found[1], add(_resolved(path, found[2]))), source)
             body = _EXPORT.sub(r"\1 \2", code)
-            parts[path] = f"// {path}\nconst {name} = (() => {{\n{body}\nreturn {{ {_exports(path)} }}\n}})()\n"
+            parts[path] = f"// {path}\nconst {name} = (() => {{\n{body}\nreturn {{ {exports[path]} }}\n}})()\n"
         return name
 
     last = add(entry)
     names = ", ".join(f'{_name(path)} as "{path}"' for path in parts)
-    return "".join(parts.values()) + f"export const {{ {_exports(entry)} }} = {last}\nexport {{ {names} }}\n"
+    return "".join(parts.values()) + f"export const {{ {exports[entry]} }} = {last}\nexport {{ {names} }}\n"
 
 
 def _name(path: str) -> str:
@@ -57,11 +60,3 @@ def _constants(names: str, module: str) -> str:
 
 def _resolved(path: str, other: str) -> str:
     return posixpath.normpath(posixpath.join(posixpath.dirname(path), other))
-
-
-def _read(path: str) -> str:
-    return (STATIC / path).read_text(encoding="utf-8")
-
-
-def _exports(path: str) -> str:
-    return ", ".join(name for _, name in _EXPORT.findall(_read(path)))

@@ -5,7 +5,6 @@ Drag: the mouse moves every 16 ms whether or not the page follows.  Sliders: "be
 
 import asyncio
 import os
-import re
 import socket
 import subprocess
 import sys
@@ -16,6 +15,7 @@ from importlib.metadata import version
 from math import ceil, sin
 from pathlib import Path
 from statistics import median
+from urllib.parse import urlsplit
 
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parents[1])]
@@ -86,7 +86,7 @@ async def tab(browser):
 
 async def painted(browser, url, ready=READY):
     """The page, as soon as the server listens and its pictures are painted."""
-    page, port = await tab(browser), int(re.search(r":(\d+)", url)[1])
+    page, port = await tab(browser), urlsplit(url).port
     while True:
         try:
             socket.create_connection(("127.0.0.1", port), 0.2).close()
