@@ -164,43 +164,49 @@ def checked(recursion: Recursion) -> Callable[..., Any]:
     extended = "y + started(y, p)" if recursion.functions else "y"
     compare = compiled(
         f"""
-def compare(c, s, parameters):
+def compare(c, h, parameters):
     p = ({items(f"parameters[{i}]" for i in range(recursion.parameters))})
-    {"; ".join(f"a{i} = b{i} = 0.0" for i in each)}
-    for k in range(c.shape[0] - 1, -1, -1):
-        {"; ".join(f"b{i} = b{i} * s + a{i}; a{i} = a{i} * s + c[k, {i}]" for i in each)}
-    y = ({items(f"a{i}" for i in each)})
-    rates = extended({extended}, p)
-    off = abs(s) * ({" + ".join(f"abs(b{i} - rates[{i}])" for i in each)})
-    change = abs(s) * ({" + ".join(f"abs(rates[{i}])" for i in each)})
-    return off, change, change + {" + ".join(f"abs(a{i})" for i in each)}
+    off = change = size = 0.0
+    s = h
+    for _ in range(2):
+        {"; ".join(f"a{i} = b{i} = 0.0" for i in each)}
+        for k in range(c.shape[0] - 1, -1, -1):
+            {"; ".join(f"b{i} = b{i} * s + a{i}; a{i} = a{i} * s + c[k, {i}]" for i in each)}
+        y = ({items(f"a{i}" for i in each)})
+        rates = extended({extended}, p)
+        off += abs(s) * ({" + ".join(f"abs(b{i} - rates[{i}])" for i in each)})
+        change += abs(s) * ({" + ".join(f"abs(rates[{i}])" for i in each)})
+        size += {" + ".join(f"abs(a{i})" for i in each)}
+        s = {_INSIDE!r} * h
+    return off, change, size + change
 """,
         **parts(recursion),
     )["compare"]
     limits = [f"h = within(seen, {i}, h, {_ALLOWED[kind].format(i=i)})" for i, kind in watched if kind != "/"]
     zeros = [f"zero = min(zero, zero_ahead(seen, {i}, direction))" for i, kind in watched if kind == "/"]
     newline = "\n    "
+    across = f"""
+    zero = most
+    {newline.join(zeros)}
+    across = {_ACROSS!r} * zero
+    if h < across and across <= min(most, 16.0 * h):
+        off, _, size = compare(c, direction * across, parameters)
+        if off <= bound + {_ROUNDING_ACROSS!r} * size:
+            return across
+"""
     return compiled(
         f"""
 def check(c, seen, h, most, direction, parameters, tolerance):
     bound = {_DEFECT!r} * c.shape[0] * tolerance
     {newline.join(limits) or "pass"}
-    zero = most
-    {newline.join(zeros) or "pass"}
-    across = {_ACROSS!r} * zero
-    if h < across and across <= min(most, 16.0 * h):
-        off, _, size = compare(c, direction * across, parameters)
-        inside, _, size_inside = compare(c, {_INSIDE!r} * direction * across, parameters)
-        if off + inside <= bound + {_ROUNDING_ACROSS!r} * (size + size_inside):
-            return across
+    {across if zeros else "pass"}
     first = h
     first_off = 0.0
     for halvings in range({_HALVINGS}):
         off, change, size = compare(c, direction * h, parameters)
-        inside, change_inside, size_inside = compare(c, {_INSIDE!r} * direction * h, parameters)
-        if off + inside <= bound + {_ROUNDING!r} * (size + size_inside):
+        if off <= bound + {_ROUNDING!r} * size:
             return h
-        off = (off + inside) / (change + change_inside)
+        off /= change
         if halvings == 0:
             first_off = off
         elif halvings == {_NOISE_HALVINGS} and first_off < {_NOISE!r} and off > 0.25 * first_off:
