@@ -1,6 +1,6 @@
 """Fields whose Taylor series deceive: no result is "ok" and wrong by more than three times its error estimate.
 
-The truth is a closed form, a quadrature, or SciPy at 1e-12 with small steps.
+The truth is a closed form, a quadrature, or SciPy at 1e-13 with small steps.
 """
 
 from functools import cache
@@ -16,6 +16,8 @@ from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics import functions as f
 
 WRONG = 3.0
+KNOWN = {"near collision": 2e-11}
+"""Error of the truth, if it is above 1e-12: that of SciPy grows in a collision."""
 
 
 def decaying(source, centre, width, t):
@@ -28,7 +30,7 @@ def decaying(source, centre, width, t):
 
 def integrated(field, start, t, longest, **options):
     """The end state by SciPy, with small steps."""
-    options = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-14, "max_step": longest, **options}
+    options = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-15, "max_step": longest, **options}
     return solve_ivp(lambda _, y: field(y), (0.0, t), start, **options).y[:, -1]
 
 
@@ -225,15 +227,16 @@ def test_no_result_is_ok_and_wrong(row):
         except ModelError:
             continue  # refused
         error = np.abs(found.states[-1, : expected.size] - expected).max()
-        # The truth of SciPy and of quadratures is known to 1e-12.
-        assert error < WRONG * found.error_estimate + 1e-12 * max(1.0, np.abs(expected).max()) or found.status != "ok", (
-            level, found.states[-1], expected, found.error_estimate)  # fmt: skip
+        allowed = WRONG * found.error_estimate + KNOWN.get(name, 1e-12) * max(1.0, np.abs(expected).max())
+        assert error < allowed or found.status != "ok", (level, found.states[-1], expected, found.error_estimate)
 
 
-MISSED = [i for i, row in enumerate(ROWS) if row[0] not in ("square root", "almost not analytic", "large constant")]
+REFUSED = {("square root", ()), ("sech pulse", (0.001,)), ("step", (1e-3,)), ("step", (1e-4,))}
+"""A motion that ends, and functions that exceed the range of double precision."""
+RIGHT = [i for i, row in enumerate(ROWS) if row[:2] not in REFUSED]
 
 
-@pytest.mark.parametrize("row", MISSED, ids=lambda i: f"{i}-{ROWS[i][0]}-{ROWS[i][1]}")
+@pytest.mark.parametrize("row", RIGHT, ids=lambda i: f"{i}-{ROWS[i][0]}-{ROWS[i][1]}")
 def test_the_standard_level_is_right(row):
     name, parameters, start, t, _ = ROWS[row]
     found = solve(system(name).at(parameters), start, [t], "standard")
