@@ -15,7 +15,14 @@ from llvmlite.binding import get_host_cpu_features
 
 from hess_mechanics.numerics.jit import part
 from hess_mechanics.numerics.recursions import Recursion
-from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, compensated, parts, step_size
+from hess_mechanics.numerics.taylor_kernels import (
+    STEP_LIMIT_REACHED,
+    compensated,
+    is_small,
+    last_terms,
+    parts,
+    step_size,
+)
 from hess_mechanics.numerics.unrolled import compiled, items
 
 __all__ = ["LANES", "ensemble_integrator", "one_by_one"]
@@ -108,12 +115,20 @@ def ensemble_integrator(recursion: Recursion) -> Callable[..., Any]:
     """
     n, m, moving = recursion.variables, len(recursion.pairs), recursion.moving
     expand = expansion_of_lanes(recursion)
-    largest, values, add = compiled(f"""
+    largest, smallest, values, add = compiled(f"""
 def largest(c, k, out):
     {_for_lanes(lambda lane: f"a{lane} = 0.0")}
     for i in range({n}):
         {_for_lanes(lambda lane: f"a{lane} = max(a{lane}, abs(c[k, i, {lane}]))")}
     {_for_lanes(lambda lane: f"out[{lane}] = a{lane}")}
+
+def smallest(c, out):
+    {_for_lanes(lambda lane: f"a{lane} = 1.0; v{lane} = 0.0")}
+    for i in range({n}):
+        {_for_lanes(lambda lane: f"v{lane} = max(v{lane}, abs(c[1, i, {lane}]))")}
+        {_for_lanes(lambda lane: f"s{lane} = max(abs(c[0, i, {lane}]), abs(c[1, i, {lane}]))")}
+        {_for_lanes(lambda lane: f"a{lane} = min(a{lane}, s{lane} if s{lane} > 0.0 else 1.0)")}
+    {_for_lanes(lambda lane: f"out[{lane}] = min(a{lane}, v{lane})")}
 
 def values(c, i, s):
     {_for_lanes(lambda lane: f"a{lane} = 0.0")}
@@ -141,7 +156,7 @@ def add(y, low, s, compensated):
         low = np.zeros((n, LANES))
         last = np.zeros(LANES)
         previous = np.zeros(LANES)
-        middle = np.zeros(LANES)
+        size = np.zeros(LANES)
         h = np.zeros(LANES)
         step = np.zeros(LANES)
         t = np.zeros(LANES)
@@ -172,9 +187,11 @@ def add(y, low, s, compensated):
             expand(c, q, parameters, order)
             largest(c, order, last)
             largest(c, order - 1, previous)
-            largest(c, order // 2, middle)
+            smallest(c, size)
             for lane in range(LANES):
-                h[lane] = step_size(last[lane], previous[lane], middle[lane], order, tolerance)
+                if is_small(size[lane]):
+                    last[lane], previous[lane] = last_terms(c[:, :, lane], n)
+                h[lane] = step_size(last[lane], previous[lane], order, tolerance)
             for lane in range(LANES):
                 step[lane] = 0.0
                 if orbit[lane] < 0:

@@ -25,6 +25,7 @@ from hess_mechanics.numerics.taylor_kernels import (
     columns_of,
     compensated,
     expansion,
+    last_terms,
     step_size,
     workspace,
 )
@@ -245,12 +246,10 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
                     speed_then, volume_then = rise, volume
             carry(seen, v, inverses)
             size = largest_entry(v[0], n, columns)
-            last = largest_entry(v[order], n, columns) / size
-            previous = largest_entry(v[order - 1], n, columns) / size
-            for i in range(n):
-                last = max(last, abs(c[order, i]))
-                previous = max(previous, abs(c[order - 1, i]))
-            h = step_size(last, previous, 0.0, order, tolerance)
+            last, previous = last_terms(c, n)
+            last = max(last, largest_entry(v[order], n, columns) / size)
+            previous = max(previous, largest_entry(v[order - 1], n, columns) / size)
+            h = step_size(last, previous, order, tolerance)
             while sample < count:
                 s = (times[sample] - t) - t_low
                 if direction * s > h:
