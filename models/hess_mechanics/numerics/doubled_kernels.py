@@ -17,7 +17,8 @@ import numpy as np
 from hess_mechanics.numerics.jit import part
 from hess_mechanics.numerics.pairs_kernels import DOUBLED_FUNCTIONS, add, divide, multiply, subtract
 from hess_mechanics.numerics.recursions import Recursion
-from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, last_terms, step_size
+from hess_mechanics.numerics.step_kernels import last_terms, step_size
+from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 from hess_mechanics.numerics.unrolled import compiled, items
 
 __all__ = ["ORDER", "TOLERANCE", "doubled_integrator"]

@@ -178,12 +178,24 @@ class Ensemble(Sampled):
     variables : tuple of str
         Names of the variables.
     errors : ndarray, shape (n,)
-        Largest estimated error of each orbit.
+        Largest estimated error of each orbit, ∞ for one that is incomplete.
+    statuses : tuple of Status
+        How each orbit ended.
+    ends : ndarray, shape (n,)
+        Time up to which each orbit was followed; its states after it are NaN.
+    last_states : ndarray, shape (n, d)
+        State of each orbit at that time.
+    reasons : tuple of str
+        Why each orbit is incomplete, in a sentence; empty for one that is complete.
     """
 
     dims = ("orbit", "t")
 
     errors: Array
+    statuses: tuple[Status, ...]
+    ends: Array
+    last_states: Array
+    reasons: tuple[str, ...]
 
 
 @dataclass(frozen=True)

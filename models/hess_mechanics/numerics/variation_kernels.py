@@ -20,13 +20,13 @@ import numpy as np
 from hess_mechanics.numerics.expressions import Symbol
 from hess_mechanics.numerics.jit import inner, part
 from hess_mechanics.numerics.recursions import Recursion
+from hess_mechanics.numerics.step_kernels import checked, checks_all, last_terms, step_size
 from hess_mechanics.numerics.taylor_kernels import (
     STEP_LIMIT_REACHED,
+    STOPPED,
     columns_of,
     compensated,
     expansion,
-    last_terms,
-    step_size,
     workspace,
 )
 from hess_mechanics.numerics.tracing import Field, derivative, trace
@@ -194,7 +194,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
     vary(state, frame, parameters, times, order, tolerance, max_steps, limit, states, frames, growth, divergence)
     integrates from t = 0.  At the times (n,), monotonic and all ≥ 0 or all ≤ 0, it writes y into `states` (n, d), V
     into `frames` (n, d, c), and ∫ tr J dt into `divergence` (n,).  It returns the number of steps, or
-    `STEP_LIMIT_REACHED`.
+    `STEP_LIMIT_REACHED` or `STOPPED`.
 
     limit : if finite, V is orthonormalised (also against f(y) with `ahead`) after a step at which its condition number,
     or the length of its columns, may have passed the limit.  `growth` (n, c) receives the logarithms of the lengths
@@ -202,7 +202,9 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
     """
     recursion = of.recursion
     n, width, lanes, last_seen = recursion.variables, columns_of(recursion), _lanes(columns), recursion.observed - 1
-    expand, evaluate = expansion(recursion), evaluation(n)
+    watched = len(recursion.watched)
+    expand, evaluate, check = expansion(recursion), evaluation(n), checked(recursion)
+    always = checks_all(recursion)
     carry = compiled(carrying_source(of, lanes))["carry"]
     evaluate_row = evaluation(lanes)
     known = int(ahead)
@@ -210,7 +212,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
     @part
     def vary(state, frame, parameters, times, order, tolerance, max_steps, limit, states, frames, growth, divergence):
         c, left, right, inverses = workspace(order, n, width)
-        seen = np.zeros((order, last_seen + 1))
+        seen = np.zeros((order, last_seen + 1 + watched))
         v = np.zeros((order + 1, n, lanes))
         moved = np.zeros((n, lanes))
         grown = np.zeros(columns)
@@ -227,6 +229,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
         # ln |f| and ∫ tr J dt at the last time at which V was orthonormal.
         speed_then = 0.0
         volume_then = 0.0
+        before = 0.0
         count = times.size
         direction = 1.0 if times[count - 1] >= 0.0 else -1.0
         sample = 0
@@ -249,7 +252,10 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
             last, previous = last_terms(c, n)
             last = max(last, largest_entry(v[order], n, columns) / size)
             previous = max(previous, largest_entry(v[order - 1], n, columns) / size)
-            h = step_size(last, previous, order, tolerance)
+            most = direction * ((times[count - 1] - t) - t_low)
+            h = min(step_size(last, previous, order, tolerance), most)
+            if always or h > 2.0 * before:
+                h = check(c, seen, h, most, direction, parameters, tolerance)
             while sample < count:
                 s = (times[sample] - t) - t_low
                 if direction * s > h:
@@ -267,7 +273,8 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
             if sample == count:
                 return steps + 1
             if steps >= max_steps or not (h > 0.0):
-                return STEP_LIMIT_REACHED
+                return STEP_LIMIT_REACHED if h > 0.0 else STOPPED
+            before = h
             s = direction * h
             evaluate(c, s, increments)
             for i in range(n):
