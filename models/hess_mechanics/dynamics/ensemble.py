@@ -13,7 +13,7 @@ from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level, as_whole
-from hess_mechanics.numerics.measured import safety_of
+from hess_mechanics.numerics.measured import SAFETY, UNSURE, safety_of
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.results import Array, Cost, Ensemble, frozen
 
@@ -146,6 +146,13 @@ def ensemble(
         if not tighter.aside:
             out[todo] = found
         if current.is_floor:
+            todo = todo[scaled_errors[todo] > level.promise * UNSURE]
+            third, more, _ = run(problems[current.aside], todo, tighter.tightened())
+            total += int(np.maximum(more, 0).sum())
+            difference = np.abs(out[todo] - third)
+            difference[more < 0] = np.inf
+            scaled_errors[todo] = np.maximum(scaled_errors[todo], SAFETY * difference.max(axis=(1, 2)) + 2e-16)
+            errors[todo] = np.maximum(errors[todo], SAFETY * (difference * problem.scale).max(axis=(1, 2)))
             break
         missed = scaled_errors[todo] > level.promise
         todo, before, current = todo[missed], found[missed], tighter

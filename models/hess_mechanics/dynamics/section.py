@@ -300,7 +300,7 @@ class _Search:
             return crossings, steps
 
         found = measured(self.level, run, self._apart)
-        (times, scaled), (_, others) = found.result, found.other
+        (times, scaled), (other_times, others) = found.result, found.other
         both = min(len(scaled), len(others))
         nu, scale = self.problem.nu, self.problem.scale
         states = scaled * scale
@@ -316,16 +316,29 @@ class _Search:
             drift_of(system, self.starts[i], states, p),
             found.cost,
             system.variables,
+            time_error(found.safety, times, other_times) / nu,
         )
 
     def _apart(self, one: tuple[Array, Array], other: tuple[Array, Array]) -> float:
-        """Return the difference of the crossings of two runs, ∞ if these are not the same crossings."""
+        """Return the difference of the crossings of two runs, ∞ if these are not the same crossings.
+
+        It is that of the states or of the times, which is larger along a conservative motion.
+        """
         (times, states), (other_times, others) = one, other
         both = min(len(states), len(others))
+        off = float(np.abs(times[:both] - other_times[:both]).max(initial=0.0))
         # One crossing may differ, at the very end of the time span.
         extra = np.concatenate((times[both:], other_times[both:]))
-        same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - self.end) <= 10 * self.level.promise)
-        return float(np.abs(states[:both] - others[:both]).max(initial=0.0)) if same else math.inf
+        near = 10.0 * max(self.level.promise, off)
+        same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - self.end) <= near)
+        return max(off, float(np.abs(states[:both] - others[:both]).max(initial=0.0))) if same else math.inf
+
+
+def time_error(safety: float, times: Array, others: Array) -> float:
+    """Return the error of the times (n,) of crossings, from those of another run and from their own rounding."""
+    both = min(times.size, others.size)
+    off = float(np.abs(times[:both] - others[:both]).max(initial=0.0))
+    return safety * off + 4e-16 * float(np.abs(times).max(initial=0.0))
 
 
 def section(
@@ -362,7 +375,7 @@ def section(
     Returns
     -------
     SectionCrossings
-        Times and states of the crossings, with status, error estimate and drift of the integrals.
+        Times and states of the crossings, with status, error estimates and drift of the integrals.
 
     Raises
     ------
@@ -373,8 +386,9 @@ def section(
 
     Notes
     -----
-    Crossings are roots of the orbit's own Taylor polynomials.  The error is measured as in `solve`, crossing by
-    crossing; if two runs find different crossings, the more accurate one is used.
+    Crossings are roots of the orbit's own Taylor polynomials.  Errors of states and times are measured as in `solve`,
+    crossing by crossing; both must keep the promise of the level, the times in units 1/ν.  If two runs find different
+    crossings, the more accurate one is used.
 
     Examples
     --------

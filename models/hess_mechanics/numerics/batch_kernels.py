@@ -15,7 +15,7 @@ from llvmlite.binding import get_host_cpu_features
 
 from hess_mechanics.numerics.jit import part
 from hess_mechanics.numerics.recursions import Recursion
-from hess_mechanics.numerics.step_kernels import checked, parts, step_size
+from hess_mechanics.numerics.step_kernels import checked, is_small, last_terms, parts, step_size
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, STOPPED, compensated
 from hess_mechanics.numerics.unrolled import compiled, items
 
@@ -105,12 +105,20 @@ def ensemble_integrator(recursion: Recursion) -> Callable[..., Any]:
     """
     n, m = recursion.variables, len(recursion.pairs)
     expand, check = expansion_of_lanes(recursion), checked(recursion)
-    largest, values, add = compiled(f"""
+    largest, smallest, values, add = compiled(f"""
 def largest(c, k, out):
     {_for_lanes(lambda lane: f"a{lane} = 0.0")}
     for i in range({n}):
         {_for_lanes(lambda lane: f"a{lane} = max(a{lane}, abs(c[k, i, {lane}]))")}
     {_for_lanes(lambda lane: f"out[{lane}] = a{lane}")}
+
+def smallest(c, out):
+    {_for_lanes(lambda lane: f"a{lane} = 1.0; v{lane} = 0.0")}
+    for i in range({n}):
+        {_for_lanes(lambda lane: f"v{lane} = max(v{lane}, abs(c[1, i, {lane}]))")}
+        {_for_lanes(lambda lane: f"s{lane} = max(abs(c[0, i, {lane}]), abs(c[1, i, {lane}]))")}
+        {_for_lanes(lambda lane: f"a{lane} = min(a{lane}, s{lane} if s{lane} > 0.0 else 1.0)")}
+    {_for_lanes(lambda lane: f"out[{lane}] = min(a{lane}, v{lane})")}
 
 def values(c, i, s):
     {_for_lanes(lambda lane: f"a{lane} = 0.0")}
@@ -140,7 +148,7 @@ def add(y, low, s, compensated):
         low = np.zeros((n, LANES))
         last = np.zeros(LANES)
         previous = np.zeros(LANES)
-        middle = np.zeros(LANES)
+        size = np.zeros(LANES)
         h = np.zeros(LANES)
         step = np.zeros(LANES)
         t = np.zeros(LANES)
@@ -171,9 +179,11 @@ def add(y, low, s, compensated):
             expand(c, q, parameters, order)
             largest(c, order, last)
             largest(c, order - 1, previous)
-            largest(c, order // 2, middle)
+            smallest(c, size)
             for lane in range(LANES):
-                h[lane] = step_size(last[lane], previous[lane], middle[lane], order, tolerance)
+                if is_small(size[lane]):
+                    last[lane], previous[lane] = last_terms(c[:, :, lane], n)
+                h[lane] = step_size(last[lane], previous[lane], order, tolerance)
             for lane in range(LANES):
                 step[lane] = 0.0
                 own = orbit[lane]

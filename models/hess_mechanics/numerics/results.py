@@ -66,6 +66,7 @@ def facts_of(result: Any) -> dict[str, Any]:
         "level": result.level,
         "status": str(result.status),
         "error_estimate": result.error_estimate,
+        **({"time_error": result.time_error} if hasattr(result, "time_error") else {}),
         **{f"drift of {name}": value for name, value in getattr(result, "drift", {}).items()},
         "steps": result.cost.steps,
     }
@@ -222,6 +223,10 @@ class SectionCrossings(Sampled):
         Steps and time.
     variables : tuple of str
         Names of the variables.
+    time_error : float
+        Largest estimated error of any time.  Along a conservative motion it grows, and the error of the states may not.
     """
 
     dims = ("crossing",)
+
+    time_error: float

@@ -25,12 +25,14 @@ from hess_mechanics.numerics.jit import inner
 from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.unrolled import compiled, items
 
-__all__ = ["LONGEST", "checked", "parts", "step_of", "step_size", "suspicion"]
+__all__ = ["LONGEST", "checked", "is_small", "last_terms", "parts", "step_of", "step_size", "suspicion"]
 
 LONGEST = 0.01
 """Longest step in a field with functions, as a fraction of the duration."""
-_FALL = math.log2(0.64) * 2.0**52
-"""Logarithm of the ratio of successive terms of e^{λh}, from order 6 to 12, for λh = 6, where order 12 errs by 1 %."""
+_SMALL = 30.0
+"""Inverse of the size below which tolerances are relative."""
+_FAINT, _LEAST = 1e-250, float(np.finfo(float).tiny)
+"""Size below which coefficients of high order underflow, and the smallest number with all its digits."""
 _ONE = int(np.float64(1.0).view(np.int64))
 """Bits of 1.0, which stand for the logarithm 0."""
 _DEFECT = 16.0
@@ -83,13 +85,25 @@ def _log2(x):
 
 
 @inner
-def step_size(last, previous, middle, order, tolerance):
+def is_small(size):
+    """Return True if errors of a motion or a component of this size count relative to it."""
+    return _SMALL * size < 1.0
+
+
+@inner
+def _relative(term, size):
+    """Return |coefficient| of high order relative to a size that `is_small`; a component that is 0 has no digits."""
+    if size == 0.0 or not is_small(size):
+        return term
+    # Smaller coefficients than `_LEAST` have lost digits, or underflow to 0.
+    return (max(term, _LEAST) if size < _FAINT else term) / (_SMALL * size)
+
+
+@inner
+def step_size(last, previous, order, tolerance):
     """Return the step for which the terms of the two highest orders equal the tolerance (Jorba and Zou, 2005).
 
-    last, previous : largest coefficient of order N and N−1.
-    middle : largest coefficient of order N//2.  If a motion is smaller than the tolerance, its last terms are too, even
-        where the omitted terms grow and dominate the series.  Therefore the terms from the middle order to the last
-        must decrease by the factor 0.64 per order.  0 omits this condition.
+    last, previous : largest coefficient of order N and N−1, see `last_terms`.
 
     The step is right within 3 %: the bits of a double, read as an integer, are 2^52 times its binary logarithm to
     within 0.09.  Taking the N-th root divides them by N.  A library's logarithm would take a tenth of a step.
@@ -100,24 +114,36 @@ def step_size(last, previous, middle, order, tolerance):
     if not sum_of_both < math.inf:
         return 0.0
     exponent = min(_log2(tolerance / last) / order, _log2(tolerance / previous) / (order - 1.0))
-    if middle > 0.0:
-        exponent = min(exponent, _log2(middle / last) / (order - order // 2) + _FALL)
     return 0.97 * np.int64(int(exponent) + _ONE).view(np.float64)
+
+
+@inner
+def last_terms(c, n):
+    """Return the largest coefficients of the two highest orders, for one orbit with n variables.
+
+    They are relative to the size of their component, or to the speed of the motion if it is smaller, where this
+    `is_small`.  A component that leaves an invariant plane, or a motion that leaves an equilibrium, keeps its relative
+    digits in doubles and grows later; an absolute tolerance would ignore it.  Beside an equilibrium all coefficients
+    are proportional to the speed.
+    """
+    order = c.shape[0] - 1
+    last = 0.0
+    previous = 0.0
+    speed = 0.0
+    for i in range(n):
+        speed = max(speed, abs(c[1, i]))
+    for i in range(n):
+        size = min(max(abs(c[0, i]), abs(c[1, i])), speed)
+        last = max(last, _relative(abs(c[order, i]), size))
+        previous = max(previous, _relative(abs(c[order - 1, i]), size))
+    return last, previous
 
 
 @inner
 def step_of(c, n, tolerance):
     """Return `step_size` for the coefficients of one orbit with n variables."""
-    order = c.shape[0] - 1
-    half = order // 2
-    last = 0.0
-    previous = 0.0
-    middle = 0.0
-    for i in range(n):
-        last = max(last, abs(c[order, i]))
-        previous = max(previous, abs(c[order - 1, i]))
-        middle = max(middle, abs(c[half, i]))
-    return step_size(last, previous, middle, order, tolerance)
+    last, previous = last_terms(c, n)
+    return step_size(last, previous, c.shape[0] - 1, tolerance)
 
 
 @inner

@@ -20,7 +20,7 @@ import numpy as np
 from hess_mechanics.numerics.expressions import Symbol
 from hess_mechanics.numerics.jit import inner, part
 from hess_mechanics.numerics.recursions import Recursion
-from hess_mechanics.numerics.step_kernels import checked, step_size, suspicion
+from hess_mechanics.numerics.step_kernels import checked, last_terms, step_size, suspicion
 from hess_mechanics.numerics.taylor_kernels import (
     STEP_LIMIT_REACHED,
     STOPPED,
@@ -249,13 +249,11 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
                     speed_then, volume_then = rise, volume
             carry(seen, v, inverses)
             size = largest_entry(v[0], n, columns)
-            last = largest_entry(v[order], n, columns) / size
-            previous = largest_entry(v[order - 1], n, columns) / size
-            for i in range(n):
-                last = max(last, abs(c[order, i]))
-                previous = max(previous, abs(c[order - 1, i]))
+            last, previous = last_terms(c, n)
+            last = max(last, largest_entry(v[order], n, columns) / size)
+            previous = max(previous, largest_entry(v[order - 1], n, columns) / size)
             most = direction * ((times[count - 1] - t) - t_low)
-            h = min(step_size(last, previous, 0.0, order, tolerance), most)
+            h = min(step_size(last, previous, order, tolerance), most)
             if suspects(seen, h, before):
                 h = check(c, seen, h, most, direction, parameters, tolerance)
             while sample < count:
