@@ -27,6 +27,7 @@ from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.numerics.accuracy import Accuracy
+from hess_mechanics.numerics.arguments import as_a
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.attitude import Attitude, attitude
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -80,6 +81,7 @@ class LoxodromicPendulum:
     l: float
 
     def __post_init__(self) -> None:
+        as_a(HeavyBody, self.body)
         require_finite(h=self.h, l=self.l)
         if not self.body.is_hess or not self.body.mu > 0.0:
             raise InvalidParameter("A loxodromic pendulum needs a field and the Hess condition: choose μ > 0.")
