@@ -22,6 +22,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_mechanics.dynamics.orbit import checked_span
 from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.equations import HeavyBody
@@ -295,7 +296,7 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, span: float, level: Accuracy
     >>> float(motion.times[-1]), round(float(motion.l[-1]), 5)
     (4.0, 0.50954)
     """
-    require_finite(span=span)
+    span = checked_span(span, "a loxodromic motion")
     radius = 0.5 * PIXELS
     lying = attitude(
         WITH_ATTITUDE.at((pendulum.a, 1.0)),

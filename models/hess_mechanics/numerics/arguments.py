@@ -141,7 +141,9 @@ def checked(function: Callable[P, T]) -> Callable[P, T]:
             raise InvalidParameter(f"{function.__name__}: {error}. It takes {takes}.") from None
         for name, value in given.arguments.items():
             given.arguments[name] = _fitted(name, kinds[name], value)
-        return function(*given.args, **given.kwargs)
+        # Results are checked for overflow.
+        with np.errstate(over="ignore", divide="ignore"):
+            return function(*given.args, **given.kwargs)
 
     return run
 
@@ -213,9 +215,7 @@ def _as_array(name: str, value: Any) -> Any:
             raise ValueError
         return np.asarray(value, float)
     except (TypeError, ValueError, OverflowError):
-        raise InvalidParameter(
-            f"{name} = {_short(value)} is no array of numbers; write it like [1.5, 2.0]."
-        ) from None
+        raise InvalidParameter(f"{name} = {_short(value)} is no array of numbers; write it like [1.5, 2.0].") from None
 
 
 def _short(value: Any) -> str:
