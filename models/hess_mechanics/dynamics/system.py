@@ -42,8 +42,8 @@ _COMPILE = 8.0, 0.2, 0.2
 """Seconds that a kernel takes to compile, for each product of its recursion, and for each product of an entry of the
 Jacobian and one of a column.  Measured on one core: chains of 4 to 30 variables, 9 to 14 s for an orbit; of 6 and 12
 variables, 16 and 49 s for a spectrum."""
-_STEP = 2e-3
-"""Step of the differences that check symmetries, in units of time of a rate of size 1."""
+_STEP, _DIFFERENCES = 1e-4, 1e-7
+"""Check of symmetries: step of a difference, for a rate of size 1, and its relative error."""
 
 
 def in_units_of_time(first: int, velocities: int = 2) -> Callable[[Array, Array, float], tuple[Array, Array]]:
@@ -105,14 +105,6 @@ def _numbers(what: str, names: tuple[str, ...], values: Any) -> tuple[float, ...
     if len(found) != len(names) or not all(map(math.isfinite, found)):
         raise InvalidParameter(f"{what} must be finite numbers, {len(names)} of them: {', '.join(names) or 'none'}.")
     return found
-
-
-def _derivative(function: Callable[[float], Any]) -> Array:
-    """Return the derivative of a function of a number at 0, by a difference of sixth order."""
-    weights = {1: 45.0, 2: -9.0, 3: 1.0}
-    return sum(
-        (w * (np.array(function(k * _STEP), float) - function(-k * _STEP)) for k, w in weights.items()), np.zeros(1)
-    ) / (60.0 * _STEP)
 
 
 @dataclass(frozen=True, init=False, repr=False)
@@ -366,9 +358,10 @@ class System:
         if here is None or there is None:
             return 1
         size = max(1.0, float(np.abs(here).max()), float(np.abs(there).max()))
-        along = _derivative(lambda s: self.symmetries(y + s / size * here, p)[name]) * size
-        signs = [sign for sign in (1, -1) if np.abs(along - sign * there).max() <= _ROUNDING * size]
-        return signs[0] if signs else 0
+        step = _STEP / size
+        ahead, behind = (np.array(self.symmetries(y + s * here, p)[name], float) for s in (step, -step))
+        along = (ahead - behind) / (2.0 * step)
+        return next((sign for sign in (1, -1) if np.abs(along - sign * there).max() <= _DIFFERENCES * size), 0)
 
     def _compare(self, y: Array, p: Array, scaled: Array, problem: Problem) -> None:
         rates = self._rates(y, p), self._rates(scaled, problem.parameters)
