@@ -318,7 +318,7 @@ class System:
         for _ in range(_CHECKS):
             y = state * draw.uniform(0.5, 2.0, state.size) + draw.uniform(-0.5, 0.5, state.size)
             try:
-                names = [*self.symmetries(y, parameters)]
+                names = [*self.symmetries(y.tolist(), parameters.tolist())]
                 found = [self.moves(name, y, parameters) for name in names]
             except (TypeError, ValueError, LookupError, ArithmeticError) as error:
                 raise InvalidParameter(
@@ -350,8 +350,8 @@ class System:
             1 if it becomes a motion, −1 if it becomes one backward in time, 0 if neither.  If the field is not finite
             there, the answer is 1.
         """
-        p = np.array(parameters, float)
-        image = np.array(self.symmetries(y, p)[name], float)
+        p = np.array(parameters, np.float64)
+        image = self.image(name, y, p)
         if image.shape != y.shape:
             raise ValueError(f"{name} has {image.size} components")
         here, there = self._rates(y, p), self._rates(image, p)
@@ -359,9 +359,28 @@ class System:
             return 1
         size = max(1.0, float(np.abs(here).max()), float(np.abs(there).max()))
         step = _STEP / size
-        ahead, behind = (np.array(self.symmetries(y + s * here, p)[name], float) for s in (step, -step))
+        ahead, behind = (self.image(name, y + s * here, p) for s in (step, -step))
         along = (ahead - behind) / (2.0 * step)
         return next((sign for sign in (1, -1) if np.abs(along - sign * there).max() <= _DIFFERENCES * size), 0)
+
+    def image(self, name: str, y: Array, p: Array) -> Array:
+        """Return the state to which a symmetry moves a state.
+
+        Parameters
+        ----------
+        name : str
+            Name of one of `symmetries`.
+        y : ndarray, shape (d,)
+            The state.
+        p : ndarray, shape (q,)
+            Values of the parameters.
+
+        Returns
+        -------
+        ndarray, shape (d,)
+            The image.
+        """
+        return np.array(self.symmetries(y.tolist(), p.tolist())[name], dtype=np.float64)
 
     def _compare(self, y: Array, p: Array, scaled: Array, problem: Problem) -> None:
         rates = self._rates(y, p), self._rates(scaled, problem.parameters)

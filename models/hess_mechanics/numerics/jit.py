@@ -251,9 +251,8 @@ def announced(function: Callable[..., Any], name: str, seconds: float) -> Callab
     A long compilation ends between two passes of the compiler if the request is cancelled.
     """
     if seconds > _LONG:
-        getattr(
-            function, "py_func", function
-        ).announcement = (
+        compiled: Any = getattr(function, "py_func", function)
+        compiled.announcement = (
             f"Compiling {name} takes about {seconds:.0f} s, once: the machine code is stored. Ctrl-C stops it."
         )
     return function
