@@ -141,8 +141,8 @@ def checked(function: Callable[P, T]) -> Callable[P, T]:
             raise InvalidParameter(f"{function.__name__}: {error}. It takes {takes}.") from None
         for name, value in given.arguments.items():
             given.arguments[name] = _fitted(name, kinds[name], value)
-        # Results are checked for overflow.
-        with np.errstate(over="ignore", divide="ignore"):
+        # Results are checked for overflow, as in the commands.
+        with np.errstate(all="ignore"):
             return function(*given.args, **given.kwargs)
 
     return run
