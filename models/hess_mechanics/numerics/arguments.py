@@ -25,7 +25,7 @@ __all__ = [
     "as_parts",
     "as_place",
     "as_whole",
-    "checked",
+    "typed",
 ]
 
 P = ParamSpec("P")
@@ -121,7 +121,7 @@ def as_place(names: tuple[str, ...], place: Any) -> tuple[float, ...]:
 # ---- annotations ----------------------------------------------------------------------------------------------------
 
 
-def checked(function: Callable[P, T]) -> Callable[P, T]:
+def typed(function: Callable[P, T]) -> Callable[P, T]:
     """Return a function that checks its arguments against their annotations first.
 
     Numbers become floats or integers, and a single number counts as a sequence of one.  Objects that are described by
