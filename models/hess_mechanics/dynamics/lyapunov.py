@@ -130,6 +130,7 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
         )
     count = max(1, math.ceil(returns))
     interval = np.array([span * problem.nu / count])
+    longest = body.system.longest_step(level, span * problem.nu)
     direction = np.cos(1.0 + np.arange(problem.scale.size) ** 2)
     y = problem.states[0].copy()
     neighbour = y + _DISTANCE * direction / np.linalg.norm(direction)
@@ -138,8 +139,9 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
     steps = 0
     for i in range(count):
         for start, end in zip((y, neighbour), ends, strict=True):
-            taken = body.system.orbit(
-                start, problem.parameters, interval, level.order, level.tolerance, MAX_STEPS - steps, end
+            left = MAX_STEPS - steps
+            taken, _ = body.system.orbit(
+                start, problem.parameters, interval, level.order, level.tolerance, longest, left, end
             )
             require_steps(taken, f"This exponent needs more than {MAX_STEPS} steps: choose a shorter time span.")
             steps += taken

@@ -511,6 +511,7 @@ class ReturnMap:
                 longest * direction,
                 accuracy.order,
                 accuracy.tolerance,
+                section.system.longest_step(accuracy, longest),
                 MAX_STEPS,
                 times,
                 states,

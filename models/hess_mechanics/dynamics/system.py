@@ -11,6 +11,7 @@ import math
 import pkgutil
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from importlib.metadata import entry_points
@@ -20,20 +21,28 @@ from typing import Any, Protocol
 import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, ModelError, WrongScaling
+from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.batch_kernels import ensemble_integrator, one_by_one
 from hess_mechanics.numerics.doubled_kernels import doubled_integrator
 from hess_mechanics.numerics.events_kernels import ANGLE, SurfaceKernels, crossing_finder, plane
+from hess_mechanics.numerics.expressions import Node
+from hess_mechanics.numerics.field_values import Undefined, values_with_rounding
 from hess_mechanics.numerics.jit import announced, derived_kernel, inner
 from hess_mechanics.numerics.measured import nearby
 from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.step_kernels import LONGEST
 from hess_mechanics.numerics.taylor_kernels import orbit_integrator
-from hess_mechanics.numerics.tracing import Field, check, trace
+from hess_mechanics.numerics.tracing import Field, check, expressions, trace
 from hess_mechanics.numerics.variation_kernels import Variation, products, variation, variation_integrator
 
 __all__ = ["Body", "ParametrizedSystem", "Problem", "System", "in_units_of_time", "systems"]
 
 
+_CANCELS = 64.0 * 2.0**-52
+"""Round-off of a rate, relative to the state and the rates, that a moved start does not show."""
+_SAMPLES = 8
+"""Number of states at which the round-off of rates is measured."""
 _DERIVING = RLock()
 """Lock around the derivation of kernels, so that threads compile each kernel once."""
 _SEED, _CHECKS, _ROUNDING = 1, 4, 1e-9
@@ -412,20 +421,92 @@ class System:
         """Taylor recursion of the field.  Raises `NotTraceable`."""
         return trace(self.field, len(self.variables), len(self.parameters))
 
-    @cached_property
-    def orbit(self) -> Callable[..., int]:
-        """Kernel that integrates one orbit, see `taylor_kernels.orbit_integrator`."""
-        return self._kernel("orbit", "y, p, times, order, tolerance, max_steps, out", orbit_integrator)
+    def longest_step(self, level: Level, duration: float, max_step: float = math.inf) -> float:
+        """Return the longest step of a run.
+
+        Parameters
+        ----------
+        level : Level
+            Level of the run, see `Level.longest_step`.
+        duration : float
+            Duration of the motion, in scaled time.
+        max_step : float, default ∞
+            A smaller limit, in scaled time.
+
+        Returns
+        -------
+        float
+            The longest step, in scaled time.
+        """
+        part = LONGEST if self.recursion.functions else 1.0
+        return level.longest_step(min(max_step, part * abs(duration)))
 
     @cached_property
-    def ensemble(self) -> Callable[..., int]:
-        """Kernel that integrates many orbits, see `batch_kernels.ensemble_integrator`."""
-        if self.recursion.is_quadratic and self.tolerance is None:
-            return self._kernel("ensemble", "states, p, times, order, tolerance, max_steps, out", ensemble_integrator)
-        orbit = self.orbit
-        return self._kernel(
-            "ensemble", "states, p, times, order, tolerance, max_steps, out", lambda _: one_by_one(orbit), adjusts=False
+    def expressions(self) -> list[Node]:
+        """The rates of variables and functions as recorded expressions, see `field_values`."""
+        return expressions(self.field, len(self.variables), len(self.parameters))
+
+    def rates_with_rounding(self, y: Array, parameters: Array) -> tuple[Array, Array]:
+        """Return the rates (d,) at a state, and bounds on their round-off.  Raises `field_values.Undefined`."""
+        names = self.variables, self.parameters
+        found = values_with_rounding(self.expressions, names, y.tolist(), parameters.tolist())
+        values, errors = np.array(found[: y.size]).T
+        return values, errors
+
+    def rounding(self, states: Array, parameters: Array) -> Array | None:
+        """Return the mean round-off of the rates at states, as far as a moved start does not show it.
+
+        A rate that is the difference of much larger numbers is wrong by more than a rounding of itself or of the state.
+        A system with `rescale` is integrated in units in which all terms are O(1), so that its rates are not.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, d)
+            States of a motion, of which a few are used.
+        parameters : ndarray, shape (q,)
+            Parameters of the system.
+
+        Returns
+        -------
+        ndarray, shape (d,), or None
+            Mean round-off of each rate; None if no rate cancels.
+        """
+        if self.rescale is not _as_it_is:
+            return None
+        found = [np.zeros(len(self.variables))]
+        for y in states[:: max(1, len(states) // _SAMPLES)]:
+            with suppress(Undefined):  # at a removable zero of a divisor
+                values, errors = self.rates_with_rounding(y, parameters)
+                size = max(np.abs(y).max(), np.abs(values).max())
+                found.append(np.where(errors > _CANCELS * size, errors, 0.0))
+        mean = np.asarray(np.sum(found, axis=0) / max(1, len(found) - 1))
+        return mean if mean.any() else None
+
+    @cached_property
+    def with_rounding(self) -> System:
+        """The system with a constant error of each rate, by further parameters: how much its rounding matters."""
+        d, q = len(self.variables), len(self.parameters)
+        return System(
+            f"{self.name} with rounding",
+            lambda y, p: tuple(rate + p[q + i] for i, rate in enumerate(self.field(y, p[:q]))),
+            self.variables,
+            (*self.parameters, *(f"rounding of d{name}/dt" for name in self.variables)),
+            (self.example[0], (*self.example[1], *(0.0,) * d)),
         )
+
+    @cached_property
+    def orbit(self) -> Callable[..., tuple[int, float]]:
+        """Kernel that integrates one orbit, see `taylor_kernels.orbit_integrator`."""
+        return self._kernel("orbit", "y, p, times, order, tolerance, longest, max_steps, out", orbit_integrator)
+
+    @cached_property
+    def ensemble(self) -> Callable[..., None]:
+        """Kernel that integrates many orbits, see `batch_kernels.ensemble_integrator`."""
+        arguments = "states, p, times, order, tolerance, longest, max_steps, out, steps, ends"
+        if self.recursion.is_quadratic and not self.recursion.functions and self.tolerance is None:
+            return self._kernel("ensemble", arguments, ensemble_integrator)
+        orbit = self.orbit
+        return self._kernel("ensemble", arguments, lambda _: one_by_one(orbit), adjusts=False)
 
     @cached_property
     def cross(self) -> Callable[..., tuple[int, int]]:
@@ -456,7 +537,7 @@ class System:
         """
         return self._kernel(
             task,
-            "y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states",
+            "y, p, normal, offset, sense, end, order, tolerance, longest, max_steps, times, states",
             lambda recursion: crossing_finder(recursion, surface),
         )
 
@@ -653,6 +734,8 @@ class Problem:
 
     Attributes
     ----------
+    system : System
+        The equations of motion.
     states : ndarray, shape (n, d)
         Initial states.
     parameters : ndarray, shape (q,)
@@ -663,6 +746,7 @@ class Problem:
         Factors that turn these states into the user's units.
     """
 
+    system: System
     states: Array
     parameters: Array
     nu: float
@@ -703,11 +787,18 @@ class Problem:
                 "In units in which the state is of size 1 these numbers exceed the range of double "
                 "precision: choose less extreme parameters."
             )
-        return cls(np.ascontiguousarray(scaled.T), p, nu, scale)
+        return cls(system, np.ascontiguousarray(scaled.T), p, nu, scale)
 
     def nearby(self) -> Problem:
         """Return the same problem with starts that differ by roundings, see `measured.nearby`."""
         return replace(self, states=nearby(self.states))
+
+    def rounded(self, motion: Array) -> Problem:
+        """Return the problem with rates that are wrong by their round-off, if they cancel at states (n, d)."""
+        rounding = self.system.rounding(motion, self.parameters)
+        if rounding is None:
+            return self
+        return replace(self, system=self.system.with_rounding, parameters=np.concatenate((self.parameters, rounding)))
 
     def times(self, t: Array) -> Array:
         """Return the times (m,) in units of 1/ν; on overflow ∞, which no step limit reaches."""
