@@ -24,6 +24,7 @@ from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.arguments import as_level_name
+from hess_mechanics.numerics.files import write_whole
 
 __all__ = ["SceneState", "from_link", "state"]
 
@@ -241,7 +242,7 @@ class SceneState:
     def save(
         self, file: str | Path, picture: str = "", *, width: float = 85.0, black: bool = False, seconds: float = 10.0
     ) -> Path:
-        """Write a picture to a file.
+        """Write a picture to a file, of which an earlier version stays until the new one is complete.
 
         Parameters
         ----------
@@ -280,7 +281,7 @@ class SceneState:
         # Imported here, because drawing needs libraries that data do not.
         from hess_explorer.export.file import content
 
-        path.write_bytes(content(self._shown(picture), FileRequest(kind, width, black, seconds)))
+        write_whole(path, content(self._shown(picture), FileRequest(kind, width, black, seconds)))
         return path
 
     def code(self, picture: str = "") -> str:

@@ -24,7 +24,8 @@ from typing import Any
 import numba
 from numba.core import event
 
-from hess_mechanics.numerics.kernel_files import keep, write_whole
+from hess_mechanics.numerics.files import write_whole
+from hess_mechanics.numerics.kernel_files import keep
 
 __all__ = [
     "CACHE_FOLDER",
@@ -159,7 +160,9 @@ def _sources() -> dict[str, tuple[str, list[str]]]:
             case _:
                 found[name] = [mark, *_read(path)]
     if memory is not None and found != known:
-        write_whole(memory, json.dumps(found))
+        # The file only saves work.
+        with suppress(OSError):
+            write_whole(memory, json.dumps(found).encode())
     return {name: (digest, imported) for name, (_, digest, imported) in found.items()}
 
 
@@ -254,7 +257,7 @@ def derived_kernel(name: str, source: str, module: str, **names: Any) -> Callabl
         if not kept:
             with suppress(OSError):
                 folder.mkdir(mode=0o700, exist_ok=True)
-            write_whole(path, source)
+                write_whole(path, source.encode())
             kept = _holds(path, source)
     namespace: dict[str, Any] = {"__name__": module, **names}
     exec(compile(source, file, "exec"), namespace)
