@@ -8,7 +8,7 @@ import re
 import sys
 from collections.abc import Iterable, Sequence
 from importlib import import_module, metadata
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from hess_explorer.commands import COMMANDS, CommandError
 
@@ -16,7 +16,11 @@ __all__ = ["main"]
 
 
 class _Parser(argparse.ArgumentParser):
-    """Argument parser that reports an error in one sentence, without the usage text."""
+    """Argument parser that reports an error in one sentence, without the usage text, and knows no abbreviations."""
+
+    def __init__(self, **settings: Any) -> None:
+        # Also in subcommands, where `--h` would be `--help`.
+        super().__init__(allow_abbrev=False, **settings)
 
     def error(self, message: str) -> NoReturn:
         raise CommandError(f"{message} (see {self.prog} --help).")
@@ -35,7 +39,6 @@ def _parser(declared: Iterable[str] = COMMANDS) -> argparse.ArgumentParser:
         prog="hess-explorer",
         description="An interactive explorer of the Suslov problem, its Hess case "
         "and their relatives.  Without a command: serve.",
-        allow_abbrev=False,
     )
     parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
