@@ -79,8 +79,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0 on success, 1 if a check has found mistakes, 2 if the command cannot be carried out, 130 if it was
-        interrupted.
+        0 on success, 1 if a check has found mistakes or cells of a sweep have failed, 2 if the command cannot be
+        carried out, 130 if it was interrupted.
     """
     words = list(sys.argv[1:] if argv is None else argv)
     # A terminal that does not use UTF-8 shows Greek letters as escape sequences.

@@ -83,10 +83,30 @@ def _run(options: Options) -> None:
             found = _swept(options)
             if options.part is not None:
                 _write_status(options, options.store)
+                _require_no_failures(found)
                 return
     table = options.store is None or options.format is not None or options.out is not None
     options.format = options.format or "json"
     _write(options, found, table)
+    if options.read is None:
+        _require_no_failures(found)
+
+
+def _require_no_failures(found: xr.Dataset) -> None:
+    """Raise `CommandError` if cells have failed."""
+    from hess_explorer.sweep import Outcome
+
+    failed = int(np.count_nonzero(found.status == Outcome.FAILED))
+    if failed:
+        text = next((f"; {cell}: {text}" for cell, text in _failures(found).items()), "")
+        raise CommandError(
+            f"{failed} of {found.status.size} cells {'has' if failed == 1 else 'have'} failed{text}.", status=1
+        )
+
+
+def _failures(found: xr.Dataset) -> dict[str, str]:
+    """Return the texts of the exceptions by cell."""
+    return cast("dict[str, str]", json.loads(found.attrs.get("failures", "{}")))
 
 
 def _swept(options: Options) -> xr.Dataset:
@@ -170,6 +190,7 @@ def _write(options: Options, found: xr.Dataset, table: bool) -> None:
         "cells": list(status.shape),
         "status_counts": counts,
         **{name: found.attrs[name] for name in ("link", "largest_error") if name in found.attrs},
+        **({"failures": failures} if (failures := _failures(found)) else {}),
         **({} if options.store is None else {"store": str(options.store)}),
     }
     series = _series(found) if table else {}
@@ -214,7 +235,8 @@ COMMAND = Command(
     "Compute a quantity (see --list) for every combination of the values of one to three of its parameters.  Column "
     "status tells how each cell ended; a cell without a number is null, or empty in CSV.  With --store, finished parts "
     "are saved in a folder, and the same command resumes an interrupted sweep; the table is printed only with "
-    "--format.  Ctrl-C stops the sweep and keeps the finished parts.  Requires: pip install 'hess-explorer[sweep]'.",
+    "--format.  Ctrl-C stops the sweep and keeps the finished parts.  The exit status is 1 if cells have "
+    "failed; the texts of their exceptions are kept as failures.  Requires: pip install 'hess-explorer[sweep]'.",
     (
         option(
             "quantity",

@@ -24,7 +24,7 @@ import numpy as np
 from hess_explorer.sweep.errors import OtherSweep, StoreError
 from hess_explorer.sweep.grid import MAX_NUMBERS, Box, Part, SweepGrid, boxes, size
 from hess_explorer.sweep.quantity import Outcome, Quantity
-from hess_explorer.sweep.result import PROGRAM, empty, names, parts, require_libraries, slices
+from hess_explorer.sweep.result import PROGRAM, empty, names, parts, require_libraries, slices, with_failures
 from hess_explorer.sweep.work import ChunkResult, version
 from hess_mechanics.numerics.results import Array
 
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 __all__ = ["FILES", "Store", "StoreStatus", "opened", "read", "store_status"]
 
+_FAILURES = "failures.jsonl"
+"""File of a store: a line [cell, text] for each exception, see `named`."""
 _PARTS = "parts"
 """Attribute of a store: the number of parts of the job array that began it."""
 _MOST_NUMBERS = 500_000
@@ -164,6 +166,9 @@ class Store:
         try:
             # A file is read and written again with the box; simultaneous runs take turns.
             with _alone(self.path):
+                if done.failures:
+                    with (self.path / _FAILURES).open("a", encoding="utf-8") as file:
+                        file.writelines(f"{json.dumps(one)}\n" for one in done.failures.items())
                 for array, part in zip(self._arrays.values(), parts(self._what, done), strict=True):
                     self._put(array, box, part)
         except OSError as error:
@@ -373,11 +378,22 @@ def read(path: str | Path) -> xr.Dataset:
     _sweep_group(path)
     found: xr.Dataset = xr.open_zarr(path, zarr_format=3, chunks=None)
     try:
-        return found.load() if math.prod(found.sizes.values()) <= MAX_NUMBERS else found
+        found = found.load() if math.prod(found.sizes.values()) <= MAX_NUMBERS else found
+        return with_failures(found, _failures(path / _FAILURES))
     except (OSError, ValueError, RuntimeError) as error:
         raise StoreError(
             f"A part of {str(path)!r} cannot be read: run the same sweep again to recompute it."
         ) from error
+
+
+def _failures(file: Path) -> dict[str, str]:
+    """Return the texts of the exceptions by cell; a run that was killed may have left half a line."""
+    found: dict[str, str] = {}
+    if file.exists():
+        for line in file.read_text(encoding="utf-8").splitlines():
+            with suppress(ValueError):
+                found |= [json.loads(line)]
+    return found
 
 
 def opened(path: Path, what: Quantity, grid: SweepGrid, level: str, parts: int = 1) -> Store | None:

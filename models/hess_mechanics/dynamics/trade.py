@@ -15,12 +15,7 @@ __all__ = ["LevelCost", "beyond", "enough", "measure", "measure_until"]
 
 R = TypeVar("R")
 
-_TWICE = {
-    Computation.ROTATION: "share",
-    Computation.LINE: "share",
-    Computation.CURVE: "cells",
-    Computation.BASINS: "cells",
-}
+_TWICE = {Computation.ROTATION: "share", Computation.LINE: "share", Computation.CURVE: "cells"}
 """Part of a plan that limits the error of a kind besides the tolerance, so that its own value would hide this error."""
 
 
@@ -44,9 +39,9 @@ class LevelCost:
 
 
 def beyond(kind: Computation) -> Plan:
-    """Return the plan of the truth: finer tolerance than `reference`, and where they matter twice its returns or cells.
+    """Return the plan of the truth: finer tolerance than `reference`; twice its returns or points along a curve.
 
-    The indicator has as many cells, whose points lie `aside`: a grid twice as fine would take four times as long.
+    For basins and indicators the level is `aside`: their points lie beside the centres of the cells.
     """
     finest = PLANS[kind][REFERENCE.name]
     more = {name: 2.0 * getattr(finest, name) for name in (_TWICE[kind],)} if kind in _TWICE else {}

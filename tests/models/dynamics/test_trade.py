@@ -61,8 +61,7 @@ def test_measuring_until_one_is_enough_runs_no_finer_level():
 def test_the_truth_is_more_exact_than_every_level_and_has_other_points_where_these_matter(kind):
     truth, finest = beyond(kind), PLANS[kind]["reference"]
     assert truth.level.tolerance < min(plan.level.tolerance for plan in PLANS[kind].values())
-    # A mean over returns, a polyline and cells are not compared with as many of them; the indicator's lie aside.
+    # A mean over returns and a polyline are not compared with as many of them; points of cells lie aside.
     returns = kind in (Computation.ROTATION, Computation.LINE)
-    cells = kind in (Computation.CURVE, Computation.BASINS)
-    assert (truth.share, truth.cells) == (1.0 + returns, finest.cells * (1.0 + cells))
+    assert (truth.share, truth.cells) == (1.0 + returns, finest.cells * (1.0 + (kind == Computation.CURVE)))
     assert truth.level.aside
