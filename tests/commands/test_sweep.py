@@ -77,7 +77,7 @@ FAILING = "def wanting(x, y=1.0):\n    return {1.0: 1.0, 2.0: 2.0}[x]\n"
 def test_failed_cells_are_counted_and_their_exceptions_kept(tmp_path, capsys, more):
     (tmp_path / "mine.py").write_text(FAILING)
     words = ["sweep", f"{tmp_path}/mine.py:wanting", "--over", "x=1,2,3,5", *more]
-    said = "hess-explorer: 2 of 4 cells have failed; x = 3.0: KeyError: 3.0.\n"
+    said = "hess-explorer: 2 cells have failed of 4; x = 3.0: KeyError: 3.0.\n"
     failures = {"x = 3.0": "KeyError: 3.0", "x = 5.0": "KeyError: 5.0"}
     store = tmp_path / "mine.zarr"
     # Computed, computed into a store, and complete from the beginning.

@@ -95,13 +95,15 @@ def _run(options: Options) -> None:
 def _require_no_failures(found: xr.Dataset) -> None:
     """Raise `CommandError` if cells have failed."""
     from hess_explorer.sweep import Outcome
+    from hess_explorer.sweep.work import named
 
-    failed = int(np.count_nonzero(found.status == Outcome.FAILED))
-    if failed:
-        text = next((f"; {cell}: {text}" for cell, text in _failures(found).items()), "")
-        raise CommandError(
-            f"{failed} of {found.status.size} cells {'has' if failed == 1 else 'have'} failed{text}.", status=1
-        )
+    failed, failures = np.argwhere(found.status.values == Outcome.FAILED), _failures(found)
+    if len(failed):
+        axes = {str(name): found[name].values for name in found.status.dims}
+        cells = (named({name: axes[name][i] for name, i in zip(axes, at, strict=True)}) for at in failed)
+        text = next((f"; {cell}: {failures[cell]}" for cell in cells if cell in failures), "")
+        words = "cell has" if len(failed) == 1 else "cells have"
+        raise CommandError(f"{len(failed)} {words} failed of {found.status.size}{text}.", status=1)
 
 
 def _failures(found: xr.Dataset) -> dict[str, str]:
