@@ -58,7 +58,7 @@ def ensemble(
     body: Body,
     states: Sequence[Sequence[float]] | Array,
     times: Sequence[float] | Array,
-    level: Accuracy,
+    level: Accuracy = "precise",
     threads: int = THREADS,
 ) -> Ensemble:
     """Return the orbits from several initial states, computed on all cores.
@@ -74,7 +74,7 @@ def ensemble(
         Initial states at time 0.
     times : array_like, shape (m,)
         Times of the result, monotonic from 0 forward or backward.
-    level : str or Level
+    level : str or Level, default "precise"
         Accuracy level.
     threads : int, optional
         Number of threads.  By default one per core, at most eight.

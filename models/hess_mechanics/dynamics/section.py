@@ -248,6 +248,8 @@ class _Search:
         if not 1 <= crossings <= MAX_CROSSINGS:
             raise WorkLimit(f"The number of crossings must lie between 1 and {MAX_CROSSINGS}.")
         problem = Problem.of(body, states)
+        if not hasattr(plane, "scaled"):
+            raise InvalidParameter("A section needs a surface, such as Plane(normal, offset).")
         cross, normal, offset = plane.scaled(body.system, problem)
         starts = np.array(states, float, ndmin=2)
         return cls(body, starts, problem, cross, normal, offset, plane.sense, end * problem.nu, level, crossings)

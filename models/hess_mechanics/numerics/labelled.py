@@ -7,6 +7,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from html import escape
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,9 @@ from numpy.typing import NDArray
 from hess_mechanics.errors import InvalidParameter
 
 __all__ = ["Labels", "Result", "components"]
+
+_LINES = 10
+"""Most lines of a printed result."""
 
 Named = Mapping[str, tuple[tuple[str, ...], NDArray[Any]]]
 """Arrays by name, each with the names of its dimensions."""
@@ -122,6 +126,19 @@ class Result(ABC):
         """
         # By name, like the plotting backends of pandas: this package does not depend on a user interface.
         return importlib.import_module("hess_explorer.library.drawing").draw_result(self)
+
+    def __str__(self) -> str:
+        """Return type, facts and arrays in at most ten lines."""
+        known = self.labels()
+        facts = ", ".join(f"{name} {_short(value)}" for name, value in known.facts.items() if str(value))
+        lines = wrap(f"{type(self).__name__}: {facts}", 100, subsequent_indent="  ", max_lines=4, placeholder=" …")
+        arrays = [
+            f"  {name} ({', '.join(dims)}) {_range(values)} {known.units.get(name, '')}".rstrip()
+            for name, (dims, values) in {**known.coords, **known.variables}.items()
+        ]
+        room = _LINES - len(lines)
+        more = [f"  and {len(arrays) - room + 1} more"] if len(arrays) > room else []
+        return "\n".join([*lines, *arrays[: room - len(more)], *more])
 
     def _repr_html_(self) -> str:
         """Return a table of the facts, and of the arrays with their units, for notebooks."""
