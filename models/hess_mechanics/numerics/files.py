@@ -32,7 +32,10 @@ def write_whole(path: str | Path, content: bytes) -> None:
         if target.exists():
             shutil.copymode(target, part)
         part.replace(target)
-    except BaseException:
+    except BaseException as error:
         with suppress(OSError):
             part.unlink()
+        if isinstance(error, OSError):
+            # Without the name of the part.
+            raise OSError(error.errno, error.strerror, str(path)) from None
         raise
