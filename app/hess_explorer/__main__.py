@@ -93,6 +93,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     except CommandError as error:
         print(f"hess-explorer: {error}", file=sys.stderr)
         return error.status
+    except OSError as error:
+        # Commands say what they read or write; here a name that is too long, or a disk that fails.
+        named = "" if error.filename is None else f"{error.filename!r} cannot be used: "
+        print(f"hess-explorer: {named}{error.strerror or error}.", file=sys.stderr)
+        return 2
     except KeyboardInterrupt as error:
         print(f"hess-explorer: {str(error) or 'interrupted.'}", file=sys.stderr)
         return 130

@@ -257,6 +257,9 @@ def test_ctrl_c_without_a_store_writes_what_is_done(capsys, monkeypatch, tmp_pat
         (replaced(SWEEP, "--over", "h=0:1:1000000"), "at most 1000000 rows: use --store FOLDER"),
         ([*SWEEP, "--part", "3"], "'3' is not a part; write it like 3/40"),
         ([*SWEEP, "--store", "/proc/nowhere/at/all"], "cannot be written"),
+        ([*SWEEP, "--store", "1" * 300], "cannot be read (File name too long)"),
+        (["sweep", "--read", "1" * 300], "cannot be read (File name too long)"),
+        (["sweep", "--status", "1" * 300], "does not contain a sweep"),
     ],
 )
 def test_what_is_wrong_is_one_sentence(refusal, words, said):

@@ -370,7 +370,7 @@ def read(path: str | Path) -> xr.Dataset:
     import xarray as xr
 
     path = Path(path)
-    if path.is_file():
+    if _exists(path) and path.is_file():
         # Imported here, because only charts depend on scenes.
         from hess_explorer.sweep.chart_file import read_chart
 
@@ -396,9 +396,16 @@ def _failures(file: Path) -> dict[str, str]:
     return found
 
 
+def _exists(path: Path) -> bool:
+    try:
+        return path.exists()
+    except OSError as error:
+        raise StoreError(f"{str(path)!r} cannot be read ({error.strerror}); choose another folder.") from error
+
+
 def opened(path: Path, what: Quantity, grid: SweepGrid, level: str, parts: int = 1) -> Store | None:
     """Return the store of this sweep, or None if the path does not exist.  Raises `OtherSweep`, `StoreError`."""
-    if not path.exists() or (path.is_dir() and not any(path.iterdir())):
+    if not _exists(path) or (path.is_dir() and not any(path.iterdir())):
         return None
     held = _group(path, "r").attrs
     if held.get("program") == PROGRAM and held.get("quantity") != what.name:
