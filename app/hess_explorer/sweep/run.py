@@ -22,6 +22,7 @@ from hess_explorer.sweep.quantity import Outcome, Quantity, evaluate
 from hess_explorer.sweep.result import Memory, Storage, require_libraries
 from hess_explorer.sweep.store import FILES, Store, opened
 from hess_explorer.sweep.work import Chunk, cost_of_a_cell, version
+from hess_explorer.sweep.work import named as cell_name
 from hess_explorer.sweep.workers import WorkerCount, crew
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy, Level
@@ -92,7 +93,8 @@ def sweep(
         or "tls://…" is the address of a Dask scheduler, and a Client of Dask is used as it is; its workers need the
         same version of this package.
     progress : bool or callable, optional
-        True shows a progress bar; a function is called with a `Progress`.
+        True shows a progress bar, or prints a line every 30 seconds if standard error is not a terminal; a function is
+        called with a `Progress`.
     most_cells : int
         Maximum number of values.
     stop : threading.Event, optional
@@ -103,8 +105,9 @@ def sweep(
     Returns
     -------
     xarray.Dataset
-        The values, their `status` (see `Outcome` and `explain`) and, if available, the estimated `error`.  On one kind
-        of processor the values do not depend on `store`, `part` and `workers`.
+        The values, their `status` (see `Outcome` and `explain`) and, if available, the estimated `error`; the attribute
+        `failures` has the exceptions of up to 1000 failed cells, as JSON.  On one kind of processor the values do not
+        depend on `store`, `part` and `workers`.
 
     Raises
     ------
@@ -218,7 +221,7 @@ def _ctrl_c() -> Iterator[threading.Event]:
 
 
 def explain(found: xr.Dataset, **cell: float) -> str:
-    """Return a sentence on the status of a cell, which is computed once more.
+    """Return a sentence on the status of a cell, which is computed once more unless the text of its exception is kept.
 
     Parameters
     ----------
@@ -249,6 +252,9 @@ def explain(found: xr.Dataset, **cell: float) -> str:
         from hess_explorer.sweep.chart_file import chart_of
 
         return chart_of(found).why(*(cell[name] for name in axes))
+    failures = json.loads(found.attrs.get("failures", "{}"))
+    if (failure := failures.get(cell_name({name: cell[name] for name in axes}))) is not None:
+        return str(failure)
     if "source" in found.attrs:
         raise InvalidParameter(
             f"{found.attrs['quantity']} is a function of your own: call it with the values of the cell for the reason."
