@@ -43,6 +43,7 @@ __all__ = [
     "first_frame",
     "kaplan_yorke",
     "lyapunov_spectrum",
+    "no_chaos",
     "volume_sign",
 ]
 
@@ -55,6 +56,9 @@ LIMIT = 1e2
 """Largest condition of the frame; it multiplies the truncation error of a step at most."""
 _SLOW = 1e-2
 """Smallest |f| of a moving orbit, in units in which states are O(1): errors of f(y) are divided by it."""
+_RESTS, _ESCAPES = 1e-6, 10.0
+"""Largest |f| of a motion that has come to rest; least growth of the largest |y|, at least 1, from the first half of
+the time to the second of a motion that escapes: linear growth doubles it.  In units in which states are O(1)."""
 _ERRORS = 3.0
 _ONE_SIDED = 0.99865
 """Probability that a normal variable stays below three standard deviations."""
@@ -264,19 +268,41 @@ def ensemble_mean(values: Array) -> tuple[float, float]:
 
     Parameters
     ----------
-    values : Array, shape (m,)
-        The mean along each orbit, m ≥ 2.
+    values : Array, shape (m, 4)
+        The means along each orbit, m ≥ 2, over all the time and over three halves of it, see `window_rates`.
 
     Returns
     -------
     tuple of float
-        The mean, and the standard error of the scatter widened by Student's t for few orbits.
+        The mean over all the time, and its error: the standard error of the scatter, widened by Student's t for few
+        orbits, and the remainder that all orbits share, which no scatter shows: the difference of the halves.
     """
     count = len(values)
     from scipy.special import stdtrit  # imported here because it takes 0.1 s
 
     widened = float(stdtrit(count - 1, _ONE_SIDED)) / _ERRORS
-    return float(values.mean()), widened * float(np.std(values, ddof=1)) / math.sqrt(count)
+    whole, away = values[:, 0], values[:, 1:] - values[:, :1]
+    shared = away.mean(axis=0) ** 2 - away.var(axis=0, ddof=1) / count
+    scatter = widened * float(np.std(whole, ddof=1)) / math.sqrt(count)
+    return float(whole.mean()), math.hypot(scatter, math.sqrt(float(shared.max(initial=0.0))))
+
+
+def no_chaos(body: Body, problem: Problem, start: Array, states: Array) -> str:
+    """Return why a motion is not chaotic, however its neighbours part; an empty string if there is no reason.
+
+    start (d,) and states (n, d) at even times are in units of the problem.
+    """
+    system, p = body.system, problem.parameters.tolist()
+    integrals = system.integrals((start * problem.scale).tolist(), list(body.parameters))
+    if start.size - len(integrals) <= 2:
+        return "flows of two dimensions have no chaos"
+    with np.errstate(all="ignore"):
+        last = states[-(len(states) // 4) - 1 :].T
+        rates = np.array(np.broadcast_arrays(*system.field(list(last), p), last[0])[:-1])
+    if float(np.linalg.norm(rates, axis=0).max()) < _RESTS:
+        return "it rests"
+    early, late = (float(np.abs(one).max(initial=1.0)) for one in np.array_split(states, 2))
+    return "it escapes" if late > _ESCAPES * early else ""
 
 
 def first_frame(system: System, problem: Problem) -> tuple[Array, float]:
