@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -14,6 +15,8 @@ __all__ = ["bounded_series", "irregularity", "rotation_number", "window_rates"]
 
 _LEAST_REPEATS = 16
 """An orbit shows a part of period m if it is at least this many periods long."""
+_TOO_CLOSE = 1e-3
+"""Orbits on a curve come back within about 1/m of its size after m points, and rarely within a thousandth of that."""
 _ALL_ROUND = 0.85
 """Largest spread of the turns between successive points, in turns, for which a rotation number is defined."""
 
@@ -60,7 +63,8 @@ def irregularity(turns: Sequence[float], places: Array, precision: float) -> flo
     -------
     float
         The ratio, the largest over the functions: about 1 for chaos, 0.01 to 0.04 for chaos in narrow bands, less than
-        1e-3 for quasi-periodic orbits that have turned often enough.
+        1e-3 for quasi-periodic orbits that have turned often enough; ∞ for orbits that come back much closer than the
+        points of a curve do, as those of a long period.
 
     References
     ----------
@@ -73,8 +77,9 @@ def irregularity(turns: Sequence[float], places: Array, precision: float) -> flo
     weight = _weights(half)
     off = np.abs(weight @ (both[:half] - both[half : 2 * half]))
     most = max(1, len(places) // _LEAST_REPEATS)
-    closest = 1 + int(np.argmin([np.abs(apart(turns, places[m:], places[:-m])).max() for m in range(1, most + 1)]))
-    worst = 0.0
+    gaps = [float(np.abs(apart(turns, places[m:], places[:-m])).max()) for m in range(1, most + 1)]
+    closest = 1 + int(np.argmin(gaps))
+    worst = math.inf if closest * min(gaps) < _TOO_CLOSE * max(gaps) else 0.0
     for m in (1, closest):
         count = len(both) // m
         repeats = both[: count * m].reshape(count, m, -1)
@@ -93,8 +98,8 @@ def bounded_series(turns: Sequence[float], places: Array) -> Array:
             one
             for i, turn in enumerate(turns)
             for one in (
-                (np.cos(2.0 * np.pi * places[:, i] / turn), np.sin(2.0 * np.pi * places[:, i] / turn))
-                if np.isfinite(turn)
+                (np.cos(2.0 * math.pi * places[:, i] / turn), np.sin(2.0 * math.pi * places[:, i] / turn))
+                if math.isfinite(turn)
                 else (away[:, i] / size,)
             )
         ]

@@ -26,9 +26,11 @@ from hess_mechanics.dynamics.birkhoff import bounded_series, irregularity
 from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR, Megno, longest_span, megno
 from hess_mechanics.dynamics.orbit_diagram import SAME, period_of
 from hess_mechanics.dynamics.periodic import apart, find_periodic, place_units
-from hess_mechanics.dynamics.point_sets import SetDistance, set_distance
+from hess_mechanics.dynamics.point_sets import SetDistance, nearest, set_distance
 from hess_mechanics.dynamics.return_map import ReturnMap
+from hess_mechanics.dynamics.section import section
 from hess_mechanics.dynamics.spectrum import ensemble_mean, lyapunov_spectrum, volume_sign
+from hess_mechanics.dynamics.symmetry import sign_symmetries
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.dynamics.zero_one import LEAST, zero_one_of_bands
 from hess_mechanics.errors import ModelError, NoReturn, OutsideRegion, WorkLimit
@@ -62,16 +64,19 @@ _PRECISION = 1e3
 """Differences of averages that are no irregularity, in errors of the map: an orbit drifts by some of them."""
 _LINEAR = 0.1
 """Largest distance of MEGNO from 2 of motions whose neighbours part linearly, as those of tori do."""
-_FEWEST, _FEWEST_ATTRACTED = 800, 6000
+_FEWEST, _MANY = 800, 6000
 """Crossings that a motion without a period needs to count as quasi-periodic.  An attractor needs more: beyond a cascade
 of doublings it consists of bands, which only that many crossings show to be no curve."""
 _LONGEST_PERIOD = 256
 """Longest period that is tried; it has to repeat three times."""
-_CLOSED = 10.0
-"""Largest distance, in errors of the map, between points a period apart; also the largest |f| of a motion at rest."""
+_CLOSED = 100.0
+"""Largest distance, in errors of the map, between points a period apart: orbits of many returns repeat to some ten.
+Also the largest |f| of a motion at rest."""
 _INDEPENDENT = 400
 """Crossings after which orbits of an ensemble are taken for independent."""
 _MOST_CROSSINGS = 20_000
+_MIRRORED, _GRAINS = 16, 3.0
+"""Points of a motion whose mirror images are compared with it, and their largest distance in distances of its halves."""
 _TOUCHING = 0.005
 """Fraction of common points from which two sets count as touching.  It was 0.015 to 0.2 in samples of 1500 points of
 sets that touch, and 0 for sets that do not."""
@@ -105,6 +110,10 @@ _WORDS = {
     MotionKind.NO_PERIOD: f"regular, no period up to {_LONGEST_PERIOD}",
     MotionKind.SETTLING: "still settling",
 }
+
+
+_ON_ONE_SET = MotionKind.FIXED_POINT, MotionKind.PERIODIC, MotionKind.QUASI_PERIODIC
+"""Kinds of motions whose averages are the same forward and backward in time."""
 
 
 @dataclass(frozen=True)
@@ -227,7 +236,6 @@ class _Evidence:
     divergence_error: float
     regular: bool
     winds: bool
-    volume_kept: bool
 
     @property
     def grows(self) -> bool:
@@ -247,12 +255,10 @@ class _Evidence:
     @property
     def smooth(self) -> bool:
         """True if the motion lies on a smooth curve, by its averages or, for many crossings, by its neighbours."""
+        if self.winds or self.irregular < _SMOOTH:
+            return True
         linear = max(abs(self.early - 2.0), abs(self.late - 2.0)) < _LINEAR
-        return (
-            self.winds
-            or self.irregular < _SMOOTH
-            or (self.volume_kept and linear and self.crossings >= _FEWEST_ATTRACTED)
-        )
+        return linear and not self.attracted and self.crossings >= _MANY
 
     @property
     def kind(self) -> MotionKind:
@@ -265,7 +271,7 @@ class _Evidence:
             return MotionKind.UNDECIDED
         if not self.settled:
             return MotionKind.SETTLING
-        if self.crossings >= (_FEWEST_ATTRACTED if self.attracted else _FEWEST) and self.smooth:
+        if self.crossings >= (_MANY if self.attracted else _FEWEST) and self.smooth:
             return MotionKind.QUASI_PERIODIC
         return MotionKind.UNDECIDED
 
@@ -333,6 +339,8 @@ def regime(
         places, span = following, longer
         evidence = _evidence(map_, places, span)
     kind, measure = evidence.kind, map_.section.measure
+    if kind in _ON_ONE_SET and not (measure or evidence.attracted or map_.volume_kept):
+        measure = _reversor(map_, places)
     if kind is MotionKind.QUASI_PERIODIC and evidence.attracted and not _has_a_curve(map_, places[-1], span):
         kind = MotionKind.NO_PERIOD
     return Regime(
@@ -376,13 +384,10 @@ def _evidence(map_: ReturnMap, places: Array, span: float) -> _Evidence:
     # A periodic orbit is one whatever its neighbours do; of others an ensemble tells.
     found = [_indicated(map_, places[-1:] if period else _ensemble(map_, places), time) for time in (span / 2.0, span)]
     late = found[1]
-    mean, error = (
-        (float(late.divergence[0]), float(late.divergence_error[0]))
-        if len(late.values) == 1
-        else ensemble_mean(late.windows)
-    )
-    section, enough = map_.section, len(places) >= LEAST
-    winds = bool(section.integrable or section.measure)
+    windows = late.windows
+    mean, error = (windows[0, 0], np.ptp(windows)) if len(windows) == 1 else ensemble_mean(windows)
+    plane, enough = map_.section, len(places) >= LEAST
+    winds = bool(plane.integrable or plane.measure)
     return _Evidence(
         len(places),
         period,
@@ -391,11 +396,10 @@ def _evidence(map_: ReturnMap, places: Array, span: float) -> _Evidence:
         float(np.median(late.values)),
         zero_one_of_bands(bounded_series(map_.turns, places).sum(axis=1)) if enough else math.nan,
         irregularity(map_.turns, places, _PRECISION * map_.promise) if enough else math.inf,
-        mean,
-        error,
+        float(mean),
+        0.0 if map_.volume_kept else float(error) + map_.promise,
         winds or all(late.no_chaos),
         winds,
-        map_.volume_kept,
     )
 
 
@@ -412,7 +416,7 @@ def _period(map_: ReturnMap, places: Array) -> tuple[int, bool]:
 
 def _closes(map_: ReturnMap, places: Array, m: int) -> bool:
     """Return True if Newton's method finds an orbit of period m on which the points lie, or to which they tend."""
-    last, precision = places[-m:], _CLOSED * map_.promise
+    last, precision = places[-m:], min(SAME, _CLOSED * map_.promise)
     if m == 1 and _at_rest(map_, last[0], precision):
         # There is no return, but the motion is known: f(y) = 0.
         return True
@@ -426,7 +430,8 @@ def _closes(map_: ReturnMap, places: Array, m: int) -> bool:
         return False
     periods = len(places) // m
     away = np.abs(apart(map_.turns, places[-periods * m :].reshape(periods, m, -1), orbit.places)).max(axis=(1, 2))
-    if np.abs(apart(map_.turns, places[m:], places[:-m])).max() <= precision and away[-1] <= SAME:
+    closing = float(np.abs(apart(map_.turns, places[m:], places[:-m])).max())
+    if away[-1] <= precision or (closing <= precision and away[-1] <= SAME):
         return True
     # An attracting orbit is the limit if the distance falls as its multiplier says.
     rate = float(np.abs(orbit.multipliers).max()) + orbit.multiplier_error
@@ -456,6 +461,35 @@ def _ensemble(map_: ReturnMap, places: Array) -> Array:
 def _indicated(map_: ReturnMap, places: Array, t: float) -> Megno:
     states = map_.state_at(places)
     return megno(map_.section, states, -t if map_.backward else t, map_.accuracy, threads=1)
+
+
+def _reversor(map_: ReturnMap, places: Array) -> str:
+    """Return the reversor that takes a motion to itself, in words; an empty string if there is none.
+
+    As it changes the sign of the divergence and of time, the mean divergence of such a motion is 0.
+    """
+    plane = map_.section
+    halves = np.array_split(places, 2)
+    precision = _GRAINS * float(np.quantile(nearest(map_.turns, *halves), 0.95)) + _CLOSED * map_.promise
+    states = map_.state_at(places[:: -(-len(places) // _MIRRORED)])
+    for mirror in sign_symmetries(plane.system, plane.parameters):
+        if not mirror.reverses:
+            continue
+        try:
+            images = np.array(
+                [
+                    section(plane, one, plane.surface, map_.wait(places[-1]), map_.accuracy, 1).states[0]
+                    for one in mirror.signs * states
+                ]
+            )
+            there = plane.places_of(images)
+            # The image has to be on the same levels of the integrals.
+            same = float(np.abs(map_.state_at(there) - images).max()) <= SAME * max(1.0, float(np.abs(images).max()))
+        except (ModelError, IndexError):
+            continue
+        if same and float(nearest(map_.turns, there, places).max()) <= precision:
+            return f"the reversor {mirror.name} takes the motion to itself"
+    return ""
 
 
 def _has_a_curve(map_: ReturnMap, place: Array, t: float) -> bool:
