@@ -3,7 +3,7 @@
     Y(t) = (2/t) ∫₀ᵗ s d ln|δ(s)|,   Ȳ(t) = (1/t) ∫₀ᵗ Y ds,   δ from the variational equations.
 
 Ȳ tends to 2 on quasi-periodic motions, to at most 2 on motions that come to a stable rest or cycle, and grows as λt/2
-on chaotic ones.  It also grows on motions that stay at a saddle or escape, which are not chaotic: see `Megno.no_chaos`.
+on chaotic ones.  It also grows on unstable motions that rest, escape or close, which are not chaotic: see `Megno.no_chaos`.
 The values are the same for every system and need a single neighbour.  SALI would need two, and falls to 0 on the
 closed curves of a section, where neighbours have one direction only, as on chaotic motions.
 """
@@ -64,7 +64,7 @@ class Megno(Result):
     windows : ndarray, shape (n, 4)
         The same mean, and those over the first, middle and last half of that time.
     no_chaos : tuple of str
-        For each motion why it is not chaotic, whatever Ȳ is: it rests or escapes, or its phase space has two
+        For each motion why it is not chaotic, whatever Ȳ is: it rests, escapes or closes, or its phase space has two
         dimensions besides its integrals; empty where there is no such reason.
     level : str
         Name of the accuracy level.
@@ -216,7 +216,8 @@ def megno(
         scatter = batch_error(volume[first - 1 :, None], times)[1][0]
         found[:, i] = y.mean(), *windows, max(scatter, float(np.abs(windows[1:] - windows[0]).max())) + floor
         require_finite_rates(found[:, i])
-        reasons[i] = no_chaos(body, problem, problem.states[i], along)
+        state = problem.states[i] * problem.scale
+        reasons[i] = no_chaos(body, state, along, span, level, bool(y.mean() > CHAOTIC))
 
     share(one, count, threads, _SHARE)
     return Megno(
