@@ -95,6 +95,11 @@ class PoincareSection(Body, Protocol):
         """Name of the integrable case to which the body exactly belongs; empty if none is known."""
         return ""
 
+    @property
+    def measure(self) -> str:
+        """Smooth measure that all motions of the section preserve by a theorem, in words; empty if none is known."""
+        return ""
+
     def moved(self, name: str, value: float) -> PoincareSection:
         """Return the section at another value of a constant.  Raises a `ModelError` if there is none."""
 
