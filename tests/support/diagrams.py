@@ -1,8 +1,10 @@
-"""Orbit diagrams without a browser, and their return map on γ3 = 0 by SciPy."""
+"""Orbit diagrams without a browser, their return map on γ3 = 0 by SciPy, and the sets that many orbits come to."""
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from hess_explorer.compute.cache import CACHE
+from hess_mechanics import level
 from support.captions import as_text
 from support.mechanics import scipy_crossings
 
@@ -35,6 +37,19 @@ def multipliers(image, places, step=1e-4):
         sides = [[image(place + sign * step * axis) for sign in (1, -1)] for axis in np.eye(2)]
         M = np.column_stack([(a - b) / (2.0 * step) for a, b in sides]) @ M
     return np.array(sorted(np.linalg.eigvals(M), key=abs, reverse=True))
+
+
+def settled(section, count, kept, transient=300, forward=True):
+    """Return the late places (count, kept, 2) of orbits from starts all over a section."""
+    starts = section.spread(section.window, count)
+    found = section.points(starts, transient + kept, forward, level("standard"))
+    return np.array([section.places_of(states[transient:]) for states in found.states])
+
+
+def nearest(a, b):
+    """Return the distance (n,) of each place (ψ, δ) of one set from the nearest one of another."""
+    a, b = (np.column_stack([np.mod(one[:, 0], 2.0 * np.pi), one[:, 1]]) for one in (a, b))
+    return KDTree(b, boxsize=(2.0 * np.pi, 0.0)).query(a)[0]
 
 
 def distances(a, b):
