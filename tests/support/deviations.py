@@ -17,3 +17,8 @@ def deviations(values, bound, error=0.0):
     scatter = np.hypot(spread / np.sqrt(values.size), error)
     apart = np.mean(values) - bound
     return float(apart / scatter) if scatter else float(np.copysign(np.inf, apart))
+
+
+def mean_of(values):
+    """Return the mean of independent values and its standard error: the bound and error of a comparison."""
+    return float(np.mean(values)), float(np.std(values, ddof=1) / np.sqrt(len(values)))

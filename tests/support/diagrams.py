@@ -4,7 +4,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from hess_explorer.compute.cache import CACHE
-from hess_mechanics import level
+from hess_mechanics import ReturnMap, level
 from support.captions import as_text
 from support.mechanics import scipy_crossings
 
@@ -39,11 +39,16 @@ def multipliers(image, places, step=1e-4):
     return np.array(sorted(np.linalg.eigvals(M), key=abs, reverse=True))
 
 
+def spread(section, count, seed=1):
+    """Return random places (count, 2) where motions cross a section."""
+    found = np.random.default_rng(seed).uniform(*np.transpose(section.window), (50 * count, 2))
+    return found[section.states_at(*found.T)[1]][:count]
+
+
 def settled(section, count, kept, transient=300, forward=True):
     """Return the late places (count, kept, 2) of orbits from starts all over a section."""
-    starts = section.spread(section.window, count)
-    found = section.points(starts, transient + kept, forward, level("standard"))
-    return np.array([section.places_of(states[transient:]) for states in found.states])
+    map_ = ReturnMap(section, level("standard"), not forward)
+    return np.array([map_.orbit(place, transient + kept)[transient:] for place in spread(section, count)])
 
 
 def nearest(a, b):
