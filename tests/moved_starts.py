@@ -14,6 +14,7 @@ import sys
 from pathlib import Path
 
 from llvmlite.binding import get_host_cpu_features
+
 from support.measured import table
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -94,7 +94,9 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dim
     found = [lyapunov_spectrum(state.body, start, 4000.0) for start in starts]
     values = [one.values[0] for one in found]
     assert deviations(values, 0.02) > 5.0
-    assert abs(deviations([one.divergence for one in found], known.motion.divergence, known.motion.divergence_error)) < 5.0
+    assert (
+        abs(deviations([one.divergence for one in found], known.motion.divergence, known.motion.divergence_error)) < 5.0
+    )
     # λ1 + λ3 is the divergence: D = 2 + λ1/|λ3| = 3 + div/|λ3| of the means.
     D = 3.0 + known.motion.divergence / (np.mean(values) - known.motion.divergence)
     off = known.motion.divergence_error / (np.mean(values) - known.motion.divergence)

@@ -13,7 +13,7 @@ from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.suslov import free
 from support.deviations import deviations
 from support.lesson_on_constraints import free_body
-from support.moved import moved_starts
+from support.moved import from_moved_starts
 
 NAME = "how-do-we-know"
 STEPS = {step.title: step for step in shipped()[NAME].steps}
@@ -23,12 +23,8 @@ DIGITS = -math.log10(sys.float_info.epsilon)
 
 def moved_growth(values, of):
     """Decimal logarithms of the late "errors" or "pixels" of each level, from sixteen starts moved by a few ulps."""
-    found = {name: [] for name in LEVELS}
-    for seed in range(16):
-        with moved_starts(seed):
-            for name, course in getattr(growth(values), of).items():
-                found[name].append(math.log10(course[-20:].max()))
-    return found
+    found = from_moved_starts(lambda: getattr(growth(values), of))
+    return {name: [math.log10(one[name][-20:].max()) for one in found] for name in LEVELS}
 
 
 def growth(values):

@@ -32,3 +32,12 @@ def moved_starts(seed):
         yield
     finally:
         Problem.of = plain
+
+
+def from_moved_starts(compute, count=16):
+    """Return what a function computes from each of so many starts that are moved by a few ulps."""
+    found = []
+    for seed in range(count):
+        with moved_starts(seed):
+            found.append(compute())
+    return found
