@@ -479,7 +479,7 @@ def _reversor(map_: ReturnMap, places: Array) -> str:
             images = np.array(
                 [
                     section(plane, one, plane.surface, map_.wait(places[-1]), map_.accuracy, 1).states[0]
-                    for one in mirror.signs * states
+                    for one in map(mirror.image, states)
                 ]
             )
             there = plane.places_of(images)
