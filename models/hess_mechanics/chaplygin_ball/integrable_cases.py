@@ -128,6 +128,4 @@ def period(body: BallBody, state: Sequence[float], accuracy: Accuracy = "precise
             f"Up to t = {end:.6g} this orbit does not cross the equator γ3 = 0 twice: choose another start."
         )
     first, second = found.times.tolist()
-    return Period(
-        2.0 * (second - first), (first, second), level.name, found.status, 4.0 * found.time_error, found.cost
-    )
+    return Period(2.0 * (second - first), (first, second), level.name, found.status, 4.0 * found.time_error, found.cost)
