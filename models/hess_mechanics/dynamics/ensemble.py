@@ -127,7 +127,7 @@ def ensemble(
 
     out, steps, reached = run(problem, slice(None), level)
     done = steps >= 0
-    problems = problem, problem.nearby(out[done, -1] if done.any() else problem.states)
+    problems = problem, problem.nearby().rounded(out[done, -1])
     total = int(steps[done].sum())
     errors, scaled_errors = np.full(count, np.inf), np.zeros(count)
     todo = np.flatnonzero(done)

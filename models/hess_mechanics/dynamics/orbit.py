@@ -273,7 +273,8 @@ def solve(
     scaled_times = problem.times(times)
     longest = as_max_step(max_step, problem)
     most_steps = as_whole("max_steps", max_steps, 1, _MOST_STEPS)
-    problems = [problem, problem.nearby()]
+    nearby = problem.nearby()
+    problems = [problem, nearby]
 
     def run(at: Level, spent: int) -> tuple[Array, int]:
         own = problems[at.aside]
@@ -293,7 +294,7 @@ def solve(
             raise unfinished(problem, steps, end, out[reached], most_steps)
         require_finite_states(out)
         if not at.aside:
-            problems[1] = problem.nearby(out)
+            problems[1] = nearby.rounded(out)
         return out, steps
 
     found = measured(level, run, lambda one, other: float(np.abs(one - other).max()))

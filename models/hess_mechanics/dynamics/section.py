@@ -289,13 +289,14 @@ class _Search:
 
     def measured(self, i: int) -> SectionCrossings:
         """Return the crossings of orbit i, with an error estimate from a more accurate run with a nearby start."""
-        problems = [self.problem, self.problem.nearby()]
+        nearby = self.problem.nearby()
+        problems = [self.problem, nearby]
 
         def run(level: Level, spent: int) -> tuple[tuple[Array, Array], int]:
             own = problems[level.aside]
             crossings, steps = self.run(own, own.states[i], self.end, level, spent)
             if not level.aside:
-                problems[1] = self.problem.nearby(np.vstack((self.problem.states[i], crossings[1])))
+                problems[1] = nearby.rounded(np.vstack((self.problem.states[i], crossings[1])))
             return crossings, steps
 
         found = measured(self.level, run, self._apart)

@@ -364,7 +364,7 @@ class System:
         values, errors = np.array(found[: y.size]).T
         return values, errors
 
-    def rounding(self, states: Array, parameters: Array) -> Array:
+    def rounding(self, states: Array, parameters: Array) -> Array | None:
         """Return the mean round-off of the rates at states, as far as a moved start does not show it.
 
         A rate that is the difference of much larger numbers is wrong by more than a rounding of itself or of the state.
@@ -379,17 +379,19 @@ class System:
 
         Returns
         -------
-        ndarray, shape (d,)
-            Mean round-off of each rate; 0 if no rate cancels.
+        ndarray, shape (d,), or None
+            Mean round-off of each rate; None if no rate cancels.
         """
+        if self.rescale is not _as_it_is:
+            return None
         found = [np.zeros(len(self.variables))]
-        chosen = states[:: max(1, len(states) // _SAMPLES)] if self.rescale is _as_it_is else ()
-        for y in chosen:
+        for y in states[:: max(1, len(states) // _SAMPLES)]:
             with suppress(Undefined):  # at a removable zero of a divisor
                 values, errors = self.rates_with_rounding(y, parameters)
                 size = max(np.abs(y).max(), np.abs(values).max())
                 found.append(np.where(errors > _CANCELS * size, errors, 0.0))
-        return np.asarray(np.sum(found, axis=0) / max(1, len(found) - 1))
+        mean = np.asarray(np.sum(found, axis=0) / max(1, len(found) - 1))
+        return mean if mean.any() else None
 
     @cached_property
     def with_rounding(self) -> System:
@@ -680,16 +682,16 @@ class Problem:
             )
         return cls(system, np.ascontiguousarray(scaled.T), p, nu, scale)
 
-    def nearby(self, motion: Array | None = None) -> Problem:
-        """Return the same problem with starts that differ by roundings, see `measured.nearby`.
+    def nearby(self) -> Problem:
+        """Return the same problem with starts that differ by roundings, see `measured.nearby`."""
+        return replace(self, states=nearby(self.states))
 
-        If the field cancels at states (n, d) of its motion, the rates differ by their round-off, too.
-        """
-        moved = replace(self, states=nearby(self.states))
-        rounding = np.zeros(0) if motion is None else self.system.rounding(motion, self.parameters)
-        if not rounding.any():
-            return moved
-        return replace(moved, system=self.system.with_rounding, parameters=np.concatenate((self.parameters, rounding)))
+    def rounded(self, motion: Array) -> Problem:
+        """Return the problem with rates that are wrong by their round-off, if they cancel at states (n, d)."""
+        rounding = self.system.rounding(motion, self.parameters)
+        if rounding is None:
+            return self
+        return replace(self, system=self.system.with_rounding, parameters=np.concatenate((self.parameters, rounding)))
 
     def times(self, t: Array) -> Array:
         """Return the times (m,) in units of 1/ν; on overflow ∞, which no step limit reaches."""

@@ -19,7 +19,7 @@ import numpy as np
 
 from hess_mechanics.numerics.jit import inner, part
 from hess_mechanics.numerics.recursions import Recursion
-from hess_mechanics.numerics.step_kernels import checked, checks_all, step_of
+from hess_mechanics.numerics.step_kernels import checked, step_of, suspicion
 from hess_mechanics.numerics.taylor_kernels import (
     STEP_LIMIT_REACHED,
     STOPPED,
@@ -241,7 +241,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
     """
     n, columns = recursion.variables, columns_of(recursion)
     expand, evaluate, check = expansion(recursion), evaluation(n), checked(recursion)
-    always, watched = checks_all(recursion), len(recursion.watched)
+    suspects, watched = suspicion(recursion), len(recursion.watched)
     surface = surface or plane(n)
     along, height, counted, curved = surface.along, surface.height, surface.counted, surface.curved
     shorter = surface.shorter
@@ -289,7 +289,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
             remaining = direction * ((end - t) - t_low)
             most = min(longest, remaining)
             h = min(step_of(c, n, tolerance), most)
-            if always or h > 2.0 * before:
+            if suspects(seen, h, before):
                 h = check(c, seen, h, most, direction, parameters, tolerance)
             h = before = shorter(e, h)
             last = h >= remaining

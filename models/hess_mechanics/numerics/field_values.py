@@ -11,7 +11,8 @@ from hess_mechanics.numerics.recursions import below
 
 __all__ = ["Undefined", "values_with_rounding"]
 
-_UNIT = 2.0**-52
+_UNIT, _LARGEST = 2.0**-52, 1e200
+"""Relative size of a rounding; size from which the terms of a series overflow."""
 _LONGEST_TEXT, _DEEPEST_TEXT = 60, 8
 _ARITHMETIC: dict[str, Callable[[float, float], float]] = {"+": add, "-": sub, "*": mul, "/": truediv}
 
@@ -50,7 +51,7 @@ def values_with_rounding(
             found = _evaluated(node, [known[argument] for argument in node.arguments], y, p)
         except (ValueError, ArithmeticError):
             found = math.nan, math.nan
-        if not math.isfinite(found[0]):
+        if not abs(found[0]) < _LARGEST:
             raise Undefined(_reason(node, [known[argument][0] for argument in node.arguments], names))
         known[node] = found
     return [known[node] for node in nodes]
@@ -90,7 +91,7 @@ def _reason(node: Node, arguments: list[float], names: tuple[Sequence[str], Sequ
     texts = [_text(argument, names) for argument in node.arguments]
     if node.operation == "/" and arguments[1] == 0.0:
         return f"divides by {texts[1]}, which is 0"
-    if node.operation in FUNCTIONS:
+    if node.operation in FUNCTIONS and node.operation not in ("exp", "sinh", "cosh"):
         values = ", ".join(f"{value:.6g}" for value in arguments)
         return f"takes {node.operation} of {', '.join(texts)}, which is {values}"
     return f"exceeds the range of double precision in {_text(node, names)}"
@@ -99,8 +100,13 @@ def _reason(node: Node, arguments: list[float], names: tuple[Sequence[str], Sequ
 def _text(node: Node, names: tuple[Sequence[str], Sequence[str]]) -> str:
     """Return an expression as its author could have written it, shortened."""
     found = _written(node, names, _DEEPEST_TEXT)
-    found = found[1:-1] if found[0] == "(" and found[-1] == ")" else found
+    found = _bare(found)
     return found if len(found) <= _LONGEST_TEXT else f"{found[:_LONGEST_TEXT]}…"
+
+
+def _bare(text: str) -> str:
+    """Return an expression without the parentheses around all of it."""
+    return text[1:-1] if text[0] == "(" else text
 
 
 def _written(node: Node, names: tuple[Sequence[str], Sequence[str]], depth: int) -> str:
@@ -116,5 +122,5 @@ def _written(node: Node, names: tuple[Sequence[str], Sequence[str]], depth: int)
     if node.operation == "negative":
         return f"(-{texts[0]})"
     if node.operation in FUNCTIONS:
-        return f"{node.operation}({', '.join(texts)})"
+        return f"{node.operation}({', '.join(map(_bare, texts))})"
     return f"({f' {node.operation} '.join(texts)})"

@@ -19,7 +19,7 @@ from numba import float64, int64
 
 from hess_mechanics.numerics.jit import inner, part
 from hess_mechanics.numerics.recursions import Recursion
-from hess_mechanics.numerics.step_kernels import checked, checks_all, parts, step_of
+from hess_mechanics.numerics.step_kernels import checked, parts, step_of, suspicion
 from hess_mechanics.numerics.tracing import trace
 from hess_mechanics.numerics.unrolled import compiled, evaluation, items
 
@@ -194,7 +194,7 @@ def orbit_integrator(recursion: Recursion) -> Callable[..., Any]:
     """
     n, columns = recursion.variables, columns_of(recursion)
     expand, evaluate, check = expansion(recursion), evaluation(n), checked(recursion)
-    always, watched = checks_all(recursion), len(recursion.watched)
+    suspects, watched = suspicion(recursion), len(recursion.watched)
 
     @part
     def integrate(state, parameters, times, order, tolerance, longest, max_steps, out):
@@ -216,7 +216,7 @@ def orbit_integrator(recursion: Recursion) -> Callable[..., Any]:
             expand(c, left, right, inverses, parameters, seen)
             most = min(longest, direction * ((times[count - 1] - t) - t_low))
             h = min(step_of(c, n, tolerance), most)
-            if always or h > 2.0 * before:
+            if suspects(seen, h, before):
                 h = check(c, seen, h, most, direction, parameters, tolerance)
             while j < count:
                 s = (times[j] - t) - t_low

@@ -16,8 +16,8 @@ motion.
 
 A step depends on two kinds of expressions whose effect the series of the state may not show.  exp(x) and tanh(x) are
 constant in double precision where x is far from 0, and so are their series, whatever x does later: their arguments are
-`watched`.  A quotient whose numerator vanishes with its divisor is regular, but its series cannot start there: divisors
-are watched, too, in fields with functions.
+`watched`.  So are divisors: a quotient may be tiny where its divisor is large, and is regular where its numerator
+vanishes with the divisor, although its series cannot start there.  A square root divides its own rate.
 """
 
 from __future__ import annotations
@@ -64,9 +64,9 @@ def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> R
     tape, found = _record(field, variables, parameters, observed)
     functions = tape.functions(found, variables)
     watched = [(node.operation, node.arguments[0]) for node in functions if node.operation in _SATURATED]
-    if functions:
-        quotients = [node for node in below(found[:variables]) if node.operation == "/" and node.arguments[1].moves]
-        watched += dict.fromkeys(("/", node.arguments[1]) for node in quotients)
+    quotients = [node for node in below(found[:variables]) if node.operation == "/" and node.arguments[1].moves]
+    divisors = [*(node.arguments[1] for node in quotients), *(node for node in functions if node.operation == "sqrt")]
+    watched += [("/", node) for node in dict.fromkeys(divisors)]
     rates = [*found[:variables], *functions.values(), *found[variables:], *(node for _, node in watched)]
     kinds = tuple(kind for kind, _ in watched)
     plain = Series(tape, variables, [*functions], multiplies_out=True).recursion(rates, parameters, kinds)

@@ -20,7 +20,7 @@ import numpy as np
 from hess_mechanics.numerics.expressions import Symbol
 from hess_mechanics.numerics.jit import inner, part
 from hess_mechanics.numerics.recursions import Recursion
-from hess_mechanics.numerics.step_kernels import checked, checks_all, last_terms, step_size
+from hess_mechanics.numerics.step_kernels import checked, last_terms, step_size, suspicion
 from hess_mechanics.numerics.taylor_kernels import (
     STEP_LIMIT_REACHED,
     STOPPED,
@@ -204,7 +204,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
     n, width, lanes, last_seen = recursion.variables, columns_of(recursion), _lanes(columns), recursion.observed - 1
     watched = len(recursion.watched)
     expand, evaluate, check = expansion(recursion), evaluation(n), checked(recursion)
-    always = checks_all(recursion)
+    suspects = suspicion(recursion)
     carry = compiled(carrying_source(of, lanes))["carry"]
     evaluate_row = evaluation(lanes)
     known = int(ahead)
@@ -254,7 +254,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
             previous = max(previous, largest_entry(v[order - 1], n, columns) / size)
             most = direction * ((times[count - 1] - t) - t_low)
             h = min(step_size(last, previous, order, tolerance), most)
-            if always or h > 2.0 * before:
+            if suspects(seen, h, before):
                 h = check(c, seen, h, most, direction, parameters, tolerance)
             while sample < count:
                 s = (times[sample] - t) - t_low
