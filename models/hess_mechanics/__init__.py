@@ -2,6 +2,7 @@
 
 The most used names can be imported from this package.  Each subject has a module of its own, such as `suslov.quartic`;
 models/README.md lists them with the paper's equations.  `hess-explorer docs` opens the documentation of all of them.
+Functions that are imported from this package check their arguments against their annotations.
 
 Examples
 --------
@@ -10,7 +11,22 @@ Examples
 'hyperbolic'
 """
 
+from types import FunctionType
+from typing import Any
+
 import lazy_loader
 
 # The names of the stub beside this file; each module is imported when one of its names is used first.
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+_found, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+
+
+def __getattr__(name: str) -> Any:
+    """Return a name of the package; its functions check their arguments against their annotations."""
+    found = _found(name)
+    if isinstance(found, FunctionType):
+        from hess_mechanics.numerics.arguments import typed
+
+        found = typed(found)
+        found.__module__ = __name__
+    globals()[name] = found
+    return found

@@ -27,9 +27,9 @@ from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import Accuracy, Computation, plan
-from hess_mechanics.numerics.arguments import as_a, as_level, as_number, as_pairs, as_place, as_whole
+from hess_mechanics.numerics.arguments import as_level, as_number, as_pairs, as_place, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.quartic import QuarticBody, QuarticSection
 from hess_mechanics.suslov.section import SuslovSection, require_reached
@@ -104,6 +104,9 @@ def return_map(
     surface: tuple[str, float] | None = None,
     coordinates: str | Sequence[str] | None = None,
     window: Sequence[tuple[float, float]] | None = None,
+    sense: int = 1,
+    backward: bool = False,
+    longest: float | None = None,
     accuracy: Accuracy = "precise",
 ) -> ReturnMap:
     """Return the return map of a Poincaré section of a body at fixed values of its integrals.
@@ -115,7 +118,7 @@ def return_map(
     - `HeavyBody`: the Andoyer–Deprit section at `h` and `f`, coordinates (l, L/G).
     - `HessBody`: a circle on the torus (`h`, `f`) in units b = 1, coordinate φ.
     - `QuarticBody`: the section of the plane motion at the body's own energy, coordinates (q, p).
-    - Any other system, `System.at`: a variable increases through a value, and one or two others are the coordinates.
+    - Any other system, `System.at`: a variable passes a value, and one or two others are the coordinates.
       The rest follows from `integrals`, of which `E`, `h` and `f` are short forms.
 
     Parameters
@@ -135,12 +138,18 @@ def return_map(
     integrals : mapping of str to float, optional
         Values of first integrals of any other system, by name.
     surface : (str, float), optional
-        The variable of any other system that increases through a value.  By default the first, through 0.
+        The variable of any other system that passes a value.  By default the first, through 0.
     coordinates : str or sequence of str, optional
         Coordinates of the section of any other system, one or two of its variables.  By default those on which the
         rate of the surface's variable depends least.
     window : sequence of (float, float), optional
         Range of each of these coordinates.
+    sense : {1, -1}, default 1
+        Count crossings of any other system with increasing (1) or decreasing (−1) variable.
+    backward : bool, default False
+        Map backward in time, as `ReturnMap.inverse` does.
+    longest : float, optional
+        Longest time to wait for a return, in units of the problem.  The default is enough for most motions.
     accuracy : str or Level, default "precise"
         Accuracy level.
 
@@ -173,13 +182,15 @@ def return_map(
         found = AndoyerSection(body, at[0], at[1], as_whole("sheet", sheet, 0, 2))
     elif isinstance(body, ParametrizedSystem):
         given = {name: value for name, value in asked.items() if value is not None}
-        found = variable_section(body, {**given, **(integrals or {})}, surface, coordinates, window)
+        found = variable_section(body, {**given, **(integrals or {})}, surface, coordinates, window, sense)
     elif isinstance(body, QuarticBody):
         _given(asked)
         found = QuarticSection(body)
     else:
-        found = TorusSection(as_a(HessBody, body).a, *_given(asked, "h", "f"))
-    return ReturnMap(found, as_level(accuracy))
+        found = TorusSection(body.a, *_given(asked, "h", "f"))
+    if longest is not None and not longest > 0.0:
+        raise InvalidParameter(f"longest = {longest:g} is no waiting time: choose a positive number.")
+    return ReturnMap(found, as_level(accuracy), backward, longest)
 
 
 def section_orbits(
@@ -229,7 +240,7 @@ def section_orbits(
         if len(starts)
         else _spread(section, as_whole("orbits", orbits, 1, _MOST_ORBITS))
     )
-    end = _TURNS * count * section.slowness / Problem.of(section, states).nu
+    end = count * (map_.longest or _TURNS * section.slowness / Problem.of(section, states).nu)
     found = section_points(
         section,
         states,
@@ -295,7 +306,7 @@ def periodic_orbit(map_: ReturnMap, at: Sequence[float], period: int | None = No
     'stable node'
     """
     found = find_periodic(map_, at, None if period is None else as_whole("period", period, 1, MAX_PERIOD))
-    return replace(found, symmetric=tuple(map_.symmetries_of(found.places)))
+    return replace(found, symmetric=tuple(map_.symmetries_of(found.places)), time=abs(map_.time_of(found.places)))
 
 
 def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, points: int = 200) -> Branch:
@@ -338,15 +349,18 @@ def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: f
     >>> branch.kinds[0], len(branch.bifurcations)
     ('stable node', 0)
     """
-    return continued(
+    branch = continued(
         lambda value: map_.moved(parameter, value),
         orbit,
         parameter,
         map_.constant(parameter),
-        as_number("to", to),
+        to,
         as_whole("points", points, 2, 2000),
-        lambda one, places: one.symmetries_of(places) if isinstance(one, ReturnMap) else (),
+        lambda one, places, near: one.symmetries_of(places, near) if isinstance(one, ReturnMap) else (),
     )
+    along = zip(branch.values.tolist(), branch.places, strict=True)
+    times = [abs(map_.moved(parameter, value).time_of(places)) for value, places in along]
+    return replace(branch, times=frozen(np.array(times)))
 
 
 def manifold(
@@ -406,12 +420,12 @@ def manifold(
     return grown(
         map_,
         saddle,
-        as_number("length", length),
+        length,
         stable,
         side,
         place,
-        as_number("sagitta", sagitta),
-        as_number("longest", longest),
+        sagitta,
+        longest,
     )
 
 
@@ -455,6 +469,8 @@ def orbit_diagram(
     ------
     InvalidParameter
         If there is no such parameter, or a number is out of range.
+    OutsideRegion
+        If no motion crosses the section at the point, for all values.
     WorkLimit
         If the diagram has too many points.
 
@@ -470,7 +486,11 @@ def orbit_diagram(
     transient, kept = as_whole("transient", transient, 0, 20_000), as_whole("kept", kept, 1, 20_000)
     if len(np.atleast_1d(values)) * kept > _MOST_PLACES:
         raise WorkLimit(f"An orbit diagram has at most {_MOST_PLACES} places: choose fewer values, or crossings kept.")
-    return diagram_over(lambda value: map_.moved(parameter, value), parameter, values, place, transient, kept, follow)
+    found = diagram_over(lambda value: map_.moved(parameter, value), parameter, values, place, transient, kept, follow)
+    if not any(map(len, found.places)):
+        # Say why.
+        map_.moved(parameter, float(found.values[0])).state_at(np.array(place))
+    return found
 
 
 def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, most: int = 6) -> Cascade:
@@ -516,16 +536,13 @@ def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: 
         parameter,
         orbit,
         map_.constant(parameter),
-        as_number("to", to),
+        to,
         as_whole("most", most, 1, 6),
     )
 
 
 def _given(asked: dict[str, float | None], *names: str) -> list[float]:
-    """Return the values of these integrals; any other integral must be absent.
-    =>
-                raise OutsideRegion("No motion crosses the section here: choose a larger energy.")
-    """
+    """Return the values of these integrals; any other integral must be absent.  Raises `InvalidParameter`."""
     lost = [name for name in names if asked[name] is None]
     if lost:
         raise InvalidParameter(f"The section of this body lies at given {' and '.join(names)}: give {lost[0]}.")

@@ -18,6 +18,7 @@ import numpy as np
 
 from hess_mechanics.chaplygin_ball.equations import BallBody, kinetic_energy
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
+from hess_mechanics.numerics.arguments import as_a
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.inertia import require_finite
 
@@ -70,6 +71,7 @@ class Strip:
     h: float
 
     def __post_init__(self) -> None:
+        as_a(BallBody, self.body)
         require_finite(h=self.h)
         if any(self.body.parameters[5:]):
             raise InvalidParameter("The strip between two ellipses needs a ball without a field: set b1 = b2 = b3 = 0.")

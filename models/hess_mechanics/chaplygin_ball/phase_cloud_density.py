@@ -107,15 +107,16 @@ def density(cloud: Cloud) -> Density:
     low = max(SMALLEST, float(cloud.log_s.min()))
     first = math.floor(low / BIN)
     edges = BIN * np.arange(first, max(first + 1, math.floor(float(cloud.log_s.max()) / BIN) + 1) + 1, dtype=float)
-    # The time that each point spends per unit of ln|s| in the end, where ln|s| decreases at a constant rate.
+    # The share of time that each point spends per unit of ln|s| in the end, where ln|s| decreases at a constant rate.
+    last = cloud.times.size - 1
     late = 3 * cloud.times.size // 4
-    rate = np.abs(cloud.log_s[:, -1] - cloud.log_s[:, late]) / abs(cloud.times[-1] - cloud.times[late])
+    change = float(np.median(np.abs(cloud.log_s[:, -1] - cloud.log_s[:, late])))
     return Density(
         frozen(0.5 * (edges[1:] + edges[:-1])),
         histogram(cloud, 0, edges),
         histogram(cloud, -1, edges),
         occupation(cloud, edges),
-        1.0 / float(np.median(rate) * abs(cloud.times[-1])),
+        (last - late) / last / change if change else math.inf,
     )
 
 

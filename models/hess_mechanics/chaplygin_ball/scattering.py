@@ -274,14 +274,15 @@ def ball_scattering(
     states, before = starts(strip, theta_minus, phis, distance)
     _, rates = _speed_and_rate(strip, np.array([theta_minus, *np.linspace(0.0, math.pi, 33)]))
     # Departure from N^u at the rate of θ⁻, approach to N^s at that of the slowest circle; the factors cover the middle.
-    span = math.log(4.0 / abs(distance)) / rates[0] + math.log(40.0 / level.promise) / rates.min()
+    with np.errstate(divide="ignore"):
+        span = math.log(4.0 / abs(distance)) / rates[0] + math.log(40.0 / level.promise) / rates.min()
     # Steps must resolve the small distance, which determines the departure; half the promise is for other errors.
     tight = Level(
         level.name, 0.5 * level.promise, max(0.01 * abs(distance) * level.promise, REFERENCE.tolerance), REFERENCE.order
     )
     nu = float(np.max(SYSTEM.frequency(states.T, np.array(body.parameters))))
     steps = _STEPS * (1e-9 / tight.tolerance) ** (1.0 / tight.order) * (nu + rates.max()) * span * phis.size
-    if steps > most_steps:
+    if not steps <= most_steps:
         raise WorkLimit(
             f"γ settles on its circle so slowly that θ⁺ takes about {steps:.0e} steps: choose larger I13 or "
             "I23, or a smaller 𝒟."

@@ -53,8 +53,10 @@ _SHARES, _HALVINGS = (0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95), 24
 MapFamily = Callable[[float], Map]
 """Function from λ to the map.  Raises a `ModelError` if there is none."""
 
-Symmetric = Callable[[Map, Array], Sequence[str]]
-"""Function of the map and the points (m, d) of an orbit that returns the names of the orbit's symmetries."""
+Symmetric = Callable[[Map, Array, float], Sequence[str]]
+"""Function of the map, the points (m, d) of an orbit and a distance that returns the names of its symmetries."""
+_ASIDE = 1e-3
+"""Distance aside at which the other branch of a crossing is tested for symmetries."""
 
 
 @dataclass(frozen=True)
@@ -111,6 +113,8 @@ class Branch(Result):
         Reason why the branch ends.
     level : str
         Name of the accuracy level.
+    times : ndarray, shape (n,), or None
+        Time of one period of each orbit; None if the map does not know it.
     heading : (ndarray, float) or None
         Tangent at the last point and length of the next step; None if the branch cannot be continued.
     """
@@ -125,6 +129,7 @@ class Branch(Result):
     bifurcations: tuple[Bifurcation, ...]
     ended: str
     level: str
+    times: Array | None = None
     heading: tuple[Array, float] | None = None
 
     @property
@@ -156,10 +161,11 @@ class Branch(Result):
             {
                 **components(self.names, self.places[:, 0], *along),
                 **parts,
+                **({} if self.times is None else {"time": (along, self.times)}),
                 "kind": (along, np.array(self.kinds)),
                 "error": (along, self.errors),
             },
-            place_units(self.names),
+            {"time": "T", **place_units(self.names)},
             {
                 "period": self.period,
                 "level": self.level,
@@ -435,7 +441,7 @@ def _followed(
         tuple(_told_apart(bifurcations)),
         ended or f"After {points} points.",
         track.level,
-        None if ended else (frozen(t.copy()), step),
+        heading=None if ended else (frozen(t.copy()), step),
     )
 
 
@@ -555,9 +561,10 @@ def _first_of(
 
 def _pitchfork(map_: Map, places: Array, point: _Point, symmetries: Symmetric) -> str:
     """Return "pitchfork" if the orbit is symmetric and those of the other branch are not, else "branch point"."""
-    own = set(symmetries(map_, places))
+    own = set(symmetries(map_, places, 1e-7))
     if not own:
         return "branch point"
     away = np.linalg.svd(point.shot.jacobian)[2][-1].reshape(places.shape)
-    aside = set(symmetries(map_, places + 1e-3 * away / np.abs(away).max()))
+    # A symmetry that shifts the phase is exact only to second order: it returns to the section along the motion.
+    aside = set(symmetries(map_, places + _ASIDE * away / np.abs(away).max(), 0.1 * _ASIDE))
     return "pitchfork" if own - aside else "branch point"

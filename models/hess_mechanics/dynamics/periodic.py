@@ -230,6 +230,8 @@ class PeriodicOrbit(Result):
         How the computation ended.
     symmetric : tuple of str
         Symmetries of the map that take the orbit to itself.
+    time : float
+        Time of one period; NaN if the map does not know it.
     """
 
     names: tuple[str, ...]
@@ -243,6 +245,7 @@ class PeriodicOrbit(Result):
     level: str
     status: Status
     symmetric: tuple[str, ...] = ()
+    time: float = math.nan
 
     @property
     def period(self) -> int:
@@ -264,6 +267,7 @@ class PeriodicOrbit(Result):
             place_units(self.names),
             {
                 "period": self.period,
+                "time": self.time,
                 "kind": self.kind,
                 **multipliers,
                 "multiplier_error": self.multiplier_error,

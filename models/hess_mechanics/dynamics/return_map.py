@@ -25,11 +25,12 @@ from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.orbit import MAX_STEPS, require_finite_states, require_steps
 from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.dynamics.section import Surface
-from hess_mechanics.dynamics.symmetry import Mirror, sign_symmetries
+from hess_mechanics.dynamics.symmetry import Mirror, symmetries
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.dynamics.variation import onto_surface
-from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion
+from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.arguments import as_number, as_whole
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask
 
@@ -42,6 +43,8 @@ _WAIT = 2000.0
 """Time limit for the next crossing of a single orbit, in the same units."""
 _AROUND = 2.0 ** np.arange(-10.0, 1.0)
 """Distances, in units of the promise, at which the edge of the section is looked for."""
+_MOST = 1_000_000
+"""Largest number of returns."""
 _PIECE = 50
 """Crossings per call of the kernel."""
 _STEP = 2e-3
@@ -122,11 +125,15 @@ class ReturnMap:
         Accuracy level.
     backward : bool, default False
         Map backward in time instead of forward.
+    longest : float, optional
+        Longest time of a return, in units of the problem.  By default 2000/ν times the slowness of the section, and
+        400/ν in Newton's method, which tries many points.
     """
 
     section: PoincareSection
     accuracy: Level
     backward: bool = False
+    longest: float | None = None
 
     @property
     def turns(self) -> tuple[float, ...]:
@@ -194,7 +201,7 @@ class ReturnMap:
             If there is no such constant.
         """
         self.constant(name)
-        return replace(self, section=self.section.moved(name, value))
+        return replace(self, section=self.section.moved(name, as_number(name, value)))
 
     def constant(self, name: str) -> float:
         """Return the value of a constant of the section.
@@ -214,9 +221,9 @@ class ReturnMap:
         InvalidParameter
             If there is no such constant; the message lists all of them.
         """
-        if name not in self.section.constants:
+        if not isinstance(name, str) or name not in self.section.constants:
             raise InvalidParameter(
-                f"There is no {name} here to change: choose one of {', '.join(self.section.constants)}."
+                f"There is no {name} here to change: choose one of {', '.join(self.section.constants) or 'none'}."
             )
         return self.section.constants[name]
 
@@ -238,7 +245,7 @@ class ReturnMap:
         OutsideRegion
             If no motion crosses the section at a point.
         """
-        places = np.asarray(place, float)
+        places = self._places(place)
         states, there = self.section.states_at(*np.atleast_2d(places).T)
         for i in np.flatnonzero(~there):
             # A computed point may lie beyond the edge by its error: take the nearest of some points around it.
@@ -301,7 +308,7 @@ class ReturnMap:
         WorkLimit
             If the returns need too many steps.
         """
-        places = np.asarray(place, float)
+        places, count = self._places(place), as_whole("count", count, 0, _MOST)
         if count == 0:
             return places
         problem, _, states = self._crossings(self.state_at(np.atleast_2d(places)), count, _LONGEST)
@@ -333,13 +340,13 @@ class ReturnMap:
         """
         section = self.section
         parts = [np.empty((0, len(self.turns)))]
-        left, place = count, np.asarray(place, float)
-        problem, search = self._search(self.state_at(place)[None])
+        left = as_whole("count", count, 0, _MOST)
+        problem, search = self._search(np.atleast_2d(self.state_at(place)))
         start = problem.states[0]
         while left > 0:
             go_on()
             wanted = min(left, _PIECE)
-            found, times, states = search(start, wanted + 1, _WAIT)
+            found, times, states = search(start, wanted + 1, self._limit(problem, _WAIT))
             require_steps(
                 found,
                 f"{wanted} returns need more than {MAX_STEPS} steps here: choose another place, or a cheaper level.",
@@ -382,22 +389,23 @@ class ReturnMap:
         OutsideRegion
             If no motion crosses the section at the point.
         """
-        return _WAIT * self.section.slowness / Problem.of(self.section, [self.state_at(place)]).nu
+        problem = Problem.of(self.section, np.atleast_2d(self.state_at(place)))
+        return self._limit(problem, _WAIT) * self.section.slowness / problem.nu
 
     def time_of(self, place: Array, count: int = 1) -> float:
         """Return the time that several returns from a point take.
 
         Parameters
         ----------
-        place : array_like, shape (k,)
-            Coordinates of the point.
+        place : array_like, shape (k,) or (m, k)
+            Coordinates of the point, or of several points whose times are added.
         count : int, default 1
             Number of returns.
 
         Returns
         -------
         float
-            Time, in units of the problem.
+            Time, in units of the problem; negative for a map backward in time.
 
         Raises
         ------
@@ -408,8 +416,8 @@ class ReturnMap:
         WorkLimit
             If the returns need too many steps.
         """
-        problem, times, _ = self._crossings(self.state_at(place)[None], count, _WAIT)
-        return float(times[0] / problem.nu)
+        problem, times, _ = self._crossings(np.atleast_2d(self.state_at(place)), count, _WAIT)
+        return float(times.sum() / problem.nu)
 
     def with_derivative(self, place: Array) -> tuple[Array, Array]:
         """Return the image of a point and the derivative of the map there.
@@ -435,7 +443,7 @@ class ReturnMap:
         WorkLimit
             If a return needs too many steps.
         """
-        places = np.asarray(place, float)
+        places = self._places(place)
         several = np.atleast_2d(places)
         problem, times, ends = self._crossings(self.state_at(several), 1, _LONGEST)
         section, scale = self.section, problem.scale
@@ -450,6 +458,22 @@ class ReturnMap:
         found = np.asarray(section.places_of(states))
         derivatives = self._in_plane(states, found, moved.swapaxes(1, 2))
         return found.reshape(places.shape), derivatives.reshape(*places.shape, places.shape[-1])
+
+    def _places(self, place: Array) -> Array:
+        """Return coordinates as an array (k,) or (m, k).  Raises `InvalidParameter`."""
+        try:
+            places = np.atleast_1d(np.asarray(place, float))
+        except (TypeError, ValueError, OverflowError):
+            places = np.empty(0)
+        if places.ndim > 2 or places.shape[-1] != len(self.names):
+            raise InvalidParameter(
+                f"A point of the section consists of {len(self.names)} numbers here: {', '.join(self.names)}."
+            )
+        return places
+
+    def _limit(self, problem: Problem, default: float) -> float:
+        """Return the time limit of a return, in units of 1/ν times the slowness of the section."""
+        return default if self.longest is None else self.longest * problem.nu / self.section.slowness
 
     def _flow(self, problem: Problem, times: Array) -> tuple[Array, Array]:
         """Return the derivative (m, d, d − 1) of the flow along orthonormal directions, and these, (m, d, d − 1).
@@ -517,6 +541,7 @@ class ReturnMap:
     def _crossings(self, starts: Array, count: int, longest: float) -> tuple[Problem, Array, Array]:
         """Return the scaled problem, and times (m,) and states (m, d) of the crossings with this number."""
         problem, search = self._search(starts)
+        longest = self._limit(problem, longest)
         times, states = np.empty(len(starts)), np.empty_like(problem.states)
         for i, start in enumerate(problem.states):
             go_on()
@@ -529,9 +554,10 @@ class ReturnMap:
                 wanted += 1
             require_steps(found, _TOO_LONG)
             if found < wanted:
+                limit = longest * count * self.section.slowness / problem.nu
                 raise NoReturn(
                     f"From here the motion did not return to the section {_times(count)} within t = "
-                    f"{longest * count * self.section.slowness / problem.nu:.4g}: choose another place."
+                    f"{limit:.4g}: choose another place, or a larger `longest`."
                 )
             times[i], states[i] = all_times[-1], all_states[-1]
         require_finite_states(states)
@@ -589,58 +615,63 @@ class ReturnMap:
 
     @cached_property
     def mirrors(self) -> tuple[Mirror, ...]:
-        """Sign changes of variables that map this section to itself and motions to motions, possibly reversed."""
-        return tuple(
-            one
-            for one in sign_symmetries(self.section.system, self.section.parameters)
-            if self._mirrored(one) is not None
-        )
+        """Symmetries of the system that map motions through this section to such motions, possibly reversed."""
+        for shares in evenly(_TRIED - 1).T:
+            place = np.array(
+                [low + share * (high - low) for share, (low, high) in zip(shares, self.section.window, strict=False)]
+            )
+            try:
+                state = self.state_at(place)
+                known = symmetries(self.section.system, self.section.parameters, state)
+                return tuple(one for one in known if self.mirrored(one, place) is not None)
+            except (OutsideRegion, InvalidParameter):
+                continue
+        return ()
 
     def mirrored(self, mirror: Mirror, place: Array) -> Array | None:
-        """Return the mirror image of a point.
+        """Return the mirror image of a point, or where the motion through its mirror image crosses the section next.
 
         Parameters
         ----------
         mirror : Mirror
-            Sign change of variables.
+            A symmetry of the system.
         place : array_like, shape (k,)
             Coordinates of the point.
 
         Returns
         -------
         ndarray, shape (k,), or None
-            Coordinates of the mirror image; None if it is not on the section.
+            Coordinates of the image; None if the motion through it does not cross the section.
 
         Raises
         ------
         OutsideRegion
             If no motion crosses the section at the point.
         """
-        state = mirror.signs * self.state_at(place)
+        state = mirror.image(self.state_at(place))
         image = np.asarray(self.section.places_of(state[None])[0])
         states, there = self.section.states_at(*(np.array([x]) for x in image))
         size = max(1.0, float(np.abs(state).max()))
-        return image if there[0] and float(np.abs(states[0] - state).max()) < 1e-9 * size else None
+        turns = [
+            2.0 * math.pi if name in self.section.system.angles else math.inf for name in self.section.system.variables
+        ]
+        if there[0] and float(np.abs(apart(turns, states[0], state)).max()) < 1e-9 * size:
+            return image
+        try:
+            problem, _, ends = self._crossings(state[None], 1, _LONGEST)
+        except (NoReturn, WorkLimit):
+            return None
+        return np.asarray(self.section.places_of(ends * problem.scale)[0])
 
-    def _mirrored(self, mirror: Mirror) -> Array | None:
-        """Return the mirror image of the first of a few points that motions cross."""
-        for shares in evenly(_TRIED - 1).T:
-            place = np.array(
-                [low + share * (high - low) for share, (low, high) in zip(shares, self.section.window, strict=False)]
-            )
-            try:
-                return self.mirrored(mirror, place)
-            except (OutsideRegion, InvalidParameter):
-                continue
-        return None
-
-    def symmetries_of(self, places: Array) -> Sequence[str]:
+    def symmetries_of(self, places: Array, near: float = 1e-7) -> Sequence[str]:
         """Return the symmetries of an orbit.
 
         Parameters
         ----------
         places : ndarray, shape (m, k)
             Points of the orbit.
+        near : float, default 1e-7
+            Distance within which the image of a point is another point of the orbit; at least 1000 times the error.
 
         Returns
         -------
@@ -652,7 +683,7 @@ class ReturnMap:
             images = [self.mirrored(mirror, place) for place in places]
             if all(
                 image is not None
-                and np.abs(apart(self.turns, places, image)).max(axis=1).min() < max(1e-7, 1e3 * self.promise)
+                and np.abs(apart(self.turns, places, image)).max(axis=1).min() < max(near, 1e3 * self.promise)
                 for image in images
             ):
                 found.append(mirror.name)

@@ -249,6 +249,8 @@ class _Search:
         if not 1 <= crossings <= MAX_CROSSINGS:
             raise WorkLimit(f"The number of crossings must lie between 1 and {MAX_CROSSINGS}.")
         problem = Problem.of(body, states)
+        if not hasattr(plane, "scaled"):
+            raise InvalidParameter("A section needs a surface, such as Plane(normal, offset).")
         plane.scaled(body.system, problem)
         starts = np.array(states, float, ndmin=2)
         longest = as_max_step(max_step, problem)

@@ -1,4 +1,4 @@
-"""Symmetries and reversors by sign changes S with f(S y) = ±S f(y), found from the field itself.
+"""Symmetries and reversors: maps S of the states with S′ f = ±f∘S, changes of sign or declared by a system.
 
 With the upper sign, S maps motions to motions; with the lower one, to motions backward in time: S is a reversor.
 """
@@ -6,26 +6,41 @@ With the upper sign, S maps motions to motions; with the lower one, to motions b
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
+from operator import mul
 
 import numpy as np
 
 from hess_mechanics.dynamics.system import System
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array
 
-__all__ = ["Mirror", "sign_symmetries"]
+__all__ = ["Mirror", "sign_symmetries", "symmetries"]
 
 _TRIED = 6
 
 
 @dataclass(frozen=True)
 class Mirror:
-    """A sign change (d,) of the variables; `reverses` is True for a reversor."""
+    """A symmetry; `image` maps a state (d,) to a state; `reverses` is True for a reversor."""
 
     name: str
-    signs: Array
+    image: Callable[[Array], Array]
     reverses: bool
+
+
+def symmetries(system: System, parameters: Sequence[float], state: Array) -> tuple[Mirror, ...]:
+    """Return the symmetries of a system at these parameters: changes of sign, and those that it declares.
+
+    A declared symmetry is tested once more, at a state and these parameters.
+    """
+    p = np.array(parameters, np.float64)
+    ways = {name: system.moves(name, state, p) for name in system.symmetries(state.tolist(), p.tolist())}
+    return (
+        *sign_symmetries(system, parameters),
+        *(Mirror(name, partial(system.image, name, p=p), way < 0) for name, way in ways.items() if way),
+    )
 
 
 def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror, ...]:
@@ -56,10 +71,12 @@ def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror
             if float(np.abs(there - image).max()) < 1e-13 * size:
                 changed = [name for name, sign in zip(system.variables, choice, strict=True) if sign < 0.0]
                 found.append(
-                    Mirror(f"{', '.join([*changed, *(['t'] if reverses else [])])} → −", frozen(signs), reverses)
+                    Mirror(f"{', '.join([*changed, *(['t'] if reverses else [])])} → −", partial(mul, signs), reverses)
                 )
     return tuple(found)
 
 
 def _rates(system: System, states: Array, p: list[float]) -> Array:
-    return np.array([np.broadcast_to(rate, states.shape[1:]) for rate in system.field(list(states), p)])
+    # A field may be defined in a part of the space only.
+    with np.errstate(all="ignore"):
+        return np.array([np.broadcast_to(rate, states.shape[1:]) for rate in system.field(list(states), p)])

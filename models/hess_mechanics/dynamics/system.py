@@ -27,7 +27,7 @@ from hess_mechanics.numerics.doubled_kernels import doubled_integrator
 from hess_mechanics.numerics.events_kernels import ANGLE, SurfaceKernels, crossing_finder, plane
 from hess_mechanics.numerics.expressions import Node
 from hess_mechanics.numerics.field_values import Undefined, values_with_rounding
-from hess_mechanics.numerics.jit import derived_kernel, inner
+from hess_mechanics.numerics.jit import announced, derived_kernel, inner
 from hess_mechanics.numerics.measured import nearby
 from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.results import Array
@@ -46,7 +46,13 @@ _SAMPLES = 8
 _DERIVING = RLock()
 """Lock around the derivation of kernels, so that threads compile each kernel once."""
 _SEED, _CHECKS, _ROUNDING = 1, 4, 1e-9
-"""The check of scaling: seed of the random numbers, draws of parameters, and relative rounding error."""
+"""Checks at random points: seed of the random numbers, number of draws, and relative rounding error."""
+_COMPILE = 8.0, 0.2, 0.2
+"""Seconds that a kernel takes to compile, for each product of its recursion, and for each product of an entry of the
+Jacobian and one of a column.  Measured on one core: chains of 4 to 30 variables, 9 to 14 s for an orbit; of 6 and 12
+variables, 16 and 49 s for a spectrum."""
+_STEP, _DIFFERENCES = 1e-4, 1e-7
+"""Check of symmetries: step of a difference, for a rate of size 1, and its relative error."""
 
 
 def in_units_of_time(first: int, velocities: int = 2) -> Callable[[Array, Array, float], tuple[Array, Array]]:
@@ -74,7 +80,7 @@ def in_units_of_time(first: int, velocities: int = 2) -> Callable[[Array, Array,
     return rescale
 
 
-def _no_integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
+def _none(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
     return {}
 
 
@@ -92,7 +98,8 @@ def _plain(p: Array) -> float:
 
 def _names(system: str, what: str, given: str | Iterable[str]) -> tuple[str, ...]:
     """Return names given as a text or a sequence.  Raises `InvalidParameter`."""
-    found = tuple(given.replace(",", " ").split() if isinstance(given, str) else given)
+    parts = given.replace(",", " ").split() if isinstance(given, str) else given
+    found = tuple(parts) if np.iterable(parts) else (parts,)
     if not all(isinstance(name, str) and name for name in found) or (what == "variables" and not found):
         raise InvalidParameter(f'{system}: `{what}` must be names, such as "x y" or ("x", "y").')
     return found
@@ -101,15 +108,15 @@ def _names(system: str, what: str, given: str | Iterable[str]) -> tuple[str, ...
 def _numbers(what: str, names: tuple[str, ...], values: Any) -> tuple[float, ...]:
     """Return one finite number for each name.  Raises `InvalidParameter`."""
     try:
-        found = tuple(float(x) for x in values)
-    except (TypeError, ValueError):
+        found = tuple(float(x) for x in (values if np.iterable(values) else (values,)))
+    except (TypeError, ValueError, OverflowError):
         found = (math.nan,)
     if len(found) != len(names) or not all(map(math.isfinite, found)):
-        raise InvalidParameter(f"{what} must be {len(names)} finite numbers: {', '.join(names) or 'none'}.")
+        raise InvalidParameter(f"{what} must be finite numbers, {len(names)} of them: {', '.join(names) or 'none'}.")
     return found
 
 
-@dataclass(frozen=True, init=False)
+@dataclass(frozen=True, init=False, repr=False)
 class System:
     """A system of differential equations ẏ = f(y, p).
 
@@ -150,11 +157,14 @@ class System:
     angles : str or sequence of str, default none
         Names of variables that are angles in radians: the field is the same after a full turn, and sections count them
         up to full turns.
+    symmetries : callable, optional
+        States by name, symmetries(y, p), to which y can be moved so that motions remain motions, forward or backward in
+        time: {"x → −x, φ + π": (-y[0], -y[1], y[2] + math.pi)}.  Changes of sign alone are found without it.
 
     Raises
     ------
     InvalidParameter
-        If names, example or integrals do not fit the field.
+        If names, example, integrals, angles or symmetries do not fit the field.
     NotTraceable
         If the field cannot be traced.
     WrongScaling
@@ -186,6 +196,7 @@ class System:
     unit: Callable[[Array], float]
     tolerance: Callable[[Array, Array, int, float], float] | None
     angles: tuple[str, ...]
+    symmetries: Callable[[Sequence[Any], Sequence[Any]], Mapping[str, Any]]
 
     def __init__(
         self,
@@ -197,13 +208,14 @@ class System:
         title: str = "",
         source: str = "",
         labels: Sequence[str] = (),
-        integrals: Callable[[Sequence[Any], Sequence[Any]], Mapping[str, Any]] = _no_integrals,
+        integrals: Callable[[Sequence[Any], Sequence[Any]], Mapping[str, Any]] = _none,
         frequency: Callable[[Array, Array], Array | float] = _own_unit,
         rescale: Callable[[Array, Array, float], tuple[Array, Array]] = _as_it_is,
         angular_velocities: int = 0,
         unit: Callable[[Array], float] = _plain,
         tolerance: Callable[[Array, Array, int, float], float] | None = None,
         angles: str | Sequence[str] = (),
+        symmetries: Callable[[Sequence[Any], Sequence[Any]], Mapping[str, Any]] = _none,
     ) -> None:
         if not isinstance(name, str) or not name:
             raise InvalidParameter(f'{name!r} is not the name of a system: give a text such as "henon-heiles".')
@@ -214,7 +226,7 @@ class System:
             "variables": _names(name, "variables", variables),
             "parameters": _names(name, "parameters", parameters),
             "source": source,
-            "labels": tuple(labels),
+            "labels": _names(name, "labels", labels),
             "integrals": integrals,
             "frequency": frequency,
             "rescale": rescale,
@@ -222,6 +234,7 @@ class System:
             "unit": unit,
             "tolerance": tolerance,
             "angles": _names(name, "angles", angles),
+            "symmetries": symmetries,
         }
         for key, value in known.items():
             object.__setattr__(self, key, value)
@@ -230,11 +243,17 @@ class System:
         self._check_field()
         self._check_scaling()
         self._check_angles()
+        self._check_symmetries()
+
+    def __repr__(self) -> str:
+        """Return the name; a field has no representation of its own."""
+        return f"System({self.name!r})"
 
     def _checked_example(self, example: Any, values: Sequence[float]) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """Return the example, completed by defaults.  Raises `InvalidParameter`."""
-        found = tuple((i + 1) / 10 for i in range(len(self.variables))) if example is None else tuple(example)
-        state, p = found if len(found) == 2 and np.ndim(found[0]) else (found, values)
+        found = tuple((i + 1) / 10 for i in range(len(self.variables))) if example is None else example
+        is_pair = isinstance(found, Sequence) and len(found) == 2 and np.iterable(found[0])
+        state, p = found if is_pair else (found, values)
         return (
             _numbers(f"{self.title}: the state of the example", self.variables, state),
             _numbers(f"{self.title}: the parameters", self.parameters, p),
@@ -244,7 +263,7 @@ class System:
         """Record the field with symbols, and compute the integrals of the example."""
         if len({*self.variables, *self.parameters}) < len(self.variables) + len(self.parameters):
             raise InvalidParameter(f"{self.title}: each name may occur once among variables and parameters.")
-        for what in ("field", "integrals", "frequency", "rescale", "unit"):
+        for what in ("field", "integrals", "frequency", "rescale", "unit", "symmetries"):
             if not callable(getattr(self, what)):
                 raise InvalidParameter(f"{self.title}: `{what}` must be a function of y and p.")
         check(self.field, len(self.variables), len(self.parameters))
@@ -300,6 +319,77 @@ class System:
             one, other = self._rates(state, parameters), self._rates(turned, parameters)
             if one is None or other is None or not np.allclose(one, other, rtol=_ROUNDING, atol=_ROUNDING):
                 raise InvalidParameter(f"{self.title}: {name} is no angle: after a full turn the field is another one.")
+
+    def _check_symmetries(self) -> None:
+        """Compare the rates before and after each symmetry at random points.  Raises `InvalidParameter`."""
+        state, parameters = (np.array(values, float) for values in self.example)
+        draw = np.random.default_rng(_SEED)
+        for _ in range(_CHECKS):
+            y = state * draw.uniform(0.5, 2.0, state.size) + draw.uniform(-0.5, 0.5, state.size)
+            try:
+                names = [*self.symmetries(y.tolist(), parameters.tolist())]
+                found = [self.moves(name, y, parameters) for name in names]
+            except (TypeError, ValueError, LookupError, ArithmeticError) as error:
+                raise InvalidParameter(
+                    f'{self.title}: `symmetries` must return a state by name, such as {{"x → −x": (-y[0], -y[1])}}: '
+                    f"{error}."
+                ) from error
+            for name, sign in zip(names, found, strict=True):
+                if sign == 0:
+                    raise InvalidParameter(
+                        f"{self.title}: {name} is no symmetry: it does not take motions to motions, neither forward "
+                        "nor backward in time."
+                    )
+
+    def moves(self, name: str, y: Array, parameters: Sequence[float] | Array) -> int:
+        """Return how a symmetry moves the motion through a state.
+
+        Parameters
+        ----------
+        name : str
+            Name of one of `symmetries`.
+        y : ndarray, shape (d,)
+            The state.
+        parameters : sequence of float, shape (q,)
+            Values of the parameters.
+
+        Returns
+        -------
+        int
+            1 if it becomes a motion, −1 if it becomes one backward in time, 0 if neither.  If the field is not finite
+            there, the answer is 1.
+        """
+        p = np.array(parameters, np.float64)
+        image = self.image(name, y, p)
+        if image.shape != y.shape:
+            raise ValueError(f"{name} has {image.size} components")
+        here, there = self._rates(y, p), self._rates(image, p)
+        if here is None or there is None:
+            return 1
+        size = max(1.0, float(np.abs(here).max()), float(np.abs(there).max()))
+        step = _STEP / size
+        ahead, behind = (self.image(name, y + s * here, p) for s in (step, -step))
+        along = (ahead - behind) / (2.0 * step)
+        return next((sign for sign in (1, -1) if np.abs(along - sign * there).max() <= _DIFFERENCES * size), 0)
+
+    def image(self, name: str, y: Array, p: Array) -> Array:
+        """Return the state to which a symmetry moves a state.
+
+        Parameters
+        ----------
+        name : str
+            Name of one of `symmetries`.
+        y : ndarray, shape (d,)
+            The state.
+        p : ndarray, shape (q,)
+            Values of the parameters.
+
+        Returns
+        -------
+        ndarray, shape (d,)
+            The image.
+        """
+        return np.array(self.symmetries(y.tolist(), p.tolist())[name], dtype=np.float64)
 
     def _compare(self, y: Array, p: Array, scaled: Array, problem: Problem) -> None:
         rates = self._rates(y, p), self._rates(scaled, problem.parameters)
@@ -484,12 +574,21 @@ class System:
             task,
             "y, frame, p, times, order, tolerance, max_steps, limit, states, frames, growth, divergence",
             lambda _: variation_integrator(self.variation, columns, ahead),
+            entries=columns * len(self.variation.moving),
         )
 
     def _kernel(
-        self, task: str, arguments: str, make: Callable[[Recursion], Callable[..., Any]], adjusts: bool = True
+        self,
+        task: str,
+        arguments: str,
+        make: Callable[[Recursion], Callable[..., Any]],
+        adjusts: bool = True,
+        entries: int = 0,
     ) -> Callable[..., Any]:
-        """Return the compiled `make(recursion)`; if `adjusts`, it applies the `tolerance` of the system first."""
+        """Return the compiled `make(recursion)`; if `adjusts`, it applies the `tolerance` of the system first.
+
+        entries : products of an entry of the Jacobian and one of a column, which are written out.
+        """
         with _DERIVING:
             name = f"{re.sub(r'^(?=[0-9])|[^0-9A-Za-z]', '_', self.name)}_{task}"
             names = {"run": make(self.recursion)}
@@ -503,7 +602,9 @@ class System:
                 f"# The {task} of the system {self.name!r}, derived from its field.  The Taylor recursion:\n#\n"
                 f"{derived}\n\ndef {name}({arguments}):\n    return run({passed})\n"
             )
-            return derived_kernel(name, source, getattr(self.field, "__module__", __name__), **names)
+            found = derived_kernel(name, source, getattr(self.field, "__module__", __name__), **names)
+            lasts = _COMPILE[0] + _COMPILE[1] * len(self.recursion.pairs) + _COMPILE[2] * entries
+            return announced(found, f"the {task} of {self.name}", lasts)
 
     def at(self, parameters: Sequence[float] | Array | None = None, **values: float) -> ParametrizedSystem:
         """Return the system with values of its parameters.
@@ -523,15 +624,18 @@ class System:
         Raises
         ------
         InvalidParameter
-            If there is no parameter of this name.
+            If there is no parameter of this name, or a value is not a finite number.
         """
-        found = tuple(self.example[1] if parameters is None else parameters)
+        found = self.example[1]
+        if parameters is not None:
+            found = _numbers(f"{self.title}: the parameters", self.parameters, parameters)
         for name, value in values.items():
             if name not in self.parameters:
                 raise InvalidParameter(
                     f"{self.title} has no parameter {name}: choose one of {', '.join(self.parameters) or 'none'}."
                 )
-            found = tuple(value if own == name else x for own, x in zip(self.parameters, found, strict=True))
+            new = dict(zip(self.parameters, found, strict=True)) | {name: value}
+            found = _numbers(f"{self.title}: the parameters", self.parameters, new.values())
         return ParametrizedSystem(self, found)
 
     @property
@@ -650,13 +754,13 @@ class Problem:
         """Validate a body and states (n, d), and scale them.  Raises `InvalidParameter`."""
         if not (isinstance(getattr(body, "system", None), System) and hasattr(body, "parameters")):
             raise InvalidParameter(
-                f"{body!r} is not a body with equations of motion: give a SuslovBody, a PlaneBody, a QuarticBody, "
+                f"{body!r:.80} is not a body with equations of motion: give a SuslovBody, a PlaneBody, a QuarticBody, "
                 "a BallBody or a HeavyBody, or a System with its parameters, system.at(…)."
             )
         system = body.system
         try:
             given, p = np.array(states, float, ndmin=2), np.asarray(body.parameters, float)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise InvalidParameter(
                 f"{system.title}: a state consists of {len(system.variables)} numbers, "
                 f"{', '.join(system.variables)}; write them like 1.5 or -2e-3."

@@ -35,7 +35,9 @@ from hess_mechanics.dynamics.orbit import checked_times
 from hess_mechanics.dynamics.polynomials import Along, Slope
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.arguments import as_number, as_whole
 from hess_mechanics.numerics.balls import BALL_FUNCTIONS, ArbBall, Enclosure, enclosure, rational, working
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.results import Array, Orbit, frozen
@@ -59,7 +61,7 @@ _GUARD_BITS, _LOW_BITS = 32, 64
 
 
 @dataclass(frozen=True)
-class Tube:
+class Tube(Result):
     """Intervals that contain the true states of an orbit.
 
     Attributes
@@ -96,6 +98,22 @@ class Tube:
     seconds: float
     variables: tuple[str, ...] = ()
     spent: bool = False
+
+    def labels(self) -> Labels:
+        """Return the ends of the intervals, as floats, labelled with time.
+
+        Returns
+        -------
+        Labels
+            The lower and the upper end of each variable over the times.
+        """
+        ends = {
+            f"{name} {end}": (("t",), np.array([float(getattr(one[i], end)) for one in self.states]))
+            for i, name in enumerate(self.variables)
+            for end in ("low", "high")
+        }
+        facts = ("system", "complete", "width", "bits", "steps")
+        return Labels({"t": (("t",), self.times)}, ends, {"t": "T"}, {name: getattr(self, name) for name in facts})
 
 
 def tube(
@@ -137,8 +155,7 @@ def tube(
     >>> found.complete, found.width < 1e-18
     (True, True)
     """
-    if not 1 <= digits <= 100:
-        raise InvalidParameter(f"digits = {digits} is out of range: choose 1 to 100.")
+    as_whole("digits", digits, 1, 100)
     begun = time.perf_counter()
     asked = checked_times(times)
     problem, system = Problem.of(body, [state]), body.system
@@ -162,8 +179,8 @@ def tube(
                 0.0,
                 system.variables,
             )
-        following = _more_bits(walk, digits, length, left)
-        if best.complete or following <= bits:
+        following = 0 if best.complete else _more_bits(walk, digits, length, left)
+        if following <= bits:
             spent = not best.complete and (walk.spent or (bool(walk.t) and bits < _MOST_BITS))
             return replace(best, seconds=time.perf_counter() - begun, spent=spent)
         bits = following
@@ -175,7 +192,7 @@ def _more_bits(walk: _Walk, digits: int, length: float, left: float) -> int:
     if walk.spent or gone == 0.0 or walk.bits >= _MOST_BITS:
         return 0
     base, rate, pace = 3.33 * digits + _GUARD_BITS, 1.1 * walk.lost / gone, walk.steps / gone
-    bits = min(_MOST_BITS, _whole(base + rate * length))
+    bits = _whole(min(_MOST_BITS, base + rate * length))
     bits = max(bits, walk.bits + _STEP_BITS)
     while bits > walk.bits:
         way = min(length, max(gone, (bits - base) / max(rate, 1e-9)))
@@ -524,6 +541,7 @@ def right_until(orbit: Orbit, found: Tube, error: float) -> float:
     >>> right_until(solve(*motion, level("reference")), tube(*motion), 1e-12)
     0.5
     """
+    as_number("error", error)
     last = 0.0
     for t, sample in zip(found.times, _errors(orbit, found), strict=True):
         if max(most for _, most in sample) > Fraction(error):

@@ -17,7 +17,7 @@ from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section import AnglePlane, Plane
 from hess_mechanics.dynamics.system import ParametrizedSystem, System
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.arguments import as_number
+from hess_mechanics.numerics.arguments import as_number, as_pairs
 from hess_mechanics.numerics.results import Array, Mask
 
 __all__ = ["VariableSection", "variable_section"]
@@ -183,6 +183,7 @@ def variable_section(
     surface: tuple[str, float] | None = None,
     coordinates: str | Sequence[str] | None = None,
     window: Sequence[tuple[float, float]] | None = None,
+    sense: int = 1,
 ) -> VariableSection:
     """Return a section of any system, with defaults.
 
@@ -193,14 +194,15 @@ def variable_section(
     integrals : mapping of str to float
         Values of first integrals, by the names that the system gives them.
     surface : (str, float), optional
-        The variable that increases through a value, an angle up to full turns.  By default the first variable,
-        through 0.
+        The variable that passes a value, an angle up to full turns.  By default the first variable, through 0.
     coordinates : str or sequence of str, optional
         The one or two variables that are the coordinates.  By default those on which the rate of the surface's
         variable depends least; the others follow from the integrals.
     window : sequence of (float, float), optional
         Range of each coordinate.  By default (−π, π) for an angle, otherwise (−1, 1), or as wide as the state of the
         example.
+    sense : {1, -1}, default 1
+        Direction in which the variable passes the value: increasing (1) or decreasing (−1).
 
     Returns
     -------
@@ -222,6 +224,12 @@ def variable_section(
     ('v',)
     """
     system = body.system
+    if len(system.variables) < 2:
+        raise InvalidParameter(f"{system.title}: a system of one variable has no section; `solve` gives its motion.")
+    if sense not in (1, -1):
+        raise InvalidParameter("The sense of the crossings of a return map is 1 (increasing) or −1 (decreasing).")
+    if surface is not None and (isinstance(surface, str) or len(surface) != 2):
+        raise InvalidParameter(f"The surface is a variable and a value, such as ({system.variables[0]!r}, 0.0).")
     variable, value = surface or (system.variables[0], 0.0)
     known = system.integrals(*system.example)
     for name, names, what in (
@@ -245,6 +253,9 @@ def variable_section(
             f"{', '.join(solved) or 'none'}, and the integrals {', '.join(integrals) or 'none'}: give `coordinates`, "
             "or values of more or fewer integrals."
         )
+    ranges = None if window is None else as_pairs("window", window)
+    if ranges is not None and (len(ranges) != len(chosen) or any(low >= high for low, high in ranges)):
+        raise InvalidParameter(f"The window has a lower and a higher number for each of {', '.join(chosen)}.")
     reach = max(1.0, 1.5 * max(map(abs, system.example[0])))
     return VariableSection(
         body,
@@ -253,9 +264,10 @@ def variable_section(
         chosen,
         solved,
         tuple((name, as_number(name, x)) for name, x in integrals.items()),
-        tuple(window)
-        if window is not None
+        tuple(ranges)
+        if ranges is not None
         else tuple((-math.pi, math.pi) if name in system.angles else (-reach, reach) for name in chosen),
+        sense,
     )
 
 

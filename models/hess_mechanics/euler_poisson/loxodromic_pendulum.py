@@ -22,11 +22,14 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_mechanics.dynamics.orbit import checked_span
 from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.numerics.accuracy import Accuracy
+from hess_mechanics.numerics.arguments import as_a
+from hess_mechanics.numerics.labelled import Printed
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.attitude import Attitude, attitude
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -80,6 +83,7 @@ class LoxodromicPendulum:
     l: float
 
     def __post_init__(self) -> None:
+        as_a(HeavyBody, self.body)
         require_finite(h=self.h, l=self.l)
         if not self.body.is_hess or not self.body.mu > 0.0:
             raise InvalidParameter("A loxodromic pendulum needs a field and the Hess condition: choose μ > 0.")
@@ -199,7 +203,7 @@ class LoxodromicPendulum:
 
 
 @dataclass(frozen=True)
-class LoxodromicMotion:
+class LoxodromicMotion(Printed):
     """Motion of a loxodromic pendulum; the result of `loxodromic_motion`.
 
     Attributes
@@ -293,7 +297,7 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, span: float, level: Accuracy
     >>> float(motion.times[-1]), round(float(motion.l[-1]), 5)
     (4.0, 0.50954)
     """
-    require_finite(span=span)
+    span = checked_span(span, "a loxodromic motion")
     radius = 0.5 * PIXELS
     lying = attitude(
         WITH_ATTITUDE.at((pendulum.a, 1.0)),

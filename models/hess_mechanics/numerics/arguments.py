@@ -2,23 +2,44 @@
 
 from __future__ import annotations
 
+import inspect
 import math
+from collections.abc import Callable, Mapping, Sequence
+from functools import wraps
 from numbers import Integral, Real
-from typing import Any, TypeVar
+from types import NoneType, UnionType
+from typing import Any, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
 
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import LEVELS, Accuracy, Level, level
 
-__all__ = ["as_a", "as_cells", "as_level", "as_level_name", "as_number", "as_pairs", "as_place", "as_whole"]
+__all__ = [
+    "as_a",
+    "as_cells",
+    "as_level",
+    "as_level_name",
+    "as_number",
+    "as_pairs",
+    "as_parts",
+    "as_place",
+    "as_whole",
+    "typed",
+]
 
+P = ParamSpec("P")
 T = TypeVar("T")
 _MOST_CELLS = 100_000
+_LARGEST = 2**63 - 1
+_EXAMPLES = {str: "'x'", float: "1.5", int: "2"}
+_WORDS: dict[type, str] = {bool: "True or False", str: "a text", NoneType: "None"}
 
 
 def as_a(kind: type[T], body: object) -> T:
     """Return the argument if it is an instance of `kind`."""
     if not isinstance(body, kind):
-        raise InvalidParameter(f"{body!r} is not a {kind.__name__}: give a hess_mechanics.{kind.__name__}(…).")
+        raise InvalidParameter(f"{_short(body)} is not a {kind.__name__}: give a hess_mechanics.{kind.__name__}(…).")
     return body
 
 
@@ -38,22 +59,36 @@ def as_level_name(accuracy: Accuracy) -> str:
 def as_number(name: str, value: Any) -> float:
     """Return a finite number as a float."""
     if isinstance(value, bool) or not isinstance(value, Real):
-        raise InvalidParameter(f"{name} = {value!r} is not a number; write it like 1.5 or -2e-3.")
-    if not math.isfinite(value):
+        raise InvalidParameter(f"{name} = {_short(value)} is not a number; write it like 1.5 or -2e-3.")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
         raise InvalidParameter(f"{name} is not a finite number; write one like 1.5 or -2e-3.")
-    return float(value)
+    return number
 
 
 def as_whole(name: str, value: Any, low: int, high: int) -> int:
     """Return an integer between `low` and `high`."""
     if isinstance(value, bool) or not isinstance(value, Integral) or not low <= int(value) <= high:
-        raise InvalidParameter(f"{name} = {value!r} is not a whole number from {low} to {high}.")
+        raise InvalidParameter(f"{name} = {_short(value)} is not a whole number from {low} to {high}.")
     return int(value)
+
+
+def as_parts(name: str, value: Any, count: int | None = None) -> tuple[Any, ...]:
+    """Return the parts of a sequence, `count` of them if this is given."""
+    if isinstance(value, (str, Mapping)) or not np.iterable(value):
+        raise InvalidParameter(f"{name} = {_short(value)} is not a sequence{'' if count is None else f' of {count}'}.")
+    found = tuple(value)
+    if count not in (None, len(found)):
+        raise InvalidParameter(f"{name} = {_short(value)} must have {count} parts.")
+    return found
 
 
 def as_cells(cells: Any) -> tuple[int, int]:
     """Return the numbers of cells of a window, across and up."""
-    m, n = (as_whole("cells", side, 1, _MOST_CELLS) for side in cells)
+    m, n = (as_whole("cells", side, 1, _MOST_CELLS) for side in as_parts("cells", cells, 2))
     if m * n > _MOST_CELLS:
         raise InvalidParameter(f"{m * n} cells are too many: at most {_MOST_CELLS} are allowed.")
     return m, n
@@ -67,7 +102,7 @@ def as_pairs(name: str, places: Any) -> list[tuple[float, float]]:
         raise
     except (TypeError, ValueError):
         raise InvalidParameter(
-            f"{name} = {places!r} is not a list of points; write them like [(0.0, 0.5), (1.0, 0.2)]."
+            f"{name} = {_short(places)} is not a list of points; write them like [(0.0, 0.5), (1.0, 0.2)]."
         ) from None
 
 
@@ -79,5 +114,114 @@ def as_place(names: tuple[str, ...], place: Any) -> tuple[float, ...]:
         raise
     except (TypeError, ValueError):
         raise InvalidParameter(
-            f"{place!r} is not a point here: give {len(names)} numbers, {', '.join(names)}."
+            f"{_short(place)} is not a point here: give {len(names)} numbers, {', '.join(names)}."
         ) from None
+
+
+# ---- annotations ----------------------------------------------------------------------------------------------------
+
+
+def typed(function: Callable[P, T]) -> Callable[P, T]:
+    """Return a function that checks its arguments against their annotations first.
+
+    Numbers become floats or integers, and a single number counts as a sequence of one.  Objects that are described by
+    a protocol, such as bodies, are left to the function.
+    """
+    signature = inspect.signature(function)
+    kinds: dict[str, Any] = {}
+
+    @wraps(function)
+    def run(*args: P.args, **named: P.kwargs) -> T:
+        if not kinds:
+            kinds.update(get_type_hints(function))
+        try:
+            given = signature.bind(*args, **named)
+        except TypeError as error:
+            takes = ", ".join(signature.parameters)
+            raise InvalidParameter(f"{function.__name__}: {error}. It takes {takes}.") from None
+        for name, value in given.arguments.items():
+            given.arguments[name] = _fitted(name, kinds[name], value)
+        # Results are checked for overflow, as in the commands.
+        with np.errstate(all="ignore"):
+            return function(*given.args, **given.kwargs)
+
+    return run
+
+
+def _fitted(name: str, kind: Any, value: Any) -> Any:
+    """Return a value as its annotation describes it."""
+    origin, inner = get_origin(kind), get_args(kind)
+    if origin in (Union, UnionType):
+        return _one_of(name, inner, value)
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value[()]
+    if origin is np.ndarray:
+        return _as_array(name, value)
+    if origin is not None and issubclass(origin, Mapping):
+        if not isinstance(value, Mapping):
+            raise InvalidParameter(f"{name} = {_short(value)} is not a mapping; write it like {{'E': 1.5}}.")
+        return {key: _fitted(f"{name}[{key!r}]", inner[1], one) for key, one in value.items()}
+    if origin is tuple:
+        try:
+            parts = as_parts(name, value, len(inner))
+        except InvalidParameter as error:
+            example = ", ".join(_EXAMPLES.get(one, "(…)") for one in inner)
+            raise InvalidParameter(f"{error} Write it like ({example}).") from None
+        return tuple(_fitted(name, one, part) for one, part in zip(inner, parts, strict=True))
+    if origin is not None and issubclass(origin, Sequence):
+        if isinstance(value, np.ndarray) and inner[0] is not str:
+            return _as_array(name, value)
+        is_one = isinstance(value, Real) and inner[0] is float
+        # Some functions take a single state for several.
+        return tuple(
+            as_number(name, one) if isinstance(one, Real) and get_args(inner[0]) else _fitted(name, inner[0], one)
+            for one in ((value,) if is_one else as_parts(name, value))
+        )
+    if kind is float:
+        return as_number(name, value)
+    if kind is int:
+        return as_whole(name, value, -_LARGEST, _LARGEST)
+    if _is_class(kind) and not isinstance(value, (bool, np.bool_) if kind is bool else kind):
+        raise InvalidParameter(f"{name} = {_short(value)} is not {_WORDS.get(kind, f'a {kind.__name__}')}.")
+    return value
+
+
+def _is_class(kind: Any) -> bool:
+    return get_origin(kind) is None and isinstance(kind, type) and not getattr(kind, "_is_protocol", False)
+
+
+def _one_of(name: str, kinds: Sequence[Any], value: Any) -> Any:
+    """Return a value as one of several annotations describes it."""
+    classes = tuple(kind for kind in kinds if _is_class(kind) and kind not in (float, int))
+    if isinstance(value, classes):
+        return value
+    errors = []
+    for kind in kinds:
+        try:
+            found = _fitted(name, kind, value)
+            # A fraction or a large integer keeps its digits.
+            return value if kind is float else found
+        except InvalidParameter as error:
+            errors.append(error)
+    if len(classes) == len(kinds):
+        known = ", ".join(kind.__name__ for kind in classes if kind is not NoneType)
+        raise InvalidParameter(f"{name} = {_short(value)} is none of these: {known}.")
+    raise errors[0]
+
+
+def _as_array(name: str, value: Any) -> Any:
+    try:
+        if isinstance(value, str):
+            raise ValueError
+        return np.asarray(value, float)
+    except (TypeError, ValueError, OverflowError):
+        raise InvalidParameter(f"{name} = {_short(value)} is no array of numbers; write it like [1.5, 2.0].") from None
+
+
+def _short(value: Any) -> str:
+    """Return the beginning of the representation of a value; integers of thousands of digits have none."""
+    try:
+        text = repr(value)
+    except ValueError:
+        text = "a very large integer"
+    return text if len(text) <= 80 else f"{text[:80]}…"

@@ -10,6 +10,7 @@ from __future__ import annotations
 import ast
 import hashlib
 import json
+import logging
 import os
 import stat
 import tempfile
@@ -24,10 +25,12 @@ from typing import Any
 import numba
 from numba.core import event
 
-from hess_mechanics.numerics.kernel_files import keep, write_whole
+from hess_mechanics.numerics.kernel_files import keep, let_go, write_whole
+from hess_mechanics.numerics.patience import go_on
 
 __all__ = [
     "CACHE_FOLDER",
+    "announced",
     "as_written",
     "derived_kernel",
     "inner",
@@ -48,6 +51,9 @@ _INLINED = {**_OPTIONS, "forceinline": True}
 _ONLY_INLINED = {**_INLINED, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 _CONFIG: Any = numba.config
+_LOG = logging.getLogger("hess_mechanics")
+_LONG = 30.0
+"""Seconds of compilation that are announced: kernels of the systems of this package take less, most of them 10."""
 
 _PACKAGE = Path(__file__).parents[1]
 _FOR_ALL = {"numerics", "dynamics"}
@@ -237,6 +243,50 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
         return keep(_compiled(function, _OPTIONS), folder)
     finally:
         _CONFIG.CACHE_DIR = before
+
+
+def announced(function: Callable[..., Any], name: str, seconds: float) -> Callable[..., Any]:
+    """Return a kernel whose compilation, expected to take so many seconds, is announced if that is long.
+
+    A long compilation ends between two passes of the compiler if the request is cancelled.
+    """
+    if seconds > _LONG:
+        compiled: Any = getattr(function, "py_func", function)
+        compiled.announcement = (
+            f"Compiling {name} takes about {seconds:.0f} s, once: the machine code is stored. Ctrl-C stops it."
+        )
+    return function
+
+
+class _LongCompilations(event.Listener):  # type: ignore[misc]  # numba has no types
+    """Logs the beginning of a long compilation, and asks between its passes whether to go on."""
+
+    def __init__(self) -> None:
+        self.of = threading.local()
+
+    def on_start(self, event: Any) -> None:
+        text = _announcement(event)
+        if text:
+            self.of.runs = True
+            _LOG.warning(text)
+        if getattr(self.of, "runs", False):
+            go_on()
+
+    def on_end(self, event: Any) -> None:
+        if _announcement(event):
+            self.of.runs = False
+        if event.is_failed and event.kind == "numba:compile":
+            let_go(event.data["dispatcher"])
+
+
+def _announcement(event: Any) -> str:
+    """Return the announcement of the kernel whose compilation an event begins or ends; empty if there is none."""
+    return str(getattr(event.data["dispatcher"].py_func, "announcement", "")) if event.kind == "numba:compile" else ""
+
+
+_LONG_COMPILATIONS = _LongCompilations()
+for _kind in ("numba:compile", "numba:run_pass"):
+    event.register(_kind, _LONG_COMPILATIONS)
 
 
 def derived_kernel(name: str, source: str, module: str, **names: Any) -> Callable[..., Any]:

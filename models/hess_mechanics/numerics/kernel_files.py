@@ -17,7 +17,7 @@ from filelock import FileLock, Timeout
 from numba.core import sigutils
 from numba.core.caching import FunctionCache
 
-__all__ = ["KernelFiles", "keep", "write_whole"]
+__all__ = ["KernelFiles", "keep", "let_go", "write_whole"]
 
 PATIENCE = 60.0
 """Seconds to wait for another process that compiles the same kernel."""
@@ -91,6 +91,13 @@ def keep(dispatcher: Any, folder: Path) -> Callable[..., Any]:
     if Path(files.cache_path).is_relative_to(folder):
         dispatcher._cache = files
     return dispatcher  # type: ignore[no-any-return]
+
+
+def let_go(dispatcher: Any) -> None:
+    """Let other processes compile a kernel whose compilation here has failed or was stopped."""
+    files = getattr(dispatcher, "_cache", None)
+    if isinstance(files, KernelFiles):
+        files._lock.release(force=True)
 
 
 def write_whole(path: Path, text: str) -> None:

@@ -92,9 +92,17 @@ def _record(field: Field, variables: int, parameters: int, observed: int) -> tup
     y = tuple(Symbol(tape, tape.leaf("variable", i)) for i in range(variables))
     p = tuple(Symbol(tape, tape.leaf("parameter", i)) for i in range(parameters))
     try:
-        rates = [tape.lifted(rate) for rate in field(y, p)]
+        found = field(y, p)
+        if not hasattr(found, "__iter__"):
+            raise NotTraceable("A field returns a sequence of rates, one for each variable: (rate,) for a single one.")
+        rates = [tape.lifted(rate) for rate in found]
     except NotTraceable:
         raise
+    except IndexError as error:
+        raise NotTraceable(
+            f"This field reads beyond its {variables} variables y[0], … or its {parameters} parameters p[0], …; the "
+            "first index is 0."
+        ) from error
     except (TypeError, ValueError, AttributeError, ArithmeticError, LookupError) as error:
         raise NotTraceable(f"This field cannot be traced: {error}. {ALLOWED}") from error
     if len(rates) != variables + observed:

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from textwrap import indent
 from typing import Any
 
 import numpy as np
@@ -33,6 +34,11 @@ from hess_mechanics.numerics.tracing import Field, derivative, trace
 from hess_mechanics.numerics.unrolled import compiled, evaluation
 
 __all__ = ["Variation", "variation", "variation_integrator"]
+
+
+_WRITTEN_OUT = 400
+"""Products of an entry of J and one of a column that are written out, for vector instructions; beyond, a loop over the
+columns compiles in a fraction of the time."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +85,8 @@ def carrying_source(of: Variation, lanes: int) -> str:
     """Return the source of carry(seen, v, inverses), which computes v[1 … order, row, lane] from v[0] and J."""
     n = of.recursion.variables
     entries = [*of.moving, *of.fixed]
-    each = range(lanes)
+    is_long = lanes * len(entries) > _WRITTEN_OUT
+    each: Sequence[int | str] = ("lane",) if is_long else range(lanes)
 
     def sums(row: int) -> tuple[str, ...]:
         """Return two partial sums for a row with many terms, so that additions overlap."""
@@ -107,10 +114,7 @@ def carrying_source(of: Variation, lanes: int) -> str:
         for lane in each
     ]
     newline = "\n        "
-    return f"""
-def carry(seen, v, inverses):
-    for k in range(inverses.size):
-        inverse = inverses[k]
+    body = f"""
         {newline.join(beginnings)}
         for m in range(k, -1, -1):
             {"; ".join(f"a{e} = seen[m, {e}]" for e in range(len(of.moving))) or "pass"}
@@ -118,6 +122,12 @@ def carry(seen, v, inverses):
             {(newline + "    ").join(products) or "pass"}
         {newline.join(ends)}
 """
+    if is_long:
+        body = f"\n        for lane in range({lanes}):{indent(body, '    ')}"
+    return f"""
+def carry(seen, v, inverses):
+    for k in range(inverses.size):
+        inverse = inverses[k]{body}"""
 
 
 @inner

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from numbers import Real
 
 import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
+from hess_mechanics.numerics.arguments import as_number
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = [
@@ -33,10 +33,7 @@ MAX_RATIO = 1e20
 def require_finite(**values: float) -> None:
     """Raise `InvalidParameter` naming the first value that is not a finite number."""
     for name, value in values.items():
-        if not isinstance(value, Real) or isinstance(value, bool):
-            raise InvalidParameter(f"{name} = {value!r} is not a number; write it like 1.5 or -2e-3.")
-        if not math.isfinite(value):
-            raise InvalidParameter(f"{name} is not a finite number: give {name} a finite value.")
+        as_number(name, value)
 
 
 def require_positive_definite(I11: float, I22: float) -> None:

@@ -11,7 +11,6 @@ For a = e3 and K = 0 these are the equations of the Suslov problem (`Biz01`).
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -22,6 +21,7 @@ import numpy as np
 from hess_mechanics.dynamics.section import Plane
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
+from hess_mechanics.numerics.arguments import as_parts, as_whole
 from hess_mechanics.rigid_body.inertia import BodyCheck, require_finite
 
 __all__ = ["OwnBody", "Polynomial"]
@@ -62,12 +62,14 @@ class Polynomial:
     coefficients: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
+        if not np.iterable(self.exponents) or not np.iterable(self.coefficients):
+            raise InvalidParameter("A polynomial has terms (i, j, k), and one coefficient for each: see Polynomial.")
         if len(self.exponents) != len(self.coefficients) or len(self.exponents) > _TERMS:
             raise InvalidParameter(f"A polynomial has at most {_TERMS} terms, each with one coefficient.")
-        if any(min(one) < 0 or sum(one) > _DEGREE for one in self.exponents):
-            raise InvalidParameter(f"The degree of a polynomial is at most {_DEGREE}.")
-        if not all(map(math.isfinite, self.coefficients)):
-            raise InvalidParameter("The coefficients of a polynomial are finite numbers.")
+        for one in self.exponents:
+            if sum(as_whole("An exponent", n, 0, _DEGREE) for n in as_parts("A term", one, 3)) > _DEGREE:
+                raise InvalidParameter(f"The degree of a polynomial is at most {_DEGREE}.")
+        require_finite(**{f"coefficient {i + 1}": one for i, one in enumerate(self.coefficients)})
 
     def __call__(self, g1: Any, g2: Any, g3: Any) -> Any:
         """Return the value at a point.
@@ -249,7 +251,10 @@ class OwnBody:
     shape: Polynomial = Polynomial(((1, 0, 0),), (1.0,))
 
     def __post_init__(self) -> None:
-        numbers = (*self.inertia, *(self.constraint or ()), *self.momentum, *self.drive, self.frequency)
+        for name, count in (("inertia", 6), ("momentum", 3), ("drive", 3)):
+            as_parts(name, getattr(self, name), count)
+        constraint = () if self.constraint is None else as_parts("constraint", self.constraint, 3)
+        numbers = (*self.inertia, *constraint, *self.momentum, *self.drive, self.frequency)
         require_finite(**{f"number {i + 1}": value for i, value in enumerate(numbers)})
         if not self._moments[0] > 0.0:
             raise NotPositiveDefinite(

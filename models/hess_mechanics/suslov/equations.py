@@ -15,6 +15,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.system import System, in_units_of_time
 from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.arguments import as_place
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.inertia import require_comparable, require_finite, require_positive_definite
 
@@ -111,6 +112,7 @@ def unit_vector(gamma: Sequence[float]) -> tuple[tuple[float, float, float], str
     >>> unit_vector((0.0, 3.0, 4.0))[0]
     (0.0, 0.6, 0.8)
     """
+    gamma = as_place(("γ1", "γ2", "γ3"), gamma)
     length = math.hypot(*gamma)
     if not (math.isfinite(length) and length > 0):
         raise InvalidParameter("γ must be a finite vector other than 0: it is the direction of the vertical.")

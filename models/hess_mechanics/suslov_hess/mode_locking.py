@@ -14,7 +14,7 @@ import numpy as np
 from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
-from hess_mechanics.numerics.arguments import as_level
+from hess_mechanics.numerics.arguments import as_level, as_whole
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -219,6 +219,7 @@ def lock_boundary(a: float, level: Accuracy, points: int = 48) -> Array:
     """
     level = as_level(level)
     check_a(a)
+    as_whole("points", points, 3, 100_000)
     if abs(a) > _MAX_A_OF_BOUNDARY:
         raise InvalidParameter(f"a = {a:g} is too large for the lock boundary: choose |a| ≤ {_MAX_A_OF_BOUNDARY:g}.")
     end = lock_boundary_end(a)

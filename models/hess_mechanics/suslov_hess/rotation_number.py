@@ -170,7 +170,10 @@ def _matrices(a: Array, h: Array, f: Array, level: Level) -> Array:
 
 def _together(*numbers: Array | float) -> Iterator[Array]:
     """Yield the arguments broadcast to arrays of equal shape."""
-    return (np.ascontiguousarray(x, float) for x in np.broadcast_arrays(*np.atleast_1d(*numbers)))
+    try:
+        return (np.ascontiguousarray(x, float) for x in np.broadcast_arrays(*np.atleast_1d(*numbers)))
+    except ValueError as error:
+        raise InvalidParameter(f"a, h and f must be numbers or arrays of one shape: {error}.") from error
 
 
 def values_at(a: Array | float, h: Array | float, f: Array | float, level: Accuracy) -> TorusValues:

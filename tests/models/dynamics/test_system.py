@@ -1,5 +1,6 @@
 """Conformance: properties of every registered system, and the symmetries of each."""
 
+import math
 import re
 import sys
 from dataclasses import replace
@@ -11,7 +12,7 @@ from hypothesis import strategies as st
 from pytest import approx, mark, param, raises
 
 import oracle
-from hess_mechanics import SuslovBody, System, level, solve, unit_vector
+from hess_mechanics import SuslovBody, System, level, return_map, solve, unit_vector
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from hess_mechanics.dynamics.system import in_units_of_time
 from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit, WrongScaling
@@ -318,6 +319,25 @@ def test_parameters_have_values_by_name():
     assert decay.at((1.0, 2.0), k=4.0).parameters == (4.0, 2.0)
     with raises(InvalidParameter, match="no parameter q: choose one of k, c"):
         decay.at(q=1.0)
+    for wrong in ((1.0,), "k", (1.0, math.inf)):
+        with raises(InvalidParameter, match="must be finite numbers, 2 of them: k, c"):
+            decay.at(wrong)
+    with raises(InvalidParameter, match="must be finite numbers"):
+        decay.at(c="x")
+
+
+def test_a_system_of_one_variable_needs_no_brackets_and_has_no_section():
+    """ẋ = −2x + 1 from 0.3."""
+    decay = System("decay", lambda y, p: (-p[0] * y[0] + p[1],), "x", {"k": 2.0, "c": 1.0}, example=3.0)
+    assert decay.example[0] == (3.0,)
+    assert solve(decay.at(), 0.3, 1.0).states[-1, 0] == approx(0.5 - 0.2 * math.exp(-2.0), rel=1e-9)
+    with raises(InvalidParameter, match="one variable has no section"):
+        return_map(decay.at())
+
+
+def test_a_system_without_values_of_its_parameters_is_no_body():
+    with raises(InvalidParameter, match=r"System\('henon-heiles'\) is not a body .* system.at\(…\)"):
+        solve(henon_heiles(), (0.1, 0.2, 0.3, 0.4), 1.0)
 
 
 @mark.parametrize(
@@ -326,10 +346,13 @@ def test_parameters_have_values_by_name():
         ({"name": ""}, "not the name of a system"),
         ({"variables": ""}, "`variables` must be names"),
         ({"parameters": "x"}, "each name may occur once"),
-        ({"parameters": {"k": np.nan}}, "the parameters must be 1 finite numbers: k"),
-        ({"example": (1.0, 2.0)}, "must be 4 finite numbers: x, y, px, py"),
+        ({"parameters": {"k": np.nan}}, "the parameters must be finite numbers, 1 of them: k"),
+        ({"example": (1.0, 2.0)}, "must be finite numbers, 4 of them: x, y, px, py"),
         ({"integrals": lambda y, p: 3}, "`integrals` must return first integrals by name"),
         ({"angular_velocities": 1}, "belong together"),
+        ({"field": lambda y, p: -y[0], "variables": "x"}, "returns a sequence of rates"),
+        ({"field": lambda y, p: (p[1] * y[0],), "variables": "x", "parameters": "k"}, "beyond its 1 variables"),
+        ({"field": lambda y, p: (y[1],), "variables": "x"}, "the first index is 0"),
     ],
 )
 def test_what_does_not_fit_is_refused_when_a_system_is_made(wrong, words):

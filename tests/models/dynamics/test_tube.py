@@ -160,10 +160,22 @@ def test_many_digits_are_found_within_the_first_step_too():
 
 def test_what_has_no_tube_is_refused():
     system = systems()["hess"]
-    for words, said in ((([0.1, -0.1],), "must be monotonic"), (([1.0], 0), "choose 1 to 100")):
+    for words, said in ((([0.1, -0.1],), "must be monotonic"), (([1.0], 0), "from 1 to 100")):
         with raises(InvalidParameter, match=said):
             tube(*system.example_motion, *words)
     other = systems()["suslov"]
     orbit = solve(*other.example_motion, [0.1], "draft")
     with raises(InvalidParameter, match="same system"):
         proved_error(orbit, tube(*system.example_motion, [0.1]))
+
+
+@mark.parametrize("t", [0.0, 5e-324])
+def test_at_the_start_a_tube_is_the_start(t):
+    body, state = systems()["suslov"].example_motion
+    found = tube(body, state, [t])
+    assert found.complete
+    for x, one in zip(state, found.states[0], strict=True):
+        # In 5e-324 a rate of size 1 moves it by as much.
+        assert one.low - Fraction(1e-300) <= Fraction(x) <= one.high + Fraction(1e-300)
+        assert float(one.high - one.low) < 1e-18
+    assert found.to_pandas()["γ3 low"].to_list() == [state[4]]

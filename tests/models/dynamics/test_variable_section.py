@@ -17,7 +17,7 @@ from hess_mechanics import (
     tube,
 )  # fmt: skip
 from hess_mechanics.dynamics.section import AnglePlane
-from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion
 
 E = 1 / 12
 SYSTEM = System(
@@ -152,8 +152,121 @@ def test_what_is_no_angle_is_refused(angles, words):
         ({"E": E, "surface": ("z", 0.0)}, "has no variable z: choose one of x, y, px, py"),
         ({"E": E, "coordinates": "y x"}, "has one or two coordinates among y, px, py"),
         ({"E": E, "coordinates": "y"}, "values of more or fewer integrals"),
+        ({"E": E, "surface": "y"}, "surface = 'y' is not a sequence of 2. Write it like .'x', 1.5."),
+        ({"E": E, "window": [(0.0, 1.0)]}, "a lower and a higher number for each of y, py"),
+        ({"E": E, "window": [(0.0, 1.0), (1.0, 0.0)]}, "a lower and a higher number for each of y, py"),
+        ({"E": E, "longest": -1.0}, "choose a positive number"),
     ],
 )
 def test_what_makes_no_section_is_refused(given, words):
     with raises(InvalidParameter, match=words):
         return_map(SYSTEM.at(), **given)
+
+
+# Around the orbit x = A sin φ, u = x − A sin φ obeys u̇ = μu − u³: a pitchfork at μ = 0 that breaks x → −x, φ → φ + π.
+AROUND = {
+    "field": lambda y, p: (
+        p[0] * (y[0] - p[1] * np.sin(y[1])) - (y[0] - p[1] * np.sin(y[1])) ** 3 + p[1] * p[2] * np.cos(y[1]),
+        p[2],
+    ),
+    "variables": "x φ",
+    "parameters": {"mu": -0.2, "A": 0.7, "W": 1.0},
+    "example": (0.1, 0.3),
+    "angles": "φ",
+}
+HALF_A_TURN = "x → −x, φ → φ + π"
+
+
+def turned(y, p):
+    return {HALF_A_TURN: (-y[0], y[1] + np.pi)}
+
+
+@mark.parametrize(("given", "kind"), [({"symmetries": turned}, "pitchfork"), ({}, "branch point")])
+def test_a_declared_symmetry_that_shifts_a_phase_makes_a_pitchfork(given, kind):
+    strobe = return_map(System("around", **AROUND, **given).at(), surface=("φ", 0.5))
+    orbit = periodic_orbit(strobe, (0.3,), 1)
+    assert orbit.places[0] == approx([0.7 * np.sin(0.5)], abs=1e-9)
+    assert orbit.multipliers[0] == approx(np.exp(-0.2 * 2 * np.pi), rel=1e-8)
+    assert orbit.symmetric == ((HALF_A_TURN,) if given else ())
+    (found,) = continued_orbit(strobe, orbit, "mu", 0.2).bifurcations
+    assert (found.kind, abs(found.value) <= found.error < 1e-6) == (kind, True)
+
+
+def test_a_symmetry_that_holds_at_other_parameters_only_is_not_used():
+    """A constant force breaks it."""
+    pushed = System(
+        "pushed", lambda y, p: (AROUND["field"](y, p)[0] + p[3], p[2]), "x φ", {**AROUND["parameters"], "push": 0.0},
+        example=(0.1, 0.3), angles="φ", symmetries=turned,
+    )  # fmt: skip
+    assert [one.name for one in return_map(pushed.at(), surface=("φ", 0.5)).mirrors] == [HALF_A_TURN]
+    assert return_map(pushed.at(push=0.1), surface=("φ", 0.5)).mirrors == ()
+
+
+@mark.parametrize(
+    ("symmetries", "words"),
+    [
+        (lambda y, p: {"x → −x": (-y[0], y[1])}, "x → −x is no symmetry"),
+        (lambda y, p: {"short": (-y[0],)}, "must return a state by name"),
+        (lambda y, p: (-y[0], y[1]), "must return a state by name"),
+        (3, "`symmetries` must be a function"),
+    ],
+)
+def test_what_is_no_symmetry_is_refused(symmetries, words):
+    with raises(InvalidParameter, match=words):
+        System("around", **AROUND, symmetries=symmetries)
+
+
+def test_periods_have_their_time():
+    """A swing of the pendulum by quadrature; and a strobe of the driven one, over the frequency of its drive."""
+    swings = return_map(DRIVEN.at(friction=0.0, force=0.0), surface=("theta", 0.0), coordinates="v phase")
+    period = 4.0 * quad(lambda u: 1.0 / np.sqrt(1.0 - 0.25 * np.sin(u) ** 2), 0.0, np.pi / 2)[0]
+    assert swings.time_of((1.0, 0.0)) == approx(period, rel=1e-9)
+    strobe = return_map(System("around", **AROUND).at(), surface=("φ", 0.5))
+    orbit = periodic_orbit(strobe, (0.3,), 1)
+    assert orbit.time == orbit.to_pandas().attrs["time"] == approx(2.0 * np.pi, rel=1e-12)
+    table = continued_orbit(strobe, orbit, "W", 1.5, points=4).to_pandas()
+    assert len(table) == 4
+    assert table["time"].to_numpy() == approx(2.0 * np.pi / table["W"].to_numpy(), rel=1e-12)
+
+
+def test_a_section_is_crossed_in_both_directions():
+    """The pendulum passes 0.3 upwards and, at the other end of the swing, downwards, with opposite velocities."""
+    given = {"surface": ("theta", 0.3), "coordinates": "v phase"}
+    pendulum = DRIVEN.at(friction=0.0, force=0.0)
+    up, down = (return_map(pendulum, **given, sense=sense) for sense in (1, -1))
+    assert (up.state_at((0.5, 0.0))[1], down.state_at((-0.5, 0.0))[1]) == (0.5, -0.5)
+    for one, v in ((up, 0.5), (down, -0.5)):
+        assert one.image((v, 0.0))[0] == approx(v, abs=1e-9)
+        with raises(OutsideRegion):
+            one.image((-v, 0.0))
+    back = return_map(pendulum, **given, backward=True)
+    assert back.image(up.image((0.5, 0.0))) == approx([0.5, 0.0], abs=1e-9)
+    with raises(InvalidParameter, match=r"or −1 \(decreasing\)"):
+        return_map(pendulum, **given, sense=0)
+
+
+def test_a_slow_return_is_waited_for_if_that_is_wished():
+    slow = DRIVEN.at(W=1e-4)
+    with raises(NoReturn, match="a larger `longest`"):
+        return_map(slow, surface=("phase", 0.0)).image((0.1, 0.0))
+    patient = return_map(slow, surface=("phase", 0.0), longest=1e5, accuracy="draft")
+    assert patient.time_of((0.1, 0.0)) == approx(2e4 * np.pi, rel=1e-9)
+    assert patient.wait((0.1, 0.0)) == approx(1e5)
+
+
+def test_an_orbit_diagram_from_outside_of_the_section_is_refused(returns):
+    with raises(OutsideRegion, match=r"section at y = 0\.1, py = 5:"):
+        orbit_diagram(returns, "E", [0.08, 0.09], (0.1, 5.0), transient=5, kept=5)
+
+
+@mark.parametrize("place", [0.1, (0.1,), (0.1, 0.2, 0.3), "x", None, (10**400, 0.1)])
+def test_what_is_no_point_of_a_section_is_refused(returns, place):
+    for use in (returns.state_at, returns.image, returns.with_derivative, returns.time_of, returns.wait):
+        with raises(InvalidParameter, match="consists of 2 numbers here: y, py"):
+            use(place)
+
+
+def test_one_coordinate_may_be_a_bare_number():
+    strobe = return_map(System("around", **AROUND).at(), surface=("φ", 0.5))
+    assert strobe.image(0.3) == approx(strobe.image((0.3,)), abs=0.0)
+    assert periodic_orbit(strobe, 0.3, 1).period == 1

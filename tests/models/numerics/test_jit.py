@@ -2,16 +2,19 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
-from pytest import fixture, mark
+from pytest import fixture, mark, raises
 
 import hess_mechanics
-from hess_mechanics import System
+from hess_mechanics import System, systems
 from hess_mechanics.numerics import jit
+from hess_mechanics.numerics.jit import announced, kernel
+from hess_mechanics.numerics.patience import limited_by
 
 PACKAGE = Path(hess_mechanics.__file__).parent
 PARTS = ("numerics", "dynamics", "rigid_body", "suslov", "suslov_hess", "chaplygin_ball", "euler_poisson")
@@ -179,3 +182,40 @@ def test_systems_of_one_name_have_each_its_own_file(tmp_path, monkeypatch):
     assert len(texts) == 2
     (grows,) = (text for text in texts if "# def rates(y, q, p, one):\n#     return ((p[0] * y[0]),)" in text)
     assert "def same_orbit(y, p, times, order, tolerance, max_steps, out):" in grows
+
+
+class Cancelled(Exception):
+    """Raised by a request that nobody waits for."""
+
+
+def test_a_long_compilation_is_announced_and_ends_with_its_request(caplog):
+    double = announced(kernel(lambda x: 2.0 * x), "a double", 100.0)
+    asked = []
+
+    def check():
+        asked.append(caplog.text)
+        if len(asked) == 5:
+            raise Cancelled
+
+    with raises(Cancelled), limited_by(check, lambda seconds: None):
+        double(1.0)
+    assert "Compiling a double takes about 100 s" in asked[0]
+    caplog.clear()
+    assert double(1.0) == 2.0
+    # Now it is compiled, and a kernel that takes no longer than most says nothing.
+    caplog.clear()
+    assert (double(3.0), announced(kernel(lambda x: 3.0 * x), "a triple", 10.0)(1.0)) == (6.0, 3.0)
+    assert caplog.text == ""
+
+
+def test_thirty_variables_are_a_long_compilation_and_five_are_not():
+    def chain(y, p):
+        q, v = (0.0, *y[:15], 0.0), y[15:]
+        return *v, *((q[i + 1] - q[i]) ** 3 - (q[i] - q[i - 1]) ** 3 for i in range(1, 16))
+
+    variables = [f"{name}{i}" for name in "qv" for i in range(15)]
+    long = System("chain", chain, variables).vary_others.py_func.announcement
+    # Measured: 268 s.
+    assert 130.0 < float(re.search(r"about (\d+) s", long)[1]) < 540.0
+    assert not hasattr(System("chain", chain, variables).orbit.py_func, "announcement")
+    assert not hasattr(systems()["suslov"].vary_others.py_func, "announcement")

@@ -567,9 +567,9 @@ def branch_picture(of: Callable[[S], Branch]) -> Picture[S]:
     ).of_part(of)
 
 
-def _symmetries(map_: Map, places: Array) -> tuple[str, ...]:
+def _symmetries(map_: Map, places: Array, near: float) -> tuple[str, ...]:
     assert isinstance(map_, ReturnMap)
-    return tuple(map_.symmetries_of(places))
+    return tuple(map_.symmetries_of(places, near))
 
 
 def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | NotFound:
