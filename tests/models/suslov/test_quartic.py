@@ -6,7 +6,7 @@ import numpy as np
 import sympy
 from pytest import approx, mark
 
-from hess_mechanics import level, solve, systems
+from hess_mechanics import level, return_map, solve, systems
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.errors import NoField, NotPositiveDefinite, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD
@@ -19,6 +19,7 @@ from hess_mechanics.suslov.quartic import (
     state_on_section,
 )
 from support.deviations import deviations
+from support.mechanics import every_level
 from support.refusals import refused
 
 SUSLOV = systems()["suslov"]
@@ -166,3 +167,13 @@ def test_a_start_that_the_energy_forbids_moves_along_its_ray_to_the_edge(body):
         x, y = body.inside((0.0, 0.0))
         assert y == 0.0 < x
         assert abs(float(body.height(np.array([x, y])))) <= 1.0
+
+
+@every_level
+def test_an_orbit_along_the_edge_of_its_section_goes_on(name):
+    """Its points are less than their errors inside of the edge: they were refused as places without motion."""
+    map_ = return_map(QuarticBody(1.0, 1.0, 1.0, 0.9999999), accuracy=name)
+    places = map_.orbit(np.array([0.001, 0.0001]), 1000)
+    assert len(places) == 1000
+    assert map_.section.states_at(*places.T)[1].all()
+    assert map_.state_at(places).shape == (1000, 5)
