@@ -56,7 +56,7 @@ class Exponent(Result):
     times: Array
     rates: Array
     spread: float
-    no_chaos: str
+    no_chaos: str = ""
 
     @property
     def value(self) -> float:

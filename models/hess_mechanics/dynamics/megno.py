@@ -3,7 +3,7 @@
     Y(t) = (2/t) ∫₀ᵗ s d ln|δ(s)|,   Ȳ(t) = (1/t) ∫₀ᵗ Y ds,   δ from the variational equations.
 
 Ȳ tends to 2 on quasi-periodic motions, to at most 2 on motions that come to a stable rest or cycle, and grows as λt/2
-on chaotic ones.  It also grows on unstable motions that rest, escape or close, which are not chaotic: see `Megno.no_chaos`.
+on chaotic ones.  It also grows on unstable motions that rest, escape or close and are not chaotic (`Megno.no_chaos`).
 The values are the same for every system and need a single neighbour.  SALI would need two, and falls to 0 on the
 closed curves of a section, where neighbours have one direction only, as on chaotic motions.
 """

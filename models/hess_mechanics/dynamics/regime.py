@@ -10,7 +10,7 @@ is 0 too.  If none of this is clear, the motion is followed four times as long, 
 Dynamics are classified by the sets to which orbits tend forward and backward in time, and by the mean divergence on the
 first one (Gonchenko, Gonchenko, Kazakov 2020).  Both come from an ensemble of orbits.  A verdict needs a mean beyond
 its confidence interval, settled orbits in the majority, and agreement of these about the sets; `conservative` needs a
-field that preserves a volume, or a smooth invariant measure, which make it a fact.
+fact: a field that preserves a volume, a smooth invariant measure, or a reversor that takes the motion to itself.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ _INDEPENDENT = 400
 """Crossings after which orbits of an ensemble are taken for independent."""
 _MOST_CROSSINGS = 20_000
 _MIRRORED, _GRAINS = 16, 3.0
-"""Points of a motion whose mirror images are compared with it, and their largest distance in distances of its halves."""
+"""Points of a motion whose mirror images are compared with it, and their largest distance, in those of its halves."""
 _TOUCHING = 0.005
 """Fraction of common points from which two sets count as touching.  It was 0.015 to 0.2 in samples of 1500 points of
 sets that touch, and 0 for sets that do not."""
@@ -563,7 +563,7 @@ class Dynamics(Result):
             return f"Not told apart: |mean divergence| < {self.motion.bound:.1g}."
         return (
             f"Looks {self.verdict}: attractor and repeller are {self.distance:.2g} ± {self.distance_error:.1g} "
-            f"apart and share {100.0 * self.shared:.2g} % of their places."
+            f"apart and share {100.0 * self.shared:.3g} % of their places."
         )
 
     def labels(self) -> Labels:

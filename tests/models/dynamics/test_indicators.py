@@ -12,9 +12,9 @@ from hess_mechanics.dynamics.zero_one import zero_one_of_bands, zero_one_test
 from support.thorough import examples
 
 PENDULUM = System("pendulum of a test", lambda y, p: (y[1], -np.sin(y[0])), "x v", (), angles="x").at(())
-SADDLE = System(
-    "saddle beside an oscillator", lambda y, p: (y[1], y[0], y[3], -p[0] * y[2]), "x v q p", {"k": 1.0}
-).at((1.0,))
+SADDLE = System("saddle beside an oscillator", lambda y, p: (y[1], y[0], y[3], -p[0] * y[2]), "x v q p", {"k": 1.0}).at(
+    (1.0,)
+)
 LORENZ = System(
     "lorenz of these tests",
     lambda y, p: (p[0] * (y[1] - y[0]), y[0] * (p[1] - y[2]) - y[1], y[0] * y[1] - p[2] * y[2]),
@@ -83,7 +83,8 @@ def test_chaos_in_narrow_bands_is_seen_in_every_nth_crossing_and_is_no_curve():
             seen += 1
             assert zero_one_of_bands(orbit[:, 0]) > 0.8
             assert irregularity((math.inf,), orbit, 1e-9) > 3e-3
-    assert zero_one_test(logistic(3.5702, 0.3, 12_800)[0][:, 0]) < 0.5 < 0.8 < zero_one_of_bands(orbit[:, 0])
+    # Of all crossings of 32 bands it is blind.
+    assert zero_one_test(logistic(3.5702, 0.3, 12_800)[0][:, 0]) < 0.5
 
 
 @mark.parametrize("rho", [0.5 * (math.sqrt(5.0) - 1.0), math.sqrt(2.0) - 1.0, 0.1234567 * math.sqrt(3.0)])
