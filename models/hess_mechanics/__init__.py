@@ -24,9 +24,9 @@ def __getattr__(name: str) -> Any:
     """Return a name of the package; its functions check their arguments against their annotations."""
     found = _found(name)
     if isinstance(found, FunctionType):
-        from hess_mechanics.numerics.arguments import checked
+        from hess_mechanics.numerics.arguments import typed
 
-        found = checked(found)
+        found = typed(found)
         found.__module__ = __name__
     globals()[name] = found
     return found

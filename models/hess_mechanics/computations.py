@@ -21,7 +21,7 @@ from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.rotation import LineEnds, RotationProfile, on_line, rotation_along
 from hess_mechanics.numerics.accuracy import Accuracy, Computation, plan
-from hess_mechanics.numerics.arguments import as_a, as_cells, as_level, as_number, as_pairs, as_whole
+from hess_mechanics.numerics.arguments import as_cells, as_level, as_pairs, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, frozen
@@ -130,7 +130,7 @@ def basins(
     >>> basins(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842, cells=(6, 4), accuracy="draft").attractors
     2
     """
-    section = SuslovSection(as_a(SuslovBody, body), as_number("E", E), as_whole("plane", plane, 1, 3))
+    section = SuslovSection(body, E, as_whole("plane", plane, 1, 3))
     require_reached(section)
     m, n = as_cells(cells)
     (x0, y0), (x1, y1) = _window(window)
@@ -197,12 +197,12 @@ def cloud(
     50
     """
     found = phase_cloud_density.clouds(
-        as_a(BallBody, body),
-        as_number("h", h),
+        body,
+        h,
         angle,
-        as_number("spread", spread),
+        spread,
         as_whole("count", count, 1, 20_000),
-        as_number("t", t),
+        t,
         None,
         as_level(accuracy),
     )
@@ -246,13 +246,6 @@ def rotation_numbers(
     >>> rotation_numbers(0.5, np.array([0.2, 1.5]), 0.6).locked.tolist()
     [False, True]
     """
-    for name, values in (("a", a), ("h", h), ("f", f)):
-        try:
-            np.asarray(values, float)
-        except (TypeError, ValueError):
-            raise InvalidParameter(
-                f"{name} = {values!r} is neither a number nor an array of numbers; write it like 1.5 or [1.5, 2.0]."
-            ) from None
     return values_at(a, h, f, as_level(accuracy))
 
 
@@ -309,7 +302,7 @@ def rotation_along_line(
     >>> rotation_along_line(body, 2.0, 0.5, ((0.0, 0.85), (0.0, 0.95)), count=4).to_xarray()["ρ"].attrs["units"]
     'turns'
     """
-    section = AndoyerSection(as_a(HeavyBody, body), as_number("h", h), as_number("f", f))
+    section = AndoyerSection(body, h, f)
     first, last = as_pairs("ends", ends)
     started = on_line(section, (first, last), as_whole("count", count, 1, _MOST_ORBITS))
     if not started:

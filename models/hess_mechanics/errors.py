@@ -35,6 +35,10 @@ class WorkLimit(ModelError):
     """A request that needs more steps than allowed."""
 
 
+class MotionEnds(ModelError):
+    """A motion that escapes to infinity in finite time, or reaches a state without finite rates."""
+
+
 class NoReturn(ModelError):
     """A motion that does not return to its section within the time limit."""
 

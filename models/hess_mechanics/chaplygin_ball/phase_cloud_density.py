@@ -15,7 +15,7 @@ import numpy as np
 
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud, carried, frame_times, histogram, occupation, patch, shell
-from hess_mechanics.dynamics.ensemble import ensemble
+from hess_mechanics.dynamics.ensemble import complete, ensemble
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Ensemble, frozen
 from hess_mechanics.suslov.additional_integral import of_body
@@ -141,5 +141,5 @@ def clouds(
     cloud, other = carried(body, states, times, level), None
     if field is not None:
         principal = BallBody(body.I11, body.I22, 0.0, 0.0, body.D, 0.0, 0.0, field)
-        other = ensemble(principal, states, times, level)
+        other = complete(ensemble(principal, states, times, level))
     return Clouds(cloud, course(cloud), density(cloud), sides(cloud), other)

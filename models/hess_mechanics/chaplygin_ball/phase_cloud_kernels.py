@@ -37,6 +37,6 @@ _ensemble = one_by_one(orbit_integrator(trace(field, variables=5, parameters=6))
 
 
 @kernel
-def integrate(states, p, times, order, tolerance, max_steps, out):
+def integrate(states, p, times, order, tolerance, longest, max_steps, out, steps, ends):
     """Integrate many motions (x, y, γ), see `ensemble_integrator`; p = (I11, I22, J, I13/J, I23/J, 𝒟)."""
-    return _ensemble(states, p, times, order, tolerance, max_steps, out)
+    _ensemble(states, p, times, order, tolerance, longest, max_steps, out, steps, ends)

@@ -24,7 +24,7 @@ import numpy as np
 
 from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody, determinant, kinetic_energy
-from hess_mechanics.dynamics.ensemble import ensemble
+from hess_mechanics.dynamics.ensemble import complete, ensemble
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD, Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level
@@ -287,7 +287,7 @@ def ball_scattering(
             f"γ settles on its circle so slowly that θ⁺ takes about {steps:.0e} steps: choose larger I13 or "
             "I23, or a smaller 𝒟."
         )
-    found = ensemble(body, states, [span], tight)
+    found = complete(ensemble(body, states, [span], tight))
     end = found.states[:, 0]
     along, across = end[:, 2:4] @ xi, np.hypot(end[:, 2:4] @ eta, end[:, 4])
     theta_plus = np.arctan2(across, along)

@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
 from hess_mechanics.chaplygin_ball.equations import BallBody
-from hess_mechanics.dynamics.ensemble import ensemble
+from hess_mechanics.dynamics.ensemble import complete, ensemble
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import away_from
 from hess_mechanics.numerics.accuracy import DRAFT, Accuracy
@@ -32,8 +32,8 @@ def strip_orbits(body: BallBody, count: int, level: Accuracy = DRAFT) -> tuple[S
     speed = math.sqrt(2.0 / min(body.I11, body.I22))
     tick = 2.0 * 1.1 * speed / PIXELS
     times = _times(body, speed)
-    there = ensemble(body, states, times, level).states[:, :, :2]
-    back = ensemble(body, states, -times, level).states[:, :, :2]
+    there = complete(ensemble(body, states, times, level)).states[:, :, :2]
+    back = complete(ensemble(body, states, -times, level)).states[:, :, :2]
     orbits = []
     for i in range(count):
         before, after = (_as_far_as_the_line(states[i, :2], half[i], eta, tick) for half in (back, there))

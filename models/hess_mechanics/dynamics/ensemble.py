@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS, checked_times, drift_of, require_finite_states, require_steps
+from hess_mechanics.dynamics.orbit import MAX_STEPS, as_max_step, checked_times, drift_of, unfinished
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import Accuracy, Level
-from hess_mechanics.numerics.arguments import as_level
-from hess_mechanics.numerics.measured import safety_of
+from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
+from hess_mechanics.numerics.arguments import as_level, as_whole
+from hess_mechanics.numerics.measured import SAFETY, UNSURE, safety_of
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.results import Array, Cost, Ensemble, frozen
 
-__all__ = ["MAX_NUMBERS", "ensemble"]
+__all__ = ["MAX_NUMBERS", "complete", "ensemble", "integrated"]
+
+Indices = NDArray[np.int64]
 
 MAX_NUMBERS = 20_000_000
 """Largest number of floats in the result: 160 MB."""
@@ -27,31 +29,30 @@ _SHARE = 64
 
 
 def integrated(
-    kernel: Callable[..., int],
+    kernel: Callable[..., None],
     states: Array,
     parameters: Array,
     times: Array,
     level: Level,
-    most_steps: int,
+    longest: float,
+    max_steps: int,
     threads: int,
-    too_long: str,
-) -> tuple[Array, int]:
-    """Return the states (n, m, d) of many orbits at the times (m,), and the number of steps.
+) -> tuple[Array, Indices, Array]:
+    """Return the states (n, m, d) of many orbits at the times (m,), the steps (n,) and the times (n,) reached.
 
-    Raises `WorkLimit` with the message `too_long`, and `InvalidParameter`.
+    Units are scaled.  An orbit that could not be followed has the negative steps of `taylor_kernels.orbit_integrator`,
+    and its last state in the row of the next time.
     """
-    out = np.empty((len(states), times.size, states.shape[1]))
-    parts = -(-len(states) // _SHARE)
-    steps = np.zeros(parts, int)
+    count = len(states)
+    out, steps, ends = np.full((count, times.size, states.shape[1]), np.nan), np.zeros(count, np.int64), np.zeros(count)
 
     def part(i: int) -> None:
         own = slice(i * _SHARE, (i + 1) * _SHARE)
-        steps[i] = kernel(states[own], parameters, times, level.order, level.tolerance, most_steps, out[own])
+        found = out[own], steps[own], ends[own]
+        kernel(states[own], parameters, times, level.order, level.tolerance, longest, max_steps, *found)
 
-    share(part, parts, threads)
-    require_steps(steps.min(initial=0), too_long)
-    require_finite_states(out)
-    return out, int(steps.sum())
+    share(part, -(-count // _SHARE), threads)
+    return out, steps, ends
 
 
 def ensemble(
@@ -60,11 +61,14 @@ def ensemble(
     times: Sequence[float] | Array,
     level: Accuracy = "precise",
     threads: int = THREADS,
+    max_step: float | None = None,
+    max_steps: int = MAX_STEPS,
 ) -> Ensemble:
     """Return the orbits from several initial states, computed on all cores.
 
     Errors are measured as in `solve`, orbit by orbit.  Orbits that miss the promise of the level are recomputed with
-    smaller tolerances, down to the floor of double precision.
+    smaller tolerances, down to the floor of double precision.  An orbit that cannot be followed to the last time ends
+    where it does, and the others are complete.
 
     Parameters
     ----------
@@ -78,18 +82,22 @@ def ensemble(
         Accuracy level.
     threads : int, optional
         Number of threads.  By default one per core, at most eight.
+    max_step : float, optional
+        Longest step, see `solve`.
+    max_steps : int, default 1 000 000
+        Largest number of steps of one orbit in one run.
 
     Returns
     -------
     Ensemble
-        States (n, m, d), with an error estimate for each orbit.
+        States (n, m, d), with a status and an error estimate for each orbit.
 
     Raises
     ------
     InvalidParameter
         If a number is not finite, or the times are not monotonic.
     WorkLimit
-        If an orbit needs too many steps, or the result would be too large.
+        If the result would be too large.
 
     Examples
     --------
@@ -110,26 +118,27 @@ def ensemble(
         raise WorkLimit(f"{count} orbits at {t.size} times are too many: choose fewer of one or the other.")
     scaled_times = problem.times(t)
 
-    starts = (problem.states, problem.nearby().states)
-    run = partial(
-        integrated,
-        body.system.ensemble,
-        parameters=problem.parameters,
-        times=scaled_times,
-        most_steps=MAX_STEPS,
-        threads=threads,
-        too_long=f"One of these orbits needs more than {MAX_STEPS} steps: choose a shorter time span.",
-    )
-    out, total = run(states=starts[level.aside], level=level)
-    errors, scaled_errors = np.zeros(count), np.zeros(count)
-    todo, before = np.arange(count), out
-    current = level
+    longest, most_steps = as_max_step(max_step, problem), as_whole("max_steps", max_steps, 1, 2**62)
+
+    def run(own: Problem, chosen: slice | Indices, at: Level) -> tuple[Array, Indices, Array]:
+        system, states, p = own.system, own.states[chosen], own.parameters
+        step = system.longest_step(at, scaled_times[-1], longest)
+        return integrated(system.ensemble, states, p, scaled_times, at, step, most_steps, threads)
+
+    out, steps, reached = run(problem, slice(None), level)
+    done = steps >= 0
+    problems = problem, problem.nearby().rounded(out[done, -1])
+    total = int(steps[done].sum())
+    errors, scaled_errors = np.full(count, np.inf), np.zeros(count)
+    todo = np.flatnonzero(done)
+    before, current = out[todo], level
     # As in `measured`, for the orbits that still miss the promise.
     while todo.size:
         tighter = current.tightened()
-        found, steps = run(states=starts[tighter.aside][todo], level=tighter)
-        total += steps
+        found, more, _ = run(problems[tighter.aside], todo, tighter)
+        total += int(np.maximum(more, 0).sum())
         difference = np.abs(before - found)
+        difference[more < 0] = np.inf
         off = difference.max(axis=(1, 2))
         safety = safety_of(off, scaled_errors[todo])
         scaled_errors[todo] = safety * off + 2e-16
@@ -137,10 +146,24 @@ def ensemble(
         if not tighter.aside:
             out[todo] = found
         if current.is_floor:
+            todo = todo[scaled_errors[todo] > level.promise * UNSURE]
+            third, more, _ = run(problems[current.aside], todo, tighter.tightened())
+            total += int(np.maximum(more, 0).sum())
+            difference = np.abs(out[todo] - third)
+            difference[more < 0] = np.inf
+            scaled_errors[todo] = np.maximum(scaled_errors[todo], SAFETY * difference.max(axis=(1, 2)) + 2e-16)
+            errors[todo] = np.maximum(errors[todo], SAFETY * (difference * problem.scale).max(axis=(1, 2)))
             break
         missed = scaled_errors[todo] > level.promise
         todo, before, current = todo[missed], found[missed], tighter
 
+    statuses = [level.status(float(error)) for error in scaled_errors]
+    ends, last, reasons = np.full(count, t[-1]), out[:, -1].copy(), [""] * count
+    for i in np.flatnonzero(~done):
+        row = int(np.count_nonzero(np.abs(scaled_times) <= abs(reached[i])))
+        statuses[i], ends[i], last[i] = Status.INCOMPLETE, reached[i] / problem.nu, out[i, row]
+        reasons[i] = str(unfinished(problem, int(steps[i]), reached[i], last[i], most_steps))
+        out[i, row:] = np.nan
     out *= problem.scale
     drift = drift_of(body.system, np.array(states, float, ndmin=2), out, np.asarray(body.parameters, float))
     wall_ms = (time.perf_counter() - start) * 1e3
@@ -149,10 +172,22 @@ def ensemble(
         level.name,
         frozen(t),
         frozen(out),
-        level.status(float(scaled_errors.max())),
-        float(errors.max()),
+        level.status(float(scaled_errors.max())) if done.all() else Status.INCOMPLETE,
+        float(errors[done].max(initial=0.0)),
         drift,
         Cost(total, wall_ms),
         body.system.variables,
         frozen(errors),
+        tuple(statuses),
+        frozen(ends),
+        frozen(last * problem.scale),
+        tuple(reasons),
     )
+
+
+def complete(found: Ensemble) -> Ensemble:
+    """Return the ensemble.  Raises `WorkLimit` with the reason of the first orbit that is incomplete."""
+    reason = next(filter(None, found.reasons), None)
+    if reason is not None:
+        raise WorkLimit(reason)
+    return found

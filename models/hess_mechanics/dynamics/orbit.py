@@ -9,16 +9,18 @@ from numbers import Real
 import numpy as np
 
 from hess_mechanics.dynamics.system import Body, Problem, System
-from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.errors import InvalidParameter, ModelError, MotionEnds, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_level, as_number, as_whole
+from hess_mechanics.numerics.field_values import Undefined
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.results import Array, Orbit, frozen
-from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
+from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, STOPPED
 
 __all__ = [
     "MAX_SAMPLES",
     "MAX_STEPS",
+    "as_max_step",
     "checked_span",
     "checked_times",
     "drift_of",
@@ -28,10 +30,17 @@ __all__ = [
     "require_finite_states",
     "require_steps",
     "solve",
+    "unfinished",
 ]
 
 MAX_STEPS = 1_000_000
+"""Largest number of steps, unless another limit is given."""
 MAX_SAMPLES = 200_000
+_MOST_STEPS = 2**62
+_ESCAPED, _SHOWN = 1e9, 6
+"""Size, in units in which the start is O(1), of a variable that escapes; variables shown in a message."""
+_AHEAD = 1e-9
+"""Time after the end of a motion at which its field is tried."""
 _SHORTEST = 1e-290
 """Shortest time span for rates: divided by a shorter one, the round-off of a zero overflows."""
 
@@ -63,9 +72,73 @@ def checked_span(span: float, what: str) -> float:
 
 
 def require_steps(steps: int, too_long: str) -> None:
-    """Raise `WorkLimit` with the message `too_long` if a kernel ran out of steps."""
+    """Raise `WorkLimit` with the message `too_long` if a kernel ran out of steps, `MotionEnds` if it stopped."""
     if steps == STEP_LIMIT_REACHED:
         raise WorkLimit(too_long)
+    if steps == STOPPED:
+        raise MotionEnds(
+            "The motion escapes to infinity or reaches a state without finite rates before this time: `solve` says "
+            "where. Choose a shorter time span."
+        )
+
+
+def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: int) -> ModelError:
+    """Return the error of a motion that could not be followed to its end.
+
+    Parameters
+    ----------
+    problem : Problem
+        The equations of motion and their units.
+    code : int
+        `STEP_LIMIT_REACHED` or `STOPPED`.
+    t : float
+        Time reached, in scaled units.
+    state : ndarray, shape (d,)
+        State at that time, in scaled units.
+    max_steps : int
+        Limit of the number of steps.
+
+    Returns
+    -------
+    ModelError
+        The time, and the variable or operation that ended the motion.
+    """
+    system, at = problem.system, f"t = {t / problem.nu:.6g}"
+    if code == STEP_LIMIT_REACHED:
+        return WorkLimit(
+            f"This motion needs more than {max_steps} steps, which reach {at}: choose a shorter time span, a cheaper "
+            "accuracy or a larger `max_steps`."
+        )
+    physical = state * problem.scale
+    shown = ", ".join(f"{name} = {x:.6g}" for name, x in list(zip(system.variables, physical, strict=True))[:_SHOWN])
+    largest = int(np.argmax(np.abs(state)))
+    if abs(state[largest]) >= _ESCAPED:
+        return MotionEnds(
+            f"{system.variables[largest]} reached {physical[largest]:.3g} at {at}: the motion escapes to infinity in "
+            "finite time. Choose a shorter time span."
+        )
+    rates = np.zeros(state.size)
+    try:
+        for ahead in (0.0, _AHEAD):
+            rates = system.rates_with_rounding(state + ahead * rates, problem.parameters)[0]
+    except Undefined as error:
+        return MotionEnds(f"At {at} the field {error}, where {shown}: end the motion before, or start elsewhere.")
+    fastest = int(np.argmax(np.abs(rates)))
+    return MotionEnds(
+        f"At {at} no step is short enough: the rate of {system.variables[fastest]} reached {rates[fastest]:.3g} or "
+        f"jumps, where {shown}. End the motion before, or find the event with `section` and go on from it with a "
+        "system for the next case."
+    )
+
+
+def as_max_step(max_step: float | None, problem: Problem) -> float:
+    """Return the longest step in scaled time; ∞ if none is given.  Raises `InvalidParameter`."""
+    if max_step is None:
+        return math.inf
+    found = as_number("max_step", max_step)
+    if not found > 0.0:
+        raise InvalidParameter(f"max_step = {found:g} is not positive: choose a time such as 0.01.")
+    return found * problem.nu
 
 
 def require_finite_states(states: Array) -> None:
@@ -133,6 +206,8 @@ def solve(
     t: float | Sequence[float] | Array,
     accuracy: Accuracy = "precise",
     samples: int = 500,
+    max_step: float | None = None,
+    max_steps: int = MAX_STEPS,
 ) -> Orbit:
     """Return the orbit of a body from an initial state, with a measured error.
 
@@ -148,6 +223,11 @@ def solve(
         Accuracy level: "draft", "standard", "precise", "reference", or a level of your own.
     samples : int, default 500
         Number of evenly spaced times if `t` is a single number.
+    max_step : float, optional
+        Longest step, in the unit of time.  By default a hundredth of the time span for a field with functions, else
+        none.  Choose it shorter than the shortest pulse of the field: see Notes.
+    max_steps : int, default 1 000 000
+        Largest number of steps of all runs together.
 
     Returns
     -------
@@ -160,13 +240,21 @@ def solve(
         If a number is not finite, or the times are not monotonic.
     WorkLimit
         If the orbit needs too many steps or has too many samples.
+    MotionEnds
+        If the motion escapes to infinity, or reaches a state without finite rates.
 
     Notes
     -----
-    Taylor series of high order with adaptive steps.  The orbit is computed twice, the second time with a
-    hundredth of the tolerance and from a start that is moved by a few units in the last place; the difference gives the
+    Taylor series of high order with adaptive steps.  The orbit is computed twice, the second time with a hundredth of
+    the tolerance, other steps, and a start that is moved by a few units in the last place; the difference gives the
     error estimate.  If it exceeds the promise of the level, more exact runs follow, down to the floor of double
-    precision: see `numerics.measured`.
+    precision: see `numerics.measured`.  If rates are differences of much larger numbers, the second run has rates that
+    are wrong by their round-off.
+
+    In a field with functions the series of each step is compared with the field at the end of the step and at one
+    point inside, and is shortened until they agree: see `numerics.step_kernels`.  A pulse that is narrower than a step
+    and falls between these points is missed, by both runs.  To be sure, choose `max_step` below the width of the
+    pulse, and compare with a run of half that step.
 
     Examples
     --------
@@ -183,17 +271,30 @@ def solve(
     )
     problem = Problem.of(body, [state])
     scaled_times = problem.times(times)
-    starts = (problem.states[0], problem.nearby().states[0])
+    longest = as_max_step(max_step, problem)
+    most_steps = as_whole("max_steps", max_steps, 1, _MOST_STEPS)
+    nearby = problem.nearby()
+    problems = [problem, nearby]
 
     def run(at: Level, spent: int) -> tuple[Array, int]:
+        own = problems[at.aside]
         out = np.empty((times.size, problem.scale.size))
-        steps = body.system.orbit(
-            starts[at.aside], problem.parameters, scaled_times, at.order, at.tolerance, MAX_STEPS - spent, out
+        steps, end = own.system.orbit(
+            own.states[0],
+            own.parameters,
+            scaled_times,
+            at.order,
+            at.tolerance,
+            own.system.longest_step(at, scaled_times[-1], longest),
+            most_steps - spent,
+            out,
         )
-        require_steps(
-            steps, f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper accuracy."
-        )
+        if steps < 0:
+            reached = np.count_nonzero(np.abs(scaled_times) <= abs(end))
+            raise unfinished(problem, steps, end, out[reached], most_steps)
         require_finite_states(out)
+        if not at.aside:
+            problems[1] = nearby.rounded(out)
         return out, steps
 
     found = measured(level, run, lambda one, other: float(np.abs(one - other).max()))

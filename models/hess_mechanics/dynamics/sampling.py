@@ -44,12 +44,13 @@ def sample_times(body: Body, state: Array, span: float, weights: Array, sagitta:
     while True:
         even = np.linspace(0.0, span, count)
         states = np.empty((count, problem.scale.size))
-        steps = body.system.orbit(
+        steps, _ = body.system.orbit(
             problem.states[0],
             problem.parameters,
             even * problem.nu,
             PRECISE.order,
             PRECISE.tolerance,
+            body.system.longest_step(PRECISE, span * problem.nu),
             MAX_STEPS,
             states,
         )

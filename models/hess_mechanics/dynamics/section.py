@@ -10,11 +10,11 @@ from typing import Protocol
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import drift_of, require_finite_states, require_steps
+from hess_mechanics.dynamics.orbit import as_max_step, drift_of, require_finite_states, unfinished
 from hess_mechanics.dynamics.system import Body, Problem, System
-from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.errors import InvalidParameter, ModelError, MotionEnds, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
-from hess_mechanics.numerics.arguments import as_level
+from hess_mechanics.numerics.arguments import as_level, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.parallel import THREADS, share
@@ -222,15 +222,14 @@ class _Search:
     """A search for crossings by the orbits from `starts` (n, d); all else is in units in which the states are O(1)."""
 
     body: Body
+    plane: Surface
     starts: Array
     problem: Problem
-    cross: Callable[..., tuple[int, int]]
-    normal: Array
-    offset: float
-    sense: int
     end: float
     level: Level
     crossings: int
+    max_step: float
+    max_steps: int
 
     @classmethod
     def of(
@@ -241,6 +240,8 @@ class _Search:
         end: float,
         level: Level,
         crossings: int,
+        max_step: float | None,
+        max_steps: int,
     ) -> _Search:
         """Validate the arguments and scale them.  Raises `InvalidParameter`, `WorkLimit`."""
         if not math.isfinite(end):
@@ -250,31 +251,37 @@ class _Search:
         problem = Problem.of(body, states)
         if not hasattr(plane, "scaled"):
             raise InvalidParameter("A section needs a surface, such as Plane(normal, offset).")
-        cross, normal, offset = plane.scaled(body.system, problem)
+        plane.scaled(body.system, problem)
         starts = np.array(states, float, ndmin=2)
-        return cls(body, starts, problem, cross, normal, offset, plane.sense, end * problem.nu, level, crossings)
+        longest = as_max_step(max_step, problem)
+        most = as_whole("max_steps", max_steps, 1, 2**62)
+        return cls(body, plane, starts, problem, end * problem.nu, level, crossings, longest, most)
 
-    def run(self, i: int, level: Level, max_steps: int, start: Array | None = None) -> tuple[tuple[Array, Array], int]:
-        """Return (times, states) of the crossings of orbit i, or of the orbit from `start`, and the steps taken."""
-        if start is None:
-            start = (self.problem.nearby() if level.aside else self.problem).states[i]
+    def run(
+        self, problem: Problem, start: Array, end: float, level: Level, spent: int = 0
+    ) -> tuple[tuple[Array, Array], int]:
+        """Return (times, states) of the crossings of the orbit of a problem from `start`, and the steps taken."""
+        cross, normal, offset = self.plane.scaled(problem.system, problem)
+        longest = problem.system.longest_step(level, end, self.max_step)
         room, total = min(self.crossings, _ROOM), 0
         while True:
             times, states = np.empty(room), np.empty((room, self.problem.scale.size))
-            found, steps = self.cross(
+            found, steps = cross(
                 start,
-                self.problem.parameters,
-                self.normal,
-                self.offset,
-                self.sense,
-                self.end,
+                problem.parameters,
+                normal,
+                offset,
+                self.plane.sense,
+                end,
                 level.order,
                 level.tolerance,
-                max_steps - total,
+                longest,
+                self.max_steps - spent - total,
                 times,
                 states,
             )
-            require_steps(found, f"This section needs more than {max_steps} steps: choose a shorter time span.")
+            if found < 0:
+                raise unfinished(self.problem, found, times[-1], states[-1], self.max_steps)
             total += steps
             if found < room or room == self.crossings:
                 break
@@ -284,8 +291,18 @@ class _Search:
 
     def measured(self, i: int) -> SectionCrossings:
         """Return the crossings of orbit i, with an error estimate from a more accurate run with a nearby start."""
-        found = measured(self.level, lambda level, spent: self.run(i, level, MAX_STEPS - spent), self._apart)
-        (times, scaled), (_, others) = found.result, found.other
+        nearby = self.problem.nearby()
+        problems = [self.problem, nearby]
+
+        def run(level: Level, spent: int) -> tuple[tuple[Array, Array], int]:
+            own = problems[level.aside]
+            crossings, steps = self.run(own, own.states[i], self.end, level, spent)
+            if not level.aside:
+                problems[1] = nearby.rounded(np.vstack((self.problem.states[i], crossings[1])))
+            return crossings, steps
+
+        found = measured(self.level, run, self._apart)
+        (times, scaled), (other_times, others) = found.result, found.other
         both = min(len(scaled), len(others))
         nu, scale = self.problem.nu, self.problem.scale
         states = scaled * scale
@@ -301,16 +318,29 @@ class _Search:
             drift_of(system, self.starts[i], states, p),
             found.cost,
             system.variables,
+            time_error(found.safety, times, other_times) / nu,
         )
 
     def _apart(self, one: tuple[Array, Array], other: tuple[Array, Array]) -> float:
-        """Return the difference of the crossings of two runs, ∞ if these are not the same crossings."""
+        """Return the difference of the crossings of two runs, ∞ if these are not the same crossings.
+
+        It is that of the states or of the times, which is larger along a conservative motion.
+        """
         (times, states), (other_times, others) = one, other
         both = min(len(states), len(others))
+        off = float(np.abs(times[:both] - other_times[:both]).max(initial=0.0))
         # One crossing may differ, at the very end of the time span.
         extra = np.concatenate((times[both:], other_times[both:]))
-        same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - self.end) <= 10 * self.level.promise)
-        return float(np.abs(states[:both] - others[:both]).max(initial=0.0)) if same else math.inf
+        near = 10.0 * max(self.level.promise, off)
+        same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - self.end) <= near)
+        return max(off, float(np.abs(states[:both] - others[:both]).max(initial=0.0))) if same else math.inf
+
+
+def time_error(safety: float, times: Array, others: Array) -> float:
+    """Return the error of the times (n,) of crossings, from those of another run and from their own rounding."""
+    both = min(times.size, others.size)
+    off = float(np.abs(times[:both] - others[:both]).max(initial=0.0))
+    return safety * off + 4e-16 * float(np.abs(times).max(initial=0.0))
 
 
 def section(
@@ -320,6 +350,8 @@ def section(
     end: float,
     level: Accuracy,
     crossings: int = MAX_CROSSINGS,
+    max_step: float | None = None,
+    max_steps: int = MAX_STEPS,
 ) -> SectionCrossings:
     """Return the crossings of a surface by one orbit.
 
@@ -337,11 +369,15 @@ def section(
         Accuracy level.
     crossings : int, default 100 000
         Largest number of crossings.
+    max_step : float, optional
+        Longest step, see `solve`.
+    max_steps : int, default 5 000 000
+        Largest number of steps of all runs together.
 
     Returns
     -------
     SectionCrossings
-        Times and states of the crossings, with status, error estimate and drift of the integrals.
+        Times and states of the crossings, with status, error estimates and drift of the integrals.
 
     Raises
     ------
@@ -352,8 +388,9 @@ def section(
 
     Notes
     -----
-    Crossings are roots of the orbit's own Taylor polynomials.  The error is measured as in `solve`, crossing by
-    crossing; if two runs find different crossings, the more accurate one is used.
+    Crossings are roots of the orbit's own Taylor polynomials.  Errors of states and times are measured as in `solve`,
+    crossing by crossing; both must keep the promise of the level, the times in units 1/ν.  If two runs find different
+    crossings, the more accurate one is used.
 
     Examples
     --------
@@ -363,7 +400,8 @@ def section(
     >>> bool(abs(found.states[:, 4]).max() < 1e-9)
     True
     """
-    return sections(body, np.array(state, float)[None], plane, end, level, crossings, threads=1)[0]
+    start = np.array(state, float)[None]
+    return sections(body, start, plane, end, level, crossings, threads=1, max_step=max_step, max_steps=max_steps)[0]
 
 
 def sections(
@@ -374,6 +412,8 @@ def sections(
     level: Accuracy,
     crossings: int = MAX_CROSSINGS,
     threads: int = THREADS,
+    max_step: float | None = None,
+    max_steps: int = MAX_STEPS,
 ) -> list[SectionCrossings]:
     """Return the crossings of a surface by several orbits, computed on all cores.
 
@@ -395,6 +435,10 @@ def sections(
         Largest number of crossings per orbit.
     threads : int, optional
         Number of threads.  By default one per core, at most eight.
+    max_step : float, optional
+        Longest step, see `solve`.
+    max_steps : int, default 5 000 000
+        Largest number of steps for each orbit.
 
     Returns
     -------
@@ -417,7 +461,7 @@ def sections(
     1
     """
     level = as_level(level)
-    search = _Search.of(body, states, plane, end, level, crossings)
+    search = _Search.of(body, states, plane, end, level, crossings, max_step, max_steps)
     found: dict[int, SectionCrossings] = {}
 
     def one(orbit: int) -> None:
@@ -525,18 +569,19 @@ def section_points(
     """
     level = as_level(level)
     begun = time.perf_counter()
-    search = _Search.of(body, states, plane, end, level, crossings)
+    search = _Search.of(body, states, plane, end, level, crossings, None, most_steps)
     count = len(search.starts)
     parts = max(1, min(_PARTS, crossings // 10))
-    one_part = replace(search, end=search.end / parts, crossings=-(-crossings // parts))
+    one_part = replace(search, crossings=-(-crossings // parts))
+    problem = search.problem.nearby() if level.aside else search.problem
     found: dict[int, tuple[Array, int]] = {}
 
     def follow(orbit: int) -> tuple[Array, int]:
         pieces: list[Array] = []
-        start, steps = None, 0
+        start, steps = problem.states[orbit], 0
         for _ in range(parts):
             go_on()
-            (_, points), taken = one_part.run(orbit, level, most_steps - steps, start)
+            (_, points), taken = one_part.run(problem, start, search.end / parts, level, steps)
             pieces.append(points)
             steps += taken
             if len(points) < one_part.crossings:
@@ -544,14 +589,14 @@ def section_points(
             start = points[-1]
         return np.concatenate(pieces)[:crossings] * search.problem.scale, steps
 
-    refused: list[WorkLimit] = []
+    refused: list[ModelError] = []
 
     def one(orbit: int) -> None:
         # A single orbit beyond the limit stops the whole section.
         if not refused:
             try:
                 found[orbit] = follow(orbit)
-            except WorkLimit as error:
+            except (WorkLimit, MotionEnds) as error:
                 refused.append(error)
 
     share(one, count, threads, _SHARE)

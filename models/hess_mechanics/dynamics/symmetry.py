@@ -35,11 +35,11 @@ def symmetries(system: System, parameters: Sequence[float], state: Array) -> tup
 
     A declared symmetry is tested once more, at a state and these parameters.
     """
-    p = np.array(parameters)
-    ways = {name: system.moves(name, state, p) for name in system.symmetries(state, p)}
+    p = np.array(parameters, np.float64)
+    ways = {name: system.moves(name, state, p) for name in system.symmetries(state.tolist(), p.tolist())}
     return (
         *sign_symmetries(system, parameters),
-        *(Mirror(name, partial(_declared, system, name, p), way < 0) for name, way in ways.items() if way),
+        *(Mirror(name, partial(system.image, name, p=p), way < 0) for name, way in ways.items() if way),
     )
 
 
@@ -76,9 +76,7 @@ def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror
     return tuple(found)
 
 
-def _declared(system: System, name: str, p: Array, state: Array) -> Array:
-    return np.array(system.symmetries(state, p)[name], float)
-
-
 def _rates(system: System, states: Array, p: list[float]) -> Array:
-    return np.array([np.broadcast_to(rate, states.shape[1:]) for rate in system.field(list(states), p)])
+    # A field may be defined in a part of the space only.
+    with np.errstate(all="ignore"):
+        return np.array([np.broadcast_to(rate, states.shape[1:]) for rate in system.field(list(states), p)])

@@ -11,6 +11,7 @@ import math
 import pkgutil
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from importlib.metadata import entry_points
@@ -20,30 +21,37 @@ from typing import Any, Protocol
 import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, ModelError, WrongScaling
+from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.batch_kernels import ensemble_integrator, one_by_one
 from hess_mechanics.numerics.doubled_kernels import doubled_integrator
 from hess_mechanics.numerics.events_kernels import ANGLE, SurfaceKernels, crossing_finder, plane
+from hess_mechanics.numerics.expressions import Node
+from hess_mechanics.numerics.field_values import Undefined, values_with_rounding
 from hess_mechanics.numerics.jit import announced, derived_kernel, inner
 from hess_mechanics.numerics.measured import nearby
 from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.step_kernels import LONGEST
 from hess_mechanics.numerics.taylor_kernels import orbit_integrator
-from hess_mechanics.numerics.tracing import Field, check, trace
-from hess_mechanics.numerics.variation_kernels import Variation, variation, variation_integrator
+from hess_mechanics.numerics.tracing import Field, check, expressions, trace
+from hess_mechanics.numerics.variation_kernels import Variation, products, variation, variation_integrator
 
 __all__ = ["Body", "ParametrizedSystem", "Problem", "System", "in_units_of_time", "systems"]
 
 
+_CANCELS = 64.0 * 2.0**-52
+"""Round-off of a rate, relative to the state and the rates, that a moved start does not show."""
+_SAMPLES = 8
+"""Number of states at which the round-off of rates is measured."""
 _DERIVING = RLock()
 """Lock around the derivation of kernels, so that threads compile each kernel once."""
 _SEED, _CHECKS, _ROUNDING = 1, 4, 1e-9
 """Checks at random points: seed of the random numbers, number of draws, and relative rounding error."""
-_COMPILE = 8.0, 0.2, 0.2
-"""Seconds that a kernel takes to compile, for each product of its recursion, and for each product of an entry of the
-Jacobian and one of a column.  Measured on one core: chains of 4 to 30 variables, 9 to 14 s for an orbit; of 6 and 12
-variables, 16 and 49 s for a spectrum."""
-_STEP = 2e-3
-"""Step of the differences that check symmetries, in units of time of a rate of size 1."""
+_COMPILE = 3.0, 0.2
+"""Seconds that a kernel takes to compile, and those for each product in its source.  Measured on one core: 9 s for an
+orbit in 30 variables with 32 products, 49 s for a spectrum with 213, 268 s for one with 1424."""
+_STEP, _DIFFERENCES = 1e-4, 1e-7
+"""Check of symmetries: step of a difference, for a rate of size 1, and its relative error."""
 
 
 def in_units_of_time(first: int, velocities: int = 2) -> Callable[[Array, Array, float], tuple[Array, Array]]:
@@ -105,14 +113,6 @@ def _numbers(what: str, names: tuple[str, ...], values: Any) -> tuple[float, ...
     if len(found) != len(names) or not all(map(math.isfinite, found)):
         raise InvalidParameter(f"{what} must be finite numbers, {len(names)} of them: {', '.join(names) or 'none'}.")
     return found
-
-
-def _derivative(function: Callable[[float], Any]) -> Array:
-    """Return the derivative of a function of a number at 0, by a difference of sixth order."""
-    weights = {1: 45.0, 2: -9.0, 3: 1.0}
-    return sum(
-        (w * (np.array(function(k * _STEP), float) - function(-k * _STEP)) for k, w in weights.items()), np.zeros(1)
-    ) / (60.0 * _STEP)
 
 
 @dataclass(frozen=True, init=False, repr=False)
@@ -326,7 +326,7 @@ class System:
         for _ in range(_CHECKS):
             y = state * draw.uniform(0.5, 2.0, state.size) + draw.uniform(-0.5, 0.5, state.size)
             try:
-                names = [*self.symmetries(y, parameters)]
+                names = [*self.symmetries(y.tolist(), parameters.tolist())]
                 found = [self.moves(name, y, parameters) for name in names]
             except (TypeError, ValueError, LookupError, ArithmeticError) as error:
                 raise InvalidParameter(
@@ -358,17 +358,37 @@ class System:
             1 if it becomes a motion, −1 if it becomes one backward in time, 0 if neither.  If the field is not finite
             there, the answer is 1.
         """
-        p = np.array(parameters, float)
-        image = np.array(self.symmetries(y, p)[name], float)
+        p = np.array(parameters, np.float64)
+        image = self.image(name, y, p)
         if image.shape != y.shape:
             raise ValueError(f"{name} has {image.size} components")
         here, there = self._rates(y, p), self._rates(image, p)
         if here is None or there is None:
             return 1
         size = max(1.0, float(np.abs(here).max()), float(np.abs(there).max()))
-        along = _derivative(lambda s: self.symmetries(y + s / size * here, p)[name]) * size
-        signs = [sign for sign in (1, -1) if np.abs(along - sign * there).max() <= _ROUNDING * size]
-        return signs[0] if signs else 0
+        step = _STEP / size
+        ahead, behind = (self.image(name, y + s * here, p) for s in (step, -step))
+        along = (ahead - behind) / (2.0 * step)
+        return next((sign for sign in (1, -1) if np.abs(along - sign * there).max() <= _DIFFERENCES * size), 0)
+
+    def image(self, name: str, y: Array, p: Array) -> Array:
+        """Return the state to which a symmetry moves a state.
+
+        Parameters
+        ----------
+        name : str
+            Name of one of `symmetries`.
+        y : ndarray, shape (d,)
+            The state.
+        p : ndarray, shape (q,)
+            Values of the parameters.
+
+        Returns
+        -------
+        ndarray, shape (d,)
+            The image.
+        """
+        return np.array(self.symmetries(y.tolist(), p.tolist())[name], dtype=np.float64)
 
     def _compare(self, y: Array, p: Array, scaled: Array, problem: Problem) -> None:
         rates = self._rates(y, p), self._rates(scaled, problem.parameters)
@@ -401,20 +421,92 @@ class System:
         """Taylor recursion of the field.  Raises `NotTraceable`."""
         return trace(self.field, len(self.variables), len(self.parameters))
 
-    @cached_property
-    def orbit(self) -> Callable[..., int]:
-        """Kernel that integrates one orbit, see `taylor_kernels.orbit_integrator`."""
-        return self._kernel("orbit", "y, p, times, order, tolerance, max_steps, out", orbit_integrator)
+    def longest_step(self, level: Level, duration: float, max_step: float = math.inf) -> float:
+        """Return the longest step of a run.
+
+        Parameters
+        ----------
+        level : Level
+            Level of the run, see `Level.longest_step`.
+        duration : float
+            Duration of the motion, in scaled time.
+        max_step : float, default ∞
+            A smaller limit, in scaled time.
+
+        Returns
+        -------
+        float
+            The longest step, in scaled time.
+        """
+        part = LONGEST if self.recursion.functions else 1.0
+        return level.longest_step(min(max_step, part * abs(duration)))
 
     @cached_property
-    def ensemble(self) -> Callable[..., int]:
-        """Kernel that integrates many orbits, see `batch_kernels.ensemble_integrator`."""
-        if self.recursion.is_quadratic and self.tolerance is None:
-            return self._kernel("ensemble", "states, p, times, order, tolerance, max_steps, out", ensemble_integrator)
-        orbit = self.orbit
-        return self._kernel(
-            "ensemble", "states, p, times, order, tolerance, max_steps, out", lambda _: one_by_one(orbit), adjusts=False
+    def expressions(self) -> list[Node]:
+        """The rates of variables and functions as recorded expressions, see `field_values`."""
+        return expressions(self.field, len(self.variables), len(self.parameters))
+
+    def rates_with_rounding(self, y: Array, parameters: Array) -> tuple[Array, Array]:
+        """Return the rates (d,) at a state, and bounds on their round-off.  Raises `field_values.Undefined`."""
+        names = self.variables, self.parameters
+        found = values_with_rounding(self.expressions, names, y.tolist(), parameters.tolist())
+        values, errors = np.array(found[: y.size]).T
+        return values, errors
+
+    def rounding(self, states: Array, parameters: Array) -> Array | None:
+        """Return the mean round-off of the rates at states, as far as a moved start does not show it.
+
+        A rate that is the difference of much larger numbers is wrong by more than a rounding of itself or of the state.
+        A system with `rescale` is integrated in units in which all terms are O(1), so that its rates are not.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, d)
+            States of a motion, of which a few are used.
+        parameters : ndarray, shape (q,)
+            Parameters of the system.
+
+        Returns
+        -------
+        ndarray, shape (d,), or None
+            Mean round-off of each rate; None if no rate cancels.
+        """
+        if self.rescale is not _as_it_is:
+            return None
+        found = [np.zeros(len(self.variables))]
+        for y in states[:: max(1, len(states) // _SAMPLES)]:
+            with suppress(Undefined):  # at a removable zero of a divisor
+                values, errors = self.rates_with_rounding(y, parameters)
+                size = max(np.abs(y).max(), np.abs(values).max())
+                found.append(np.where(errors > _CANCELS * size, errors, 0.0))
+        mean = np.asarray(np.sum(found, axis=0) / max(1, len(found) - 1))
+        return mean if mean.any() else None
+
+    @cached_property
+    def with_rounding(self) -> System:
+        """The system with a constant error of each rate, by further parameters: how much its rounding matters."""
+        d, q = len(self.variables), len(self.parameters)
+        return System(
+            f"{self.name} with rounding",
+            lambda y, p: tuple(rate + p[q + i] for i, rate in enumerate(self.field(y, p[:q]))),
+            self.variables,
+            (*self.parameters, *(f"rounding of d{name}/dt" for name in self.variables)),
+            (self.example[0], (*self.example[1], *(0.0,) * d)),
         )
+
+    @cached_property
+    def orbit(self) -> Callable[..., tuple[int, float]]:
+        """Kernel that integrates one orbit, see `taylor_kernels.orbit_integrator`."""
+        return self._kernel("orbit", "y, p, times, order, tolerance, longest, max_steps, out", orbit_integrator)
+
+    @cached_property
+    def ensemble(self) -> Callable[..., None]:
+        """Kernel that integrates many orbits, see `batch_kernels.ensemble_integrator`."""
+        arguments = "states, p, times, order, tolerance, longest, max_steps, out, steps, ends"
+        if self.recursion.is_quadratic and not self.recursion.functions and self.tolerance is None:
+            return self._kernel("ensemble", arguments, ensemble_integrator)
+        orbit = self.orbit
+        return self._kernel("ensemble", arguments, lambda _: one_by_one(orbit), adjusts=False)
 
     @cached_property
     def cross(self) -> Callable[..., tuple[int, int]]:
@@ -445,7 +537,7 @@ class System:
         """
         return self._kernel(
             task,
-            "y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states",
+            "y, p, normal, offset, sense, end, order, tolerance, longest, max_steps, times, states",
             lambda recursion: crossing_finder(recursion, surface),
         )
 
@@ -481,7 +573,7 @@ class System:
             task,
             "y, frame, p, times, order, tolerance, max_steps, limit, states, frames, growth, divergence",
             lambda _: variation_integrator(self.variation, columns, ahead),
-            entries=columns * len(self.variation.moving),
+            products(self.variation, columns),
         )
 
     def _kernel(
@@ -489,12 +581,12 @@ class System:
         task: str,
         arguments: str,
         make: Callable[[Recursion], Callable[..., Any]],
+        written: int | None = None,
         adjusts: bool = True,
-        entries: int = 0,
     ) -> Callable[..., Any]:
         """Return the compiled `make(recursion)`; if `adjusts`, it applies the `tolerance` of the system first.
 
-        entries : products of an entry of the Jacobian and one of a column, which are written out.
+        written : number of products in the source, by default those of the recursion.
         """
         with _DERIVING:
             name = f"{re.sub(r'^(?=[0-9])|[^0-9A-Za-z]', '_', self.name)}_{task}"
@@ -509,9 +601,13 @@ class System:
                 f"# The {task} of the system {self.name!r}, derived from its field.  The Taylor recursion:\n#\n"
                 f"{derived}\n\ndef {name}({arguments}):\n    return run({passed})\n"
             )
-            found = derived_kernel(name, source, getattr(self.field, "__module__", __name__), **names)
-            lasts = _COMPILE[0] + _COMPILE[1] * len(self.recursion.pairs) + _COMPILE[2] * entries
-            return announced(found, f"the {task} of {self.name}", lasts)
+            module = getattr(self.field, "__module__", __name__)
+            found = derived_kernel(name, source, module, **names)
+            # The kernels of this package are compiled when it starts for the first time.
+            if module.startswith("hess_mechanics."):
+                return found
+            count = len(self.recursion.pairs) if written is None else written
+            return announced(found, f"the kernel {task} of {self.name}", _COMPILE[0] + _COMPILE[1] * count)
 
     def at(self, parameters: Sequence[float] | Array | None = None, **values: float) -> ParametrizedSystem:
         """Return the system with values of its parameters.
@@ -638,6 +734,8 @@ class Problem:
 
     Attributes
     ----------
+    system : System
+        The equations of motion.
     states : ndarray, shape (n, d)
         Initial states.
     parameters : ndarray, shape (q,)
@@ -648,6 +746,7 @@ class Problem:
         Factors that turn these states into the user's units.
     """
 
+    system: System
     states: Array
     parameters: Array
     nu: float
@@ -688,11 +787,18 @@ class Problem:
                 "In units in which the state is of size 1 these numbers exceed the range of double "
                 "precision: choose less extreme parameters."
             )
-        return cls(np.ascontiguousarray(scaled.T), p, nu, scale)
+        return cls(system, np.ascontiguousarray(scaled.T), p, nu, scale)
 
     def nearby(self) -> Problem:
         """Return the same problem with starts that differ by roundings, see `measured.nearby`."""
         return replace(self, states=nearby(self.states))
+
+    def rounded(self, motion: Array) -> Problem:
+        """Return the problem with rates that are wrong by their round-off, if they cancel at states (n, d)."""
+        rounding = self.system.rounding(motion, self.parameters)
+        if rounding is None:
+            return self
+        return replace(self, system=self.system.with_rounding, parameters=np.concatenate((self.parameters, rounding)))
 
     def times(self, t: Array) -> Array:
         """Return the times (m,) in units of 1/ν; on overflow ∞, which no step limit reaches."""

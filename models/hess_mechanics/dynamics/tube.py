@@ -445,7 +445,7 @@ def _series(
         for own, value in zip(series, now, strict=True):
             own.append(value)
         rates = functions["rates"](tuple(now), products(now), p, one)
-        now = [rate / (k + 1) for rate in rates]
+        now = [rate / (k + 1) for rate in rates[: recursion.moving]]
     return series[: recursion.moving]
 
 

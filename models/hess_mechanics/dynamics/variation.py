@@ -27,7 +27,7 @@ from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level
-from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.labelled import Labels, Printed, Result
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
 
@@ -300,7 +300,7 @@ def onto_surface(matrix: Array, rate: Array, gradient: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Return:
+class Return(Printed):
     """A return of an orbit to a surface.
 
     Attributes

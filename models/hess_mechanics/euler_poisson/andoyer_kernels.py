@@ -45,9 +45,9 @@ _cross = crossing_finder(SYSTEM.recursion, SurfaceKernels(_along, _height, _on_t
 
 
 @kernel
-def cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states):
+def cross(y, p, normal, offset, sense, end, order, tolerance, longest, max_steps, times, states):
     """Find the crossings of g = π/2 by one orbit of `hh01`, see `crossing_finder`; normal = (f,)."""
-    return _cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states)
+    return _cross(y, p, normal, offset, sense, end, order, tolerance, longest, max_steps, times, states)
 
 
 @inner

@@ -72,7 +72,8 @@ class FreeRun:
 
 
 def _run(problem: Problem, start: Array, times: Array, level: Level, out: Array) -> int:
-    steps = SYSTEM.orbit(start, problem.parameters, times, level.order, level.tolerance, MAX_STEPS, out)
+    longest = SYSTEM.longest_step(level, times[-1])
+    steps, _ = SYSTEM.orbit(start, problem.parameters, times, level.order, level.tolerance, longest, MAX_STEPS, out)
     if steps < 0:
         raise WorkLimit(f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span.")
     require_finite_states(out)

@@ -29,6 +29,7 @@ from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.arguments import as_a
+from hess_mechanics.numerics.labelled import Printed
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.attitude import Attitude, attitude
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -202,7 +203,7 @@ class LoxodromicPendulum:
 
 
 @dataclass(frozen=True)
-class LoxodromicMotion:
+class LoxodromicMotion(Printed):
     """Motion of a loxodromic pendulum; the result of `loxodromic_motion`.
 
     Attributes

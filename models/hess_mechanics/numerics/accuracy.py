@@ -31,16 +31,21 @@ __all__ = [
 ]
 
 
+_OTHER_STEP = 0.618
+"""Ratio of the longest steps of two runs that are compared."""
+
+
 class Status(StrEnum):
     """Outcome of a computation.
 
     `OK`: the error estimate is within the promise of the level.  `FLOOR`: it is not, at the floor of double precision.
-    `PROMISE_NOT_MET`: it is not, at any other level.
+    `PROMISE_NOT_MET`: it is not, at any other level.  `INCOMPLETE`: a motion ended before the last time.
     """
 
     OK = "ok"
     FLOOR = "double-precision floor"
     PROMISE_NOT_MET = "promise not met"
+    INCOMPLETE = "incomplete"
 
 
 @dataclass(frozen=True)
@@ -89,6 +94,23 @@ class Level:
         if error <= self.promise:
             return Status.OK
         return Status.FLOOR if self.is_floor else Status.PROMISE_NOT_MET
+
+    def longest_step(self, limit: float) -> float:
+        """Return the longest step of a run, at most a limit.
+
+        Two runs that are compared take different steps, even if one step is enough for each.
+
+        Parameters
+        ----------
+        limit : float
+            The limit, for example the duration of the motion.
+
+        Returns
+        -------
+        float
+            The longest step, in the unit of the limit.
+        """
+        return abs(limit) * (_OTHER_STEP if self.aside else 1.0)
 
     def tightened(self) -> Level:
         """Return the same level with a hundredth of the tolerance, to measure the error of this one.

@@ -25,7 +25,7 @@ __all__ = [
     "as_parts",
     "as_place",
     "as_whole",
-    "checked",
+    "typed",
 ]
 
 P = ParamSpec("P")
@@ -121,7 +121,7 @@ def as_place(names: tuple[str, ...], place: Any) -> tuple[float, ...]:
 # ---- annotations ----------------------------------------------------------------------------------------------------
 
 
-def checked(function: Callable[P, T]) -> Callable[P, T]:
+def typed(function: Callable[P, T]) -> Callable[P, T]:
     """Return a function that checks its arguments against their annotations first.
 
     Numbers become floats or integers, and a single number counts as a sequence of one.  Objects that are described by
@@ -141,8 +141,8 @@ def checked(function: Callable[P, T]) -> Callable[P, T]:
             raise InvalidParameter(f"{function.__name__}: {error}. It takes {takes}.") from None
         for name, value in given.arguments.items():
             given.arguments[name] = _fitted(name, kinds[name], value)
-        # Results are checked for overflow.
-        with np.errstate(over="ignore", divide="ignore"):
+        # Results are checked for overflow, as in the commands.
+        with np.errstate(all="ignore"):
             return function(*given.args, **given.kwargs)
 
     return run

@@ -15,7 +15,8 @@ from llvmlite.binding import get_host_cpu_features
 
 from hess_mechanics.numerics.jit import part
 from hess_mechanics.numerics.recursions import Recursion
-from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, compensated, parts, step_size
+from hess_mechanics.numerics.step_kernels import checked, is_small, last_terms, parts, step_size
+from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, STOPPED, compensated
 from hess_mechanics.numerics.unrolled import compiled, items
 
 __all__ = ["LANES", "ensemble_integrator", "one_by_one"]
@@ -27,22 +28,17 @@ LANES = 8 if get_host_cpu_features().get("avx512f") else 4
 def expansion_of_lanes(recursion: Recursion) -> Callable[..., Any]:
     """Return expand(c, q, parameters, order), which computes the Taylor coefficients c[k, variable, lane].
 
-    q[product, lane] is scratch space.  Only for recursions without auxiliary series.
+    q[product, lane] is scratch space.  Only for recursions without auxiliary series and functions.
     """
-    m, n = len(recursion.pairs), recursion.moving
+    m, n = len(recursion.pairs), recursion.variables
     states = [items(f"c[k, {i}, {lane}]" for i in range(n)) for lane in range(LANES)]
     products = [items(f"q[{j}, {lane}]" for j in range(m)) for lane in range(LANES)]
     results = [f"c[k + 1, {i}, {lane}] = y{lane}[{i}] * s" for i in range(n) for lane in range(LANES)]
-    first = recursion.variables
-    given = [items(f"c[0, {i}, {lane}]" for i in range(first)) for lane in range(LANES)]
-    starts = [f"c[0, {first + j}, {lane}] = y{lane}[{j}]" for j in range(recursion.functions) for lane in range(LANES)]
     # All lanes are read before any is written, so that the compiler can vectorise the loop.
     return compiled(
         f"""
 def expand(c, q, parameters, order):
     p = ({items(f"parameters[{i}]" for i in range(recursion.parameters))})
-    {_for_lanes(lambda lane: f"y{lane} = started(({given[lane]}), p)") if starts else "pass"}
-    {"; ".join(starts) or "pass"}
     for k in range(order):
         convolve(c, q, k)
         s = 1.0 / (k + 1.0)
@@ -102,18 +98,27 @@ def convolve(c, q, k):
 def ensemble_integrator(recursion: Recursion) -> Callable[..., Any]:
     """Return the compiled solver of many orbits.
 
-    integrate(states, parameters, times, order, tolerance, max_steps, out) writes the orbits that start at the rows of
-    `states` (orbits, d), at the times (n,), monotonic and all ≥ 0 or all ≤ 0, into `out` (orbits, n, d).
-    It returns the total number of steps, or `STEP_LIMIT_REACHED` if an orbit took more than `max_steps`.
+    integrate(states, parameters, times, order, tolerance, longest, max_steps, out, steps, ends) writes the orbits that
+    start at the rows of `states` (orbits, d), at the times (n,), monotonic and all ≥ 0 or all ≤ 0, into `out`
+    (orbits, n, d).  `steps` and `ends` (orbits,) receive what `taylor_kernels.orbit_integrator` returns for each orbit.
+    Only for fields without functions.
     """
-    n, m, moving = recursion.variables, len(recursion.pairs), recursion.moving
-    expand = expansion_of_lanes(recursion)
-    largest, values, add = compiled(f"""
+    n, m = recursion.variables, len(recursion.pairs)
+    expand, check = expansion_of_lanes(recursion), checked(recursion)
+    largest, smallest, values, add = compiled(f"""
 def largest(c, k, out):
     {_for_lanes(lambda lane: f"a{lane} = 0.0")}
     for i in range({n}):
         {_for_lanes(lambda lane: f"a{lane} = max(a{lane}, abs(c[k, i, {lane}]))")}
     {_for_lanes(lambda lane: f"out[{lane}] = a{lane}")}
+
+def smallest(c, out):
+    {_for_lanes(lambda lane: f"a{lane} = 1.0; v{lane} = 0.0")}
+    for i in range({n}):
+        {_for_lanes(lambda lane: f"v{lane} = max(v{lane}, abs(c[1, i, {lane}]))")}
+        {_for_lanes(lambda lane: f"s{lane} = max(abs(c[0, i, {lane}]), abs(c[1, i, {lane}]))")}
+        {_for_lanes(lambda lane: f"a{lane} = min(a{lane}, s{lane} if s{lane} > 0.0 else 1.0)")}
+    {_for_lanes(lambda lane: f"out[{lane}] = min(a{lane}, v{lane})")}
 
 def values(c, i, s):
     {_for_lanes(lambda lane: f"a{lane} = 0.0")}
@@ -135,25 +140,26 @@ def add(y, low, s, compensated):
         return total * s
 
     @part
-    def integrate(states, parameters, times, order, tolerance, max_steps, out):
-        c = np.zeros((order + 1, moving, LANES))
+    def integrate(states, parameters, times, order, tolerance, longest, max_steps, out, steps, ends):
+        c = np.zeros((order + 1, n, LANES))
+        one = np.zeros((order + 1, n))
+        seen = np.zeros((order, 0))
         q = np.zeros((m, LANES))
         low = np.zeros((n, LANES))
         last = np.zeros(LANES)
         previous = np.zeros(LANES)
-        middle = np.zeros(LANES)
+        size = np.zeros(LANES)
         h = np.zeros(LANES)
         step = np.zeros(LANES)
         t = np.zeros(LANES)
         t_low = np.zeros(LANES)
+        before = np.zeros(LANES)
         orbit = np.full(LANES, -1)
         sample = np.zeros(LANES, np.int64)
-        steps = np.zeros(LANES, np.int64)
         count = times.size
         direction = 1.0 if times[count - 1] >= 0.0 else -1.0
         following = 0
         running = 0
-        total = 0
         while True:
             for lane in range(LANES):
                 if orbit[lane] < 0 and following < states.shape[0]:
@@ -164,39 +170,54 @@ def add(y, low, s, compensated):
                     t[lane] = 0.0
                     t_low[lane] = 0.0
                     sample[lane] = 0
-                    steps[lane] = 0
+                    before[lane] = 0.0
+                    steps[following] = 0
                     following += 1
                     running += 1
             if running == 0:
-                return total
+                return
             expand(c, q, parameters, order)
             largest(c, order, last)
             largest(c, order - 1, previous)
-            largest(c, order // 2, middle)
+            smallest(c, size)
             for lane in range(LANES):
-                h[lane] = step_size(last[lane], previous[lane], middle[lane], order, tolerance)
+                if is_small(size[lane]):
+                    last[lane], previous[lane] = last_terms(c[:, :, lane], n)
+                h[lane] = step_size(last[lane], previous[lane], order, tolerance)
             for lane in range(LANES):
                 step[lane] = 0.0
-                if orbit[lane] < 0:
+                own = orbit[lane]
+                if own < 0:
                     continue
+                most = min(longest, direction * ((times[count - 1] - t[lane]) - t_low[lane]))
+                h[lane] = min(h[lane], most)
+                if h[lane] > 2.0 * before[lane]:
+                    for k in range(order + 1):
+                        for i in range(n):
+                            one[k, i] = c[k, i, lane]
+                    h[lane] = check(one, seen, h[lane], most, direction, parameters, tolerance)
                 while sample[lane] < count:
                     s = (times[sample[lane]] - t[lane]) - t_low[lane]
                     if direction * s > h[lane]:
                         break
                     for i in range(n):
                         increment = low[i, lane] + value(c, i, lane, s)
-                        out[orbit[lane], sample[lane], i] = c[0, i, lane] + increment
+                        out[own, sample[lane], i] = c[0, i, lane] + increment
                     sample[lane] += 1
-                steps[lane] += 1
-                if sample[lane] == count:
-                    total += steps[lane]
-                    orbit[lane] = -1
-                    running -= 1
-                    continue
-                if steps[lane] > max_steps or not (h[lane] > 0.0):
-                    return STEP_LIMIT_REACHED
-                step[lane] = direction * h[lane]
-                t[lane], t_low[lane] = compensated(t[lane], t_low[lane], step[lane])
+                steps[own] += 1
+                ends[own] = times[count - 1]
+                if sample[lane] < count:
+                    if steps[own] <= max_steps and h[lane] > 0.0:
+                        before[lane] = h[lane]
+                        step[lane] = direction * h[lane]
+                        t[lane], t_low[lane] = compensated(t[lane], t_low[lane], step[lane])
+                        continue
+                    steps[own] = STEP_LIMIT_REACHED if h[lane] > 0.0 else STOPPED
+                    ends[own] = t[lane]
+                    for i in range(n):
+                        out[own, sample[lane], i] = c[0, i, lane]
+                orbit[lane] = -1
+                running -= 1
             for i in range(n):
                 add(c[0, i], low[i], values(c, i, step), compensated)
 
@@ -206,17 +227,13 @@ def add(y, low, s, compensated):
 def one_by_one(orbit: Callable[..., Any]) -> Callable[..., Any]:
     """Return the solver of `ensemble_integrator`, made from the solver of one orbit (`orbit_integrator`).
 
-    It serves fields with stages, for which lanes would be a third faster but take three times as long to compile.
+    It serves fields with functions, whose steps are checked, and fields with stages, for which lanes would be a third
+    faster but take three times as long to compile.
     """
 
     @part
-    def integrate(states, parameters, times, order, tolerance, max_steps, out):
-        total = 0
+    def integrate(states, parameters, times, order, tolerance, longest, max_steps, out, steps, ends):
         for i in range(len(states)):
-            steps = orbit(states[i], parameters, times, order, tolerance, max_steps, out[i])
-            if steps == STEP_LIMIT_REACHED:
-                return STEP_LIMIT_REACHED
-            total += steps
-        return total
+            steps[i], ends[i] = orbit(states[i], parameters, times, order, tolerance, longest, max_steps, out[i])
 
     return integrate

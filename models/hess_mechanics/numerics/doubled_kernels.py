@@ -17,7 +17,8 @@ import numpy as np
 from hess_mechanics.numerics.jit import part
 from hess_mechanics.numerics.pairs_kernels import DOUBLED_FUNCTIONS, add, divide, multiply, subtract
 from hess_mechanics.numerics.recursions import Recursion
-from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, step_size
+from hess_mechanics.numerics.step_kernels import last_terms, step_size
+from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 from hess_mechanics.numerics.unrolled import compiled, items
 
 __all__ = ["ORDER", "TOLERANCE", "doubled_integrator"]
@@ -138,6 +139,7 @@ def packed(parameters):
         c = np.zeros((ORDER + 1, series), np.complex128)
         inner, q = np.zeros(products, np.complex128), np.zeros(products, np.complex128)
         steps = np.zeros(ORDER, np.complex128)
+        sizes = np.zeros((4, n))
         for k in range(ORDER):
             steps[k] = divide(complex(unit, 0.0), complex(k + 1.0, 0.0))
         p = packed(parameters)
@@ -150,12 +152,11 @@ def packed(parameters):
             for i in range(n):
                 c[0, i] = y[i]
             expand(c, p, steps, inner, q)
-            last = 0.0
-            previous = 0.0
-            for i in range(n):
-                last = max(last, abs(c[ORDER, i].real) / scale[i])
-                previous = max(previous, abs(c[ORDER - 1, i].real) / scale[i])
-            h = step_size(last, previous, 0.0, ORDER, TOLERANCE)
+            for k, row in enumerate((0, 1, ORDER - 1, ORDER)):
+                for i in range(n):
+                    sizes[k, i] = c[row, i].real / scale[i]
+            last, previous = last_terms(sizes, n)
+            h = step_size(last, previous, ORDER, TOLERANCE)
             taken += 1
             while j < times.size:
                 left = add(complex(times[j], 0.0), -t)

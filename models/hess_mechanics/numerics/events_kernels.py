@@ -19,12 +19,13 @@ import numpy as np
 
 from hess_mechanics.numerics.jit import inner, part
 from hess_mechanics.numerics.recursions import Recursion
+from hess_mechanics.numerics.step_kernels import checked, step_of, suspicion
 from hess_mechanics.numerics.taylor_kernels import (
     STEP_LIMIT_REACHED,
+    STOPPED,
     columns_of,
     compensated,
     expansion,
-    step_of,
     workspace,
 )
 from hess_mechanics.numerics.unrolled import compiled, evaluation
@@ -231,21 +232,24 @@ ANGLE = SurfaceKernels(_along_angle, _height_of_angle, _at_the_value, False, _le
 def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None) -> Callable[..., Any]:
     """Return the compiled search for crossings of a plane, or of another surface, by an orbit.
 
-    cross(state, parameters, normal, offset, sense, end, order, tolerance, max_steps, times, states) writes the
+    cross(state, parameters, normal, offset, sense, end, order, tolerance, longest, max_steps, times, states) writes the
     crossings of normal·y = offset between t = 0 and t = `end` (of either sign) to `times` (n,) and `states` (n, d),
-    until these are full.  sense : 1 for crossings from below, −1 from above (as time increases), 0 for both.
-    The start does not count, even if it lies on the plane.
-    It returns (crossings, steps); crossings may be `STEP_LIMIT_REACHED`.
+    until these are full, by steps of at most `longest`.  sense : 1 for crossings from below, −1 from above (as time
+    increases), 0 for both.  The start does not count, even if it lies on the plane.
+    It returns (crossings, steps).  If the motion cannot be followed, crossings is `STEP_LIMIT_REACHED` or `STOPPED`,
+    and the last rows of `times` and `states` hold the time and the state reached.
     """
     n, columns = recursion.variables, columns_of(recursion)
-    expand, evaluate = expansion(recursion), evaluation(n)
+    expand, evaluate, check = expansion(recursion), evaluation(n), checked(recursion)
+    suspects, watched = suspicion(recursion), len(recursion.watched)
     surface = surface or plane(n)
     along, height, counted, curved = surface.along, surface.height, surface.counted, surface.curved
     shorter = surface.shorter
 
     @part
-    def cross(state, parameters, normal, offset, sense, end, order, tolerance, max_steps, times, states):
+    def cross(state, parameters, normal, offset, sense, end, order, tolerance, longest, max_steps, times, states):
         c, left, right, inverses = workspace(order, n, columns)
+        seen = np.zeros((order, watched))
         e = np.zeros(order + 1)
         scratch = np.zeros(order + 1)
         found = np.zeros(n)
@@ -258,13 +262,14 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
         t_low = 0.0
         direction = 1.0 if end >= 0.0 else -1.0
         sense_of_steps = sense if end >= 0.0 else -sense
+        before = 0.0
         below = False
         crossings = 0
         steps = 0
         while True:
             for i in range(n):
                 c[0, i] = y[i]
-            expand(c, left, right, inverses, parameters)
+            expand(c, left, right, inverses, parameters, seen)
             along(c, normal, e, scratch)
             e[0] -= offset
             if direction < 0.0:
@@ -282,11 +287,17 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
                             below = e[k] < 0.0
                             break
             remaining = direction * ((end - t) - t_low)
-            h = shorter(e, min(step_of(c, n, tolerance), remaining))
+            most = min(longest, remaining)
+            h = min(step_of(c, n, tolerance), most)
+            if suspects(seen, h, before):
+                h = check(c, seen, h, most, direction, parameters, tolerance)
+            h = before = shorter(e, h)
             last = h >= remaining
             steps += 1
             if steps > max_steps or not (h > 0.0 or last):
-                return STEP_LIMIT_REACHED, steps
+                times[times.size - 1] = t
+                states[times.size - 1] = y
+                return STEP_LIMIT_REACHED if h > 0.0 else STOPPED, steps
             evaluate(c, direction * h, increments)
             for i in range(n):
                 y[i], low[i] = compensated(y[i], low[i], increments[i])

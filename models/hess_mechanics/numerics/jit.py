@@ -53,8 +53,8 @@ _ONLY_INLINED = {**_INLINED, "no_cpython_wrapper": True, "no_cfunc_wrapper": Tru
 
 _CONFIG: Any = numba.config
 _LOG = logging.getLogger("hess_mechanics")
-_LONG = 30.0
-"""Seconds of compilation that are announced: kernels of the systems of this package take less, most of them 10."""
+_LONG = 20.0
+"""Seconds from which a compilation is announced."""
 
 _PACKAGE = Path(__file__).parents[1]
 _FOR_ALL = {"numerics", "dynamics"}
@@ -254,9 +254,8 @@ def announced(function: Callable[..., Any], name: str, seconds: float) -> Callab
     A long compilation ends between two passes of the compiler if the request is cancelled.
     """
     if seconds > _LONG:
-        getattr(
-            function, "py_func", function
-        ).announcement = (
+        compiled: Any = getattr(function, "py_func", function)
+        compiled.announcement = (
             f"Compiling {name} takes about {seconds:.0f} s, once: the machine code is stored. Ctrl-C stops it."
         )
     return function

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import importlib
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, fields
 from html import escape
 from textwrap import wrap
 from typing import Any
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["Labels", "Result", "components"]
+__all__ = ["Labels", "Printed", "Result", "components"]
 
 _LINES = 10
 """Most lines of a printed result."""
@@ -49,6 +49,26 @@ class Labels:
     variables: Named
     units: Mapping[str, str] = field(default_factory=dict)
     facts: Mapping[str, Any] = field(default_factory=dict)
+
+
+class Printed:
+    """Base class of data classes that print in at most ten lines, with the size of arrays instead of their numbers."""
+
+    def __str__(self) -> str:
+        """Return type, fields and the sizes of arrays."""
+        known = {one.name: getattr(self, one.name) for one in fields(self)}  # type: ignore[arg-type]
+        arrays = {name: value for name, value in known.items() if isinstance(value, np.ndarray)}
+        facts = {name: value for name, value in known.items() if name not in arrays}
+        return _printed(self, facts, [f"{name} {value.shape} {_range(value)}" for name, value in arrays.items()])
+
+
+def _printed(result: Any, facts: Mapping[str, Any], arrays: Sequence[str]) -> str:
+    """Return the type of a result with its facts, and a line for each of its arrays, as many as there is room for."""
+    words = ", ".join(f"{name} {_short(value)}" for name, value in facts.items() if str(value))
+    lines = wrap(f"{type(result).__name__}: {words}", 100, max_lines=4, placeholder=" …")
+    room = _LINES - len(lines)
+    more = [f"and {len(arrays) - room + 1} more"] if len(arrays) > room else []
+    return "\n  ".join([*lines, *arrays[: room - len(more)], *more])
 
 
 class Result(ABC):
@@ -130,15 +150,14 @@ class Result(ABC):
     def __str__(self) -> str:
         """Return type, facts and arrays in at most ten lines."""
         known = self.labels()
-        facts = ", ".join(f"{name} {_short(value)}" for name, value in known.facts.items() if str(value))
-        lines = wrap(f"{type(self).__name__}: {facts}", 100, subsequent_indent="  ", max_lines=4, placeholder=" …")
-        arrays = [
-            f"  {name} ({', '.join(dims)}) {_range(values)} {known.units.get(name, '')}".rstrip()
-            for name, (dims, values) in {**known.coords, **known.variables}.items()
-        ]
-        room = _LINES - len(lines)
-        more = [f"  and {len(arrays) - room + 1} more"] if len(arrays) > room else []
-        return "\n".join([*lines, *arrays[: room - len(more)], *more])
+        return _printed(
+            self,
+            known.facts,
+            [
+                f"{name} ({', '.join(dims)}) {_range(values)} {known.units.get(name, '')}".rstrip()
+                for name, (dims, values) in {**known.coords, **known.variables}.items()
+            ],
+        )
 
     def _repr_html_(self) -> str:
         """Return a table of the facts, and of the arrays with their units, for notebooks."""

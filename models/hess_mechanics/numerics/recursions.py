@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from hess_mechanics.numerics.expressions import FUNCTIONS, Node, Tape
 from hess_mechanics.numerics.unrolled import items
 
-__all__ = ["Recursion", "Series"]
+__all__ = ["Recursion", "Series", "below"]
 
 
 @dataclass(frozen=True)
@@ -36,11 +36,12 @@ class Recursion:
     read : indices of the products that each stage reads, and last those that `rates` reads.
     constants : number of values that are constant during a step; they follow the parameters in p.
     observed : number of series that the field returns after its rates.
+    watched : kinds of the series after these, on which the step depends, see `tracing.trace`.
     functions : number of functions of the state, which follow the variables in y and the rates of these.
     source : Python source of `rates(y, q, p, one)` and, if needed, of `stage0(y, q, p, one)`, … and `constants(y, p)`;
         each returns a tuple.  one : the series of the number 1, which is 1 at order 0 and 0 at all others.
         `started(y, p)` returns the functions at a state, and `extended(y, p)` the rates of variables and functions in
-        plain arithmetic.
+        plain arithmetic, from variables and functions.
     """
 
     variables: int
@@ -51,6 +52,7 @@ class Recursion:
     constants: int
     source: str
     observed: int = 0
+    watched: tuple[str, ...] = ()
     functions: int = 0
 
     @property
@@ -169,12 +171,12 @@ class Series:
         """Return the stage of each auxiliary series, later than those of all series that its rule needs."""
         levels: list[int] = []
         for i, rule in enumerate(self._rules):
-            needed = [node.value - self._variables for node in _below([rule]) if node.operation == "series"]
+            needed = [node.value - self._variables for node in below([rule]) if node.operation == "series"]
             levels.append(1 + max((levels[j] for j in needed if 0 <= j != i), default=-1))
         return levels
 
-    def recursion(self, rates: Sequence[Node], parameters: int) -> Recursion:
-        """Return the recursion of a field with these rates."""
+    def recursion(self, rates: Sequence[Node], parameters: int, watched: tuple[str, ...] = ()) -> Recursion:
+        """Return the recursion of a field with these rates, of which the last ones are `watched`."""
         forms = [self.lowered(rate) for rate in rates]
         # Keep only the series that the rates need: an unused intermediate result costs nothing.
         used = self._used(forms)
@@ -184,7 +186,7 @@ class Series:
         places = {i: i for i in range(self._variables)}
         places |= {self._variables + i: self._variables + at for at, i in enumerate(order)}
         rules = [[self._rules[i] for i in stage] for stage in stages]
-        everything = _below([*forms, *(rule for stage in rules for rule in stage)])
+        everything = below([*forms, *(rule for stage in rules for rule in stage)])
         products = [node for node in everything if node.operation == "product"]
         kept = [
             node
@@ -216,7 +218,7 @@ class Series:
             functions.append(_function("constants(y, p)", kept, at_start, {}))
         if self._functions:
             functions.append(_function("started(y, p)", [*self._functions], {}, {}))
-            functions.append(_function("extended(y, p)", rates[: self._variables], at_start, {}))
+        functions.append(_function("extended(y, p)", rates[: self._variables], at_start, {}))
         pairs = tuple((places[a.value], places[b.value]) for a, b in (node.arguments for node in products))
         return Recursion(
             self._variables - len(self._functions),
@@ -226,7 +228,8 @@ class Series:
             read,
             len(kept),
             "\n\n".join(functions),
-            len(rates) - self._variables,
+            len(rates) - self._variables - len(watched),
+            watched,
             len(self._functions),
         )
 
@@ -234,7 +237,7 @@ class Series:
         found: dict[int, None] = {}
         waiting = list(forms)
         while waiting:
-            for node in _below([waiting.pop()]):
+            for node in below([waiting.pop()]):
                 i = node.value - self._variables if node.operation == "series" else -1
                 if i >= 0 and i not in found:
                     found[i] = None
@@ -242,7 +245,7 @@ class Series:
         return list(found)
 
 
-def _below(roots: Iterable[Node]) -> list[Node]:
+def below(roots: Iterable[Node]) -> list[Node]:
     """Return all nodes of these expressions, each once and after its arguments."""
     found: dict[Node, None] = {}
 

@@ -66,6 +66,7 @@ def facts_of(result: Any) -> dict[str, Any]:
         "level": result.level,
         "status": str(result.status),
         "error_estimate": result.error_estimate,
+        **({"time_error": result.time_error} if hasattr(result, "time_error") else {}),
         **{f"drift of {name}": value for name, value in getattr(result, "drift", {}).items()},
         "steps": result.cost.steps,
     }
@@ -178,12 +179,24 @@ class Ensemble(Sampled):
     variables : tuple of str
         Names of the variables.
     errors : ndarray, shape (n,)
-        Largest estimated error of each orbit.
+        Largest estimated error of each orbit, ∞ for one that is incomplete.
+    statuses : tuple of Status
+        How each orbit ended.
+    ends : ndarray, shape (n,)
+        Time up to which each orbit was followed; its states after it are NaN.
+    last_states : ndarray, shape (n, d)
+        State of each orbit at that time.
+    reasons : tuple of str
+        Why each orbit is incomplete, in a sentence; empty for one that is complete.
     """
 
     dims = ("orbit", "t")
 
     errors: Array
+    statuses: tuple[Status, ...]
+    ends: Array
+    last_states: Array
+    reasons: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -210,6 +223,10 @@ class SectionCrossings(Sampled):
         Steps and time.
     variables : tuple of str
         Names of the variables.
+    time_error : float
+        Largest estimated error of any time.  Along a conservative motion it grows, and the error of the states may not.
     """
 
     dims = ("crossing",)
+
+    time_error: float

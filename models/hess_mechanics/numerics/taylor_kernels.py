@@ -9,7 +9,6 @@ The state must be in units in which it is O(1); tolerances are absolute.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from functools import cache
 from itertools import pairwise
@@ -18,14 +17,15 @@ from typing import Any
 import numpy as np
 from numba import float64, int64
 
-from hess_mechanics.numerics.expressions import FUNCTIONS
 from hess_mechanics.numerics.jit import inner, part
 from hess_mechanics.numerics.recursions import Recursion
+from hess_mechanics.numerics.step_kernels import checked, parts, step_of, suspicion
 from hess_mechanics.numerics.tracing import trace
 from hess_mechanics.numerics.unrolled import compiled, evaluation, items
 
 __all__ = [
     "STEP_LIMIT_REACHED",
+    "STOPPED",
     "columns_of",
     "compensated",
     "compile_shared",
@@ -34,23 +34,12 @@ __all__ = [
     "expansion",
     "expansion_source",
     "orbit_integrator",
-    "parts",
-    "step_of",
-    "step_size",
     "workspace",
 ]
 
 STEP_LIMIT_REACHED = -1
-_FALL = math.log2(0.64) * 2.0**52
-"""Logarithm of the ratio of successive terms of e^{λh}, from order 6 to 12, for λh = 6, where order 12 errs by 1 %."""
-_ONE = int(np.float64(1.0).view(np.int64))
-"""Bits of 1.0, which stand for the logarithm 0."""
-
-
-@cache
-def parts(recursion: Recursion) -> dict[str, Callable[..., Any]]:
-    """Return the compiled functions of the source of a recursion."""
-    return compiled(recursion.source, **FUNCTIONS)
+STOPPED = -2
+"""The field has no finite rates at this point, or the motion ends there."""
 
 
 @cache
@@ -59,8 +48,8 @@ def expansion(recursion: Recursion) -> Callable[..., Any]:
 
     expand(c, left, right, inverses, parameters) computes the Taylor coefficients c[1 … order, variable] from the state
     in c[0].  left, right : copies of the coefficients of the factors of the products, one column per product;
-    inverses : 1/(k+1) for k = 0 … order−1.  If the field returns more than its rates, the last argument
-    seen[0 … order−1, i] receives these series.
+    inverses : 1/(k+1) for k = 0 … order−1.  seen[0 … order−1, i] receives the series that the field returns after its
+    rates, then those that are watched.
     """
     convolve = convolution(columns_of(recursion))
     return compiled(expansion_source(recursion), **parts(recursion), convolve=convolve)["expand"]
@@ -73,7 +62,7 @@ def expansion_source(recursion: Recursion) -> str:
     """
     pairs, known = recursion.pairs, recursion.known
     variables, moving = range(recursion.variables), range(recursion.moving)
-    observed = range(recursion.observed)
+    observed = range(recursion.observed + len(recursion.watched))
 
     def names(letter: str, end: int, start: int = 0) -> str:
         return "".join(f"{letter}{i}, " for i in range(start, end))
@@ -115,7 +104,7 @@ def expansion_source(recursion: Recursion) -> str:
         )
 
     def rates(letter: str, one: str, products: Callable[[int], str]) -> str:
-        found = names("rate", recursion.moving + recursion.observed)
+        found = names("rate", recursion.moving + len(observed))
         return f"{found}= rates(({all_of(letter, known[-1])}), ({products(len(recursion.stages))}), p, {one})"
 
     def seen(order: str) -> str:
@@ -123,7 +112,7 @@ def expansion_source(recursion: Recursion) -> str:
 
     start = all_of("z", recursion.variables)
     return f"""
-def expand(c, left, right, inverses, parameters{", seen" if observed else ""}):
+def expand(c, left, right, inverses, parameters, seen):
     p = ({items(f"parameters[{i}]" for i in range(recursion.parameters))})
     {"; ".join(f"z{i} = c[0, {i}]" for i in variables)}
     {f"{names('z', len(moving), len(variables))}= started(({start}), p)" if recursion.functions else "pass"}
@@ -187,50 +176,6 @@ def workspace(order, n, columns):
 
 
 @inner
-def _log2(x):
-    """Return log₂ x in units of 2^−52, to within 0.09."""
-    return np.float64(x).view(np.int64) - _ONE
-
-
-@inner
-def step_size(last, previous, middle, order, tolerance):
-    """Return the step for which the terms of the two highest orders equal the tolerance (Jorba and Zou, 2005).
-
-    last, previous : largest coefficient of order N and N−1.
-    middle : largest coefficient of order N//2.  If a motion is smaller than the tolerance, its last terms are too, even
-        where the omitted terms grow and dominate the series.  Therefore the terms from the middle order to the last
-        must decrease by the factor 0.64 per order.  0 omits this condition.
-
-    The step is right within 3 %: the bits of a double, read as an integer, are 2^52 times its binary logarithm to
-    within 0.09.  Taking the N-th root divides them by N.  A library's logarithm would take a tenth of a step.
-    """
-    sum_of_both = last + previous
-    if sum_of_both == 0.0:
-        return math.inf
-    if not sum_of_both < math.inf:
-        return 0.0
-    exponent = min(_log2(tolerance / last) / order, _log2(tolerance / previous) / (order - 1.0))
-    if middle > 0.0:
-        exponent = min(exponent, _log2(middle / last) / (order - order // 2) + _FALL)
-    return 0.97 * np.int64(int(exponent) + _ONE).view(np.float64)
-
-
-@inner
-def step_of(c, n, tolerance):
-    """Return `step_size` for the coefficients of one orbit with n variables."""
-    order = c.shape[0] - 1
-    half = order // 2
-    last = 0.0
-    previous = 0.0
-    middle = 0.0
-    for i in range(n):
-        last = max(last, abs(c[order, i]))
-        previous = max(previous, abs(c[order - 1, i]))
-        middle = max(middle, abs(c[half, i]))
-    return step_size(last, previous, middle, order, tolerance)
-
-
-@inner
 def compensated(total, low, increment):
     """Return total + low + increment as a rounded sum and its round-off."""
     increment += low
@@ -241,22 +186,26 @@ def compensated(total, low, increment):
 def orbit_integrator(recursion: Recursion) -> Callable[..., Any]:
     """Return the compiled solver of ẏ = f(y, p) for one orbit with dense output.
 
-    integrate(state, parameters, times, order, tolerance, max_steps, out): from t = 0, writes the state (d,)
-    at the given times (n,), monotonic, all ≥ 0 or all ≤ 0, into `out` (n, d).  Returns the number
-    of steps, or `STEP_LIMIT_REACHED`.  State and time are summed with compensation, so that
+    integrate(state, parameters, times, order, tolerance, longest, max_steps, out): from t = 0, writes the state (d,)
+    at the given times (n,), monotonic, all ≥ 0 or all ≤ 0, into `out` (n, d), by steps of at most `longest`.  Returns
+    the number of steps and the time reached.  If this is not the last one, the number is `STEP_LIMIT_REACHED` or
+    `STOPPED`, and the row of the next time holds the last state.  State and time are summed with compensation, so that
     round-off does not grow with the number of steps.
     """
     n, columns = recursion.variables, columns_of(recursion)
-    expand, evaluate = expansion(recursion), evaluation(n)
+    expand, evaluate, check = expansion(recursion), evaluation(n), checked(recursion)
+    suspects, watched = suspicion(recursion), len(recursion.watched)
 
     @part
-    def integrate(state, parameters, times, order, tolerance, max_steps, out):
+    def integrate(state, parameters, times, order, tolerance, longest, max_steps, out):
         c, left, right, inverses = workspace(order, n, columns)
+        seen = np.zeros((order, watched))
         y = state.copy()
         low = np.zeros(n)
         increments = np.zeros(n)
         t = 0.0
         t_low = 0.0
+        before = 0.0
         count = times.size
         direction = 1.0 if times[count - 1] >= 0.0 else -1.0
         j = 0
@@ -264,8 +213,11 @@ def orbit_integrator(recursion: Recursion) -> Callable[..., Any]:
         while True:
             for i in range(n):
                 c[0, i] = y[i]
-            expand(c, left, right, inverses, parameters)
-            h = step_of(c, n, tolerance)
+            expand(c, left, right, inverses, parameters, seen)
+            most = min(longest, direction * ((times[count - 1] - t) - t_low))
+            h = min(step_of(c, n, tolerance), most)
+            if suspects(seen, h, before):
+                h = check(c, seen, h, most, direction, parameters, tolerance)
             while j < count:
                 s = (times[j] - t) - t_low
                 if direction * s > h:
@@ -275,13 +227,16 @@ def orbit_integrator(recursion: Recursion) -> Callable[..., Any]:
                     out[j, i] = y[i] + (low[i] + increments[i])
                 j += 1
             if j == count:
-                return steps + 1
+                return steps + 1, times[count - 1]
             if steps >= max_steps or not (h > 0.0):
-                return STEP_LIMIT_REACHED
+                for i in range(n):
+                    out[j, i] = y[i]
+                return STEP_LIMIT_REACHED if h > 0.0 else STOPPED, t
             evaluate(c, direction * h, increments)
             for i in range(n):
                 y[i], low[i] = compensated(y[i], low[i], increments[i])
             t, t_low = compensated(t, t_low, direction * h)
+            before = h
             steps += 1
 
     return integrate
@@ -292,7 +247,7 @@ def compile_shared() -> None:
     vector: Any = float64[::1]
     table: Any = float64[:, ::1]
     smallest: Any = orbit_integrator(trace(lambda y, p: (y[0],), 1, 0))
-    smallest.compile((vector, vector, vector, int64, float64, int64, table))
+    smallest.compile((vector, vector, vector, int64, float64, float64, int64, table))
     for columns in (12, 16, 20, 24):
         convolve: Any = convolution(columns)
         convolve.compile((table, table, int64))

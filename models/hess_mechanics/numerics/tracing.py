@@ -13,6 +13,11 @@ functions at order 0 only.
 A field may use arithmetic and these functions, without conditions.  Its expressions can be differentiated
 (`derivative`).  A field may return further expressions after its rates; their series are computed along with the
 motion.
+
+A step depends on two kinds of expressions whose effect the series of the state may not show.  exp(x) and tanh(x) are
+constant in double precision where x is far from 0, and so are their series, whatever x does later: their arguments are
+`watched`.  So are divisors: a quotient may be tiny where its divisor is large, and is regular where its numerator
+vanishes with the divisor, although its series cannot start there.  A square root divides its own rate.
 """
 
 from __future__ import annotations
@@ -21,9 +26,11 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from hess_mechanics.numerics.expressions import ALLOWED, Node, NotTraceable, Symbol, Tape
-from hess_mechanics.numerics.recursions import Recursion, Series
+from hess_mechanics.numerics.recursions import Recursion, Series, below
 
-__all__ = ["Field", "check", "constant", "derivative", "trace"]
+__all__ = ["Field", "check", "constant", "derivative", "expressions", "trace"]
+
+_SATURATED = ("exp", "sinh", "cosh", "tanh")
 
 Field = Callable[[Sequence[Any], Sequence[Any]], Sequence[Any]]
 """field(y, p) → ẏ in arithmetic and `FUNCTIONS`."""
@@ -56,11 +63,22 @@ def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> R
     """
     tape, found = _record(field, variables, parameters, observed)
     functions = tape.functions(found, variables)
-    rates = [*found[:variables], *functions.values(), *found[variables:]]
-    plain = Series(tape, variables, [*functions], multiplies_out=True).recursion(rates, parameters)
+    watched = [(node.operation, node.arguments[0]) for node in functions if node.operation in _SATURATED]
+    quotients = [node for node in below(found[:variables]) if node.operation == "/" and node.arguments[1].moves]
+    divisors = [*(node.arguments[1] for node in quotients), *(node for node in functions if node.operation == "sqrt")]
+    watched += [("/", node) for node in dict.fromkeys(divisors)]
+    rates = [*found[:variables], *functions.values(), *found[variables:], *(node for _, node in watched)]
+    kinds = tuple(kind for kind, _ in watched)
+    plain = Series(tape, variables, [*functions], multiplies_out=True).recursion(rates, parameters, kinds)
     if not plain.stages:
         return plain
-    return Series(tape, variables, [*functions], multiplies_out=False).recursion(rates, parameters)
+    return Series(tape, variables, [*functions], multiplies_out=False).recursion(rates, parameters, kinds)
+
+
+def expressions(field: Field, variables: int, parameters: int) -> list[Node]:
+    """Return the rates of a field, then those of its functions, as recorded.  Raises `NotTraceable`."""
+    tape, found = _record(field, variables, parameters, 0)
+    return [*found, *tape.functions(found, variables).values()]
 
 
 def check(field: Field, variables: int, parameters: int) -> None:

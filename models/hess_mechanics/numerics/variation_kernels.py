@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from textwrap import indent
 from typing import Any
 
 import numpy as np
@@ -20,18 +21,24 @@ import numpy as np
 from hess_mechanics.numerics.expressions import Symbol
 from hess_mechanics.numerics.jit import inner, part
 from hess_mechanics.numerics.recursions import Recursion
+from hess_mechanics.numerics.step_kernels import checked, last_terms, step_size, suspicion
 from hess_mechanics.numerics.taylor_kernels import (
     STEP_LIMIT_REACHED,
+    STOPPED,
     columns_of,
     compensated,
     expansion,
-    step_size,
     workspace,
 )
 from hess_mechanics.numerics.tracing import Field, derivative, trace
 from hess_mechanics.numerics.unrolled import compiled, evaluation
 
-__all__ = ["Variation", "variation", "variation_integrator"]
+__all__ = ["Variation", "products", "variation", "variation_integrator"]
+
+
+_WRITTEN_OUT = 400
+"""Largest number of products of an entry of J and one of a column that are written out, for vector instructions.  More
+are a loop over the columns: 30 variables then compile in a seventh of the time."""
 
 
 @dataclass(frozen=True)
@@ -74,11 +81,19 @@ def _lanes(columns: int) -> int:
     return 1 if columns == 1 else columns + -columns % 4
 
 
+def products(of: Variation, columns: int) -> int:
+    """Return the number of products in the source of the kernel, which its compile time depends on."""
+    entries = len(of.moving) + len(of.fixed)
+    lanes = _lanes(columns)
+    return len(of.recursion.pairs) + len(of.moving) * (1 if lanes * entries > _WRITTEN_OUT else lanes)
+
+
 def carrying_source(of: Variation, lanes: int) -> str:
     """Return the source of carry(seen, v, inverses), which computes v[1 … order, row, lane] from v[0] and J."""
     n = of.recursion.variables
     entries = [*of.moving, *of.fixed]
-    each = range(lanes)
+    is_long = lanes * len(entries) > _WRITTEN_OUT
+    each: Sequence[int | str] = ("lane",) if is_long else range(lanes)
 
     def sums(row: int) -> tuple[str, ...]:
         """Return two partial sums for a row with many terms, so that additions overlap."""
@@ -106,10 +121,7 @@ def carrying_source(of: Variation, lanes: int) -> str:
         for lane in each
     ]
     newline = "\n        "
-    return f"""
-def carry(seen, v, inverses):
-    for k in range(inverses.size):
-        inverse = inverses[k]
+    body = f"""
         {newline.join(beginnings)}
         for m in range(k, -1, -1):
             {"; ".join(f"a{e} = seen[m, {e}]" for e in range(len(of.moving))) or "pass"}
@@ -117,6 +129,12 @@ def carry(seen, v, inverses):
             {(newline + "    ").join(products) or "pass"}
         {newline.join(ends)}
 """
+    if is_long:
+        body = f"\n        for lane in range({lanes}):{indent(body, '    ')}"
+    return f"""
+def carry(seen, v, inverses):
+    for k in range(inverses.size):
+        inverse = inverses[k]{body}"""
 
 
 @inner
@@ -193,7 +211,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
     vary(state, frame, parameters, times, order, tolerance, max_steps, limit, states, frames, growth, divergence)
     integrates from t = 0.  At the times (n,), monotonic and all ≥ 0 or all ≤ 0, it writes y into `states` (n, d), V
     into `frames` (n, d, c), and ∫ tr J dt into `divergence` (n,).  It returns the number of steps, or
-    `STEP_LIMIT_REACHED`.
+    `STEP_LIMIT_REACHED` or `STOPPED`.
 
     limit : if finite, V is orthonormalised (also against f(y) with `ahead`) after a step at which its condition number,
     or the length of its columns, may have passed the limit.  `growth` (n, c) receives the logarithms of the lengths
@@ -201,7 +219,9 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
     """
     recursion = of.recursion
     n, width, lanes, last_seen = recursion.variables, columns_of(recursion), _lanes(columns), recursion.observed - 1
-    expand, evaluate = expansion(recursion), evaluation(n)
+    watched = len(recursion.watched)
+    expand, evaluate, check = expansion(recursion), evaluation(n), checked(recursion)
+    suspects = suspicion(recursion)
     carry = compiled(carrying_source(of, lanes))["carry"]
     evaluate_row = evaluation(lanes)
     known = int(ahead)
@@ -209,7 +229,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
     @part
     def vary(state, frame, parameters, times, order, tolerance, max_steps, limit, states, frames, growth, divergence):
         c, left, right, inverses = workspace(order, n, width)
-        seen = np.zeros((order, last_seen + 1))
+        seen = np.zeros((order, last_seen + 1 + watched))
         v = np.zeros((order + 1, n, lanes))
         moved = np.zeros((n, lanes))
         grown = np.zeros(columns)
@@ -226,6 +246,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
         # ln |f| and ∫ tr J dt at the last time at which V was orthonormal.
         speed_then = 0.0
         volume_then = 0.0
+        before = 0.0
         count = times.size
         direction = 1.0 if times[count - 1] >= 0.0 else -1.0
         sample = 0
@@ -245,12 +266,13 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
                     speed_then, volume_then = rise, volume
             carry(seen, v, inverses)
             size = largest_entry(v[0], n, columns)
-            last = largest_entry(v[order], n, columns) / size
-            previous = largest_entry(v[order - 1], n, columns) / size
-            for i in range(n):
-                last = max(last, abs(c[order, i]))
-                previous = max(previous, abs(c[order - 1, i]))
-            h = step_size(last, previous, 0.0, order, tolerance)
+            last, previous = last_terms(c, n)
+            last = max(last, largest_entry(v[order], n, columns) / size)
+            previous = max(previous, largest_entry(v[order - 1], n, columns) / size)
+            most = direction * ((times[count - 1] - t) - t_low)
+            h = min(step_size(last, previous, order, tolerance), most)
+            if suspects(seen, h, before):
+                h = check(c, seen, h, most, direction, parameters, tolerance)
             while sample < count:
                 s = (times[sample] - t) - t_low
                 if direction * s > h:
@@ -268,7 +290,8 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
             if sample == count:
                 return steps + 1
             if steps >= max_steps or not (h > 0.0):
-                return STEP_LIMIT_REACHED
+                return STEP_LIMIT_REACHED if h > 0.0 else STOPPED
+            before = h
             s = direction * h
             evaluate(c, s, increments)
             for i in range(n):

@@ -286,7 +286,8 @@ def propagate(of: PassageConstants, arc: int, u: Array, level: Accuracy) -> tupl
             continue
         outwards = index[np.argsort(np.abs(inside[index]), kind="stable")]
         states = np.empty((index.size, 8))
-        steps = integrate(start, p, inside[outwards], level.order, level.tolerance, _MAX_STEPS, states)
+        longest = level.longest_step(of.end)
+        steps, _ = integrate(start, p, inside[outwards], level.order, level.tolerance, longest, _MAX_STEPS, states)
         if steps < 0:
             raise WorkLimit("This passage needs too many steps: choose larger I13, I23, or a cheaper level.")
         out[outwards] = states

@@ -36,6 +36,6 @@ _orbit = orbit_integrator(trace(field, variables=8, parameters=2))
 
 
 @kernel
-def integrate(y, p, u, order, tolerance, max_steps, out):
+def integrate(y, p, u, order, tolerance, longest, max_steps, out):
     """Integrate from u = 0 to the given u, see `orbit_integrator`."""
-    return _orbit(y, p, u, order, tolerance, max_steps, out)
+    return _orbit(y, p, u, order, tolerance, longest, max_steps, out)

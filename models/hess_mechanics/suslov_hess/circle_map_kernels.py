@@ -11,7 +11,8 @@ import numpy as np
 
 from hess_mechanics.numerics.angle_kernels import angle_of
 from hess_mechanics.numerics.jit import kernel, part
-from hess_mechanics.numerics.taylor_kernels import columns_of, expansion, step_of, workspace
+from hess_mechanics.numerics.step_kernels import step_of
+from hess_mechanics.numerics.taylor_kernels import columns_of, expansion, workspace
 from hess_mechanics.numerics.tracing import trace
 from hess_mechanics.numerics.unrolled import evaluation
 from hess_mechanics.suslov_hess import equations
@@ -53,6 +54,7 @@ def monodromy(h, f, a, order, tolerance, max_steps):
     nu = math.sqrt(2.0 * (h + 1.0))
     c, left_factors, right_factors, inverses = workspace(order, 9, _columns)
     increments = np.zeros(9)
+    seen = np.zeros((order, 0))
     c[0, 1] = math.sqrt(2.0 * w_low) / nu
     c[0, 3] = math.copysign(math.sqrt(v_low), f)
     c[0, 4] = n1
@@ -63,7 +65,7 @@ def monodromy(h, f, a, order, tolerance, max_steps):
     arg_A = 0.0
     steps = 0
     while left > 0.0:
-        _expand(c, left_factors, right_factors, inverses, p)
+        _expand(c, left_factors, right_factors, inverses, p, seen)
         s = step_of(c, 9, tolerance)
         if not s > 0.0 or steps >= max_steps:
             return 0.0, 0.0, 0.0, 0.0, 0.0, -1.0

@@ -48,6 +48,7 @@ from hess_mechanics.numerics.balls import (
     series_coefficients,
     working,
 )
+from hess_mechanics.numerics.labelled import Printed
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.proof import NO_CYCLE, TWO_CYCLES, UNDECIDED
@@ -115,7 +116,7 @@ class ZoneCell:
 
 
 @dataclass(frozen=True)
-class LockZone:
+class LockZone(Printed):
     """Proved cells of the lock zone for −1 < h ≤ h_end and f > 0; f < 0 is symmetric.
 
     Attributes

@@ -46,6 +46,7 @@ from hess_mechanics.numerics.balls import (
     series_coefficients,
     working,
 )
+from hess_mechanics.numerics.labelled import Printed
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.circle_map import MAX_A
@@ -104,7 +105,7 @@ class ProofStep:
 
 
 @dataclass(frozen=True)
-class Proof:
+class Proof(Printed):
     """Proved statement about the torus (a, h, f), for rational a, h, f in units b = 1; the result of `prove`.
 
     Attributes

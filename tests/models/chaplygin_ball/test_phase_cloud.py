@@ -20,7 +20,7 @@ from hess_mechanics.chaplygin_ball.phase_cloud import (
     patch,
     shell,
 )
-from hess_mechanics.chaplygin_ball.phase_cloud_density import sides
+from hess_mechanics.chaplygin_ball.phase_cloud_density import clouds, sides
 from hess_mechanics.errors import NotPositiveDefinite, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
 from support.ball import divergence as divergence_of
@@ -288,3 +288,12 @@ def test_a_click_in_the_plane_chooses_a_patch_there():
     stage.show(SCENE.compute(SCENE.defaults(), SCENE.pictures, True), False)
     assert stage.pick("omega", -1.0, 1.0) == {"start": "small patch", "angle": approx(0.75 * pi)}
     assert stage.pick("sphere", 1.0, 1.0) == {}
+
+
+@mark.parametrize("changed", [{"t": 0.0}, {"t": 5e-324}, {"h": 5e-324}])
+def test_a_cloud_that_stands_still_has_the_density_of_its_start(changed):
+    """The share of time per unit of ln|s| of points that do not move is infinite."""
+    body = BallBody(2.0, 1.0, 0.5, 0.7, 0.0)
+    found = clouds(body, changed.get("h", 2.0), None, 0.1, 50, changed.get("t", 1.0), None, "draft")
+    assert np.all(found.cloud.log_growth == 0.0)
+    assert (found.density.height, found.density.first.tolist()) == (np.inf, found.density.last.tolist())

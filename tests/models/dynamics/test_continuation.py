@@ -87,8 +87,8 @@ def test_an_invariant_curve_is_born():
     assert (found.kinds[0], found.kinds[-1]) == ("stable focus", "unstable focus")
 
 
-def mirrored(_, places):
-    return ("x → −x",) if np.abs(places[:, 0]).max() < 1e-9 else ()
+def mirrored(_, places, near):
+    return ("x → −x",) if np.abs(places[:, 0]).max() < 0.01 * near else ()
 
 
 def test_a_pitchfork_is_one_only_where_a_symmetry_is_broken():

@@ -81,7 +81,7 @@ class Regime(Part[_Host]):
             return Caption(
                 f"{kind}.", f"Attractor and repeller not distinguished; |mean div| < {digits(motion.bound, 1)}."
             )
-        if motion.volume_kept:
+        if found.dynamics.verdict == "conservative":
             return Caption(f"{kind}. Conservative: volume is preserved.")
         div = f"div = {digits(motion.divergence, 2)} ± {digits(motion.divergence_error, 1)}"
         away = f"{digits(found.dynamics.distance, 2)} ± {digits(found.dynamics.distance_error, 1)} away"
