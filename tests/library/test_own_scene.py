@@ -106,6 +106,7 @@ def test_it_has_a_slider_for_each_parameter_and_initial_value_and_the_presets_as
         ({"pictures": ["section at φ = 0"]}, "has no 'φ': choose among x, y, px, py"),
         ({"pictures": "x y"}, "pictures = 'x y' is not a sequence"),
         ({"pictures": [3]}, "pictures = 3 is not a text"),
+        ({"sliders": {"lam": (0, 5e-324)}}, "two different ends"),
         ({"sliders": {"lam": 3}}, r"is not a sequence of 2. Write it like \(1.5, 1.5\)"),
         ({"sliders": {"lam": (0, "b")}}, "= 'b' is not a number"),
         ({"presets": ["A"]}, "is not a mapping"),

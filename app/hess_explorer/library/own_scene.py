@@ -280,7 +280,7 @@ def _slider(system: System, name: str, field: str, default: float, ends: tuple[f
     symbol, label, doc, group = _KINDS[field[0]]
     around = abs(default) or 1.0 if field[0] == "i" else max(1.0, abs(default))
     low, high = ends or (default - around, default + around)
-    if not -_FARTHEST <= low < high <= _FARTHEST:
+    if not -_FARTHEST <= low < low + (high - low) / 200.0 < high <= _FARTHEST:
         raise InvalidParameter(
             f"{system.title}: the slider of {name} must have two different ends between ±{_FARTHEST:g}."
         )

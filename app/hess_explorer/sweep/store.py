@@ -26,12 +26,13 @@ from hess_explorer.sweep.grid import MAX_NUMBERS, Box, Part, SweepGrid, boxes, s
 from hess_explorer.sweep.quantity import Outcome, Quantity
 from hess_explorer.sweep.result import PROGRAM, empty, names, parts, require_libraries, slices, with_failures
 from hess_explorer.sweep.work import ChunkResult, version
+from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["FILES", "Store", "StoreStatus", "opened", "read", "store_status"]
+__all__ = ["FILES", "Store", "StoreStatus", "opened", "path_of", "read", "store_status"]
 
 _FAILURES = "failures.jsonl"
 """File of a store: a line [cell, text] for each exception, see `named`."""
@@ -244,7 +245,7 @@ def store_status(path: str | Path) -> StoreStatus:
     0
     """
     require_libraries()
-    group = _sweep_group(Path(path))
+    group = _sweep_group(path_of(path))
     status, parts = group["status"], int(group.attrs.get(_PARTS, 1))
     missing: Counter[int] = Counter()
     for number, file in enumerate(boxes(tuple((0, whole) for whole in status.shape), status.shards)):
@@ -369,7 +370,7 @@ def read(path: str | Path) -> xr.Dataset:
     require_libraries()
     import xarray as xr
 
-    path = Path(path)
+    path = path_of(path)
     if _exists(path) and path.is_file():
         # Imported here, because only charts depend on scenes.
         from hess_explorer.sweep.chart_file import read_chart
@@ -394,6 +395,13 @@ def _failures(file: Path) -> dict[str, str]:
             with suppress(ValueError):
                 found |= [json.loads(line)]
     return found
+
+
+def path_of(place: str | Path) -> Path:
+    """Return the path of a store or chart.  Raises `InvalidParameter`."""
+    if not isinstance(place, str | Path):
+        raise InvalidParameter(f"{place!r} is not the name of a folder or file: write it like 'rho.zarr'.")
+    return Path(place)
 
 
 def _exists(path: Path) -> bool:

@@ -23,7 +23,7 @@ def test_without_an_earlier_one_there_is_no_file(tmp_path):
     with full_disk(), raises(OSError):
         write_whole(tmp_path / "file", bytes(10_000))
     assert names(tmp_path) == []
-    with raises(FileNotFoundError, match="'nowhere/file'$"):
+    with raises(FileNotFoundError, match=r"'nowhere/file'$"):
         write_whole("nowhere/file", b"")
 
 
