@@ -83,7 +83,9 @@ def test_the_strange_attractor_is_what_its_example_says():
     # Two orbits side by side, by another algorithm, part as fast.
     accuracy = PLANS[Computation.EXPONENT]["standard"].level
     twins = [lyapunov_exponent(body, start, 2000.0, accuracy).value for start in starts]
-    assert abs(deviations(twins, *mean_of(values[:, 0]))) < 5.0
+    rate, error = mean_of(values[:, 0])
+    # The twins' first direction is any: their growth is off by a factor, ln 7 = 2 here.
+    assert abs(deviations(twins, rate, hypot(error, 2.0 / 2000.0))) < 5.0
     along = ensemble(body, starts, np.linspace(0.0, 500.0, 2001), level("draft")).states
     assert abs(deviations([divergence(body, orbit.T).mean() for orbit in along], *mean_of(shrinks))) < 5.0
     both = (settled(state.poincare, 16, 500, forward=forward) for forward in (True, False))

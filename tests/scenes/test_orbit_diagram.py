@@ -97,17 +97,17 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict):
     # λ1 + λ3 is the divergence: D = 2 + λ1/|λ3| = 3 + div/|λ3| of the means.
     third = np.mean(rates) - div
     assert abs(deviations(dimensions, 3.0 + div / third, error / third)) < 5.0
-    assert 3.0 + (div + 5.0 * error) / third < 3.0
+    assert div + 3.0 * error < 0.0
     if name != "A chaotic sea":
         # The numbers beside the pictures, which have five standard errors.
         for values, (value, bound) in zip((rates, dimensions), measured("orbit_diagram", IN_WORDS[name]), strict=True):
             assert abs(deviations(values, value, bound / 5.0)) < 5.0
-    both = [settled(state.poincare, 24, 1500, 500, forward) for forward in (True, False)]
+    both = [settled(state.poincare, 32, 1500, 500, forward) for forward in (True, False)]
     shared = np.array([set_distance(state.poincare.turns, *pair).shared for pair in zip(*both, strict=True)])
     if name == "Touching":
         assert deviations(np.log(shared), log(0.005)) > 5.0
         # "About 7 %".
-        assert deviations(shared, 0.02) > 5.0 > -5.0 > deviations(shared, 0.14)
+        assert deviations(shared, 0.01) > 5.0 > -5.0 > deviations(shared, 0.16)
     elif verdict == "dissipative":
         assert not shared.any()
     else:

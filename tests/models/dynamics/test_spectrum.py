@@ -60,7 +60,7 @@ def test_of_lorenz_they_are_those_of_the_literature():
     values, known = np.array([one.values for one in found]), np.array([0.9056, 0.0, -14.572])
     for i, error in enumerate((1e-4, 0.0, 1e-3)):
         assert abs(deviations(values[:, i], known[i], error)) < 5.0
-        assert deviations(np.abs(values[:, i] - known[i]), 0.02, of_each=True) < -5.0
+        assert deviations(np.abs(values[:, i] - known[i]), 0.025, of_each=True) < -5.0
         # Each is right within its error.
         assert deviations([(one.values[i] - known[i]) ** 2 / one.errors[i] ** 2 for one in found], 4.0) < -5.0
     assert deviations([one.error_estimate for one in found], 0.03) < -5.0
