@@ -447,7 +447,27 @@ class System:
         return expressions(self.field, len(self.variables), len(self.parameters))
 
     def rates_with_rounding(self, y: Array, parameters: Array) -> tuple[Array, Array]:
-        """Return the rates (d,) at a state, and bounds on their round-off.  Raises `field_values.Undefined`."""
+        """Return the rates at a state with bounds on their round-off.
+
+        Parameters
+        ----------
+        y : ndarray, shape (d,)
+            The state.
+        parameters : ndarray, shape (q,)
+            Parameters of the system.
+
+        Returns
+        -------
+        ndarray, shape (d,)
+            The rates.
+        ndarray, shape (d,)
+            Bounds on their round-off.
+
+        Raises
+        ------
+        Undefined
+            If an operation of the field has no finite result at the state.
+        """
         names = self.variables, self.parameters
         found = values_with_rounding(self.expressions, names, y.tolist(), parameters.tolist())
         values, errors = np.array(found[: y.size]).T

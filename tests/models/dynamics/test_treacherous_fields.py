@@ -10,10 +10,10 @@ from math import cos, erf, exp, expm1, inf, pi, sin, sqrt
 import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
-from scipy.special import sici
+from scipy.special import gammaln, sici
 
-from hess_mechanics import LEVELS, System, solve
-from hess_mechanics.errors import ModelError
+from hess_mechanics import LEVELS, Plane, System, ensemble, section, solve, transition_matrix
+from hess_mechanics.errors import InvalidParameter, ModelError, MotionEnds, WorkLimit
 from hess_mechanics.numerics import functions as f
 
 WRONG = 3.0
@@ -242,3 +242,112 @@ def test_the_standard_level_is_right(row):
     assert found.status == "ok"
     expected = truth(row)
     np.testing.assert_allclose(found.states[-1, : expected.size], expected, rtol=0, atol=2e-6)
+
+
+# ---- the same for sections, ensembles and exponents ------------------------------------------------------------------
+
+
+def test_a_section_and_an_ensemble_of_a_saturated_spring_are_right():
+    """From x = 1 at rest the spring passes x = 0 after a quarter of its period, v̇ = −1 but for |x| of some 1/k."""
+    body = system("saturated spring").at((200.0,))
+    quarter = quad(lambda x: 1 / sqrt(2 * log_ratio_of_cosh(200.0, x)), 0.0, 1.0, limit=400, epsabs=1e-12)[0]
+    found = section(body, (1.0, 0.0), Plane((1.0, 0.0), 0.0, 0), 6.0, "precise")
+    np.testing.assert_allclose(found.times, quarter * np.array([1, 3]), atol=1e-8)
+    both = ensemble(body, [(1.0, 0.0), (-1.0, 0.0)], [4 * quarter], "precise")
+    np.testing.assert_allclose(both.states[:, -1], [(1.0, 0.0), (-1.0, 0.0)], atol=1e-8)
+
+
+def log_ratio_of_cosh(k, x):
+    """ln(cosh k/cosh kx)/k, without overflow: the kinetic energy at x."""
+    return ((1 - x) * k + np.log1p(np.exp(-2 * k)) - np.log1p(np.exp(-2 * k * x))) / k
+
+
+def test_neighbours_see_a_pulse_as_the_orbit_does():
+    """u̇ = (pulse(τ) − 1) u: ∂u(2)/∂u(0) = u(2)/u(0)."""
+
+    def field(y, p):
+        return y[0] * (f.exp(-(((y[1] - 1) / 0.005) ** 2)) / (0.005 * sqrt(pi)) - 1), 1
+
+    narrow = System("growth", field, "u tau")
+    found = transition_matrix(narrow.at(), (1.0, 0.0), 2.0, "precise")
+    np.testing.assert_allclose([found.states[0, 0], found.matrices[0, 0, 0]], exp(-1.0), rtol=1e-8)
+
+
+def test_the_runs_of_an_estimate_take_different_steps(monkeypatch):
+    """Even where one step is enough for each, as for τ̇ = 1."""
+    clock, longest = System("clock", lambda y, p: (1,), "tau"), []
+    kernel = clock.orbit
+    monkeypatch.setitem(vars(clock), "orbit", lambda *given: longest.append(given[5]) or kernel(*given))
+    assert solve(clock.at(), (0.0,), [3.0]).states[-1, 0] == 3.0
+    assert len(longest) == 2 and longest[0] == 3.0 and longest[1] == pytest.approx(0.618 * 3.0)
+
+
+# ---- limits ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_pulse_between_two_checks_is_missed_until_max_step_is_below_its_width():
+    """The guide says so.  The pulse is a power of a sine that is small but for 0.2 of the period 100."""
+    pulses = System("pulses", lambda y, p: (f.sin(pi * y[1] / 100) ** 100_000, 1), "u tau")
+    area = 100 / sqrt(pi) * exp(gammaln(50_000.5) - gammaln(50_001))
+    missed, seen = (solve(pulses.at(), (0.0, 0.0), [100.0], max_step=step).states[-1, 0] for step in (None, 0.05))
+    assert seen == pytest.approx(area, rel=1e-8) and missed < area
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_limits_of_steps_can_be_given(level):
+    pendulum = System("swing", lambda y, p: (y[1], -f.sin(y[0])), "angle speed")
+    freely = solve(pendulum.at(), (1.0, 0.0), [20.0], level)
+    shortly = solve(pendulum.at(), (1.0, 0.0), [20.0], level, max_step=0.01)
+    assert shortly.cost.steps > 20 / 0.01 > freely.cost.steps
+    np.testing.assert_allclose(shortly.states, freely.states, atol=3 * freely.error_estimate + 1e-13)
+    with pytest.raises(WorkLimit, match=r"needs more than 50 steps, which reach t = \d"):
+        solve(pendulum.at(), (1.0, 0.0), [20.0], level, max_step=0.01, max_steps=50)
+    for wrong in (0.0, -1.0):
+        with pytest.raises(InvalidParameter, match=r"max_step = .* is not positive"):
+            solve(pendulum.at(), (1.0, 0.0), [20.0], level, max_step=wrong)
+
+
+# ---- motions that end ------------------------------------------------------------------------------------------------
+
+
+def explosion(y, p):
+    return (y[0] * y[0],)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_one_orbit_that_escapes_leaves_the_others_complete(level):
+    """ẏ = y²: y(t) = 1/(1/y(0) − t)."""
+    t = np.array([0.5, 1.5])
+    found = ensemble(System("explosion", explosion, "y").at(), [(-1.0,), (0.1,), (1.0,)], t, level)
+    assert [str(one) for one in found.statuses] == ["ok", "ok", "incomplete"] and found.status == "incomplete"
+    for i, start in enumerate((-1.0, 0.1)):
+        np.testing.assert_allclose(found.states[i, :, 0], 1 / (1 / start - t), rtol=3 * LEVELS[level].promise + 1e-15)
+    assert found.ends.tolist()[:2] == [1.5, 1.5] and found.ends[2] == pytest.approx(
+        1.0, abs=LEVELS[level].promise + 1e-15
+    )
+    assert found.states[2, 0, 0] == pytest.approx(2.0, rel=1e-2) and np.isnan(found.states[2, 1, 0])
+    assert found.last_states[2, 0] > 1e9 and np.isinf(found.errors[2]) and np.isfinite(found.error_estimate)
+    assert found.reasons[:2] == ("", "") and "y reached" in found.reasons[2] and "at t = 1:" in found.reasons[2]
+
+
+ENDS = {
+    "escape": (explosion, "y", (1.0,), 1.5, "y reached .* at t = 1: the motion escapes to infinity"),
+    "logarithm": (lambda y, p: (-1.0, f.log(y[0])), "s x", (1.0, 0.0), 2.0, "At t = 1 the field takes log of s"),
+    "attraction": (lambda y, p: (y[1], -1 / y[0] ** 2), "r v", (1.0, 0.0), 2.0,
+                   r"At t = 1\.11072 no step is short enough: the rate of"),
+    "centre": (lambda y, p: (y[1], -1 / y[0] ** 2), "r v", (0.0, 0.0), 2.0, r"At t = 0 the field divides by r \* r, wh"),
+    "quotient": (lambda y, p: (y[0] / y[1], 0 * y[0]), "a b", (0.0, 0.0), 2.0, "At t = 0 the field divides by b, which"),
+    "root": (lambda y, p: (f.sqrt(y[0]),), "y", (0.0,), 2.0, r"At t = 0 the field divides by sqrt\(y\), which is 0"),
+    "negative": (lambda y, p: (f.log(y[0]),), "y", (-1.0,), 2.0, "At t = 0 the field takes log of y, which is -1"),
+    "overflow": (lambda y, p: (f.exp(y[0]),), "y", (800.0,), 2.0, r"exceeds the range of double precision in exp\(y\)"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ENDS)
+def test_an_error_names_the_time_the_variable_and_the_operation(name):
+    field, variables, start, t, words = ENDS[name]
+    body = System(name, field, variables).at()
+    with pytest.raises(MotionEnds, match=words):
+        solve(body, start, [t])
+    with pytest.raises(MotionEnds, match=words):
+        section(body, start, Plane((1.0, *(0.0 for _ in start[1:])), -5.0), t, "precise")
