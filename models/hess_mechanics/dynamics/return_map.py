@@ -98,6 +98,11 @@ class PoincareSection(Body, Protocol):
         """Name of the integrable case to which the body exactly belongs; empty if none is known."""
         return ""
 
+    @property
+    def measure(self) -> str:
+        """Smooth measure that all motions of the section preserve by a theorem, in words; empty if none is known."""
+        return ""
+
     def moved(self, name: str, value: float) -> PoincareSection:
         """Return the section at another value of a constant.  Raises a `ModelError` if there is none."""
 
@@ -615,7 +620,7 @@ class ReturnMap:
 
     @cached_property
     def mirrors(self) -> tuple[Mirror, ...]:
-        """Symmetries of the system that map motions through this section to such motions, possibly reversed."""
+        """Symmetries that map motions through this section to such motions, and reversors that map it to itself."""
         for shares in evenly(_TRIED - 1).T:
             place = np.array(
                 [low + share * (high - low) for share, (low, high) in zip(shares, self.section.window, strict=False)]
@@ -629,7 +634,9 @@ class ReturnMap:
         return ()
 
     def mirrored(self, mirror: Mirror, place: Array) -> Array | None:
-        """Return the mirror image of a point, or where the motion through its mirror image crosses the section next.
+        """Return the mirror image of a point, or where the motion through the image crosses the section next.
+
+        The image of a reversor must lie on the section itself.
 
         Parameters
         ----------
@@ -657,6 +664,8 @@ class ReturnMap:
         ]
         if there[0] and float(np.abs(apart(turns, states[0], state)).max()) < 1e-9 * size:
             return image
+        if mirror.reverses:
+            return None
         try:
             problem, _, ends = self._crossings(state[None], 1, _LONGEST)
         except (NoReturn, WorkLimit):

@@ -34,7 +34,7 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.numerics.step_kernels import LONGEST
 from hess_mechanics.numerics.taylor_kernels import orbit_integrator
 from hess_mechanics.numerics.tracing import Field, check, expressions, trace
-from hess_mechanics.numerics.variation_kernels import Variation, variation, variation_integrator
+from hess_mechanics.numerics.variation_kernels import Variation, products, variation, variation_integrator
 
 __all__ = ["Body", "ParametrizedSystem", "Problem", "System", "in_units_of_time", "systems"]
 
@@ -47,10 +47,9 @@ _DERIVING = RLock()
 """Lock around the derivation of kernels, so that threads compile each kernel once."""
 _SEED, _CHECKS, _ROUNDING = 1, 4, 1e-9
 """Checks at random points: seed of the random numbers, number of draws, and relative rounding error."""
-_COMPILE = 8.0, 0.2, 0.2
-"""Seconds that a kernel takes to compile, for each product of its recursion, and for each product of an entry of the
-Jacobian and one of a column.  Measured on one core: chains of 4 to 30 variables, 9 to 14 s for an orbit; of 6 and 12
-variables, 16 and 49 s for a spectrum."""
+_COMPILE = 3.0, 0.2
+"""Seconds that a kernel takes to compile, and those for each product in its source.  Measured on one core: 9 s for an
+orbit in 30 variables with 32 products, 49 s for a spectrum with 213, 268 s for one with 1424."""
 _STEP, _DIFFERENCES = 1e-4, 1e-7
 """Check of symmetries: step of a difference, for a rate of size 1, and its relative error."""
 
@@ -574,7 +573,7 @@ class System:
             task,
             "y, frame, p, times, order, tolerance, max_steps, limit, states, frames, growth, divergence",
             lambda _: variation_integrator(self.variation, columns, ahead),
-            entries=columns * len(self.variation.moving),
+            products(self.variation, columns),
         )
 
     def _kernel(
@@ -582,12 +581,12 @@ class System:
         task: str,
         arguments: str,
         make: Callable[[Recursion], Callable[..., Any]],
+        written: int | None = None,
         adjusts: bool = True,
-        entries: int = 0,
     ) -> Callable[..., Any]:
         """Return the compiled `make(recursion)`; if `adjusts`, it applies the `tolerance` of the system first.
 
-        entries : products of an entry of the Jacobian and one of a column, which are written out.
+        written : number of products in the source, by default those of the recursion.
         """
         with _DERIVING:
             name = f"{re.sub(r'^(?=[0-9])|[^0-9A-Za-z]', '_', self.name)}_{task}"
@@ -602,9 +601,13 @@ class System:
                 f"# The {task} of the system {self.name!r}, derived from its field.  The Taylor recursion:\n#\n"
                 f"{derived}\n\ndef {name}({arguments}):\n    return run({passed})\n"
             )
-            found = derived_kernel(name, source, getattr(self.field, "__module__", __name__), **names)
-            lasts = _COMPILE[0] + _COMPILE[1] * len(self.recursion.pairs) + _COMPILE[2] * entries
-            return announced(found, f"the {task} of {self.name}", lasts)
+            module = getattr(self.field, "__module__", __name__)
+            found = derived_kernel(name, source, module, **names)
+            # The kernels of this package are compiled when it starts for the first time.
+            if module.startswith("hess_mechanics."):
+                return found
+            count = len(self.recursion.pairs) if written is None else written
+            return announced(found, f"the kernel {task} of {self.name}", _COMPILE[0] + _COMPILE[1] * count)
 
     def at(self, parameters: Sequence[float] | Array | None = None, **values: float) -> ParametrizedSystem:
         """Return the system with values of its parameters.

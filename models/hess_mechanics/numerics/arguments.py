@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 from collections.abc import Callable, Mapping, Sequence
-from functools import wraps
+from functools import cache, wraps
 from numbers import Integral, Real
 from types import NoneType, UnionType
 from typing import Any, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints
@@ -124,8 +124,8 @@ def as_place(names: tuple[str, ...], place: Any) -> tuple[float, ...]:
 def typed(function: Callable[P, T]) -> Callable[P, T]:
     """Return a function that checks its arguments against their annotations first.
 
-    Numbers become floats or integers, and a single number counts as a sequence of one.  Objects that are described by
-    a protocol, such as bodies, are left to the function.
+    Numbers become floats or integers, sequences of numbers become arrays, and a single number counts as one of these.
+    Their shape, and objects that are described by a protocol, such as bodies, are left to the function.
     """
     signature = inspect.signature(function)
     kinds: dict[str, Any] = {}
@@ -150,7 +150,9 @@ def typed(function: Callable[P, T]) -> Callable[P, T]:
 
 def _fitted(name: str, kind: Any, value: Any) -> Any:
     """Return a value as its annotation describes it."""
-    origin, inner = get_origin(kind), get_args(kind)
+    if type(value) is kind is not float:
+        return value
+    origin, inner = _parts_of(kind)
     if origin in (Union, UnionType):
         return _one_of(name, inner, value)
     if isinstance(value, np.ndarray) and value.ndim == 0:
@@ -169,14 +171,9 @@ def _fitted(name: str, kind: Any, value: Any) -> Any:
             raise InvalidParameter(f"{error} Write it like ({example}).") from None
         return tuple(_fitted(name, one, part) for one, part in zip(inner, parts, strict=True))
     if origin is not None and issubclass(origin, Sequence):
-        if isinstance(value, np.ndarray) and inner[0] is not str:
-            return _as_array(name, value)
-        is_one = isinstance(value, Real) and inner[0] is float
-        # Some functions take a single state for several.
-        return tuple(
-            as_number(name, one) if isinstance(one, Real) and get_args(inner[0]) else _fitted(name, inner[0], one)
-            for one in ((value,) if is_one else as_parts(name, value))
-        )
+        if inner[0] in (float, Sequence[float]):
+            return np.atleast_1d(_as_array(name, value))
+        return tuple(_fitted(name, inner[0], one) for one in as_parts(name, value))
     if kind is float:
         return as_number(name, value)
     if kind is int:
@@ -186,6 +183,12 @@ def _fitted(name: str, kind: Any, value: Any) -> Any:
     return value
 
 
+@cache
+def _parts_of(kind: Any) -> tuple[Any, tuple[Any, ...]]:
+    return get_origin(kind), get_args(kind)
+
+
+@cache
 def _is_class(kind: Any) -> bool:
     return get_origin(kind) is None and isinstance(kind, type) and not getattr(kind, "_is_protocol", False)
 
@@ -211,9 +214,10 @@ def _one_of(name: str, kinds: Sequence[Any], value: Any) -> Any:
 
 def _as_array(name: str, value: Any) -> Any:
     try:
-        if isinstance(value, str):
+        found = np.asarray(value)
+        if found.dtype.kind not in "fiuO":
             raise ValueError
-        return np.asarray(value, float)
+        return found.astype(float)
     except (TypeError, ValueError, OverflowError):
         raise InvalidParameter(f"{name} = {_short(value)} is no array of numbers; write it like [1.5, 2.0].") from None
 

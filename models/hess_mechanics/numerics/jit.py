@@ -25,7 +25,8 @@ from typing import Any
 import numba
 from numba.core import event
 
-from hess_mechanics.numerics.kernel_files import keep, let_go, write_whole
+from hess_mechanics.numerics.files import write_whole
+from hess_mechanics.numerics.kernel_files import keep, let_go
 from hess_mechanics.numerics.patience import go_on
 
 __all__ = [
@@ -52,8 +53,8 @@ _ONLY_INLINED = {**_INLINED, "no_cpython_wrapper": True, "no_cfunc_wrapper": Tru
 
 _CONFIG: Any = numba.config
 _LOG = logging.getLogger("hess_mechanics")
-_LONG = 30.0
-"""Seconds of compilation that are announced: kernels of the systems of this package take less, most of them 10."""
+_LONG = 20.0
+"""Seconds from which a compilation is announced."""
 
 _PACKAGE = Path(__file__).parents[1]
 _FOR_ALL = {"numerics", "dynamics"}
@@ -165,7 +166,9 @@ def _sources() -> dict[str, tuple[str, list[str]]]:
             case _:
                 found[name] = [mark, *_read(path)]
     if memory is not None and found != known:
-        write_whole(memory, json.dumps(found))
+        # The file only saves work.
+        with suppress(OSError):
+            write_whole(memory, json.dumps(found).encode())
     return {name: (digest, imported) for name, (_, digest, imported) in found.items()}
 
 
@@ -304,7 +307,7 @@ def derived_kernel(name: str, source: str, module: str, **names: Any) -> Callabl
         if not kept:
             with suppress(OSError):
                 folder.mkdir(mode=0o700, exist_ok=True)
-            write_whole(path, source)
+                write_whole(path, source.encode())
             kept = _holds(path, source)
     namespace: dict[str, Any] = {"__name__": module, **names}
     exec(compile(source, file, "exec"), namespace)

@@ -33,12 +33,12 @@ from hess_mechanics.numerics.taylor_kernels import (
 from hess_mechanics.numerics.tracing import Field, derivative, trace
 from hess_mechanics.numerics.unrolled import compiled, evaluation
 
-__all__ = ["Variation", "variation", "variation_integrator"]
+__all__ = ["Variation", "products", "variation", "variation_integrator"]
 
 
 _WRITTEN_OUT = 400
-"""Products of an entry of J and one of a column that are written out, for vector instructions; beyond, a loop over the
-columns compiles in a fraction of the time."""
+"""Largest number of products of an entry of J and one of a column that are written out, for vector instructions.  More
+are a loop over the columns: 30 variables then compile in a seventh of the time."""
 
 
 @dataclass(frozen=True)
@@ -79,6 +79,13 @@ def variation(field: Field, variables: int, parameters: int) -> Variation:
 def _lanes(columns: int) -> int:
     """Return the length of a row of V, padded to a multiple of four unless it is one."""
     return 1 if columns == 1 else columns + -columns % 4
+
+
+def products(of: Variation, columns: int) -> int:
+    """Return the number of products in the source of the kernel, which its compile time depends on."""
+    entries = len(of.moving) + len(of.fixed)
+    lanes = _lanes(columns)
+    return len(of.recursion.pairs) + len(of.moving) * (1 if lanes * entries > _WRITTEN_OUT else lanes)
 
 
 def carrying_source(of: Variation, lanes: int) -> str:

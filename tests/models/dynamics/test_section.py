@@ -9,7 +9,7 @@ import numpy as np
 from pytest import approx, mark, raises
 from scipy.optimize import brentq
 
-from hess_mechanics import LEVELS, Level, Plane, Status, level, section, sections, solve
+from hess_mechanics import LEVELS, Level, ParametrizedSystem, Plane, Status, level, section, sections, solve
 from hess_mechanics.dynamics.section import MAX_CROSSINGS
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
 from support.mechanics import EQUILIBRIA, SYSTEMS, every_level, every_system, scipy_crossings
@@ -294,9 +294,9 @@ def test_states_and_parameters_that_cannot_be_computed_raise_a_sentence(system, 
     too_fast = "choose (less extreme parameters|a shorter time span)"
     for wrong, error, words in (
         ({"state": state[:-1]}, InvalidParameter, r"takes \d numbers"),
-        ({"body": system.at((*parameters[:-1], np.nan))}, InvalidParameter, "finite number"),
+        ({"body": ParametrizedSystem(system, (*parameters[:-1], np.nan))}, InvalidParameter, "finite number"),
         ({"plane": Plane((1.0,))}, InvalidParameter, f"has {len(state)} components"),
-        ({"end": np.nan}, InvalidParameter, "end of the time span must be finite"),
+        ({"end": np.nan}, InvalidParameter, "end is not a finite number"),
         ({"crossings": MAX_CROSSINGS + 1}, WorkLimit, f"between 1 and {MAX_CROSSINGS}"),
         ({"end": 1e308}, WorkLimit, too_long),
         ({"end": 1e5, "plane": Plane(axis(system, 0), 100.0)}, WorkLimit, too_long),

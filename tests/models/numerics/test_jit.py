@@ -8,10 +8,11 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 from pytest import fixture, mark, raises
 
 import hess_mechanics
-from hess_mechanics import System, systems
+from hess_mechanics import System
 from hess_mechanics.numerics import jit
 from hess_mechanics.numerics.jit import announced, kernel
 from hess_mechanics.numerics.patience import limited_by
@@ -208,14 +209,21 @@ def test_a_long_compilation_is_announced_and_ends_with_its_request(caplog):
     assert caplog.text == ""
 
 
-def test_thirty_variables_are_a_long_compilation_and_five_are_not():
+def test_a_long_compilation_is_known_from_the_field():
+    """Measured: 20 to 40 s for the spectrum of 30 variables, 9 s for an orbit."""
+
     def chain(y, p):
         q, v = (0.0, *y[:15], 0.0), y[15:]
         return *v, *((q[i + 1] - q[i]) ** 3 - (q[i] - q[i - 1]) ** 3 for i in range(1, 16))
 
-    variables = [f"{name}{i}" for name in "qv" for i in range(15)]
-    long = System("chain", chain, variables).vary_others.py_func.announcement
-    # Measured: 268 s.
-    assert 130.0 < float(re.search(r"about (\d+) s", long)[1]) < 540.0
-    assert not hasattr(System("chain", chain, variables).orbit.py_func, "announcement")
-    assert not hasattr(systems()["suslov"].vary_others.py_func, "announcement")
+    def pairs(y, p):
+        return tuple(sum(np.sin(other - one) for other in y) for one in y)
+
+    def seconds(kernel):
+        found = re.search(r"about (\d+) s", getattr(kernel.py_func, "announcement", ""))
+        return float(found[1]) if found else 0.0
+
+    many = System("chain", chain, [f"{name}{i}" for name in "qv" for i in range(15)])
+    assert 15.0 <= seconds(many.vary_others) <= 60.0
+    assert seconds(many.orbit) == 0.0
+    assert seconds(System("pairs", pairs, "a b c d e f g h").orbit) > 120.0
