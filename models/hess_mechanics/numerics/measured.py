@@ -3,8 +3,7 @@
 The second run has another order, other steps, a hundredth of the tolerance, and starts a few units in the last place
 away.  With equal starts, both runs would make the same roundings wherever the motion is slow: near an unstable
 equilibrium they would compute the same small, wrong rates and leave it side by side, so that their difference stayed
-small while both were wrong.  A start that is moved by roundings diverges as fast as anything can, and shows their
-effect.
+small while both were wrong.  A start that is moved by roundings diverges as fast as anything can.
 
 Components keep their relative digits, however small they are, and so do the steps (`step_kernels.last_terms`): what
 leaves an equilibrium or an invariant plane grows with its relative error.
