@@ -39,6 +39,7 @@ def _pair(value: complex) -> list[float]:
 def _facts(orbit: PeriodicOrbit) -> dict[str, Any]:
     return {
         "period": orbit.period,
+        "time": orbit.time,
         "kind": orbit.kind,
         "multipliers": [_pair(complex(one)) for one in orbit.multipliers],
         "multiplier_error": float(orbit.multiplier_error),
