@@ -151,6 +151,9 @@ def typed(function: Callable[P, T]) -> Callable[P, T]:
 def _fitted(name: str, kind: Any, value: Any) -> Any:
     """Return a value as its annotation describes it."""
     origin, inner = get_origin(kind), get_args(kind)
+    if kind == Accuracy:
+        as_level(value)
+        return value
     if origin in (Union, UnionType):
         return _one_of(name, inner, value)
     if isinstance(value, np.ndarray) and value.ndim == 0:
