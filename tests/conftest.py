@@ -27,6 +27,12 @@ def pytest_addoption(parser):
     parser.addoption(
         "--thorough", action="store_true", help="all cases of sampled tests, ten times as many examples of hypothesis"
     )
+    parser.addoption(
+        "--moved-start",
+        type=int,
+        metavar="SEED",
+        help="move every start by a few units in the last place; tests of chaotic motions must pass with any",
+    )
 
 
 def pytest_configure(config):
@@ -55,6 +61,18 @@ def pytest_collection_modifyitems(config, items):
         left_out = [item for item in items if item.get_closest_marker("thorough")]
         items[:] = [item for item in items if item not in left_out]
         config.hook.pytest_deselected(items=left_out)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item):
+    """Move all starts, of fixtures too, with --moved-start."""
+    seed = item.config.getoption("moved_start")
+    if seed is None:
+        return (yield)
+    from support.moved import moved_starts
+
+    with moved_starts(seed):
+        return (yield)
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -8,7 +8,7 @@ import re
 import sys
 from collections.abc import Iterable, Sequence
 from importlib import import_module, metadata
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from hess_explorer.commands import COMMANDS, CommandError
 
@@ -16,7 +16,11 @@ __all__ = ["main"]
 
 
 class _Parser(argparse.ArgumentParser):
-    """Argument parser that reports an error in one sentence, without the usage text."""
+    """Argument parser that reports an error in one sentence, without the usage text, and knows no abbreviations."""
+
+    def __init__(self, **settings: Any) -> None:
+        # Also in subcommands, where `--h` would be `--help`.
+        super().__init__(allow_abbrev=False, **settings)
 
     def error(self, message: str) -> NoReturn:
         raise CommandError(f"{message} (see {self.prog} --help).")
@@ -35,7 +39,6 @@ def _parser(declared: Iterable[str] = COMMANDS) -> argparse.ArgumentParser:
         prog="hess-explorer",
         description="An interactive explorer of the Suslov problem, its Hess case "
         "and their relatives.  Without a command: serve.",
-        allow_abbrev=False,
     )
     parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
@@ -76,8 +79,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0 on success, 1 if a check has found mistakes, 2 if the command cannot be carried out, 130 if it was
-        interrupted.
+        0 on success, 1 if a check has found mistakes or cells of a sweep have failed, 2 if the command cannot be
+        carried out, 130 if it was interrupted.
     """
     words = list(sys.argv[1:] if argv is None else argv)
     # A terminal that does not use UTF-8 shows Greek letters as escape sequences.
@@ -90,6 +93,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     except CommandError as error:
         print(f"hess-explorer: {error}", file=sys.stderr)
         return error.status
+    except OSError as error:
+        # Commands say what they read or write; here a name that is too long, or a disk that fails.
+        named = "" if error.filename is None else f"{error.filename!r} cannot be used: "
+        print(f"hess-explorer: {named}{error.strerror or error}.", file=sys.stderr)
+        return 2
     except KeyboardInterrupt as error:
         print(f"hess-explorer: {str(error) or 'interrupted.'}", file=sys.stderr)
         return 130

@@ -306,7 +306,7 @@ def periodic_orbit(map_: ReturnMap, at: Sequence[float], period: int | None = No
     'stable node'
     """
     found = find_periodic(map_, at, None if period is None else as_whole("period", period, 1, MAX_PERIOD))
-    return replace(found, symmetric=tuple(map_.symmetries_of(found.places)), time=abs(map_.time_of(found.places)))
+    return replace(found, symmetric=tuple(map_.symmetries_of(found.places)))
 
 
 def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, points: int = 200) -> Branch:

@@ -4,6 +4,7 @@ import pytest
 
 from hess_explorer.__main__ import main
 from hess_explorer.commands import output
+from hess_explorer.sweep import progress
 from support.command_line import strict_json, table
 
 
@@ -11,6 +12,7 @@ from support.command_line import strict_json, table
 def no_patience(monkeypatch):
     """Suppress progress messages: the first run compiles kernels and takes longer."""
     monkeypatch.setattr(output, "LONG", 1e6)
+    monkeypatch.setattr(progress, "_EVERY", 1e6)
 
 
 @pytest.fixture

@@ -172,6 +172,8 @@ def test_out_writes_a_file_and_prints_nothing(answer, capsys, tmp_path):
         (replaced(SUSLOV, "--t", "1e9"), "shorter"),
         (replaced(SUSLOV, "--omega", "1e200,0"), "--omega: w1 = 1e+200 is not between -1000 and 1000"),
         (replaced(SUSLOV, "--omega", "x" * 5000), "x…'"),
+        # Abbreviated, this was `--help`.
+        ([*HESS, "--h", "1"], "unrecognized arguments: --h 1"),
         (["serve", "--allow-origin", "*"], "not a host"),
         (["serve", "--embed-in", "example.org; script-src *"], "not a host"),
         (["serve", "--address", "203.0.113.7", "--no-browser"], "--address 127.0.0.1"),

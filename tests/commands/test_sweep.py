@@ -12,11 +12,11 @@ import pytest
 from distributed import LocalCluster
 
 from hess_explorer.__main__ import main
-from hess_explorer.sweep import StoreStatus, read, store_status, sweep
+from hess_explorer.sweep import StoreStatus, explain, progress, read, store_status, sweep
 from hess_mechanics import systems
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.numerics.accuracy import PLANS, Computation
-from support.command_line import replaced, table, typed
+from support.command_line import replaced, strict_json, table, typed
 from support.mechanics import ROOT
 
 SWEEP = typed("sweep rotation-number --over h=-0.5,1,1.5 --over f=0:0.6:2 --set a=0.5")
@@ -68,6 +68,40 @@ def test_a_function_of_a_file_is_swept_and_written_as_a_table(answer, refusal, t
     assert "no parameter 'store' that --set can give" in refusal(*replaced(words, "--set", "store=1"))
     file.write_text("1 / 0")
     assert "stops with ZeroDivisionError" in refusal(*words)
+
+
+FAILING = "def wanting(x, y=1.0):\n    return {1.0: 1.0, 2.0: 2.0}[x]\n"
+
+
+@pytest.mark.parametrize("more", [[], ["--workers", "2"]], ids=["here", "workers"])
+def test_failed_cells_are_counted_and_their_exceptions_kept(tmp_path, capsys, more):
+    (tmp_path / "mine.py").write_text(FAILING)
+    words = ["sweep", f"{tmp_path}/mine.py:wanting", "--over", "x=1,2,3,5", *more]
+    said = "hess-explorer: 2 cells have failed of 4; x = 3.0: KeyError: 3.0.\n"
+    failures = {"x = 3.0": "KeyError: 3.0", "x = 5.0": "KeyError: 5.0"}
+    store = tmp_path / "mine.zarr"
+    # Computed, computed into a store, and complete from the beginning.
+    for line in (words, [*words, "--store", str(store)], [*words, "--store", str(store)]):
+        assert main(line) == 1
+        shown = capsys.readouterr()
+        assert shown.err == said
+        assert strict_json(shown.out)["failures"] == failures
+        assert strict_json(shown.out)["status_counts"] == {"ok": 2, "failed": 2}
+    assert main([*words, "--store", str(tmp_path / "parts.zarr"), "--part", "1/1"]) == 1
+    assert capsys.readouterr().err == said
+    # Also after a line that a killed run has left.
+    with (store / "failures.jsonl").open("a") as file:
+        file.write('["x = 3')
+    assert explain(read(store), x=5.0) == "KeyError: 5.0"
+    assert main(["sweep", "--read", str(store)]) == 0
+
+
+def test_a_log_gets_lines_of_progress(monkeypatch, capsys):
+    monkeypatch.setattr(progress, "_EVERY", 0.0)
+    assert main(SWEEP) == 0
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[0] == "0 of 6 cells after 0 s"
+    assert re.fullmatch(r"6 of 6 cells after \d+ s, about 0 s left", lines[-1])
 
 
 def test_parts_share_a_store_whose_status_says_what_is_missing(answer, refusal, tmp_path):
@@ -223,6 +257,9 @@ def test_ctrl_c_without_a_store_writes_what_is_done(capsys, monkeypatch, tmp_pat
         (replaced(SWEEP, "--over", "h=0:1:1000000"), "at most 1000000 rows: use --store FOLDER"),
         ([*SWEEP, "--part", "3"], "'3' is not a part; write it like 3/40"),
         ([*SWEEP, "--store", "/proc/nowhere/at/all"], "cannot be written"),
+        ([*SWEEP, "--store", "1" * 300], "cannot be read (File name too long)"),
+        (["sweep", "--read", "1" * 300], "cannot be read (File name too long)"),
+        (["sweep", "--status", "1" * 300], "does not contain a sweep"),
     ],
 )
 def test_what_is_wrong_is_one_sentence(refusal, words, said):

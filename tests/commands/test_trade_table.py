@@ -1,10 +1,11 @@
 """`hess-explorer bench --trade`: every scene runs, no row is lost, and one table says what a level costs."""
 
 from dataclasses import replace
+from math import nan
 
 import pytest
 
-from benchmarks.integrators.trade import Row, _draft_computes, _example, by_kind, names
+from benchmarks.integrators.trade import Row, _draft_computes, _example, as_json, by_kind, line_of, names
 from hess_explorer.__main__ import main
 from hess_explorer.scenes import scenes
 from hess_mechanics import LEVELS
@@ -57,6 +58,14 @@ def test_the_table_by_kind_has_the_least_and_most_ratio_and_the_largest_error():
         "| orbit | as much | 4 × | 0.1 | 0.01 | 0.001 | 0 | pixels |",
         "| section | 25 % of the crossings | 4 to 20 × | 0.3 | 0.5 | 0.002 | 0 | pixels |",
     ]
+
+
+def test_a_row_without_a_measurement_says_so():
+    """The section of the Suslov problem had error 0 at every level, of 0 orbits."""
+    rows = [row("a", "section", errors=(nan,) * 4), row("b", "section", errors=(nan, 0.2, 0.1, 0.0))]
+    assert line_of(rows[0]).split(" | ")[2:6] == [f"{ms} ms, not measured" for ms in (1, 2, 3, 4)]
+    assert by_kind(rows).splitlines()[-1].split(" | ")[3:7] == ["not measured", "0.2", "0.1", "0"]
+    assert as_json(rows)[0]["error"] is None
 
 
 def measured_by_kind(file):

@@ -8,8 +8,10 @@ from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes import scenes
 from hess_mechanics import lyapunov_spectrum
 from hess_mechanics.suslov.section import SuslovSection
-from support.diagrams import crossings
-from support.lesson_on_doubling import NAME, cascade, end, heavy_body, points_of, sets_at
+from support.deviations import deviations
+from support.diagrams import crossings, nearest
+from support.diagrams import settled as many
+from support.lesson_on_doubling import NAME, cascade, end, heavy_body, points_of
 from support.suslov import field
 from support.view import View
 
@@ -41,42 +43,49 @@ def test_the_motion_settles_to_the_period_that_the_lesson_says(title, period):
         assert np.abs(found[shorter] - found[0]).max() > 0.02
 
 
+def places_at(title, count, kept, forward=True):
+    """Settled places of many orbits of a step's body, see `diagrams.settled`."""
+    return many(scenes()["orbit-diagram"].of(STEPS[title].at.values).poincare, count, kept, forward=forward)
+
+
+@pytest.mark.chaotic
 def test_beyond_the_end_no_short_period_is_left_and_other_starts_come_to_the_same_set():
-    values = STEPS["The film backwards"].at.values
-    assert values["I23"] == STEPS["Beyond the end"].at.values["I23"] > end(None)[1]
-    own, other = (sets_at(values, chosen=chosen).attractor for chosen in (values["chosen"], "1,1.7"))
-    apart = np.linalg.norm(own[:, None] - other[None], axis=2)
-    assert np.quantile(apart.min(axis=1), 0.99) < 0.01
-    assert np.quantile(apart.min(axis=0), 0.99) < 0.01
+    assert STEPS["The film backwards"].at.values["I23"] == STEPS["Beyond the end"].at.values["I23"] > end(None)[1]
+    orbits = places_at("The film backwards", 24, 200)
+    # The farthest places of each orbit from those of all others, one in a hundred.
+    off = [
+        np.quantile(nearest(own, np.concatenate([*orbits[:i], *orbits[i + 1 :]])), 0.99) for i, own in enumerate(orbits)
+    ]
+    assert deviations(off, 0.01) < -5.0
     for period in range(1, 65):
-        assert np.abs(own[period:] - own[:-period]).max() > 0.05
+        farthest = np.abs(orbits[:, period:] - orbits[:, :-period]).max(axis=(1, 2))
+        assert deviations(farthest, 0.05) > 5.0
 
 
+@pytest.mark.chaotic
 def test_the_first_exponent_of_a_periodic_attractor_tends_to_0_and_that_of_the_strange_one_does_not():
-    step = STEPS["Measure the chaos"]
-    for given, is_chaotic in (({**step.at.values, "I23": -0.1}, False), (step.at.values, True)):
-        body, E = heavy_body(given)
-        start = SuslovSection(body, E, 3).state_at(*places(given["starts"])[-1])
-        # The picture's time, and twice as long.
-        values = [lyapunov_spectrum(body, start, span).values[0] for span in (4000.0, 8000.0)]
-        if is_chaotic:
-            assert min(values) > 0.02
-        else:
-            assert max(map(abs, values)) < 0.004
+    values = STEPS["Measure the chaos"].at.values
+    strange, periodic = (SuslovSection(*heavy_body({**values, "I23": I23}), 3) for I23 in (values["I23"], -0.1))
+    start = periodic.state_at(*places(values["starts"])[-1])
+    # The picture's time, and twice as long.
+    for span in (4000.0, 8000.0):
+        assert abs(lyapunov_spectrum(periodic.body, start, span).values[0]) < 0.004
+        found = [lyapunov_spectrum(strange.body, y, span).values[0] for y in strange.spread(strange.window, 16)]
+        assert deviations(found, 0.02) > 5.0
 
 
+@pytest.mark.chaotic
 def test_attractor_and_repeller_are_apart_in_the_first_body_and_some_points_meet_in_the_other():
-    def nearest(title):
-        found = sets_at(STEPS[title].at.values)
-        away = found.attractor[:, None] - found.repeller[None]
-        away[..., 0] = np.arctan2(np.sin(away[..., 0]), np.cos(away[..., 0]))
-        return np.linalg.norm(away, axis=2).min(axis=1)
+    def apart(title):
+        # As many points as the picture has, once for each of many starts.
+        both = (places_at(title, 32, 1500, forward) for forward in (True, False))
+        return np.array([nearest(*pair) for pair in zip(*both, strict=True)])
 
-    assert nearest("The film backwards").min() > 0.05
+    assert deviations(apart("The film backwards").min(axis=1), 0.05) > 5.0
     # Many blue points are apart, and some among the orange ones.
-    touching = nearest("When they touch")
-    assert np.mean(touching > 0.2) > 0.3
-    assert np.mean(touching < 0.05) > 0.01
+    touching = apart("When they touch")
+    assert deviations(np.mean(touching > 0.2, axis=1), 0.15) > 5.0
+    assert deviations(np.mean(touching < 0.05, axis=1), 0.005) > 5.0
 
 
 def test_the_saddle_goes_on_between_the_branches():

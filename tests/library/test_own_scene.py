@@ -103,11 +103,29 @@ def test_it_has_a_slider_for_each_parameter_and_initial_value_and_the_presets_as
         ({"sliders": {"q": (0, 1)}}, "has no 'q': choose among lam, x, y, px, py"),
         ({"sliders": {"lam": (1, 1)}}, "two different ends"),
         ({"presets": {"A": {"q": 1}}}, "has no 'q'"),
+        ({"pictures": ["section at φ = 0"]}, "has no 'φ': choose among x, y, px, py"),
+        ({"pictures": "x y"}, "pictures = 'x y' is not a sequence"),
+        ({"pictures": [3]}, "pictures = 3 is not a text"),
+        ({"sliders": {"lam": (0, 5e-324)}}, "two different ends"),
+        ({"sliders": {"lam": 3}}, r"is not a sequence of 2. Write it like \(1.5, 1.5\)"),
+        ({"sliders": {"lam": (0, "b")}}, "= 'b' is not a number"),
+        ({"presets": ["A"]}, "is not a mapping"),
+        ({"presets": {"A": {"lam": float("nan")}}}, "is not a finite number"),
+        ({"text": 3}, "text = 3 is not a text"),
     ],
 )
 def test_what_the_system_does_not_have_is_refused(given, message):
     with raises(InvalidParameter, match=message):
         hess.scene(HENON, **given)
+
+
+def test_what_is_no_system_or_too_small_for_a_section_is_refused():
+    with raises(InvalidParameter, match="system = None is not a System"):
+        hess.scene(None)
+    with raises(InvalidParameter, match="needs a system of three or more variables"):
+        hess.scene(System("one", lambda y, p: (-y[0],), variables="x"), ["section"])
+    with raises(InvalidParameter, match=r"There is no scene .*: choose one of suslov-hess"):
+        hess.state(HENON)
 
 
 def test_a_name_that_cannot_stand_in_a_link_is_refused():

@@ -451,8 +451,7 @@ def test_next_to_an_unstable_equilibrium_no_error_is_more_than_its_estimate_says
         [np.max(oracle.distances(orbit.states, exact)) for orbit, (*_, exact) in zip(found, starts, strict=True)]
     )
     said = np.array([orbit.error_estimate for orbit in found])
-    assert np.max(true / said) < 10.0
-    assert np.quantile(true / said, 0.95) < 3.0
+    assert np.max(true / said) < 3.0
     # No false alarm, although the bound allows ten times the actual round-off.
     assert np.median(said / np.maximum(true, 1e-16)) < 100.0
 

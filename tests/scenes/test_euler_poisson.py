@@ -12,7 +12,7 @@ from pytest import approx
 from scipy.integrate import quad
 
 from hess_explorer.scenes.framework.periodic_search import NONE
-from hess_mechanics import circle_map, f_max, level, solve
+from hess_mechanics import circle_map, f_max, level, lyapunov_spectrum, solve
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.errors import ModelError
@@ -20,8 +20,10 @@ from hess_mechanics.euler_poisson.andoyer import AndoyerSection, coordinates, he
 from hess_mechanics.euler_poisson.hess_split import HessTorus, split_at
 from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD
 from support.andoyer import GESS1, crossings_by_scipy, dense, energies_at
+from support.deviations import deviations
 from support.euler_poisson import EP, EulerPoisson
 from support.lyapunov import finite_exponent
+from support.moved import from_moved_starts
 from support.thorough import sample
 from support.view import View, values_of
 
@@ -42,6 +44,7 @@ def places_from(view, start, count=3000):
 # ---- Examples ---------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.chaotic
 @pytest.mark.parametrize(
     "preset", sample((one for one in EP.presets if one.values["periodic"] == NONE), 4), ids=lambda preset: preset.name
 )
@@ -76,7 +79,10 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
     assert means[-1] == approx(exponent, rel=6e-3, abs=0.05 * spread)
     early = int(np.argmin(np.abs(spans - 3.0)))
     assert means[early] == approx(finite_exponent(view.body, view.start, float(spans[early])), abs=1e-4)
-    words = "Chaotic." if lyapunov_exponent(view.body, view.start, 2000.0).value > 0.03 else "Regular so far:"
+    rates = from_moved_starts(lambda: lyapunov_spectrum(view.body, view.start, 2000.0).values[0])
+    sure = deviations(rates, 0.015)
+    assert abs(sure) > 5.0
+    words = "Chaotic." if sure > 0.0 else "Regular so far:"
     assert words in view.text["exponent"]
     # And of the orbit.
     track = view.data["data-orbit"]
@@ -153,6 +159,7 @@ def free_rotation_number(l, x):
     return 2.0 * pi / turn
 
 
+@pytest.mark.chaotic
 def test_at_high_energy_rotation_numbers_are_those_of_the_free_body():
     view = EulerPoisson({**values_of(EP, "h → ∞"), "orbits": 0.0}, seen={"rotation"})
     along, rho = view.curve("rotation-rho")
@@ -160,8 +167,8 @@ def test_at_high_energy_rotation_numbers_are_those_of_the_free_body():
     assert above.size > 10
     apart = np.abs([remainder(rho[i] - free_rotation_number(0.0, along[i]), 1.0) for i in above])
     assert np.median(apart) < 1e-3
-    # Next to a resonance, as 1/2, it is not as close.
-    assert np.max(apart) < 5e-3
+    # Nor next to the separatrix, where orbits may be chaotic, nor next to a resonance, as 1/2, is it as close.
+    assert np.max(apart[along[above] > 0.42]) < 1e-3
     # The difference falls as 1/h, for f = 0.
     missed = []
     for h in (5e3, 5e4):
@@ -190,15 +197,17 @@ def other_momenta(view, places):
     ]
 
 
+@pytest.mark.chaotic
 def test_points_on_another_sheet_are_drawn_apart():
-    view = EulerPoisson({**values_of(EP, "Figure 14 c"), "orbits": 60.0, "count": 100.0}, seen={"section"})
+    view = EulerPoisson({**values_of(EP, "Figure 14 c"), "orbits": 60.0, "count": 200.0}, seen={"section"})
     apart = view.points("elsewhere")
     everything = np.vstack([view.points("first"), view.points("second"), view.points("own")])
-    assert 3 < len(apart) < 0.02 * len(everything)
+    few = len(apart) + 5.0 * sqrt(len(apart)) * np.array([-1.0, 1.0])
+    assert np.all((few > 0.0) & (few < 0.02 * len(everything)))
     assert all(np.min(np.abs(everything - point).max(axis=1)) < 1e-6 for point in apart)
     # There another momentum has this energy as well; at most of the other points there is none.
     assert np.mean(np.array(other_momenta(view, apart[:20])) >= 2) > 0.9
-    assert np.mean(np.array(other_momenta(view, everything[::200])) >= 2) < 0.2
+    assert deviations(np.array(other_momenta(view, everything[::40])) >= 2, 0.3) < -5.0
     assert view.derived("on another sheet: # points") == [len(apart)]
 
 
@@ -271,6 +280,7 @@ def test_while_epsilon_is_dragged_the_rotation_number_is_that_of_few_orbits_righ
     assert any(low < middle < high for low, high in seas[1])
 
 
+@pytest.mark.chaotic
 def test_the_rotation_picture_says_of_all_the_line_what_its_orbits_are():
     view = EulerPoisson({"orbits": 0.0}, seen={"rotation"})
     low, high = view.numbers("rotation", "From # to #")
@@ -281,14 +291,15 @@ def test_the_rotation_picture_says_of_all_the_line_what_its_orbits_are():
     marked = len(view.data["rotation-orbits"]["x"]) + len(view.data["rotation-standing"]["x"])
     assert covered + 2.0 * marked / 48 == approx(2.0, abs=1e-6)
     assert np.all(view.data["rotation-standing"]["y"] == 0.0)
-    # The exponent of an orbit from the middle of the largest sea is positive, of one in an island it falls to 0.
-    sea = max(seas, key=np.ptp)
+    # The exponent of orbits of the largest sea is positive, of one in an island it falls to 0.
+    low, high = np.quantile(max(seas, key=np.ptp), (0.0, 1.0))
+    sea = np.linspace(low, high, 18)[1:-1]
     exponents = [
-        lyapunov_exponent(view.body, AndoyerSection(GESS1, 50.0, 5.0).state_at(0.0, place), 300.0).value
-        for place in (float(sea.mean()), float(view.data["rotation-standing"]["x"][2]))
+        lyapunov_exponent(view.body, AndoyerSection(GESS1, 50.0, 5.0).state_at(0.0, float(place)), 300.0).value
+        for place in (*sea, view.data["rotation-standing"]["x"][2])
     ]
-    assert exponents[0] > 0.2
-    assert exponents[1] < 0.05
+    assert deviations(exponents[:-1], 0.2) > 5.0
+    assert exponents[-1] < 0.05
 
 
 SECOND_SERIES = [one for one in EP.presets if one.name.startswith("Figure 14")]

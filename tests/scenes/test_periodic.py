@@ -63,8 +63,8 @@ def returned(body, E, place, count, sense=1.0):
 @pytest.mark.parametrize(
     "periodic, start, kind, example",
     [
-        ("period 1", "1,1", "saddle with reflection", "A chaotic"),
-        ("period 2", "1,1", "saddle with reflection", "Strange"),
+        ("period 1", "0.97,1.82", "saddle with reflection", "A chaotic"),
+        ("period 2", "0.756,1.911", "saddle with reflection", "Strange"),
         ("any period", "0.245,2.399", "stable focus", "Two"),
     ],
 )

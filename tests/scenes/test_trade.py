@@ -2,7 +2,8 @@
 
 import dataclasses
 import re
-from math import pi
+import types
+from math import nan, pi
 
 import numpy as np
 import pytest
@@ -15,6 +16,8 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.scenes.framework.trial import Trial, bare, needed, section_error
 from hess_explorer.scenes.framework.work import AUTO
+from hess_explorer.scenes.parts.costs import Costs
+from hess_mechanics.dynamics.trade import LevelCost, beyond
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Computation
 from hess_mechanics.suslov_hess.rotation_number import values_at
@@ -63,6 +66,7 @@ def test_a_finer_level_has_a_smaller_error(name, trial):
 # ---- sections ---------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.chaotic
 @pytest.mark.parametrize("name", ["draft", "precise"])
 def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_drawn(name):
     state, report = completed(SUSLOV, {**SMALL, "accuracy": name}, ("section",))
@@ -76,8 +80,8 @@ def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_draw
     away = state.section.own[:both] - state.poincare.places_of(exact.states[0])[:both]
     away[:, 0] -= 2.0 * pi * np.round(away[:, 0] / (2.0 * pi))
     pixels = np.linalg.norm(away * [300.0 / pi, 600.0 / pi], axis=1)
-    # The estimate of two runs: one crossing more or less.
-    assert abs(int(np.flatnonzero(pixels > 0.5)[0]) - own) <= 1
+    # Of random orbits 97 in 100 estimates are right to one crossing, 99 to five: `test_estimates_of_pictures`.
+    assert abs(int(np.flatnonzero(pixels > 0.5)[0]) - own) <= 5
     assert 3 < others < 60
 
 
@@ -87,9 +91,35 @@ def test_orbits_that_chaos_takes_away_are_left_aside():
     lost = regular + np.column_stack([np.zeros(50), 1e-9 * np.exp(0.5 * np.arange(50))])
     assert section_error([late, regular], [regular, regular], (1.0, 1.0)) == approx(0.049)
     assert section_error([lost, late], [regular, regular], (1.0, 1.0)) == approx(0.049)
-    assert section_error([lost], [regular], (1.0, 1.0)) == 0.0
+    # Without any orbit there is no error, not even 0.
+    assert np.isnan(section_error([lost], [regular], (1.0, 1.0)))
     # From the first crossings on another one.
-    assert section_error([regular + 40.0], [regular], (1.0, 1.0)) == 0.0
+    assert np.isnan(section_error([regular + 40.0], [regular], (1.0, 1.0)))
+    assert np.isnan(section_error([], [], (1.0, 1.0)))
+
+
+def test_cells_are_measured_on_a_grid_twice_as_fine():
+    """At `reference` the error was 0 %: the truth had the same cells."""
+    scene = SCENES["quartic"]
+    trial = next(one for one in scene.trials if one.kind == Computation.INDICATOR)
+    state, plan = bare(scene.of(scene.defaults())), PLANS[Computation.INDICATOR]["reference"]
+    cells = trial.run(state, plan)
+    twice = trial.run(state, dataclasses.replace(plan, cells=2.0 * plan.cells))
+    whole = np.mean(np.kron(cells, np.ones((2, 2))) != twice)
+    assert whole > 0.05
+    # A quarter of the finer cells, one in each.
+    deviation = np.sqrt(whole * (1.0 - whole) / cells.size)
+    measured = trial.error(state, cells, trial.run(state, beyond(Computation.INDICATOR)))
+    assert measured == approx(100.0 * whole, abs=500.0 * deviation)
+
+
+def test_no_level_is_compared_with_itself():
+    """The truth of the ball's scattering map, and that of its orbits, was a run at `reference`."""
+    for name, trial in CHEAP:
+        if trial.kind == Computation.MAP:
+            state = bare(SCENES[name].of(SCENES[name].defaults()))
+            found = trial.run(state, PLANS[trial.kind]["reference"])
+            assert trial.error(state, found, trial.run(state, beyond(trial.kind))) > 0.0, name
 
 
 def test_the_status_line_says_how_exact_a_map_of_rotation_numbers_is():
@@ -152,6 +182,15 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     # A draft of the map has a quarter of the cells: it is right, but not all.
     assert samples[0].error < 0.5
     assert state.costs.about().numbers == "Cheapest levels without a visible error: orbit draft, map standard."
+
+
+def test_a_chaotic_section_has_no_error_and_says_so():
+    trial = next(one for one in SUSLOV.trials if one.kind == Computation.SECTION)
+    costs = tuple(LevelCost(name, 1.0, nan, True) for name in LEVELS)
+    work = types.SimpleNamespace(dragging=False, later=lambda *_: costs)
+    found = Costs(work, bare(SUSLOV.of(SUSLOV.defaults())), (trial,))
+    assert found.about().numbers == "Section has no error to measure: all of it is chaotic, or there is nothing."
+    assert (found.curve(trial), found.rings(), found.level("draft"), [*found.rows()]) == (None, [], None, [])
 
 
 def test_what_is_too_large_to_be_measured_or_compared_says_so_and_leaves_no_axes_of_before():

@@ -1,10 +1,22 @@
-"""Orbit diagrams without a browser, and their return map on γ3 = 0 by SciPy."""
+"""Orbit diagrams without a browser, their return map on γ3 = 0 by SciPy, and the sets that many orbits come to."""
+
+import re
+from importlib.resources import files
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from hess_explorer.compute.cache import CACHE
+from hess_mechanics import ReturnMap, level
 from support.captions import as_text
 from support.mechanics import scipy_crossings
+
+
+def measured(scene, beginning):
+    """Return the pairs (value, bound of the error) in the paragraph of a scene's words that begins like this."""
+    words = files("hess_explorer.scenes").joinpath(f"{scene}.md").read_text(encoding="utf-8")
+    (paragraph,) = [one for one in words.split("\n\n") if one.startswith(beginning)]
+    return [tuple(map(float, one)) for one in re.findall(r"(-?[\d.]*\d)\\pm([\d.]*\d)", paragraph)]
 
 
 def complete(scene, beginning, seen, **changes):
@@ -35,6 +47,24 @@ def multipliers(image, places, step=1e-4):
         sides = [[image(place + sign * step * axis) for sign in (1, -1)] for axis in np.eye(2)]
         M = np.column_stack([(a - b) / (2.0 * step) for a, b in sides]) @ M
     return np.array(sorted(np.linalg.eigvals(M), key=abs, reverse=True))
+
+
+def spread(section, count, seed=1):
+    """Return random places (count, 2) where motions cross a section."""
+    found = np.random.default_rng(seed).uniform(*np.transpose(section.window), (50 * count, 2))
+    return found[section.states_at(*found.T)[1]][:count]
+
+
+def settled(section, count, kept, transient=300, forward=True):
+    """Return the late places (count, kept, 2) of orbits from starts all over a section."""
+    map_ = ReturnMap(section, level("standard"), not forward)
+    return np.array([map_.orbit(place, transient + kept)[transient:] for place in spread(section, count)])
+
+
+def nearest(a, b):
+    """Return the distance (n,) of each place (ψ, δ) of one set from the nearest one of another."""
+    a, b = (np.column_stack([np.mod(one[:, 0], 2.0 * np.pi), one[:, 1]]) for one in (a, b))
+    return KDTree(b, boxsize=(2.0 * np.pi, 0.0)).query(a)[0]
 
 
 def distances(a, b):

@@ -2,20 +2,29 @@
 
 import math
 import sys
-from functools import cache
+
+import numpy as np
 
 from hess_explorer.lessons import shipped
 from hess_explorer.scenes import scenes
-from hess_mechanics import circle_map, level, lyapunov_exponent
+from hess_mechanics import circle_map, level, lyapunov_spectrum
 from hess_mechanics.dynamics import work_precision
 from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.suslov import free
+from support.deviations import deviations
 from support.lesson_on_constraints import free_body
+from support.moved import from_moved_starts
 
 NAME = "how-do-we-know"
 STEPS = {step.title: step for step in shipped()[NAME].steps}
 DIGITS = -math.log10(sys.float_info.epsilon)
 """The digits of a double, 15.7."""
+
+
+def moved_growth(values, of):
+    """Decimal logarithms of the late "errors" or "pixels" of each level, from sixteen starts moved by a few ulps."""
+    found = from_moved_starts(lambda: getattr(growth(values), of))
+    return {name: [math.log10(one[name][-20:].max()) for one in found] for name in LEVELS}
 
 
 def growth(values):
@@ -25,18 +34,16 @@ def growth(values):
     return work_precision.growth(*motion.named, motion.weights, 400)
 
 
-@cache
-def chaotic_exponent():
-    """The Lyapunov exponent of the chaotic body of the lesson."""
-    state = scenes()["orbit-diagram"].of(STEPS["What is a picture of chaos worth?"].at.values)
-    return lyapunov_exponent(state.body, state.start, 20000.0).value
-
-
 def bought_by_a_digit(_step):
     """10, the time that a digit buys, the digits of a double, and a time at which no level is right to a pixel."""
-    assert 14.0 < math.log(10.0) / chaotic_exponent() < 18.5
-    pixels = growth(STEPS["Chaos eats digits"].prediction.then.values).pixels
-    assert all(found[-20:].max() > 1.0 for found in pixels.values())
+    state = scenes()["orbit-diagram"].of(STEPS["What is a picture of chaos worth?"].at.values)
+    section = state.poincare
+    starts = section.spread(section.window, 16)
+    units = math.log(10.0) / np.array([lyapunov_spectrum(state.body, start, 8000.0).values[0] for start in starts])
+    assert deviations(units, 14.0) > 5.0 > -5.0 > deviations(units, 18.0)
+    values = STEPS["Chaos eats digits"].prediction.then.values | {"span": 300.0}
+    for found in moved_growth(values, "pixels").values():
+        assert deviations(found, 0.0) > 5.0
     return 10.0, 16.0, round(DIGITS), 300.0
 
 

@@ -138,6 +138,14 @@ WRONG = [
     (("rotation-number", {"h": [1.0]}, {"a": 1e9, "f": 0.1}), "a = 1e\\+09 is not between -1000 and 1000"),
     (("crossings-suslov", {"variable": [1.5]}, {}), "variable = 1.5 is not a whole number between 1 and 5"),
     (("rotation-number", {"h": [1.0]}, {"a": 0.5, "f": 0.1, "workers": "many"}), "not the address of a Dask scheduler"),
+    (("cos-chi", None, {}), "over = None is not a mapping"),
+    (("cos-chi", {"I11": [10**400]}, {}), "must all be numbers"),
+    (("cos-chi", {"I11": (1, 10**400, 3)}, {}), "I11 is not a finite number"),
+    (("cos-chi", {"I11": [1.0]}, {"I22": 10**400}), "I22 is not a finite number"),
+    (("cos-chi", {"I11": [1.0]}, {"store": 3}), "3 is not the name of a folder"),
+    (("cos-chi", {"I11": [1.0]}, {"part": 3, "store": "x"}), "part = 3 is not a sequence of 2"),
+    (("cos-chi", {"I11": [1.0]}, {"most_cells": "all"}), "most_cells = 'all' is not a number"),
+    (("cos-chi", {"I11": [1.0]}, {"progress": "yes"}), "progress = 'yes' is not a function"),
 ]
 
 

@@ -41,11 +41,16 @@ def _check(options: Options) -> None:
 
 def _new(options: Options) -> None:
     from hess_explorer.lessons.example import EXAMPLE
+    from hess_mechanics.numerics.files import write_whole
 
     try:
         # Fails if the file exists, even if it was created a moment ago.
-        with options.file.open("x", encoding="utf-8") as file:
-            file.write(EXAMPLE)
+        options.file.touch(exist_ok=False)
+        try:
+            write_whole(options.file, EXAMPLE.encode())
+        except BaseException:
+            options.file.unlink()
+            raise
     except FileExistsError as error:
         raise CommandError(f"{str(options.file)!r} exists: choose another name.") from error
     except OSError as error:

@@ -29,7 +29,7 @@ def _computed(name: str, options: Options) -> Answer:
     kept = np.unique(np.linspace(0, found.times.size - 1, _SHOWN).astype(int))
     return Answer(
         {"t": found.times[kept].tolist(), "average": found.rates[kept].tolist()},
-        {"exponent": found.value, "spread": found.spread},
+        {"exponent": found.value, "spread": found.spread, "no_chaos": found.no_chaos},
         notes,
     )
 

@@ -229,15 +229,20 @@ def show(data: bytes, out: Path | None = None) -> None:
     try:
         sys.stdout.buffer.write(data)
         sys.stdout.flush()
-    except BrokenPipeError:
-        # The reader (such as `head`) has closed the pipe; prevent Python from flushing the rest at exit.
+    except OSError as error:
+        # Prevent Python from flushing the rest at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # The reader (such as `head`) may close the pipe early.
+        if not isinstance(error, BrokenPipeError):
+            raise CommandError(f"Cannot write to standard output ({error.strerror}): use --out FILE.") from error
 
 
 def write_file(path: Path, data: bytes) -> None:
-    """Write a file.  Raises `CommandError`."""
+    """Write a file, of which an earlier version stays until the new one is complete.  Raises `CommandError`."""
+    from hess_mechanics.numerics.files import write_whole
+
     try:
-        path.write_bytes(data)
+        write_whole(path, data)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise CommandError(f"Cannot write {str(path)!r} ({reason}): choose another file.") from error

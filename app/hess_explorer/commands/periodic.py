@@ -39,7 +39,8 @@ def _pair(value: complex) -> list[float]:
 def _facts(orbit: PeriodicOrbit) -> dict[str, Any]:
     return {
         "period": orbit.period,
-        "time": orbit.time,
+        "time": float(orbit.time),
+        "time_error": float(orbit.time_error),
         "kind": orbit.kind,
         "multipliers": [_pair(complex(one)) for one in orbit.multipliers],
         "multiplier_error": float(orbit.multiplier_error),

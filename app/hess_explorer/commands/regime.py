@@ -28,6 +28,7 @@ def _facts(found: Regime) -> dict[str, Any]:
         "kind": found.kind.words,
         "period": found.period,
         "integrable": found.integrable,
+        "measure": found.measure,
         "MEGNO": found.megno,
         "K": found.k,
         "t": found.t,
@@ -51,9 +52,9 @@ def _compared(both: Dynamics) -> dict[str, Any]:
 
 COMMAND = command_of_sections(
     "Classify the motion of {section} from a point {place} after a transient: fixed point, periodic, quasi-periodic, "
-    "chaotic or undecided, from its crossings, MEGNO and the 0-1 test; and report whether phase volume around it "
-    "shrinks.  With --dynamics, compare the limit sets forward and backward in time.  The results are numerical, with "
-    "error estimates, not proved.",
+    "chaotic or undecided, from its crossings, Newton's method, MEGNO and the 0-1 test; and report whether phase "
+    "volume around it shrinks.  With --dynamics, compare the limit sets forward and backward in time.  The results "
+    "are numerical, with error estimates, not proved.",
     "starting point of the motion",
     (
         whole("--transient", 0, 20_000, "number of crossings to skip", 300),

@@ -83,10 +83,32 @@ def _run(options: Options) -> None:
             found = _swept(options)
             if options.part is not None:
                 _write_status(options, options.store)
+                _require_no_failures(found)
                 return
     table = options.store is None or options.format is not None or options.out is not None
     options.format = options.format or "json"
     _write(options, found, table)
+    if options.read is None:
+        _require_no_failures(found)
+
+
+def _require_no_failures(found: xr.Dataset) -> None:
+    """Raise `CommandError` if cells have failed."""
+    from hess_explorer.sweep import Outcome
+    from hess_explorer.sweep.work import named
+
+    failed, failures = np.argwhere(found.status.values == Outcome.FAILED), _failures(found)
+    if len(failed):
+        axes = {str(name): found[name].values for name in found.status.dims}
+        cells = (named({name: axes[name][i] for name, i in zip(axes, at, strict=True)}) for at in failed)
+        text = next((f"; {cell}: {failures[cell]}" for cell in cells if cell in failures), "")
+        words = "cell has" if len(failed) == 1 else "cells have"
+        raise CommandError(f"{len(failed)} {words} failed of {found.status.size}{text}.", status=1)
+
+
+def _failures(found: xr.Dataset) -> dict[str, str]:
+    """Return the texts of the exceptions by cell."""
+    return cast("dict[str, str]", json.loads(found.attrs.get("failures", "{}")))
 
 
 def _swept(options: Options) -> xr.Dataset:
@@ -170,6 +192,7 @@ def _write(options: Options, found: xr.Dataset, table: bool) -> None:
         "cells": list(status.shape),
         "status_counts": counts,
         **{name: found.attrs[name] for name in ("link", "largest_error") if name in found.attrs},
+        **({"failures": failures} if (failures := _failures(found)) else {}),
         **({} if options.store is None else {"store": str(options.store)}),
     }
     series = _series(found) if table else {}
@@ -214,7 +237,8 @@ COMMAND = Command(
     "Compute a quantity (see --list) for every combination of the values of one to three of its parameters.  Column "
     "status tells how each cell ended; a cell without a number is null, or empty in CSV.  With --store, finished parts "
     "are saved in a folder, and the same command resumes an interrupted sweep; the table is printed only with "
-    "--format.  Ctrl-C stops the sweep and keeps the finished parts.  Requires: pip install 'hess-explorer[sweep]'.",
+    "--format.  Ctrl-C stops the sweep and keeps the finished parts.  The exit status is 1 if cells have "
+    "failed; the texts of their exceptions are kept as failures.  Requires: pip install 'hess-explorer[sweep]'.",
     (
         option(
             "quantity",

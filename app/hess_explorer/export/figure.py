@@ -85,8 +85,7 @@ def as_figure(data: PictureData, width: float = 85.0, black: bool = False) -> Fi
     InvalidParameter
         If the width is not supported, or Matplotlib is not installed.
     """
-    if not WIDTHS.low <= width <= WIDTHS.high:
-        raise InvalidParameter(f"A figure must be {WIDTHS} mm wide, not {width:g}.")
+    WIDTHS.require("A figure", width, "mm wide")
     with _style():
         return draw(data, width, black)
 

@@ -159,9 +159,8 @@ def as_film(
     width = width if loop is None else WIDTH
     if kind not in _CODECS:
         raise InvalidParameter(f"{kind!r} is not a film format: choose one of {', '.join(_CODECS)}.")
-    for value, bounds, what in ((width, FILM_WIDTHS, "mm wide"), (seconds, SECONDS, "seconds long")):
-        if not bounds.low <= value <= bounds.high:
-            raise InvalidParameter(f"A film must be {bounds} {what}, not {value:g}.")
+    FILM_WIDTHS.require("A film", width, "mm wide")
+    SECONDS.require("A film", seconds, "seconds long")
     if not moves(data):
         raise InvalidParameter(f"Nothing moves in “{data.title}” in this state: choose another picture, or a figure.")
     try:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 __all__ = [
     "FILM_WIDTHS",
@@ -28,6 +29,13 @@ class Bounds(NamedTuple):
 
     def __str__(self) -> str:
         return f"{self.low:g} to {self.high:g}"
+
+    def require(self, thing: str, value: Any, words: str) -> None:
+        """Raise `InvalidParameter` unless the value is a number within the limits."""
+        from hess_mechanics.errors import InvalidParameter
+
+        if not (isinstance(value, int | float) and self.low <= value <= self.high):
+            raise InvalidParameter(f"{thing} must be {self} {words}, not {reprlib.repr(value)}.")
 
 
 class Format(NamedTuple):

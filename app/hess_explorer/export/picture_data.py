@@ -164,7 +164,7 @@ def address(query: str, picture: str = "", *, lenient: bool = False) -> Address:
 
 def picture_of(scene: Scene[Any], name: str) -> Picture[Any]:
     """Return the picture of that name, by default the first one.  Raises `InvalidParameter`."""
-    if name and name not in scene.pictures:
+    if name != "" and name not in scene.pictures:
         raise InvalidParameter(
             f"The scene {scene.name} has no picture {name!r}: choose one of {', '.join(scene.pictures)}."
         )

@@ -36,6 +36,7 @@ from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.dynamics.variable_section import VariableSection, variable_section
 from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.arguments import typed
 from hess_mechanics.parameters import Group
 
 __all__ = ["OwnScene", "scene"]
@@ -76,6 +77,7 @@ class OwnScene(Scene[OwnState]):
         return _CURVE
 
 
+@typed
 def scene(
     system: System,
     pictures: Sequence[str] = (),
@@ -214,6 +216,8 @@ def _section_of(system: System, pictures: Sequence[str]) -> dict[str, Any]:
 
 def _checked_section(system: System, section: Mapping[str, Any]) -> VariableSection:
     """Return the section at the example.  Raises `InvalidParameter` if it has one coordinate only."""
+    if len(system.variables) < 3:
+        raise InvalidParameter(f"{system.title}: a picture of a section needs a system of three or more variables.")
     known = {name: float(value) for name, value in system.integrals(*system.example).items()}
     levels = section.get("integrals", [*known][: len(system.variables) - 3])
     found = variable_section(
@@ -276,7 +280,7 @@ def _slider(system: System, name: str, field: str, default: float, ends: tuple[f
     symbol, label, doc, group = _KINDS[field[0]]
     around = abs(default) or 1.0 if field[0] == "i" else max(1.0, abs(default))
     low, high = ends or (default - around, default + around)
-    if not -_FARTHEST <= low < high <= _FARTHEST:
+    if not -_FARTHEST <= low < low + (high - low) / 200.0 < high <= _FARTHEST:
         raise InvalidParameter(
             f"{system.title}: the slider of {name} must have two different ends between ±{_FARTHEST:g}."
         )

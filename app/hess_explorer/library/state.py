@@ -23,7 +23,8 @@ from hess_explorer.scenes import scene_named, scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.arguments import as_level_name
+from hess_mechanics.numerics.arguments import as_level_name, typed
+from hess_mechanics.numerics.files import write_whole
 
 __all__ = ["SceneState", "from_link", "state"]
 
@@ -241,7 +242,7 @@ class SceneState:
     def save(
         self, file: str | Path, picture: str = "", *, width: float = 85.0, black: bool = False, seconds: float = 10.0
     ) -> Path:
-        """Write a picture to a file.
+        """Write a picture to a file, of which an earlier version stays until the new one is complete.
 
         Parameters
         ----------
@@ -271,6 +272,8 @@ class SceneState:
         OSError
             If the file cannot be written.
         """
+        if not isinstance(file, str | Path):
+            raise InvalidParameter(f"{file!r} is not the name of a file: write it like 'circle.csv'.")
         path = Path(file)
         kind = path.suffix.removeprefix(".").lower()
         if kind not in _ENDINGS:
@@ -280,7 +283,7 @@ class SceneState:
         # Imported here, because drawing needs libraries that data do not.
         from hess_explorer.export.file import content
 
-        path.write_bytes(content(self._shown(picture), FileRequest(kind, width, black, seconds)))
+        write_whole(path, content(self._shown(picture), FileRequest(kind, width, black, seconds)))
         return path
 
     def code(self, picture: str = "") -> str:
@@ -373,7 +376,7 @@ def state(scene: str | Scene[Any] = "suslov-hess", /, **parameters: Any) -> Scen
     Traceback (most recent call last):
     hess_mechanics.errors.InvalidParameter: The scene suslov-hess has no parameter 'height': choose one of I22, ...
     """
-    found = scene if isinstance(scene, Scene) else scene_named(scene)
+    found = scene if isinstance(scene, Scene) else scene_named(scene) if isinstance(scene, str) else None
     if found is None:
         public = ", ".join(name for name, one in scenes().items() if one.origin is None)
         raise InvalidParameter(f"There is no scene {scene!r}: choose one of {public}.")
@@ -393,6 +396,7 @@ def state(scene: str | Scene[Any] = "suslov-hess", /, **parameters: Any) -> Scen
     return SceneState(Address(found, found.views[0], values, client))
 
 
+@typed
 def from_link(link: str, *, lenient: bool = False) -> SceneState:
     """Return the state that a link describes.
 
@@ -434,13 +438,17 @@ def _checked(spec: Spec, value: Any) -> Value:
             raise InvalidParameter(
                 f"{value!r} is not a number: {spec.name} ({spec.label}) must be a number {spec.range}."
             )
-        if not math.isfinite(value):
+        try:
+            found, note = float(value), None
+        except OverflowError:
+            found, note = math.inf, None
+        if not math.isfinite(found):
             raise InvalidParameter(f"{spec.name} ({spec.label}) must be a finite number.")
-        found, note = spec.admit(float(value))
+        found, note = spec.admit(found)
     elif isinstance(spec, Places) and not isinstance(value, str):
         try:
             pairs = [(float(x), float(y)) for x, y in value]
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise InvalidParameter(f"{spec.name} ({spec.label}) must be a list of pairs [(x, y), …].") from None
         found, note = spec.read(written(pairs))
     else:

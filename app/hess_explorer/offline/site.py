@@ -21,6 +21,7 @@ from hess_explorer.page.showcase import EXHIBITS, IDEAS, Exhibit
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.files import write_whole
 
 __all__ = ["build", "pages"]
 
@@ -145,7 +146,7 @@ def build(
     worker = (STATIC / "offline/site_worker.js").read_text(encoding="utf-8").replace("VERSION", digest)
     for file, text in ((_WORKER, worker), (_INDEX, index)):
         content = text.encode()
-        (folder / file).write_bytes(content)
+        write_whole(folder / file, content)
         sizes[file] = len(content)
     return sizes
 
@@ -163,7 +164,7 @@ def _write(path: Path, name: str, count: int, home: str) -> tuple[int, str]:
     else:
         examples = [one.preset for one in EXHIBITS if one.scene == name]
         content = scene_page(scenes()[name], examples, count, home=home, contents=contents)
-    path.write_bytes(content)
+    write_whole(path, content)
     return len(content), _digest(content)
 
 

@@ -10,6 +10,7 @@ import hashlib
 import json
 import threading
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
@@ -17,8 +18,8 @@ from typing import Any
 
 import hess_mechanics
 from hess_explorer.scenes import is_shipped
+from hess_mechanics.numerics.files import write_whole
 from hess_mechanics.numerics.jit import CACHE_FOLDER
-from hess_mechanics.numerics.kernel_files import write_whole
 
 __all__ = ["describe", "without_gestures"]
 
@@ -40,7 +41,9 @@ def describe(name: str) -> str:
 
             kept = description(name)
             if file:
-                write_whole(file, json.dumps([_made_from(), kept]))
+                # The file only saves work.
+                with suppress(OSError):
+                    write_whole(file, json.dumps([_made_from(), kept]).encode())
         return kept
 
 

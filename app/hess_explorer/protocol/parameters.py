@@ -104,7 +104,7 @@ class Formula:
         try:
             self.reads(text)
         except InvalidParameter as error:
-            return self.default, f"{self.label}: {error}"
+            return self.default, f"{self.label}: {str(error).removesuffix('.')}: it was ignored."
         return text.strip(), None
 
 
@@ -215,8 +215,9 @@ def encode(scene: str, values: Values) -> str:
 
 
 def refusal(note: str) -> str:
-    """Return the requirement of a note: the part before the colon, without the value that was set instead."""
-    return f"{note.partition(': ')[0].removesuffix('.')}."
+    """Return the requirement of a note: the part before the last colon, without the value that was set instead."""
+    requirement, _, correction = note.rpartition(": ")
+    return f"{(requirement or correction).removesuffix('.')}."
 
 
 def query_in(link: str) -> str:

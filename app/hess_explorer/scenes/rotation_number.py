@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -349,10 +350,10 @@ def _line(s: RotationNumber, places: int, level: Level, turns: int = mechanics.T
 
 
 def _line_error(s: RotationNumber, found: Array, truth: Array) -> float:
-    exact = _line(s, found.shape[1], REFERENCE.tightened())
+    exact = _line(s, found.shape[1], REFERENCE.tightened(), 2 * mechanics.TURNS)
     there = np.isfinite(found) & np.isfinite(exact)
     low, high = rotation_line.RHO
-    return curve_error(found[there], exact[there], high - low, period=1.0) if there.any() else 0.0
+    return curve_error(found[there], exact[there], high - low, period=1.0) if there.any() else math.nan
 
 
 def _line_look(s: RotationNumber, found: Array) -> Curves:

@@ -11,6 +11,7 @@ import numpy as np
 
 from hess_explorer.sweep.quantity import CellArrays, Quantity
 from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.arguments import as_number
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import Parameter
 
@@ -39,7 +40,7 @@ class SweepGrid:
     fixed: Mapping[str, float]
 
     @classmethod
-    def of(cls, quantity: Quantity, over: Mapping[str, Axis], fixed: Mapping[str, float], most: int) -> SweepGrid:
+    def of(cls, quantity: Quantity, over: Mapping[str, Axis], fixed: Mapping[str, float], most: float) -> SweepGrid:
         """Return the checked grid.  Raises `InvalidParameter`, `WorkLimit`."""
         if not 1 <= len(over) <= _MOST_AXES:
             raise InvalidParameter(f"A sweep takes one to {_MOST_AXES} parameters, not {len(over)}.")
@@ -50,11 +51,11 @@ class SweepGrid:
             quantity.parameter(name)
         counts = {name: _count(values, name) for name, values in over.items()}
         numbers = math.prod(counts.values()) * quantity.numbers
-        if not 1 <= most <= HARD_LIMIT:
+        if not 1 <= (most := as_number("most_cells", most)) <= HARD_LIMIT:
             raise WorkLimit(f"most_cells must lie between 1 and {HARD_LIMIT:g}, not be {most:g}.")
         if numbers > most:
             raise WorkLimit(
-                f"The sweep has {numbers} numbers; at most {most} are allowed: choose fewer values, or raise "
+                f"The sweep has {numbers} numbers; at most {most:.0f} are allowed: choose fewer values, or raise "
                 f"most_cells (on the command line --most-cells), up to {HARD_LIMIT:g}."
             )
         axes = {name: _axis(quantity.parameter(name), values) for name, values in over.items()}
@@ -141,14 +142,12 @@ def _count(values: Axis, name: str) -> int:
 
 def _axis(one: Parameter, values: Axis) -> Array:
     if _is_range(values):
-        low, high, count = float(values[0]), float(values[1]), int(values[2])
-        for end in (low, high):
-            one.check(end)
-        found = np.linspace(low, high, count)
+        low, high = (one.check(as_number(one.name, end)) for end in values[:2])
+        found = np.linspace(low, high, int(values[2]))
     else:
         try:
             found = np.array(values, float)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise InvalidParameter(f"The values of {one.name} must all be numbers.") from None
     if found.ndim != 1 or found.size == 0:
         raise InvalidParameter(f"The values of {one.name} must be a one-dimensional list of numbers.")
@@ -163,8 +162,4 @@ def _axis(one: Parameter, values: Axis) -> Array:
 def _value(one: Parameter, quantity: Quantity, fixed: Mapping[str, float]) -> float:
     if one.name not in fixed and one.name in quantity.needed:
         raise InvalidParameter(f"{quantity.name} needs {one.name} ({one.label}): sweep over it, or give it a value.")
-    try:
-        value = float(fixed.get(one.name, one.default))
-    except (TypeError, ValueError):
-        raise InvalidParameter(f"{one.name} must be a number, not {fixed[one.name]!r}.") from None
-    return one.check(value)
+    return one.check(as_number(one.name, fixed.get(one.name, one.default)))

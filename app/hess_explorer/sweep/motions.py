@@ -369,7 +369,7 @@ def _regimes(of: _Motions) -> Quantity:
         f"Kind of the motion: {of.title}",
         "1",
         "Kind: 0 not seen to return, 1 fixed point, 2 periodic, 3 quasi-periodic, 4 chaotic, 6 regular without a "
-        "period up to 64; period, 0 where none is seen; volume: −1 shrinks about the motion, 1 grows, 0 neither to "
+        "period up to 256; period, 0 where none is seen; volume: −1 shrinks about the motion, 1 grows, 0 neither to "
         "three times the error. What is undecided has no value.",
         (
             *of.parameters,

@@ -21,23 +21,36 @@ class Progress:
     left: float | None
 
 
+_EVERY = 30.0
+"""Seconds between two lines of progress in a log."""
 Report = Callable[[Progress], None]
 
 
 @contextmanager
 def reporting(progress: bool | Report | None, cells: int, done: int) -> Iterator[Callable[[int], None]]:
-    """Yield a callback for each number of finished cells, which updates a progress bar (True) or calls `progress`."""
+    """Yield a callback for each number of finished cells, for a progress bar or log (True) or `progress`."""
     if progress is None or progress is False:
         yield lambda more: None
-    elif progress is True:
+    elif progress is True and (sys.stderr.isatty() or _in_notebook()):
         from tqdm.auto import tqdm
 
-        # None disables a bar of text unless stderr is a terminal; the one of a notebook is always shown.
-        hidden = False if _in_notebook() else None
-        with tqdm(total=cells, initial=done, unit="cell", unit_scale=True, disable=hidden, dynamic_ncols=True) as bar:
+        with tqdm(total=cells, initial=done, unit="cell", unit_scale=True, dynamic_ncols=True) as bar:
             yield lambda more: (bar.update(more), None)[1]
     else:
-        yield Clock(progress, cells, done)
+        yield Clock(_Log() if progress is True else progress, cells, done)
+
+
+class _Log:
+    """Report that prints a line every `_EVERY` seconds."""
+
+    def __init__(self) -> None:
+        self._next = _EVERY
+
+    def __call__(self, found: Progress) -> None:
+        if found.seconds >= self._next:
+            self._next = found.seconds + _EVERY
+            left = "" if found.left is None else f", about {found.left:.0f} s left"
+            print(f"{found.done} of {found.cells} cells after {found.seconds:.0f} s{left}", file=sys.stderr, flush=True)
 
 
 def _in_notebook() -> bool:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from importlib.util import find_spec
+from itertools import islice
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -18,8 +19,9 @@ from hess_mechanics.errors import MissingLibrary
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["PROGRAM", "Memory", "Storage", "empty", "names", "parts", "require_libraries", "slices"]
+__all__ = ["PROGRAM", "Memory", "Storage", "empty", "names", "parts", "require_libraries", "slices", "with_failures"]
 
+_MOST_FAILURES = 1000
 PROGRAM = "hess-explorer sweep"
 
 
@@ -94,6 +96,13 @@ def empty(what: Quantity, grid: SweepGrid, level: str, filled: Callable[[tuple[i
     )
 
 
+def with_failures(found: xr.Dataset, failures: Mapping[str, str]) -> xr.Dataset:
+    """Return a Dataset whose attribute "failures" has the texts of exceptions, as JSON, if there are any."""
+    if not failures:
+        return found
+    return found.assign_attrs(failures=json.dumps(dict(islice(failures.items(), _MOST_FAILURES)), ensure_ascii=False))
+
+
 class Memory:
     """Finished boxes in memory."""
 
@@ -103,6 +112,7 @@ class Memory:
         self._grid, self._shape = grid, shape
         self._what, self._dataset = what, empty(what, grid, level, np.full)
         self._arrays = [self._dataset[name].values for name in names(what)]
+        self._failures: dict[str, str] = {}
 
     def cells(self, part: Part | None) -> int:
         """Return the number of cells; there are no parts."""
@@ -116,7 +126,8 @@ class Memory:
         """Save a box."""
         for array, part in zip(self._arrays, parts(self._what, done), strict=True):
             array[slices(box)] = part
+        self._failures |= done.failures
 
     def dataset(self) -> xr.Dataset:
         """Return the results."""
-        return self._dataset
+        return with_failures(self._dataset, self._failures)

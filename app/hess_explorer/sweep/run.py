@@ -20,12 +20,13 @@ from hess_explorer.sweep.progress import Report, reporting
 from hess_explorer.sweep.quantities import quantity as named
 from hess_explorer.sweep.quantity import Outcome, Quantity, evaluate
 from hess_explorer.sweep.result import Memory, Storage, require_libraries
-from hess_explorer.sweep.store import FILES, Store, opened
+from hess_explorer.sweep.store import FILES, Store, opened, path_of
 from hess_explorer.sweep.work import Chunk, cost_of_a_cell, version
+from hess_explorer.sweep.work import named as cell_name
 from hess_explorer.sweep.workers import WorkerCount, crew
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy, Level
-from hess_mechanics.numerics.arguments import as_level, as_level_name
+from hess_mechanics.numerics.arguments import as_level, as_level_name, as_number, as_parts, as_whole
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -92,7 +93,8 @@ def sweep(
         or "tls://…" is the address of a Dask scheduler, and a Client of Dask is used as it is; its workers need the
         same version of this package.
     progress : bool or callable, optional
-        True shows a progress bar; a function is called with a `Progress`.
+        True shows a progress bar, or prints a line every 30 seconds if standard error is not a terminal; a function is
+        called with a `Progress`.
     most_cells : int
         Maximum number of values.
     stop : threading.Event, optional
@@ -103,8 +105,9 @@ def sweep(
     Returns
     -------
     xarray.Dataset
-        The values, their `status` (see `Outcome` and `explain`) and, if available, the estimated `error`.  On one kind
-        of processor the values do not depend on `store`, `part` and `workers`.
+        The values, their `status` (see `Outcome` and `explain`) and, if available, the estimated `error`; the attribute
+        `failures` has the exceptions of up to 1000 failed cells, as JSON.  On one kind of processor the values do not
+        depend on `store`, `part` and `workers`.
 
     Raises
     ------
@@ -135,11 +138,15 @@ def sweep(
     [2.0, 6.0]
     """
     require_libraries()
+    if not (progress is None or isinstance(progress, bool) or callable(progress)):
+        raise InvalidParameter(f"progress = {progress!r} is not a function: give True for a bar or a log.")
     level = as_level_name(level)
     accuracy = as_level(level)
+    if not isinstance(over, Mapping):
+        raise InvalidParameter(f"over = {over!r} is not a mapping: write it like {{'h': (1.2, 1.6, 3)}}.")
     what = named(quantity) if isinstance(quantity, str) else quantity_of(quantity, over, fixed, accuracy, most_cells)
     grid = SweepGrid.of(what, over, fixed, most_cells)
-    path = None if store is None else Path(store)
+    path = None if store is None else path_of(store)
     parts = _parts(part, path)
     kept: Storage | None = None if path is None else opened(path, what, grid, level, parts)
     todo = [] if kept is None else kept.missing(part)
@@ -189,7 +196,7 @@ def _parts(part: Part | None, path: Path | None) -> int:
     """Return the number of parts of a job array, 1 without one.  Raises `InvalidParameter`."""
     if part is None:
         return 1
-    number, parts = part
+    number, parts = (as_whole("part", one, 0, 10**9) for one in as_parts("part", part, 2))
     if not 1 <= number <= parts <= _MOST_PARTS:
         raise InvalidParameter(f"Part {number} of {parts} does not exist: count from 1, up to {_MOST_PARTS} parts.")
     if path is None:
@@ -218,7 +225,7 @@ def _ctrl_c() -> Iterator[threading.Event]:
 
 
 def explain(found: xr.Dataset, **cell: float) -> str:
-    """Return a sentence on the status of a cell, which is computed once more.
+    """Return a sentence on the status of a cell, which is computed once more unless the text of its exception is kept.
 
     Parameters
     ----------
@@ -239,9 +246,10 @@ def explain(found: xr.Dataset, **cell: float) -> str:
     StoreError
         If the Dataset is not a result of `sweep`.
     """
-    if "quantity" not in found.attrs:
+    if "quantity" not in getattr(found, "attrs", {}):
         raise StoreError("This Dataset is not the result of a sweep: pass one returned by `sweep` or `read`.")
     axes = tuple(map(str, found.status.dims))
+    cell = {name: as_number(name, value) for name, value in cell.items()}
     if set(cell) != set(axes):
         raise InvalidParameter(f"A cell of this sweep has the coordinates {', '.join(axes)}: give all of them.")
     if "state" in found.attrs:
@@ -249,6 +257,9 @@ def explain(found: xr.Dataset, **cell: float) -> str:
         from hess_explorer.sweep.chart_file import chart_of
 
         return chart_of(found).why(*(cell[name] for name in axes))
+    failures = json.loads(found.attrs.get("failures", "{}"))
+    if (failure := failures.get(cell_name({name: cell[name] for name in axes}))) is not None:
+        return str(failure)
     if "source" in found.attrs:
         raise InvalidParameter(
             f"{found.attrs['quantity']} is a function of your own: call it with the values of the cell for the reason."

@@ -24,15 +24,18 @@ import numpy as np
 from hess_explorer.sweep.errors import OtherSweep, StoreError
 from hess_explorer.sweep.grid import MAX_NUMBERS, Box, Part, SweepGrid, boxes, size
 from hess_explorer.sweep.quantity import Outcome, Quantity
-from hess_explorer.sweep.result import PROGRAM, empty, names, parts, require_libraries, slices
+from hess_explorer.sweep.result import PROGRAM, empty, names, parts, require_libraries, slices, with_failures
 from hess_explorer.sweep.work import ChunkResult, version
+from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["FILES", "Store", "StoreStatus", "opened", "read", "store_status"]
+__all__ = ["FILES", "Store", "StoreStatus", "opened", "path_of", "read", "store_status"]
 
+_FAILURES = "failures.jsonl"
+"""File of a store: a line [cell, text] for each exception, see `named`."""
 _PARTS = "parts"
 """Attribute of a store: the number of parts of the job array that began it."""
 _MOST_NUMBERS = 500_000
@@ -164,6 +167,9 @@ class Store:
         try:
             # A file is read and written again with the box; simultaneous runs take turns.
             with _alone(self.path):
+                if done.failures:
+                    with (self.path / _FAILURES).open("a", encoding="utf-8") as file:
+                        file.writelines(f"{json.dumps(one)}\n" for one in done.failures.items())
                 for array, part in zip(self._arrays.values(), parts(self._what, done), strict=True):
                     self._put(array, box, part)
         except OSError as error:
@@ -239,7 +245,7 @@ def store_status(path: str | Path) -> StoreStatus:
     0
     """
     require_libraries()
-    group = _sweep_group(Path(path))
+    group = _sweep_group(path_of(path))
     status, parts = group["status"], int(group.attrs.get(_PARTS, 1))
     missing: Counter[int] = Counter()
     for number, file in enumerate(boxes(tuple((0, whole) for whole in status.shape), status.shards)):
@@ -364,8 +370,8 @@ def read(path: str | Path) -> xr.Dataset:
     require_libraries()
     import xarray as xr
 
-    path = Path(path)
-    if path.is_file():
+    path = path_of(path)
+    if _exists(path) and path.is_file():
         # Imported here, because only charts depend on scenes.
         from hess_explorer.sweep.chart_file import read_chart
 
@@ -373,16 +379,41 @@ def read(path: str | Path) -> xr.Dataset:
     _sweep_group(path)
     found: xr.Dataset = xr.open_zarr(path, zarr_format=3, chunks=None)
     try:
-        return found.load() if math.prod(found.sizes.values()) <= MAX_NUMBERS else found
+        found = found.load() if math.prod(found.sizes.values()) <= MAX_NUMBERS else found
+        return with_failures(found, _failures(path / _FAILURES))
     except (OSError, ValueError, RuntimeError) as error:
         raise StoreError(
             f"A part of {str(path)!r} cannot be read: run the same sweep again to recompute it."
         ) from error
 
 
+def _failures(file: Path) -> dict[str, str]:
+    """Return the texts of the exceptions by cell; a run that was killed may have left half a line."""
+    found: dict[str, str] = {}
+    if file.exists():
+        for line in file.read_text(encoding="utf-8").splitlines():
+            with suppress(ValueError):
+                found |= [json.loads(line)]
+    return found
+
+
+def path_of(place: str | Path) -> Path:
+    """Return the path of a store or chart.  Raises `InvalidParameter`."""
+    if not isinstance(place, str | Path):
+        raise InvalidParameter(f"{place!r} is not the name of a folder or file: write it like 'rho.zarr'.")
+    return Path(place)
+
+
+def _exists(path: Path) -> bool:
+    try:
+        return path.exists()
+    except OSError as error:
+        raise StoreError(f"{str(path)!r} cannot be read ({error.strerror}); choose another folder.") from error
+
+
 def opened(path: Path, what: Quantity, grid: SweepGrid, level: str, parts: int = 1) -> Store | None:
     """Return the store of this sweep, or None if the path does not exist.  Raises `OtherSweep`, `StoreError`."""
-    if not path.exists() or (path.is_dir() and not any(path.iterdir())):
+    if not _exists(path) or (path.is_dir() and not any(path.iterdir())):
         return None
     held = _group(path, "r").attrs
     if held.get("program") == PROGRAM and held.get("quantity") != what.name:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pickle
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache, lru_cache
 from importlib import metadata
 
@@ -14,11 +14,14 @@ import numpy as np
 from hess_explorer.sweep.errors import WorkersLost
 from hess_explorer.sweep.grid import SweepGrid, expanded
 from hess_explorer.sweep.quantities import quantity
-from hess_explorer.sweep.quantity import Outcomes, Quantity, evaluate
+from hess_explorer.sweep.quantity import Outcome, Outcomes, Quantity, evaluate
 from hess_mechanics.numerics.accuracy import Level, level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Chunk", "ChunkResult", "compute", "cost_of_a_cell", "version"]
+__all__ = ["Chunk", "ChunkResult", "compute", "cost_of_a_cell", "named", "version"]
+
+_MOST_FAILURES = 100
+"""Largest number of texts of exceptions of a box."""
 
 
 @cache
@@ -48,12 +51,18 @@ class Chunk:
 class ChunkResult:
     """The results of a box in its shape; values have one more axis for several numbers per cell.
 
-    errors : one array, empty without an error estimate.
+    errors : one array, empty without an error estimate; failures : the text of the exception by cell, see `named`.
     """
 
     values: Array
     errors: tuple[Array, ...]
     status: Outcomes
+    failures: Mapping[str, str] = field(default_factory=dict)
+
+
+def named(cell: Mapping[str, float]) -> str:
+    """Return the coordinates of a cell in words, with all digits."""
+    return ", ".join(f"{name} = {float(value)!r}" for name, value in cell.items())
 
 
 def compute(piece: Chunk) -> ChunkResult:
@@ -72,10 +81,17 @@ def compute(piece: Chunk) -> ChunkResult:
             what = piece.quantity
     found = evaluate(what, expanded(piece.axes, piece.fixed), level(piece.level))
     shape = tuple(part.size for part in piece.axes.values())
+    failed = np.argwhere(found.status.reshape(shape) == Outcome.FAILED)[:_MOST_FAILURES]
     return ChunkResult(
         found.values.reshape(*shape, *found.values.shape[1:]),
         (found.errors.reshape(shape),) if what.error else (),
         found.status.reshape(shape),
+        {
+            named({name: part[i] for (name, part), i in zip(piece.axes.items(), cell, strict=True)}): found.why[
+                int(np.ravel_multi_index(tuple(cell), shape))
+            ]
+            for cell in failed
+        },
     )
 
 

@@ -146,7 +146,7 @@ def ensemble(
         if not tighter.aside:
             out[todo] = found
         if current.is_floor:
-            todo = todo[scaled_errors[todo] > level.promise * UNSURE]
+            todo = todo[scaled_errors[todo] > UNSURE]
             third, more, _ = run(problems[current.aside], todo, tighter.tightened())
             total += int(np.maximum(more, 0).sum())
             difference = np.abs(out[todo] - third)

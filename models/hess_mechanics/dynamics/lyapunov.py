@@ -20,6 +20,7 @@ from hess_mechanics.dynamics.orbit import (
     require_finite_states,
     require_steps,
 )
+from hess_mechanics.dynamics.spectrum import no_chaos
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Accuracy, Computation, plan
@@ -48,11 +49,14 @@ class Exponent(Result):
         Mean growth rate up to each time; the last one is the estimate.
     spread : float
         Range of the rates over the second half of the time.
+    no_chaos : str
+        Why the motion is not chaotic, whatever the estimate is, see `Megno`; empty if there is no such reason.
     """
 
     times: Array
     rates: Array
     spread: float
+    no_chaos: str = ""
 
     @property
     def value(self) -> float:
@@ -71,7 +75,7 @@ class Exponent(Result):
             {"t": (("t",), self.times)},
             {"rate": (("t",), self.rates)},
             {"t": "T", "rate": "1/T"},
-            {"exponent": self.value, "spread": self.spread},
+            {"exponent": self.value, "spread": self.spread, "no chaos": self.no_chaos},
         )
 
     @property
@@ -135,7 +139,7 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
     y = problem.states[0].copy()
     neighbour = y + _DISTANCE * direction / np.linalg.norm(direction)
     ends = np.empty((2, 1, y.size))
-    growth = np.empty(count)
+    growth, along = np.empty(count), np.empty((count, y.size))
     steps = 0
     for i in range(count):
         for start, end in zip((y, neighbour), ends, strict=True):
@@ -146,7 +150,7 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
             require_steps(taken, f"This exponent needs more than {MAX_STEPS} steps: choose a shorter time span.")
             steps += taken
         require_finite_states(ends[0])
-        y = ends[0, 0].copy()
+        along[i] = y = ends[0, 0].copy()
         away = ends[1, 0] - y
         # Unlike NumPy's norm this neither overflows nor becomes 0 on the way.
         distance = math.hypot(*away.tolist())
@@ -163,4 +167,5 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
     rates = np.cumsum(growth) / times
     require_finite_rates(rates)
     later = rates[count // 2 :]
-    return Exponent(frozen(times), frozen(rates), float(later.max() - later.min()))
+    reason = no_chaos(body, np.array(state, float), along, span, level, True)
+    return Exponent(frozen(times), frozen(rates), float(later.max() - later.min()), reason)

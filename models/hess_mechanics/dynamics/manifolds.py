@@ -353,17 +353,18 @@ def _cross(u: Array, v: Array) -> Array:
 def _error(curve: _Curve, points: Array, parameters: Array) -> float:
     """Return the largest distance, across the curve, of sampled points from those of a more accurate map."""
     better = replace(curve, map_=curve.map_.tightened())
-    off = 0.0
-    for i in np.unique(np.linspace(1, len(points) - 2, _CHECKED).astype(int)) if len(points) > 3 else ():
+    off, last = -math.inf, len(points) - 1
+    for i in np.unique(np.linspace(min(1, last), max(0, last - 1), _CHECKED).astype(int)):
         try:
             there = better.at(float(parameters[i]))
         except ModelError:
             continue
-        along = points[i + 1] - points[i - 1]
+        along = points[min(i + 1, last)] - points[max(i - 1, 0)]
         along = along / max(float(np.linalg.norm(along)), 1e-300)
         away = apart(curve.map_.turns, there, points[i])
         off = max(off, abs(float(_cross(away, along))))
-    return SAFETY * off + curve.first_error + 4e-16
+    # Without a comparison nothing is known.
+    return SAFETY * off + curve.first_error + 4e-16 if off >= 0.0 else math.inf
 
 
 # ---- where two of them cross ------------------------------------------------------------------------------------

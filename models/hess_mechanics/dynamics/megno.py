@@ -2,9 +2,10 @@
 
     Y(t) = (2/t) ∫₀ᵗ s d ln|δ(s)|,   Ȳ(t) = (1/t) ∫₀ᵗ Y ds,   δ from the variational equations.
 
-Ȳ tends to 2 on quasi-periodic motions, to at most 2 on motions that come to rest or to a cycle, and grows as λt/2 on
-chaotic ones.  These values are the same for every system and need a single neighbour.  SALI would need two, and falls
-to 0 on the closed curves of a section, where neighbours have one direction only, as on chaotic motions.
+Ȳ tends to 2 on quasi-periodic motions, to at most 2 on motions that come to a stable rest or cycle, and grows as λt/2
+on chaotic ones.  It also grows on unstable motions that rest, escape or close and are not chaotic (`Megno.no_chaos`).
+The values are the same for every system and need a single neighbour.  SALI would need two, and falls to 0 on the
+closed curves of a section, where neighbours have one direction only, as on chaotic motions.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hess_mechanics.dynamics.birkhoff import window_rates
 from hess_mechanics.dynamics.orbit import (
     MAX_STEPS,
     checked_span,
@@ -24,7 +26,7 @@ from hess_mechanics.dynamics.orbit import (
     require_finite_states,
     require_steps,
 )
-from hess_mechanics.dynamics.spectrum import batch_error, volume_sign
+from hess_mechanics.dynamics.spectrum import batch_error, no_chaos, volume_sign
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Accuracy
@@ -58,7 +60,12 @@ class Megno(Result):
     values : ndarray, shape (n,)
         Ȳ of each motion.
     divergence, divergence_error : ndarray, shape (n,)
-        Mean of div ẏ over the last four fifths of the time, and its standard error.
+        Weighted mean of div ẏ over the last four fifths of the time, and its standard error.
+    windows : ndarray, shape (n, 4)
+        The same mean, and those over the first, middle and last half of that time.
+    no_chaos : tuple of str
+        For each motion why it is not chaotic, whatever Ȳ is: it rests, escapes or closes, or its phase space has two
+        dimensions besides its integrals; empty where there is no such reason.
     level : str
         Name of the accuracy level.
     cost : Cost
@@ -69,13 +76,15 @@ class Megno(Result):
     values: Array
     divergence: Array
     divergence_error: Array
+    windows: Array
+    no_chaos: tuple[str, ...]
     level: str
     cost: Cost
 
     @property
     def chaotic(self) -> Mask:
-        """True for each motion whose neighbours part exponentially, shape (n,)."""
-        return np.asarray(self.values > CHAOTIC)
+        """True for each motion whose neighbours part exponentially, unless `no_chaos` gives a reason, shape (n,)."""
+        return np.asarray((self.values > CHAOTIC) & ~np.array(self.no_chaos, bool))
 
     @property
     def attracted(self) -> Mask:
@@ -96,6 +105,7 @@ class Megno(Result):
                 "MEGNO": (("motion",), self.values),
                 "divergence": (("motion",), self.divergence),
                 "divergence error": (("motion",), self.divergence_error),
+                "no chaos": (("motion",), np.array(self.no_chaos)),
             },
             {"MEGNO": "1", "divergence": "1/T", "divergence error": "1/T"},
             {"t": self.t, "level": self.level, "steps": self.cost.steps},
@@ -172,7 +182,7 @@ def megno(
     first = samples // 5
     direction = np.cos(1.0 + np.arange(size) ** 2)
     frame = (direction / np.linalg.norm(direction))[:, None]
-    found, steps = np.empty((3, count)), np.zeros(count, int)
+    found, steps, reasons = np.empty((6, count)), np.zeros(count, int), [""] * count
 
     def one(i: int) -> None:
         along, frames = np.empty((samples, size)), np.empty((samples, size, 1))
@@ -199,16 +209,24 @@ def megno(
         number = np.arange(1, samples + 1)
         below = np.cumsum(0.5 * (length[1:] + length[:-1]))
         y = 2.0 * (length[1:] - below / number)
-        mean, error = batch_error(volume[first - 1 :, None], np.abs(t[first - 1 :]) / problem.nu)
-        found[:, i] = y.mean(), mean[0], error[0]
+        times = np.abs(t[first - 1 :]) / problem.nu
+        windows = window_rates(volume[first - 1 :], times)
+        # The error of the steps, the scatter of stretches, and the remainder on tori, which no scatter shows.
+        floor = (level.tolerance + 1e-15) * steps[i] / abs(span)
+        scatter = batch_error(volume[first - 1 :, None], times)[1][0]
+        found[:, i] = y.mean(), *windows, max(scatter, float(np.abs(windows[1:] - windows[0]).max())) + floor
         require_finite_rates(found[:, i])
+        state = problem.states[i] * problem.scale
+        reasons[i] = no_chaos(body, state, along, span, level, bool(y.mean() > CHAOTIC))
 
     share(one, count, threads, _SHARE)
     return Megno(
         abs(span),
         frozen(found[0].copy()),
         frozen(found[1].copy()),
-        frozen(found[2].copy()),
+        frozen(found[5].copy()),
+        frozen(found[1:5].T.copy()),
+        tuple(reasons),
         level.name,
         Cost(int(steps.sum()), (time.perf_counter() - begun) * 1e3),
     )

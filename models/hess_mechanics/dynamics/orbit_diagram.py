@@ -29,6 +29,7 @@ from hess_mechanics.numerics.results import Array, Mask, frozen
 __all__ = [
     "COMPARED",
     "MAX_VALUES",
+    "SAME",
     "Cascade",
     "Diagram",
     "Followed",
@@ -42,7 +43,7 @@ __all__ = [
 MAX_VALUES, MAX_CROSSINGS = 2000, 20_000
 COMPARED = 16
 """Smallest number of points at which two sets are compared."""
-_SAME = 1e-4
+SAME = 1e-4
 """Points closer than this are the same point of a periodic orbit: near a doubling, errors decay slowly."""
 _PROMISES = 3.0
 """The same tolerance in errors of the map: a long orbit moves by some errors when it is projected to its integrals."""
@@ -134,11 +135,14 @@ class Diagram(Result):
         )
 
 
-def period_of(turns: Sequence[float], places: Array, promise: float = 0.0, most: int = MAX_PERIOD) -> tuple[int, bool]:
+def period_of(
+    turns: Sequence[float], places: Array, promise: float = 0.0, most: int = MAX_PERIOD, same: float = SAME
+) -> tuple[int, bool]:
     """Return the least period of the points (n, d) of an orbit, 0 if none is found, and True if the orbit has settled.
 
     A period is found if the orbit shows it at least three times.  An orbit that closes better in its second half is
-    still settling.  `promise` is the error of the points, `most` the largest period tried.
+    still settling.  `promise` is the error of the points, `most` the largest period tried; points closer than `same`
+    count as equal: this is what the orbit shows, and only Newton's method tells whether it is periodic.
     """
     most = min(most, len(places) // 3)
     if most < 1:
@@ -147,7 +151,7 @@ def period_of(turns: Sequence[float], places: Array, promise: float = 0.0, most:
     for m in range(1, most + 1):
         halves = places[: len(places) // 2 + m // 2], places[len(places) // 2 - m // 2 :]
         ways[m - 1] = [np.abs(apart(turns, one[m:], one[:-m])).max() for one in halves]
-        if ways[m - 1].max() <= max(_SAME, _PROMISES * promise):
+        if ways[m - 1].max() <= max(same, _PROMISES * promise):
             # A multiplier near −1 makes an orbit look twice as long while it is still settling.
             shorter = [k - 1 for k in range(1, m) if m % k == 0]
             is_settled = bool(np.all(ways[shorter, 1] >= _SETTLING * ways[shorter, 0]))

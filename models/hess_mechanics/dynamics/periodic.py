@@ -232,6 +232,8 @@ class PeriodicOrbit(Result):
         Symmetries of the map that take the orbit to itself.
     time : float
         Time of one period; NaN if the map does not know it.
+    time_error : float
+        Estimated error of this time.
     """
 
     names: tuple[str, ...]
@@ -246,6 +248,7 @@ class PeriodicOrbit(Result):
     status: Status
     symmetric: tuple[str, ...] = ()
     time: float = math.nan
+    time_error: float = math.nan
 
     @property
     def period(self) -> int:
@@ -268,6 +271,7 @@ class PeriodicOrbit(Result):
             {
                 "period": self.period,
                 "time": self.time,
+                "time_error": self.time_error,
                 "kind": self.kind,
                 **multipliers,
                 "multiplier_error": self.multiplier_error,
@@ -458,6 +462,11 @@ def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
     for i, turn in enumerate(map_.turns):
         if math.isfinite(turn):
             places[:, i] -= turn * np.ceil(places[:, i] / turn - 0.5)
+    # Time of one period, of this orbit and of that of the better map.
+    time, other = (
+        abs(one.time_of(at)) if hasattr(one, "time_of") else math.nan
+        for one, at in ((current, shot.places), (better, moved.places))
+    )
     status = Status.OK if error <= map_.promise else Status.FLOOR if map_.is_floor else Status.PROMISE_NOT_MET
     return PeriodicOrbit(
         map_.names,
@@ -470,4 +479,6 @@ def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
         iterations,
         map_.level,
         status,
+        time=time,
+        time_error=SAFETY * abs(time - other) + 4.0 * _ROUNDING * time,
     )

@@ -1,15 +1,16 @@
 """Classify a motion on a section, and the dynamics around it: conservative, dissipative or mixed.
 
-A motion is chaotic if two independent indicators agree and still agree when the time is doubled: MEGNO, which follows
-neighbours by the variational equations, exceeds 3 and keeps growing, and the 0–1 test, which uses only the crossings,
-is close to 1.  It is periodic if its crossings repeat, and quasi-periodic if they do not and averages along it converge
-as on a smooth curve.  If none of this is clear, the motion is followed four times as long, and again; after that it is
-undecided.
+A motion is periodic if its crossings repeat, Newton's method finds a periodic orbit there, and the crossings lie on it
+to within the error, or tend to it.  It is chaotic if two independent indicators agree and still agree when the time is
+doubled: MEGNO, which follows neighbours by the variational equations, exceeds 3 and keeps growing, and the 0–1 test of
+every crossing, every second, fourth and so on is close to 1.  It is quasi-periodic if neighbours do not part and
+averages along it converge as on a smooth curve, also without their periodic part; an attractor needs an exponent that
+is 0 too.  If none of this is clear, the motion is followed four times as long, and again; after that it is undecided.
 
 Dynamics are classified by the sets to which orbits tend forward and backward in time, and by the mean divergence on the
 first one (Gonchenko, Gonchenko, Kazakov 2020).  Both come from an ensemble of orbits.  A verdict needs a mean beyond
 its confidence interval, settled orbits in the majority, and agreement of these about the sets; `conservative` needs a
-field that preserves a volume, which makes it a fact.
+fact: a field that preserves a volume, a smooth invariant measure, or a reversor that takes the motion to itself.
 """
 
 from __future__ import annotations
@@ -21,15 +22,19 @@ from enum import IntEnum
 
 import numpy as np
 
-from hess_mechanics.dynamics.birkhoff import agreeing_digits
+from hess_mechanics.dynamics.birkhoff import bounded_series, irregularity
 from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR, Megno, longest_span, megno
-from hess_mechanics.dynamics.orbit_diagram import period_of
-from hess_mechanics.dynamics.periodic import MAX_PERIOD, place_units
-from hess_mechanics.dynamics.point_sets import SetDistance, set_distance
+from hess_mechanics.dynamics.orbit_diagram import SAME, period_of
+from hess_mechanics.dynamics.periodic import apart, find_periodic, place_units
+from hess_mechanics.dynamics.point_sets import SetDistance, nearest, set_distance
 from hess_mechanics.dynamics.return_map import ReturnMap
+from hess_mechanics.dynamics.section import section
 from hess_mechanics.dynamics.spectrum import ensemble_mean, lyapunov_spectrum, volume_sign
-from hess_mechanics.dynamics.zero_one import LEAST, zero_one_test
-from hess_mechanics.errors import NoReturn, OutsideRegion
+from hess_mechanics.dynamics.symmetry import sign_symmetries
+from hess_mechanics.dynamics.system import Problem
+from hess_mechanics.dynamics.zero_one import LEAST, zero_one_of_bands
+from hess_mechanics.errors import ModelError, NoReturn, OutsideRegion, WorkLimit
+from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.numerics.arguments import as_number, as_place, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.patience import go_on
@@ -51,15 +56,27 @@ _RETURNS = 30
 _GROWS = 1.25
 """Least ratio of MEGNO to MEGNO at half the time of a chaotic motion: 2 in the limit, at most 1 for regular ones."""
 _CHAOTIC_SERIES = 0.8
-"""K of the 0–1 test above which crossings are chaotic.  Below it nothing follows: K of slowly modulated quasi-periodic
-motions stays close to 1 for long, while averages along them agree to many digits."""
-_DIGITS = 4.0
-"""Digits to which averages over halves of the crossings agree on quasi-periodic motions; at most 2 on chaotic ones."""
-_FEWEST = 800
-"""Crossings that a motion without a period needs to count as quasi-periodic; the longest period tried is a third."""
+"""K of the 0–1 test above which crossings are chaotic.  Below it nothing follows, and alone it proves nothing: K of
+slowly modulated quasi-periodic motions stays close to 1 for long."""
+_SMOOTH = 3e-3
+"""Largest `irregularity` of a quasi-periodic motion; at least 0.01 in narrow bands of chaos."""
+_PRECISION = 1e3
+"""Differences of averages that are no irregularity, in errors of the map: an orbit drifts by some of them."""
+_LINEAR = 0.1
+"""Largest distance of MEGNO from 2 of motions whose neighbours part linearly, as those of tori do."""
+_FEWEST, _MANY = 800, 6000
+"""Crossings that a motion without a period needs to count as quasi-periodic.  An attractor needs more: beyond a cascade
+of doublings it consists of bands, which only that many crossings show to be no curve."""
+_LONGEST_PERIOD = 256
+"""Longest period that is tried; it has to repeat three times."""
+_CLOSED = 100.0
+"""Largest distance, in errors of the map, between points a period apart: orbits of many returns repeat to some ten.
+Also the largest |f| of a motion at rest."""
 _INDEPENDENT = 400
 """Crossings after which orbits of an ensemble are taken for independent."""
 _MOST_CROSSINGS = 20_000
+_MIRRORED, _GRAINS = 16, 3.0
+"""Points of a motion whose mirror images are compared with it, and their largest distance, in those of its halves."""
 _TOUCHING = 0.005
 """Fraction of common points from which two sets count as touching.  It was 0.015 to 0.2 in samples of 1500 points of
 sets that touch, and 0 for sets that do not."""
@@ -90,9 +107,13 @@ _WORDS = {
     MotionKind.QUASI_PERIODIC: "quasi-periodic",
     MotionKind.CHAOTIC: "chaotic",
     MotionKind.UNDECIDED: "undecided so far",
-    MotionKind.NO_PERIOD: f"regular, no period up to {MAX_PERIOD}",
+    MotionKind.NO_PERIOD: f"regular, no period up to {_LONGEST_PERIOD}",
     MotionKind.SETTLING: "still settling",
 }
+
+
+_ON_ONE_SET = MotionKind.FIXED_POINT, MotionKind.PERIODIC, MotionKind.QUASI_PERIODIC
+"""Kinds of motions whose averages are the same forward and backward in time."""
 
 
 @dataclass(frozen=True)
@@ -114,11 +135,13 @@ class Regime(Result):
     megno : float
         Ȳ after the time t, the median over the ensemble.
     k : float
-        K of the 0–1 test of the crossings; NaN if there are too few.
+        K of the 0–1 test, the largest of every crossing, every second, fourth and so on; NaN if there are too few.
     divergence, divergence_error : float
         Mean of div ẏ along the motion and its error, by an ensemble of orbits; three errors are a 99.7 % interval.
     volume_kept : bool
         True if the divergence of the field is 0 everywhere.
+    measure : str
+        Reason why the mean divergence is exactly 0 although the divergence is not; empty if none is known.
     integrable : str
         Integrable case to which the body belongs; empty if none is known.
     level : str
@@ -135,13 +158,14 @@ class Regime(Result):
     divergence: float
     divergence_error: float
     volume_kept: bool
+    measure: str
     integrable: str
     level: str
 
     @property
     def volume(self) -> int:
         """−1 if phase volume around the motion shrinks by more than three errors, 1 if it grows, else 0."""
-        return int(volume_sign(self.divergence, self.divergence_error))
+        return 0 if self.measure else int(volume_sign(self.divergence, self.divergence_error))
 
     @property
     def bound(self) -> float:
@@ -157,6 +181,8 @@ class Regime(Result):
         case = f" ({self.integrable})" if self.integrable else ""
         if self.volume_kept:
             return f"{kind[0].upper()}{kind[1:]}{case}; phase volume is conserved."
+        if self.measure:
+            return f"{kind[0].upper()}{kind[1:]}{case}; the mean divergence is exactly 0: {self.measure}."
         if self.volume:
             volume = f"phase volume {'shrinks' if self.volume < 0 else 'grows'}"
             return (
@@ -185,6 +211,7 @@ class Regime(Result):
                 "t": self.t,
                 "divergence": self.divergence,
                 "divergence error": self.divergence_error,
+                "measure": self.measure,
                 "integrable": self.integrable,
                 "level": self.level,
             },
@@ -193,7 +220,10 @@ class Regime(Result):
 
 @dataclass(frozen=True)
 class _Evidence:
-    """The findings of one round; early and late are Ȳ at half the time and at all of it."""
+    """The findings of one round; early and late are Ȳ at half the time and at all of it.
+
+    regular : a theorem excludes chaos; winds : one says that a motion without a period is quasi-periodic.
+    """
 
     crossings: int
     period: int
@@ -201,9 +231,11 @@ class _Evidence:
     early: float
     late: float
     k: float
-    digits: float
+    irregular: float
     divergence: float
     divergence_error: float
+    regular: bool
+    winds: bool
 
     @property
     def grows(self) -> bool:
@@ -215,17 +247,31 @@ class _Evidence:
         """True if neighbours do not part exponentially."""
         return self.late < max(REGULAR, self.early)
 
-    def kind(self, integrable: bool) -> MotionKind:
-        """Return the kind of the motion that this evidence shows."""
-        if self.grows and self.k > _CHAOTIC_SERIES and not integrable:
-            return MotionKind.CHAOTIC
-        if not (self.bounded or integrable):
-            return MotionKind.UNDECIDED
+    @property
+    def attracted(self) -> bool:
+        """True if phase volume changes, so that the motion lies on an attractor or repeller."""
+        return not self.winds and volume_sign(self.divergence, self.divergence_error) != 0
+
+    @property
+    def smooth(self) -> bool:
+        """True if the motion lies on a smooth curve, by its averages or, for many crossings, by its neighbours."""
+        if self.winds or self.irregular < _SMOOTH:
+            return True
+        linear = max(abs(self.early - 2.0), abs(self.late - 2.0)) < _LINEAR
+        return linear and not self.attracted and self.crossings >= _MANY
+
+    @property
+    def kind(self) -> MotionKind:
+        """The kind of the motion that this evidence shows."""
         if self.period:
             return MotionKind.FIXED_POINT if self.period == 1 else MotionKind.PERIODIC
+        if self.grows and self.k > _CHAOTIC_SERIES and not self.regular:
+            return MotionKind.CHAOTIC
+        if not (self.bounded or self.regular):
+            return MotionKind.UNDECIDED
         if not self.settled:
             return MotionKind.SETTLING
-        if self.crossings >= _FEWEST and (integrable or self.digits > _DIGITS):
+        if self.crossings >= (_MANY if self.attracted else _FEWEST) and self.smooth:
             return MotionKind.QUASI_PERIODIC
         return MotionKind.UNDECIDED
 
@@ -274,13 +320,12 @@ def regime(
     places = map_.orbit(np.array(start), transient + kept)
     if len(places) < transient + kept:
         return _not_seen(map_, places, start)
-    places, integrable = places[transient:], bool(map_.section.integrable)
+    places = places[transient:]
     # A time of 0, or none, is refused by the indicator itself.
     span = max(t, _RETURNS * map_.time_of(places[-1])) if t > 0.0 else t
     evidence = _evidence(map_, places, span)
-    kind = evidence.kind(integrable)
     for _ in range(_ROUNDS - 1):
-        if kind not in (MotionKind.UNDECIDED, MotionKind.SETTLING):
+        if evidence.kind not in (MotionKind.UNDECIDED, MotionKind.SETTLING):
             break
         count = min(_LONGER * len(places), _MOST_CROSSINGS)
         longest = longest_span(map_.section, map_.state_at(places[-1]))
@@ -293,22 +338,23 @@ def regime(
             return _not_seen(map_, following, places[-1])
         places, span = following, longer
         evidence = _evidence(map_, places, span)
-        kind = evidence.kind(integrable)
-    changes = volume_sign(evidence.divergence, evidence.divergence_error) != 0
-    if kind is MotionKind.QUASI_PERIODIC and changes and not _has_a_curve(map_, places[-1], span):
+    kind, measure = evidence.kind, map_.section.measure
+    if kind in _ON_ONE_SET and not (measure or evidence.attracted or map_.volume_kept):
+        measure = _reversor(map_, places)
+    if kind is MotionKind.QUASI_PERIODIC and evidence.attracted and not _has_a_curve(map_, places[-1], span):
         kind = MotionKind.NO_PERIOD
-    period = evidence.period if kind in (MotionKind.FIXED_POINT, MotionKind.PERIODIC) else 0
     return Regime(
         kind,
-        period,
+        evidence.period,
         map_.names,
         frozen(places.copy()),
         span,
         evidence.late,
         evidence.k,
-        evidence.divergence,
-        evidence.divergence_error,
+        0.0 if measure else evidence.divergence,
+        0.0 if measure else evidence.divergence_error,
         map_.volume_kept,
+        measure,
         map_.section.integrable,
         map_.level,
     )
@@ -327,34 +373,75 @@ def _not_seen(map_: ReturnMap, places: Array, start: Sequence[float] | Array) ->
         0.0,
         0.0,
         map_.volume_kept,
+        map_.section.measure,
         map_.section.integrable,
         map_.level,
     )
 
 
 def _evidence(map_: ReturnMap, places: Array, span: float) -> _Evidence:
-    period, settled = period_of(map_.turns, places, map_.promise, len(places) // 3)
+    period, settled = _period(map_, places)
     # A periodic orbit is one whatever its neighbours do; of others an ensemble tells.
     found = [_indicated(map_, places[-1:] if period else _ensemble(map_, places), time) for time in (span / 2.0, span)]
     late = found[1]
-    mean, error = (
-        (float(late.divergence[0]), float(late.divergence_error[0]))
-        if len(late.values) == 1
-        else ensemble_mean(late.divergence)
-    )
-    series = _series(map_.turns, places)
-    enough = len(places) >= LEAST
+    windows = late.windows
+    mean, error = (windows[0, 0], np.ptp(windows)) if len(windows) == 1 else ensemble_mean(windows)
+    plane, enough = map_.section, len(places) >= LEAST
+    winds = bool(plane.integrable or plane.measure)
     return _Evidence(
         len(places),
         period,
         settled,
         float(np.median(found[0].values)),
         float(np.median(late.values)),
-        zero_one_test(series.sum(axis=1)) if enough else math.nan,
-        agreeing_digits(series) if enough else 0.0,
-        mean,
-        error,
+        zero_one_of_bands(bounded_series(map_.turns, places).sum(axis=1)) if enough else math.nan,
+        irregularity(map_.turns, places, _PRECISION * map_.promise) if enough else math.inf,
+        float(mean),
+        0.0 if map_.volume_kept else float(error) + map_.promise,
+        winds or all(late.no_chaos),
+        winds,
     )
+
+
+def _period(map_: ReturnMap, places: Array) -> tuple[int, bool]:
+    """Return the period of an orbit, 0 if Newton's method confirms none, and True if the orbit has settled."""
+    most = min(_LONGEST_PERIOD, len(places) // 3)
+    period, settled = period_of(map_.turns, places, map_.promise, most)
+    # Next to a doubling, an orbit of twice the period looks like one of the period that doubled.
+    for m in (period, 2 * period) if period else ():
+        if m <= most and _closes(map_, places, m):
+            return m, True
+    return 0, period_of(map_.turns, places, 0.0, most, 0.0)[1] if period else settled
+
+
+def _closes(map_: ReturnMap, places: Array, m: int) -> bool:
+    """Return True if Newton's method finds an orbit of period m on which the points lie, or to which they tend."""
+    last, precision = places[-m:], min(SAME, _CLOSED * map_.promise)
+    if m == 1 and _at_rest(map_, last[0], precision):
+        # There is no return, but the motion is known: f(y) = 0.
+        return True
+    try:
+        orbit = find_periodic(map_, last if m > 1 else last[0], m, near=True)
+    except WorkLimit:
+        raise
+    except ModelError:
+        return False
+    if orbit.period != m or orbit.status is Status.PROMISE_NOT_MET:
+        return False
+    periods = len(places) // m
+    away = np.abs(apart(map_.turns, places[-periods * m :].reshape(periods, m, -1), orbit.places)).max(axis=(1, 2))
+    closing = float(np.abs(apart(map_.turns, places[m:], places[:-m])).max())
+    if away[-1] <= precision or (closing <= precision and away[-1] <= SAME):
+        return True
+    # An attracting orbit is the limit if the distance falls as its multiplier says.
+    rate = float(np.abs(orbit.multipliers).max()) + orbit.multiplier_error
+    return rate < 1.0 and float(away[-1]) < 0.5 * (1.0 + rate ** (periods - 1)) * float(away[0])
+
+
+def _at_rest(map_: ReturnMap, place: Array, precision: float) -> bool:
+    problem = Problem.of(map_.section, map_.state_at(place)[None])
+    rates = map_.section.system.field(problem.states[0].tolist(), problem.parameters.tolist())
+    return float(np.abs(rates).max()) <= precision
 
 
 def _ensemble(map_: ReturnMap, places: Array) -> Array:
@@ -376,21 +463,33 @@ def _indicated(map_: ReturnMap, places: Array, t: float) -> Megno:
     return megno(map_.section, states, -t if map_.backward else t, map_.accuracy, threads=1)
 
 
-def _series(turns: Sequence[float], places: Array) -> Array:
-    """Return bounded functions along an orbit (n, m): cos and sin of angles, other coordinates over their range."""
-    away = places - places.mean(axis=0)
-    size = max(float(np.ptp(away, axis=0).max()), 1e-300)
-    return np.column_stack(
-        [
-            one
-            for i, turn in enumerate(turns)
-            for one in (
-                (np.cos(2.0 * math.pi * places[:, i] / turn), np.sin(2.0 * math.pi * places[:, i] / turn))
-                if math.isfinite(turn)
-                else (away[:, i] / size,)
+def _reversor(map_: ReturnMap, places: Array) -> str:
+    """Return the reversor that takes a motion to itself, in words; an empty string if there is none.
+
+    As it changes the sign of the divergence and of time, the mean divergence of such a motion is 0.
+    """
+    plane = map_.section
+    halves = np.array_split(places, 2)
+    precision = _GRAINS * float(np.quantile(nearest(map_.turns, *halves), 0.95)) + _CLOSED * map_.promise
+    states = map_.state_at(places[:: -(-len(places) // _MIRRORED)])
+    for mirror in sign_symmetries(plane.system, plane.parameters):
+        if not mirror.reverses:
+            continue
+        try:
+            images = np.array(
+                [
+                    section(plane, one, plane.surface, map_.wait(places[-1]), map_.accuracy, 1).states[0]
+                    for one in map(mirror.image, states)
+                ]
             )
-        ]
-    )
+            there = plane.places_of(images)
+            # The image has to be on the same levels of the integrals.
+            same = float(np.abs(map_.state_at(there) - images).max()) <= SAME * max(1.0, float(np.abs(images).max()))
+        except (ModelError, IndexError):
+            continue
+        if same and float(nearest(map_.turns, there, places).max()) <= precision:
+            return f"the reversor {mirror.name} takes the motion to itself"
+    return ""
 
 
 def _has_a_curve(map_: ReturnMap, place: Array, t: float) -> bool:
@@ -444,7 +543,7 @@ class Dynamics(Result):
     @property
     def verdict(self) -> str:
         """The verdict: "conservative", "dissipative", "mixed" or "not told apart"."""
-        if self.motion.volume_kept:
+        if self.motion.volume_kept or self.motion.measure:
             return "conservative"
         if sum(one.settled for one in self.comparisons) >= _ENOUGH and self.motion.volume < 0:
             if all(one.apart for one in self.settled):
@@ -458,11 +557,13 @@ class Dynamics(Result):
         """The verdict with its evidence."""
         if self.motion.volume_kept:
             return "Conservative: the flow preserves volume."
+        if self.motion.measure:
+            return f"Conservative: {self.motion.measure}."
         if self.verdict == "not told apart":
             return f"Not told apart: |mean divergence| < {self.motion.bound:.1g}."
         return (
             f"Looks {self.verdict}: attractor and repeller are {self.distance:.2g} ± {self.distance_error:.1g} "
-            f"apart and share {100.0 * self.shared:.2g} % of their places."
+            f"apart and share {100.0 * self.shared:.3g} % of their places."
         )
 
     def labels(self) -> Labels:

@@ -16,6 +16,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import product
 from typing import Protocol
 
 import numpy as np
@@ -40,6 +41,8 @@ _LONGEST = 400.0
 section."""
 _WAIT = 2000.0
 """Time limit for the next crossing of a single orbit, in the same units."""
+_AROUND = 2.0 ** np.arange(-10.0, 1.0)
+"""Distances, in units of the promise, at which the edge of the section is looked for."""
 _MOST = 1_000_000
 """Largest number of returns."""
 _PIECE = 50
@@ -93,6 +96,11 @@ class PoincareSection(Body, Protocol):
     @property
     def integrable(self) -> str:
         """Name of the integrable case to which the body exactly belongs; empty if none is known."""
+        return ""
+
+    @property
+    def measure(self) -> str:
+        """Smooth measure that all motions of the section preserve by a theorem, in words; empty if none is known."""
         return ""
 
     def moved(self, name: str, value: float) -> PoincareSection:
@@ -244,6 +252,13 @@ class ReturnMap:
         """
         places = self._places(place)
         states, there = self.section.states_at(*np.atleast_2d(places).T)
+        for i in np.flatnonzero(~there):
+            # A computed point may lie beyond the edge by its error: take the nearest of some points around it.
+            ways = np.array([*product((0.0, -1.0, 1.0), repeat=len(self.names))])
+            around = np.multiply.outer(self.promise * _AROUND, ways).reshape(-1, len(self.names))
+            near, inside = self.section.states_at(*(np.atleast_2d(places)[i] + around).T)
+            if inside.any():
+                states[i], there[i] = near[np.argmax(inside)], True
         if not np.all(there):
             outside = np.atleast_2d(places)[int(np.argmin(there))]
             where = ", ".join(f"{name} = {x:.6g}" for name, x in zip(self.names, outside, strict=True))
@@ -345,12 +360,20 @@ class ReturnMap:
             states = states[first : min(found, first + wanted)] * problem.scale
             require_finite_states(states)
             on = np.flatnonzero(section.is_on(states))
-            parts.append(np.asarray(section.places_of(states[on])))
             if not on.size:
                 break
+            places = np.asarray(section.places_of(states[on]))
+            # Beyond the edge a point is wrong by too much: the next piece starts before it, or it is computed again.
+            inside = section.states_at(*places.T)[1]
+            on = on[: len(on) if inside.all() else max(1, int(np.argmin(inside)))]
+            again = not inside[0] and not self.is_floor
+            parts.append(self.tightened().orbit(place, 1) if again else places[: on.size])
             # If the last crossings are on another sheet, the next call repeats them.
             left -= int(on[-1]) + 1
-            start = self.state_at(parts[-1][-1]) / problem.scale
+            if not len(parts[-1]):
+                break
+            place = parts[-1][-1]
+            start = self.state_at(place) / problem.scale
         return np.concatenate(parts)
 
     def wait(self, place: Array) -> float:

@@ -65,6 +65,6 @@ def right_crossings(
     return tuple(counts)
 
 
-def typical(counts: Sequence[int]) -> int:
-    """Return the lower median of the counts, 0 if there are none."""
-    return sorted(counts)[(len(counts) - 1) // 2] if counts else 0
+def typical(counts: Sequence[int]) -> int | None:
+    """Return the lower median of the counts; None if there are none, of which nothing is known."""
+    return sorted(counts)[(len(counts) - 1) // 2] if counts else None

@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -27,8 +28,10 @@ from hess_mechanics.dynamics.orbit import (
     require_finite_states,
     require_steps,
 )
+from hess_mechanics.dynamics.section import Plane, section
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.dynamics.variation import frame_ahead, neighbours
+from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Accuracy, Computation, Status
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
@@ -43,6 +46,7 @@ __all__ = [
     "first_frame",
     "kaplan_yorke",
     "lyapunov_spectrum",
+    "no_chaos",
     "volume_sign",
 ]
 
@@ -55,6 +59,10 @@ LIMIT = 1e2
 """Largest condition of the frame; it multiplies the truncation error of a step at most."""
 _SLOW = 1e-2
 """Smallest |f| of a moving orbit, in units in which states are O(1): errors of f(y) are divided by it."""
+_RESTS, _ESCAPES, _RETURNS = 1e-6, 10.0, 13
+"""Largest |f| of a motion that has come to rest, and distance within which it has closed; least growth of the largest
+|y|, at least 1, from the first half of the time to the second of a motion that escapes: linear growth doubles it.  Both
+in units in which states are O(1).  Crossings of the plane across the motion at its start that are compared with it."""
 _ERRORS = 3.0
 _ONE_SIDED = 0.99865
 """Probability that a normal variable stays below three standard deviations."""
@@ -264,19 +272,50 @@ def ensemble_mean(values: Array) -> tuple[float, float]:
 
     Parameters
     ----------
-    values : Array, shape (m,)
-        The mean along each orbit, m ≥ 2.
+    values : Array, shape (m, 4)
+        The means along each orbit, m ≥ 2, over all the time and over three halves of it, see `window_rates`.
 
     Returns
     -------
     tuple of float
-        The mean, and the standard error of the scatter widened by Student's t for few orbits.
+        The mean over all the time, and its error: the standard error of the scatter, widened by Student's t for few
+        orbits, and the remainder that all orbits share, which no scatter shows: the difference of the halves.
     """
     count = len(values)
     from scipy.special import stdtrit  # imported here because it takes 0.1 s
 
     widened = float(stdtrit(count - 1, _ONE_SIDED)) / _ERRORS
-    return float(values.mean()), widened * float(np.std(values, ddof=1)) / math.sqrt(count)
+    whole, away = values[:, 0], values[:, 1:] - values[:, :1]
+    shared = away.mean(axis=0) ** 2 - away.var(axis=0, ddof=1) / count
+    scatter = widened * float(np.std(whole, ddof=1)) / math.sqrt(count)
+    return float(whole.mean()), math.hypot(scatter, math.sqrt(float(shared.max(initial=0.0))))
+
+
+def no_chaos(body: Body, state: Array, states: Array, span: float, level: Accuracy, grows: bool) -> str:
+    """Return why a motion is not chaotic, however its neighbours part; an empty string if there is no reason.
+
+    state (d,) is the start, states (n, d) are at even times of the span, in units of the problem.  Only if neighbours
+    part (`grows`) it is looked for a return to the start.
+    """
+    system, problem = body.system, Problem.of(body, [state])
+    if state.size - len(system.integrals(state.tolist(), list(body.parameters))) <= 2:
+        return "flows of two dimensions have no chaos"
+    last = states[-(len(states) // 4) - 1 :].T
+    with np.errstate(all="ignore"):
+        rates = np.array(np.broadcast_arrays(*system.field(list(last), problem.parameters.tolist()), last[0])[:-1])
+    if float(np.linalg.norm(rates, axis=0).max()) < _RESTS:
+        return "it rests"
+    early, late = (float(np.abs(one).max(initial=1.0)) for one in np.array_split(states, 2))
+    if late > _ESCAPES * early:
+        return "it escapes"
+    if grows:
+        ahead = np.array(system.field(state.tolist(), list(body.parameters)), float)
+        with suppress(ModelError):
+            plane = Plane(tuple(ahead.tolist()), float(ahead @ state))
+            returns = section(body, state, plane, span, level, _RETURNS).states / problem.scale
+            if np.any(np.abs(returns[1:] - problem.states[0]).max(axis=1) < _RESTS):
+                return "it is periodic"
+    return ""
 
 
 def first_frame(system: System, problem: Problem) -> tuple[Array, float]:

@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
-from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Computation, Plan
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, STANDARD, Computation, Plan
 from hess_mechanics.numerics.patience import go_on
 
 __all__ = ["LevelCost", "beyond", "enough", "measure", "measure_until"]
 
 R = TypeVar("R")
 
+_TWICE = {Computation.ROTATION: "share", Computation.LINE: "share", Computation.CURVE: "cells"}
+"""Part of a plan that limits the error of a kind besides the tolerance, so that its own value would hide this error."""
+
 
 @dataclass(frozen=True)
 class LevelCost:
     """Cost of a computation at one level.
 
-    level : name; ms : milliseconds; error : distance from the reference result; complete : True if the level computes
-    all points at full resolution.
+    level : name; ms : milliseconds; error : distance from the truth, NaN if the result has nothing to compare;
+    complete : True if the level computes all points at full resolution.
     """
 
     level: str
@@ -28,11 +32,20 @@ class LevelCost:
     error: float
     complete: bool
 
+    @property
+    def is_measured(self) -> bool:
+        """True if there is an error."""
+        return not math.isnan(self.error)
+
 
 def beyond(kind: Computation) -> Plan:
-    """Return the plan against which errors are measured: finer tolerance than `reference`, same resolution."""
+    """Return the plan of the truth: finer tolerance than `reference`; twice its returns or points along a curve.
+
+    For basins and indicators the level is `aside`: their points lie beside the centres of the cells.
+    """
     finest = PLANS[kind][REFERENCE.name]
-    return replace(finest, level=finest.level.tightened())
+    more = {name: 2.0 * getattr(finest, name) for name in (_TWICE[kind],)} if kind in _TWICE else {}
+    return replace(finest, level=finest.level.tightened(), **more)
 
 
 def _sample(plan: Plan, run: Callable[[Plan], R], error: Callable[[R, R], float], truth: R, repeats: int) -> LevelCost:
@@ -66,6 +79,13 @@ def measure_until(kind: Computation, run: Callable[[Plan], R], error: Callable[[
 def enough(samples: Iterable[LevelCost], largest: float) -> str:
     """Return the first complete level whose error is at most `largest`, or the last level.
 
-    If `largest` is the largest invisible error, more accuracy would make no visible difference.
+    If `largest` is the largest invisible error, more accuracy would make no visible difference.  Without any
+    measurement it is `standard`.
     """
-    return next((one.level for one in samples if one.complete and one.error <= largest), REFERENCE.name)
+    last = STANDARD.name
+    for one in samples:
+        if one.complete and one.error <= largest:
+            return one.level
+        if one.is_measured:
+            last = REFERENCE.name
+    return last

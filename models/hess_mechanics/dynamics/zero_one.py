@@ -9,13 +9,15 @@ import numpy as np
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["LEAST", "zero_one_test"]
+__all__ = ["LEAST", "zero_one_of_bands", "zero_one_test"]
 
 _FREQUENCIES = math.pi * (0.2 + 0.6 * (np.arange(1, 33) * (math.sqrt(5.0) - 1.0) / 2.0 % 1.0))
 """Frequencies c, away from 0 and π, spread by the golden ratio; the median over them ignores resonances."""
 _LAGS = 50
 LEAST = 100
 """Minimum number of crossings."""
+_IN_A_BAND = 200
+"""Minimum number of crossings that are left of a longer series."""
 
 
 def zero_one_test(series: Array) -> float:
@@ -66,3 +68,12 @@ def zero_one_test(series: Array) -> float:
     away, along = displacement - displacement.mean(axis=0), lags - lags.mean()
     spread = np.sqrt((away**2).sum(axis=0) * (along**2).sum())
     return float(np.median(along @ away / np.where(spread > 0.0, spread, 1.0)))
+
+
+def zero_one_of_bands(series: Array) -> float:
+    """Return the largest K of every crossing, every second, every fourth and so on; as `zero_one_test`.
+
+    An orbit that visits narrow bands in turn is almost periodic, and K of all crossings is close to 0.
+    """
+    halvings = max(1, (len(series) // _IN_A_BAND).bit_length())
+    return max(zero_one_test(series[:: 2**i]) for i in range(halvings))

@@ -7,6 +7,7 @@ of these.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -73,10 +74,10 @@ class RotationProfile(Result):
     def distance(self, exact: RotationProfile) -> float:
         """Return the median of the differences over the places where both profiles know ρ.
 
-        Elsewhere the line crosses chaotic seas.
+        Elsewhere the line crosses chaotic seas.  NaN if one of them knows none.
         """
         if not (self.numbers.size and exact.numbers.size):
-            return 0.0
+            return math.nan
         apart = self.numbers - np.interp(self.places, exact.places, exact.numbers)
         return float(np.median(np.abs(apart - np.round(apart))))
 

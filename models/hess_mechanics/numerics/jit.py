@@ -25,7 +25,8 @@ from typing import Any
 import numba
 from numba.core import event
 
-from hess_mechanics.numerics.kernel_files import keep, let_go, write_whole
+from hess_mechanics.numerics.files import write_whole
+from hess_mechanics.numerics.kernel_files import keep, let_go
 from hess_mechanics.numerics.patience import go_on
 
 __all__ = [
@@ -165,7 +166,9 @@ def _sources() -> dict[str, tuple[str, list[str]]]:
             case _:
                 found[name] = [mark, *_read(path)]
     if memory is not None and found != known:
-        write_whole(memory, json.dumps(found))
+        # The file only saves work.
+        with suppress(OSError):
+            write_whole(memory, json.dumps(found).encode())
     return {name: (digest, imported) for name, (_, digest, imported) in found.items()}
 
 
@@ -304,7 +307,7 @@ def derived_kernel(name: str, source: str, module: str, **names: Any) -> Callabl
         if not kept:
             with suppress(OSError):
                 folder.mkdir(mode=0o700, exist_ok=True)
-            write_whole(path, source)
+                write_whole(path, source.encode())
             kept = _holds(path, source)
     namespace: dict[str, Any] = {"__name__": module, **names}
     exec(compile(source, file, "exec"), namespace)

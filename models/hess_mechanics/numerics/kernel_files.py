@@ -7,7 +7,6 @@ processes that start together compile each kernel twice.
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -17,7 +16,7 @@ from filelock import FileLock, Timeout
 from numba.core import sigutils
 from numba.core.caching import FunctionCache
 
-__all__ = ["KernelFiles", "keep", "let_go", "write_whole"]
+__all__ = ["KernelFiles", "keep", "let_go"]
 
 PATIENCE = 60.0
 """Seconds to wait for another process that compiles the same kernel."""
@@ -98,18 +97,3 @@ def let_go(dispatcher: Any) -> None:
     files = getattr(dispatcher, "_cache", None)
     if isinstance(files, KernelFiles):
         files._lock.release(force=True)
-
-
-def write_whole(path: Path, text: str) -> None:
-    """Write a file of the cache folder, of which no other process reads a part; does nothing without room."""
-    half = None
-    try:
-        with tempfile.NamedTemporaryFile("w", dir=path.parent, encoding="utf-8", delete=False) as file:
-            half = Path(file.name)
-            file.write(text)
-        half.replace(path)
-    except OSError:
-        # The file only saves work.
-        if half is not None:
-            with suppress(OSError):
-                half.unlink()

@@ -1,9 +1,12 @@
 """Error estimates from two runs of a computation that share as little as possible.
 
-The second run has a hundredth of the tolerance and starts a few units in the last place away.  With equal starts, both
-runs would make the same roundings wherever the motion is slow: near an unstable equilibrium they would compute the same
-small, wrong rates and leave it side by side, so that their difference stayed small while both were wrong.  A start that
-is moved by roundings diverges as fast as anything can, and shows the effect of roundings.
+The second run has another order, other steps, a hundredth of the tolerance, and starts a few units in the last place
+away.  With equal starts, both runs would make the same roundings wherever the motion is slow: near an unstable
+equilibrium they would compute the same small, wrong rates and leave it side by side, so that their difference stayed
+small while both were wrong.  A start that is moved by roundings diverges as fast as anything can, and shows their effect.
+
+Components keep their relative digits, however small they are, and so do the steps (`step_kernels.last_terms`): what
+leaves an equilibrium or an invariant plane grows with its relative error.
 """
 
 from __future__ import annotations
@@ -28,8 +31,8 @@ R = TypeVar("R")
 SAFETY = 1.25
 """Ratio of an error estimate to the difference of two runs, because the second one has an error too."""
 
-UNSURE = 0.01
-"""Error estimate at the floor of double precision, relative to the promise, from which on a third run checks it."""
+UNSURE = 1e-15
+"""Error estimate at the floor of double precision from which on a third run checks it."""
 
 _FARTHEST = 3.0 * 2.0**-52
 _GOLDEN = 0.5 * (5.0**0.5 - 1.0)
@@ -135,7 +138,7 @@ def measured(level: Level, run: Callable[[Level, int], tuple[R, int]], apart: Ca
         error = safety * off + 2e-16
         if error <= level.promise or current.is_floor:
             result, other = (second, first) if current.aside else (first, second)
-            if current.is_floor and error > level.promise * UNSURE:
+            if current.is_floor and error > UNSURE:
                 third, taken = run(tighter.tightened(), steps)
                 steps += taken
                 further = apart(result, third)

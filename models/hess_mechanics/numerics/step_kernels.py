@@ -73,8 +73,7 @@ def suspicion(recursion: Recursion) -> Callable[..., Any]:
         f"""
 def suspects(seen, h, before):
     return {" or ".join(tests)}
-""",
-        rise=_rise,
+"""
     )["suspects"]
 
 

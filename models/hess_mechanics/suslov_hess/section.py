@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar
@@ -21,8 +22,11 @@ import numpy as np
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section import Plane
 from hess_mechanics.dynamics.system import System
+from hess_mechanics.errors import ModelError
+from hess_mechanics.numerics.accuracy import PRECISE
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, turning_points
+from hess_mechanics.suslov_hess.circle_map import circle_map
 from hess_mechanics.suslov_hess.equations import SYSTEM
 
 __all__ = ["TorusSection"]
@@ -73,6 +77,15 @@ class TorusSection(PoincareSection):
     def constants(self) -> Mapping[str, float]:
         """The constants a, h and f."""
         return {"a": self.a, "h": self.h, "f": self.f}
+
+    @cached_property
+    def measure(self) -> str:
+        """The measure of `invariant_measure`, which exists where no cycle does."""
+        # The map degenerates where h + n3 = 0 is reached, for f = 0.
+        with suppress(ModelError):
+            if circle_map(self.a, self.h, self.f, PRECISE).kind == "elliptic":
+                return "the trace of the circle map is below 2, so the torus has a smooth invariant measure"
+        return ""
 
     def moved(self, name: str, value: float) -> TorusSection:
         """Return the section with another value of one constant."""

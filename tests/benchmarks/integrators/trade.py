@@ -1,5 +1,6 @@
 """Cost and error of every level, for every kind of computation of every scene, and for each kind in all of them."""
 
+import math
 from dataclasses import dataclass
 
 from hess_explorer.protocol.parameters import Choice
@@ -88,7 +89,8 @@ def _row(name, scene, trial, repeats):
         )
     except ModelError as error:
         return Failed(name, str(trial.kind), str(error))
-    return Row(name, str(trial.kind), trial.unit, samples, enough(samples, trial.seen))
+    least = enough(samples, trial.seen) if any(one.is_measured for one in samples) else "–"
+    return Row(name, str(trial.kind), trial.unit, samples, least)
 
 
 def trade(chosen, repeats, progress):
@@ -109,6 +111,10 @@ def _round(value):
     return f"{value:.0f}" if value >= 10.0 else digits(value, 2)
 
 
+def _error(value):
+    return "not measured" if math.isnan(value) else _round(value)
+
+
 def heading():
     """The first lines of the table whose others are `line_of` each row."""
     return table(["scene", "computation", *LEVELS, "ratio", "enough", "error in"], []) + "\n"
@@ -118,7 +124,7 @@ def line_of(row):
     """A line in Markdown: milliseconds and error of each level, and how many times as long the last one takes."""
     if isinstance(row, Failed):
         return line([row.scene, row.kind, *["–"] * (len(LEVELS) + 2), row.why]) + "\n"
-    cells = (f"{_round(one.ms)} ms, {_round(one.error)}" for one in row.samples)
+    cells = (f"{_round(one.ms)} ms, {_error(one.error)}" for one in row.samples)
     return line([row.scene, row.kind, *cells, f"{_round(row.ratio)} ×", row.enough, row.unit]) + "\n"
 
 
@@ -139,7 +145,8 @@ def by_kind(rows):
         if own:
             ratios = sorted(row.ratio for row in own)
             least, most = _round(ratios[0]), _round(ratios[-1])
-            errors = (_round(max(row.samples[i].error for row in own)) for i in range(len(LEVELS)))
+            measured = ([row.samples[i].error for row in own if row.samples[i].is_measured] for i in range(len(LEVELS)))
+            errors = (_error(max(some, default=math.nan)) for some in measured)
             takes = f"{least} ×" if least == most else f"{least} to {most} ×"
             lines.append([str(kind), _draft_computes(kind), takes, *errors, own[0].unit])
     return table(["computation", "draft computes", "reference takes", *LEVELS, "error in"], lines) + "\n"
@@ -162,7 +169,7 @@ def as_json(rows):
             "kind": row.kind,
             "level": one.level,
             "ms": one.ms,
-            "error": one.error,
+            "error": one.error if one.is_measured else None,
             "unit": row.unit,
             "complete": one.complete,
             "enough": row.enough,

@@ -2,10 +2,12 @@
 
 from functools import cache
 
+import numpy as np
 import pytest
 
 from hess_mechanics import regime
 from oracle.labelled import MOTIONS, returns_of
+from support.moved import from_moved_starts
 from support.thorough import sample
 
 TRIED = sample(MOTIONS, 8)
@@ -28,19 +30,23 @@ def verdict(motion, kind, period):
 
 @cache
 def found(name):
+    """Names of kinds with periods: of a chaotic motion for several starts that differ by a few ulps."""
     (motion,) = (one for one in MOTIONS if one["name"] == name)
-    result = regime(returns_of(motion), motion["place"])
-    return result.kind.name, result.period
+    count = 4 if motion["kind"] == "CHAOTIC" else 1
+    results = from_moved_starts(lambda: regime(returns_of(motion), motion["place"]), count)
+    return [(result.kind.name, result.period) for result in results]
 
 
+@pytest.mark.chaotic
 @pytest.mark.parametrize("motion", TRIED, ids=lambda motion: motion["name"])
 def test_the_kind_of_a_known_motion_is_right_or_undecided(motion):
-    kind, period = found(motion["name"])
-    assert verdict(motion, kind, period) != "wrong", (
-        f"{kind}, period {period}: it is {motion['kind']}, period {motion['period']} {motion['theorem']}"
-    )
+    for kind, period in found(motion["name"]):
+        assert verdict(motion, kind, period) != "wrong", (
+            f"{kind}, period {period}: it is {motion['kind']}, period {motion['period']} {motion['theorem']}"
+        )
 
 
+@pytest.mark.chaotic
 def test_at_most_a_tenth_of_the_known_motions_is_undecided():
-    undecided = [one["name"] for one in TRIED if verdict(one, *found(one["name"])) == "undecided"]
-    assert len(undecided) <= 0.1 * len(TRIED), undecided
+    undecided = {one["name"]: np.mean([verdict(one, *of) == "undecided" for of in found(one["name"])]) for one in TRIED}
+    assert sum(undecided.values()) <= 0.1 * len(TRIED), undecided

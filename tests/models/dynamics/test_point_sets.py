@@ -63,3 +63,11 @@ def test_where_one_set_is_a_part_of_the_other_the_distance_is_that_of_what_is_le
     # From the part to the whole it is 0; of the places of the whole 95 of 100 have x up to 0.95.
     for one, other in ((part, whole), (whole, part)):
         assert distance((inf, inf), one, other) == approx(0.45, abs=1e-9)
+
+
+def test_the_grain_of_an_orbit_that_drifts_is_the_distance_of_its_halves():
+    places = np.column_stack([np.arange(200) / 200.0, np.zeros(200)])
+    found = set_distance(PLANE, places, places)
+    # The points 100 to 199 are 1/200 to 100/200 away from 99/200; of these distances 95 of 100 are up to 95.05/200.
+    assert found.grain == approx(95.05 / 200.0, abs=1e-12)
+    assert not found.settled

@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 from pytest import mark, raises
+from scipy.optimize import brentq
 
 from hess_mechanics import (
     HeavyBody,
@@ -21,8 +22,13 @@ from hess_mechanics.dynamics import return_map as return_map_module
 from hess_mechanics.dynamics.point_sets import SetDistance
 from hess_mechanics.dynamics.regime import Dynamics, MotionKind, dynamics_of, regime
 from hess_mechanics.errors import InvalidParameter, NoReturn
+from hess_mechanics.suslov_hess.bifurcation import f_max_each
+from hess_mechanics.suslov_hess.section import TorusSection
+from support.deviations import deviations, mean_of
+from support.diagrams import spread
 from support.mechanics import apart, scipy_crossings
 from support.suslov import field, permanent_rotations
+from support.thorough import examples
 
 REVERSAL = SuslovBody(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3)
 REVERSAL_E = 1.743
@@ -42,45 +48,53 @@ def test_on_a_torus_the_trace_of_the_moebius_matrix_decides(a, h, f, kind):
     assert found.period == (1 if kind is MotionKind.FIXED_POINT else 0)
 
 
+@mark.chaotic
 def test_a_strange_attractor_is_chaotic_and_shrinks_as_its_exponents_say():
     P = return_map(STRANGE, E=STRANGE_E, accuracy="standard")
-    found = regime(P, (1.0, 1.0), t=2000.0)
-    assert (found.kind, found.volume) == (MotionKind.CHAOTIC, -1)
-    # The motion is now and then regular for long: there λ is 0 to three errors.
-    several = [lyapunov_spectrum(STRANGE, P.state_at(place), 8000.0) for place in found.places[-40::10]]
-    assert "+" in [one.signs[0] for one in several]
-    for one in several:
-        assert abs(found.divergence - one.values.sum()) <= 3.0 * (found.divergence_error + math.hypot(*one.errors))
-    assert "shrinks" in found.sentence
+    places = spread(P.section, 16)
+    found = [regime(P, place, t=2000.0) for place in places]
+    assert {(one.kind, one.volume) for one in found} == {(MotionKind.CHAOTIC, -1)}
+    assert deviations([one.divergence / one.divergence_error for one in found], -3.0) < -5.0
+    several = [lyapunov_spectrum(STRANGE, P.state_at(one.places[-1]), 8000.0) for one in found]
+    assert deviations([one.values[0] for one in several], 0.05) > 5.0
+    sums = [one.values.sum() for one in several]
+    assert abs(deviations([one.divergence for one in found], *mean_of(sums))) < 5.0
+    # Each is right within its error.
+    assert all(abs(one.divergence - np.mean(sums)) < 5.0 * one.divergence_error for one in found)
+    assert "shrinks" in found[0].sentence
     # Backwards in time volume grows.
-    assert regime(P.inverse(), (1.0, 1.0), t=300.0).kind is MotionKind.CHAOTIC
+    assert {regime(P.inverse(), place, t=300.0).kind for place in places} == {MotionKind.CHAOTIC}
 
 
+@mark.chaotic
 def test_where_volume_is_kept_dynamics_are_conservative_and_curves_stay_curves():
     P = return_map(PLAIN, E=1.5, accuracy="standard")
     sea = dynamics_of(P, (1.0, 1.0), 100, 2400, 300.0)
     assert (sea.motion.kind, sea.motion.divergence, sea.verdict) == (MotionKind.CHAOTIC, 0.0, "conservative")
-    assert all(one.settled and one.shared > 0.8 for one in sea.comparisons)
-    assert all(one.distance <= one.grain + one.error for one in sea.comparisons)
+    assert all(one.settled for one in sea.comparisons)
+    assert deviations([one.shared for one in sea.comparisons], 0.8, of_each=True) > 5.0
+    assert deviations([one.distance / (one.grain + one.error) for one in sea.comparisons], 1.0, of_each=True) < -5.0
     curve = regime(return_map(SuslovBody(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0), E=0.4), (0.3, 1.2), t=300.0)
     # I11 = I22 with b along e: integrable (`QuarticBody.integrable`).
     assert (curve.kind, curve.volume) == (MotionKind.QUASI_PERIODIC, 0)
     assert "integrable case I₁₁ = I₂₂" in curve.sentence
 
 
+@mark.chaotic
 def test_a_sea_whose_volume_shrinks_is_not_conservative_and_shows_the_number_that_is_judged():
     """DOP853 with its own divergence: −0.00690 ± 0.00031 over t = 2·10⁵."""
     P = return_map(SuslovBody(1.5, 1.7, 0.1, -0.3, -1.7, 1.0, 2.0), E=-0.9089144, accuracy="standard")
-    sea = dynamics_of(P, (-1.0063, 1.1872), 500, 1500, 6000.0)
+    sea = dynamics_of(P, (-1.0063, 1.1872), 500, 1500, 12_000.0)
     assert sea.motion.kind is MotionKind.CHAOTIC
-    assert abs(sea.motion.divergence + 0.0069) <= 3.0 * math.hypot(sea.motion.divergence_error, 0.00031)
+    assert abs(sea.motion.divergence + 0.0069) <= 5.0 * math.hypot(sea.motion.divergence_error, 0.00031)
     assert (sea.verdict, sea.motion.volume) == ("mixed", -1)
     assert f"{sea.motion.divergence:.3g}" in sea.motion.sentence
-    # Over a short time the same motion is not told apart, and that is said with a bound.
-    short = regime(P, (-1.0063, 1.1872), t=200.0)
-    assert short.volume == 0
-    assert short.bound > 0.0069
-    assert f"|mean divergence| < {short.bound:.1g}" in short.sentence
+    # Over a short time such motions are not told apart, and that is said with a bound.
+    short = [regime(P, place, t=50.0) for place in spread(P.section, 36)]
+    assert deviations(np.array([one.volume == 0 for one in short]), 0.25) > 5.0
+    untold = [one for one in short if one.volume == 0]
+    assert deviations([one.bound for one in untold], 0.0069) > 5.0
+    assert f"|mean divergence| < {untold[0].bound:.1g}" in untold[0].sentence
 
 
 @mark.parametrize(
@@ -181,3 +195,144 @@ def test_what_cannot_be_told_is_refused():
         dynamics_of(P, (1.0, 1.0), kept=2)
     with raises(InvalidParameter, match="kept = 0 is not a whole number from 1 to 20000"):
         regime(P, (1.0, 1.0), kept=0)
+
+
+# ---- verdicts that are not too sure ---------------------------------------------------------------------------------
+
+
+BANDS = SuslovBody(1.1, 2.9, -0.9, 0.14022, -1.7, -1.6, 1.2), -0.3248, (0.7248, 1.8925)
+"""A body beyond its cascade of doublings, whose attractor consists of 32 narrow bands; energy and a point."""
+
+
+def torus(a, h, f):
+    return return_map(HessBody(1.0, a, -math.hypot(1.0, a)), h=h, f=f)
+
+
+def random_tori(count, kind):
+    """Draw tori whose circle map is of this kind, well inside, with a phase."""
+    draw = np.random.default_rng(51)
+    while count:
+        a, h, f, phi = draw.uniform((0.05, -0.95, 0.02, -3.0), (1.0, 2.5, 1.0, 3.0))
+        exact = circle_map(a, h, f * float(f_max_each(np.array([h]))[0]), "precise")
+        if exact.kind == kind:
+            count -= 1
+            yield exact, phi
+
+
+def test_no_winding_torus_shrinks_or_grows_and_longer_runs_agree(monkeypatch):
+    issued = (circle_map(0.445, -0.24, 0.476, "precise"), -2.9), (circle_map(0.445, -0.24, 0.476, "precise"), 1.0)
+    monkeypatch.setattr(TorusSection, "measure", "")
+    for exact, phi in (*issued, *random_tori(examples(10), "elliptic")):
+        P = torus(exact.a, exact.h, exact.f)
+        for t in (200.0, 800.0):
+            found = regime(P, (phi,), t=t)
+            # There is a smooth invariant measure: the mean is exactly 0.
+            assert found.volume == 0, (exact, phi, t, found.divergence, found.divergence_error)
+            assert found.kind in (MotionKind.QUASI_PERIODIC, MotionKind.UNDECIDED, MotionKind.SETTLING)
+
+
+def test_the_measure_of_a_winding_torus_is_used_and_named():
+    found = dynamics_of(torus(0.445, -0.24, 0.476), (-2.9,), 300, 200, 200.0)
+    assert (found.motion.kind, found.motion.volume, found.motion.divergence) == (MotionKind.QUASI_PERIODIC, 0, 0.0)
+    assert found.verdict == "conservative"
+    for sentence in (found.sentence, found.motion.sentence):
+        assert "smooth invariant measure" in sentence
+    # Next to a limit cycle there is none.
+    assert torus(0.5, 1.5, 0.6).section.measure == ""
+
+
+def test_on_locked_tori_volume_shrinks_as_the_multiplier_of_the_cycle_says():
+    for exact, phi in random_tori(examples(4), "hyperbolic"):
+        P, rate = torus(exact.a, exact.h, exact.f), exact.fixed_points[0].log_multiplier / exact.period
+        for t in (200.0, 800.0):
+            found = regime(P, (phi,), t=t)
+            assert abs(found.divergence - rate) <= 3.0 * found.divergence_error
+            if found.kind is MotionKind.FIXED_POINT and rate < -0.01:
+                assert found.volume == -1
+
+
+def test_at_a_permanent_rotation_the_mean_divergence_is_that_of_its_state():
+    found = regime(return_map(REVERSAL, E=REVERSAL_E), (1.0, 1.0))
+    exact = np.array(list(permanent_rotations(REVERSAL, REVERSAL_E)))
+    rates = REVERSAL.I23 * exact[:, 0] / REVERSAL.I22 - REVERSAL.I13 * exact[:, 1] / REVERSAL.I11
+    assert found.kind is MotionKind.FIXED_POINT
+    assert np.abs(rates - found.divergence).min() <= 3.0 * found.divergence_error
+    assert found.volume == -1
+
+
+def test_a_reversor_that_takes_a_motion_to_itself_is_named():
+    body = SuslovBody(1.5, 1.7, 0.03, -0.05, -0.3, 0.2, 2.0)
+    found = regime(return_map(body, E=0.5), (2.66, 1.58))
+    assert found.kind is MotionKind.QUASI_PERIODIC
+    assert not found.volume_kept
+    assert "exactly 0: the reversor ω1, ω2, t → −" in found.sentence
+    # Attractors are mirrored to repellers.
+    assert regime(return_map(REVERSAL, E=REVERSAL_E), (1.0, 1.0)).measure == ""
+
+
+def test_an_orbit_that_nearly_closes_is_not_periodic():
+    a, h, f = 0.3879079101373818, -0.7743996457233353, 0.05754693484816638
+    rho = circle_map(a, h, f, "reference").rotation_number
+    assert 1e-6 < abs(602.0 * rho - round(602.0 * rho)) < 1e-4
+    found = regime(torus(a, h, f), (-2.4161720749348596,))
+    assert (found.kind, found.period) == (MotionKind.QUASI_PERIODIC, 0)
+    # Every fifth point moves slowly round a point of an orbit of period 5.
+    P = return_map(HeavyBody((0.5, 0.5, 1.0), (1.0, 0.0, 0.0), 1.0), h=1.0001, f=1e-4)
+    found = regime(P, (1.5707, 0.001))
+    assert np.ptp(P.orbit(np.array((1.5707, 0.001)), 4000)[::5], axis=0).max() > 1e-3
+    assert (found.kind, found.period) == (MotionKind.QUASI_PERIODIC, 0)
+
+
+def test_a_slow_passage_is_no_fixed_point(monkeypatch):
+    """Just outside the lock zone the map moves by less than 1e-4 where the two cycles have met, and returns later."""
+    monkeypatch.setattr(TorusSection, "measure", "")
+    a = brentq(lambda a: circle_map(a, 1.5, 0.6, "reference").trace - (2.0 - 1e-8), 0.05, 0.5, xtol=1e-15)
+    P = torus(a, 1.5, 0.6)
+    steps = np.linspace(-math.pi, math.pi, 2001)[:, None]
+    slow = steps[np.abs(apart(P.image(steps)[:, 0], steps[:, 0])).argmin()]
+    slowest = P.orbit(slow, 2000)
+    slowest = slowest[np.abs(np.diff(slowest[:, 0])).argmin()]
+    assert abs(P.image(slowest)[0] - slowest[0]) < 1e-4
+    assert regime(P, slowest, transient=0).kind not in (MotionKind.FIXED_POINT, MotionKind.PERIODIC)
+
+
+@mark.parametrize("transient", [300, 5000, 20_000])
+def test_narrow_bands_beyond_a_cascade_are_chaotic_after_any_transient(transient):
+    body, E, place = BANDS
+    P = return_map(body, E=E)
+    found = regime(P, place, transient=transient)
+    assert found.kind is MotionKind.CHAOTIC
+    exponents = lyapunov_spectrum(P.section, P.state_at(found.places[-1]), 1e5)
+    assert exponents.values[0] > 5.0 * exponents.errors[0]
+
+
+def a_periodic_one():
+    return return_map(SuslovBody(1.1, 2.9, -0.9, 0.1, -1.7, -1.6, 1.2), E=-0.3248), (0.7248, 1.8925)
+
+
+def a_quasi_periodic_one():
+    return return_map(SuslovBody(1.5, 1.7, 0.03, -0.05, -0.3, 0.2, 2.0), E=0.5), (2.66, 1.58)
+
+
+def a_chaotic_one():
+    return return_map(STRANGE, E=STRANGE_E, accuracy="standard"), (1.0, 1.0)
+
+
+@mark.parametrize(
+    ("motion", "kind"),
+    [
+        (a_periodic_one, MotionKind.PERIODIC),
+        (a_quasi_periodic_one, MotionKind.QUASI_PERIODIC),
+        (a_chaotic_one, MotionKind.CHAOTIC),
+    ],
+)
+def test_a_verdict_survives_twice_the_time_another_start_and_a_rounding(motion, kind):
+    P, place = motion()
+    found = regime(P, place)
+    others = [
+        regime(P, place, kept=400, t=400.0),
+        regime(P, found.places[7]),
+        regime(P, np.nextafter(place, 10.0)),
+        regime(P, np.nextafter(place, -10.0)),
+    ]
+    assert {(one.kind, one.period, one.volume) for one in others} == {(kind, found.period, found.volume)}

@@ -4,6 +4,7 @@ The truth is a closed form, a quadrature, or SciPy at 1e-13 with small steps.
 """
 
 from functools import cache
+from itertools import pairwise
 from math import cos, erf, exp, expm1, inf, pi, sin, sqrt
 
 import numpy as np
@@ -11,7 +12,7 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.special import sici
 
-from hess_mechanics import LEVELS, Plane, System, ensemble, section, solve
+from hess_mechanics import LEVELS, System, solve
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics import functions as f
 
@@ -24,7 +25,7 @@ def decaying(source, centre, width, t):
     """u(t) of u̇ = −u + source(τ), u(0) = 1, with a source of a given centre and width."""
     near = [min(max(0.0, centre + k * width), t) for k in (-40, -10, -3, -1, 0, 1, 3, 10, 40)]
     ends = sorted({0.0, *near, t})
-    parts = zip(ends, ends[1:], strict=False)
+    parts = pairwise(ends)
     return exp(-t) + sum(quad(lambda s: exp(s - t) * source(s), a, b, epsabs=1e-14, epsrel=1e-13)[0] for a, b in parts)
 
 
@@ -119,10 +120,7 @@ FIELDS = {
 def friction_at(eps, t):
     v = eps * np.arcsinh(np.sinh(2 / eps) * exp(-t / eps)) if 2 / eps < 700 else max(0.0, 2 - t)
     edges = sorted({v, min(2.0, max(v, 40 * eps)), 2.0})
-    x = sum(
-        quad(lambda w: w / np.tanh(w / eps) if w else eps, a, b, epsabs=1e-14)[0]
-        for a, b in zip(edges, edges[1:], strict=False)
-    )
+    x = sum(quad(lambda w: w / np.tanh(w / eps) if w else eps, a, b, epsabs=1e-14)[0] for a, b in pairwise(edges))
     return x, v
 
 
@@ -157,7 +155,8 @@ ROWS = [
     # field, parameters, start, time, truth of the leading variables
     *(("friction", (eps,), (0.0, 2.0), t, lambda eps=eps, t=t: friction_at(eps, t))
       for eps, t in ((0.1, 10.0), (0.01, 10.0), (0.001, 10.0), (0.01, 1.0))),
-    *(("saturated spring", (k,), (1.0, 0.0), 5.6, lambda k=k: spring_at(k, 5.6)) for k in (5.0, 19.0, 20.0, 40.0, 200.0)),
+    *(("saturated spring", (k,), (1.0, 0.0), 5.6, lambda k=k: spring_at(k, 5.6))
+      for k in (5.0, 19.0, 20.0, 40.0, 200.0)),
     ("kinked spring", (0.0,), (1.0, 0.0), 4 * sqrt(2), lambda: (1.0, 0.0)),
     *(("kinked spring", (d,), (1.0, 0.0), 5.0,
        lambda d=d: integrated(lambda y: (y[1], -y[0] / np.hypot(y[0], d)), (1.0, 0.0), 5.0, 1e-3))

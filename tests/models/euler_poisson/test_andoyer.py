@@ -16,6 +16,7 @@ from hess_mechanics.euler_poisson.andoyer import SHEETS, AndoyerPlane, AndoyerSe
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.numerics.accuracy import PRECISE, STANDARD
 from support.andoyer import GESS1, RIS, angles, crossings_by_scipy, energies_at, energy
+from support.deviations import deviations
 from support.mechanics import apart
 from support.refusals import refused
 from support.thorough import sample
@@ -190,12 +191,14 @@ def test_crossings_are_those_that_scipy_finds_from_the_angle(body, h, f):
     assert found >= 3
 
 
+@mark.chaotic
 def test_no_orbit_of_gess1_changes_the_sign_of_r_M_in_10000_crossings():
     random = np.random.default_rng(50)
     l, x = random.uniform(-pi, pi, 120), random.uniform(-0.99, 0.99, 120)
     states, _, growing = states_at(GESS1, 50.0, 5.0, l, x)
     starts = np.array(sample(states[growing][:50], 6))
-    points = AndoyerSection(GESS1, 50.0, 5.0).points(starts, 10_000, STANDARD)
+    # Orbits come as close to the Hess manifold as 1e-5, far beyond the error of this level.
+    points = AndoyerSection(GESS1, 50.0, 5.0).points(starts, 10_000, PRECISE)
     assert [len(states) for states in points.states] == [10_000] * len(starts)
     signs = np.sign(3.0 * starts[:, 0] + 4.0 * starts[:, 2])
     assert 0.2 < np.mean(signs > 0) < 0.8
@@ -204,12 +207,13 @@ def test_no_orbit_of_gess1_changes_the_sign_of_r_M_in_10000_crossings():
     assert max(points.drift.values()) < 1e-4
 
 
+@mark.chaotic
 def test_away_from_hess_the_same_orbits_do_change_it():
     away = HeavyBody.hess((1.0, 0.625, 0.375), 9.975, 0.02)
     starts = AndoyerSection(away, 50.0, 5.0).spread(WHOLE, 20)
     points = AndoyerSection(away, 50.0, 5.0).points(starts, 1000, STANDARD)
     changed = [np.ptp(np.sign(relation(away, states))) > 0 for states in points.states]
-    assert sum(changed) > 1
+    assert deviations(np.array(changed), 0.1) > 5.0
 
 
 def test_points_of_a_picture_are_the_crossings_of_the_orbit_one_after_the_other():

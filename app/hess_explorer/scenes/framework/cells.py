@@ -52,7 +52,7 @@ def found_by_rows(
 
 
 def changed(cells: Array, truth: Array) -> float:
-    """Return the percentage of cells (n, m) that differ from finer cells, which are as many or subdivide them."""
+    """Return the percentage of cells (n, m) that differ at the points of the truth, in as many cells or finer ones."""
     rows, columns = (np.arange(fine) * coarse // fine for coarse, fine in zip(cells.shape, truth.shape, strict=True))
     return 100.0 * float(np.mean(cells[np.ix_(rows, columns)] != truth))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import TypeVar
 
@@ -22,10 +23,8 @@ def boundary(picture: str, run: Callable[[S, Plan], Array], frame: Callable[[S],
     def look(s: S, found: Array) -> Curves:
         return Curves(frame(s), (found,) if len(found) else ())
 
-    return Trial(
-        Computation.CURVE,
-        (picture,),
-        run,
-        lambda s, found, truth: compared(look(s, found), look(s, truth)).largest,
-        look,
-    )
+    def error(s: S, found: Array, truth: Array) -> float:
+        difference = compared(look(s, found), look(s, truth))
+        return difference.largest if len(difference.same) + len(difference.changed) and len(truth) else math.nan
+
+    return Trial(Computation.CURVE, (picture,), run, error, look)

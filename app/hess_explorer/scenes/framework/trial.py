@@ -62,7 +62,8 @@ class Trial(Generic[H]):
     """One kind of computation of a scene, for a state or a part of it.
 
     kind, pictures : the kind, and the pictures that show it; empty means all pictures.
-    run(state, plan) : computes it as the scene does; error(state, result, truth) : its error in `unit`.
+    run(state, plan) : computes it as the scene does; error(state, result, truth) : its error in `unit`, NaN if there
+    is nothing to compare.
     look(state, result) : the result as a picture shows it, for comparisons.
     seen : the largest invisible error; shown(state) : True if the pictures show it in this state.
     alike : compare levels with the same number of points, because other points belong to other motions.
@@ -206,17 +207,16 @@ def curve_error(values: Array, exact: Array, height: float, period: float = math
 
 
 def colour_error(values: Array, exact: Array) -> float:
-    """Return the 99th percentile of the error, in steps of a colour map that covers one turn; 0.0 without values."""
-    return float(np.percentile(np.abs(values - exact), 99.0)) / COLOUR if values.size else 0.0
+    """Return the 99th percentile of the error, in steps of a colour map that covers one turn; NaN without values."""
+    return float(np.percentile(np.abs(values - exact), 99.0)) / COLOUR if values.size else math.nan
 
 
 def section_error(
     orbits: Sequence[Array], truth: Sequence[Array], pixels: Sequence[float], periods: Sequence[float] = (math.inf,) * 2
 ) -> float:
-    """Return the largest error of orbits (n, 2) in pixels, without chaotic ones: no level is right to their end."""
-    worst = 0.0
-    for one, other in zip(orbits, truth, strict=True):
-        away = errors_in_pixels(one, other, pixels, periods)
-        if not torn_away(away):
-            worst = max(worst, float(away.max(initial=0.0)))
-    return worst
+    """Return the largest error of orbits (n, 2) in pixels, without chaotic ones: no level is right to their end.
+
+    NaN if all of them are chaotic.
+    """
+    aways = [errors_in_pixels(one, other, pixels, periods) for one, other in zip(orbits, truth, strict=True)]
+    return max((float(away.max()) for away in aways if away.size and not torn_away(away)), default=math.nan)

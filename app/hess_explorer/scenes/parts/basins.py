@@ -10,7 +10,7 @@ from typing import Protocol, TypeVar
 import numpy as np
 
 from hess_explorer.compute.cache import CACHE, Task
-from hess_explorer.scenes.framework.cells import changed, look
+from hess_explorer.scenes.framework.cells import look
 from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.periodic_search import Closed, Search, branch_of, sought
 from hess_explorer.scenes.framework.scene import State
@@ -20,7 +20,7 @@ from hess_explorer.views.caption import Caption
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.attraction import CROSSINGS, LOST, NOWHERE, Arrivals, arrivals
 from hess_mechanics.dynamics.basin_boundary import arrivals_of_cells, divided, joined, resolved, unsure
-from hess_mechanics.dynamics.cells import centres
+from hess_mechanics.dynamics.cells import centres, evenly
 from hess_mechanics.dynamics.edge import saddle_between
 from hess_mechanics.dynamics.manifolds import Manifold
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
@@ -43,6 +43,8 @@ _PARTS = 2
 """Tasks of each stage, for two cores."""
 _MOST = 20_000
 """Most orbits of a later stage: a boundary in so many cells is no curve, and its cells are left as they are."""
+_SPREAD = evenly(20_000).T
+"""Points of the unit square at which cells are measured."""
 _TRIED = 8
 """Places of the boundary from which saddles are sought."""
 _NUMBERS = {2: "Two", 3: "Three", 4: "Four", 5: "Five"}
@@ -263,6 +265,19 @@ def _at_once(what: _Sought) -> Arrivals:
     return cells
 
 
+def _sampled(what: _Sought) -> Arrivals:
+    """Return the arrivals from points spread over the window, the truth for cells of every size."""
+    low, high = np.array(what.window)
+    there = attractors(what.section, what.long, what.level)
+    return arrivals(what.orbits, there.sets, *(low + _SPREAD * (high - low)).T)
+
+
+def _error(s: Basins, cells: Array, truth: Array) -> float:
+    """Return the percentage of the points of the truth that lie in a cell (n, m) of another colour."""
+    columns, rows = (_SPREAD * cells.shape[::-1]).astype(int).T
+    return 100.0 * float(np.mean(cells[rows, columns] != truth))
+
+
 def _saddles(what: _Sought) -> tuple[Search, ...]:
     """Return searches, each of which finds a saddle on a boundary: none is found twice."""
     number = CACHE.get(_cells, what, _STAGES - 1)[0].number
@@ -298,8 +313,8 @@ def basins_trial(of: Callable[[S], Basins]) -> Trial[S]:
     return Trial[Basins](
         Computation.BASINS,
         ("section",),
-        lambda s, plan: _at_once(s.sought(plan)).number.astype(float),
-        lambda s, cells, truth: changed(cells, truth),
+        lambda s, plan: (_sampled if plan.level.aside else _at_once)(s.sought(plan)).number.astype(float),
+        _error,
         lambda s, cells: look(s.section.frame, s.host.poincare.names, cells),
         unit="% of the cells that change",
         seen=3.0,

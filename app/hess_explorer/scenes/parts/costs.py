@@ -49,8 +49,12 @@ class Costs:
 
     @cached_property
     def samples(self) -> dict[Trial[Any], tuple[LevelCost, ...]]:
-        """The samples measured so far."""
-        return {trial: found for trial, found in self.found.items() if isinstance(found, tuple)}
+        """The samples measured so far, of the trials and levels with an error."""
+        return {
+            trial: samples
+            for trial, found in self.found.items()
+            if isinstance(found, tuple) and (samples := tuple(one for one in found if one.is_measured))
+        }
 
     @cached_property
     def enough(self) -> dict[Trial[Any], str]:
@@ -58,7 +62,7 @@ class Costs:
         return {trial: enough(samples, trial.seen) for trial, samples in self.samples.items()}
 
     def curve(self, trial: Trial[Any]) -> tuple[Array, Array] | None:
-        """Return the errors, in units of the largest invisible error, and the milliseconds of the levels."""
+        """Return the errors, in units of the largest invisible error, and the milliseconds of the measured levels."""
         samples = self.samples.get(trial)
         return (
             None
@@ -75,7 +79,8 @@ class Costs:
             (float(xy[0][i]), float(xy[1][i]))
             for trial, name in levels.items()
             if (xy := self.curve(trial)) is not None
-            for i in ([*LEVELS].index(name),)
+            for i, one in enumerate(self.samples[trial])
+            if one.level == name
         ]
 
     def level(self, name: str) -> Sequence[Sequence[float]] | None:
@@ -97,6 +102,10 @@ class Costs:
             f"{trial.kind} cannot be measured: {found.reason}"
             for trial, found in self.found.items()
             if isinstance(found, Refused)
+        ] + [
+            f"{trial.kind} has no error to measure: all of it is chaotic, or there is nothing."
+            for trial, found in self.found.items()
+            if isinstance(found, tuple) and trial not in self.samples
         ]
         if self.enough:
             least = ", ".join(f"{trial.kind} {name}" for trial, name in self.enough.items())

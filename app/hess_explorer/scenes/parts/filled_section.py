@@ -351,7 +351,7 @@ class FilledSection(Part[_Host]):
         if len(counts) < len(fine):
             return None
         others = [count for each in counts[1:] for count in each]
-        return counts[0][0], typical(others) if others else None
+        return counts[0][0], typical(others)
 
     # ---- what is shown ------------------------------------------------------------------------------------------
 

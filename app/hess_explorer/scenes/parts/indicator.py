@@ -43,6 +43,9 @@ def colouring() -> Any:
     )
 
 
+_WAYS = ((1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0))
+
+
 class _Host(Sectioned, Protocol):
     @property
     def frame(self) -> Window:
@@ -72,7 +75,9 @@ class Indicator(Part[_Host]):
         """Return the arguments of `row_of_cells` for each row of cells as wide as `coarse` of the finest."""
         m, n = plan.grid(CELLS)
         cells = m // coarse, n // coarse
-        return [(self.host.poincare, self.host.frame, cells, row, self.time, plan.level) for row in range(cells[1])]
+        frame = self.host.frame
+        windows = (_aside(frame, cells, row) if plan.level.aside else frame for row in range(cells[1]))
+        return [(self.host.poincare, one, cells, row, self.time, plan.level) for row, one in enumerate(windows)]
 
     @cached_property
     def _cells(self) -> tuple[Array, int] | None:
@@ -111,6 +116,19 @@ class Indicator(Part[_Host]):
             n, m = values.shape
             between = float(np.mean((values > REGULAR) & (values <= CHAOTIC)))
             yield f"MEGNO {m} × {n} cells, {digits(100.0 * between, 2)} % between {REGULAR:g} and {CHAOTIC:g}"
+
+
+def _aside(frame: Window, cells: tuple[int, int], row: int) -> Window:
+    """Return the window in which the centres of a row of cells (m, n) lie a quarter of a cell aside.
+
+    A truth at the centres themselves would not see the size of the cells.  These are centres of a grid twice as fine,
+    one of four in each cell, in another direction from row to row.
+    """
+    (x0, y0), (x1, y1) = frame
+    right, up = (
+        0.25 * way * (high - low) / count for way, low, high, count in zip(_WAYS[row % 4], *frame, cells, strict=True)
+    )
+    return (x0 + right, y0 + up), (x1 + right, y1 + up)
 
 
 S = TypeVar("S", bound=State)

@@ -1,0 +1,85 @@
+"""Files of the user on a full disk: an earlier one stays whole, a new one is not there, and a sentence says why."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+from pytest import mark, raises
+
+import hess_explorer as hess
+from hess_explorer.__main__ import main
+from hess_explorer.offline import site
+from support.command_line import typed
+from support.disk import full_disk, names
+from support.mechanics import ROOT
+
+ORBIT = "orbit hess --a 0.5 --b 1 --omega 0.3,0.2 --gamma 0,0.6,0.8 --t 0:5:50"
+FULL = Path("/dev/full")
+
+
+def command(words):
+    def write(file):
+        if main(typed(f"{words} {file}")):
+            raise OSError
+
+    return write
+
+
+def saved(file):
+    state = hess.state("suslov-hess", accuracy="draft")
+    state.data("circle")
+    state.save(file, "circle")
+
+
+def page(file):
+    site._write(file, "suslov-hess", 2, site.HOME)
+
+
+WRITERS = [
+    (command(f"{ORBIT} --out"), "csv"),
+    (command("export --state accuracy=draft --picture circle --format json --out"), "json"),
+    (command("shot"), "png"),
+    (saved, "csv"),
+    (page, "html"),
+]
+
+
+@mark.parametrize("write, suffix", WRITERS, ids=["orbit", "export", "shot", "save", "site"])
+def test_an_earlier_file_stays_whole_on_a_full_disk(write, suffix, tmp_path, monkeypatch):
+    monkeypatch.setattr(site, "scene_page", lambda *_, **__: bytes(10_000))
+    monkeypatch.setattr("hess_explorer.headless.screenshot.screenshot", lambda *_, **__: bytes(10_000))
+    file = tmp_path / f"file.{suffix}"
+    file.write_bytes(b"earlier")
+    with full_disk(), raises(OSError):
+        write(file)
+    assert (file.read_bytes(), names(tmp_path)) == (b"earlier", [file.name])
+    write(file)
+    assert file.stat().st_size > 1000
+    assert names(tmp_path) == [file.name]
+
+
+def test_a_new_lesson_is_whole_or_not_there(tmp_path, capsys):
+    file = tmp_path / "first.md"
+    with full_disk():
+        assert main(["lesson", "new", str(file)]) == 2
+    assert "cannot be written: File too large." in capsys.readouterr().err
+    assert names(tmp_path) == []
+    assert main(["lesson", "new", str(file)]) == 0
+    assert file.stat().st_size > 1000
+
+
+@mark.skipif(not FULL.exists(), reason="a device of Linux")
+def test_a_standard_output_without_room_is_a_sentence():
+    with FULL.open("wb") as full:
+        ran = subprocess.run(
+            [sys.executable, "-m", "hess_explorer", *typed(ORBIT)],
+            cwd=ROOT,
+            stdout=full,
+            stderr=subprocess.PIPE,
+            check=False,
+        )
+    assert ran.returncode == 2
+    assert ran.stderr.splitlines()[-1] == (
+        b"hess-explorer: Cannot write to standard output (No space left on device): use --out FILE."
+    )
+    assert b"Traceback" not in ran.stderr and b"Exception" not in ran.stderr

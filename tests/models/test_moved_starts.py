@@ -1,0 +1,86 @@
+"""Helpers of tests of chaotic motions: starts moved by a few ulps, and how sure a statement about an ensemble is."""
+
+from math import inf, sqrt
+
+import numpy as np
+from pytest import approx, mark
+
+from hess_mechanics import (
+    Plane,
+    SuslovBody,
+    ensemble,
+    lyapunov_exponent,
+    lyapunov_spectrum,
+    megno,
+    megno_map,
+    regime,
+    return_map,
+    section,
+    section_points,
+    sections,
+    solve,
+    systems,
+    transition_matrix,
+)
+from hess_mechanics.dynamics.system import Problem
+from hess_mechanics.suslov.section import mean_divergence
+from support.deviations import deviations, mean_of
+from support.moved import FARTHEST, from_moved_starts, moved_starts
+
+BODY, START = systems()["suslov"].example_motion
+POINT = (0.3, 1.2)
+TIMES = np.linspace(0.0, 20.0, 21)
+EQUATOR = Plane((0.0, 0.0, 0.0, 0.0, 1.0), 0.0, 0)
+MAP = return_map(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), E=1.842, accuracy="draft")
+
+
+def test_every_component_moves_by_a_few_ulps_and_0_stays_0():
+    states = np.array([(0.5, -1.2, 0.6, 0.0, 0.8), (0.7, 3.0, 0.0, -0.8, 0.6), (0.5, -1.2, 0.6, 0.0, 0.8)])
+    plain = Problem.of(BODY, states).states
+    with moved_starts(1):
+        one = Problem.of(BODY, states).states
+    with moved_starts(2):
+        other = Problem.of(BODY, states).states
+    assert np.array_equal(Problem.of(BODY, states).states, plain)
+    assert np.array_equal(one == 0.0, plain == 0.0)
+    away = np.abs(one / np.where(plain, plain, 1.0) - 1.0)[plain != 0.0] * 2.0**52
+    assert np.all((away >= 1.0) & (away <= FARTHEST + 1.0))
+    assert not np.any(one[plain != 0.0] == other[plain != 0.0])
+    assert np.array_equal(one[0], one[2])
+
+
+ENTRIES = {
+    "solve": lambda: solve(BODY, START, TIMES).states,
+    "ensemble": lambda: ensemble(BODY, [START], TIMES, "draft").states,
+    "section": lambda: section(BODY, START, EQUATOR, 20.0, "draft").states,
+    "sections": lambda: sections(BODY, [START], EQUATOR, 20.0, "draft")[0].states,
+    "section_points": lambda: section_points(BODY, [START], EQUATOR, 20.0, "draft", 5).states[0],
+    "lyapunov_exponent": lambda: lyapunov_exponent(BODY, START, 20.0).rates,
+    "lyapunov_spectrum": lambda: lyapunov_spectrum(BODY, START, 20.0).values,
+    "megno": lambda: megno(BODY, [START], 20.0).values,
+    "megno_map": lambda: megno_map(MAP, cells=(2, 2), t=20.0).values,
+    "transition_matrix": lambda: transition_matrix(BODY, START, 20.0, "draft").matrices,
+    "mean_divergence": lambda: mean_divergence(SuslovBody(*BODY.parameters), START, 20.0).mean,
+    "return map": lambda: MAP.image(POINT),
+    "orbit of a return map": lambda: MAP.orbit(np.array(POINT), 5),
+    "derivative of a return map": lambda: MAP.with_derivative(np.array(POINT))[1],
+    "regime": lambda: regime(MAP, POINT, 10, 20, 20.0).places,
+}
+
+
+@mark.parametrize("name", ENTRIES)
+def test_every_computation_of_a_motion_begins_at_a_moved_start(name):
+    plain = ENTRIES[name]()
+    one, other, again = (*from_moved_starts(ENTRIES[name], 2), from_moved_starts(ENTRIES[name], 1)[0])
+    assert np.array_equal(one, again)
+    assert not np.array_equal(one, plain)
+    assert not np.array_equal(one, other)
+
+
+def test_deviations_are_those_of_the_mean_of_a_share_and_of_one_value():
+    assert deviations([1.0, 2.0, 3.0], 1.0) == approx(sqrt(3.0))
+    assert deviations([1.0, 2.0, 3.0], 1.0, of_each=True) == approx(1.0)
+    assert deviations([1.0, 2.0, 3.0], 4.0, sqrt(2.0 / 3.0)) == approx(-2.0)
+    assert deviations(np.ones(25, bool), 0.5) == approx(5.0)
+    assert deviations([2.0, 2.0], 3.0) == -inf
+    assert mean_of([1.0, 2.0, 3.0]) == approx((2.0, sqrt(1.0 / 3.0)))
