@@ -36,7 +36,7 @@ def test_a_branch_goes_through_the_fold_where_the_lock_ends(answer, as_table):
     assert "a = 0.7" in found["ended"]
     # The same as a table.
     facts, header, rows = as_table(*words)
-    assert header == ["a", "φ", "real1", "imag1", "kind", "error"]
+    assert header == ["a", "φ", "real1", "imag1", "time", "kind", "error"]
     assert [float(row[0]) for row in rows] == found["a"]
     assert facts["bifurcations"] == found["bifurcations"]
 

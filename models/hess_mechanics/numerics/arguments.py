@@ -152,6 +152,9 @@ def _fitted(name: str, kind: Any, value: Any) -> Any:
     """Return a value as its annotation describes it."""
     if type(value) is kind is not float:
         return value
+    if kind == Accuracy:
+        as_level(value)
+        return value
     origin, inner = _parts_of(kind)
     if origin in (Union, UnionType):
         return _one_of(name, inner, value)

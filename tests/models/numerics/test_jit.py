@@ -189,7 +189,8 @@ class Cancelled(Exception):
     """Raised by a request that nobody waits for."""
 
 
-def test_a_long_compilation_is_announced_and_ends_with_its_request(caplog):
+def test_a_long_compilation_is_announced_and_ends_with_its_request(caplog, tmp_path, monkeypatch):
+    monkeypatch.setattr(jit, "CACHE_FOLDER", tmp_path)
     double = announced(kernel(lambda x: 2.0 * x), "a double", 100.0)
     asked = []
 
