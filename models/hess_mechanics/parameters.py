@@ -485,6 +485,19 @@ GAMMA_CIRCLE = Parameter(
 TIME = Parameter(
     "t", "t", "Time", 50.0, (0.0, 200.0), 1.0, (-1e9, 1e9), "The last time; negative: backward.", "Computation", "time"
 )
+MAX_STEP = Parameter(
+    "max_step",
+    "Δt",
+    "Longest step",
+    0.0,
+    (0.0, 1.0),
+    0.001,
+    (0.0, 1e6),
+    "Longest step of the integration. Choose it below the width of the shortest pulse of the field; 0: a hundredth of "
+    "the time span for a field with functions, else no limit.",
+    "Computation",
+    "time",
+)
 SPAN = Parameter(
     "t",
     "t",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from hess_mechanics import (
     BallBody,
@@ -15,6 +16,7 @@ from hess_mechanics import (
     systems,
     unit_vector,
 )
+from hess_mechanics.dynamics.section import MAX_STEPS
 from hess_mechanics.dynamics.system import Body
 from hess_mechanics.parameters import (
     A_HESS,
@@ -23,6 +25,7 @@ from hess_mechanics.parameters import (
     FIELD,
     GAMMA,
     INVERSE_MOMENTS,
+    MAX_STEP,
     MOMENTUM,
     MU,
     OMEGA,
@@ -32,13 +35,14 @@ from hess_mechanics.parameters import (
     D,
 )
 
-from .command import Option, Options, number, vector
+from .command import Option, Options, number, vector, whole
 
 __all__ = [
     "BALL",
     "FREE_TENSOR",
     "HEAVY",
     "INNER_BALL",
+    "LIMITS",
     "MOTIONS",
     "START",
     "SUSLOV",
@@ -46,6 +50,7 @@ __all__ = [
     "ball_of",
     "check_of",
     "heavy_of",
+    "limits_of",
     "start_of",
     "suslov_of",
 ]
@@ -64,6 +69,17 @@ HEAVY = (
 )
 _VERTICAL = "the vertical at t = 0; normalised"
 START = (vector("--omega", OMEGA, "angular velocity at t = 0"), vector("--gamma", GAMMA, _VERTICAL))
+
+
+LIMITS = (
+    number(MAX_STEP, 0.0, name="--max-step"),
+    whole("--max-steps", 1, 10**12, "largest number of steps", MAX_STEPS),
+)
+
+
+def limits_of(options: Options) -> dict[str, Any]:
+    """Return the arguments `max_step` and `max_steps` of `solve` and `section`."""
+    return {"max_step": options.max_step or None, "max_steps": options.max_steps}
 
 
 def suslov_of(options: Options) -> SuslovBody:

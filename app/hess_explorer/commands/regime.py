@@ -53,8 +53,8 @@ def _compared(both: Dynamics) -> dict[str, Any]:
 COMMAND = command_of_sections(
     "Classify the motion of {section} from a point {place} after a transient: fixed point, periodic, quasi-periodic, "
     "chaotic or undecided, from its crossings, Newton's method, MEGNO and the 0-1 test; and report whether phase "
-    "volume shrinks.  With --dynamics, compare the limit sets forward and backward in time.  The results are numerical, "
-    "with error estimates, not proved.",
+    "volume around it shrinks.  With --dynamics, compare the limit sets forward and backward in time.  The results "
+    "are numerical, with error estimates, not proved.",
     "starting point of the motion",
     (
         whole("--transient", 0, 20_000, "number of crossings to skip", 300),

@@ -14,7 +14,7 @@ from hess_mechanics.parameters import F_HEAVY, H_HEAVY, TIME, L, X
 
 from .arguments import number as any_number
 from .command import OUTPUT, Command, Options, number, option, vector, whole
-from .motions import HEAVY, MOTIONS, check_of, heavy_of, start_of
+from .motions import HEAVY, LIMITS, MOTIONS, check_of, heavy_of, limits_of, start_of
 from .output import Answer, body_facts, quality, table
 
 __all__ = ["COMMAND"]
@@ -27,7 +27,7 @@ def _of_heavy(options: Options) -> Answer:
     plane = AndoyerSection(body, options.h, options.f)
     start = plane.state_at(*options.start)
     end = plane.time_for(options.crossings) if options.t is None else options.t
-    result = section(body, start, plane.surface, end, accuracy, options.crossings)
+    result = section(body, start, plane.surface, end, accuracy, options.crossings, **limits_of(options))
     l, x = plane.places_of(result.states).T
     return Answer(
         {
@@ -48,7 +48,7 @@ def _of_plane(name: str, options: Options) -> Answer:
     body, check = MOTIONS[name].given(options)
     start, notes = start_of(options)
     plane = Plane(options.plane, options.offset, options.sense)
-    result = section(body, start, plane, options.t, accuracy, options.crossings)
+    result = section(body, start, plane, options.t, accuracy, options.crossings, **limits_of(options))
     return Answer(
         {"t": result.times.tolist(), "y": result.states.tolist()},
         {"variables": list(body.system.variables), **_facts(result, start, check)},
@@ -85,6 +85,7 @@ def _plane(name: str, usual: tuple[float, ...] | None, example: str) -> Command:
             ),
             number(TIME),
             _COUNT,
+            *LIMITS,
             *OUTPUT,
         ),
         table(partial(_of_plane, name)),
@@ -109,6 +110,7 @@ COMMAND = Command(
                     required=False,
                 ),
                 _COUNT,
+                *LIMITS,
                 *OUTPUT,
             ),
             table(_of_heavy),

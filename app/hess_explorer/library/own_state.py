@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from hess_explorer.protocol.parameters import Value, Values, written
-from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, time_span
+from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, parameter, time_span
 from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import Closed
 from hess_explorer.scenes.framework.scene import State
@@ -20,6 +20,7 @@ from hess_explorer.scenes.parts.section import Section, crossings_of_each, start
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.system import ParametrizedSystem, System
 from hess_mechanics.dynamics.variable_section import VariableSection, variable_section
+from hess_mechanics.parameters import MAX_STEP
 
 __all__ = ["LevelState", "OwnState"]
 
@@ -34,6 +35,7 @@ class OwnState(State):
     span: float = time_span(30.0, 300.0)
     long: float = exponent_time(500.0, 5000.0, 2e4, "the exponent is")
     count: float = crossings_of_each()
+    max_step: float = parameter(MAX_STEP)
     accuracy: str = accuracy_level()
 
     system: ClassVar[System]
@@ -79,7 +81,7 @@ class OwnState(State):
     @part
     def orbit(self) -> Orbit:
         """The motion."""
-        return Orbit(self)
+        return Orbit(self, max_step=self.max_step)
 
     @part
     def exponent(self) -> Exponent:

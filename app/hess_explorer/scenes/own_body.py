@@ -36,7 +36,7 @@ from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.section import section
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.numerics.results import Array, SectionCrossings
-from hess_mechanics.parameters import I11, I13, I22, I23
+from hess_mechanics.parameters import I11, I13, I22, I23, MAX_STEP
 from hess_mechanics.rigid_body.own_body import OwnBody, Polynomial
 
 __all__ = ["SCENE", "OwnBodyState"]
@@ -144,6 +144,7 @@ class OwnBodyState(State):
     )
     lasts: float = time_span(40.0, 300.0)
     long: float = exponent_time(500.0, 5000.0, 2e4, "the exponent is")
+    max_step: float = parameter(MAX_STEP)
     accuracy: str = accuracy_level()
 
     @cached_property
@@ -187,7 +188,7 @@ class OwnBodyState(State):
     @part
     def orbit(self) -> Orbit:
         """The motion."""
-        return Orbit(self)
+        return Orbit(self, max_step=self.max_step)
 
     @part
     def exponent(self) -> Exponent:

@@ -75,11 +75,17 @@ def sample_times(body: Body, state: Array, span: float, weights: Array, sagitta:
 
 
 def sampled_orbit(
-    body: Body, state: Sequence[float], span: float, weights: Sequence[float], level: Accuracy, most: int = MOST_SAMPLES
+    body: Body,
+    state: Sequence[float],
+    span: float,
+    weights: Sequence[float],
+    level: Accuracy,
+    most: int = MOST_SAMPLES,
+    max_step: float | None = None,
 ) -> Orbit:
     """Return the orbit from `state` over `span` at the times that `sample_times` chooses.
 
-    weights (d,) : pixels per unit of each variable.  Raises the same errors as `solve`.
+    weights (d,) : pixels per unit of each variable; max_step : see `solve`, which raises the same errors.
     """
     times = sample_times(body, np.array(state), span, np.array(weights), SAGITTA, most)
-    return solve(body, state, times, level)
+    return solve(body, state, times, level, max_step=max_step)

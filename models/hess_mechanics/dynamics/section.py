@@ -322,10 +322,7 @@ class _Search:
         )
 
     def _apart(self, one: tuple[Array, Array], other: tuple[Array, Array]) -> float:
-        """Return the difference of the crossings of two runs, ∞ if these are not the same crossings.
-
-        It is that of the states or of the times, which is larger along a conservative motion.
-        """
+        """Return the difference of the states at the crossings of two runs, ∞ if these are not the same crossings."""
         (times, states), (other_times, others) = one, other
         both = min(len(states), len(others))
         off = float(np.abs(times[:both] - other_times[:both]).max(initial=0.0))
@@ -333,7 +330,7 @@ class _Search:
         extra = np.concatenate((times[both:], other_times[both:]))
         near = 10.0 * max(self.level.promise, off)
         same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - self.end) <= near)
-        return max(off, float(np.abs(states[:both] - others[:both]).max(initial=0.0))) if same else math.inf
+        return float(np.abs(states[:both] - others[:both]).max(initial=0.0)) if same else math.inf
 
 
 def time_error(safety: float, times: Array, others: Array) -> float:
@@ -389,8 +386,9 @@ def section(
     Notes
     -----
     Crossings are roots of the orbit's own Taylor polynomials.  Errors of states and times are measured as in `solve`,
-    crossing by crossing; both must keep the promise of the level, the times in units 1/ν.  If two runs find different
-    crossings, the more accurate one is used.
+    crossing by crossing.  The promise and the status of a level are those of the states.  The times have an error of
+    their own, which is the larger one along a conservative motion, where it grows with the time: choose a more exact
+    level if it is too large.  If two runs find different crossings, the more accurate one is used.
 
     Examples
     --------

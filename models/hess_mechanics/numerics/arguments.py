@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 from collections.abc import Callable, Mapping, Sequence
-from functools import wraps
+from functools import cache, wraps
 from numbers import Integral, Real
 from types import NoneType, UnionType
 from typing import Any, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints
@@ -150,7 +150,9 @@ def typed(function: Callable[P, T]) -> Callable[P, T]:
 
 def _fitted(name: str, kind: Any, value: Any) -> Any:
     """Return a value as its annotation describes it."""
-    origin, inner = get_origin(kind), get_args(kind)
+    if type(value) is kind is not float:
+        return value
+    origin, inner = _parts_of(kind)
     if origin in (Union, UnionType):
         return _one_of(name, inner, value)
     if isinstance(value, np.ndarray) and value.ndim == 0:
@@ -181,6 +183,12 @@ def _fitted(name: str, kind: Any, value: Any) -> Any:
     return value
 
 
+@cache
+def _parts_of(kind: Any) -> tuple[Any, tuple[Any, ...]]:
+    return get_origin(kind), get_args(kind)
+
+
+@cache
 def _is_class(kind: Any) -> bool:
     return get_origin(kind) is None and isinstance(kind, type) and not getattr(kind, "_is_protocol", False)
 

@@ -120,10 +120,7 @@ FIELDS = {
 def friction_at(eps, t):
     v = eps * np.arcsinh(np.sinh(2 / eps) * exp(-t / eps)) if 2 / eps < 700 else max(0.0, 2 - t)
     edges = sorted({v, min(2.0, max(v, 40 * eps)), 2.0})
-    x = sum(
-        quad(lambda w: w / np.tanh(w / eps) if w else eps, a, b, epsabs=1e-14)[0]
-        for a, b in pairwise(edges)
-    )
+    x = sum(quad(lambda w: w / np.tanh(w / eps) if w else eps, a, b, epsabs=1e-14)[0] for a, b in pairwise(edges))
     return x, v
 
 

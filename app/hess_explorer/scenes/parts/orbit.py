@@ -48,18 +48,21 @@ class _Host(Host, Protocol):
 class Orbit(Part[_Host]):
     """The orbit on show, from `start`.
 
-    accuracy : its level, if it is not the chosen one; most : the largest number of samples.
+    accuracy : its level, if it is not the chosen one; most : the largest number of samples; max_step : its longest
+    step, 0 without a limit.
     """
 
     accuracy: Callable[[], Level] | None = None
     most: int = 4000
+    max_step: float = 0.0
 
     @property
     def finding(self) -> Task:
         """The computation of its samples."""
         host = self.host
         level = self.work.level if self.accuracy is None else self.accuracy()
-        return Task(sampled_orbit, (host.body, host.start, host.lasts, host.weights, level, self.most))
+        step = self.max_step or None
+        return Task(sampled_orbit, (host.body, host.start, host.lasts, host.weights, level, self.most, step))
 
     @cached_property
     def path(self) -> results.Orbit:
