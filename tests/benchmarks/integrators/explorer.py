@@ -1,5 +1,7 @@
 """The method of this project: Taylor series of chosen order and tolerance, one run of each kernel."""
 
+import math
+
 import numpy as np
 
 from hess_mechanics import systems
@@ -15,6 +17,8 @@ _MAX_STEPS = 1_000_000
 # Orbits of one call: enough to fill the lanes of the kernel, few enough for two threads to end together.
 _BLOCK = 64
 _MAX_CROSSINGS = 1000
+_LONGEST = math.inf
+"""The field of the works is a polynomial, whose steps need no limit."""
 
 
 def _ladders(work):
@@ -27,7 +31,7 @@ def _orbit(work, order, tolerance, threads):
     start, p, out = work.initial[0], np.array(work.parameters), np.empty((work.times.size, 5))
 
     def run():
-        if integrate(start, p, work.times, order, tolerance, _MAX_STEPS, out) < 0:
+        if integrate(start, p, work.times, order, tolerance, _LONGEST, _MAX_STEPS, out)[0] < 0:
             out.fill(np.nan)
         return out
 
@@ -40,9 +44,11 @@ def _free_ensemble(work, order, tolerance, threads):
     p, gamma = np.array(work.parameters), work.initial[:, 2:]
     axes = np.hstack([np.tile(work.initial[0, :2], (3, 1)), np.eye(3)])
     carried, out = np.empty((3, 1, 5)), np.empty(work.initial.shape)
+    steps, ends = np.empty(3, np.int64), np.empty(3)
 
     def run():
-        if integrate(axes, p, work.times, order, tolerance, _MAX_STEPS, carried) < 0:
+        integrate(axes, p, work.times, order, tolerance, _LONGEST, _MAX_STEPS, carried, steps, ends)
+        if (steps < 0).any():
             carried.fill(np.nan)
         out[:, :2] = carried[0, 0, :2]
         np.matmul(gamma, carried[:, 0, 2:], out=out[:, 2:])
@@ -55,11 +61,14 @@ def _ensemble(work, order, tolerance, threads):
     """B2."""
     integrate = systems()["suslov"].ensemble
     p, out = np.array(work.parameters), np.empty((len(work.initial), 1, 5))
+    steps, ends = np.empty(len(out), np.int64), np.empty(len(out))
 
     def part(thread):
         for i in range(thread * _BLOCK, len(out), threads * _BLOCK):
             block = slice(i, i + _BLOCK)
-            if integrate(work.initial[block], p, work.times, order, tolerance, _MAX_STEPS, out[block]) < 0:
+            own = work.initial[block]
+            integrate(own, p, work.times, order, tolerance, _LONGEST, _MAX_STEPS, out[block], steps[block], ends[block])
+            if (steps[block] < 0).any():
                 out[block] = np.nan
 
     all_parts = shared(part, threads)
@@ -97,7 +106,7 @@ def _crossings(work, order, tolerance, threads):
     def part(thread):
         for i in range(thread, len(found), threads):
             found[i], _ = cross(
-                work.initial[i], p, normal, 0.0, 1, end, order, tolerance, _MAX_STEPS, times[i], states[i]
+                work.initial[i], p, normal, 0.0, 1, end, order, tolerance, _LONGEST, _MAX_STEPS, times[i], states[i]
             )
 
     all_parts = shared(part, threads)

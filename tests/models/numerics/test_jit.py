@@ -182,7 +182,7 @@ def test_systems_of_one_name_have_each_its_own_file(tmp_path, monkeypatch):
     texts = [path.read_text(encoding="utf-8") for path in tmp_path.rglob("same_orbit-*.py")]
     assert len(texts) == 2
     (grows,) = (text for text in texts if "# def rates(y, q, p, one):\n#     return ((p[0] * y[0]),)" in text)
-    assert "def same_orbit(y, p, times, order, tolerance, max_steps, out):" in grows
+    assert "def same_orbit(y, p, times, order, tolerance, longest, max_steps, out):" in grows
 
 
 class Cancelled(Exception):
