@@ -151,6 +151,7 @@ def test_an_example_of_the_quartic_potential_is_what_its_name_says(preset):
         assert body.h > abs(body.b3)
 
 
+@pytest.mark.chaotic
 @pytest.mark.parametrize("name", ["quartic", "ball-section"])
 def test_at_first_a_section_has_the_beginnings_of_all_its_orbits(name):
     values = {"count": 45.0, "h": 0.83}
@@ -166,9 +167,9 @@ def test_at_first_a_section_has_the_beginnings_of_all_its_orbits(name):
     assert len(first.section.own) == 45
     held = View(scenes()[name], values, dragging=True)
     assert (held.report.todo, len(held.result.section.own)) == ((), 30)
-    # At the draft, whose first points are the same to the eye.
+    # At the draft, whose first points are the same to the eye, but for an orbit or two that part fast.
     drawn = held.result.section.others.reshape(20, 30, 2)[:, :3]
-    assert drawn == approx(begun[:, :3], abs=3e-3)
+    assert np.sort(np.abs(drawn - begun[:, :3]).max(axis=(1, 2)))[-3] < 1e-3
 
 
 def test_a_click_chooses_where_the_orbit_starts():
