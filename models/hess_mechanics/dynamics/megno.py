@@ -45,6 +45,8 @@ _SAMPLES = 2400
 """Samples of ln|δ|; at least one per time 1/ν is needed."""
 _LONGEST = _SAMPLES * 100
 """Longest time span, in units of 1/ν."""
+_FEW = 8
+"""Motions up to which a return to the start is looked for; the cells of a map start beside unstable periodic orbits."""
 _LIMIT = 1e6
 _SHARE = 4
 
@@ -217,7 +219,7 @@ def megno(
         found[:, i] = y.mean(), *windows, max(scatter, float(np.abs(windows[1:] - windows[0]).max())) + floor
         require_finite_rates(found[:, i])
         state = problem.states[i] * problem.scale
-        reasons[i] = no_chaos(body, state, along, span, level, bool(y.mean() > CHAOTIC))
+        reasons[i] = no_chaos(body, state, along, span, level, count <= _FEW and bool(y.mean() > CHAOTIC))
 
     share(one, count, threads, _SHARE)
     return Megno(
