@@ -60,7 +60,7 @@ def of_order(order):
     body, state = HESS.example_motion
     times, out = np.array([1000.0]), np.empty((1, len(state)))
     start, parameters = np.array(state, float), np.array(body.parameters, float)
-    return lambda: HESS.orbit(start, parameters, times, order, math.exp(2.0 - 2.0 * order), 10**6, out)
+    return lambda: HESS.orbit(start, parameters, times, order, math.exp(2.0 - 2.0 * order), math.inf, 10**6, out)
 
 
 def of_orbits(orbits):

@@ -4,6 +4,7 @@ Operations are counted from the recursion that generates a kernel; a multiplicat
 limit is a loop of independent multiplications and additions, in as many vector registers as every processor has.
 """
 
+import math
 import re
 import sys
 from pathlib import Path
@@ -60,7 +61,8 @@ def steps_of(work, order, tolerance):
     """Return the steps of all orbits of a work."""
     suslov, parameters = systems()["suslov"], np.array(work.parameters)
     out = np.empty((1, 5))
-    return sum(suslov.orbit(start, parameters, work.times[-1:], order, tolerance, 10**6, out) for start in work.initial)
+    arguments = parameters, work.times[-1:], order, tolerance, math.inf, 10**6, out
+    return sum(suslov.orbit(start, *arguments)[0] for start in work.initial)
 
 
 def main():

@@ -241,7 +241,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
     """
     n, columns = recursion.variables, columns_of(recursion)
     expand, evaluate, check = expansion(recursion), evaluation(n), checked(recursion)
-    suspects, watched = suspicion(recursion), len(recursion.watched)
+    suspects, watched = suspicion(recursion), recursion.seen
     surface = surface or plane(n)
     along, height, counted, curved = surface.along, surface.height, surface.counted, surface.curved
     shorter = surface.shorter

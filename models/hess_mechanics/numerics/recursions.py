@@ -61,6 +61,11 @@ class Recursion:
         return self.variables + self.functions
 
     @property
+    def seen(self) -> int:
+        """Number of series that are observed or watched."""
+        return self.observed + len(self.watched)
+
+    @property
     def known(self) -> list[int]:
         """Number of series known before the first stage and after each stage; those with a rate come first."""
         return [self.moving + sum(self.stages[:i]) for i in range(len(self.stages) + 1)]

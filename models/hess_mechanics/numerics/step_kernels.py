@@ -62,7 +62,7 @@ def parts(recursion: Recursion) -> dict[str, Callable[..., Any]]:
 @cache
 def suspicion(recursion: Recursion) -> Callable[..., Any]:
     """Return the compiled suspects(seen, h, before): True if a step h after the step `before` must be checked."""
-    divisors = range(recursion.observed, recursion.observed + len(recursion.watched))
+    divisors = range(recursion.observed, recursion.seen)
     # Three orders are enough: if a divisor changes by higher ones alone, the first step has been checked.
     changes = [
         f"((abs(seen[3, {i}]) * h + abs(seen[2, {i}])) * h + abs(seen[1, {i}])) * h > {_RESOLVED!r} * abs(seen[0, {i}])"

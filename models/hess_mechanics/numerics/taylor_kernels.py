@@ -62,7 +62,7 @@ def expansion_source(recursion: Recursion) -> str:
     """
     pairs, known = recursion.pairs, recursion.known
     variables, moving = range(recursion.variables), range(recursion.moving)
-    observed = range(recursion.observed + len(recursion.watched))
+    observed = range(recursion.seen)
 
     def names(letter: str, end: int, start: int = 0) -> str:
         return "".join(f"{letter}{i}, " for i in range(start, end))
@@ -194,7 +194,7 @@ def orbit_integrator(recursion: Recursion) -> Callable[..., Any]:
     """
     n, columns = recursion.variables, columns_of(recursion)
     expand, evaluate, check = expansion(recursion), evaluation(n), checked(recursion)
-    suspects, watched = suspicion(recursion), len(recursion.watched)
+    suspects, watched = suspicion(recursion), recursion.seen
 
     @part
     def integrate(state, parameters, times, order, tolerance, longest, max_steps, out):

@@ -219,7 +219,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
     """
     recursion = of.recursion
     n, width, lanes, last_seen = recursion.variables, columns_of(recursion), _lanes(columns), recursion.observed - 1
-    watched = len(recursion.watched)
+    watched = recursion.seen
     expand, evaluate, check = expansion(recursion), evaluation(n), checked(recursion)
     suspects = suspicion(recursion)
     carry = compiled(carrying_source(of, lanes))["carry"]
@@ -229,7 +229,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
     @part
     def vary(state, frame, parameters, times, order, tolerance, max_steps, limit, states, frames, growth, divergence):
         c, left, right, inverses = workspace(order, n, width)
-        seen = np.zeros((order, last_seen + 1 + watched))
+        seen = np.zeros((order, watched))
         v = np.zeros((order + 1, n, lanes))
         moved = np.zeros((n, lanes))
         grown = np.zeros(columns)

@@ -44,7 +44,7 @@ def taylor_by_kernel(system, y, p, order):
     expand = oracle.uncompiled(system.recursion)["expand"]
     c, left, right, inverses = workspace.py_func(order, len(y), columns_of(system.recursion))
     c[0, : len(y)] = y
-    expand(c, left, right, inverses, p)
+    expand(c, left, right, inverses, p, np.zeros((order, system.recursion.seen)))
     return c[:, : len(y)].T
 
 
@@ -239,22 +239,20 @@ BAD_TIMES = [
 
 @some_systems
 @mark.parametrize(("times", "error", "words"), BAD_TIMES)
-def test_times_that_cannot_be_computed_raise_a_sentence(system, times, error, words, monkeypatch):
-    monkeypatch.setattr("hess_mechanics.dynamics.orbit.MAX_STEPS", 10_000)
+def test_times_that_cannot_be_computed_raise_a_sentence(system, times, error, words):
     assert issubclass(error, ModelError)
     with raises(error, match=words):
-        solve(*system.example_motion, times, "draft")
+        solve(*system.example_motion, times, "draft", max_steps=10_000)
 
 
 @some_systems
-def test_all_runs_of_one_request_share_one_budget_of_steps(system, monkeypatch):
+def test_all_runs_of_one_request_share_one_budget_of_steps(system):
     freely = solve(*system.example_motion, [100.0], "standard")
     # Enough for the first run alone and for the second alone, but not for both.
-    monkeypatch.setattr("hess_mechanics.dynamics.orbit.MAX_STEPS", int(0.75 * freely.cost.steps))
     with raises(WorkLimit, match="choose a shorter time span"):
-        solve(*system.example_motion, [100.0], "standard")
-    monkeypatch.setattr("hess_mechanics.dynamics.orbit.MAX_STEPS", freely.cost.steps + 2)
-    assert np.array_equal(solve(*system.example_motion, [100.0], "standard").states, freely.states)
+        solve(*system.example_motion, [100.0], "standard", max_steps=int(0.75 * freely.cost.steps))
+    enough = solve(*system.example_motion, [100.0], "standard", max_steps=freely.cost.steps + 2)
+    assert np.array_equal(enough.states, freely.states)
 
 
 @some_systems

@@ -45,7 +45,7 @@ def test_the_local_error_of_one_step_has_the_order_of_the_series(truth, order):
         )
         inverses = np.array([1 / mpmath.mpf(k + 1) for k in range(order)])
         c[0] = state
-        expand(c, left, right, inverses, parameters)
+        expand(c, left, right, inverses, parameters, np.empty((order, system.recursion.seen), object))
         errors = []
         for h in STEPS:
             increments = [0] * len(state)
@@ -58,7 +58,7 @@ def test_the_local_error_of_one_step_has_the_order_of_the_series(truth, order):
 def global_error(system, order, tolerance, end=10.0):
     state, parameters = (np.array(values) for values in system.example)
     out = np.empty((1, state.size))
-    steps = system.orbit(state, parameters, np.array([end]), order, tolerance, 100_000, out)
+    steps, _ = system.orbit(state, parameters, np.array([end]), order, tolerance, end, 100_000, out)
     return np.max(np.abs(out - solve(system.at(parameters), state, [end], "reference").states)), steps
 
 

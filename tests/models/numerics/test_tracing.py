@@ -168,13 +168,13 @@ def observed_jacobian(field, y, p, number=float):
     columns = columns_of(of.recursion)
     c, left, right = (np.full((2, size), zero, dtype=object) for size in (n, columns, columns))
     c[0] = y
-    seen = np.full((1, of.recursion.observed), zero, dtype=object)
+    seen = np.full((1, of.recursion.seen), zero, dtype=object)
     expand = uncompiled(of.recursion, number)["expand"]
     expand(c, left, right, np.array([number("1")], dtype=object), p, seen)
     found = np.full((n, n), zero, dtype=object)
     for place, value in zip((*of.moving, *of.fixed), seen[0], strict=False):
         found[place] = value
-    return found, seen[0, -1], of
+    return found, seen[0, of.recursion.observed - 1], of
 
 
 @mark.parametrize("field", FUNCTIONS_OF_FIELDS.values(), ids=FUNCTIONS_OF_FIELDS)

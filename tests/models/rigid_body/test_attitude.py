@@ -92,7 +92,7 @@ def test_every_field_can_follow_another_direction(system, parameters, omega):
     rng = np.random.default_rng(5)
     for _ in range(5):
         c[0, : n + 3] = y = rng.normal(size=n + 3)
-        expand(c, left, right, inverses, parameters)
+        expand(c, left, right, inverses, parameters, np.zeros((2, with_e.recursion.seen)))
         assert c[1, :n] == approx(system.field(y[:n], parameters), abs=1e-13)
         assert c[1, n : n + 3] == approx(np.cross(y[n:], omega(y)), abs=1e-13)
 
