@@ -167,5 +167,5 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
     rates = np.cumsum(growth) / times
     require_finite_rates(rates)
     later = rates[count // 2 :]
-    reason = no_chaos(body, np.array(state, float), along, span, level, True)
+    reason = no_chaos(body, problem, problem.states[0], along, span * problem.nu, level, True)
     return Exponent(frozen(times), frozen(rates), float(later.max() - later.min()), reason)

@@ -218,8 +218,8 @@ def megno(
         scatter = batch_error(volume[first - 1 :, None], times)[1][0]
         found[:, i] = y.mean(), *windows, max(scatter, float(np.abs(windows[1:] - windows[0]).max())) + floor
         require_finite_rates(found[:, i])
-        state = problem.states[i] * problem.scale
-        reasons[i] = no_chaos(body, state, along, span, level, count <= _FEW and bool(y.mean() > CHAOTIC))
+        grows = count <= _FEW and bool(y.mean() > CHAOTIC)
+        reasons[i] = no_chaos(body, problem, problem.states[i], along, float(t[-1]), level, grows)
 
     share(one, count, threads, _SHARE)
     return Megno(

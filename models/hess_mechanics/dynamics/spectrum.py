@@ -13,7 +13,6 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -28,11 +27,9 @@ from hess_mechanics.dynamics.orbit import (
     require_finite_states,
     require_steps,
 )
-from hess_mechanics.dynamics.section import Plane, section
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.dynamics.variation import frame_ahead, neighbours
-from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Accuracy, Computation, Status
+from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Accuracy, Computation, Level, Status
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
@@ -59,7 +56,7 @@ LIMIT = 1e2
 """Largest condition of the frame; it multiplies the truncation error of a step at most."""
 _SLOW = 1e-2
 """Smallest |f| of a moving orbit, in units in which states are O(1): errors of f(y) are divided by it."""
-_RESTS, _ESCAPES, _RETURNS = 1e-6, 10.0, 13
+_RESTS, _ESCAPES, _RETURNS = 1e-6, 10.0, 8
 """Largest |f| of a motion that has come to rest, and distance within which it has closed; least growth of the largest
 |y|, at least 1, from the first half of the time to the second of a motion that escapes: linear growth doubles it.  Both
 in units in which states are O(1).  Crossings of the plane across the motion at its start that are compared with it."""
@@ -291,30 +288,34 @@ def ensemble_mean(values: Array) -> tuple[float, float]:
     return float(whole.mean()), math.hypot(scatter, math.sqrt(float(shared.max(initial=0.0))))
 
 
-def no_chaos(body: Body, state: Array, states: Array, span: float, level: Accuracy, grows: bool) -> str:
+def no_chaos(body: Body, problem: Problem, start: Array, states: Array, span: float, level: Level, grows: bool) -> str:
     """Return why a motion is not chaotic, however its neighbours part; an empty string if there is no reason.
 
-    state (d,) is the start, states (n, d) are at even times of the span, in units of the problem.  Only if neighbours
-    part (`grows`) it is looked for a return to the start.
+    start (d,), states (n, d) at even times and the span are in units of the problem.  Only if neighbours part, `grows`,
+    is the motion searched for a return to its start.
     """
-    system, problem = body.system, Problem.of(body, [state])
-    if state.size - len(system.integrals(state.tolist(), list(body.parameters))) <= 2:
+    system, p = body.system, problem.parameters
+    if start.size - len(system.integrals((start * problem.scale).tolist(), list(body.parameters))) <= 2:
         return "flows of two dimensions have no chaos"
     last = states[-(len(states) // 4) - 1 :].T
     with np.errstate(all="ignore"):
-        rates = np.array(np.broadcast_arrays(*system.field(list(last), problem.parameters.tolist()), last[0])[:-1])
-    if float(np.linalg.norm(rates, axis=0).max()) < _RESTS:
+        rates = np.array(np.broadcast_arrays(*system.field(list(last), p.tolist()), last[0])[:-1])
+    if float(np.abs(rates).max()) < _RESTS:
         return "it rests"
-    early, late = (float(np.abs(one).max(initial=1.0)) for one in np.array_split(states, 2))
-    if late > _ESCAPES * early:
+    half = len(states) // 2
+    if float(np.abs(states[half:]).max()) > _ESCAPES * float(np.abs(states[:half]).max(initial=1.0)):
         return "it escapes"
     if grows:
-        ahead = np.array(system.field(state.tolist(), list(body.parameters)), float)
-        with suppress(ModelError):
-            plane = Plane(tuple(ahead.tolist()), float(ahead @ state))
-            returns = section(body, state, plane, span, level, _RETURNS).states / problem.scale
-            if np.any(np.abs(returns[1:] - problem.states[0]).max(axis=1) < _RESTS):
-                return "it is periodic"
+        ahead = np.array(system.field(start.tolist(), p.tolist()), float)
+        across = ahead / max(float(np.linalg.norm(ahead)), 1e-300)
+        times, returns = np.empty(_RETURNS), np.empty((_RETURNS, start.size))
+        longest = system.longest_step(level, span)
+        plane = across, float(across @ start), 0, span
+        number, _ = system.cross(start, p, *plane, level.order, level.tolerance, longest, MAX_STEPS, times, returns)
+        # The first crossing may be the start itself.
+        away = np.abs(returns[: max(number, 0)] - start).max(axis=1)
+        if np.any(away[np.abs(times[: max(number, 0)]) > _RESTS] < _RESTS):
+            return "it is periodic"
     return ""
 
 

@@ -81,9 +81,10 @@ class Regime(Part[_Host]):
             return Caption(
                 f"{kind}.", f"Attractor and repeller not distinguished; |mean div| < {digits(motion.bound, 1)}."
             )
-        if found.dynamics.verdict == "conservative":
-            because = motion.measure or "volume is preserved"
-            return Caption(f"{kind}. Conservative: {because}.")
+        if motion.volume_kept:
+            return Caption(f"{kind}. Conservative: volume is preserved.")
+        if motion.measure:
+            return Caption(f"{kind}. Conservative: mean div = 0.", f"{motion.measure[0].upper()}{motion.measure[1:]}.")
         div = f"div = {digits(motion.divergence, 2)} ± {digits(motion.divergence_error, 1)}"
         away = f"{digits(found.dynamics.distance, 2)} ± {digits(found.dynamics.distance_error, 1)} away"
         # Short enough for four lines in a small cell.
