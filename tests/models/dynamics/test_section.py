@@ -94,7 +94,9 @@ def test_crossings_are_those_that_an_integrator_of_another_family_finds(system):
 
 def crossings_by_kernel(system, state, parameters, normal, offset, end, tolerance):
     times, states = np.empty(10_000), np.empty((10_000, state.size))
-    found, steps = system.cross(state, parameters, normal, offset, 0, end, 18, tolerance, 1_000_000, times, states)
+    found, steps = system.cross(
+        state, parameters, normal, offset, 0, end, 18, tolerance, np.inf, 1_000_000, times, states
+    )
     return times[:found], states[:found], steps
 
 
@@ -228,7 +230,16 @@ def test_a_run_that_finds_other_crossings_than_the_more_exact_one_is_replaced_by
             offset = turning + depth
             (count, steps), (other_count, other_steps) = (
                 system.cross(
-                    *scaled, normal, offset / height, sense, 20.0 * nu, rung.order, rung.tolerance, 10_000, *room
+                    *scaled,
+                    normal,
+                    offset / height,
+                    sense,
+                    20.0 * nu,
+                    rung.order,
+                    rung.tolerance,
+                    rung.longest_step(20.0 * nu),
+                    10_000,
+                    *room,
                 )
                 for rung in (careless, careless.tightened())
             )

@@ -59,7 +59,7 @@ def coefficients(recursion, y, p, order, number=float):
     c, left, right = (np.full((order + 1, n), zero, dtype=object) for n in (len(y), columns, columns))
     c[0] = y
     inverses = np.array([1 / (zero + k + 1) for k in range(order)], dtype=object)
-    functions["expand"](c, left, right, inverses, p)
+    functions["expand"](c, left, right, inverses, p, np.full((order, recursion.seen), zero, dtype=object))
     return c
 
 
@@ -133,9 +133,9 @@ NOT_ARITHMETIC = {
 
 @mark.parametrize("field", NOT_ARITHMETIC.values(), ids=NOT_ARITHMETIC)
 def test_what_is_no_arithmetic_is_refused(field):
-    with raises(NotTraceable, match=r"^This field cannot be traced: .*") as caught:
+    with raises(NotTraceable, match="^This field (cannot be traced: |reads beyond its 2 variables)") as caught:
         trace(field, 2, 1)
-    assert "Use +, −, *, /" in str(caught.value) or "divides by 0" in str(caught.value)
+    assert any(words in str(caught.value) for words in ("Use +, −, *, /", "divides by 0", "the first index is 0"))
 
 
 @mark.parametrize("count", [1, 3])
