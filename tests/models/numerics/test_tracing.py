@@ -133,7 +133,7 @@ NOT_ARITHMETIC = {
 
 @mark.parametrize("field", NOT_ARITHMETIC.values(), ids=NOT_ARITHMETIC)
 def test_what_is_no_arithmetic_is_refused(field):
-    with raises(NotTraceable, match="^This field (cannot be traced: |reads beyond its 2 variables)") as caught:
+    with raises(NotTraceable, match=r"^This field (cannot be traced: |reads beyond its 2 variables)") as caught:
         trace(field, 2, 1)
     assert any(words in str(caught.value) for words in ("Use +, −, *, /", "divides by 0", "the first index is 0"))
 
