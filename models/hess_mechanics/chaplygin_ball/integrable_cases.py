@@ -26,7 +26,7 @@ import numpy as np
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.dynamics.section import Plane, section
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import Accuracy, Status
+from hess_mechanics.numerics.accuracy import LEVELS, Accuracy, Status
 from hess_mechanics.numerics.arguments import as_a, as_level, as_place
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Cost, facts_of
@@ -121,14 +121,17 @@ def period(body: BallBody, state: Sequence[float], accuracy: Accuracy = "precise
     least = min(body.I11, body.I22)
     nu = float(SYSTEM.frequency(given, p)) or 1.0
     end = _TURNS * math.sqrt(moment / least) / nu
-    found = section(body, given, _EITHER_WAY, end, level, crossings=2)
+    # The promise of a section is that of its states; here it holds for the time in units 1/ν, too.
+    for each in (level, *(one for one in LEVELS.values() if one.promise < level.promise)):
+        found = section(body, given, _EITHER_WAY, end, each, crossings=2)
+        error = 4.0 * found.time_error
+        if error * nu <= level.promise:
+            break
     speeds = np.abs(SYSTEM.field(list(found.states.T), body.parameters)[4]) if len(found.times) else np.zeros(1)
     if len(found.times) < 2 or np.min(speeds) <= _TOUCHES * nu:
         raise InvalidParameter(
             f"Up to t = {end:.6g} this orbit does not cross the equator γ3 = 0 twice: choose another start."
         )
     first, second = found.times.tolist()
-    error = 4.0 * found.time_error
-    # The status of a section is that of its states; the promise holds for the time in units 1/ν, too.
-    status = found.status if error * nu <= level.promise else level.status(error * nu)
+    status = Status.OK if error * nu <= level.promise else each.status(math.inf)
     return Period(2.0 * (second - first), (first, second), level.name, status, error, found.cost)
