@@ -106,8 +106,8 @@ def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: i
     system, at = problem.system, f"t = {t / problem.nu:.6g}"
     if code == STEP_LIMIT_REACHED:
         return WorkLimit(
-            f"This motion needs more than {max_steps} steps, which reach {at}: choose a shorter time span, a cheaper "
-            "accuracy or a larger `max_steps`."
+            f"This motion needs more than {max_steps} steps, which reach {at}: choose a shorter time span, longer steps "
+            "or a cheaper accuracy."
         )
     physical = state * problem.scale
     shown = ", ".join(f"{name} = {x:.6g}" for name, x in list(zip(system.variables, physical, strict=True))[:_SHOWN])
