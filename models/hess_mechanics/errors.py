@@ -35,7 +35,7 @@ class WorkLimit(ModelError):
     """A request that needs more steps than allowed."""
 
 
-class MotionEnds(ModelError):
+class MotionEnds(WorkLimit):
     """A motion that escapes to infinity in finite time, or reaches a state without finite rates."""
 
 

@@ -33,8 +33,8 @@ def test_visits_are_the_histogram_of_the_accurate_crossings_of_a_regular_orbit()
     exact = section(state.poincare, state.given, state.poincare.surface, 1e5, "precise", 400)
     counted, _, _ = np.histogram2d(*state.poincare.places_of(exact.states).T, bins=(32, 20), range=np.transpose(WHOLE))
     assert found.counts.sum() == found.points == 400
-    # A few points at the edge of a cell may lie in the next one.
-    assert np.abs(found.counts - counted.T).sum() <= 8
+    # One point in fifty at the edge of a cell may lie in the next one, as 400 points are computed at a coarser level.
+    assert np.abs(found.counts - counted.T).sum() <= 2 * 400 / 50
     more = visits(state.poincare, WHOLE, (32, 20), found.ends, 400, True, density._LEVEL)
     assert np.array_equal(more.after(found).counts, found.counts + more.counts)
     assert more.after(found).points == 800

@@ -22,7 +22,7 @@ import numpy as np
 from hess_mechanics.dynamics.system import System, in_units_of_time
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.numerics.tracing import constant
+from hess_mechanics.numerics.tracing import constant, positive
 from hess_mechanics.rigid_body.inertia import (
     MAX_RATIO,
     require_comparable,
@@ -122,7 +122,7 @@ def inverse_times(F: Sequence[Any], gamma: Sequence[Any], I11: Any, I22: Any, D:
     u1, u2, v1, v2 = I11 / J1, I22 / J2, D / J1, D / J2
     d = u1 * u2 + u1 * v2 * g1**2 + u2 * v1 * g2**2 + (u1 * v2 + u2 * v1 + v1 * v2 * square) * g3**2
     f1, f2 = F[0] / J1, F[1] / J2
-    z = (g1 * f1 + g2 * f2) / d
+    z = (g1 * f1 + g2 * f2) / positive(d)
     return f1 + v1 * (g1 * z), f2 + v2 * (g2 * z)
 
 

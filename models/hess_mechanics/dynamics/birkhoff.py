@@ -92,7 +92,7 @@ def irregularity(turns: Sequence[float], places: Array, precision: float) -> flo
 def bounded_series(turns: Sequence[float], places: Array) -> Array:
     """Return bounded functions along an orbit (n, m): cos and sin of angles, other coordinates over their range."""
     away = places - places.mean(axis=0)
-    size = max(float(np.ptp(away, axis=0).max()), 1e-300)
+    size = max(float(np.abs(away).max()), float(np.ptp(away, axis=0).max()), 1e-300)
     return np.column_stack(
         [
             one

@@ -84,7 +84,7 @@ def ensemble(
         Number of threads.  By default one per core, at most eight.
     max_step : float, optional
         Longest step, see `solve`.
-    max_steps : int, default 1 000 000
+    max_steps : int, default 2 000 000
         Largest number of steps of one orbit in one run.
 
     Returns

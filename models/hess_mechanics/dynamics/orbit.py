@@ -9,7 +9,7 @@ from numbers import Real
 import numpy as np
 
 from hess_mechanics.dynamics.system import Body, Problem, System
-from hess_mechanics.errors import InvalidParameter, ModelError, MotionEnds, WorkLimit
+from hess_mechanics.errors import InvalidParameter, MotionEnds, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_level, as_number, as_whole
 from hess_mechanics.numerics.field_values import Undefined
@@ -33,7 +33,7 @@ __all__ = [
     "unfinished",
 ]
 
-MAX_STEPS = 1_000_000
+MAX_STEPS = 2_000_000
 """Largest number of steps, unless another limit is given."""
 MAX_SAMPLES = 200_000
 _MOST_STEPS = 2**62
@@ -77,12 +77,12 @@ def require_steps(steps: int, too_long: str) -> None:
         raise WorkLimit(too_long)
     if steps == STOPPED:
         raise MotionEnds(
-            "The motion escapes to infinity or reaches a state without finite rates before this time: `solve` says "
-            "where. Choose a shorter time span."
+            "The motion exceeds the range of double precision, escapes to infinity or reaches a state without finite "
+            "rates, `solve` says where: choose a shorter time span or less extreme parameters."
         )
 
 
-def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: int) -> ModelError:
+def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: int) -> WorkLimit:
     """Return the error of a motion that could not be followed to its end.
 
     Parameters
@@ -100,14 +100,14 @@ def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: i
 
     Returns
     -------
-    ModelError
+    WorkLimit
         The time, and the variable or operation that ended the motion.
     """
     system, at = problem.system, f"t = {t / problem.nu:.6g}"
     if code == STEP_LIMIT_REACHED:
         return WorkLimit(
-            f"This motion needs more than {max_steps} steps, which reach {at}: choose a shorter time span, longer steps "
-            "or a cheaper accuracy."
+            f"This motion needs more than {max_steps} steps, which reach {at}: choose a shorter time span, longer "
+            "steps or a cheaper accuracy."
         )
     physical = state * problem.scale
     shown = ", ".join(f"{name} = {x:.6g}" for name, x in list(zip(system.variables, physical, strict=True))[:_SHOWN])
@@ -122,7 +122,10 @@ def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: i
         for ahead in (0.0, _AHEAD):
             rates = system.rates_with_rounding(state + ahead * rates, problem.parameters)[0]
     except Undefined as error:
-        return MotionEnds(f"At {at} the field {error}, where {shown}: end the motion before, or start elsewhere.")
+        return MotionEnds(
+            f"At {at} the field {error}, where {shown}: choose a shorter time span, another start or less extreme "
+            "parameters."
+        )
     fastest = int(np.argmax(np.abs(rates)))
     return MotionEnds(
         f"At {at} no step is short enough: the rate of {system.variables[fastest]} reached {rates[fastest]:.3g} or "
@@ -226,7 +229,7 @@ def solve(
     max_step : float, optional
         Longest step, in the unit of time.  By default a hundredth of the time span for a field with functions, else
         none.  Choose it shorter than the shortest pulse of the field: see Notes.
-    max_steps : int, default 1 000 000
+    max_steps : int, default 2 000 000
         Largest number of steps of all runs together.
 
     Returns

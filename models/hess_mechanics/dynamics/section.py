@@ -12,7 +12,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.orbit import as_max_step, drift_of, require_finite_states, unfinished
 from hess_mechanics.dynamics.system import Body, Problem, System
-from hess_mechanics.errors import InvalidParameter, ModelError, MotionEnds, WorkLimit
+from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_level, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result, components
@@ -587,14 +587,14 @@ def section_points(
             start = points[-1]
         return np.concatenate(pieces)[:crossings] * search.problem.scale, steps
 
-    refused: list[ModelError] = []
+    refused: list[WorkLimit] = []
 
     def one(orbit: int) -> None:
         # A single orbit beyond the limit stops the whole section.
         if not refused:
             try:
                 found[orbit] = follow(orbit)
-            except (WorkLimit, MotionEnds) as error:
+            except WorkLimit as error:
                 refused.append(error)
 
     share(one, count, threads, _SHARE)

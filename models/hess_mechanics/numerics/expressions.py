@@ -92,6 +92,7 @@ class Tape:
         self._nodes: dict[tuple[Any, ...], Node] = {}
         self._derivatives: dict[tuple[Node, Node | None], Node] = {}
         self._rates: Sequence[Node] = ()
+        self.positive: set[Node] = set()
 
     def _node(self, operation: str, arguments: tuple[Node, ...], value: Any, moves: bool, started: bool) -> Node:
         key = (operation, *map(id, arguments), value)
@@ -285,6 +286,11 @@ class Symbol:
     def at_start(self) -> Symbol:
         """Return its value at the start of a step, see `constant`."""
         return Symbol(self.tape, self.tape.start(self.node))
+
+    def as_positive(self) -> Symbol:
+        """Return the symbol, which has no zero, see `positive`."""
+        self.tape.positive.add(self.node)
+        return self
 
     def _refuse(self, *_: Any) -> NoReturn:
         raise NotTraceable(

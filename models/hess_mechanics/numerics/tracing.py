@@ -28,7 +28,7 @@ from typing import Any
 from hess_mechanics.numerics.expressions import ALLOWED, Node, NotTraceable, Symbol, Tape
 from hess_mechanics.numerics.recursions import Recursion, Series, below
 
-__all__ = ["Field", "check", "constant", "derivative", "expressions", "trace"]
+__all__ = ["Field", "check", "constant", "derivative", "expressions", "positive", "trace"]
 
 _SATURATED = ("exp", "sinh", "cosh", "tanh")
 
@@ -42,6 +42,11 @@ def constant(x: Any) -> Any:
     A traced field uses its value at the start of a step for the whole step.
     """
     return x.at_start() if isinstance(x, Symbol) else x
+
+
+def positive(x: Any) -> Any:
+    """Return x and declare that it has no zero, so that a quotient by it is as regular as its series."""
+    return x.as_positive() if isinstance(x, Symbol) else x
 
 
 def derivative(x: Any, y: Symbol) -> Any:
@@ -65,7 +70,10 @@ def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> R
     functions = tape.functions(found, variables)
     watched = [(node.operation, node.arguments[0]) for node in functions if node.operation in _SATURATED]
     quotients = [node for node in below(found[:variables]) if node.operation == "/" and node.arguments[1].moves]
-    divisors = [*(node.arguments[1] for node in quotients), *(node for node in functions if node.operation == "sqrt")]
+    divisors = [
+        *(node.arguments[1] for node in quotients if node.arguments[1] not in tape.positive),
+        *(node for node in functions if node.operation == "sqrt"),
+    ]
     watched += [("/", node) for node in dict.fromkeys(divisors)]
     rates = [*found[:variables], *functions.values(), *found[variables:], *(node for _, node in watched)]
     kinds = tuple(kind for kind, _ in watched)

@@ -61,7 +61,7 @@ __all__ = [
     "turning",
 ]
 
-_MAX_STEPS = 100_000
+_MAX_STEPS = 200_000
 _MAX_SHAPE = 1e4
 """Limit of K + κ + |c|: the work and the round-off grow with it."""
 

@@ -53,7 +53,8 @@ def test_a_strange_attractor_is_chaotic_and_shrinks_as_its_exponents_say():
     P = return_map(STRANGE, E=STRANGE_E, accuracy="standard")
     places = spread(P.section, 16)
     found = [regime(P, place, t=2000.0) for place in places]
-    assert {(one.kind, one.volume) for one in found} == {(MotionKind.CHAOTIC, -1)}
+    # A single motion may be too short to tell that volume shrinks, but none may say that it grows.
+    assert {one.kind for one in found} == {MotionKind.CHAOTIC} and {one.volume for one in found} <= {-1, 0}
     assert deviations([one.divergence / one.divergence_error for one in found], -3.0) < -5.0
     several = [lyapunov_spectrum(STRANGE, P.state_at(one.places[-1]), 8000.0) for one in found]
     assert deviations([one.values[0] for one in several], 0.05) > 5.0
@@ -335,4 +336,5 @@ def test_a_verdict_survives_twice_the_time_another_start_and_a_rounding(motion, 
         regime(P, np.nextafter(place, 10.0)),
         regime(P, np.nextafter(place, -10.0)),
     ]
-    assert {(one.kind, one.period, one.volume) for one in others} == {(kind, found.period, found.volume)}
+    assert {(one.kind, one.period) for one in others} == {(kind, found.period)}
+    assert len({one.volume for one in (found, *others)} - {0}) <= 1

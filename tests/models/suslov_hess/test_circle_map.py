@@ -288,7 +288,7 @@ def test_a_grid_never_hides_a_point_that_took_too_many_steps():
 test_a_without_meaning_and_a_search_without_an_answer_raise_a_sentence = refused(
     (lambda: circle_map(1e7, 1.5, 0.6, DRAFT), "a = 1e\\+07 is too large"),
     (lambda: lock_boundary(nan, DRAFT), "a is not a finite number"),
-    (lambda: critical_a(1.5, 0.6, DRAFT, high=nan), "a is not a finite number"),
+    (lambda: critical_a(1.5, 0.6, DRAFT, high=nan), "high is not a finite number"),
     (lambda: rotation_number_grid(nan, [0.5], [0.1], DRAFT), "a is not a finite number"),
     (lambda: circle_map(1e6, 1e8, 0.6, DRAFT), "too many steps: choose smaller a", WorkLimit),
     (lambda: lock_boundary_f(0.5, -0.5, DRAFT), "no f between"),
