@@ -147,7 +147,7 @@ def ensemble(
             out[todo] = found
         if current.is_floor:
             todo = todo[scaled_errors[todo] > UNSURE]
-            third, more, _ = run(problems[current.aside], todo, tighter.tightened())
+            third, more, _ = run(problems[current.aside], todo, current.varied())
             total += int(np.maximum(more, 0).sum())
             difference = np.abs(out[todo] - third)
             difference[more < 0] = np.inf

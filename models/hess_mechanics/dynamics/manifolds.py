@@ -354,7 +354,7 @@ def _error(curve: _Curve, points: Array, parameters: Array) -> float:
     """Return the largest distance, across the curve, of sampled points from those of a more accurate map."""
     better = replace(curve, map_=curve.map_.tightened())
     off, last = -math.inf, len(points) - 1
-    for i in np.unique(np.linspace(min(1, last), max(0, last - 1), _CHECKED).astype(int)):
+    for i in np.unique(np.linspace(1, max(1, last - 1), _CHECKED).astype(int)):
         try:
             there = better.at(float(parameters[i]))
         except ModelError:

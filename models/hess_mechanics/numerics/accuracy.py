@@ -130,6 +130,16 @@ class Level:
         tolerance = self.tolerance * 1e-2 if self.tolerance > 200.0 * FLOOR_TOLERANCE else FLOOR_TOLERANCE
         return Level(self.name, self.promise, tolerance, order, not self.aside)
 
+    def varied(self) -> Level:
+        """Return a level as accurate as this one, whose runs make other roundings.
+
+        Returns
+        -------
+        Level
+            The level with another order.
+        """
+        return replace(self, order=self.order - 2)
+
 
 FLOOR_TOLERANCE = 1e-17
 

@@ -139,7 +139,7 @@ def measured(level: Level, run: Callable[[Level, int], tuple[R, int]], apart: Ca
         if error <= level.promise or current.is_floor:
             result, other = (second, first) if current.aside else (first, second)
             if current.is_floor and error > UNSURE:
-                third, taken = run(tighter.tightened(), steps)
+                third, taken = run(current.varied(), steps)
                 steps += taken
                 further = apart(result, third)
                 if further > off:
