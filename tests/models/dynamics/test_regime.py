@@ -85,11 +85,15 @@ def test_where_volume_is_kept_dynamics_are_conservative_and_curves_stay_curves()
 def test_a_sea_whose_volume_shrinks_is_not_conservative_and_shows_the_number_that_is_judged():
     """DOP853 with its own divergence: −0.00690 ± 0.00031 over t = 2·10⁵."""
     P = return_map(SuslovBody(1.5, 1.7, 0.1, -0.3, -1.7, 1.0, 2.0), E=-0.9089144, accuracy="standard")
-    sea = dynamics_of(P, (-1.0063, 1.1872), 500, 1500, 12_000.0)
-    assert sea.motion.kind is MotionKind.CHAOTIC
-    assert abs(sea.motion.divergence + 0.0069) <= 5.0 * math.hypot(sea.motion.divergence_error, 0.00031)
-    assert (sea.verdict, sea.motion.volume) == ("mixed", -1)
-    assert f"{sea.motion.divergence:.3g}" in sea.motion.sentence
+    seas = [dynamics_of(P, (-1.0063 + 1e-9 * i, 1.1872), 500, 1500, 12_000.0) for i in range(6)]
+    assert {sea.motion.kind for sea in seas} == {MotionKind.CHAOTIC}
+    found = [sea.motion.divergence for sea in seas]
+    assert deviations(found, 0.0) < -5.0
+    for sea in seas:
+        assert abs(sea.motion.divergence + 0.0069) <= 5.0 * math.hypot(sea.motion.divergence_error, 0.00031)
+        # One motion may be too short to tell, but none may say that volume is kept or grows.
+        assert (sea.verdict, sea.motion.volume) in (("mixed", -1), ("not told apart", 0))
+        assert sea.motion.volume == 0 or f"{sea.motion.divergence:.3g}" in sea.motion.sentence
     # Over a short time such motions are not told apart, and that is said with a bound.
     short = [regime(P, place, t=50.0) for place in spread(P.section, 36)]
     assert deviations(np.array([one.volume == 0 for one in short]), 0.25) > 5.0
