@@ -227,9 +227,9 @@ def test_beside_a_saddle_nothing_underflows(name):
     found = solve(saddle.at(), (1e-300, 0.0), [690.0], name)
     with mpmath.workdps(330):
         exact = mpmath.mpf(1e-300) * mpmath.cosh(690)
-    assert (
-        abs(found.states[0, 0] - float(exact)) <= 3.0 * found.error_estimate <= 3.0 * max(LEVELS[name].promise, 1e-12)
-    )
+    # Roundings of 300 steps in which x grows make 1e-15 of it, in which two runs may agree by chance.
+    assert abs(found.states[0, 0] - float(exact)) <= 3.0 * found.error_estimate + 1e-14
+    assert found.error_estimate <= max(LEVELS[name].promise, 1e-12)
 
 
 # ---- times of crossings -----------------------------------------------------------------------------------------
