@@ -452,8 +452,8 @@ def test_next_to_an_unstable_equilibrium_no_error_is_more_than_its_estimate_says
     )
     said = np.array([orbit.error_estimate for orbit in found])
     assert np.max(true / said) < 3.0
-    # No false alarm: a start is moved by six roundings and more, and at the floor the largest of three runs counts.  With
-    # one processor's instructions the median of these twelve ratios was 104.
+    # No false alarm: a start is moved by six roundings and more, and at the floor the largest of three runs counts.
+    # With one processor's instructions the median of these twelve ratios was 104.
     assert np.median(said / np.maximum(true, 1e-16)) < 300.0
 
 
