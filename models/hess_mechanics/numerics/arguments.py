@@ -31,7 +31,7 @@ __all__ = [
 P = ParamSpec("P")
 T = TypeVar("T")
 _MOST_CELLS = 100_000
-_LARGEST = 2**63 - 1
+_LARGEST, _SHOWN = 2**63 - 1, 40
 _EXAMPLES = {str: "'x'", float: "1.5", int: "2"}
 _WORDS: dict[type, str] = {bool: "True or False", str: "a text", NoneType: "None"}
 
@@ -198,6 +198,8 @@ def _is_class(kind: Any) -> bool:
 
 def _one_of(name: str, kinds: Sequence[Any], value: Any) -> Any:
     """Return a value as one of several annotations describes it."""
+    if isinstance(value, np.ndarray) and value.ndim and any(_parts_of(kind)[0] is np.ndarray for kind in kinds):
+        return _as_array(name, value)
     classes = tuple(kind for kind in kinds if _is_class(kind) and kind not in (float, int))
     if isinstance(value, classes):
         return value
@@ -227,8 +229,10 @@ def _as_array(name: str, value: Any) -> Any:
 
 def _short(value: Any) -> str:
     """Return the beginning of the representation of a value; integers of thousands of digits have none."""
+    if isinstance(value, (list, tuple)):
+        value = value[:_SHOWN]
     try:
-        text = repr(value)
+        text = f"an array of shape {value.shape}" if isinstance(value, np.ndarray) else repr(value)
     except ValueError:
         text = "a very large integer"
     return text if len(text) <= 80 else f"{text[:80]}…"
