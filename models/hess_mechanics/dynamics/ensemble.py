@@ -8,11 +8,11 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS, as_max_step, checked_times, drift_of, unfinished
+from hess_mechanics.dynamics.orbit import MAX_STEPS, as_max_step, as_max_steps, checked_times, drift_of, unfinished
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
-from hess_mechanics.numerics.arguments import as_level, as_whole
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.measured import SAFETY, UNSURE, safety_of
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.results import Array, Cost, Ensemble, frozen
@@ -118,7 +118,7 @@ def ensemble(
         raise WorkLimit(f"{count} orbits at {t.size} times are too many: choose fewer of one or the other.")
     scaled_times = problem.times(t)
 
-    longest, most_steps = as_max_step(max_step, problem), as_whole("max_steps", max_steps, 1, 2**62)
+    longest, most_steps = as_max_step(max_step, problem), as_max_steps(max_steps)
 
     def run(own: Problem, chosen: slice | Indices, at: Level) -> tuple[Array, Indices, Array]:
         system, states, p = own.system, own.states[chosen], own.parameters

@@ -21,6 +21,7 @@ __all__ = [
     "MAX_SAMPLES",
     "MAX_STEPS",
     "as_max_step",
+    "as_max_steps",
     "checked_span",
     "checked_times",
     "drift_of",
@@ -132,6 +133,11 @@ def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: i
         f"jumps, where {shown}. End the motion before, or find the event with `section` and go on from it with a "
         "system for the next case."
     )
+
+
+def as_max_steps(max_steps: int) -> int:
+    """Return a limit of the number of steps.  Raises `InvalidParameter`."""
+    return as_whole("max_steps", max_steps, 1, _MOST_STEPS)
 
 
 def as_max_step(max_step: float | None, problem: Problem) -> float:
@@ -275,7 +281,7 @@ def solve(
     problem = Problem.of(body, [state])
     scaled_times = problem.times(times)
     longest = as_max_step(max_step, problem)
-    most_steps = as_whole("max_steps", max_steps, 1, _MOST_STEPS)
+    most_steps = as_max_steps(max_steps)
     nearby = problem.nearby()
     problems = [problem, nearby]
 

@@ -10,11 +10,11 @@ from typing import Protocol
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import as_max_step, drift_of, require_finite_states, unfinished
+from hess_mechanics.dynamics.orbit import as_max_step, as_max_steps, drift_of, require_finite_states, unfinished
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
-from hess_mechanics.numerics.arguments import as_level, as_whole
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.parallel import THREADS, share
@@ -254,7 +254,7 @@ class _Search:
         plane.scaled(body.system, problem)
         starts = np.array(states, float, ndmin=2)
         longest = as_max_step(max_step, problem)
-        most = as_whole("max_steps", max_steps, 1, 2**62)
+        most = as_max_steps(max_steps)
         return cls(body, plane, starts, problem, end * problem.nu, level, crossings, longest, most)
 
     def run(
