@@ -297,7 +297,8 @@ class Quartic(State):
         yield f"ω(0) = {vector(self.start[:2])}"
         if self.orbit.asked("path"):
             yield f"H = ½ to {power(model.level_error(self.body, self.orbit.path.states))}"
-        yield "Integrable" if self.body.integrable else "Not integrable"
+        if self.body.integrable:
+            yield "Integrable"
         yield "div v = 0: the standard measure"
 
 

@@ -270,7 +270,7 @@ class RotationNumber(State):
                 "All orbits of this torus are periodic.",
                 f"ρ = {rho} at {self.line} = {place}: {difference} ≤ {defect}.",
             )
-        return Caption("The only plateau is ρ = 0." if self.perturbed is None else f"No torus here has ρ = {rho}.")
+        return Caption("ρ locks at 0 only." if self.perturbed is None else f"No torus with ρ = {rho} is seen here.")
 
     def _about_circle(self) -> Caption:
         if self.map is None:
@@ -397,13 +397,13 @@ SCENE = Scene(
     group="Heavy body",
     essential=("a", "h", "f"),
     title="Rotation number",
-    summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? One plateau, and a family that has many.",
+    summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? No: one plateau, and a family that has many.",
     views=(
         Plot(
             name="map",
             title=lambda s: f"Rotation number ρ over ({s.over})",
             axes=lambda s: s.sides,
-            caption=lambda s: Caption("The only plateau is ρ = 0.", "Elsewhere ρ is nowhere constant."),
+            caption=lambda s: Caption("ρ locks at 0 only."),
             x=lambda s: s.window[0],
             y=lambda s: s.window[1],
             on_click=lambda s, x, y: {s.sides[0]: x, s.sides[1]: y},
