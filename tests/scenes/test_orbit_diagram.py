@@ -152,7 +152,7 @@ def test_the_saddle_focus_of_the_spiral_meets_the_condition_of_shilnikov_and_its
         # Backward in time along the line on which motions come: this one nearly comes back, and passes on one side.
         line, across = vectors[:, last].real, np.linalg.inv(vectors)[last].real
         start = rest + 1e-6 * line / line[4]
-        back = followed(lambda _, y: -field(body, y), start, np.linspace(0.0, 36.0, 361))[300:] - rest  # noqa: B023
+        back = followed(lambda _, y: -field(body, y), start, np.linspace(0.0, 36.0, 361))[300:] - rest
         assert np.linalg.norm(back, axis=1).min() < 0.1
         leaves.append(np.sign(back[-1] @ across * line[4]))
     assert leaves[0] == -leaves[1]
