@@ -39,7 +39,7 @@ def test_the_circle_map_of_an_example_is_as_its_caption_says(name):
     (rho,) = view.numbers("circle", "ρ = #.")
     assert rho == approx(iterated(*torus), abs=2e-4)
     hyperbolic = circle_map(*torus, REFERENCE).trace > 2.0
-    assert ("two cycles" if hyperbolic else "no cycle") in view.text["circle"]
+    assert ("two limit cycles" if hyperbolic else "no cycle") in view.text["circle"]
     assert (rho == 0.0) == hyperbolic
     assert view.notes == []
     view.assert_finite()
@@ -140,7 +140,7 @@ def test_the_map_of_an_example_shows_the_number_where_it_belongs(name):
 
 
 def test_tori_lock_at_0_only_and_no_multiplier_exceeds_that_of_the_pendulum():
-    """The corollary of section 4 of `proofs.md`."""
+    """The corollary of section 2 of `proofs.md`."""
     rng = np.random.default_rng(3)
     kinds = set()
     for _ in range(200):

@@ -275,9 +275,8 @@ class RotationNumber(State):
     def _about_circle(self) -> Caption:
         if self.map is None:
             return Caption("Separatrix: no return.")
-        kind = {"elliptic": "no cycle", "parabolic": "one cycle", "hyperbolic": "two cycles"}[self.map.kind]
         return Caption(
-            f"{self.map.kind.capitalize()}: {kind}.",
+            f"{self.map.kind.capitalize()}: {circle.cycles(self.map)}.",
             f"a = {digits(self.a)}, h = {digits(self.h)}, f = {digits(self.f)}; "
             f"ρ = {digits(self.map.rotation_number)}.",
         )
