@@ -363,3 +363,6 @@ def test_where_there_are_no_separatrices_the_picture_says_why():
     assert view.text["split"].split("\n")[1] == "No separatrices are found here."
     assert "no limit cycles here" in view.data["split-message"]["text"][0].replace("\n", " ")
     assert "splits" not in " ".join(view.report.notes)
+    # A split that is smaller than its error is not denied.
+    view = View(EP, {"orbits": 0.0, "count": 20.0, "away": 1e-12}, seen=["split"])
+    assert view.text["split"].split("\n")[1].startswith("No split is seen. Less than ")

@@ -396,7 +396,7 @@ SCENE = Scene(
     group="Heavy body",
     essential=("a", "h", "f"),
     title="Rotation number",
-    summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? No: one plateau, and a family that has many.",
+    summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? It has one plateau; another family has many.",
     views=(
         Plot(
             name="map",
