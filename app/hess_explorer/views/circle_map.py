@@ -20,7 +20,7 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.invariant_measure import invariant_measure
 
-__all__ = ["EVENLY", "about", "cobweb", "look", "picture", "riccati_matrix"]
+__all__ = ["EVENLY", "about", "cobweb", "cycles", "look", "picture", "riccati_matrix"]
 
 S = TypeVar("S")
 Click = Callable[[S, float, float], Values]
@@ -174,10 +174,3 @@ def riccati_matrix(theta: CircleMap) -> str:
         f"Riccati matrix α = {digits(alpha.real)} {'−' if alpha.imag < 0.0 else '+'} {digits(abs(alpha.imag))} i, "
         f"β = {digits(beta.imag)} i"
     )
-
-
-def about_cycles(theta: CircleMap) -> Caption:
-    """Return the cycles of a map, and its trace."""
-    multipliers = ", ".join(digits(point.multiplier) for point in theta.fixed_points)
-    numbers = f"Multipliers {multipliers}" if multipliers else f"ρ = {digits(theta.rotation_number)}"
-    return Caption(f"{cycles(theta).capitalize()}.", f"{numbers}; |trace| = {digits(theta.trace)}.")
