@@ -133,7 +133,7 @@ LIMITS = {
     "to and fro, at h = 0.3": of("h"),
     "in the limit $f\\to 0$, where the trace tends to 0.": lambda s: (0.0, here(s).trace),
     "after two swings": lambda s: (2.0,),
-    "in this family only at 0": lambda s: (circle_map(0.5, 1.5, 0.6, PRECISE).rotation_number,),
+    "only one step was seen, at 0": lambda s: (circle_map(0.5, 1.5, 0.6, PRECISE).rotation_number,),
     "Where the trace is less than 2, the": lambda s: (2.0,),
     "With $a$ = 3 the contraction is fierce: one swing leaves 1.5·10⁻⁸": lambda s: (
         a_of(s),

@@ -297,8 +297,7 @@ class Quartic(State):
         yield f"ω(0) = {vector(self.start[:2])}"
         if self.orbit.asked("path"):
             yield f"H = ½ to {power(model.level_error(self.body, self.orbit.path.states))}"
-        if self.body.integrable:
-            yield "Integrable"
+        yield "Integrable" if self.body.integrable else "Not integrable"
         yield "div v = 0: the standard measure"
 
 
