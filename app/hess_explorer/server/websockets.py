@@ -19,6 +19,7 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.connection import Connection
 from hess_explorer.page.opening import query_of
+from hess_explorer.protocol.messages import ALIVE
 from hess_explorer.server.capacity import Capacity
 from hess_explorer.server.hosts import is_allowed_origin
 from hess_explorer.server.limits import OPEN_SOCKETS, RateLimit
@@ -107,7 +108,10 @@ class StateSocket(WebSocketHandler):
         except (ValueError, RecursionError):
             self.close(1007, NO_JSON)
         else:
-            self._connection.receive(request)
+            if request == ALIVE:
+                self._send("")
+            else:
+                self._connection.receive(request)
 
     def on_close(self) -> None:
         """End the session, because the page has closed."""
@@ -116,6 +120,6 @@ class StateSocket(WebSocketHandler):
             self._connection.end()
             self._connection = None
 
-    def _send(self, frame: bytes) -> None:
+    def _send(self, frame: bytes | str) -> None:
         with suppress(WebSocketClosedError):
-            self._sent = self.write_message(frame, binary=True)
+            self._sent = self.write_message(frame, binary=isinstance(frame, bytes))
