@@ -17,8 +17,8 @@ A chart request has the single key "chart".  Its value is one of {"start": argum
 
 The request `ALIVE` is answered with an empty text frame, even while a state is being computed.
 
-Any other response is one binary frame: the lengths of head and block (32 bits each, little endian), the head, the block, the
-cells.  The head is the JSON of an `Answer`.  "page/websocket.js" decodes the frame.
+Any other response is one binary frame: the lengths of head and block (32 bits each, little endian), the head, the
+block, the cells.  The head is the JSON of an `Answer`.  "page/websocket.js" decodes the frame.
 """
 
 from __future__ import annotations

@@ -9,6 +9,7 @@ from zlib import crc32
 
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
+from hess_explorer.protocol.messages import ALIVE
 from hess_explorer.rooms.messages import End, Follow, Guess, Lead, Open, Show, parse
 from hess_explorer.rooms.registry import Rooms
 from hess_explorer.rooms.room import Room
@@ -101,10 +102,13 @@ class RoomSocket(WebSocketHandler):
         if not self._limit.takes(self, message):
             return
         try:
-            told = parse(json.loads(message))
+            told = json.loads(message)
         except (ValueError, RecursionError):
             told = None
-        match told, self._room:
+        if told == ALIVE:
+            self.put("alive", "")
+            return
+        match parse(told), self._room:
             case (Open() | Lead() | Follow()) as wish, None:
                 self._enter(wish)
             case Show() as show, Room() as room:
