@@ -58,13 +58,16 @@ export function startClient(model, host) {
   const isPart = own.embed === "1"
   if (isPart) embed()
 
-  // The tab keeps the undo history and the changes without an answer while the page reloads; for a part only the changes.
+  // The tab keeps the undo history and the changes without an answer until the same link is opened again; those of each part
+  // by themselves, without a history.
   const key = isPart ? `page${location.search}` : "page"
-  const [navigation] = /** @type {PerformanceNavigationTiming[]} */ (performance.getEntriesByType("navigation"))
-  const { steps, unanswered = null } = JSON.parse((navigation.type === "reload" && tabStore.get(key)) || "{}")
+  const kept = JSON.parse(tabStore.get(key) ?? "{}")
+  const { steps, unanswered = null } = kept.href === location.href ? kept : {}
   window.addEventListener("pagehide", () => {
     const isBehind = requests.isBehind(state?.answers ?? 0)
-    const left = { steps: isPart ? undefined : history.steps, unanswered: isBehind ? requests.unanswered : undefined }
+    const left = {
+      href: location.href, steps: isPart ? undefined : history.steps, unanswered: isBehind ? requests.unanswered : undefined,
+    }
     tabStore.set(key, isPart && !isBehind ? null : JSON.stringify(left))
   })
 
