@@ -25,12 +25,17 @@ def fetched(base, *paths):
 
 
 async def opened(base, headers, path="states"):
-    """The status of the response to a websocket request with these headers, and its text."""
+    """The status of the response to a websocket request with these headers, and the text of a refusal."""
     request = HTTPRequest(f"ws{base.removeprefix('http')}/{path}", headers=headers)
     try:
         connection = await websocket_connect(request, subprotocols=["bokeh"])
     except HTTPClientError as refused:
         return refused.code, refused.response.body.decode()
+    if path == "ws":
+        # The server closes it.
+        assert await connection.read_message() is None
+        connection.close()
+        return 101, ""
     connection.close()
     while await connection.read_message() is not None:
         pass
@@ -45,7 +50,7 @@ PATHS = (
 )
 
 
-def test_requests_for_another_host_are_refused_whatever_their_path():
+def test_requests_for_another_host_are_refused_whatever_their_path(caplog):
     """DNS rebinding: a page of evil.com names this server as its own host, so that both headers are alike."""
     evil = {"Host": "evil.com", "Origin": "http://evil.com"}
 
@@ -77,8 +82,11 @@ def test_requests_for_another_host_are_refused_whatever_their_path():
         assert finished(status(base, "liveness", "127.0.0.2"))[0] == 403
         # A proxy with the name of the server in its own requests.
         assert finished(opened(base, {"Host": "127.0.0.1", "Origin": "https://example.org:8443"}))[0] == 101
+        # Panel's websocket without the token of a page is closed, and no error.
+        assert finished(opened(base, {}, "ws")) == (101, "")
         for origin in ("http://evil.com", "http://example.org", "http://localhost:8888"):
             assert finished(opened(base, {"Host": "localhost", "Origin": origin}))[0] == 403
+    assert "exception" not in caplog.text
     with served(origins=("*",)) as base:
         assert finished(allowed(base, "hub.example.org")) == {200, 101}
 

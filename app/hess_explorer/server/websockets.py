@@ -41,11 +41,9 @@ class PanelSocket(WSHandler):
         """Register this websocket as open."""
         # A message consists of three frames: header, metadata and content.
         self._limit = RateLimit(frames=3)
-        try:
+        # Raised for a client without the token of a page, after its websocket was closed.
+        with suppress(ProtocolError):
             super().open()  # type: ignore[no-untyped-call]  # Panel declares no types
-        except ProtocolError as error:
-            self.close(1002, str(error))
-        else:
             OPEN_SOCKETS.add(self)
 
     def on_close(self) -> None:
