@@ -21,7 +21,10 @@ const SILENT = "The server does not respond. This page continues as soon as it d
 function merged(first, second) {
   const values = { ...first.values, ...second.values }
   const expressions = Object.entries(first.expressions ?? {}).filter(([name]) => !(name in (second.values ?? {})))
-  return { ...first, ...second, values, expressions: { ...Object.fromEntries(expressions), ...second.expressions } }
+  return {
+    ...first, ...second, scene: second.scene ?? first.scene ?? null, values,
+    expressions: { ...Object.fromEntries(expressions), ...second.expressions },
+  }
 }
 
 /**
@@ -47,11 +50,9 @@ export function createRequests({ send, changed, hidden, known }) {
   /** @type {Partial<StateRequest>} */
   let flying = {}
   let isResumed = false
-  // The scene on show, the scene to request next, and the scene that was chosen last.
+  // The scene on show, and the scene that was chosen last.
   /** @type {string | null} */
   let shown = null
-  /** @type {string | null} */
-  let chosen = null
   /** @type {string | null} */
   let target = null
   /** @type {ReturnType<typeof setTimeout>} */
@@ -78,16 +79,16 @@ export function createRequests({ send, changed, hidden, known }) {
       asking = false
       asked = requested
       sent = performance.now()
-      const entering = chosen !== null && chosen !== shown
+      const { scene = null } = pending
+      const entering = scene !== null && scene !== shown
       send({
-        requested, held: grasped || animated, values: {}, ...pending, scene: entering ? chosen : null,
+        requested, held: grasped || animated, values: {}, ...pending, scene: entering ? scene : null,
         hidden: entering ? null : hidden(),
       })
       // Changes of the page before are sent once: should they end the server, they would end it again and again.
-      flying = isResumed ? {} : { ...pending, scene: entering ? chosen : null }
+      flying = isResumed ? {} : pending
       isResumed = false
       pending = {}
-      chosen = null
       wait()
     })
   }
@@ -111,7 +112,7 @@ export function createRequests({ send, changed, hidden, known }) {
   /** @param {Partial<StateRequest>} what */
   const restart = (what) => {
     moved.set("preset", requested + 1)
-    pending = {}
+    pending = { scene: pending.scene }
     flying = { scene: flying.scene }
     want(what)
   }
@@ -146,12 +147,12 @@ export function createRequests({ send, changed, hidden, known }) {
     clear: () => restart({ clear: true }),
     // The state may belong to another scene.
     restore(restore) {
-      chosen = target = new URLSearchParams(restore).get("scene") ?? shown
-      restart({ restore })
+      target = new URLSearchParams(restore).get("scene") ?? shown
+      restart({ restore, scene: target })
     },
     step(step) {
-      chosen = target = null
-      restart({ step })
+      target = null
+      restart({ step, scene: shown })
     },
     lesson: (lesson) => add({ lesson }),
     stop: () => want({ stop: true }),
@@ -166,9 +167,9 @@ export function createRequests({ send, changed, hidden, known }) {
     scene(scene) {
       // Compare with the scene chosen last, which may not be on show yet.
       if (scene === (target ?? shown)) return
-      chosen = target = scene
+      target = scene
       delete pending.restore
-      request()
+      want({ scene })
     },
   })
 
@@ -184,13 +185,13 @@ export function createRequests({ send, changed, hidden, known }) {
       wait()
       if (unanswered === null) return
       pending = unanswered
-      chosen = target = unanswered.scene
+      target = unanswered.scene
       isResumed = true
       request()
     },
     /** The changes without an answer. @returns {Partial<StateRequest>} */
     get unanswered() {
-      return { ...merged(flying, pending), scene: chosen ?? flying.scene ?? null, hover: undefined, near: undefined }
+      return { ...merged(flying, pending), hover: undefined, near: undefined }
     },
     /**
      * Note the scene on show; requests begin with the first scene.
