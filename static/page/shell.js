@@ -74,19 +74,19 @@ export function opener(name, label) {
 }
 
 /**
- * Show the sentence about the motion above the stage; on a phone in the text.
+ * Return the sentence about the motion, above the stage; on a phone in the text.
  * @param {HTMLElement} stage
  * @param {HTMLElement} reading
  */
-function sayWhatMoves(stage, reading) {
+function sentenceAbove(stage, reading) {
   const sentence = element("p.text.moves")
   const place = () => {
     if (PHONE.matches) reading.prepend(sentence)
     else stage.before(sentence)
   }
-  listen({ enter({ moves }) { sentence.textContent = moves } })
   PHONE.addEventListener("change", place)
   place()
+  return sentence
 }
 
 /**
@@ -117,9 +117,9 @@ export function buildPage(model, host, { mount, bar, lessons, introduction }, el
   el.append(
     element("header.bar", ...bar, element("div.news", text("busy"))),
     tabsOf({ Controls: controls, Text: reader }), controls, stage, reader,
-    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener("a.opener", "Open in Hess Explorer"), drawer(el), spot(), announcer(),
+    element("div.foot", text("notes"), mount("status", renderStatus, {}, element("div.status-line"))), opener("a.opener", "Open in Hess Explorer"), drawer(el), spot(),
     introduction)
-  sayWhatMoves(stage, reading)
+  introduction.before(announcer(sentenceAbove(stage, reading)))
   wear(el)
   listen({
     reading: (on) => el.classList.toggle("in-lesson", on),

@@ -280,6 +280,7 @@ def section_picture(of: Callable[[S], Section], start: str, title: str = "Poinca
         y=range_of(1),
         message=lambda s: s.reason,
         on_click=lambda s, x, y: {start: written([(x, y)])},
+        starts=True,
         layers=section_plane.layers(lambda s: s.points, others=lambda s: s.others),
     ).of_part(of)
 
