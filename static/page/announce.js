@@ -43,7 +43,8 @@ export function announcer(sentence) {
   function say() {
     /** @type {string[][]} */
     const news = []
-    for (const cell of gallery.cellsInSight()) {
+    // A step of a lesson may hide captions, which are news when they come back.
+    for (const cell of gallery.cellsInSight().filter(({ classList }) => !classList.contains("veiled"))) {
       const [title, verdict, numbers] = captionOf(cell)
       const last = known.get(nameOf(cell))
       known.set(nameOf(cell), verdict)
