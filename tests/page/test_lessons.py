@@ -41,7 +41,7 @@ def guess(explorer, prediction, press):
 
 
 def distance(explorer, prediction, shares, axes):
-    """Return the mean distances along the linear axes that were, between the places and the nearest drawn points or lines."""
+    """Return the mean distances along the linear axes that were, from the places to the nearest drawn points."""
     columns, (x0, x1, y0, y1) = explorer.data(prediction.source), explorer.axes(prediction.picture)
     left, top, right, bottom = frame(explorer, prediction.picture)
     (a0, a1, b0, b1), (across, down) = axes, np.transpose(shares)

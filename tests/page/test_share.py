@@ -83,7 +83,7 @@ def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(exp
     # All that was chosen is in its frame.
     wide, high = inner.evaluate("[innerWidth, innerHeight]")
     boxes = inner.evaluate(BOXES)
-    assert len(boxes) == 5 and all(0 <= x and x + w <= wide and 0 <= y and y + h <= high for x, y, w, h in boxes)
+    assert len(boxes) == 5 and all(x >= 0 and x + w <= wide and y >= 0 and y + h <= high for x, y, w, h in boxes)
     assert min(w for _, _, w, h in boxes if w == h) >= 250
     before = int(inner.evaluate(there))
     framed.slide(h=0.7)
