@@ -108,6 +108,8 @@ interface PictureDescription {
   name: string
   kind: "plot" | "sphere" | "torus" | "cloud"
   hands: string
+  /** Whether a click chooses where the motion starts. */
+  starts: boolean
   folded: string | null
   [option: string]: any
 }

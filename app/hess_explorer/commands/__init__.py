@@ -33,7 +33,7 @@ COMMANDS: Mapping[str, str] = {
     "docs": "build the documentation",
     "sweep": "compute a quantity over one to three parameters",
     "shot": "take a screenshot of the page as PNG",
-    "bench": "compare the speed with other integrators at equal measured error",
+    "bench": "compare the speed with other integrators at equal measured error (in a source checkout)",
 }
 """Name and purpose of each command."""
 

@@ -381,6 +381,7 @@ SCENE = Scene(
             y_ticks=square.POLAR_TICKS,
             message=lambda s: s.section.reason,
             on_click=BallSection.start_at,
+            starts=True,
             layers=(
                 indicator_layer(lambda s: s.megno),
                 *density_layers(lambda s: s.density),

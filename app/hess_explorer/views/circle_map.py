@@ -78,6 +78,7 @@ def picture(
         dot=dot,
         message=lambda s: "" if map(s) is not None else "Separatrix: no return",
         on_click=on_click,
+        starts=on_click is not None,
         layers=_layers(map, iterates),
     )
 
