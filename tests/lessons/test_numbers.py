@@ -31,27 +31,25 @@ def steps_of(scene):
 
 
 STEPS = {name: lesson.steps for name, lesson in shipped().items()} | {one.name: steps_of(one) for one in SCENES}
+ROWS = OF_LESSONS | {one.name: scene_texts.SHARED | scene_texts.ROWS.get(one.name, {}) for one in SCENES}
 
 
-def rows_of(name):
-    return OF_LESSONS[name] if name in shipped() else scene_texts.SHARED | scene_texts.ROWS.get(name, {})
+def texts(step):
+    return step.text, step.question, step.answer
 
 
 @pytest.mark.chaotic
 @pytest.mark.parametrize("name", STEPS)
 def test_every_number_of_a_text_is_what_it_is_computed_to_be(name):
-    found = [mistakes((step.text, step.question, step.answer), step, rows_of(name)) for step in STEPS[name]]
-    assert not sum(found, []), "\n".join(sum(found, []))
+    wrong = [one for step in STEPS[name] for one in mistakes(texts(step), step, ROWS[name])]
+    assert not wrong, "\n".join(wrong)
 
 
 def test_every_row_is_about_a_text():
-    texts = {
-        name: "\n".join(one for step in steps for one in (step.text, step.question, step.answer))
-        for name, steps in STEPS.items()
-    }
-    for name, rows in {**OF_LESSONS, **scene_texts.ROWS}.items():
-        assert not [phrase for phrase in rows if not places(phrase, texts[name])]
-    assert not [phrase for phrase in scene_texts.SHARED if not any(places(phrase, text) for text in texts.values())]
+    whole = {name: "\n".join(text for step in steps for text in texts(step)) for name, steps in STEPS.items()}
+    for name, rows in ROWS.items():
+        assert not [one for one in rows.keys() - scene_texts.SHARED.keys() if not places(one, whole[name])]
+    assert not [one for one in scene_texts.SHARED if not any(places(one, text) for text in whole.values())]
 
 
 # Statements of the lessons in words.

@@ -99,7 +99,7 @@ def points_of(place):
 
 
 def first_cascade(_step):
-    """Return the parameters of the first period doublings, the period before each, and the ratios of their distances."""
+    """Return the parameters of period doublings, the period before each, and the ratios of their distances."""
     found = cascade()
     return *found.values[:4], *found.periods[:4], *found.ratios[:2]
 

@@ -120,7 +120,7 @@ def mistakes(texts, step, rows):
             for place in places(phrase, text):
                 numbers = list(NUMBER.finditer(text, *place.span()))
                 exact = computed(step) if callable(computed) else computed
-                if len(numbers) != len(exact) or not all(is_right(one[0], value) for one, value in zip(numbers, exact)):
+                if len(numbers) != len(exact) or not all(map(is_right, (one[0] for one in numbers), exact)):
                     wrong.append(f"{step.title}: {phrase!r} is {exact}")
                 said.update(found.start() for found in numbers)
         wrong += [
