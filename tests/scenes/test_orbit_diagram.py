@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from importlib.resources import files
 from math import log
 
 import numpy as np
@@ -15,7 +16,8 @@ from hess_mechanics.dynamics.point_sets import set_distance
 from hess_mechanics.suslov.section import SuslovSection
 from support.deviations import deviations
 from support.diagrams import complete, crossings, distance_of_most, measured, multipliers, settled
-from support.suslov import field
+from support.mechanics import followed
+from support.suslov import field, permanent_rotations
 from support.thorough import sample
 from support.view import View, values_of
 
@@ -128,6 +130,32 @@ def test_where_the_torus_has_broken_up_exponent_and_dimension_are_those_of_the_w
     for i, (value, bound) in enumerate(known):
         assert abs(deviations([(one.values[0], one.dimension[0])[i] for one in found], value, bound / 5.0)) < 5.0
     assert len(known) == 2
+
+
+def test_the_saddle_focus_of_the_spiral_meets_the_condition_of_shilnikov_and_its_motion_comes_back():
+    words = files("hess_explorer.scenes").joinpath("orbit_diagram.md").read_text(encoding="utf-8")
+    numbers = r"\$([\d.]+)\\pm([\d.]+)i\$ and \$(-[\d.]+)\$. At \$h=([\d.]+)\\pm([\d.]+)\$.*As \$([\d.]+)<([\d.]+)\$"
+    real, imaginary, other, h, error, *compared = map(float, re.search(numbers, words, re.DOTALL).groups())
+    state = SCENE.of(SCENE.defaults() | values_of(SCENE, "A spiral"))
+    body, E = state.body, state.E
+    assert (state.h, compared) == (h, [real, -other])
+    leaves = []
+    for energy in (E - error, E + error):
+        # The field is quadratic: central differences are exact.
+        rest = next(y for y in permanent_rotations(body, energy) if abs(np.hypot(*y[:2]) - 2.1) < 0.01 and y[0] > 0.0)
+        rates, vectors = np.linalg.eig(
+            np.column_stack([(field(body, rest + e) - field(body, rest - e)) / 2.0 for e in np.eye(5)])
+        )
+        spiral, last = rates[np.argmax(rates.imag)], np.argmin(rates.real)
+        assert (spiral.real, spiral.imag, rates[last].real) == approx((real, imaginary, other), abs=5e-4)
+        assert abs(spiral.real) < abs(rates[last].real)
+        # Backward in time along the line on which motions come: this one nearly comes back, and passes on one side.
+        line, across = vectors[:, last].real, np.linalg.inv(vectors)[last].real
+        start = rest + 1e-6 * line / line[4]
+        back = followed(lambda _, y: -field(body, y), start, np.linspace(0.0, 36.0, 361))[300:] - rest
+        assert np.linalg.norm(back, axis=1).min() < 0.1
+        leaves.append(np.sign(back[-1] @ across * line[4]))
+    assert leaves[0] == -leaves[1]
 
 
 LIGHT = {

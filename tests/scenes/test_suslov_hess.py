@@ -71,7 +71,8 @@ def test_the_shade_of_the_torus_is_where_a_long_motion_is():
     "values, words",
     [
         ({"I23": 0.5, "h": 1.5, "f": 0.6}, "|trace| > 2: all motions but one tend to the stable limit cycle."),
-        ({"I23": 0.5, "h": 0.5, "f": 1.01563456028796105}, "|trace| = 2: the two limit cycles merge."),
+        ({"I23": 0.5, "h": 0.5, "f": 1.01563456028796105}, "|trace| = 2: the two cycles have merged."),
+        ({"I23": 0.0, "h": 1.5, "f": 0.0}, "|trace| = 2: every orbit closes."),
         ({"I23": 0.5, "h": 1.0, "f": 0.0}, "On the separatrix no motion returns."),
         ({"I23": 0.5, "h": 0.3, "f": 0.0}, "At f = 0 the angle φ jumps"),
         (

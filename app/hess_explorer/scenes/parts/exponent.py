@@ -125,8 +125,8 @@ class Exponent(Part[_Host]):
         if found is None:
             return Caption(self.work.awaited())
         end = float(found.times[-1])
-        grows = f"Not chaotic: {found.no_chaos}." if found.no_chaos else "Chaotic."
-        kind = "Regular so far: falls as ln(t)/t." if found.is_regular else grows
+        grows = f"Not chaotic: {found.no_chaos}." if found.no_chaos else "Looks chaotic."
+        kind = "Looks regular." if found.is_regular else grows
         return Caption(kind, f"λ = {with_error(found.value, found.spread)} after t = {digits(end)}.")
 
 
