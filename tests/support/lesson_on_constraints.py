@@ -5,11 +5,10 @@ import math
 import numpy as np
 from scipy.optimize import brentq
 
-from hess_explorer.lessons import shipped
 from hess_mechanics import SuslovBody
 from hess_mechanics.suslov import free
 from hess_mechanics.suslov.additional_integral import I11_at
-from support.numbers import of
+from support.numbers import elsewhere, of
 
 NAME = "what-a-nonholonomic-constraint-does"
 
@@ -43,11 +42,6 @@ def about_the_third_axis(_step):
     return right, right, right, math.degrees(math.atan2(whole[1, 0], whole[0, 0]))
 
 
-def k_before(_step):
-    step = next(one for one in shipped()[NAME].steps if one.title == "The vertical remembers")
-    return (step.at.values["k"],)
-
-
 def started(step):
     return step.prediction.then.values["w1"], step.prediction.then.values["w2"]
 
@@ -66,6 +60,6 @@ ROWS = {
     "the slope is −0.78": rate_at_the_end,
     "So far $I_{13}$ was 0": of("I13"),
     "it is 1.5 now, and we shall set it to 1.": lambda s: (s.at.values["k"], s.prediction.then.values["k"]),
-    "for $k$ = 1.5.": k_before,
+    "for $k$ = 1.5.": lambda s: elsewhere(NAME, "The vertical remembers", "k"),
 }
 """A phrase of the lesson → the numbers in it, computed from the step."""

@@ -5,11 +5,10 @@ from functools import cache
 
 import numpy as np
 
-from hess_explorer.lessons import shipped
 from hess_mechanics import HeavyBody, SuslovBody, circle_map, level, scattering
 from hess_mechanics.euler_poisson.hess_isomorphism import hess_body
 from hess_mechanics.suslov.additional_integral import I11_at
-from support.numbers import DIGITS, of
+from support.numbers import DIGITS, elsewhere, of
 from support.rotation_number import displacement
 
 PRECISE = level("precise")
@@ -58,16 +57,6 @@ def threshold(_step):
     return birth()[1:]
 
 
-def order(step):
-    """Return after how many swings every orbit is closed, nearly."""
-    phases = image = np.linspace(-3.0, 3.0, 7)
-    for swings in range(1, 9):
-        image = here(step).theta(image)
-        if np.abs(np.exp(1j * image) - np.exp(1j * phases)).max() < 1e-6:
-            return swings
-    return math.inf
-
-
 def suslov(values):
     I22, I13, I23 = (values[name] for name in ("I22", "I13", "I23"))
     return SuslovBody(I11_at(values["k"], I22, I13, I23), I22, I13, I23)
@@ -97,11 +86,6 @@ def lost(step):
     return scale, math.log(scale), on_the_wall(step).fixed_points[1].log_multiplier
 
 
-def energy_before(name, title):
-    """Return a parameter of another step of a lesson."""
-    return next(step.at.values["h"] for step in shipped()[name].steps if step.title == title)
-
-
 ROWS = {
     "limit-cycles-and-locking": {
         "−0.3959 turns": lambda s: (here(s).rotation_number,),
@@ -129,7 +113,11 @@ ROWS = {
         ),
         "Here it is 0.3. We": lambda s: (a_of(s),),
         "For $a$ = 0.3 that is 6.586": lambda s: (a_of(s), here(s).fixed_points[1].multiplier),
-        "where the trace tends to 0. Every orbit closes after two": lambda s: (here(s).trace, order(s)),
+        "where the trace tends to 0. Every orbit closes after two": lambda s: (
+            here(s).trace,
+            # The map is conjugate to a rotation by ρ.
+            abs(1.0 / here(s).rotation_number),
+        ),
         "only one step was seen, at 0": lambda s: (circle_map(0.5, 1.5, 0.6, PRECISE).rotation_number,),
         "With $a$ = 3 the contraction is fierce: one swing leaves 1.5·10⁻⁸": lambda s: (
             a_of(s),
@@ -163,7 +151,7 @@ ROWS = {
         "gone after 12": lambda s: (math.ceil(lost(s)[1] / lost(s)[2]),),
         "the energy is 5 instead of 50, and $f$ is 0.8": lambda s: (
             s.at.values["h"],
-            energy_before("two-chaotic-layers-that-never-mix", "How thin it is"),
+            *elsewhere("two-chaotic-layers-that-never-mix", "How thin it is", "h"),
             s.at.values["f"],
         ),
         "Less than 2; it is 1.124. There": lambda s: (*threshold(s), on_the_wall(s).trace),

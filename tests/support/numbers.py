@@ -7,6 +7,7 @@ from math import log10
 
 import numpy as np
 
+from hess_explorer.lessons import shipped
 from hess_explorer.scenes import scenes
 from support.deviations import deviations
 
@@ -41,6 +42,11 @@ DIGITS, DOUBLED = -log10(sys.float_info.epsilon), int(2 * sys.float_info.mant_di
 def of(*names):
     """Return the function that reads parameters of a step."""
     return lambda step: tuple(step.at.values[name] for name in names)
+
+
+def elsewhere(lesson, title, *names):
+    """Return parameters of another step of a lesson."""
+    return of(*names)(next(step for step in shipped()[lesson].steps if step.title == title))
 
 
 def claims(text):

@@ -1,11 +1,10 @@
 """The numbers in the texts of the scenes, computed; see `support.numbers`."""
 
 from functools import cache
-from math import log, pi, sin, sqrt
+from math import log
 
 import numpy as np
-from scipy.integrate import quad, solve_ivp
-from scipy.optimize import brentq, fsolve
+from scipy.optimize import brentq
 
 from hess_explorer.protocol import formulas
 from hess_explorer.scenes import ball_section, quartic, scenes
@@ -15,7 +14,6 @@ from hess_explorer.views import layered_section
 from hess_mechanics import (
     LEVELS,
     ReturnMap,
-    circle_map,
     continued_orbit,
     ensemble,
     level,
@@ -34,8 +32,10 @@ from support.deviations import deviations
 from support.diagrams import settled
 from support.lesson_on_doubling import cascade, cascade_of_the_ball, feigenbaum
 from support.lessons_on_tori import ends, on_the_wall, threshold
+from support.lessons_on_tori import torus as torus_of
+from support.mechanics import followed
 from support.numbers import DIGITS, DOUBLED, of
-from support.suslov import energy, field
+from support.suslov import field, permanent_rotations
 from support.view import example, values_of
 
 
@@ -155,48 +155,37 @@ def flip_of_the_ball(_step):
 
 
 def rest(h):
-    """Return body, state and linear motion of the uniform rotation of "A spiral" with this energy."""
+    """Return body, state, and rates and vectors of the linear motion of the uniform rotation of "A spiral"."""
     found = state("orbit-diagram", "A spiral", h=h)
-
-    def at(v):
-        return np.array([v[2] * v[0], v[2] * v[1], v[0], v[1], 0.0])
-
-    def off(v):
-        rate = v[2] ** 2 * (found.body.I13 * v[0] + found.body.I23 * v[1])
-        return v[0] ** 2 + v[1] ** 2 - 1.0, rate - found.body.b3, energy(found.body, at(v)) - found.E
-
-    y = at(fsolve(off, (-0.87, -0.48, -2.1), xtol=1e-13))
-    steps = 1e-6 * np.eye(5)
-    columns = [(field(found.body, y + one) - field(found.body, y - one)) / 2e-6 for one in steps]
-    return found.body, y, np.column_stack(columns)
+    rotations = permanent_rotations(found.body, found.E)
+    y = next(one for one in rotations if abs(np.hypot(*one[:2]) - 2.1) < 0.01 and one[0] > 0.0)
+    # The field is quadratic: central differences are exact.
+    columns = [(field(found.body, y + e) - field(found.body, y - e)) / 2.0 for e in np.eye(5)]
+    return found.body, y, *np.linalg.eig(np.column_stack(columns))
 
 
 def eigenvalues(step):
-    values = np.linalg.eigvals(rest(step.at.values["h"])[2])
-    return values.real.max(), values.imag.max(), values.real.min()
+    """Return the real and the imaginary part of the eigenvalue of the spiral, and the last eigenvalue."""
+    rates = rest(step.at.values["h"])[2]
+    spiral, last = rates[np.argmax(rates.imag)], min(rates.real)
+    return spiral.real, spiral.imag, last
 
 
 def homoclinic(_step):
     """Return the energy at which the motion that tends to the saddle-focus also comes from it, by SciPy.
 
-    Backward in time this motion goes away, comes back along a spiral, and leaves to one side or to the other.
+    Backward in time along the line on which motions come, this one comes back nearly, and passes on one side.
     """
-    times = np.linspace(0.0, 60.0, 6001)
 
     def side(h):
-        body, y, matrix = rest(h)
-        values, vectors = np.linalg.eig(matrix)
-        # The rows of the inverse are the left eigenvectors.
-        along, across = (one[np.argmin(values.real)].real for one in (vectors.T, np.linalg.inv(vectors)))
-        start = y + 1e-5 * along * np.sign(along[0] * -1.0)
-        run = solve_ivp(lambda _, x: -field(body, x), (0.0, 60.0), start, "DOP853", times, rtol=1e-12, atol=1e-13)
-        off = run.y - y[:, None]
-        distance = np.linalg.norm(off, axis=0)
-        out = int(np.argmax(distance > 1.0))
-        back = across @ off[:, out + int(np.argmin(distance[out:])) :]
-        return back[np.argmax(np.abs(back) > 0.05)]
+        body, y, rates, vectors = rest(h)
+        last = np.argmin(rates.real)
+        line, across = vectors[:, last].real, np.linalg.inv(vectors)[last].real
+        start = y + 1e-6 * line / line[4]
+        back = followed(lambda _, x: -field(body, x), start, np.linspace(0.0, 36.0, 361))[-1] - y
+        return float(back @ across * line[4])
 
-    return (brentq(side, 5.01592, 5.01594, xtol=1e-7),)
+    return (brentq(side, 5.01592, 5.01594, xtol=1e-8),)
 
 
 def come_near(distance):
@@ -223,24 +212,16 @@ def meander(_step):
 
 def frequencies(step, *tori):
     """Return for each (h, f) the number of frequencies of the body in space, of n3, φ and ψ, that are not 0."""
-    counts = []
-    for h, f in tori:
-        third, low, high = np.sort(np.roots([-2.0, -2.0 * h, 2.0, 2.0 * h - f * f]).real)
-
-        def rate(x, third=third, low=low, high=high, f=f):
-            n = 0.5 * (low + high + (high - low) * sin(x))
-            return 2.0 * f / ((1.0 - n * n) * sqrt(2.0 * (n - third)))
-
-        turns = circle_map(step.at.values["I23"] / step.at.values["I22"], h, f, level("precise")).rotation_number
-        counts.append(1 + (abs(turns) > 1e-9) + (abs(quad(rate, -pi / 2, pi / 2)[0]) > 1e-9))
-    return tuple(counts)
+    # ψ' = f/(1 − n3²) has the sign of f.
+    return [
+        1 + (abs(torus_of({**step.at.values, "h": h, "f": f}).rotation_number) > 1e-9) + (f != 0.0) for h, f in tori
+    ]
 
 
 def rank(_step):
-    """Return the rank of the brackets, at one state."""
-    I11, I22, g1, g2, g3 = 1.5, 1.0, 0.3, 0.5, 0.8
+    """Return the rank of the brackets of ω1, ω2, γ1, γ2, γ3, of which four are not 0."""
     upper = np.zeros((5, 5))
-    upper[0, 3], upper[1, 2], upper[0, 4], upper[1, 4] = -1 / I11, 1 / I22, g2 / (I11 * g3), -g1 / (I22 * g3)
+    upper[[0, 1, 0, 1], [3, 2, 4, 4]] = -0.7, 1.0, 0.4, -0.3
     return (np.linalg.matrix_rank(upper - upper.T),)
 
 
@@ -271,12 +252,6 @@ def slanting(_step):
     return values["w1"], -values["w1"] * values["I13"] / values["I23"]
 
 
-def presets(scene, beginning, name):
-    return tuple(
-        one.values.get(name) for one in scenes()[scene].presets if one.name.startswith(beginning) and name in one.values
-    )
-
-
 def order(step):
     """Return the numbers of the body's axes, the moments of inertia in order."""
     return tuple(1.0 + np.argsort(of("I1", "I2", "I3")(step)))
@@ -289,6 +264,7 @@ DIAGRAMS = {
     "at least six of eight orbits": (regime._ENOUGH, regime._MEMBERS),
     "within which 95 %": (100.0 * point_sets._QUANTILE,),
     "beyond three standard errors": (spectrum._ERRORS,),
+    "Feigenbaum's $\\delta=4.6692$": lambda s: (feigenbaum(),),
 }
 """Rows of both orbit diagrams."""
 SHARED = {
@@ -307,9 +283,12 @@ ROWS = {
     "free-suslov": {
         "For $k=1$ and $k=3$ it is": tuple(_FORMULAS),
         "every odd $k$ up to 15": (MAX_K,),
-        "Here $k=1$, $k=3$, $k=1.5$ and": lambda s: presets("free-suslov", "Γ(t), k", "k"),
+        "Here $k=1$, $k=3$, $k=1.5$ and": [
+            one.values["k"] for one in scenes()["free-suslov"].presets if one.name.startswith("Γ(t), k")
+        ],
         "so that $(3,-2)$ is on": slanting,
-        "=(-0.49,0.26,0.88)$, as printed, has the length 1.04 and $\\Gamma=-0.531$. The first has $\\Gamma=-0.465$": as_printed,
+        "=(-0.49,0.26,0.88)$, as printed, has the length 1.04 and $\\Gamma=-0.531$. The first has "
+        "$\\Gamma=-0.465$": as_printed,
         "With $-0.39$ instead of $-0.49$": misprint,
         "through 1 and 3 (": ends,
         "Type 1e-300 for": of("w2"),
@@ -371,13 +350,17 @@ ROWS = {
     "chaplygin-ball": {"the values $m=10$,": of("D")},
     "euler-poisson": {
         "two or three $G": (andoyer.SHEETS - 1, andoyer.SHEETS),
+        "has the trace 2": threshold,
         "Beyond 50 000 points": (layered_section._MANY,),
         "agree to 0.0001": (rotation.RESOLVED,),
         "falls to $0.1251$ and then turns. At the minimum there is no twist: $\\rho$ is the same, to first order, on "
         "neighbouring curves. There invariant curves meander. Beside them lies a chain of eight islands, all with "
         "$\\rho=1/8$": meander,
     },
-    "hess-leak": {"the growth is 3.09107": lambda s: (on_the_wall(s).fixed_points[1].log_multiplier,)},
+    "hess-leak": {
+        "for $t=2$": threshold,
+        "the growth is 3.09107": lambda s: (on_the_wall(s).fixed_points[1].log_multiplier,),
+    },
     "bridge": {
         "the body therefore has three frequencies: those of $n_3$, $\\varphi$ and $\\psi$. With cycles $\\varphi$ "
         "tends to a cycle, and two": lambda s: frequencies(s, (0.2, 0.5), (1.5, 0.6)),
@@ -388,14 +371,12 @@ ROWS = {
     "orbit-diagram": DIAGRAMS
     | {
         "Six were located in all. Orbits of period 1, 2, 4, … double at $I_{23}=-0.0498281$, $0.0873376$, $0.1281912$, "
-        "$0.1376316$, $0.1396679$, $0.1401049$. The ratios of their distances, 3.357, 4.328, 4.636, 4.659, tend to "
-        "Feigenbaum's $\\delta=4.6692$": lambda s: (
+        "$0.1376316$, $0.1396679$, $0.1401049$": lambda s: (
             len(cascade().values),
             *cascade().periods[:3],
             *cascade().values,
-            *cascade().ratios,
-            feigenbaum(),
         ),
+        "distances, 3.357, 4.328, 4.636, 4.659": lambda s: cascade().ratios,
         "$\\lambda=0.039\\pm0.001$. The Kaplan–Yorke dimension of the attractor is $2.174\\pm0.003$": lambda s: chaos(
             "orbit-diagram", "Apart: a strange"
         )[::2],
@@ -412,6 +393,7 @@ ROWS = {
         "$2.25\\pm0.02$": lambda s: (s.at.values["I13"], *chaos("orbit-diagram", "A torus", True)[::2]),
         "At $-0.2612$ motions": (is_left,),
         "the eigenvalues $0.282\\pm2.035i$ and $-0.723$": eigenvalues,
+        "As $0.282<0.723$": lambda s: np.abs(eigenvalues(s)[::2]),
         "At $h=5.015931\\pm0.000001$": homoclinic,
         "within $0.1$": (come_near,),
         "$-0.0069\\pm0.0003$ forward and $0.0064\\pm0.0003$": lambda s: divergences(
@@ -421,13 +403,11 @@ ROWS = {
     },
     "ball-diagram": DIAGRAMS
     | {
-        "Orbits of period 2, 4, 8, 16 double at $\\mathcal{D}=1.5872085$, $1.4256035$, $1.3934895$, $1.3866210$. The "
-        "ratios of their distances, 5.032, 4.676, tend to Feigenbaum's $\\delta=4.6692$": lambda s: (
+        "period 2, 4, 8, 16 double at $\\mathcal{D}=1.5872085$, $1.4256035$, $1.3934895$, $1.3866210$": lambda s: (
             *cascade_of_the_ball().periods,
             *cascade_of_the_ball().values,
-            *cascade_of_the_ball().ratios,
-            feigenbaum(),
         ),
+        "distances, 5.032, 4.676": lambda s: cascade_of_the_ball().ratios,
         "The orbit of period 1 doubles at $\\mathcal{D}=2.7347985$": flip_of_the_ball,
         "$\\lambda=0.038\\pm0.003$, and volume shrinks at the mean rate $-0.0922\\pm0.0003$. The Kaplan–Yorke "
         "dimension of the attractor is $2.29\\pm0.02$": lambda s: chaos("ball-diagram", "Apart: a strange"),
