@@ -75,7 +75,8 @@ def _parts(number):
         unit = 10.0 ** int(power[1] or power[2].translate(_RAISED))
         plain = re.split(r"\\cdot|·", plain)[0] if power.start() else "1"
     value = _WORDS.index(plain) if plain in _WORDS else float(Fraction(plain))
-    return value * unit, 0.5 * unit * 10.0 ** -len(plain.partition(".")[2]), float(bound or 0.0)
+    half = 1e-9 * value if re.search(r"\de|/", plain) else 0.5 * 10.0 ** -len(plain.partition(".")[2])
+    return value * unit, half * unit, float(bound or 0.0)
 
 
 def is_right(number, exact):
