@@ -26,7 +26,7 @@ NUMBER = re.compile(
 _NO_CLAIM = re.compile(
     r"""
     <!--\ measured.*?<!--\ end | ```.*?``` | `[^`]*` | \]\([^)]*\)  # what a benchmark writes, fences, code, links
-    | \A---.*?^--- | ^\#.*?$ | (?<!\*)\*[^*]+\*(?!\*)               # titles, and names of examples and controls
+    | \A---.*?^--- | ^\#.*?$ | (?<![*^])\*[^*]+\*(?!\*)              # titles, and names of examples and controls
     | (?:^\ *|\ and\ )\d\.\ | (?:\(?20\d\d\)|\bin\ 20\d\d\b)           # items of a list, years
     | \(\d(?:\.\d+)?\)                                              # equations, items in a line
     | \b(?:section|figure|case|remark|picture|proposition)s?\ [\d.]+(?:\ and\ \d+)?
@@ -75,7 +75,7 @@ def _parts(number):
         unit = 10.0 ** int(power[1] or power[2].translate(_RAISED))
         plain = re.split(r"\\cdot|·", plain)[0] if power.start() else "1"
     value = _WORDS.index(plain) if plain in _WORDS else float(Fraction(plain))
-    half = 1e-9 * value if re.search(r"\de|/", plain) else 0.5 * 10.0 ** -len(plain.partition(".")[2])
+    half = 1e-9 * abs(value) if re.search(r"\de|/", plain) else 0.5 * 10.0 ** -len(plain.partition(".")[2])
     return value * unit, half * unit, float(bound or 0.0)
 
 

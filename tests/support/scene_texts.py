@@ -351,7 +351,6 @@ ROWS = {
     "chaplygin-ball": {"the values $m=10$,": of("D")},
     "euler-poisson": {
         "two or three $G": (andoyer.SHEETS - 1, andoyer.SHEETS),
-        "has the trace 2": threshold,
         "Beyond 50 000 points": (layered_section._MANY,),
         "agree to 0.0001": (rotation.RESOLVED,),
         "falls to $0.1251$ and then turns. At the minimum there is no twist: $\\rho$ is the same, to first order, on "
