@@ -82,7 +82,7 @@ def test_leniently_it_is_put_right_and_noted(capsys):
     first = scenes()["suslov-hess"].defaults()
     assert facts["scene"] == "suslov-hess"
     assert facts["parameters"]["h"] == first["h"]
-    assert [note.partition(" ")[0] for note in facts["notes"][:3]] == ["Scene", "h", "f"]
+    assert [note.partition(" ")[0] for note in facts["notes"][:4]] == ["Scene", "The", "h", "f"]
 
 
 @pytest.mark.parametrize(

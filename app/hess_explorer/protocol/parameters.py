@@ -7,7 +7,7 @@ change is reported in a note.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from urllib.parse import parse_qsl, urlencode, urlsplit
 
@@ -42,6 +42,8 @@ VERSION = "1"
 MAX_QUERY = 2000
 _SHORT = 60
 """Maximum number of characters of a link that a message quotes."""
+_NAMED = 3
+"""Maximum number of keys that a message names."""
 
 Value = float | str
 Values = Mapping[str, Value]
@@ -258,8 +260,12 @@ class Link:
             return
         pairs = parse_qsl(query.lstrip("?"), keep_blank_values=True)
         self.given = dict(pairs)
-        if not lenient:
-            self._refuse_repeated([name for name, _ in pairs])
+        names = [name for name, _ in pairs]
+        twice = _quoted(name for name in self.given if names.count(name) > 1)
+        if twice and lenient:
+            self.notes.append(f"The link contains {twice} more than once: the last value is used.")
+        elif twice:
+            raise InvalidParameter(f"The link contains {twice} more than once; {_REMEDY}")
         if self.given.get("v", VERSION) != VERSION:
             self.note("The link was made by another version of this page: its values may have another meaning here.")
 
@@ -284,18 +290,12 @@ class Link:
         """Return the values of several parameters by name."""
         return {spec.name: self.value(spec) for spec in specs}
 
-    def require(self, scene: str, names: Sequence[str]) -> None:
+    def require(self, scene: str, specs: Sequence[Spec]) -> None:
         """Check that each key belongs to the scene or to the page.  A lenient link ignores unknown keys."""
-        unknown = [name for name in self.given if name not in names and name not in PAGE_KEYS]
-        if unknown and not self._lenient:
-            raise InvalidParameter(
-                f"The scene {scene} has no parameter {_short(unknown[0])}, only {', '.join(names)}; {_REMEDY}"
-            )
-
-    def _refuse_repeated(self, names: list[str]) -> None:
-        twice = [name for name in names if names.count(name) > 1]
-        if twice:
-            raise InvalidParameter(f"The link contains {_short(twice[0])} more than once; {_REMEDY}")
+        names = [spec.name for spec in specs]
+        unknown = _quoted(name for name in self.given if name not in names and name not in PAGE_KEYS)
+        if unknown:
+            self.note(f"The scene {scene} has no parameter {unknown}, only {', '.join(names)}: it was ignored.")
 
 
 _REMEDY = "correct it, or use --lenient (in Python lenient=True) to have it corrected."
@@ -303,6 +303,11 @@ _REMEDY = "correct it, or use --lenient (in Python lenient=True) to have it corr
 
 def _short(text: str) -> str:
     return repr(text if len(text) <= _SHORT else f"{text[:_SHORT]}…")
+
+
+def _quoted(names: Iterable[str]) -> str:
+    """Return the first names of a link in quotation marks."""
+    return ", ".join(_short(name) for name in [*names][:_NAMED])
 
 
 def decode(query: str, specs: Sequence[Spec]) -> tuple[dict[str, Value], list[str]]:
