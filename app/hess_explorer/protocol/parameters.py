@@ -13,7 +13,7 @@ from urllib.parse import parse_qsl, urlencode, urlsplit
 
 from hess_explorer.protocol.formulas import polynomial
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.parameters import Group, Parameter
+from hess_mechanics.parameters import Group, Parameter, plain
 
 __all__ = [
     "CLIENT",
@@ -64,11 +64,11 @@ class Number(Parameter):
     def admit(self, value: float) -> tuple[float, str | None]:
         """Return the value clamped to `bounds`, and a note if it had to be changed."""
         if not math.isfinite(value):
-            return self.default, f"{self.symbol} must be a finite number {self.range}: set to {self.default:g}."
+            return self.default, f"{self.symbol} must be a finite number {self.range}: set to {plain(self.default)}."
         low, high = self.bounds
         clamped = min(max(value, low), high)
         if clamped != value:
-            return clamped, f"{self.symbol} must lie {self.range}: set to {clamped:g}."
+            return clamped, f"{self.symbol} must lie {self.range}: set to {plain(clamped)}."
         return value, None
 
 
@@ -136,7 +136,7 @@ class Places:
         except ValueError:
             inside = False
         if not inside:
-            low, high = (",".join(f"{value:g}" for value in corner) for corner in (self.low, self.high))
+            low, high = (",".join(map(plain, corner)) for corner in (self.low, self.high))
             return self.default, (f"{self.label} must be points x,y;x,y from {low} to {high}: the default is shown.")
         note = f"{self.label} may be at most {self.most}: the last ones are kept." if len(pairs) > self.most else None
         return written(pairs[-self.most :]), note

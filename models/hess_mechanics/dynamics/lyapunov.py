@@ -26,6 +26,7 @@ from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Accuracy, Computation, plan
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.parameters import plain
 
 __all__ = ["Exponent", "lyapunov_exponent"]
 
@@ -129,7 +130,7 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
     returns = abs(span) / _INTERVAL * problem.nu
     if not returns <= MAX_RETURNS:
         raise WorkLimit(
-            f"This takes {returns:.3g} returns of the neighbour, at most {MAX_RETURNS} are allowed: choose "
+            f"This takes {plain(returns, 3)} returns of the neighbour, at most {MAX_RETURNS} are allowed: choose "
             "a shorter time span."
         )
     count = max(1, math.ceil(returns))

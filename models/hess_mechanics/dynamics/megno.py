@@ -34,6 +34,7 @@ from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.results import Array, Cost, Mask, frozen
+from hess_mechanics.parameters import plain
 
 __all__ = ["CHAOTIC", "REGULAR", "Megno", "longest_span", "megno"]
 
@@ -175,7 +176,7 @@ def megno(
     problem = Problem.of(body, states)
     if abs(span) * problem.nu > _LONGEST:
         raise WorkLimit(
-            f"The time of an indicator may be at most {_LONGEST / problem.nu:.4g} here: choose a shorter one."
+            f"The time of an indicator may be at most {plain(_LONGEST / problem.nu, 4)} here: choose a shorter one."
         )
     count, size = problem.states.shape
     # At least one sample per 1/ν, in twelve stretches after the first fifth.

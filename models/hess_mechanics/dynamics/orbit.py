@@ -16,6 +16,7 @@ from hess_mechanics.numerics.field_values import Undefined
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, STOPPED
+from hess_mechanics.parameters import plain
 
 __all__ = [
     "MAX_SAMPLES",
@@ -115,8 +116,8 @@ def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: i
     largest = int(np.argmax(np.abs(state)))
     if abs(state[largest]) >= _ESCAPED:
         return MotionEnds(
-            f"{system.variables[largest]} reached {physical[largest]:.3g} at {at}: the motion escapes to infinity in "
-            "finite time. Choose a shorter time span."
+            f"{system.variables[largest]} reached {plain(physical[largest], 3)} at {at}: the motion escapes to "
+            "infinity in finite time. Choose a shorter time span."
         )
     rates = np.zeros(state.size)
     try:
@@ -129,8 +130,8 @@ def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: i
         )
     fastest = int(np.argmax(np.abs(rates)))
     return MotionEnds(
-        f"At {at} no step is short enough: the rate of {system.variables[fastest]} reached {rates[fastest]:.3g} or "
-        f"jumps, where {shown}. End the motion before, or find the event with `section` and go on from it with a "
+        f"At {at} no step is short enough: the rate of {system.variables[fastest]} reached {plain(rates[fastest], 3)} "
+        f"or jumps, where {shown}. End the motion before, or find the event with `section` and go on from it with a "
         "system for the next case."
     )
 

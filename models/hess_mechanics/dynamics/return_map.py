@@ -33,6 +33,7 @@ from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.arguments import as_number, as_whole
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask
+from hess_mechanics.parameters import plain
 
 __all__ = ["PoincareSection", "ReturnMap"]
 
@@ -562,7 +563,7 @@ class ReturnMap:
                 limit = longest * count * self.section.slowness / problem.nu
                 raise NoReturn(
                     f"From here the motion did not return to the section {_times(count)} within t = "
-                    f"{limit:.4g}: choose another place, or a larger `longest`."
+                    f"{plain(limit, 4)}: choose another place, or a larger `longest`."
                 )
             times[i], states[i] = all_times[-1], all_states[-1]
         require_finite_states(states)
