@@ -15,6 +15,7 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import (
     MAX_STEPS,
     checked_span,
+    end_of,
     require_finite_neighbours,
     require_finite_rates,
     require_finite_states,
@@ -148,7 +149,8 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
             taken, _ = body.system.orbit(
                 start, problem.parameters, interval, level.order, level.tolerance, longest, left, end
             )
-            require_steps(taken, f"This exponent needs more than {MAX_STEPS} steps: choose a shorter time span.")
+            too_long = f"This exponent needs more than {MAX_STEPS} steps: choose a shorter time span."
+            require_steps(taken, too_long, lambda: end_of(problem, problem.states[0], span * problem.nu))
             steps += taken
         require_finite_states(ends[0])
         along[i] = y = ends[0, 0].copy()

@@ -23,6 +23,7 @@ from enum import IntEnum
 import numpy as np
 
 from hess_mechanics.dynamics.birkhoff import bounded_series, irregularity
+from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR, Megno, longest_span, megno
 from hess_mechanics.dynamics.orbit_diagram import SAME, period_of
 from hess_mechanics.dynamics.periodic import apart, find_periodic, place_units
@@ -461,7 +462,7 @@ def _ensemble(map_: ReturnMap, places: Array) -> Array:
 
 def _indicated(map_: ReturnMap, places: Array, t: float) -> Megno:
     states = map_.state_at(places)
-    return megno(map_.section, states, -t if map_.backward else t, map_.accuracy, threads=1)
+    return complete(megno(map_.section, states, -t if map_.backward else t, map_.accuracy, threads=1))
 
 
 def _reversor(map_: ReturnMap, places: Array) -> str:

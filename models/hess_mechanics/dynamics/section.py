@@ -10,9 +10,9 @@ from typing import Protocol
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import as_max_step, as_max_steps, drift_of, require_finite_states, unfinished
+from hess_mechanics.dynamics.orbit import as_max_step, as_max_steps, drift_of, end_of, require_finite_states, unfinished
 from hess_mechanics.dynamics.system import Body, Problem, System
-from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.errors import InvalidParameter, MotionEnds, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result, components
@@ -259,13 +259,13 @@ class _Search:
 
     def run(
         self, problem: Problem, start: Array, end: float, level: Level, spent: int = 0
-    ) -> tuple[tuple[Array, Array], int]:
-        """Return (times, states) of the crossings of the orbit of a problem from `start`, and the steps taken."""
+    ) -> tuple[tuple[Array, Array], int, MotionEnds | None]:
+        """Return (times, states) of the crossings of the orbit of a problem from `start`, the steps, and its end."""
         cross, normal, offset = self.plane.scaled(problem.system, problem)
         longest = problem.system.longest_step(level, end, self.max_step)
         room, total = min(self.crossings, _ROOM), 0
         while True:
-            times, states = np.empty(room), np.empty((room, self.problem.scale.size))
+            times, states = np.full(room, np.nan), np.empty((room, self.problem.scale.size))
             found, steps = cross(
                 start,
                 problem.parameters,
@@ -280,14 +280,20 @@ class _Search:
                 times,
                 states,
             )
+            ended = None
             if found < 0:
-                raise unfinished(self.problem, found, times[-1], states[-1], self.max_steps)
+                error = unfinished(self.problem, found, times[-1], states[-1], self.max_steps)
+                if not isinstance(error, MotionEnds):
+                    raise error
+                ended = error
+                # The kernel has written the end in place of the last crossing.
+                found = int(np.count_nonzero(np.isfinite(times[:-1])))
             total += steps
-            if found < room or room == self.crossings:
+            if ended or found < room or room == self.crossings:
                 break
             room = min(self.crossings, 10 * room)
         require_finite_states(states[:found])
-        return (times[:found].copy(), states[:found].copy()), total
+        return (times[:found].copy(), states[:found].copy()), total, ended
 
     def measured(self, i: int) -> SectionCrossings:
         """Return the crossings of orbit i, with an error estimate from a more accurate run with a nearby start."""
@@ -296,7 +302,9 @@ class _Search:
 
         def run(level: Level, spent: int) -> tuple[tuple[Array, Array], int]:
             own = problems[level.aside]
-            crossings, steps = self.run(own, own.states[i], self.end, level, spent)
+            crossings, steps, ended = self.run(own, own.states[i], self.end, level, spent)
+            if ended is not None:
+                raise ended
             if not level.aside:
                 problems[1] = nearby.rounded(np.vstack((self.problem.states[i], crossings[1])))
             return crossings, steps
@@ -486,12 +494,15 @@ class SectionPoints(Result):
         Steps and time.
     variables : tuple of str
         Names of the variables.
+    reasons : tuple of str
+        Why each orbit ends before the time span does, with time and place; empty for the others.
     """
 
     states: list[Array]
     drift: Mapping[str, float]
     cost: Cost
     variables: tuple[str, ...] = ()
+    reasons: tuple[str, ...] = ()
 
     def labels(self) -> Labels:
         """Return the variables at all crossings, labelled with the number of the orbit.
@@ -523,7 +534,8 @@ def section_points(
 ) -> SectionPoints:
     """Return the crossings of a surface by several orbits, each computed once, for pictures.
 
-    An orbit that falls behind the average rate of crossings in one part of the time span ends there.
+    An orbit that falls behind the average rate of crossings in one part of the time span ends there.  A motion that
+    escapes keeps its crossings up to its end.
 
     Parameters
     ----------
@@ -573,15 +585,18 @@ def section_points(
     one_part = replace(search, crossings=-(-crossings // parts))
     problem = search.problem.nearby() if level.aside else search.problem
     found: dict[int, tuple[Array, int]] = {}
+    reasons = [""] * count
 
     def follow(orbit: int) -> tuple[Array, int]:
         pieces: list[Array] = []
         start, steps = problem.states[orbit], 0
         for _ in range(parts):
             go_on()
-            (_, points), taken = one_part.run(problem, start, search.end / parts, level, steps)
+            (_, points), taken, ended = one_part.run(problem, start, search.end / parts, level, steps)
             pieces.append(points)
             steps += taken
+            if ended is not None:
+                reasons[orbit] = str(end_of(problem, problem.states[orbit], search.end))
             if len(points) < one_part.crossings:
                 break
             start = points[-1]
@@ -609,6 +624,7 @@ def section_points(
         drift,
         Cost(sum(steps for _, steps in found.values()), wall_ms),
         body.system.variables,
+        tuple(reasons),
     )
 
 

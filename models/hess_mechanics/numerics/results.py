@@ -151,7 +151,11 @@ class Orbit(Sampled):
         Steps and time.
     variables : tuple of str
         Names of the variables.
+    reason : str
+        Why the motion ends before the time span does, with time and place; empty if it does not.
     """
+
+    reason: str = ""
 
 
 @dataclass(frozen=True)
