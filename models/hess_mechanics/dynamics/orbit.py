@@ -19,6 +19,8 @@ from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, STOPPED
 from hess_mechanics.parameters import plain
 
 __all__ = [
+    "ESCAPED",
+    "LARGEST",
     "MAX_SAMPLES",
     "MAX_STEPS",
     "as_max_step",
@@ -40,12 +42,10 @@ MAX_STEPS = 2_000_000
 """Largest number of steps, unless another limit is given."""
 MAX_SAMPLES = 200_000
 _MOST_STEPS = 2**62
-_ESCAPED, _SHOWN = 1e9, 6
+ESCAPED, _SHOWN = 1e9, 6
 """Size, in units in which the start is O(1), of a variable that escapes; variables shown in a message."""
-_STOPPED = (
-    "The motion exceeds the range of double precision, escapes to infinity or reaches a state without finite rates: "
-    "choose a shorter time span or less extreme parameters."
-)
+LARGEST = 10.0
+"""Largest variable, in the same units, of the states that are kept of a motion that ends."""
 _AHEAD = 1e-9
 """Time after the end of a motion at which its field is tried."""
 _SHORTEST = 1e-290
@@ -78,27 +78,28 @@ def checked_span(span: float, what: str) -> float:
     return as_number("t", span)
 
 
-def require_steps(steps: int, too_long: str, where: Callable[[], WorkLimit] | None = None) -> None:
+def require_steps(steps: int, too_long: str, where: Callable[[], WorkLimit | None] = lambda: None) -> None:
     """Raise `WorkLimit` with the message `too_long` if a kernel ran out of steps, `MotionEnds` if it stopped.
 
-    where : returns the error of a motion that stopped, with its place.
+    where : returns the error of a motion that stopped, with its place; None if only a neighbour did.
     """
     if steps == STEP_LIMIT_REACHED:
         raise WorkLimit(too_long)
     if steps == STOPPED:
-        raise MotionEnds(_STOPPED) if where is None else where()
+        raise where() or MotionEnds(
+            "The motion or a neighbour exceeds the range of double precision, escapes to infinity or reaches a state "
+            "without finite rates: choose a shorter time span or less extreme parameters."
+        )
 
 
-def end_of(problem: Problem, state: Array, end: float) -> WorkLimit:
-    """Return the error of the motion from `state` (d,) that stopped before the time `end`, in scaled units."""
+def end_of(problem: Problem, state: Array, end: float) -> WorkLimit | None:
+    """Return the error of the motion from `state` (d,) if it stops before the scaled time `end`, else None."""
     system, out = problem.system, np.empty((1, state.size))
     longest = system.longest_step(PRECISE, end)
     steps, reached = system.orbit(
         state, problem.parameters, np.array([end]), PRECISE.order, PRECISE.tolerance, longest, MAX_STEPS, out
     )
-    return (
-        unfinished(problem, steps, reached, out[0], MAX_STEPS) if steps < 0 else MotionEnds(f"A neighbour: {_STOPPED}")
-    )
+    return unfinished(problem, steps, reached, out[0], MAX_STEPS) if steps < 0 else None
 
 
 def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: int) -> WorkLimit:
@@ -124,19 +125,19 @@ def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: i
     """
     system, time = problem.system, t / problem.nu
     at = f"t = {time:.6g}"
-    if code == STEP_LIMIT_REACHED:
-        return WorkLimit(
-            f"This motion needs more than {max_steps} steps, which reach {at}: choose a shorter time span, longer "
-            "steps or a cheaper accuracy."
-        )
     physical = state * problem.scale
     shown = ", ".join(f"{name} = {x:.6g}" for name, x in list(zip(system.variables, physical, strict=True))[:_SHOWN])
     largest = int(np.argmax(np.abs(state)))
-    if abs(state[largest]) >= _ESCAPED:
+    if abs(state[largest]) >= ESCAPED:
         return MotionEnds(
             f"{system.variables[largest]} reached {plain(physical[largest], 3)} at {at}: the motion escapes to "
             "infinity in finite time. Choose a shorter time span.",
             time,
+        )
+    if code == STEP_LIMIT_REACHED:
+        return WorkLimit(
+            f"This motion needs more than {max_steps} steps, which reach {at}: choose a shorter time span, longer "
+            "steps or a cheaper accuracy."
         )
     rates = np.zeros(state.size)
     try:

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS, solve
+from hess_mechanics.dynamics.orbit import LARGEST, MAX_STEPS, end_of, solve
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import MotionEnds
 from hess_mechanics.numerics.accuracy import PRECISE, Accuracy, Status
@@ -32,8 +32,6 @@ _COARSE = 0.2
 """Spacing of the first pass, in units in which the fastest angular velocity is 1."""
 _MOST_COARSE = 40_000
 _SAMPLES_PER_STEP = 16
-_LARGEST = 10.0
-"""Largest variable of a motion that escapes in a picture, in units in which the start is O(1)."""
 
 
 def sample_times(body: Body, state: Array, span: float, weights: Array, sagitta: float, most: int) -> Array:
@@ -102,7 +100,9 @@ def sampled_orbit(
     except MotionEnds as error:
         if not abs(error.time) > 0.0:
             raise
-        return replace(sampled(_drawn_until(body, state, error.time)), status=Status.INCOMPLETE, reason=str(error))
+        problem = Problem.of(body, [state])
+        reason = str(end_of(problem, problem.states[0], span * problem.nu) or error)
+        return replace(sampled(_drawn_until(body, state, error.time)), status=Status.INCOMPLETE, reason=reason)
 
 
 def _drawn_until(body: Body, state: Sequence[float], end: float) -> float:
@@ -114,5 +114,5 @@ def _drawn_until(body: Body, state: Sequence[float], end: float) -> float:
     body.system.orbit(
         problem.states[0], p, times * problem.nu, PRECISE.order, PRECISE.tolerance, longest, MAX_STEPS, states
     )
-    large = np.abs(states).max(axis=1) > _LARGEST
+    large = np.abs(states).max(axis=1) > LARGEST
     return float(times[int(np.argmax(large)) if large.any() else -1])

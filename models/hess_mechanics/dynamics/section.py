@@ -10,7 +10,16 @@ from typing import Protocol
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import as_max_step, as_max_steps, drift_of, end_of, require_finite_states, unfinished
+from hess_mechanics.dynamics.orbit import (
+    ESCAPED,
+    LARGEST,
+    as_max_step,
+    as_max_steps,
+    drift_of,
+    end_of,
+    require_finite_states,
+    unfinished,
+)
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, MotionEnds, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
@@ -39,6 +48,8 @@ _ROOM = 1000
 """Crossings for which memory is allocated at first; few orbits have more."""
 _PARTS = 8
 """Time intervals into which a section of many orbits is divided."""
+_BEFORE = 1e-6
+"""Time before the end of a motion, in units in which its rates are O(1), after which its crossings do not count."""
 _SHARE = 4
 """Orbits per task of the thread pool."""
 
@@ -259,13 +270,13 @@ class _Search:
 
     def run(
         self, problem: Problem, start: Array, end: float, level: Level, spent: int = 0
-    ) -> tuple[tuple[Array, Array], int, MotionEnds | None]:
+    ) -> tuple[tuple[Array, Array], int, WorkLimit | None]:
         """Return (times, states) of the crossings of the orbit of a problem from `start`, the steps, and its end."""
         cross, normal, offset = self.plane.scaled(problem.system, problem)
         longest = problem.system.longest_step(level, end, self.max_step)
         room, total = min(self.crossings, _ROOM), 0
         while True:
-            times, states = np.full(room, np.nan), np.empty((room, self.problem.scale.size))
+            times, states = np.full(room, np.nan), np.zeros((room, self.problem.scale.size))
             found, steps = cross(
                 start,
                 problem.parameters,
@@ -280,14 +291,17 @@ class _Search:
                 times,
                 states,
             )
-            ended = None
+            ended: WorkLimit | None = None
             if found < 0:
-                error = unfinished(self.problem, found, times[-1], states[-1], self.max_steps)
-                if not isinstance(error, MotionEnds):
-                    raise error
-                ended = error
-                # The kernel has written the end in place of the last crossing.
-                found = int(np.count_nonzero(np.isfinite(times[:-1])))
+                ended = unfinished(self.problem, found, times[-1], states[-1], self.max_steps)
+                found = room - 1
+            elif np.abs(states[:found]).max(initial=0.0) >= ESCAPED:
+                # Round-off has taken the motion past a pole.
+                ended = end_of(problem, start, end)
+            if ended is not None:
+                if not isinstance(ended, MotionEnds):
+                    raise ended
+                found = int(np.count_nonzero(np.abs(times[:found]) < abs(ended.time) * self.problem.nu - _BEFORE))
             total += steps
             if ended or found < room or room == self.crossings:
                 break
@@ -596,11 +610,15 @@ def section_points(
             pieces.append(points)
             steps += taken
             if ended is not None:
-                reasons[orbit] = str(end_of(problem, problem.states[orbit], search.end))
+                reasons[orbit] = str(end_of(search.problem, search.problem.states[orbit], search.end) or ended)
+                break
             if len(points) < one_part.crossings:
                 break
             start = points[-1]
-        return np.concatenate(pieces)[:crossings] * search.problem.scale, steps
+        points = np.concatenate(pieces)[:crossings]
+        if reasons[orbit]:
+            points = points[np.logical_and.accumulate(np.abs(points).max(axis=1, initial=0.0) <= LARGEST)]
+        return points * search.problem.scale, steps
 
     refused: list[WorkLimit] = []
 
