@@ -21,10 +21,16 @@ def test_a_typed_potential_is_shown_and_goes_into_the_link(explorer):
     explorer.change(explorer.type, "U", "g3 +")
     assert "This is no polynomial: use numbers, g1, g2, g3" in explorer.text("notes")
     # It stays to be corrected.
-    assert explorer.box("U").input_value() == "g3 +"
+    box = explorer.box("U")
+    assert box.input_value() == "g3 +"
+    assert box.get_attribute("aria-invalid") == "true"
+    border = "(box) => getComputedStyle(box).borderColor"
+    red = box.evaluate(border)
     # Other numbers need no compilation.
     explorer.change(explorer.type, "U", "g3 - 2*g1")
     assert explorer.text("notes") == ""
+    assert box.get_attribute("aria-invalid") == "false"
+    assert box.evaluate(border) != red
     assert explorer.wait_url(U="g3 - 2*g1")["scene"] == "own-body"
     t, w1, w2, g1, g3 = (np.array(explorer.data("data-orbit")[name]) for name in ("t", "ω1", "ω2", "g1", "g3"))
     assert t[-1] == SCENE.defaults()["lasts"]

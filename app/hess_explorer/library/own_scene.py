@@ -171,7 +171,7 @@ def scene(
         "Motion",
         controls,
         bases=(LevelState if "integrals" in section else OwnState,),
-        namespace={"system": system, **section},
+        namespace={"system": system, "angles": system.angles, **section},
         frozen=True,
     )
     chosen: dict[str, Mapping[str, Value]] = {

@@ -45,6 +45,7 @@ class OwnState(State):
     accuracy: str = accuracy_level()
 
     system: ClassVar[System]
+    angles: ClassVar[tuple[str, ...]] = ()
     surface: ClassVar[tuple[str, float] | None] = None
     coordinates: ClassVar[tuple[str, str] | None] = None
     ranges: ClassVar[tuple[tuple[float, float], ...] | None] = None

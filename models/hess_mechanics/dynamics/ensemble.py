@@ -183,6 +183,7 @@ def ensemble(
         frozen(ends),
         frozen(last * problem.scale),
         tuple(reasons),
+        angles=body.system.angles,
     )
 
 

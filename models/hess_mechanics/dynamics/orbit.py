@@ -345,4 +345,5 @@ def solve(
         drift,
         found.cost,
         variables=body.system.variables,
+        angles=body.system.angles,
     )

@@ -341,6 +341,7 @@ class _Search:
             found.cost,
             system.variables,
             time_error(found.safety, times, other_times) / nu,
+            angles=system.angles,
         )
 
     def _apart(self, one: tuple[Array, Array], other: tuple[Array, Array]) -> float:
