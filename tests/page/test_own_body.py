@@ -15,6 +15,14 @@ def explorer(tab):
     tab.assert_quiet()
 
 
+def test_what_a_link_has_too_much_is_named(tab):
+    tab.open("scene=own-body&hh=1&w1=0.3&w1=0.4#scene=suslov")
+    assert tab.text("notes").splitlines() == [
+        "The link contains 'w1' more than once: the last value is used.",
+        "The scene own-body has no parameter 'hh', '#scene': ignored.",
+    ]
+
+
 def test_a_typed_potential_is_shown_and_goes_into_the_link(explorer):
     explorer.picture("omega").get_by_text("From t = 0").wait_for()
     assert explorer.box("frequency").is_disabled()

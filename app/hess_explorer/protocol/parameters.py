@@ -295,7 +295,8 @@ class Link:
         names = [spec.name for spec in specs]
         unknown = _quoted(name for name in self.given if name not in names and name not in PAGE_KEYS)
         if unknown:
-            self.note(f"The scene {scene} has no parameter {unknown}, only {', '.join(names)}: it was ignored.")
+            others = "" if self._lenient else f", only {', '.join(names)}"
+            self.note(f"The scene {scene} has no parameter {unknown}{others}: ignored.")
 
 
 _REMEDY = "correct it, or use --lenient (in Python lenient=True) to have it corrected."
