@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 
 class ModelError(ValueError):
     """Base class of errors in a request; the message is written for the user."""
@@ -36,7 +38,14 @@ class WorkLimit(ModelError):
 
 
 class MotionEnds(WorkLimit):
-    """A motion that escapes to infinity in finite time, or reaches a state without finite rates."""
+    """A motion that escapes to infinity in finite time, or reaches a state without finite rates.
+
+    time : the time of the end, NaN if it is not known.
+    """
+
+    def __init__(self, message: str, time: float = math.nan) -> None:
+        super().__init__(message)
+        self.time = time
 
 
 class NoReturn(ModelError):

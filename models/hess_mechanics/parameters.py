@@ -22,6 +22,18 @@ GROUPS: tuple[Group, ...] = get_args(Group)
 """Groups of parameters: those of the body, of the motion, and of the computation."""
 
 
+_LARGE = 1e6
+
+
+def plain(value: float, digits: int = 6) -> str:
+    """Return a number with up to `digits` significant digits, as one writes it: 1200 for 1.2e+03, 1e6 for 1e+06."""
+    # Adding 0 turns −0 into 0.
+    text = f"{value + 0.0:.{digits}g}"
+    if "e" in text and 1.0 <= abs(float(text)) < _LARGE:
+        return f"{float(text):.0f}"
+    return text.replace("e+", "e").replace("e0", "e").replace("e-0", "e-")
+
+
 @dataclass(frozen=True)
 class Parameter:
     """A parameter, for every place where it can be set.
@@ -71,7 +83,7 @@ class Parameter:
     def range(self) -> str:
         """The bounds in words, such as "between 0.001 and 1000"."""
         low, high = self.bounds
-        return f"between {low:g} and {high:g}"
+        return f"between {plain(low)} and {plain(high)}"
 
     def check(self, value: float) -> float:
         """Return the value if it is allowed.
@@ -94,7 +106,7 @@ class Parameter:
         low, high = self.bounds
         if not (low <= value <= high and (not self.whole or value == round(value))):
             kind = "is not a whole number" if self.whole else "is not"
-            raise InvalidParameter(f"{self.name} = {value:g} {kind} {self.range}: choose it there.")
+            raise InvalidParameter(f"{self.name} = {plain(value)} {kind} {self.range}: choose it there.")
         return value
 
     def changed(self, **changes: Any) -> Mapping[str, Any]:

@@ -107,7 +107,7 @@ export function render({ el }) {
   })
   listen({
     enter: build,
-    // Key "error-" and the name of a number: the reason that its expression is refused.
+    // Key "error-" and the name of a number or formula: the reason that it is refused.
     texts(texts) { for (const [key, text] of Object.entries(texts)) refusals[key]?.(text) },
     controls: show,
     // A lesson animates a number.

@@ -73,6 +73,8 @@ export function watch(socket, silent, dead) {
 export function openWebsocket(receive, lost, silent) {
   // The query names the first state; any worker can answer.
   const url = new URL(`states${location.search}`, document.baseURI)
+  // The server names a part after "#" in a note, because it does not belong to a link.
+  if (location.hash) url.searchParams.append(location.hash.split("=")[0], "")
   url.protocol = url.protocol.replace("http", "ws")
   const socket = new WebSocket(url)
   socket.binaryType = "arraybuffer"

@@ -67,6 +67,6 @@ def test_what_is_not_there_has_a_mistake(tmp_path, capsys):
     assert "none.md:1: the file cannot be read" in capsys.readouterr().out
     for words in (["lesson", "check"], ["export", "--format", "html", "--lesson"], ["serve", "--lesson"]):
         assert main([*words, f"{'1' * 300}.md"]) == 2
-        assert capsys.readouterr().err.endswith("1.md' cannot be used: File name too long.\n")
+        assert capsys.readouterr().err.endswith(": File name too long.\n")
     assert main(["lesson", "check", str(tmp_path)]) == 2
     assert "has no lesson" in capsys.readouterr().err

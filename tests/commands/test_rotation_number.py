@@ -76,7 +76,7 @@ def test_all_exponents_with_errors_signs_and_a_dimension(answer, as_table):
 @pytest.mark.parametrize(
     "words, said",
     [
-        (replaced(ROTATION, "--h", "2e12"), "--h: h = 2e+12 is not between -1e+06 and 1e+06"),
+        (replaced(ROTATION, "--h", "2e12"), "--h: h = 2e12 is not between -1e6 and 1e6"),
         (typed("rotation-number --a 0:1:300 --h 0:1:300 --f 0:1:300"), "27000000 tori, but at most 1000000"),
         (replaced(LYAPUNOV, "--t", "1e9"), "choose a shorter time span"),
     ],

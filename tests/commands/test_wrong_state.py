@@ -19,16 +19,16 @@ from support.command_line import typed
 
 WRONG = {
     "scene=nope": "'scene=nope' cannot be used: Scene must be one of suslov-hess, ",
-    "h=abc": "'h=abc' cannot be used: h must be a finite number between -1 and 1e+06; correct it",
-    "h=1e9": "'h=1e9' cannot be used: h must lie between -1 and 1e+06; correct it",
-    "h=nan": "'h=nan' cannot be used: h must be a finite number between -1 and 1e+06",
+    "h=abc": "'h=abc' cannot be used: h must be a finite number between -1 and 1e6; correct it",
+    "h=1e9": "'h=1e9' cannot be used: h must lie between -1 and 1e6; correct it",
+    "h=nan": "'h=nan' cannot be used: h must be a finite number between -1 and 1e6",
     "h=": "'h=' cannot be used: h must be a finite number",
     "hh=1.2": "The scene suslov-hess has no parameter 'hh', only I22, I23, ",
     "h=1&h=2": "The link contains 'h' more than once",
     "v=0&h=1.2": "The link was made by another version of this page",
     "accuracy=best": "'accuracy=best' cannot be used: Accuracy must be one of draft, standard, precise, reference,",
     "scene=scattering&h=1": "The scene scattering has no parameter 'h', only I22, I13, ",
-    "t=-1": "'t=-1' cannot be used: t must lie between 0 and 1e+06",
+    "t=-1": "'t=-1' cannot be used: t must lie between 0 and 1e6",
     "h=0.2&f=5": "At h = 0.2 the largest possible |f| is ",
     "scene=own-body&U=abs(g1)": "'U=abs(g1)' cannot be used: Potential U(γ): This is no polynomial: use numbers, g1, "
     "g2, g3, + − * / ^ and parentheses, like 0.5*g1^2 - g3; correct it",
@@ -82,7 +82,7 @@ def test_leniently_it_is_put_right_and_noted(capsys):
     first = scenes()["suslov-hess"].defaults()
     assert facts["scene"] == "suslov-hess"
     assert facts["parameters"]["h"] == first["h"]
-    assert [note.partition(" ")[0] for note in facts["notes"][:3]] == ["Scene", "h", "f"]
+    assert [note.partition(" ")[0] for note in facts["notes"][:4]] == ["Scene", "The", "h", "f"]
 
 
 @pytest.mark.parametrize(

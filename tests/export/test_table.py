@@ -6,7 +6,7 @@ import pytest
 from hess_explorer.export.columns import columns_of
 from hess_explorer.export.picture_data import picture_data
 from hess_explorer.export.table import as_csv
-from hess_mechanics import circle_map, level
+from hess_mechanics import System, circle_map, level, solve
 from hess_mechanics.errors import ModelError
 from support.exported import read
 from support.mechanics import followed
@@ -51,3 +51,17 @@ def test_what_a_link_has_wrong_is_put_right_and_noted():
     assert [note.split()[0] for note in found.notes[:2]] == ["Scene", "I₂₂"]
     with pytest.raises(ModelError, match=r"has no picture 'x': choose one of body, omega, sphere"):
         picture_data("", "x")
+
+
+def test_angles_say_whether_they_count_on():
+    found = picture_data("h=1.5&f=0.6&span=40&accuracy=draft", "circle")
+    facts, table = read(as_csv(found))
+    orbit = [float(row["phi"]) for row in table if row["layer"] == "orbit"]
+    assert np.abs(np.diff(orbit)).max() < 1.0
+    assert facts["angles"]["orbit.phi"] == "counts on over full turns"
+    assert facts["angles"]["map.x"] == facts["angles"]["stable.phi"] == "within one turn"
+    assert columns_of(found).facts["angles"] == facts["angles"]
+    turning = System("turning", lambda y, p: (y[1], 0 * y[1]), "phase v", angles="phase", example=(0.0, 1.0))
+    frame = solve(*turning.example_motion, 10.0).to_pandas()
+    assert frame["phase"].iloc[-1] == pytest.approx(10.0)
+    assert frame.attrs["angle phase"] == "counts on over full turns"

@@ -3,6 +3,7 @@
 import base64
 import json
 import re
+from functools import partial
 
 import pytest
 
@@ -12,6 +13,7 @@ from hess_explorer.lessons.images import MAX_ALL, MAX_ONE, Images
 from hess_explorer.lessons.lesson import Animation, HiddenLayer, LessonError
 from hess_explorer.lessons.links import place_of
 from hess_explorer.lessons.markdown import BadFormula, to_html
+from hess_explorer.lessons.problems import Problems
 from hess_explorer.lessons.reading import MAX_BYTES, MAX_STEPS, examine, read, read_file, without_tries
 from hess_explorer.page.lesson_description import describe_lesson
 from support.board import SCENES
@@ -95,6 +97,14 @@ MISTAKES = [
     ("### Answer\n", "", 16, "both a question and an answer"),
     ("## Next", "##", 20, "no title"),
     ("$a<b$", "$\\frac$", 14, "cannot be set"),
+    ("$a<b$", "a\n$\\lamda$", 15, "\\lamda is not a known command"),
+    ("$a<b$", "$$\na\n\\omgea\n$$", 16, "\\omgea is not a known command"),
+    ("$a<b$", "$\\mathfoo{x}$", 14, "\\mathfoo is not known"),
+    ("$a<b$", "$\\begin{foo}x\\end{foo}$", 14, "\\begin{foo} is not known"),
+    ("$a<b$", "$\\frac{1}{2$", 14, "{ is not closed"),
+    ("$a<b$", "$a}$", 14, "} has no { before it"),
+    ("$a<b$", "$\\frac{1}$", 14, "the argument of a command is missing"),
+    ("&h=0.2&f=0.5", "&h=0.2&h=0.5", 9, "'h' more than once"),
     ("It stays.", "It\nstays $5", 22, "a dollar stands alone"),
     ("It stays.", "[^1]: a_note", 21, "footnotes"),
     ("It stays.", "- one\n- [x] two", 22, "boxes to tick"),
@@ -138,7 +148,9 @@ def test_a_file_that_is_no_lesson_is_told_of(tmp_path):
 
 
 def problems(text):
-    return [one.message for one in problems_in(text, 1, Images(None), place_of)]
+    found = Problems()
+    found.found += [*problems_in(text, 1, Images(None), partial(place_of, problems=found))]
+    return [one.message for one in found.found]
 
 
 def test_html_of_a_lesson_is_text_and_it_asks_no_other_host():
@@ -182,10 +194,24 @@ def test_all_mistakes_of_a_file_are_found(tmp_path):
     path = tmp_path / "wrong.md"
     text = WHOLE.replace("minutes: 10", "minutes: soon\nauthor: me").replace("look: circle", "look: circel\nglance: x")
     text = text.replace("layer: stable", "layer: truth").replace("$a<b$", "$\\frac$ <b>").replace("### Answer\n", "")
-    path.write_text(text + "## Third\n[x](y)\n", encoding="utf-8")
-    lesson, found = examine(path)
-    assert lesson is None
-    assert sorted(one.line for one in found) == [3, 4, 11, 12, 14, 16, 16, 18, 24]
+    more = """## Third
+```step
+state: "?scene=scattering&k=1&k=2&l=1&I22=soon"
+animate: {name: k, from: soon, more: 1, seconds: 0}
+controls: [h, k]
+```
+[x](y) $\\lamda + \\frac{\\omgea$
+## Fourth
+```step
+state: "?scene=suslov-hess&h=0.2&f=5"
+```
+"""
+    path.write_text(text + more, encoding="utf-8")
+    lines = sorted(one.line for one in examine(path)[1])
+    assert lines == [3, 4, 11, 12, 14, 16, 16, 18, 25, 25, 25, *[26] * 4, 27, *[29] * 4, 30]
+    # The minutes are wrong as well as the title.
+    path.write_text("---\ntitle:\nminutes: soon\n---\n## One\n```step\nexample: Two limit\n```\n")
+    assert [one.line for one in examine(path)[1]] == [1, 3]
 
 
 # The first bytes of a file, by its type.

@@ -1,5 +1,7 @@
 """A scene for a system of one's own: Hénon–Heiles, for λ = 0 two oscillators, whose motion is known."""
 
+import re
+
 import numpy as np
 from pytest import approx, mark, raises
 from scipy.integrate import solve_ivp
@@ -9,6 +11,7 @@ from hess_explorer.__main__ import main
 from hess_explorer.scenes import add, scenes
 from hess_mechanics import System
 from hess_mechanics.errors import InvalidParameter
+from support.view import View
 
 # One system, so that its equations are compiled once.
 HENON = System(
@@ -82,6 +85,39 @@ def test_a_section_at_a_level_has_periodic_orbits_and_their_branch():
     x, y, px, py = scene.of({**scene.defaults(), **chosen}).start
     assert (x, y, py) == (0.0, 0.0, 0.21)
     assert px == approx(np.sqrt(0.16 - py**2))
+
+
+def test_a_box_shows_its_part_of_the_section_and_cells_of_megno_there():
+    scene = hess.scene(HENON, ["section y py at x = 0 on E"], sliders={"y": (-0.6, 1.2), "py": (-0.7, 0.7)})
+    (view,) = scene.views
+    chosen = view.on_box(scene.of(scene.defaults()), (0.3, -0.1, -2.0, 0.2))
+    assert chosen == {"window": "-0.6,-0.1;0.3,0.2"}
+    few = {"count": 60.0, "accuracy": "draft"}
+    # Two oscillators: every motion is regular, and stays on an ellipse about the origin.
+    shown = View(scene, {**few, **chosen, "p_lam": 0.0, "indicator": "MEGNO"})
+    assert (view.x(shown.result), view.y(shown.result)) == ((-0.6, 0.3), (-0.1, 0.2))
+    kinds = shown.result.megno.kinds
+    assert set(kinds.ravel().tolist()) <= {-1.0, 0.0}
+    assert "100 % of the cells regular" in shown.text["section"]
+    starts = shown.result.section.crossed.others.states
+    assert len(starts) > 5
+    whole = View(scene, {**few, "p_lam": 0.0}).result.section.others
+    within = [np.mean((p[:, 0] < 0.3) & (abs(p[:, 1] - 0.05) < 0.15)) for p in (shown.result.section.others, whole)]
+    assert within[0] > 1.5 * within[1]
+
+
+def test_a_motion_that_escapes_is_drawn_to_its_end_and_other_pictures_stay():
+    scene = hess.scene(HENON, ["section y py at x = 0 on E", "x y", "exponent"])
+    shown = View(scene, {"i_E": 0.2, "place": "0.5,0.3", "indicator": "MEGNO", "accuracy": "draft", "count": 10.0})
+    (reason,) = shown.report.notes
+    end = float(re.search(r"at t = ([\d.]+): the motion escapes", reason)[1])
+    assert end - 1.5 < shown.data["data-orbit"]["t"][-1] < end
+    assert "Ends early." in shown.text["x-y"]
+    assert "No exponent: the motion ends early." in shown.text["exponent"]
+    assert "the motion ends early" in shown.text["section"]
+    assert (shown.result.megno.kinds == 4.0).any()
+    assert np.isfinite(shown.data["section-ended"]["x"]).all()
+    assert all(label in scene.legend for label in ("motion ends early", "orbits that end early"))
 
 
 def test_it_has_a_slider_for_each_parameter_and_initial_value_and_the_presets_asked_for():

@@ -68,11 +68,11 @@ def test_a_formula_is_refused_with_the_whole_sentence_of_the_page():
             "has no parameter 'height': choose one of I22, I23, b3, h, f, phi0, span, cells, certain, shade, accuracy, "
             "t, az, el.",
         ),
-        ({"h": "high"}, "'high' is not a number: h (Energy h) must be a number between -1 and 1e+06."),
+        ({"h": "high"}, "'high' is not a number: h (Energy h) must be a number between -1 and 1e6."),
         ({"h": True}, "True is not a number"),
         ({"h": math.nan}, "h (Energy h) must be a finite number."),
         ({"h": 10**400}, "h (Energy h) must be a finite number."),
-        ({"h": -2.0}, "h must lie between -1 and 1e+06."),
+        ({"h": -2.0}, "h must lie between -1 and 1e6."),
         ({"f": 50.0}, "At h = 1.5 the largest possible |f| is 1.812"),
         ({"accuracy": "best"}, "Accuracy must be one of draft, standard, precise, reference, auto."),
     ],

@@ -15,16 +15,30 @@ def explorer(tab):
     tab.assert_quiet()
 
 
+def test_what_a_link_has_too_much_is_named(tab):
+    tab.open("scene=own-body&hh=1&w1=0.3&w1=0.4#scene=suslov")
+    assert tab.text("notes").splitlines() == [
+        "The link contains 'w1' more than once: the last value is used.",
+        "The scene own-body has no parameter 'hh', '#scene': ignored.",
+    ]
+
+
 def test_a_typed_potential_is_shown_and_goes_into_the_link(explorer):
     explorer.picture("omega").get_by_text("From t = 0").wait_for()
     assert explorer.box("frequency").is_disabled()
     explorer.change(explorer.type, "U", "g3 +")
     assert "This is no polynomial: use numbers, g1, g2, g3" in explorer.text("notes")
     # It stays to be corrected.
-    assert explorer.box("U").input_value() == "g3 +"
+    box = explorer.box("U")
+    assert box.input_value() == "g3 +"
+    assert box.get_attribute("aria-invalid") == "true"
+    border = "(box) => getComputedStyle(box).borderColor"
+    red = box.evaluate(border)
     # Other numbers need no compilation.
     explorer.change(explorer.type, "U", "g3 - 2*g1")
     assert explorer.text("notes") == ""
+    assert box.get_attribute("aria-invalid") == "false"
+    assert box.evaluate(border) != red
     assert explorer.wait_url(U="g3 - 2*g1")["scene"] == "own-body"
     t, w1, w2, g1, g3 = (np.array(explorer.data("data-orbit")[name]) for name in ("t", "ω1", "ω2", "g1", "g3"))
     assert t[-1] == SCENE.defaults()["lasts"]

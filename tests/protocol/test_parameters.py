@@ -7,7 +7,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from mpmath import mp, mpf
 
-from hess_explorer.page.opening import THEME
+from hess_explorer.page.opening import THEME, opening, query_of
 from hess_explorer.protocol.parameters import (
     CLIENT,
     MAX_QUERY,
@@ -90,6 +90,15 @@ DEFAULTS = {spec.name: spec.default for spec in SPECS}
 
 def test_keys_of_nobody_are_ignored():
     assert decode("utm_source=mail&h=2.5&I22[]=7&__proto__=1&=", SPECS) == ({**DEFAULTS, "h": 2.5}, [])
+
+
+def test_a_page_names_keys_that_its_link_has_twice_or_that_nobody_knows():
+    query = query_of({"hh": [b"1"], "H": [b"2"], "#scene": [b""], "h": [b"1", b"1.5"], "lesson": [b""]})
+    opened = opening(query)
+    twice, unknown = opened.notes
+    assert twice == "The link contains 'h' more than once: the last value is used."
+    assert unknown == "The scene suslov-hess has no parameter 'hh', 'H', '#scene': ignored."
+    assert opened.values["h"] == 1.5
 
 
 @given(

@@ -9,7 +9,8 @@ import pytest
 from hess_explorer.scenes.framework import work
 from hess_explorer.views import section_plane
 from hess_explorer.views.layers import Axes
-from hess_explorer.views.text import ranging, with_error
+from hess_explorer.views.text import digits, ranging, with_error
+from hess_mechanics.parameters import plain
 
 
 def test_a_range_that_is_one_number_is_said_to_be_that():
@@ -17,6 +18,17 @@ def test_a_range_that_is_one_number_is_said_to_be_that():
     assert ranging(0.14159, 0.1416) == "= 0.1416"
     assert ranging(0.14159, 0.1416, 6) == "from 0.14159 to 0.1416"
     assert ranging(0.0, 0.0) == "= 0"
+
+
+def test_a_number_is_written_as_one_writes_it():
+    written = {100.0: "100", 99.96: "100", 1234.0: "1200", -98765.4: "−99000", 1e6: "1e6", 2.5e-7: "2.5e−7", 0.5: "0.5"}
+    assert {value: digits(value, 2) for value in written} == written
+    for value in np.geomspace(1e-4, 9e5, 200):
+        for count in range(1, 9):
+            for sign in (1.0, -1.0):
+                text = plain(sign * value, count)
+                assert "e" not in text
+                assert float(text) == float(f"{sign * value:.{count - 1}e}")
 
 
 def test_a_value_has_the_decimals_of_its_error():

@@ -64,14 +64,14 @@ def _page(options: Options) -> bytes:
 
 def _lesson(options: Options) -> bytes:
     from hess_explorer.lessons import shipped
-    from hess_explorer.lessons.collection import read_paths
     from hess_explorer.lessons.lesson import LessonError
+    from hess_explorer.lessons.reading import read_file
     from hess_explorer.offline.html import HOME
     from hess_explorer.offline.pages import lesson_page
 
     path = Path(options.lesson)
     try:
-        lesson = read_paths([path])[0] if path.suffix == ".md" else shipped().get(options.lesson)
+        lesson = read_file(path) if path.suffix == ".md" else shipped().get(options.lesson)
     except LessonError as error:
         raise CommandError(str(error)) from error
     if lesson is None:

@@ -14,20 +14,17 @@ _GUIDE = Path(str(files("hess_explorer"))) / "docs/guides/lesson.md"
 
 
 def _check(options: Options) -> None:
-    from hess_explorer.lessons.collection import files_in
+    from hess_explorer.lessons.collection import examined, files_in
     from hess_explorer.lessons.lesson import LessonError
-    from hess_explorer.lessons.reading import examine
-    from hess_explorer.lessons.review import corrections, hints
+    from hess_explorer.lessons.review import hints
 
     try:
         paths = files_in(options.files)
     except LessonError as error:
         raise CommandError(str(error)) from error
     count = 0
-    for path in paths:
-        lesson, problems = examine(path)
+    for path, lesson, problems in examined(paths):
         if lesson is not None:
-            problems += corrections(lesson)
             for hint in hints(lesson):
                 print(f"{path}:{hint.line}: Warning: {hint.message}")
         for problem in sorted(problems, key=lambda one: one.line):

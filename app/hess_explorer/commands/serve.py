@@ -10,6 +10,7 @@ import os
 import re
 import signal
 import socket
+import sys
 import webbrowser
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext, suppress
@@ -120,9 +121,14 @@ def _lessons(paths: Sequence[Path]) -> tuple[Lesson, ...]:
     from hess_explorer.lessons.lesson import LessonError
 
     try:
-        return read_paths(paths)
+        lessons, mistakes = read_paths(paths)
     except LessonError as error:
         raise CommandError(str(error)) from error
+    if not lessons:
+        raise CommandError("\n".join(map(str, mistakes)))
+    for mistake in mistakes:
+        print(f"{mistake}  Its lesson is left out.", file=sys.stderr)
+    return lessons
 
 
 def _first_words() -> str:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hess_explorer.export.picture_data import PictureData
-from hess_explorer.export.table import Block, blocks, names_of
+from hess_explorer.export.table import ANGLES, Block, angles_of, blocks, names_of
 from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.labelled import Labels, Result
@@ -30,7 +30,8 @@ class Table(Result):
     columns : mapping of str to ndarray
         The columns by the names of the CSV file, read-only.
     facts : mapping of str
-        Link, parameters, accuracy, errors and version, the same as in exported files.
+        Link, parameters, accuracy, errors and version, the same as in exported files; "angles" says of each column of
+        angles whether it counts on over full turns.
     axes : tuple of str
         Names of the axes of a plot, empty for other pictures.
 
@@ -166,10 +167,7 @@ class _Layer(Result):
         )
 
 
-_UNITS = {
-    **dict.fromkeys(("t", "time", "tau", "τ"), "T"),
-    **dict.fromkeys(("phi", "phi_start", "theta", "psi", "delta", "l", "φ", "θ", "θ⁻", "θ⁺", "ψ", "δ", "Θ(φ)"), "rad"),
-}
+_UNITS = {**dict.fromkeys(("t", "time", "tau", "τ"), "T"), **dict.fromkeys(ANGLES, "rad")}
 """Units of columns and axes; all others are numbers in the units of the problem."""
 
 
@@ -177,7 +175,8 @@ def columns_of(data: PictureData) -> Table:
     """Return the data of a picture in double precision."""
     found = blocks(data)
     axes = data.picture.names(data.state) if isinstance(data.picture, Plot) else ()
-    return Table({name: frozen(_column(name, found)) for name in names_of(found)}, data.facts, axes)
+    facts = {**data.facts, **angles_of(data)}
+    return Table({name: frozen(_column(name, found)) for name in names_of(found)}, facts, axes)
 
 
 def _column(name: str, found: Sequence[Block]) -> NDArray[Any]:

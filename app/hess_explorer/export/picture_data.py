@@ -154,7 +154,7 @@ def address(query: str, picture: str = "", *, lenient: bool = False) -> Address:
     known = scenes()
     link = Link(query, lenient)
     scene = known[str(link.value(Choice("scene", "Scene", tuple(known), next(iter(known)))))]
-    link.require(scene.name, [spec.name for spec in scene.specs])
+    link.require(scene.name, scene.specs)
     client = {name: float(value) for name, value in link.values(CLIENT_KEPT).items()}
     values, changed = scene.admit(link.values(scene.specs))
     for note in changed:

@@ -17,10 +17,15 @@ from hess_explorer.export.picture_data import PictureData
 from hess_explorer.views.layers import Columns, Sources
 from hess_explorer.views.plot import Plot
 
-__all__ = ["Block", "as_csv", "as_json", "blocks", "names_of"]
+__all__ = ["ANGLES", "Block", "angles_of", "as_csv", "as_json", "blocks", "names_of"]
+
+ANGLES = ("phi", "phi_start", "theta", "psi", "delta", "l", "φ", "θ", "θ⁻", "θ⁺", "ψ", "δ", "Θ(φ)")
+"""Names of columns and axes that are angles, in radians."""
 
 _FIRST = ("layer", "part", "ring")
 _GRID = ("image", "x", "y", "dw", "dh")
+_WIDEST = 2.001 * math.pi
+_COUNTS, _RETURNS = "counts on over full turns", "within one turn"
 Block = Mapping[str, NDArray[Any]]
 """Columns of equal length by name; the first is "layer"."""
 
@@ -50,7 +55,7 @@ def as_csv(data: PictureData) -> str:
     found = blocks(data)
     names = names_of(found)
     out = io.StringIO()
-    for key, value in {**data.facts, **_axes(data), **_besides(data)}.items():
+    for key, value in {**data.facts, **_axes(data), **angles_of(data), **_besides(data)}.items():
         out.write(f"# {key}: {json.dumps(value, ensure_ascii=False, allow_nan=False)}\n")
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(names)
@@ -65,7 +70,26 @@ def as_json(data: PictureData) -> str:
     layers = {
         layer: {name: _plain(column) for name, column in columns.items()} for layer, columns in _layers(data).items()
     }
-    return json.dumps({**data.facts, **_axes(data), "layers": layers}, ensure_ascii=False, allow_nan=False) + "\n"
+    facts = {**data.facts, **_axes(data), **angles_of(data)}
+    return json.dumps({**facts, "layers": layers}, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def angles_of(data: PictureData) -> dict[str, dict[str, str]]:
+    """Return the fact "angles": whether each column of angles, "layer.name", counts on over full turns."""
+    axes = dict(zip("xy", data.picture.names(data.state), strict=True)) if isinstance(data.picture, Plot) else {}
+    turning = {*ANGLES, *getattr(type(data.state), "angles", ())}
+    found: dict[str, bool] = {}
+    for layer, columns in _layers(data).items():
+        # A track is a motion, sampled densely: it jumps only where it starts a turn again.
+        is_track = f"data-{layer}" in data.columns
+        for block in _blocks_of(columns):
+            for name, column in block.items():
+                known = column[np.isfinite(column)] if axes.get(name, name) in turning else np.empty(0)
+                if known.size:
+                    key, jumps = f"{layer}.{name}", np.abs(np.diff(known)).max(initial=0.0) > math.pi
+                    wide = np.ptp(known) > _WIDEST
+                    found[key] = found.get(key, False) or bool(wide or (is_track and not jumps))
+    return {"angles": {key: _COUNTS if counts else _RETURNS for key, counts in found.items()}} if found else {}
 
 
 def _layers(data: PictureData) -> Sources:

@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 
 from hess_explorer.lessons.lesson import Lesson
-from hess_explorer.lessons.reading import read_file, read_tries
+from hess_explorer.lessons.reading import read, read_tries
 from hess_explorer.scenes import scenes
 
 __all__ = ["shipped", "tries"]
@@ -16,7 +16,7 @@ __all__ = ["shipped", "tries"]
 @cache
 def shipped() -> Mapping[str, Lesson]:
     """Return the lessons of this package by name, the longest first."""
-    found = map(read_file, Path(__file__).parent.glob("*.md"))
+    found = (read(path.read_text("utf-8"), path.stem) for path in Path(__file__).parent.glob("*.md"))
     return {lesson.name: lesson for lesson in sorted(found, key=lambda lesson: (-lesson.minutes, lesson.title))}
 
 

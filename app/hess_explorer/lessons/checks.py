@@ -15,6 +15,7 @@ __all__ = ["problems_in"]
 
 _SHOWN = 40
 _MATH = {"math_inline": False, "math_inline_double": True, "math_block": True, "math_block_label": True}
+_NO_FORMULA = "write it in LaTeX between dollars, and a dollar itself as \\$."
 # Signs of Markdown that other programs understand, in text whose escaped signs are taken out → what to do.
 _FOREIGN = (
     (r"\$", "a dollar stands alone: close the formula without a space inside, or write \\$."),
@@ -37,7 +38,7 @@ def problems_in(text: str, line: int, images: Images, follow: Callable[[str, int
     images : Images
         Gets the images of the text.
     follow : callable
-        Called with a link to a state of the page and its line; raises `LessonError`.
+        Called with each link to a state of the page and its line.
 
     Yields
     ------
@@ -67,12 +68,10 @@ def _problems_of(token: Token, at: int, images: Images, follow: Callable[[str, i
     elif token.type in _MATH:
         try:
             formula(token.content, {"display_mode": _MATH[token.type]})
-        except BadFormula:
-            yield LessonError(
-                f"the formula {_short(token.content)} cannot be set: write it in LaTeX between dollars, and a dollar "
-                "itself as \\$.",
-                at,
-            )
+        except BadFormula as error:
+            for why, place in error.mistakes or ((_NO_FORMULA, 0),):
+                line = at + token.content[:place].count("\n")
+                yield LessonError(f"the formula {_short(token.content.strip())} cannot be set: {why}", line)
     elif token.type == "image":
         yield from _problems_of_image(str(token.attrs["src"]), token.content, at, images)
     elif token.type == "link_open":
@@ -97,10 +96,7 @@ def _problems_of_image(target: str, words: str, at: int, images: Images) -> Iter
 
 def _problems_of_link(target: str, at: int, follow: Callable[[str, int], object]) -> Iterator[LessonError]:
     if target.startswith("?"):
-        try:
-            follow(target, at)
-        except LessonError as error:
-            yield error
+        follow(target, at)
     elif not re.match(r"https?://[^/]", target, re.IGNORECASE):
         yield LessonError(
             f"the link to {_short(target)} leads nowhere: write https://…, or ?scene=… for a state of the page.", at
@@ -108,4 +104,4 @@ def _problems_of_link(target: str, at: int, follow: Callable[[str, int], object]
 
 
 def _short(text: str) -> str:
-    return repr(text if len(text) <= _SHOWN else text[:_SHOWN] + "…")
+    return repr(text if len(text) <= _SHOWN else text[:_SHOWN] + "…").replace("\\\\", "\\")

@@ -7,16 +7,15 @@ from pathlib import Path
 
 from hess_explorer.lessons import shipped
 from hess_explorer.lessons.lesson import Lesson, LessonError
-from hess_explorer.lessons.reading import read_file
-from hess_explorer.lessons.review import corrections
+from hess_explorer.lessons.reading import examine, name_of
 
-__all__ = ["MAX_LESSONS", "files_in", "read_paths"]
+__all__ = ["MAX_LESSONS", "examined", "files_in", "read_paths"]
 
 MAX_LESSONS = 100
 
 
-def read_paths(paths: Iterable[Path]) -> tuple[Lesson, ...]:
-    """Return the lessons in files and folders.
+def read_paths(paths: Iterable[Path]) -> tuple[tuple[Lesson, ...], list[LessonError]]:
+    """Return the lessons in files and folders, without the files that have mistakes, and these mistakes.
 
     Parameters
     ----------
@@ -25,15 +24,31 @@ def read_paths(paths: Iterable[Path]) -> tuple[Lesson, ...]:
 
     Returns
     -------
-    tuple of Lesson
+    lessons : tuple of Lesson
         The lessons in the given order, those of a folder by file name.
+    mistakes : list of LessonError
+        The mistakes of the other files.
 
     Raises
     ------
     LessonError
-        If a file is no lesson, a folder has none, or two lessons have the same name.
+        If there are too many files, or a folder has none.
     """
-    return tuple(_with_own_names(files_in(paths)))
+    found = [*examined(files_in(paths))]
+    lessons = tuple(lesson for _, lesson, mistakes in found if lesson is not None and not mistakes)
+    return lessons, [one for _, _, mistakes in found for one in mistakes]
+
+
+def examined(files: Iterable[Path]) -> Iterator[tuple[Path, Lesson | None, list[LessonError]]]:
+    """Yield each file with its lesson, as far as it can be read, and its mistakes; names differ, as links need."""
+    taken = dict.fromkeys(shipped(), "a lesson of this package")
+    for file in files:
+        lesson, mistakes = examine(file)
+        other = taken.setdefault(name_of(file), str(file))
+        if other != str(file):
+            why = f"its name in links, {name_of(file)}, is that of {other}: rename the file."
+            mistakes.append(LessonError(why, 1, file.name))
+        yield file, lesson, mistakes
 
 
 def files_in(paths: Iterable[Path]) -> Sequence[Path]:
@@ -51,19 +66,3 @@ def _files(path: Path) -> Sequence[Path]:
     if not found:
         raise LessonError("this folder has no lesson: put a file like lesson.md into it.", 1, str(path))
     return found
-
-
-def _with_own_names(files: Iterable[Path]) -> Iterator[Lesson]:
-    """Yield the lessons, whose names must differ: links of the page contain them."""
-    taken = dict.fromkeys(shipped(), "a lesson of this package")
-    for file in files:
-        lesson = read_file(file)
-        if lesson.name in taken:
-            raise LessonError(
-                f"its name in links, {lesson.name}, is that of {taken[lesson.name]}: rename the file.", 1, str(file)
-            )
-        taken[lesson.name] = str(file)
-        mistake = next(corrections(lesson), None)
-        if mistake is not None:
-            raise LessonError(mistake.message, mistake.line, file.name)
-        yield lesson

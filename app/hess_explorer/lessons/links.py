@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from urllib.parse import parse_qsl, urlsplit
+from urllib.parse import urlsplit
 
 from hess_explorer.lessons.lesson import LessonError, StateLink
-from hess_explorer.protocol.parameters import MAX_QUERY, PAGE_KEYS, decode, refusal
+from hess_explorer.lessons.problems import Problems
+from hess_explorer.protocol.parameters import Link, refusal
 from hess_explorer.scenes import scenes
 
 __all__ = ["example_of", "not_one_of", "place_of"]
@@ -16,30 +17,20 @@ def not_one_of(what: str, given: object, allowed: tuple[str, ...]) -> str:
     return f"{what} must be one of {', '.join(allowed)}, not {str(given)[:40]!r}."
 
 
-def place_of(link: object, line: int) -> StateLink:
-    """Return the state of a link, each value within its bounds."""
-    query = urlsplit(link).query if isinstance(link, str) else ""
-    given = dict(parse_qsl(query, keep_blank_values=True))
-    scene = scenes().get(given.get("scene", ""))
-    if scene is None:
-        raise LessonError(
-            "a link of this page needs a scene, one of "
-            f"{', '.join(name for name, one in scenes().items() if one.origin is None)}.",
-            line,
-        )
-    if len(query) > MAX_QUERY:
-        raise LessonError(f"the link is longer than {MAX_QUERY} characters.", line)
-    names = tuple(spec.name for spec in scene.specs)
-    unknown = [name for name in given if name not in names and name not in PAGE_KEYS]
-    if unknown:
-        raise LessonError(
-            f"the scene {scene.name} has no parameter {unknown[0][:40]!r}: choose from {', '.join(names)}.",
-            line,
-        )
-    values, notes = decode(query, scene.specs)
-    if notes:
-        raise LessonError(f"the link is not valid. {refusal(notes[0])}", line)
-    return StateLink(scene.name, values)
+def place_of(text: object, line: int, problems: Problems) -> StateLink | None:
+    """Return the state of a link, each value within its bounds; None if it has no scene."""
+    link = Link(urlsplit(text).query if isinstance(text, str) else "")
+    scene = scenes().get(link.given.get("scene", ""))
+    values = {} if scene is None else link.values(scene.specs)
+    if scene is not None:
+        link.require(scene.name, scene.specs)
+    for note in link.notes:
+        problems.add(f"the link is not valid. {refusal(note)}", line)
+    # A link that is too long is not read.
+    if scene is None and (link.given or not link.notes):
+        names = ", ".join(name for name, one in scenes().items() if one.origin is None)
+        problems.add(f"a link of this page needs a scene, one of {names}.", line)
+    return None if scene is None else StateLink(scene.name, values)
 
 
 def example_of(begins: object, place: StateLink | None, line: int) -> StateLink:

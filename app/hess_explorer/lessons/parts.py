@@ -43,7 +43,7 @@ def parts_of(text: str, tag: str, problems: Problems) -> Iterator[Part]:
         fences = [token for token in inside if _is_fence(token)]
         for token in fences[1:]:
             message = "the step has two fences named step: keep one."
-            problems.found.append(LessonError(message, _line(token)))
+            problems.add(message, _line(token))
         kept = list(lines[begin:end])
         for token in fences:
             assert token.map
@@ -89,12 +89,12 @@ def fields_of(text: str, line: int, allowed: tuple[str, ...], problems: Problems
     written = [(re.match(r"([^\s:#][^:]*?)\s*:", one), number) for number, one in enumerate(text.split("\n"), line)]
     lines = {found[1].strip("\"'"): number for found, number in written if found}
     if not isinstance(values, dict):
-        problems.attempt({}, only, values, line, "this", allowed)
+        problems.attempt({}, only, values, line, "this", allowed, problems)
         return Fields(line=line)
-    for key in values:
-        at = lines.get(str(key), line)
-        problems.attempt({}, only, {key: None}, at, "this", allowed)
-    return Fields({key: value for key, value in values.items() if key in allowed}, lines, line)
+    kept: dict[str, Any] = {}
+    for key, value in values.items():
+        kept |= only({key: value}, lines.get(str(key), line), "this", allowed, problems)
+    return Fields(kept, lines, line)
 
 
 # The parser in C takes a tenth of the time of that in Python.

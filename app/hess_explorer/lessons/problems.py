@@ -22,6 +22,10 @@ class Problems:
     def __init__(self) -> None:
         self.found: list[LessonError] = []
 
+    def add(self, message: str, line: int) -> None:
+        """Add the mistake in a line."""
+        self.found.append(LessonError(message, line))
+
     def attempt(self, instead: T, read: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> T:
         """Return what `read` returns, or keep its `LessonError` and return `instead`."""
         try:

@@ -28,6 +28,7 @@ down.
 from __future__ import annotations
 
 import re
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +39,7 @@ from hess_explorer.lessons.links import example_of, place_of
 from hess_explorer.lessons.markdown import parser
 from hess_explorer.lessons.parts import Fields, Part, fields_of, parts_of
 from hess_explorer.lessons.problems import Problems
+from hess_explorer.lessons.review import corrections
 from hess_explorer.lessons.settings import (
     animation_of,
     controls_of,
@@ -49,7 +51,18 @@ from hess_explorer.lessons.settings import (
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
-__all__ = ["KEYS", "MAX_BYTES", "MAX_STEPS", "TRY_THIS", "examine", "read", "read_file", "read_tries", "without_tries"]
+__all__ = [
+    "KEYS",
+    "MAX_BYTES",
+    "MAX_STEPS",
+    "TRY_THIS",
+    "examine",
+    "name_of",
+    "read",
+    "read_file",
+    "read_tries",
+    "without_tries",
+]
 
 MAX_BYTES = 256 * 1024
 MAX_STEPS = 200
@@ -62,19 +75,23 @@ _MOST_MINUTES = 600.0
 def read_file(path: Path) -> Lesson:
     """Return the lesson in a file, named after the file.  Raises `LessonError`."""
     lesson, problems = examine(path)
-    if problems:
+    if lesson is None or problems:
         raise problems[0]
-    assert lesson is not None
     return lesson
 
 
 def examine(path: Path) -> tuple[Lesson | None, list[LessonError]]:
-    """Return the lesson in a file, None if it has mistakes, and all mistakes, the one to begin with first."""
+    """Return the lesson in a file as far as it can be read, and all mistakes, the one to begin with first."""
     problems = Problems()
     text = problems.attempt(None, _text, path)
-    name = re.sub(r"[^a-z0-9]+", "-", path.stem.lower()).strip("-") or "lesson"
-    lesson = None if text is None else _read(text, name, Images(path.parent), problems)
+    lesson = None if text is None else _read(text, name_of(path), Images(path.parent), problems)
+    problems.found += [] if lesson is None else corrections(lesson.steps)
     return lesson, [LessonError(one.message, one.line, path.name) for one in problems.found]
+
+
+def name_of(path: Path) -> str:
+    """Return the name in links of the lesson in a file."""
+    return re.sub(r"[^a-z0-9]+", "-", path.stem.lower()).strip("-") or "lesson"
 
 
 def _text(path: Path) -> str:
@@ -96,35 +113,37 @@ def read(text: str, name: str) -> Lesson:
     problems = Problems()
     lesson = _read(text, name, Images(None), problems)
     problems.raise_first()
-    assert lesson is not None
     return lesson
 
 
-def _read(text: str, name: str, images: Images, problems: Problems) -> Lesson | None:
-    """Return the lesson in a text, None if there are problems."""
+def _read(text: str, name: str, images: Images, problems: Problems) -> Lesson:
+    """Return the lesson in a text as far as it can be read."""
     first = next(iter(parser().parse(text)), None)
+    title, minutes = "", 0.0
     if first is None or first.type != "front_matter":
-        problems.found.append(
-            LessonError("the file must begin with front matter: the keys title and minutes between two lines ---.", 1)
-        )
-        facts = Fields()
+        problems.add("the file must begin with front matter: the keys title and minutes between two lines ---.", 1)
     else:
         facts = fields_of(first.content, 2, ("title", "minutes"), problems)
-        problems.attempt(None, _check_facts, facts)
+        title = problems.attempt("", _title, facts)
+        minutes = problems.attempt(0.0, _minutes, facts)
     steps = _steps(text, 2, None, images, problems)
-    if problems.found:
-        return None
-    return Lesson(name, facts.get("title").strip(), float(facts.get("minutes")), steps, images.urls)
+    return Lesson(name, title, minutes, steps, images.urls)
 
 
-def _check_facts(facts: Fields) -> None:
-    title, minutes = facts.get("title"), facts.get("minutes")
+def _title(facts: Fields) -> str:
+    title = facts.get("title")
     if not isinstance(title, str) or not title.strip():
         raise LessonError("the front matter has no title; write one, like title: Two cycles are born.", 1)
+    return title.strip()
+
+
+def _minutes(facts: Fields) -> float:
+    minutes = facts.get("minutes")
     if not is_number(minutes) or not 0 < float(minutes) <= _MOST_MINUTES:
         raise LessonError(
             f"minutes must be a positive number up to {_MOST_MINUTES:g}, like minutes: 20.", facts.line_of("minutes")
         )
+    return float(minutes)
 
 
 def read_tries(scene: Scene[Any]) -> Lesson | None:
@@ -167,26 +186,26 @@ def _steps(
             steps.append(step)
             place = step.at if step.prediction is None else step.prediction.then
     if not parts:
-        problems.found.append(LessonError(f"there is no step: begin one with a heading, {'#' * level} Its title.", 1))
+        problems.add(f"there is no step: begin one with a heading, {'#' * level} Its title.", 1)
     if len(parts) > MAX_STEPS:
-        problems.found.append(LessonError(f"there are {len(parts)} steps; at most {MAX_STEPS} are allowed.", 1))
+        problems.add(f"there are {len(parts)} steps; at most {MAX_STEPS} are allowed.", 1)
     return tuple(steps)
 
 
 def _step(part: Part, tag: str, before: StateLink | None, images: Images, problems: Problems) -> LessonStep | None:
     """Return a step, None if it has no state; before : the state of the step before."""
     if not part.title:
-        problems.found.append(LessonError("the step has no title: write one after #.", part.line - 1))
+        problems.add("the step has no title: write one after #.", part.line - 1)
     fields = Fields() if part.fields is None else fields_of(part.fields, part.fields_line, KEYS, problems)
     words, asked = _split(part, tag, problems)
     for text, line in ((part.title, part.line - 1), *((one.text, one.line) for one in (words, *asked.values()))):
-        problems.found += problems_in(text, line, images, place_of)
+        problems.found += [*problems_in(text, line, images, partial(place_of, problems=problems))]
     place = _state(fields, part.fields_line or part.line, before, problems)
     if place is None:
         return None
     scene = scenes()[place.scene]
     line_of = fields.line_of
-    animation = problems.attempt(None, animation_of, fields.get("animate"), scene, line_of("animate"))
+    animation = problems.attempt(None, animation_of, fields.get("animate"), scene, line_of("animate"), problems)
     question, answer = (asked[name].text.strip() if name in asked else "" for name in ("question", "answer"))
     return LessonStep(
         part.title,
@@ -196,9 +215,9 @@ def _step(part: Part, tag: str, before: StateLink | None, images: Images, proble
         animation,
         question,
         answer,
-        problems.attempt(None, prediction_of, fields.get("predict"), place, line_of("predict")),
-        problems.attempt((), controls_of, fields.get("controls"), animation, scene, line_of("controls")),
-        problems.attempt(None, hidden_of, fields.get("hide"), scene, line_of("hide")),
+        problems.attempt(None, prediction_of, fields.get("predict"), place, line_of("predict"), problems),
+        problems.attempt((), controls_of, fields.get("controls"), animation, scene, line_of("controls"), problems),
+        problems.attempt(None, hidden_of, fields.get("hide"), scene, line_of("hide"), problems),
         part.line - 1,
     )
 
@@ -207,7 +226,7 @@ def _state(fields: Fields, line: int, before: StateLink | None, problems: Proble
     """Return the state of a step, None if there is none."""
     place, had = before, len(problems.found)
     if "state" in fields.values:
-        place = problems.attempt(before, place_of, fields.get("state"), fields.line_of("state"))
+        place = place_of(fields.get("state"), fields.line_of("state"), problems) or before
     if "example" in fields.values:
         place = problems.attempt(place, example_of, fields.get("example"), place, fields.line_of("example"))
     if place is None and len(problems.found) == had:
@@ -227,19 +246,15 @@ def _split(part: Part, tag: str, problems: Problems) -> tuple[Part, dict[str, Pa
     }
     for name, one in found.items():
         if name not in ("question", "answer"):
-            problems.found.append(
-                LessonError(
-                    f"{one.title[:40]!r} is not a part of a step: use only the headings Question and Answer.",
-                    one.line - 1,
-                )
+            problems.add(
+                f"{one.title[:40]!r} is not a part of a step: use only the headings Question and Answer.",
+                one.line - 1,
             )
     asked = {name: one for name, one in found.items() if name in ("question", "answer")}
     if len(asked) == 1:
-        problems.found.append(
-            LessonError(
-                "a step needs both a question and an answer, or neither: add the missing heading.",
-                next(iter(asked.values())).line - 1,
-            )
+        problems.add(
+            "a step needs both a question and an answer, or neither: add the missing heading.",
+            next(iter(asked.values())).line - 1,
         )
     if not found:
         return part, {}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from hess_explorer.lessons.lesson import TIME, Lesson, LessonError, LessonStep, StateLink
 from hess_explorer.protocol.parameters import Number, Value
@@ -18,9 +18,9 @@ _ASKED = re.compile(
 )
 
 
-def corrections(lesson: Lesson) -> Iterator[LessonError]:
+def corrections(steps: Iterable[LessonStep]) -> Iterator[LessonError]:
     """Yield the states that the scene would change, as a mistake with the nearest valid values."""
-    for step in lesson.steps:
+    for step in steps:
         for what, place in _places(step):
             scene = scenes()[place.scene]
             values, notes = scene.admit(place.values)

@@ -7,6 +7,7 @@ from typing import Any, TypeGuard
 
 from hess_explorer.lessons.lesson import TIME, Animation, HiddenLayer, LessonError, Prediction, StateLink
 from hess_explorer.lessons.links import not_one_of, place_of
+from hess_explorer.lessons.problems import Problems
 from hess_explorer.protocol.parameters import Controlled, Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
@@ -27,14 +28,14 @@ def is_number(value: Any) -> TypeGuard[float]:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def only(found: Any, line: int, what: str, allowed: tuple[str, ...]) -> dict[str, Any]:
-    """Return a mapping, whose keys must be among the allowed ones."""
-    if not isinstance(found, dict) or not all(isinstance(key, str) for key in found):
+def only(found: Any, line: int, what: str, allowed: tuple[str, ...], problems: Problems) -> dict[str, Any]:
+    """Return the allowed keys of a mapping; the others are mistakes."""
+    if not isinstance(found, dict):
         raise LessonError(f"{what} must be a list of keys with values; the keys are {', '.join(allowed)}.", line)
-    unknown = [key for key in found if key not in allowed]
-    if unknown:
-        raise LessonError(f"{unknown[0][:40]!r} is not a known key: choose from {', '.join(allowed)}.", line)
-    return found
+    for key in found:
+        if key not in allowed:
+            problems.add(f"{str(key)[:40]!r} is not a known key: choose from {', '.join(allowed)}.", line)
+    return {key: value for key, value in found.items() if key in allowed}
 
 
 def look_of(found: object, scene: Scene[Any], line: int) -> str:
@@ -46,57 +47,73 @@ def look_of(found: object, scene: Scene[Any], line: int) -> str:
     return str(found)
 
 
-def animation_of(found: object, scene: Scene[Any], line: int) -> Animation | None:
+def animation_of(found: object, scene: Scene[Any], line: int, problems: Problems) -> Animation | None:
     """Return the animation of a step, None for none."""
     if found is None:
         return None
     names = ("name", "from", "to", "seconds")
-    given = only(found, line, "animate", names)
-    if any(name not in given for name in names):
-        raise LessonError(
-            "animate needs name, from, to and seconds, like {name: h, from: 0.2, to: 1.5, seconds: 8}.", line
-        )
+    given = only(found, line, "animate", names, problems)
     bounds = {TIME: (0.0, _MOST_TIME), **{spec.name: spec.bounds for spec in scene.specs if isinstance(spec, Number)}}
-    name = given["name"]
-    if not isinstance(name, str) or name not in bounds:
-        raise LessonError(not_one_of("name of animate", name, tuple(bounds)), line)
-    low, high = bounds[name]
-    if not all(is_number(given[end]) and low <= given[end] <= high for end in ("from", "to")):
-        raise LessonError(f"from and to of {name} must be numbers from {low:g} to {high:g}.", line)
-    if not is_number(given["seconds"]) or not 0 < given["seconds"] <= _MOST_SECONDS:
-        raise LessonError(f"seconds must be a positive number up to {_MOST_SECONDS:g}.", line)
-    return Animation(name, float(given["from"]), float(given["to"]), float(given["seconds"]))
+    name, start, end, seconds = (given.get(one, math.nan) for one in names)
+    known = isinstance(name, str) and name in bounds
+    low, high = bounds[name] if known else (-math.inf, math.inf)
+    ends = [given[one] for one in ("from", "to") if one in given]
+    mistakes = [
+        message
+        for wrong, message in (
+            (
+                len(given) < len(names),
+                "animate needs name, from, to and seconds, like {name: h, from: 0.2, to: 1.5, seconds: 8}.",
+            ),
+            ("name" in given and not known, not_one_of("name of animate", name, tuple(bounds))),
+            (
+                not all(is_number(one) and low <= one <= high for one in ends),
+                f"from and to of {name} must be numbers from {low:g} to {high:g}.",
+            ),
+            (
+                "seconds" in given and not (is_number(seconds) and 0 < seconds <= _MOST_SECONDS),
+                f"seconds must be a positive number up to {_MOST_SECONDS:g}.",
+            ),
+        )
+        if wrong
+    ]
+    for message in mistakes:
+        problems.add(message, line)
+    return None if mistakes else Animation(name, float(start), float(end), float(seconds))
 
 
-def controls_of(found: object, animation: Animation | None, scene: Scene[Any], line: int) -> tuple[str, ...]:
+def controls_of(
+    found: object, animation: Animation | None, scene: Scene[Any], line: int, problems: Problems
+) -> tuple[str, ...]:
     """Return the names of the controls beside the text; by default that of the animated parameter."""
     if found is None:
         return (animation.name,) if animation and animation.name != TIME else ()
-    if not isinstance(found, list) or len(found) > _MOST_CONTROLS:
-        raise LessonError(f"controls must be a list of at most {_MOST_CONTROLS} names, like controls: [h, f].", line)
+    listed = found if isinstance(found, list) else []
+    if listed is not found or len(listed) > _MOST_CONTROLS:
+        problems.add(f"controls must be a list of at most {_MOST_CONTROLS} names, like controls: [h, f].", line)
     names = tuple(spec.name for spec in scene.specs if isinstance(spec, Controlled))
-    for name in found:
+    for name in listed:
         if name not in names:
-            raise LessonError(not_one_of("a name in controls", name, names), line)
-    return tuple(dict.fromkeys(found))
+            problems.add(not_one_of("a name in controls", name, names), line)
+    return tuple(dict.fromkeys(name for name in listed if name in names))
 
 
-def hidden_of(found: object, scene: Scene[Any], line: int) -> HiddenLayer | None:
+def hidden_of(found: object, scene: Scene[Any], line: int, problems: Problems) -> HiddenLayer | None:
     """Return the layer that a step leaves out, None for none."""
     if found is None:
         return None
-    plot, layer = _layer(only(found, line, "hide", ("picture", "layer")), "hide", scene, line)
+    plot, layer = _layer(only(found, line, "hide", ("picture", "layer"), problems), "hide", scene, line)
     return HiddenLayer(plot.name, plot.source_of(layer))
 
 
-def prediction_of(found: object, place: StateLink, line: int) -> Prediction | None:
+def prediction_of(found: object, place: StateLink, line: int, problems: Problems) -> Prediction | None:
     """Return the prediction of a step, None for none."""
     if found is None:
         return None
-    given = only(found, line, "predict", ("picture", "layer", "then"))
-    then = place_of(given["then"], line) if "then" in given else place
+    given = only(found, line, "predict", ("picture", "layer", "then"), problems)
+    then = (place_of(given["then"], line, problems) if "then" in given else None) or place
     if then.scene != place.scene:
-        raise LessonError(f"then must be a state of the same scene, {place.scene}.", line)
+        problems.add(f"then must be a state of the same scene, {place.scene}.", line)
     plot, layer = _layer(given, "predict", scenes()[place.scene], line, (*_CURVES, *_POINTS))
     return Prediction(
         plot.name,

@@ -25,14 +25,13 @@ from hess_explorer.scenes.parts.branch import (
     parameter_of_branch,
 )
 from hess_explorer.scenes.parts.exponent import exponent_picture
+from hess_explorer.scenes.parts.indicator import colouring, indicator_layer
 from hess_explorer.scenes.parts.orbit import orbit_picture
 from hess_explorer.scenes.parts.periodic_orbit import layers
 from hess_explorer.scenes.parts.section import first_place, section_picture
-from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.poisson_sphere import Sphere, gamma_columns
-from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.cells import evenly
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.dynamics.variable_section import VariableSection, variable_section
@@ -159,9 +158,11 @@ def scene(
     ]
     if section:
         own = _checked_section(system, section)
-        section["window"] = tuple(ends.get(name, range_) for name, range_ in zip(own.names, own.window, strict=True))
+        section["ranges"] = tuple(ends.get(name, range_) for name, range_ in zip(own.names, own.window, strict=True))
+        low, high = (-_FARTHEST, -_FARTHEST), (_FARTHEST, _FARTHEST)
+        controls.append(("window", str, places("The window of the section", 2, low, high)))
+        controls.append(("indicator", str, colouring(has_density=False)))
         if "integrals" in section:
-            low, high = (-_FARTHEST, -_FARTHEST), (_FARTHEST, _FARTHEST)
             controls.append(("place", str, places("Start of the motion", 1, low, high, _place(own))))
         if _BRANCH in names:
             along = {name: field for name, (field, _) in fields.items()}
@@ -171,7 +172,7 @@ def scene(
         "Motion",
         controls,
         bases=(LevelState if "integrals" in section else OwnState,),
-        namespace={"system": system, **section},
+        namespace={"system": system, "angles": system.angles, **section},
         frozen=True,
     )
     chosen: dict[str, Mapping[str, Value]] = {
@@ -319,7 +320,18 @@ def _picture(system: System, wanted: str, leveled: bool) -> Picture[Any]:
         return branch_picture(lambda s: s.branch)
     if _SECTION.fullmatch(wanted):
         view: Any = section_picture(lambda s: s.section, "")
-        return _with_periodic_orbits(view) if leveled else replace(view, on_click=OwnState.start_at)
+        found: Picture[Any] = replace(
+            view,
+            layers=(
+                indicator_layer(lambda s: s.megno),
+                *view.layers,
+                *(layers(lambda s: s.periodic_orbit) if leveled else ()),
+            ),
+            caption=lambda s: s.about_section,
+            on_click=LevelState.start_at if leveled else OwnState.start_at,
+            on_box=OwnState.look_closer,
+        )
+        return found
     names = wanted.split()
     if len(names) == 3:
         a, b, c = (_require(system, name, system.variables) for name in names)
@@ -327,7 +339,7 @@ def _picture(system: System, wanted: str, leveled: bool) -> Picture[Any]:
             looks={"orbit": "orbit"},
             labels=(a, b, c),
             title=f"Direction of ({a}, {b}, {c})",
-            caption=lambda s: Caption(numbers=f"From t = 0 to t = {digits(s.lasts)}."),
+            caption=lambda s: s.orbit.caption,
         )
     if len(names) != 2:
         raise InvalidParameter(
@@ -336,17 +348,6 @@ def _picture(system: System, wanted: str, leveled: bool) -> Picture[Any]:
         )
     x, y = _require(system, names[0], ("t", *system.variables)), _require(system, names[1], system.variables)
     return orbit_picture(lambda s: s.orbit, x, y, f"{y} over {x}", name=f"{x}-{y}")
-
-
-def _with_periodic_orbits(view: Any) -> Picture[LevelState]:
-    """Return the picture of a section with its periodic orbit."""
-    found: Picture[LevelState] = replace(
-        view,
-        layers=(*view.layers, *layers(lambda s: s.periodic_orbit)),
-        caption=lambda s: s.periodic_orbit.caption or s.section.caption,
-        on_click=LevelState.start_at,
-    )
-    return found
 
 
 def _summary(system: System) -> str:

@@ -14,9 +14,12 @@ from hess_explorer.scenes.framework.part import Start, part
 from hess_explorer.scenes.framework.periodic_search import Closed
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.parts.exponent import Exponent, NotPeriodic
+from hess_explorer.scenes.parts.indicator import MEGNO, Indicator
 from hess_explorer.scenes.parts.orbit import Orbit
 from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, length_of_manifolds, which
 from hess_explorer.scenes.parts.section import Section, crossings_of_each, start_on
+from hess_explorer.views.caption import Caption
+from hess_explorer.views.picture import Corners
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.system import ParametrizedSystem, System
 from hess_mechanics.dynamics.variable_section import VariableSection, variable_section
@@ -30,7 +33,10 @@ _PIXELS = 300.0
 
 @dataclass(frozen=True)
 class OwnState(State):
-    """A motion of a system; each scene adds the system's parameters, `p_…`, and initial values, `y_…`, as fields."""
+    """A motion of a system; each scene adds the system's parameters, `p_…`, and initial values, `y_…`, as fields.
+
+    A scene with a section also adds its visible `window` and what is shown under its points, `indicator`.
+    """
 
     span: float = time_span(30.0, 300.0)
     long: float = exponent_time(500.0, 5000.0, 2e4, "the exponent is")
@@ -39,9 +45,12 @@ class OwnState(State):
     accuracy: str = accuracy_level()
 
     system: ClassVar[System]
+    angles: ClassVar[tuple[str, ...]] = ()
     surface: ClassVar[tuple[str, float] | None] = None
     coordinates: ClassVar[tuple[str, str] | None] = None
-    window: ClassVar[tuple[tuple[float, float], ...] | None] = None
+    ranges: ClassVar[tuple[tuple[float, float], ...] | None] = None
+    window: ClassVar[str] = ""
+    indicator: ClassVar[str] = ""
 
     @cached_property
     def body(self) -> ParametrizedSystem:
@@ -97,12 +106,26 @@ class OwnState(State):
     @cached_property
     def poincare(self) -> VariableSection:
         """The section."""
-        return variable_section(self.body, self.levels(), self.surface, self.coordinates, self.window)
+        return variable_section(self.body, self.levels(), self.surface, self.coordinates, self.ranges)
 
     @part
     def section(self) -> Section:
         """The crossings of the motion and of others with the same integrals."""
-        return Section(self, lambda: self.given, closed=lambda: self.closed)
+        return Section(self, lambda: self.given, closed=lambda: self.closed, zoom=self.window)
+
+    @part
+    def megno(self) -> Indicator:
+        """The MEGNO of the section's cells."""
+        return Indicator(self.section, self.indicator == MEGNO)
+
+    @property
+    def about_section(self) -> Caption:
+        """The caption of the section."""
+        return self.megno.caption or self.section.caption
+
+    def look_closer(self, corners: Corners) -> Values:
+        """Return the window of the section that a box selects."""
+        return self.section.look_closer(corners)
 
     def start_at(self, x: float, y: float) -> Values:
         """Return the initial values at a place of the section; none where no motion crosses it."""
@@ -146,6 +169,11 @@ class LevelState(OwnState):
     def closed(self) -> Closed | None:
         """The periodic orbit, if known."""
         return self.periodic_orbit.closed
+
+    @property
+    def about_section(self) -> Caption:
+        """The caption of the section, or of its periodic orbit."""
+        return self.periodic_orbit.caption or super().about_section
 
     def levels(self) -> dict[str, float]:
         """Return the chosen values of integrals."""

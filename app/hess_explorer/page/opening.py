@@ -45,9 +45,8 @@ class Opening:
 
 
 def query_of(arguments: Mapping[str, Iterable[bytes]]) -> str:
-    """Return the query of a request, with the first value of each key."""
-    pairs = ((name, next(iter(given), None)) for name, given in arguments.items())
-    return urlencode([(name, first.decode("utf-8", "replace")) for name, first in pairs if first is not None])
+    """Return the query of a request."""
+    return urlencode([(name, one.decode("utf-8", "replace")) for name, given in arguments.items() for one in given])
 
 
 def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> Opening:
@@ -84,6 +83,7 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
         scene, state = scenes()[place.scene], dict(place.values)
     else:
         scene, state = linked(link, next(iter(scenes())))
+    link.require(scene.name, scene.specs)
     large = Names("large", "Enlarged pictures", scene.pictures, most=2)
     numbers = link.values(CLIENT)
     numbers["speed"] = min(SPEEDS, key=lambda speed: abs(speed - float(numbers["speed"])))

@@ -19,7 +19,7 @@ from hess_explorer.page.lesson_description import describe_lesson
 from hess_explorer.page.requested import RequestedState
 from hess_explorer.protocol.expressions import NotANumber, evaluate
 from hess_explorer.protocol.messages import Answer, PictureBox, PicturePoint, Request, StateAnswer, StepChoice
-from hess_explorer.protocol.parameters import Number, Places, Values, encode
+from hess_explorer.protocol.parameters import Formula, Number, Places, Values, encode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Report, Scene
@@ -181,6 +181,9 @@ class Session:
 
     def _change(self, values: Values) -> None:
         self.requested.change(values)
+        for name, spec in self.requested.specs.items():
+            if isinstance(spec, Formula) and name in values and (note := spec.read(str(values[name]))[1]):
+                self.wire.say(f"error-{name}", note)
         # The control must be corrected even if the state does not change.
         self._mistaken |= any(self.values.get(name) != value for name, value in values.items())
 

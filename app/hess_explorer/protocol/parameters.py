@@ -7,13 +7,13 @@ change is reported in a note.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from urllib.parse import parse_qsl, urlencode, urlsplit
 
 from hess_explorer.protocol.formulas import polynomial
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.parameters import Group, Parameter
+from hess_mechanics.parameters import Group, Parameter, plain
 
 __all__ = [
     "CLIENT",
@@ -42,6 +42,8 @@ VERSION = "1"
 MAX_QUERY = 2000
 _SHORT = 60
 """Maximum number of characters of a link that a message quotes."""
+_NAMED = 3
+"""Maximum number of keys that a message names."""
 
 Value = float | str
 Values = Mapping[str, Value]
@@ -62,11 +64,11 @@ class Number(Parameter):
     def admit(self, value: float) -> tuple[float, str | None]:
         """Return the value clamped to `bounds`, and a note if it had to be changed."""
         if not math.isfinite(value):
-            return self.default, f"{self.symbol} must be a finite number {self.range}: set to {self.default:g}."
+            return self.default, f"{self.symbol} must be a finite number {self.range}: set to {plain(self.default)}."
         low, high = self.bounds
         clamped = min(max(value, low), high)
         if clamped != value:
-            return clamped, f"{self.symbol} must lie {self.range}: set to {clamped:g}."
+            return clamped, f"{self.symbol} must lie {self.range}: set to {plain(clamped)}."
         return value, None
 
 
@@ -134,7 +136,7 @@ class Places:
         except ValueError:
             inside = False
         if not inside:
-            low, high = (",".join(f"{value:g}" for value in corner) for corner in (self.low, self.high))
+            low, high = (",".join(map(plain, corner)) for corner in (self.low, self.high))
             return self.default, (f"{self.label} must be points x,y;x,y from {low} to {high}: the default is shown.")
         note = f"{self.label} may be at most {self.most}: the last ones are kept." if len(pairs) > self.most else None
         return written(pairs[-self.most :]), note
@@ -258,8 +260,12 @@ class Link:
             return
         pairs = parse_qsl(query.lstrip("?"), keep_blank_values=True)
         self.given = dict(pairs)
-        if not lenient:
-            self._refuse_repeated([name for name, _ in pairs])
+        names = [name for name, _ in pairs]
+        twice = _quoted(name for name in self.given if names.count(name) > 1)
+        if twice and lenient:
+            self.notes.append(f"The link contains {twice} more than once: the last value is used.")
+        elif twice:
+            raise InvalidParameter(f"The link contains {twice} more than once; {_REMEDY}")
         if self.given.get("v", VERSION) != VERSION:
             self.note("The link was made by another version of this page: its values may have another meaning here.")
 
@@ -284,18 +290,13 @@ class Link:
         """Return the values of several parameters by name."""
         return {spec.name: self.value(spec) for spec in specs}
 
-    def require(self, scene: str, names: Sequence[str]) -> None:
+    def require(self, scene: str, specs: Sequence[Spec]) -> None:
         """Check that each key belongs to the scene or to the page.  A lenient link ignores unknown keys."""
-        unknown = [name for name in self.given if name not in names and name not in PAGE_KEYS]
-        if unknown and not self._lenient:
-            raise InvalidParameter(
-                f"The scene {scene} has no parameter {_short(unknown[0])}, only {', '.join(names)}; {_REMEDY}"
-            )
-
-    def _refuse_repeated(self, names: list[str]) -> None:
-        twice = [name for name in names if names.count(name) > 1]
-        if twice:
-            raise InvalidParameter(f"The link contains {_short(twice[0])} more than once; {_REMEDY}")
+        names = [spec.name for spec in specs]
+        unknown = _quoted(name for name in self.given if name not in names and name not in PAGE_KEYS)
+        if unknown:
+            others = "" if self._lenient else f", only {', '.join(names)}"
+            self.note(f"The scene {scene} has no parameter {unknown}{others}: ignored.")
 
 
 _REMEDY = "correct it, or use --lenient (in Python lenient=True) to have it corrected."
@@ -303,6 +304,11 @@ _REMEDY = "correct it, or use --lenient (in Python lenient=True) to have it corr
 
 def _short(text: str) -> str:
     return repr(text if len(text) <= _SHORT else f"{text[:_SHORT]}…")
+
+
+def _quoted(names: Iterable[str]) -> str:
+    """Return the first names of a link in quotation marks."""
+    return ", ".join(_short(name) for name in [*names][:_NAMED])
 
 
 def decode(query: str, specs: Sequence[Spec]) -> tuple[dict[str, Value], list[str]]:

@@ -31,7 +31,7 @@ from hess_explorer.views.period_graph import has_periods, period_axis
 from hess_explorer.views.plane_domain import plane_columns
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import EQUATOR, Direction, Mark, Sphere, centre_of_mass, levels_about
-from hess_explorer.views.text import digits, power, vector
+from hess_explorer.views.text import digits, vector
 from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics import parameters as known
 from hess_mechanics.numerics.results import Array, Orbit
@@ -281,7 +281,7 @@ class Kharlamova(State):
             return Caption("T = ∞ in this direction.", "∫dτ/γ₃ diverges.")
         return Caption(
             f"T = {digits(self.arc.period)} in this direction.",
-            f"After T the orbit returns to its start, to {power(self.missed)}.",
+            f"After T the orbit returns to its start, to {digits(self.missed, 1)}.",
         )
 
     def derived(self) -> Iterator[str]:
@@ -291,7 +291,7 @@ class Kharlamova(State):
         yield f"Force = {vector((-self.b2 / self.body.axes[0], self.b1 / self.body.axes[1]))}"
         if self.arc.kind == "periodic":
             yield f"T = {digits(self.arc.period)}"
-            yield f"Back after T: {power(self.missed)}"
+            yield f"Back after T: {digits(self.missed, 1)}"
         else:
             yield "T = ∞" if self.arc.kind == "asymptotic" else "A fixed point"
         if self.known("sampled"):

@@ -21,7 +21,7 @@ from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import CENTRE_OF_MASS, Columns, Sign, column, line
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Mark
-from hess_explorer.views.text import digits, power, ranging, vector
+from hess_explorer.views.text import digits, ranging, vector
 from hess_explorer.views.velocity_plane import pixels_per_unit
 from hess_mechanics import parameters as known
 from hess_mechanics.euler_poisson.equations import HeavyBody
@@ -119,7 +119,7 @@ class Loxodrome(State):
         check_note = "" if self.pendulum.body.check.is_body else "Not a rigid body, so no ellipsoid. "
         return Caption(
             "The centre of mass swings in a plane.",
-            f"{check_note}Largest distance from the vertical plane: {power(self.found.off_plane)}.",
+            f"{check_note}Largest distance from the vertical plane: {digits(self.found.off_plane, 1)}.",
         )
 
     def _about_space(self) -> Caption:
@@ -136,7 +136,7 @@ class Loxodrome(State):
 
     def _about_angle(self) -> Caption:
         measured, theta = self.found.measured[1], self.pendulum.angle
-        error = f"; the track agrees to {power(np.max(np.abs(measured - theta)))}" if measured.size else ""
+        error = f"; the track agrees to {digits(np.max(np.abs(measured - theta)), 1)}" if measured.size else ""
         return Caption("The angle θ is constant.", f"θ = arcsin(1/√(1+a²)) = {digits(theta)}{error}.")
 
     def _about_height(self) -> Caption:
@@ -165,7 +165,7 @@ class Loxodrome(State):
     def status(self) -> Iterator[str]:
         """Yield the status of the attitude and of its orbit."""
         yield from orbit_status(self.found.attitude.orbit)
-        yield f"γ, e orthonormalised, defect {power(self.found.attitude.defect)}"
+        yield f"γ, e orthonormalised, defect {digits(self.found.attitude.defect, 1)}"
 
     def notes(self) -> Iterator[str]:
         """Yield warnings: not a rigid body, a truncated motion."""

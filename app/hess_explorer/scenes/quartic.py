@@ -43,7 +43,7 @@ from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Sphere, centre_of_mass, parallels
-from hess_explorer.views.text import digits, power, staying, vector
+from hess_explorer.views.text import digits, staying, vector
 from hess_explorer.views.velocity_plane import centred, nice_above
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import Level
@@ -296,7 +296,7 @@ class Quartic(State):
         yield f"Start: γ₃ = {digits(self.start[4])}"
         yield f"ω(0) = {vector(self.start[:2])}"
         if self.orbit.asked("path"):
-            yield f"H = ½ to {power(model.level_error(self.body, self.orbit.path.states))}"
+            yield f"H = ½ to {digits(model.level_error(self.body, self.orbit.path.states), 1)}"
         yield "Integrable" if self.body.integrable else "Not integrable"
         yield "div v = 0: the standard measure"
 

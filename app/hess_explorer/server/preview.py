@@ -21,6 +21,7 @@ from hess_explorer.protocol.parameters import MAX_QUERY, Number
 from hess_explorer.server.export import FILES
 from hess_explorer.server.home import home_of
 from hess_explorer.server.refusal import refuse
+from hess_explorer.views.text import digits
 from hess_mechanics.errors import ModelError
 
 __all__ = ["KEPT", "MOST", "Preview", "tags"]
@@ -48,7 +49,7 @@ def _described(opened: Opening) -> tuple[str, str]:
         return f"{opened.reading.title} — Hess Explorer", scene.summary
     named = (one.name for one in scene.presets if scene.example(one).items() <= dict(values).items())
     numbers = [
-        f"{spec.label} = {values[spec.name]:.4g}"
+        f"{spec.label} = {digits(float(values[spec.name]))}"
         for spec in scene.specs
         if isinstance(spec, Number) and spec.name in scene.essential
     ]

@@ -17,6 +17,7 @@ from hess_mechanics import parameters as known
 from hess_mechanics.chaplygin_ball import section as of_ball
 from hess_mechanics.chaplygin_ball.equations import SYSTEM as BALL
 from hess_mechanics.chaplygin_ball.equations import BallBody
+from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.megno import megno
 from hess_mechanics.dynamics.regime import MotionKind, regime
@@ -207,7 +208,7 @@ def _dimension(of: _Motions, level: Level, t: float, **values: float) -> Cell:
 
 def _megno(of: _Motions, level: Level, t: float, **values: float) -> Cell:
     body, state = of.start(values)
-    return Cell(float(megno(body, [state], t, level, threads=1).values[0]))
+    return Cell(float(complete(megno(body, [state], t, level, threads=1)).values[0]))
 
 
 def _crossings(

@@ -12,7 +12,7 @@ from hess_explorer.views.caption import Caption
 from hess_explorer.views.graph import about_0, over_time, pieces, thinned
 from hess_explorer.views.layers import Axes, Layers, curves, levels, mapped
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.text import power
+from hess_explorer.views.text import digits
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.principal_axis import Conformal
 
@@ -30,7 +30,7 @@ def about(found: Conformal) -> Caption:
     turned = {0: "never", 1: "once"}.get(found.turns, f"{found.turns} times")
     return Caption(
         "Hamiltonian in the time τ.",
-        f"ẋ = γ₃{{x, E}} to {power(found.left_over)}; τ reverses {turned} on the equator.",
+        f"ẋ = γ₃{{x, E}} to {digits(found.left_over, 1)}; τ reverses {turned} on the equator.",
     )
 
 

@@ -110,11 +110,10 @@ def basins(found: Callable[[S], Arrivals | None], window: Callable[[S], Window])
 
 
 def indicator(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Layer[S]:
-    """Return the layer of MEGNO, cells (m, n): 0 regular, 1 chaotic, 2 more where volume shrinks; −1 empty."""
-    colors = (theme.SHEET + "50", theme.UNSTABLE + "60", theme.STABLE + "70", theme.MAP + "80")
-    return _kinds(
-        "megno", cells, window, colors, ("regular", "chaotic", "regular, volume shrinks", "chaotic, volume shrinks")
-    )
+    """Return the layer of MEGNO, cells (m, n) of the kinds of `megno_map`."""
+    colors = (theme.SHEET + "50", theme.UNSTABLE + "60", theme.STABLE + "70", theme.MAP + "80", theme.MUTED + "60")
+    labels = ("regular", "chaotic", "regular, volume shrinks", "chaotic, volume shrinks", "motion ends early")
+    return _kinds("megno", cells, window, colors, labels)
 
 
 def layers(

@@ -13,7 +13,7 @@ from hess_explorer.views.graph import about_0, over_time
 from hess_explorer.views.layers import Axes, Columns, Layers, Regions, Sign, column, curves, line, region, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import gamma_columns
-from hess_explorer.views.text import digits, power, staying
+from hess_explorer.views.text import digits, staying
 from hess_explorer.views.velocity_plane import about_origin, square
 from hess_mechanics.numerics.results import Array, Orbit
 
@@ -96,7 +96,8 @@ def momentum_picture(
         _, values = momentum(state)
         if is_integral(state):
             return Caption(
-                "An integral, as I₁₁ = I₂₂.", f"{digits(float(values[0]))}, constant to {power(float(np.ptp(values)))}."
+                "An integral, as I₁₁ = I₂₂.",
+                f"{digits(float(values[0]))}, constant to {digits(float(np.ptp(values)), 1)}.",
             )
         return Caption("No integral, as I₁₁ ≠ I₂₂.", f"Here it is {staying(values)}.")
 

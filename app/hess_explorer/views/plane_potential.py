@@ -12,7 +12,7 @@ from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import curves, line, ring
 from hess_explorer.views.plane_domain import ground
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.text import digits, power
+from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import about_origin
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.kharlamova import PlaneBody
@@ -39,10 +39,10 @@ def about(body: PotentialBody, motion: PlaneMotion) -> Caption:
     if motion.period is not None:
         return Caption(
             "Periodic: it crosses the equator twice.",
-            f"T = {digits(motion.period)}, back to the start to {power(motion.missed)}.",
+            f"T = {digits(motion.period)}, back to the start to {digits(motion.missed, 1)}.",
         )
     integral = (
-        f"F₂ is constant to {power(motion.integral)}: integrable."
+        f"F₂ is constant to {digits(motion.integral, 1)}: integrable."
         if body.separates
         else f"F₂ changes by {digits(100.0 * motion.integral, 2)} %."
     )

@@ -24,16 +24,19 @@ def layers(
     others: Points[S] | None = None,
     forbidden: Callable[[S, Axes], Regions] | None = None,
     start: Callable[[S], Positions] | None = None,
+    ended: Points[S] | None = None,
 ) -> Layers[S]:
     """Return the layers: points (n, 2) of the chosen orbit, small points of others, a ring at the start, grey region.
 
-    forbidden : parts as of `region`.
+    forbidden : parts as of `region`; ended : points of other orbits that end early.
     """
     found: list[Layer[S]] = []
     if forbidden is not None:
         found.append(region("forbidden", within=forbidden, label="impossible", tag="impossible"))
     if others is not None:
         found.append(_points("others", others, theme.MUTED, 6, "other orbits"))
+    if ended is not None:
+        found.append(_points("ended", ended, theme.CHANGED, 6, "orbits that end early"))
     found.append(_points("own", own, theme.ORBIT, 14, ""))
     found.append(points("own-few", lambda s: _few(own(s)), color=theme.ORBIT, size=9))
     if start is not None:

@@ -9,11 +9,11 @@ from collections.abc import Iterable
 from latex2mathml.converter import convert
 
 from hess_mechanics.numerics.results import Array
+from hess_mechanics.parameters import plain
 
 __all__ = [
     "conjugates",
     "digits",
-    "power",
     "ranging",
     "staying",
     "superscript",
@@ -27,8 +27,7 @@ def digits(value: float, count: int = 4) -> str:
     """Return a number with up to `count` significant digits, with a true minus sign; ∞ beyond double range."""
     if math.isinf(value):
         return "∞" if value > 0 else "−∞"
-    # Adding 0 turns −0 into 0.
-    return f"{value + 0.0:.{count}g}".replace("-", "−").replace("e+", "e")
+    return plain(value, count).replace("-", "−")
 
 
 def with_error(value: float, error: float) -> str:
@@ -71,8 +70,3 @@ def with_formulas(text: str) -> str:
     """Return Markdown with $…$ and $$…$$ converted to MathML, which browsers render without a script."""
     text = re.sub(r"\$\$(.+?)\$\$", lambda match: convert(match[1], display="block"), text, flags=re.DOTALL)
     return re.sub(r"\$(.+?)\$", lambda match: convert(match[1]), text)
-
-
-def power(value: float) -> str:
-    """Return an error with one digit."""
-    return f"{value:.0e}".replace("e-", "e−")

@@ -37,6 +37,7 @@ from hess_mechanics.numerics.measured import SAFETY, nearby
 from hess_mechanics.numerics.parallel import THREADS
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen, unit_of
+from hess_mechanics.parameters import plain
 from hess_mechanics.rigid_body.inertia import require_finite
 
 __all__ = ["Cloud", "carried", "divergence", "frame_times", "histogram", "occupation", "patch", "shell"]
@@ -219,8 +220,8 @@ def frame_times(body: BallBody, states: Array, span: float, field: float = 0.0) 
     if not wanted <= _SPARSE * most:
         longest = abs(span) * _SPARSE * most / wanted
         raise WorkLimit(
-            f"In this time the cloud turns too often for {most} frames: choose a time span below {longest:.2g}, or "
-            "fewer points."
+            f"In this time the cloud turns too often for {most} frames: choose a time span below {plain(longest, 2)}, "
+            "or fewer points."
         )
     return np.linspace(0.0, span, max(_LEAST_FRAMES, min(most, math.ceil(wanted))))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -182,11 +183,21 @@ def ensemble(
         frozen(ends),
         frozen(last * problem.scale),
         tuple(reasons),
+        angles=body.system.angles,
     )
 
 
-def complete(found: Ensemble) -> Ensemble:
-    """Return the ensemble.  Raises `WorkLimit` with the reason of the first orbit that is incomplete."""
+class _Several(Protocol):
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """Why each motion is incomplete; empty for one that is complete."""
+
+
+M = TypeVar("M", bound=_Several)
+
+
+def complete(found: M) -> M:
+    """Return the motions.  Raises `WorkLimit` with the reason of the first one that is incomplete."""
     reason = next(filter(None, found.reasons), None)
     if reason is not None:
         raise WorkLimit(reason)

@@ -15,6 +15,7 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import (
     MAX_STEPS,
     checked_span,
+    end_of,
     require_finite_neighbours,
     require_finite_rates,
     require_finite_states,
@@ -26,6 +27,7 @@ from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Accuracy, Computation, plan
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.parameters import plain
 
 __all__ = ["Exponent", "lyapunov_exponent"]
 
@@ -129,7 +131,7 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
     returns = abs(span) / _INTERVAL * problem.nu
     if not returns <= MAX_RETURNS:
         raise WorkLimit(
-            f"This takes {returns:.3g} returns of the neighbour, at most {MAX_RETURNS} are allowed: choose "
+            f"This takes {plain(returns, 3)} returns of the neighbour, at most {MAX_RETURNS} are allowed: choose "
             "a shorter time span."
         )
     count = max(1, math.ceil(returns))
@@ -147,7 +149,8 @@ def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Ac
             taken, _ = body.system.orbit(
                 start, problem.parameters, interval, level.order, level.tolerance, longest, left, end
             )
-            require_steps(taken, f"This exponent needs more than {MAX_STEPS} steps: choose a shorter time span.")
+            too_long = f"This exponent needs more than {MAX_STEPS} steps: choose a shorter time span."
+            require_steps(taken, too_long, lambda: end_of(problem, problem.states[0], span * problem.nu))
             steps += taken
         require_finite_states(ends[0])
         along[i] = y = ends[0, 0].copy()

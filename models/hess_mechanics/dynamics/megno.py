@@ -21,6 +21,7 @@ from hess_mechanics.dynamics.birkhoff import window_rates
 from hess_mechanics.dynamics.orbit import (
     MAX_STEPS,
     checked_span,
+    end_of,
     require_finite_neighbours,
     require_finite_rates,
     require_finite_states,
@@ -28,12 +29,13 @@ from hess_mechanics.dynamics.orbit import (
 )
 from hess_mechanics.dynamics.spectrum import batch_error, no_chaos, volume_sign
 from hess_mechanics.dynamics.system import Body, Problem
-from hess_mechanics.errors import WorkLimit
+from hess_mechanics.errors import InvalidParameter, MotionEnds, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Accuracy
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.results import Array, Cost, Mask, frozen
+from hess_mechanics.parameters import plain
 
 __all__ = ["CHAOTIC", "REGULAR", "Megno", "longest_span", "megno"]
 
@@ -68,6 +70,10 @@ class Megno(Result):
     no_chaos : tuple of str
         For each motion why it is not chaotic, whatever Ȳ is: it rests, escapes or closes, or its phase space has two
         dimensions besides its integrals; empty where there is no such reason.
+    ends : ndarray, shape (n,)
+        Time up to which each motion was followed; the numbers of one that ends before t are NaN.
+    reasons : tuple of str
+        Why each motion was not followed up to t, with the place of its end; empty for one that was.
     level : str
         Name of the accuracy level.
     cost : Cost
@@ -80,6 +86,8 @@ class Megno(Result):
     divergence_error: Array
     windows: Array
     no_chaos: tuple[str, ...]
+    ends: Array
+    reasons: tuple[str, ...]
     level: str
     cost: Cost
 
@@ -108,8 +116,10 @@ class Megno(Result):
                 "divergence": (("motion",), self.divergence),
                 "divergence error": (("motion",), self.divergence_error),
                 "no chaos": (("motion",), np.array(self.no_chaos)),
+                "end": (("motion",), self.ends),
+                "reason": (("motion",), np.array(self.reasons)),
             },
-            {"MEGNO": "1", "divergence": "1/T", "divergence error": "1/T"},
+            {"end": "T", "MEGNO": "1", "divergence": "1/T", "divergence error": "1/T"},
             {"t": self.t, "level": self.level, "steps": self.cost.steps},
         )
 
@@ -147,7 +157,8 @@ def megno(
     Returns
     -------
     Megno
-        Ȳ and the mean divergence of each motion.
+        Ȳ and the mean divergence of each motion; a motion that cannot be followed has a reason, see
+        `ensemble.complete`.
 
     Raises
     ------
@@ -175,7 +186,7 @@ def megno(
     problem = Problem.of(body, states)
     if abs(span) * problem.nu > _LONGEST:
         raise WorkLimit(
-            f"The time of an indicator may be at most {_LONGEST / problem.nu:.4g} here: choose a shorter one."
+            f"The time of an indicator may be at most {plain(_LONGEST / problem.nu, 4)} here: choose a shorter one."
         )
     count, size = problem.states.shape
     # At least one sample per 1/ν, in twelve stretches after the first fifth.
@@ -184,9 +195,18 @@ def megno(
     first = samples // 5
     direction = np.cos(1.0 + np.arange(size) ** 2)
     frame = (direction / np.linalg.norm(direction))[:, None]
-    found, steps, reasons = np.empty((6, count)), np.zeros(count, int), [""] * count
+    found, steps, excuses = np.empty((6, count)), np.zeros(count, int), [""] * count
+    ends, reasons = np.full(count, abs(span)), [""] * count
 
     def one(i: int) -> None:
+        try:
+            follow(i)
+        except (WorkLimit, InvalidParameter) as error:
+            # Another motion is not lost with this one.
+            found[:, i], reasons[i] = math.nan, str(error)
+            ends[i] = abs(error.time) if isinstance(error, MotionEnds) else math.nan
+
+    def follow(i: int) -> None:
         along, frames = np.empty((samples, size)), np.empty((samples, size, 1))
         grown, volume = np.empty((samples, 1)), np.empty(samples)
         steps[i] = body.system.vary_one(
@@ -203,7 +223,8 @@ def megno(
             grown,
             volume,
         )
-        require_steps(steps[i], f"This indicator needs more than {MAX_STEPS} steps: choose a shorter time span.")
+        too_long = f"This indicator needs more than {MAX_STEPS} steps: choose a shorter time span."
+        require_steps(steps[i], too_long, lambda: end_of(problem, problem.states[i], float(t[-1])))
         require_finite_states(along)
         require_finite_neighbours(frames, grown, volume)
         length = np.concatenate([[0.0], grown[:, 0] + np.log(np.linalg.norm(frames[:, :, 0], axis=1))])
@@ -219,7 +240,7 @@ def megno(
         found[:, i] = y.mean(), *windows, max(scatter, float(np.abs(windows[1:] - windows[0]).max())) + floor
         require_finite_rates(found[:, i])
         grows = count <= _FEW and bool(y.mean() > CHAOTIC)
-        reasons[i] = no_chaos(body, problem, problem.states[i], along, float(t[-1]), level, grows)
+        excuses[i] = no_chaos(body, problem, problem.states[i], along, float(t[-1]), level, grows)
 
     share(one, count, threads, _SHARE)
     return Megno(
@@ -228,7 +249,9 @@ def megno(
         frozen(found[1].copy()),
         frozen(found[5].copy()),
         frozen(found[1:5].T.copy()),
+        tuple(excuses),
+        frozen(ends),
         tuple(reasons),
         level.name,
-        Cost(int(steps.sum()), (time.perf_counter() - begun) * 1e3),
+        Cost(int(np.maximum(steps, 0).sum()), (time.perf_counter() - begun) * 1e3),
     )

@@ -18,10 +18,10 @@ from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["NOWHERE", "MegnoMap", "megno_map", "require_plane", "row_of_cells", "time_of"]
+__all__ = ["ENDED", "NOWHERE", "MegnoMap", "megno_map", "require_plane", "row_of_cells", "time_of"]
 
-NOWHERE = -1
-"""Kind of a cell whose centre no motion crosses."""
+NOWHERE, ENDED = -1, 4
+"""Kinds of a cell whose centre no motion crosses, and of one whose motion cannot be followed over the time span."""
 _TRIED = 16
 """Points along each side of a section at which the frequency is evaluated."""
 
@@ -37,10 +37,12 @@ class MegnoMap(Result):
     x, y : ndarray, shape (m,) and (n,)
         Centres of the cells.
     values : ndarray, shape (n, m)
-        Ȳ after the time t; NaN where no motion crosses the section.
+        Ȳ after the time t; NaN where no motion crosses the section, or it ends before.
     kind : ndarray of int, shape (n, m)
-        0 regular, 1 chaotic, plus 2 where phase volume shrinks by more than its error; −1 where no motion crosses the
-        section.
+        0 regular, 1 chaotic, plus 2 where phase volume shrinks by more than its error; 4 where the motion ends before
+        the time t or a neighbour does; −1 where no motion crosses the section.
+    ends : ndarray, shape (n, m)
+        Time up to which each motion was followed; NaN where that is not known.
     t : float
         Time span.
     level : str
@@ -52,6 +54,7 @@ class MegnoMap(Result):
     y: Array
     values: Array
     kind: Array
+    ends: Array
     t: float
     level: str
 
@@ -66,8 +69,11 @@ class MegnoMap(Result):
         across, up = self.names
         return Labels(
             {up: ((up,), self.y), across: ((across,), self.x)},
-            {"MEGNO": ((up, across), self.values), "kind": ((up, across), self.kind)},
-            {**place_units(self.names), "MEGNO": "1"},
+            {
+                name: ((up, across), of)
+                for name, of in (("MEGNO", self.values), ("kind", self.kind), ("end", self.ends))
+            },
+            {**place_units(self.names), "MEGNO": "1", "end": "T"},
             {"t": self.t, "level": self.level},
         )
 
@@ -75,7 +81,7 @@ class MegnoMap(Result):
 def row_of_cells(
     section: PoincareSection, window: Window, cells: tuple[int, int], row: int, t: float, level: Accuracy
 ) -> Array:
-    """Return Ȳ and kind, shape (2, m), of the motions from the centres of one row of cells.
+    """Return Ȳ, kind and end, shape (3, m), of the motions from the centres of one row of cells.
 
     Parameters
     ----------
@@ -102,10 +108,12 @@ def row_of_cells(
     (x0, y0), (x1, y1) = window
     m, n = cells
     states, there = section.states_at(centres(x0, x1, m), np.full(m, centres(y0, y1, n)[row]))
-    out = np.stack([np.full(m, np.nan), np.full(m, float(NOWHERE))])
+    out = np.full((3, m), np.nan)
+    out[1] = NOWHERE
     if there.any():
         found = megno(section, states[there], t, level, threads=1)
-        out[:, there] = found.values, found.chaotic + 2.0 * found.attracted
+        kinds = np.where(np.array(found.reasons, bool), ENDED, found.chaotic + 2 * found.attracted)
+        out[:, there] = found.values, kinds, found.ends
     return frozen(out)
 
 
@@ -128,7 +136,7 @@ def megno_map(
     Returns
     -------
     MegnoMap
-        Ȳ and kind of each cell.
+        Ȳ, kind and end of each cell.
 
     Raises
     ------
@@ -148,7 +156,7 @@ def megno_map(
     corners = (x0, y0), (x1, y1) = _corners(section, window)
     m, n = shape = as_cells(cells)
     span = as_number("t", t)
-    rows = np.empty((n, 2, m))
+    rows = np.empty((n, 3, m))
 
     def row(i: int) -> None:
         rows[i] = row_of_cells(section, corners, shape, i, span, level)
@@ -161,6 +169,7 @@ def megno_map(
         frozen(centres(y0, y1, n)),
         frozen(rows[:, 0].copy()),
         frozen(rows[:, 1].astype(int)),
+        frozen(rows[:, 2].copy()),
         abs(span),
         level.name,
     )

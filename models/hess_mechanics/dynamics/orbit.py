@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from numbers import Real
 
 import numpy as np
 
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, MotionEnds, WorkLimit
-from hess_mechanics.numerics.accuracy import Accuracy, Level
+from hess_mechanics.numerics.accuracy import PRECISE, Accuracy, Level
 from hess_mechanics.numerics.arguments import as_level, as_number, as_whole
 from hess_mechanics.numerics.field_values import Undefined
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, STOPPED
+from hess_mechanics.parameters import plain
 
 __all__ = [
+    "ESCAPED",
+    "LARGEST",
     "MAX_SAMPLES",
     "MAX_STEPS",
     "as_max_step",
@@ -26,6 +29,7 @@ __all__ = [
     "checked_times",
     "drift_of",
     "drifts_along",
+    "end_of",
     "require_finite_neighbours",
     "require_finite_rates",
     "require_finite_states",
@@ -38,8 +42,10 @@ MAX_STEPS = 2_000_000
 """Largest number of steps, unless another limit is given."""
 MAX_SAMPLES = 200_000
 _MOST_STEPS = 2**62
-_ESCAPED, _SHOWN = 1e9, 6
+ESCAPED, _SHOWN = 1e9, 6
 """Size, in units in which the start is O(1), of a variable that escapes; variables shown in a message."""
+LARGEST = 10.0
+"""Largest variable, in the same units, of the states that are kept of a motion that ends."""
 _AHEAD = 1e-9
 """Time after the end of a motion at which its field is tried."""
 _SHORTEST = 1e-290
@@ -72,15 +78,28 @@ def checked_span(span: float, what: str) -> float:
     return as_number("t", span)
 
 
-def require_steps(steps: int, too_long: str) -> None:
-    """Raise `WorkLimit` with the message `too_long` if a kernel ran out of steps, `MotionEnds` if it stopped."""
+def require_steps(steps: int, too_long: str, where: Callable[[], WorkLimit | None] = lambda: None) -> None:
+    """Raise `WorkLimit` with the message `too_long` if a kernel ran out of steps, `MotionEnds` if it stopped.
+
+    where : returns the error of a motion that stopped, with its place; None if only a neighbour did.
+    """
     if steps == STEP_LIMIT_REACHED:
         raise WorkLimit(too_long)
     if steps == STOPPED:
-        raise MotionEnds(
-            "The motion exceeds the range of double precision, escapes to infinity or reaches a state without finite "
-            "rates, `solve` says where: choose a shorter time span or less extreme parameters."
+        raise where() or MotionEnds(
+            "The motion or a neighbour exceeds the range of double precision, escapes to infinity or reaches a state "
+            "without finite rates: choose a shorter time span or less extreme parameters."
         )
+
+
+def end_of(problem: Problem, state: Array, end: float) -> WorkLimit | None:
+    """Return the error of the motion from `state` (d,) if it stops before the scaled time `end`, else None."""
+    system, out = problem.system, np.empty((1, state.size))
+    longest = system.longest_step(PRECISE, end)
+    steps, reached = system.orbit(
+        state, problem.parameters, np.array([end]), PRECISE.order, PRECISE.tolerance, longest, MAX_STEPS, out
+    )
+    return unfinished(problem, steps, reached, out[0], MAX_STEPS) if steps < 0 else None
 
 
 def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: int) -> WorkLimit:
@@ -104,19 +123,21 @@ def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: i
     WorkLimit
         The time, and the variable or operation that ended the motion.
     """
-    system, at = problem.system, f"t = {t / problem.nu:.6g}"
+    system, time = problem.system, t / problem.nu
+    at = f"t = {time:.6g}"
+    physical = state * problem.scale
+    shown = ", ".join(f"{name} = {x:.6g}" for name, x in list(zip(system.variables, physical, strict=True))[:_SHOWN])
+    largest = int(np.argmax(np.abs(state)))
+    if abs(state[largest]) >= ESCAPED:
+        return MotionEnds(
+            f"{system.variables[largest]} reached {plain(physical[largest], 3)} at {at}: the motion escapes to "
+            "infinity in finite time. Choose a shorter time span.",
+            time,
+        )
     if code == STEP_LIMIT_REACHED:
         return WorkLimit(
             f"This motion needs more than {max_steps} steps, which reach {at}: choose a shorter time span, longer "
             "steps or a cheaper accuracy."
-        )
-    physical = state * problem.scale
-    shown = ", ".join(f"{name} = {x:.6g}" for name, x in list(zip(system.variables, physical, strict=True))[:_SHOWN])
-    largest = int(np.argmax(np.abs(state)))
-    if abs(state[largest]) >= _ESCAPED:
-        return MotionEnds(
-            f"{system.variables[largest]} reached {physical[largest]:.3g} at {at}: the motion escapes to infinity in "
-            "finite time. Choose a shorter time span."
         )
     rates = np.zeros(state.size)
     try:
@@ -125,13 +146,15 @@ def unfinished(problem: Problem, code: int, t: float, state: Array, max_steps: i
     except Undefined as error:
         return MotionEnds(
             f"At {at} the field {error}, where {shown}: choose a shorter time span, another start or less extreme "
-            "parameters."
+            "parameters.",
+            time,
         )
     fastest = int(np.argmax(np.abs(rates)))
     return MotionEnds(
-        f"At {at} no step is short enough: the rate of {system.variables[fastest]} reached {rates[fastest]:.3g} or "
-        f"jumps, where {shown}. End the motion before, or find the event with `section` and go on from it with a "
-        "system for the next case."
+        f"At {at} no step is short enough: the rate of {system.variables[fastest]} reached {plain(rates[fastest], 3)} "
+        f"or jumps, where {shown}. End the motion before, or find the event with `section` and go on from it with a "
+        "system for the next case.",
+        time,
     )
 
 
@@ -322,4 +345,5 @@ def solve(
         drift,
         found.cost,
         variables=body.system.variables,
+        angles=body.system.angles,
     )

@@ -23,6 +23,7 @@ from enum import IntEnum
 import numpy as np
 
 from hess_mechanics.dynamics.birkhoff import bounded_series, irregularity
+from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR, Megno, longest_span, megno
 from hess_mechanics.dynamics.orbit_diagram import SAME, period_of
 from hess_mechanics.dynamics.periodic import apart, find_periodic, place_units
@@ -39,6 +40,7 @@ from hess_mechanics.numerics.arguments import as_number, as_place, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.parameters import plain
 
 __all__ = ["Dynamics", "MotionKind", "Regime", "compared", "dynamics_of", "regime"]
 
@@ -176,7 +178,7 @@ class Regime(Result):
     def sentence(self) -> str:
         """The result in one or two sentences."""
         if self.kind is MotionKind.NO_RETURN:
-            return f"The motion did not return to the section within t = {self.t:.4g}."
+            return f"The motion did not return to the section within t = {plain(self.t, 4)}."
         kind = f"periodic, period {self.period}" if self.kind is MotionKind.PERIODIC else self.kind.words
         case = f" ({self.integrable})" if self.integrable else ""
         if self.volume_kept:
@@ -186,10 +188,10 @@ class Regime(Result):
         if self.volume:
             volume = f"phase volume {'shrinks' if self.volume < 0 else 'grows'}"
             return (
-                f"{kind[0].upper()}{kind[1:]}{case}; {volume} about it: mean divergence {self.divergence:.3g} ± "
-                f"{self.divergence_error:.1g}."
+                f"{kind[0].upper()}{kind[1:]}{case}; {volume} about it: mean divergence {plain(self.divergence, 3)} ± "
+                f"{plain(self.divergence_error, 1)}."
             )
-        return f"{kind[0].upper()}{kind[1:]}{case}; |mean divergence| < {self.bound:.1g}."
+        return f"{kind[0].upper()}{kind[1:]}{case}; |mean divergence| < {plain(self.bound, 1)}."
 
     def labels(self) -> Labels:
         """Return the crossings, with the kind and the numbers that decided it.
@@ -460,7 +462,7 @@ def _ensemble(map_: ReturnMap, places: Array) -> Array:
 
 def _indicated(map_: ReturnMap, places: Array, t: float) -> Megno:
     states = map_.state_at(places)
-    return megno(map_.section, states, -t if map_.backward else t, map_.accuracy, threads=1)
+    return complete(megno(map_.section, states, -t if map_.backward else t, map_.accuracy, threads=1))
 
 
 def _reversor(map_: ReturnMap, places: Array) -> str:
@@ -560,10 +562,10 @@ class Dynamics(Result):
         if self.motion.measure:
             return f"Conservative: {self.motion.measure}."
         if self.verdict == "not told apart":
-            return f"Not told apart: |mean divergence| < {self.motion.bound:.1g}."
+            return f"Not told apart: |mean divergence| < {plain(self.motion.bound, 1)}."
         return (
-            f"Looks {self.verdict}: attractor and repeller are {self.distance:.2g} ± {self.distance_error:.1g} "
-            f"apart and share {100.0 * self.shared:.3g} % of their places."
+            f"Looks {self.verdict}: attractor and repeller are {plain(self.distance, 2)} ± "
+            f"{plain(self.distance_error, 1)} apart and share {plain(100.0 * self.shared, 3)} % of their places."
         )
 
     def labels(self) -> Labels:

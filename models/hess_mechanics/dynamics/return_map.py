@@ -15,14 +15,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import product
 from typing import Protocol
 
 import numpy as np
 
 from hess_mechanics.dynamics.cells import evenly
-from hess_mechanics.dynamics.orbit import MAX_STEPS, require_finite_states, require_steps
+from hess_mechanics.dynamics.orbit import MAX_STEPS, end_of, require_finite_states, require_steps, unfinished
 from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.dynamics.section import Surface
 from hess_mechanics.dynamics.symmetry import Mirror, symmetries
@@ -33,6 +33,7 @@ from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.arguments import as_number, as_whole
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask
+from hess_mechanics.parameters import plain
 
 __all__ = ["PoincareSection", "ReturnMap"]
 
@@ -355,6 +356,7 @@ class ReturnMap:
             require_steps(
                 found,
                 f"{wanted} returns need more than {MAX_STEPS} steps here: choose another place, or a cheaper level.",
+                partial(unfinished, problem, found, times[-1], states[-1], MAX_STEPS),
             )
             first = int(found > 0 and abs(times[0]) < _AT_ONCE)
             states = states[first : min(found, first + wanted)] * problem.scale
@@ -506,7 +508,7 @@ class ReturnMap:
                 growth,
                 volume,
             )
-            require_steps(steps, _TOO_LONG)
+            require_steps(steps, _TOO_LONG, partial(end_of, problem, problem.states[i], times[i]))
         require_finite_states(found)
         return found, frames
 
@@ -557,12 +559,13 @@ class ReturnMap:
                 if not (found and wanted == count and abs(all_times[0]) < _AT_ONCE):
                     break
                 wanted += 1
-            require_steps(found, _TOO_LONG)
+            end = partial(unfinished, problem, found, all_times[-1], all_states[-1], MAX_STEPS)
+            require_steps(found, _TOO_LONG, end)
             if found < wanted:
                 limit = longest * count * self.section.slowness / problem.nu
                 raise NoReturn(
                     f"From here the motion did not return to the section {_times(count)} within t = "
-                    f"{limit:.4g}: choose another place, or a larger `longest`."
+                    f"{plain(limit, 4)}: choose another place, or a larger `longest`."
                 )
             times[i], states[i] = all_times[-1], all_states[-1]
         require_finite_states(states)

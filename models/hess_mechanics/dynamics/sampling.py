@@ -7,12 +7,14 @@ the drawn line and of a point that moves along it; hence the density of samples 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS, solve
+from hess_mechanics.dynamics.orbit import LARGEST, MAX_STEPS, end_of, solve
 from hess_mechanics.dynamics.system import Body, Problem
-from hess_mechanics.numerics.accuracy import PRECISE, Accuracy
+from hess_mechanics.errors import MotionEnds
+from hess_mechanics.numerics.accuracy import PRECISE, Accuracy, Status
 from hess_mechanics.numerics.results import Array, Orbit
 
 __all__ = ["HALF_A_PIXEL", "MOST_SAMPLES", "PIXELS", "SAGITTA", "sample_times", "sampled_orbit"]
@@ -85,7 +87,32 @@ def sampled_orbit(
 ) -> Orbit:
     """Return the orbit from `state` over `span` at the times that `sample_times` chooses.
 
-    weights (d,) : pixels per unit of each variable; max_step : see `solve`, which raises the same errors.
+    A motion that ends before is followed up to its end and has a reason.  weights (d,) : pixels per unit of each
+    variable; max_step : see `solve`, which raises the same errors.
     """
-    times = sample_times(body, np.array(state), span, np.array(weights), SAGITTA, most)
-    return solve(body, state, times, level, max_step=max_step)
+
+    def sampled(span: float) -> Orbit:
+        times = sample_times(body, np.array(state), span, np.array(weights), SAGITTA, most)
+        return solve(body, state, times, level, max_step=max_step)
+
+    try:
+        return sampled(span)
+    except MotionEnds as error:
+        if not abs(error.time) > 0.0:
+            raise
+        problem = Problem.of(body, [state])
+        reason = str(end_of(problem, problem.states[0], span * problem.nu) or error)
+        return replace(sampled(_drawn_until(body, state, error.time)), status=Status.INCOMPLETE, reason=reason)
+
+
+def _drawn_until(body: Body, state: Sequence[float], end: float) -> float:
+    """Return the time until which a motion that ends is drawn: before its variables are too large for a picture."""
+    problem = Problem.of(body, [state])
+    times = np.linspace(0.0, end, _MOST_COARSE)[:-1]
+    states = np.zeros((times.size, problem.scale.size))
+    p, longest = problem.parameters, body.system.longest_step(PRECISE, times[-1] * problem.nu)
+    body.system.orbit(
+        problem.states[0], p, times * problem.nu, PRECISE.order, PRECISE.tolerance, longest, MAX_STEPS, states
+    )
+    large = np.abs(states).max(axis=1) > LARGEST
+    return float(times[int(np.argmax(large)) if large.any() else -1])

@@ -10,9 +10,18 @@ from typing import Protocol
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import as_max_step, as_max_steps, drift_of, require_finite_states, unfinished
+from hess_mechanics.dynamics.orbit import (
+    ESCAPED,
+    LARGEST,
+    as_max_step,
+    as_max_steps,
+    drift_of,
+    end_of,
+    require_finite_states,
+    unfinished,
+)
 from hess_mechanics.dynamics.system import Body, Problem, System
-from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.errors import InvalidParameter, MotionEnds, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result, components
@@ -39,6 +48,8 @@ _ROOM = 1000
 """Crossings for which memory is allocated at first; few orbits have more."""
 _PARTS = 8
 """Time intervals into which a section of many orbits is divided."""
+_BEFORE = 1e-6
+"""Time before the end of a motion, in units in which its rates are O(1), after which its crossings do not count."""
 _SHARE = 4
 """Orbits per task of the thread pool."""
 
@@ -259,13 +270,13 @@ class _Search:
 
     def run(
         self, problem: Problem, start: Array, end: float, level: Level, spent: int = 0
-    ) -> tuple[tuple[Array, Array], int]:
-        """Return (times, states) of the crossings of the orbit of a problem from `start`, and the steps taken."""
+    ) -> tuple[tuple[Array, Array], int, WorkLimit | None]:
+        """Return (times, states) of the crossings of the orbit of a problem from `start`, the steps, and its end."""
         cross, normal, offset = self.plane.scaled(problem.system, problem)
         longest = problem.system.longest_step(level, end, self.max_step)
         room, total = min(self.crossings, _ROOM), 0
         while True:
-            times, states = np.empty(room), np.empty((room, self.problem.scale.size))
+            times, states = np.full(room, np.nan), np.zeros((room, self.problem.scale.size))
             found, steps = cross(
                 start,
                 problem.parameters,
@@ -280,14 +291,23 @@ class _Search:
                 times,
                 states,
             )
+            ended: WorkLimit | None = None
             if found < 0:
-                raise unfinished(self.problem, found, times[-1], states[-1], self.max_steps)
+                ended = unfinished(self.problem, found, times[-1], states[-1], self.max_steps)
+                found = room - 1
+            elif np.abs(states[:found]).max(initial=0.0) >= ESCAPED:
+                # Round-off has taken the motion past a pole.
+                ended = end_of(problem, start, end)
+            if ended is not None:
+                if not isinstance(ended, MotionEnds):
+                    raise ended
+                found = int(np.count_nonzero(np.abs(times[:found]) < abs(ended.time) * self.problem.nu - _BEFORE))
             total += steps
-            if found < room or room == self.crossings:
+            if ended or found < room or room == self.crossings:
                 break
             room = min(self.crossings, 10 * room)
         require_finite_states(states[:found])
-        return (times[:found].copy(), states[:found].copy()), total
+        return (times[:found].copy(), states[:found].copy()), total, ended
 
     def measured(self, i: int) -> SectionCrossings:
         """Return the crossings of orbit i, with an error estimate from a more accurate run with a nearby start."""
@@ -296,7 +316,9 @@ class _Search:
 
         def run(level: Level, spent: int) -> tuple[tuple[Array, Array], int]:
             own = problems[level.aside]
-            crossings, steps = self.run(own, own.states[i], self.end, level, spent)
+            crossings, steps, ended = self.run(own, own.states[i], self.end, level, spent)
+            if ended is not None:
+                raise ended
             if not level.aside:
                 problems[1] = nearby.rounded(np.vstack((self.problem.states[i], crossings[1])))
             return crossings, steps
@@ -319,6 +341,7 @@ class _Search:
             found.cost,
             system.variables,
             time_error(found.safety, times, other_times) / nu,
+            angles=system.angles,
         )
 
     def _apart(self, one: tuple[Array, Array], other: tuple[Array, Array]) -> float:
@@ -486,12 +509,15 @@ class SectionPoints(Result):
         Steps and time.
     variables : tuple of str
         Names of the variables.
+    reasons : tuple of str
+        Why each orbit ends before the time span does, with time and place; empty for the others.
     """
 
     states: list[Array]
     drift: Mapping[str, float]
     cost: Cost
     variables: tuple[str, ...] = ()
+    reasons: tuple[str, ...] = ()
 
     def labels(self) -> Labels:
         """Return the variables at all crossings, labelled with the number of the orbit.
@@ -523,7 +549,8 @@ def section_points(
 ) -> SectionPoints:
     """Return the crossings of a surface by several orbits, each computed once, for pictures.
 
-    An orbit that falls behind the average rate of crossings in one part of the time span ends there.
+    An orbit that falls behind the average rate of crossings in one part of the time span ends there.  A motion that
+    escapes keeps its crossings up to its end.
 
     Parameters
     ----------
@@ -573,19 +600,26 @@ def section_points(
     one_part = replace(search, crossings=-(-crossings // parts))
     problem = search.problem.nearby() if level.aside else search.problem
     found: dict[int, tuple[Array, int]] = {}
+    reasons = [""] * count
 
     def follow(orbit: int) -> tuple[Array, int]:
         pieces: list[Array] = []
         start, steps = problem.states[orbit], 0
         for _ in range(parts):
             go_on()
-            (_, points), taken = one_part.run(problem, start, search.end / parts, level, steps)
+            (_, points), taken, ended = one_part.run(problem, start, search.end / parts, level, steps)
             pieces.append(points)
             steps += taken
+            if ended is not None:
+                reasons[orbit] = str(end_of(search.problem, search.problem.states[orbit], search.end) or ended)
+                break
             if len(points) < one_part.crossings:
                 break
             start = points[-1]
-        return np.concatenate(pieces)[:crossings] * search.problem.scale, steps
+        points = np.concatenate(pieces)[:crossings]
+        if reasons[orbit]:
+            points = points[np.logical_and.accumulate(np.abs(points).max(axis=1, initial=0.0) <= LARGEST)]
+        return points * search.problem.scale, steps
 
     refused: list[WorkLimit] = []
 
@@ -609,6 +643,7 @@ def section_points(
         drift,
         Cost(sum(steps for _, steps in found.values()), wall_ms),
         body.system.variables,
+        tuple(reasons),
     )
 
 

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from hess_mechanics.dynamics.orbit import (
     MAX_STEPS,
     checked_span,
+    end_of,
     require_finite_neighbours,
     require_finite_rates,
     require_finite_states,
@@ -385,7 +386,8 @@ def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, l
         taken, states, frames, logs, traces = neighbours(
             system, y, frame, problem.parameters, part, level.order, level.tolerance, MAX_STEPS - steps, LIMIT, ahead
         )
-        require_steps(taken, f"These exponents need more than {MAX_STEPS} steps: choose a shorter time span.")
+        too_long = f"These exponents need more than {MAX_STEPS} steps: choose a shorter time span."
+        require_steps(taken, too_long, lambda: end_of(problem, problem.states[0], span * problem.nu))
         steps += taken
         require_finite_states(states)
         require_finite_neighbours(frames, logs, traces)

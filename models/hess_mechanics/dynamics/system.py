@@ -35,6 +35,7 @@ from hess_mechanics.numerics.step_kernels import LONGEST
 from hess_mechanics.numerics.taylor_kernels import orbit_integrator
 from hess_mechanics.numerics.tracing import Field, check, expressions, trace
 from hess_mechanics.numerics.variation_kernels import Variation, products, variation, variation_integrator
+from hess_mechanics.parameters import plain
 
 __all__ = ["Body", "ParametrizedSystem", "Problem", "System", "in_units_of_time", "systems"]
 
@@ -401,8 +402,8 @@ class System:
             if abs(one - other) > _ROUNDING * float(np.max(np.abs(expected))):
                 leading = ", ".join(self.variables[: self.angular_velocities]) or "none"
                 raise WrongScaling(
-                    f"{self.title}: in units of time 1/ν, ν = {problem.nu:.4g}, {name} becomes "
-                    f"{other:.4g} and should stay {one:.4g}. Correct `rescale`, or "
+                    f"{self.title}: in units of time 1/ν, ν = {plain(problem.nu, 4)}, {name} becomes "
+                    f"{plain(other, 4)} and should stay {plain(one, 4)}. Correct `rescale`, or "
                     "`angular_velocities`, which counts the leading variables that scale with 1/time "
                     f"(now: {leading})."
                 )

@@ -116,10 +116,10 @@ class VariableSection(PoincareSection):
         return self._states_at
 
     def places_of(self, states: Array) -> Array:
-        """Return the coordinates (n, k) of states (n, d), angles between −π and π."""
+        """Return the coordinates (n, k) of states (n, d), angles within half a turn of the middle of their range."""
         places = states[:, [self._index(name) for name in self.names]]
-        turns = np.array(self.turns)
-        return np.asarray(places - np.where(np.isinf(turns), 0.0, _TURN) * np.round(places / turns))
+        turns, middle = np.array(self.turns), np.mean(self.ranges, axis=1)
+        return np.asarray(places - np.where(np.isinf(turns), 0.0, _TURN) * np.round((places - middle) / turns))
 
     def is_on(self, states: Array) -> Mask:
         """Return a mask (n,) of the states (n, d) that have a place here: all of them."""

@@ -18,6 +18,7 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import (
     MAX_STEPS,
     checked_times,
+    end_of,
     require_finite_neighbours,
     require_finite_states,
     require_steps,
@@ -153,7 +154,9 @@ def transition_matrix(
             system, problems[level.aside], scaled_times, level.order, level.tolerance, MAX_STEPS - spent
         )
         require_steps(
-            steps, f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper accuracy."
+            steps,
+            f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper accuracy.",
+            lambda: end_of(problem, problem.states[0], scaled_times[-1]),
         )
         require_finite_states(states)
         require_finite_neighbours(frames, volume)

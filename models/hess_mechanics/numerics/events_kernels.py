@@ -21,6 +21,8 @@ from hess_mechanics.numerics.jit import inner, part
 from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.step_kernels import checked, step_of, suspicion
 from hess_mechanics.numerics.taylor_kernels import (
+    PATIENCE,
+    STALLED,
     STEP_LIMIT_REACHED,
     STOPPED,
     columns_of,
@@ -263,6 +265,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
         direction = 1.0 if end >= 0.0 else -1.0
         sense_of_steps = sense if end >= 0.0 else -sense
         before = 0.0
+        mark = 0.0
         below = False
         crossings = 0
         steps = 0
@@ -294,10 +297,13 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
             h = before = shorter(e, h)
             last = h >= remaining
             steps += 1
-            if steps > max_steps or not (h > 0.0 or last):
+            if steps % PATIENCE == 1:
+                mark = t
+            ends = not (h > 0.0 or last) or (steps % PATIENCE == 0 and abs(t - mark) <= STALLED * abs(t))
+            if steps > max_steps or ends:
                 times[times.size - 1] = t
                 states[times.size - 1] = y
-                return STEP_LIMIT_REACHED if h > 0.0 else STOPPED, steps
+                return STOPPED if ends else STEP_LIMIT_REACHED, steps
             evaluate(c, direction * h, increments)
             for i in range(n):
                 y[i], low[i] = compensated(y[i], low[i], increments[i])

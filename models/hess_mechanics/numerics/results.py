@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
@@ -96,6 +96,8 @@ class Sampled(Result):
         Steps and time.
     variables : tuple of str
         Names of the variables.
+    angles : tuple of str
+        Names of those that are angles; they count on over full turns.
     """
 
     dims: ClassVar[tuple[str, ...]] = ("t",)
@@ -110,6 +112,7 @@ class Sampled(Result):
     drift: Mapping[str, float]
     cost: Cost
     variables: tuple[str, ...]
+    angles: tuple[str, ...] = field(default=(), kw_only=True)
 
     def labels(self) -> Labels:
         """Return the variables of the system, labelled with time.
@@ -122,8 +125,12 @@ class Sampled(Result):
         return Labels(
             {"t": (self.dims[-1:], self.times)},
             components(self.variables, self.states, *self.dims),
-            {"t": "T", **{name: unit_of(name) for name in self.variables}},
-            {"system": self.system, **facts_of(self)},
+            {"t": "T", **{name: "rad" if name in self.angles else unit_of(name) for name in self.variables}},
+            {
+                "system": self.system,
+                **facts_of(self),
+                **dict.fromkeys((f"angle {name}" for name in self.angles), "counts on over full turns"),
+            },
         )
 
 
@@ -151,7 +158,13 @@ class Orbit(Sampled):
         Steps and time.
     variables : tuple of str
         Names of the variables.
+    angles : tuple of str
+        Names of those that are angles; they count on over full turns.
+    reason : str
+        Why the motion ends before the time span does, with time and place; empty if it does not.
     """
+
+    reason: str = ""
 
 
 @dataclass(frozen=True)
@@ -178,6 +191,8 @@ class Ensemble(Sampled):
         Steps and time.
     variables : tuple of str
         Names of the variables.
+    angles : tuple of str
+        Names of those that are angles; they count on over full turns.
     errors : ndarray, shape (n,)
         Largest estimated error of each orbit, ∞ for one that is incomplete.
     statuses : tuple of Status
@@ -223,6 +238,8 @@ class SectionCrossings(Sampled):
         Steps and time.
     variables : tuple of str
         Names of the variables.
+    angles : tuple of str
+        Names of those that are angles; they count on over full turns.
     time_error : float
         Largest estimated error of any time.  Along a conservative motion it grows, and the error of the states may not.
     """

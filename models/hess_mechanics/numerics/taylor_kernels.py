@@ -24,6 +24,8 @@ from hess_mechanics.numerics.tracing import trace
 from hess_mechanics.numerics.unrolled import compiled, evaluation, items
 
 __all__ = [
+    "PATIENCE",
+    "STALLED",
     "STEP_LIMIT_REACHED",
     "STOPPED",
     "columns_of",
@@ -40,6 +42,8 @@ __all__ = [
 STEP_LIMIT_REACHED = -1
 STOPPED = -2
 """The field has no finite rates at this point, or the motion ends there."""
+PATIENCE, STALLED = 4096, 1e-10
+"""A motion ends if in so many steps its time grows by less than this share: it has reached a pole."""
 
 
 @cache
@@ -206,6 +210,7 @@ def orbit_integrator(recursion: Recursion) -> Callable[..., Any]:
         t = 0.0
         t_low = 0.0
         before = 0.0
+        mark = 0.0
         count = times.size
         direction = 1.0 if times[count - 1] >= 0.0 else -1.0
         j = 0
@@ -228,10 +233,13 @@ def orbit_integrator(recursion: Recursion) -> Callable[..., Any]:
                 j += 1
             if j == count:
                 return steps + 1, times[count - 1]
-            if steps >= max_steps or not (h > 0.0):
+            if steps % PATIENCE == 0:
+                mark = t
+            ends = not (h > 0.0) or (steps % PATIENCE == PATIENCE - 1 and abs(t - mark) <= STALLED * abs(t))
+            if steps >= max_steps or ends:
                 for i in range(n):
                     out[j, i] = y[i]
-                return STEP_LIMIT_REACHED if h > 0.0 else STOPPED, t
+                return STOPPED if ends else STEP_LIMIT_REACHED, t
             evaluate(c, direction * h, increments)
             for i in range(n):
                 y[i], low[i] = compensated(y[i], low[i], increments[i])

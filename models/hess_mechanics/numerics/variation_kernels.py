@@ -23,6 +23,8 @@ from hess_mechanics.numerics.jit import inner, part
 from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.step_kernels import checked, last_terms, step_size, suspicion
 from hess_mechanics.numerics.taylor_kernels import (
+    PATIENCE,
+    STALLED,
     STEP_LIMIT_REACHED,
     STOPPED,
     columns_of,
@@ -247,6 +249,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
         speed_then = 0.0
         volume_then = 0.0
         before = 0.0
+        mark = 0.0
         count = times.size
         direction = 1.0 if times[count - 1] >= 0.0 else -1.0
         sample = 0
@@ -289,8 +292,11 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
                 sample += 1
             if sample == count:
                 return steps + 1
-            if steps >= max_steps or not (h > 0.0):
-                return STEP_LIMIT_REACHED if h > 0.0 else STOPPED
+            if steps % PATIENCE == 0:
+                mark = t
+            ends = not (h > 0.0) or (steps % PATIENCE == PATIENCE - 1 and abs(t - mark) <= STALLED * abs(t))
+            if steps >= max_steps or ends:
+                return STOPPED if ends else STEP_LIMIT_REACHED
             before = h
             s = direction * h
             evaluate(c, s, increments)

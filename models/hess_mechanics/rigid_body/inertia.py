@@ -14,6 +14,7 @@ import numpy as np
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
 from hess_mechanics.numerics.arguments import as_number
 from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.parameters import plain
 
 __all__ = [
     "MAX_RATIO",
@@ -81,7 +82,7 @@ def body_check(I33: tuple[float, float] | None) -> BodyCheck:
             "Not a rigid body: for no I33 do the principal moments satisfy the triangle inequality. "
             "The equations are still shown.",
         )
-    return BodyCheck(True, I33, f"A rigid body for I33 between {I33[0]:.4g} and {I33[1]:.4g}.")
+    return BodyCheck(True, I33, f"A rigid body for I33 between {plain(I33[0], 4)} and {plain(I33[1], 4)}.")
 
 
 def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:

@@ -22,6 +22,7 @@ from hess_mechanics.dynamics.section import Plane
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
 from hess_mechanics.numerics.arguments import as_parts, as_whole
+from hess_mechanics.parameters import plain
 from hess_mechanics.rigid_body.inertia import BodyCheck, require_finite
 
 __all__ = ["OwnBody", "Polynomial"]
@@ -275,7 +276,7 @@ class OwnBody:
         """The triangle inequality of the principal moments; a flat body just satisfies it."""
         small, middle, large = self._moments
         is_body = bool(small + middle >= large * (1.0 - 1e-12))
-        inequality = f"{small:.4g} + {middle:.4g} {'≥' if is_body else '<'} {large:.4g}"
+        inequality = f"{plain(small, 4)} + {plain(middle, 4)} {'≥' if is_body else '<'} {plain(large, 4)}"
         words = "A rigid body" if is_body else "Not a rigid body, yet the equations are shown"
         return BodyCheck(is_body, None, f"{words}: of its principal moments {inequality}.")
 

@@ -36,6 +36,7 @@ from hess_mechanics.numerics.arguments import as_level, as_place
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import measured, nearby
 from hess_mechanics.numerics.results import Array, Complex, Cost, facts_of, frozen, unit_of
+from hess_mechanics.parameters import plain
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov import additional_integral
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody, unit_vector
@@ -127,7 +128,7 @@ def shape(body: SuslovBody) -> PassageConstants:
     c = kappa * n1 * n2 * ((I22 - I11) / w)
     angle = K + kappa + abs(c)
     if not angle <= _MAX_SHAPE:
-        about = f"about {angle:.2g}" if math.isfinite(angle) else "more than 1e308"
+        about = f"about {plain(angle, 2)}" if math.isfinite(angle) else "more than 1e308"
         raise WorkLimit(
             f"γ turns too often while ω passes from the unstable to the stable point ({about} radians; at most "
             f"{_MAX_SHAPE:g} are computed): choose larger I13, I23, or I11 and I22 less different."

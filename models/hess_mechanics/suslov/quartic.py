@@ -25,6 +25,7 @@ from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NoField, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Mask
+from hess_mechanics.parameters import plain
 from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
 from hess_mechanics.suslov.equations import SYSTEM
 
@@ -104,7 +105,7 @@ class QuarticBody:
             raise OutsideRegion(f"No motion has the energy h = {self.h:g}: choose h above −|b3| = {-abs(self.b3):.6g}.")
         smallest, largest = sorted(self.axes)
         if not 1.0 / _MOST_SIZE <= smallest <= largest <= _MOST_SIZE:
-            sizes = " and ".join(f"{one:.2g}" if math.isfinite(one) else "beyond 1e308" for one in self.axes)
+            sizes = " and ".join(f"{plain(one, 2)}" if math.isfinite(one) else "beyond 1e308" for one in self.axes)
             raise InvalidParameter(
                 f"The region in the plane has half axes {sizes}, which no picture can show: choose h, b3 and the "
                 "moments of inertia less different in size."

@@ -1,5 +1,7 @@
 """Sections of a system given by its field alone: Hénon–Heiles, and the tools that take a return map."""
 
+import re
+
 import numpy as np
 from pytest import approx, fixture, mark, raises
 from scipy.integrate import quad, solve_ivp
@@ -7,17 +9,28 @@ from scipy.integrate import quad, solve_ivp
 from hess_mechanics import (
     System,
     continued_orbit,
+    lyapunov_exponent,
     lyapunov_spectrum,
     manifold,
+    megno,
+    megno_map,
     orbit_diagram,
     periodic_orbit,
     return_map,
     section,
     section_orbits,
+    section_points,
+    transition_matrix,
     tube,
 )  # fmt: skip
+from hess_mechanics.dynamics.ensemble import complete
+from hess_mechanics.dynamics.megno_map import ENDED, NOWHERE
+from hess_mechanics.dynamics.return_map import ReturnMap
+from hess_mechanics.dynamics.sampling import sampled_orbit
 from hess_mechanics.dynamics.section import AnglePlane
-from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion
+from hess_mechanics.dynamics.variable_section import variable_section
+from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
+from hess_mechanics.numerics.accuracy import STANDARD
 
 E = 1 / 12
 SYSTEM = System(
@@ -271,3 +284,68 @@ def test_one_coordinate_may_be_a_bare_number():
     strobe = return_map(System("around", **AROUND).at(), surface=("φ", 0.5))
     assert strobe.image(0.3) == approx(strobe.image((0.3,)), abs=0.0)
     assert periodic_orbit(strobe, 0.3, 1).period == 1
+
+
+def test_points_lie_in_a_window_that_crosses_half_a_turn():
+    """A window that begins at 2 has them from 2 to 2 + 2π, up to full turns."""
+    window = ((2.0, 2.0 + 2.0 * np.pi), (-3.0, 3.0))
+    here = variable_section(DRIVEN.at(), {}, ("phase", 0.0), ("theta", "v"), window)
+    states = np.column_stack([np.linspace(-20.0, 20.0, 401), np.zeros(401), np.zeros(401)])
+    places = here.places_of(states)
+    assert (places[:, 0] >= 2.0).all()
+    assert (places[:, 0] <= 2.0 + 2.0 * np.pi).all()
+    assert np.exp(1j * places[:, 0]) == approx(np.exp(1j * states[:, 0]))
+
+
+HIGH = 0.2
+"""Above the energy 1/6 of the saddles motions escape."""
+
+
+def escape(start, until):
+    """The time at which another integrator sees a motion escape, None if it does not; near a pole y is 6/τ²."""
+    far = lambda t, y: np.abs(y[:2]).max() - 1e8  # noqa: E731
+    far.terminal = True
+    found = solve_ivp(lambda t, y: SYSTEM.field(y, [1.0]), (0.0, until), start, "DOP853", rtol=1e-11, events=far)
+    return float(found.t[-1]) if found.t_events[0].size else None
+
+
+def test_a_motion_that_escapes_keeps_what_comes_before_and_loses_no_other():
+    here = variable_section(SYSTEM.at(), {"E": HIGH}, ("x", 0.0), ("y", "py"), ((-0.6, 1.2), (-0.7, 0.7)))
+    found = megno_map(ReturnMap(here, STANDARD), (6, 4), t=12.0)
+    assert {NOWHERE, ENDED} < set(found.kind.ravel().tolist())
+    seen = {}
+    for i, j in np.argwhere(found.kind != NOWHERE):
+        start = here.states_at(found.x[[j]], found.y[[i]])[0][0]
+        seen[i, j] = (start, escape(start, 12.0))
+        end = seen[i, j][1]
+        assert (found.kind[i, j] == ENDED) == np.isnan(found.values[i, j]) == (end is not None)
+        assert found.ends[i, j] == approx(12.0 if end is None else end, abs=1e-3)
+    start, end = next(one for one in seen.values() if one[1] is not None)
+    stays, _ = next(one for one in seen.values() if one[1] is None)
+    # Exponents and the return map say when and where.
+    place = here.places_of(start[None])[0]
+    for ends in (
+        lambda: lyapunov_exponent(SYSTEM.at(), start, 100.0),
+        lambda: lyapunov_spectrum(SYSTEM.at(), start, 100.0),
+        lambda: transition_matrix(SYSTEM.at(), start, 100.0, STANDARD),
+        lambda: complete(megno(SYSTEM.at(), [start], 100.0)),
+        lambda: ReturnMap(here, STANDARD).orbit(place, 100),
+    ):
+        with raises(WorkLimit, match=r"reached .* at t = .*escapes") as caught:
+            ends()
+        assert float(re.search(r"t = ([\d.]+)", str(caught.value))[1]) == approx(end, abs=1e-3)
+    both = section_points(SYSTEM.at(), [start, stays], here.surface, 40.0, STANDARD, 5)
+    assert bool(both.reasons[0])
+    assert not both.reasons[1]
+    assert len(both.states[1]) == 5
+    # A crossing at a time of its own, before the end.
+    turned = solve_ivp(
+        lambda t, y: SYSTEM.field(y, [1.0]), (0.0, end - 0.5), start, "DOP853", rtol=1e-11, dense_output=True
+    )
+    crossed = np.diff(np.sign(turned.sol(np.linspace(1e-3, end - 0.5, 4001))[0])) > 0
+    assert 0 <= len(both.states[0]) - crossed.sum() <= 1
+    assert both.drift["E"] < 1e-6
+    drawn = sampled_orbit(SYSTEM.at(), tuple(start), 100.0, (300.0,) * 4, STANDARD)
+    assert (str(drawn.status), drawn.states.shape[1]) == ("incomplete", 4)
+    assert end - 1.5 < drawn.times[-1] < end
+    assert f"t = {end:.2f}"[:7] in drawn.reason

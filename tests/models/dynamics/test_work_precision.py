@@ -262,10 +262,10 @@ def test_the_other_captions_give_the_numbers_of_the_chosen_level():
     errors.errors["precise"] = 3e-11 * TIMES / 10.0
     errors.drifts["precise"]["F1"] = 1e-12 * (TIMES / 10.0) * (1.0 - TIMES / 10.0)
     _, captions, report = shown("precise", errors=errors)
-    assert captions["growth"].splitlines()[1] == "precise: 3e−11 at the end; promised 1e−09 (dotted)."
-    assert captions["drift"].splitlines()[1] == "precise: largest drift (1) E 1e−06, (2) F1 2.5e−13, (3) F2 3e−08."
+    assert captions["growth"].splitlines()[1] == "precise: 3e−11 at the end; promised 1e−9 (dotted)."
+    assert captions["drift"].splitlines()[1] == "precise: largest drift (1) E 1e−6, (2) F1 2.5e−13, (3) F2 3e−8."
     assert captions["precision"].splitlines()[1].startswith("precise: 4 ms, error 4e−10")
-    assert report.status.startswith("precise chosen · draft 1 ms, error 0.0002 · standard 2 ms, error 3e−07 · ")
+    assert report.status.startswith("precise chosen · draft 1 ms, error 0.0002 · standard 2 ms, error 3e−7 · ")
     assert re.search(r"· [\d.]+ ms, cached$", report.status)
     assert "DOP853" not in report.status
 
@@ -275,7 +275,7 @@ def test_the_other_captions_give_the_numbers_of_the_chosen_level():
     [
         # The fastest of those of SciPy that are as exact, or nearly.
         ("draft", "draft: 1 ms, error 0.0002; DOP853: 30 × as long, 0.001."),
-        ("standard", "standard: 2 ms, error 3e−07; LSODA: 22 × as long, 1e−07."),
+        ("standard", "standard: 2 ms, error 3e−7; LSODA: 22 × as long, 1e−7."),
         ("reference", "reference: 8 ms, error 0."),
     ],
 )

@@ -42,7 +42,7 @@ class Stage(Generic[S]):
         for view in views:
             for source, columns in view.framed(state, axes[view.name], drawn).items():
                 drawn[source] = {**drawn.get(source, {}), **columns}
-        derived, notes = [*state.derived()], [*state.notes()]
+        derived, notes = [*state.derived()], [*dict.fromkeys(state.notes())]
         status = re.sub(r"(?<=\d)e-(?=\d)", "e−", " · ".join([*state.status(), state.work.ended()]))
         self._state = state
         for view in views:

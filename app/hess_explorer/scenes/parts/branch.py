@@ -26,7 +26,7 @@ from hess_explorer.views.layers import Axes, Range, curves, points
 from hess_explorer.views.periodic import seen
 from hess_explorer.views.picture import Corners, Picture
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.text import conjugates, digits, power
+from hess_explorer.views.text import conjugates, digits
 from hess_mechanics.dynamics import continuation as mechanics
 from hess_mechanics.dynamics.continuation import Bifurcation, continued, gone_on
 from hess_mechanics.dynamics.periodic import Map, apart, find_periodic
@@ -270,7 +270,8 @@ class Continuation(Part[_Host]):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _named(self, one: Bifurcation) -> str:
-        return f"{one.kind} of period {len(one.places)} at {self._symbol} = {digits(one.value, 8)} ± {power(one.error)}"
+        value = f"{digits(one.value, 8)} ± {digits(one.error, 1)}"
+        return f"{one.kind} of period {len(one.places)} at {self._symbol} = {value}"
 
     @property
     def caption(self) -> Caption | None:
@@ -299,7 +300,7 @@ class Continuation(Part[_Host]):
         if self.asked("_known") and self.branches:
             yield (
                 f"branch {sum(len(one.values) for one in self.branches)} points, places to "
-                f"{power(max(one.error_estimate for one in self.branches))}"
+                f"{digits(max(one.error_estimate for one in self.branches), 1)}"
             )
 
     def notes(self) -> Iterator[str]:

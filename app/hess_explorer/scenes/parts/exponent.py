@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol, TypeVar
@@ -10,6 +10,7 @@ from typing import Protocol, TypeVar
 import numpy as np
 
 from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.periodic_search import NotFound
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views import theme
@@ -23,7 +24,8 @@ from hess_explorer.views.text import digits, with_error
 from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.dynamics import lyapunov
 from hess_mechanics.dynamics.system import Body
-from hess_mechanics.numerics.accuracy import Computation, Plan
+from hess_mechanics.errors import MotionEnds
+from hess_mechanics.numerics.accuracy import Computation, Level, Plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["Exponent", "NotPeriodic", "exponent_picture", "exponent_trial"]
@@ -86,14 +88,16 @@ class Exponent(Part[_Host]):
         return self.work.dragging or self.host.periodic_orbit.looking or self.growth is not None
 
     @cached_property
-    def found(self) -> lyapunov.Exponent | None:
-        """The exponent of an orbit that is not periodic; None until known."""
+    def _answer(self) -> lyapunov.Exponent | NotFound | None:
         if self.later:
             return None
         plan = self.work.plan(Computation.EXPONENT)
-        return self.work.later(
-            lyapunov.lyapunov_exponent, self.host.body, self.host.start, plan.share * self.host.long, plan.level
-        )
+        return self.work.later(_exponent, self.host.body, self.host.start, plan.share * self.host.long, plan.level)
+
+    @property
+    def found(self) -> lyapunov.Exponent | None:
+        """The exponent of an orbit that is not periodic; None until known, and if the motion ends early."""
+        return None if isinstance(self._answer, NotFound) else self._answer
 
     def at(self, plan: Plan) -> lyapunov.Exponent:
         """Return the exponent, computed at once."""
@@ -121,13 +125,28 @@ class Exponent(Part[_Host]):
         """The caption of the picture."""
         if self.growth is not None:
             return Caption("From the multipliers of the periodic orbit.", f"ln|μ₁|/T = {digits(self.growth[0])}.")
-        found = self.found
+        found = self._answer
         if found is None:
             return Caption(self.work.awaited())
+        if isinstance(found, NotFound):
+            return Caption("No exponent: the motion ends early.")
         end = float(found.times[-1])
         grows = f"Not chaotic: {found.no_chaos}." if found.no_chaos else "Looks chaotic."
         kind = "Looks regular." if found.is_regular else grows
         return Caption(kind, f"λ = {with_error(found.value, found.spread)} after t = {digits(end)}.")
+
+    def notes(self) -> Iterator[str]:
+        """Yield the reason why the motion ends early, with time and place."""
+        if self.asked("_answer") and isinstance(self._answer, NotFound):
+            yield self._answer.reason
+
+
+def _exponent(body: Body, start: Start, span: float, level: Level) -> lyapunov.Exponent | NotFound:
+    """Return the exponent, or the reason why the motion ends early: other tasks go on."""
+    try:
+        return lyapunov.lyapunov_exponent(body, start, span, level)
+    except MotionEnds as error:
+        return NotFound(str(error))
 
 
 S = TypeVar("S", bound=State)

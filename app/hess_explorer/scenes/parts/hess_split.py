@@ -18,7 +18,7 @@ from hess_explorer.views.graph import about_0
 from hess_explorer.views.layers import Axes, curves, levels, points, ring
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.text import digits, power, with_error
+from hess_explorer.views.text import digits, with_error
 from hess_mechanics.errors import ModelError
 from hess_mechanics.euler_poisson.hess_split import HessTorus, Split, slope_of, split_at
 from hess_mechanics.numerics.accuracy import PRECISE
@@ -89,8 +89,8 @@ class HessSplit(Part[Host]):
         if self.away and abs(value) <= error:
             return Caption("No split is seen.", f"Less than {digits(error, 1)} {place}")
         if abs(value) <= error:
-            return Caption("The separatrices are not split.", f"Less than {power(error)} {place}")
-        return Caption("The separatrices are split.", f"By {digits(value)} ± {power(error)} {place}")
+            return Caption("The separatrices are not split.", f"Less than {digits(error, 1)} {place}")
+        return Caption("The separatrices are split.", f"By {digits(value)} ± {digits(error, 1)} {place}")
 
     def message(self) -> str:
         """Return the reason why the graph is empty; an empty string if it is not."""

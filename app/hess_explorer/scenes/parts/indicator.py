@@ -21,7 +21,7 @@ from hess_explorer.views.comparison import Cells
 from hess_explorer.views.layers import Layer
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR
-from hess_mechanics.dynamics.megno_map import row_of_cells, time_of
+from hess_mechanics.dynamics.megno_map import ENDED, row_of_cells, time_of
 from hess_mechanics.numerics.accuracy import Computation, Plan
 from hess_mechanics.numerics.results import Array
 
@@ -32,14 +32,15 @@ _TURNS = 300.0
 """Time of the indicator, in units of 1/ν: some fifty returns."""
 
 
-def colouring() -> Any:
+def colouring(has_density: bool = True) -> Any:
     """Declare the colouring under the points of a section."""
+    dense = "Density: a million crossings in place of the points. "
     return choice(
         "Under the points",
-        (DENSITY, MEGNO, "nothing"),
-        DENSITY,
-        doc="Density: a million crossings in place of the points. MEGNO shows after a short time whether the motion "
-        "from each cell is regular or chaotic, and whether volume about it shrinks.",
+        (DENSITY, MEGNO, "nothing") if has_density else ("nothing", MEGNO),
+        DENSITY if has_density else "nothing",
+        doc=f"{dense * has_density}MEGNO shows after a short time whether the motion from each cell is regular or "
+        "chaotic, and whether volume about it shrinks.",
     )
 
 
@@ -81,7 +82,7 @@ class Indicator(Part[_Host]):
 
     @cached_property
     def _cells(self) -> tuple[Array, int] | None:
-        """Ȳ and kind of the cells, (n, 2, m), and the number of rows still coarse; None until coarse ones are known."""
+        """The rows (3, m) of `row_of_cells`, and the number of rows still coarse; None until coarse ones are known."""
         if not self.wanted or self.work.dragging:
             return None
         plan = self.work.plan(Computation.INDICATOR)
@@ -89,7 +90,7 @@ class Indicator(Part[_Host]):
 
     @property
     def kinds(self) -> Array | None:
-        """Cells (n, m): 0 regular, 1 chaotic, plus 2 if volume shrinks; −1 without motion."""
+        """Cells (n, m) of the kinds of `megno_map`."""
         return None if self._cells is None else self._cells[0][:, 1]
 
     @property
@@ -103,10 +104,14 @@ class Indicator(Part[_Host]):
         there = kinds[kinds >= 0.0]
         if not there.size:
             return Caption("Nothing moves in this window.")
-        chaotic, shrinks = (100.0 * float(np.mean(one)) for one in (there % 2.0 == 1.0, there >= 2.0))
+        ended = there == ENDED
+        chaotic, shrinks, ends = (
+            100.0 * float(np.mean(one)) for one in (there % 2.0 == 1.0, (there >= 2.0) & ~ended, ended)
+        )
         return Caption(
-            f"{100.0 - chaotic:.0f} % of the cells regular, {chaotic:.0f} % chaotic.",
-            f"MEGNO after t = {digits(self.time)}; volume shrinks in about {shrinks:.0f} %.",
+            f"{100.0 - chaotic - ends:.0f} % of the cells regular, {chaotic:.0f} % chaotic.",
+            f"MEGNO after t = {digits(self.time)}; volume shrinks in about {shrinks:.0f} %."
+            + (f" In {ends:.0f} % the motion ends early." if ended.any() else ""),
         )
 
     def status(self) -> Iterator[str]:

@@ -75,6 +75,17 @@ class Orbit(Part[_Host]):
         host = self.host
         return Motion(host.body.system, host.start, host.body.parameters, host.lasts, host.weights)
 
+    @property
+    def caption(self) -> Caption:
+        """The caption: the time span, or the part of it after which the motion ends."""
+        ends = "Ends early." if self.path.reason else ""
+        return Caption(ends, f"From t = 0 to t = {digits(float(self.path.times[-1]))}.")
+
+    def notes(self) -> Iterator[str]:
+        """Yield the reason why the motion ends before its time span does, with time and place."""
+        if self.asked("path") and self.path.reason:
+            yield self.path.reason
+
     def status(self) -> Iterator[str]:
         """Yield the size, cost and error."""
         if self.asked("path"):
@@ -101,7 +112,7 @@ def orbit_picture(
     return Plot[Orbit](
         name=name,
         title=title,
-        caption=lambda s: Caption(numbers=f"From t = 0 to t = {digits(s.host.lasts)}."),
+        caption=lambda s: s.caption,
         axes=(x, y),
         x=room_for(x),
         y=room_for(y),

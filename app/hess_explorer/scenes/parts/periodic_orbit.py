@@ -33,7 +33,7 @@ from hess_explorer.scenes.framework.scene import Preset, State
 from hess_explorer.views import periodic as view
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Layers
-from hess_explorer.views.text import conjugates, digits, power
+from hess_explorer.views.text import conjugates, digits
 from hess_mechanics.dynamics import periodic as mechanics
 from hess_mechanics.dynamics.manifolds import Intersection, Manifold
 from hess_mechanics.dynamics.return_map import ReturnMap
@@ -247,7 +247,7 @@ class PeriodicOrbit(Part[_Host]):
         )
         return Caption(
             f"Period {orbit.period}, {orbit.kind}.",
-            f"Multipliers μ = {multipliers}, to {power(orbit.multiplier_error)}.",
+            f"Multipliers μ = {multipliers}, to {digits(orbit.multiplier_error, 1)}.",
         )
 
     def derived(self) -> Iterator[str]:
@@ -255,7 +255,7 @@ class PeriodicOrbit(Part[_Host]):
         if self.closed is None:
             return
         orbit = self.closed.orbit
-        yield f"T = {digits(self.closed.time)}, periodic; places to {power(orbit.error_estimate)}"
+        yield f"T = {digits(self.closed.time)}, periodic; places to {digits(orbit.error_estimate, 1)}"
         yield from (f"symmetric under: {name}" for name in orbit.symmetric)
         if self._saddle is not None and self._branches is None:
             yield self.work.awaited("Its manifolds are")
@@ -268,7 +268,9 @@ class PeriodicOrbit(Part[_Host]):
         """Yield the cost of Newton's method and the error of the manifolds."""
         if self.closed is not None:
             orbit = self.closed.orbit
-            yield (f"Newton's method: {orbit.iterations} steps, condition {orbit.condition:.2g} ({orbit.status})")
+            yield (
+                f"Newton's method: {orbit.iterations} steps, condition {digits(orbit.condition, 2)} ({orbit.status})"
+            )
         if self.manifolds:
             yield (
                 f"manifolds {sum(len(one.points) for one in self.manifolds)} points, error across ≤ "
@@ -306,7 +308,7 @@ class PeriodicOrbit(Part[_Host]):
         least = "at least " if any(len(some) == MOST_CROSSINGS for some in self._met) else ""
         return (
             f"{least}{len(found)} homoclinic point{'s' * (len(found) > 1)} on the drawn parts of the manifolds, to "
-            f"{power(max(one.error for one in found))}; longer manifolds cross more often"
+            f"{digits(max(one.error for one in found), 1)}; longer manifolds cross more often"
         )
 
 

@@ -10,13 +10,13 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import places, written
+from hess_explorer.protocol.parameters import Values, places, written
 from hess_explorer.scenes.framework.parameters import number
 from hess_explorer.scenes.framework.part import Part, Sectioned, Start
 from hess_explorer.scenes.framework.periodic_search import Closed, none_closed
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial, section_error
-from hess_explorer.scenes.framework.windows import Window, frame_of
+from hess_explorer.scenes.framework.windows import Window, boxed, frame_of, tidy_window, window_of
 from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views import section_plane
 from hess_explorer.views.caption import Caption
@@ -92,9 +92,10 @@ class Section(Part[_Host]):
 
     start() : the initial state of the chosen orbit, raises `ModelError`.
     crossing(crossings, level) : the computations of so many crossings of the orbit on show, and of the others; by
-        default the others are spread over the window of the section.
+        default the others are spread over the visible window.
     axes() : the axes of the picture, if it shows more than that window; closed() : the periodic orbit shown in place
         of the chosen one, if any; later : draw only the later half of the crossings.
+    zoom : the visible window, as in a link; empty for the whole picture.
     """
 
     start: Callable[[], Start]
@@ -102,6 +103,7 @@ class Section(Part[_Host]):
     axes: Callable[[], Axes] | None = None
     closed: Callable[[], Closed | None] = none_closed
     later: bool = False
+    zoom: str = ""
 
     @property
     def poincare(self) -> PoincareSection:
@@ -114,10 +116,23 @@ class Section(Part[_Host]):
         return self.start()
 
     @property
-    def frame(self) -> Window:
+    def whole(self) -> Window:
         """The window of the whole picture."""
         (x0, x1), (y0, y1) = self.poincare.window if self.axes is None else (self.axes().x, self.axes().y)
         return (x0, y0), (x1, y1)
+
+    @property
+    def frame(self) -> Window:
+        """The visible window."""
+        return window_of(self.zoom, self.whole)
+
+    def look_closer(self, corners: tuple[float, float, float, float]) -> Values:
+        """Return the window that a box selects."""
+        return boxed(corners, self.whole)
+
+    def admitted(self, notes: list[str]) -> Values:
+        """Return a valid window."""
+        return {"window": tidy_window(self.zoom)} if self.zoom else {}
 
     @property
     def pixels(self) -> tuple[float, ...]:
@@ -134,7 +149,7 @@ class Section(Part[_Host]):
             return self.crossing(crossings, level)
         return (
             Task(_crossings, (self.poincare, (self.given,), crossings, level)),
-            Task(_spread, (self.poincare, crossings, level)),
+            Task(_spread, (self.poincare, self.frame, crossings, level)),
         )
 
     @cached_property
@@ -173,13 +188,23 @@ class Section(Part[_Host]):
     @cached_property
     def others(self) -> Array | None:
         """Places (n, 2) of the other orbits; None if the section is left out."""
-        return self._places(self.crossed.others)
+        return self._places(self.crossed.others, False)
 
-    def _places(self, points: SectionPoints | None) -> Array | None:
+    @cached_property
+    def ended(self) -> Array | None:
+        """Places (n, 2) of the other orbits that end early; None if the section is left out."""
+        return self._places(self.crossed.others, True)
+
+    def _places(self, points: SectionPoints | None, ended: bool | None = None) -> Array | None:
+        """Return the places of all orbits, or of those that end early or not."""
         if points is None:
             return None
         first = max(map(len, points.states), default=0) // 2 if self.later else 0
-        return joined(self.poincare.places_of(states[first:]) for states in points.states)
+        return joined(
+            self.poincare.places_of(states[first:])
+            for states, reason in zip(points.states, points.reasons, strict=True)
+            if ended in (None, reason != "")
+        )
 
     def orbits_at(self, plan: Plan) -> list[Array]:
         """Return all orbits of the section (n, 2), the one on show first; computed at once."""
@@ -215,7 +240,13 @@ class Section(Part[_Host]):
         """The caption: the number of crossings, or the reason why the section is left out."""
         if self.own is None or self.others is None:
             return Caption(numbers=self.reason)
-        return Caption(numbers=f"{len(self.own)} crossings of the chosen orbit, {len(self.others)} of others.")
+        others = self.crossed.others
+        count = sum(map(bool, others.reasons)) if others else 0
+        ends = f" {count} of {len(others.states)} others end early." if others and count else ""
+        return Caption(
+            "The chosen orbit ends early." if self.crossed.own and any(self.crossed.own.reasons) else "",
+            f"{len(self.own)} crossings of the chosen orbit, {len(self.others)} of others.{ends}",
+        )
 
     def status(self) -> Iterator[str]:
         """Yield the size, cost, drift and accuracy."""
@@ -228,8 +259,8 @@ class Section(Part[_Host]):
 
     def notes(self) -> Iterator[str]:
         """Yield the reason why the section is left out."""
-        if self.asked("crossed") and self.reason:
-            yield self.reason
+        if self.asked("crossed"):
+            yield from filter(None, (self.reason, *(self.crossed.own.reasons if self.crossed.own else ())))
 
 
 def _first_place(
@@ -260,10 +291,10 @@ def _crossings(
     return section_points(poincare, starts, poincare.surface, end, level, crossings, most_steps=_MOST_STEPS)
 
 
-def _spread(poincare: PoincareSection, crossings: int, level: Level) -> SectionPoints:
-    """Return the crossings of orbits spread over the window of the section, where motions cross it."""
+def _spread(poincare: PoincareSection, window: Window, crossings: int, level: Level) -> SectionPoints:
+    """Return the crossings of orbits spread over a window of the section, where motions cross it."""
     ways = evenly(8 * _ORBITS - 1).T
-    low, high = np.array(poincare.window).T
+    low, high = np.array(window)
     states, there = poincare.states_at(*(low + ways * (high - low)).T)
     return _crossings(poincare, tuple(map(tuple, states[there][:_ORBITS].tolist())), crossings, level)
 
@@ -294,7 +325,7 @@ def section_picture(of: Callable[[S], Section], start: str, title: str = "Poinca
         message=lambda s: s.reason,
         on_click=lambda s, x, y: {start: written([(x, y)])},
         starts=True,
-        layers=section_plane.layers(lambda s: s.points, others=lambda s: s.others),
+        layers=section_plane.layers(lambda s: s.points, others=lambda s: s.others, ended=lambda s: s.ended),
     ).of_part(of)
 
 
