@@ -57,7 +57,8 @@ export function watch(socket, silent, dead) {
     seconds += 1
     if (seconds === ASKED && socket.readyState === WebSocket.OPEN) socket.send('{"alive": true}')
     if (seconds === SILENT) silent(true)
-    if (seconds >= DEAD && seconds % ASKED === 0) retry()
+    // Early, because the first attempts may go through connections that are as dead.
+    if (seconds >= SILENT && seconds % ASKED === 0) retry()
   }, 1000)
   socket.addEventListener("message", () => {
     if (seconds >= SILENT) silent(false)
